@@ -1,0 +1,37 @@
+# make book   compute every notebook and build the book   RUNS=20 runs a condition; 4 is a look, 100 the papers' scale
+# make test   run the tests
+# make lab    open the notebooks in JupyterLab
+# make bench  measure the speed of the kernels
+# make clean  remove all that these made, and nothing else
+PYTHON ?= python3
+RUNS ?= 20
+STEPS ?=
+BIN := .venv/bin
+export NEORL_CACHE := $(CURDIR)/.cache
+export PYTHONUNBUFFERED := 1
+
+.DEFAULT_GOAL := book
+.PHONY: book test lab bench clean
+
+book: .venv/ready
+	$(BIN)/python book/build.py --runs $(RUNS) $(if $(STEPS),--steps $(STEPS))
+
+test: .venv/ready
+	$(BIN)/python -m pytest $(ARGS)
+
+lab: .venv/ready
+	$(BIN)/jupyter lab --notebook-dir notebooks
+
+bench: .venv/ready
+	$(BIN)/python -m pytest --benchmark-only --benchmark-disable-gc tests/benchmarks.py
+
+# Pins are complete, so pip need not resolve anything; modules are compiled when first used, which is far fewer.
+.venv/ready: environment.txt pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed; name it with make PYTHON=...")'
+	$(PYTHON) -m venv --clear .venv
+	$(BIN)/python -m pip install --quiet --no-deps --no-compile -r environment.txt
+	$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation --editable .
+	touch $@
+
+clean:
+	rm -rf .venv .cache _build book/chapters .pytest_cache .benchmarks .hypothesis *.egg-info

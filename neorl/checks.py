@@ -1,0 +1,50 @@
+"""Checks of what users pass in: each returns the value, or raises a ValueError that names argument, value and rule."""
+
+import math
+import numbers
+
+import numpy as np
+
+
+def integer(name, value, at_least, at_most=None):
+    """`value`, if it is an integer in the range (True and False are not integers here)."""
+    if isinstance(value, numbers.Integral) and not isinstance(value, bool):
+        if value >= at_least and (at_most is None or value <= at_most):
+            return int(value)
+    allowed = f"integers ≥ {at_least}" if at_most is None else f"integers from {at_least} to {at_most}"
+    raise ValueError(f"{name} is {value!r}, allowed are {allowed}")
+
+
+def real(name, value, at_least=-math.inf, at_most=math.inf):
+    """`value`, if it is a finite number in the range."""
+    if isinstance(value, numbers.Real) and not isinstance(value, bool):
+        if math.isfinite(value) and at_least <= value <= at_most:
+            return float(value)
+    bounds = "finite numbers" if math.isinf(at_most) else f"numbers from {at_least:g} to {at_most:g}"
+    raise ValueError(f"{name} is {value!r}, allowed are {bounds}")
+
+
+def one_of(name, value, allowed):
+    """`value`, if it is one of `allowed`."""
+    if value in allowed:
+        return value
+    raise ValueError(f"{name} is {value!r}, allowed are {', '.join(map(repr, allowed))}")
+
+
+def flag(name, value):
+    """`value`, if it is True or False."""
+    return one_of(name, value, (True, False))
+
+
+def finite(name, array):
+    """`array`, if every number in it is finite."""
+    if np.all(np.isfinite(array)):
+        return array
+    raise ValueError(f"{name} is {array!r}, allowed are finite numbers")
+
+
+def instance(name, value, kind):
+    """`value`, if it is of the kind."""
+    if isinstance(value, kind):
+        return value
+    raise ValueError(f"{name} is {value!r}, allowed is a {kind.__name__}")

@@ -1,0 +1,18 @@
+"""How a kernel is compiled, and what it may contain.
+
+A *kernel* is a function that numba compiles. Every number that the project shows comes out of one, so a run must be
+the same to the last bit on any machine, on any number of threads, and with the compiler switched off
+(``NUMBA_DISABLE_JIT=1``). That holds as long as a kernel keeps to these rules:
+
+- it takes flat arrays, scalars and named tuples of them, and allocates, raises, prints and looks up nothing;
+- it uses only ``+ - * /``, square root, floor and comparisons, whose results IEEE 754 fixes, and no ``fastmath``;
+- it draws random numbers from a stream that it is handed (`neorl.stream`), never from ``np.random``;
+- it writes ``np.float32(...)`` where single precision is meant: a literal is double for numba, but weak for NumPy.
+
+Nothing that is compiled is kept on disk: numba notices a change in a kernel's own file, but not in the files of the
+kernels that it calls, and a result must never come from code that is no longer there.
+"""
+
+import numba
+
+kernel = numba.njit(error_model="numpy", nogil=True, _nrt=False)

@@ -1,0 +1,86 @@
+"""How fast the kernels are: ``make bench``. Compare the rows of a group with each other, in one run.
+
+A row is named for what it does once; the table tells how long that takes and how often a second.
+"""
+
+import numpy as np
+import pytest
+
+from neorl import WaterWorld, place_cells, simulate
+from neorl.horde import ZERO, learn_all_goals
+from neorl.kernel import kernel
+from neorl.stream import below, new_stream
+from neorl.waterworld import reset_board, step_board
+
+STEPS = 1_000_000
+RATES = np.float32(0.03) * np.array([0.4, 0.3, 0.2, 0.1], np.float32)
+DISCOUNT = np.float32(0.8)
+
+
+@kernel
+def random_steps(state, rules, contacts, stream, steps):
+    total = 0.0
+    for _ in range(steps):
+        reward, done = step_board(state, rules, below(stream, 4), contacts)
+        total += reward
+        if done:
+            reset_board(state, rules)
+    return total
+
+
+@kernel
+def random_changes(q, cells, path, rates, discount, target):
+    for change in range(path.shape[0] - 1):
+        learn_all_goals(q, 0, cells, path[change], path[change + 1], rates, ZERO, discount, True, target)
+
+
+def updates_by_numpy(q, path):
+    for cell_tm1, cell_t in zip(path[:-1], path[1:]):
+        target = DISCOUNT * q[cell_t].max(axis=0)
+        target[cell_t] = 1
+        q[cell_tm1] += RATES[:, None] * (target - q[cell_tm1])
+
+
+@pytest.mark.benchmark(group="one million steps of WaterWorld, on one core")
+@pytest.mark.parametrize("n_creeps", [3, 8])
+def test_steps(benchmark, n_creeps):
+    world = WaterWorld(n_creeps=n_creeps)
+    state, stream = world.reset(0), new_stream(np.random.SeedSequence(1))
+    contacts = np.zeros(n_creeps, np.int8)
+    benchmark.pedantic(random_steps, (state, world.rules, contacts, stream, STEPS), warmup_rounds=1, rounds=10)
+
+
+@pytest.mark.parametrize("by", ["kernel", "numpy"])
+@pytest.mark.parametrize("resolution", [23, 50])
+def test_thousand_updates_of_four_actions_and_every_goal(benchmark, resolution, by):
+    benchmark.group = f"a thousand updates of four actions and every goal, N{resolution}"
+    cells = resolution**2
+    rng = np.random.default_rng(0)
+    walk = np.cumsum(rng.choice([-1, 1, -resolution, resolution], 1_001)) + cells // 2
+    path = np.clip(walk, 0, cells - 1)
+    q = np.zeros((cells, 4, cells), np.float32)
+    if by == "kernel":
+        arguments = (q.reshape(-1), cells, path, RATES, DISCOUNT, np.empty(cells, np.float32))
+        benchmark.pedantic(random_changes, arguments, warmup_rounds=3, rounds=30)
+    else:
+        benchmark.pedantic(updates_by_numpy, (q, path), warmup_rounds=3, rounds=30)
+
+
+@pytest.mark.benchmark(group="twenty runs of 150,000 steps, N3 + N7 + N23")
+@pytest.mark.parametrize("threads", [1, 2])
+def test_runs_side_by_side(benchmark, threads):
+    size = {"steps": 150_000, "runs": 20, "progress": False, "threads": threads}
+    arguments = (place_cells([3, 7, 23]), WaterWorld(n_creeps=8, win_reward=5.0))
+    benchmark.pedantic(simulate, arguments, size, warmup_rounds=1, rounds=5)
+
+
+@pytest.mark.benchmark(group="a hundred runs of figure 7's four conditions")
+def test_figure_7(benchmark):
+    tank = WaterWorld(n_creeps=8, win_reward=5.0)
+    simulate(place_cells([3]), tank, steps=1, runs=1, progress=False)
+
+    def figure_7():
+        for resolutions in ([3], [7], [23], [3, 7, 23]):
+            simulate(place_cells(resolutions), tank, steps=150_000, runs=100, progress=False)
+
+    benchmark.pedantic(figure_7, rounds=1)

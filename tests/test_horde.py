@@ -1,0 +1,93 @@
+"""Learning and superposition against NumPy, and against what must come out in a world that is understood."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from neorl import learn, superpose
+
+shares = st.floats(0, 1, width=32)
+
+
+def learned_by_numpy(q, cell_tm1, cell_t, credit, learning_rate, discount, terminal):
+    """Equation 4.8 for all goals at once, in the precision of the kernel."""
+    q = q.copy()
+    target = np.float32(discount) * q[cell_t].max(axis=0)
+    target[cell_t] = 1 if terminal else 1 + target[cell_t]
+    rates = np.float32(learning_rate) * np.array(credit, np.float32)[:, None]
+    new = q[cell_tm1] + rates * (target - q[cell_tm1])
+    q[cell_tm1] = np.where(rates > 0, np.where(new > 1e-30, new, 0), q[cell_tm1])
+    return q
+
+
+@given(arrays(np.float32, (6, 4, 6), elements=shares.map(lambda value: value if value > 1e-6 else 0.0)),
+       st.integers(0, 5), st.integers(0, 5), st.lists(shares, min_size=4, max_size=4), shares, shares, st.booleans())
+def test_an_update_equals_numpy(q, cell_tm1, cell_t, credit, learning_rate, discount, terminal):
+    expected = learned_by_numpy(q, cell_tm1, cell_t, credit, learning_rate, discount, terminal)
+    learn(q, cell_tm1, cell_t, credit, learning_rate, discount, terminal)
+    np.testing.assert_array_equal(q, expected)
+
+
+def test_every_goal_of_a_grid_world_is_learned_from_one_random_walk():
+    """Where each action moves one cell, the value of the best action is γ to the moves left after it."""
+    side, discount = 4, 0.8
+    rng = np.random.default_rng(0)
+    q = np.zeros((side**2, 4, side**2), np.float32)
+    x, y = 0, 0
+    for _ in range(40_000):
+        action = rng.integers(4)
+        dx, dy = [(0, -1), (0, 1), (1, 0), (-1, 0)][action]
+        new_x, new_y = np.clip(x + dx, 0, side - 1), np.clip(y + dy, 0, side - 1)
+        learn(q, y * side + x, new_y * side + new_x, np.eye(4)[action], 0.5, discount)
+        x, y = new_x, new_y
+    cells = np.arange(side**2)
+    moves = (np.abs(cells[:, None] % side - cells % side) + np.abs(cells[:, None] // side - cells // side))
+    away = moves > 0
+    np.testing.assert_allclose(q.max(axis=1)[away], discount ** (moves[away] - 1.0), rtol=1e-4)
+
+
+def test_a_goal_that_is_not_terminal_is_worth_what_follows_too():
+    q = np.zeros((2, 4, 2), np.float32)
+    q[1, 2, 1] = 0.5
+    learn(q, 0, 1, [1, 0, 0, 0], learning_rate=1.0, discount=0.8, terminal=False)
+    assert q[0, 0, 1] == pytest.approx(1.4)
+
+
+def test_superposition_is_the_weighted_sum_over_elements():
+    q = np.random.default_rng(0).random((9, 4, 9)).astype(np.float32)
+    goals, valences = [2, 2, 5, 7], [1.0, 0.5, -1.0, 0.25]
+    np.testing.assert_allclose(superpose(q, 4, goals, valences), q[4][:, goals] @ valences, rtol=1e-6)
+
+
+def test_an_element_in_the_own_cell_is_silent_unless_it_counts():
+    q = np.ones((4, 4, 4), np.float32)
+    assert superpose(q, 1, [1, 2], [1.0, 1.0]).tolist() == [1.0] * 4
+    assert superpose(q, 1, [1, 2], [1.0, 1.0], own_cell="counts").tolist() == [2.0] * 4
+
+
+@pytest.mark.parametrize("change, message", [
+    ({"q": np.zeros((4, 4, 5), np.float32)}, "q is"),
+    ({"q": np.zeros((4, 4, 4))}, "q is float64"),
+    ({"cell_tm1": 4}, "cell_tm1 is 4, allowed are integers from 0 to 3"),
+    ({"cell_t": -1}, "cell_t is -1"),
+    ({"credit": [1, 0, 0]}, "credit has 3 values"),
+    ({"credit": [1, 0, 0, np.nan]}, "credit is nan"),
+    ({"learning_rate": 1.5}, "learning_rate is 1.5, allowed are numbers from 0 to 1"),
+    ({"discount": -0.1}, "discount is -0.1"),
+    ({"terminal": "yes"}, "terminal is 'yes'"),
+])
+def test_a_bad_update_is_refused(change, message):
+    arguments = {"q": np.zeros((4, 4, 4), np.float32), "cell_tm1": 0, "cell_t": 1, "credit": [1, 0, 0, 0]}
+    with pytest.raises(ValueError, match=message):
+        learn(**{**arguments, **change})
+
+
+@pytest.mark.parametrize("cell, goals, valences, message", [
+    (9, [0], [1.0], "cell is 9"), (0, [4], [1.0], "goals is 4"), (0, [1], [np.inf], "valences is inf"),
+    (0, [1, 2], [1.0], "valences has 1 values"),
+])
+def test_a_bad_superposition_is_refused(cell, goals, valences, message):
+    with pytest.raises(ValueError, match=message):
+        superpose(np.zeros((4, 4, 4), np.float32), cell, goals, valences)
