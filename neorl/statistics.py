@@ -1,0 +1,54 @@
+"""Statistics over runs: a run (a seed) is the unit, an interval is 95 % unless told otherwise.
+
+Intervals are percentile bootstraps of `scipy.stats` with a generator of their own, so that they are the same each time.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy import stats
+
+RESAMPLES = 2_000
+
+
+class Estimate(NamedTuple):
+    """A value with the bounds of its 95 % interval."""
+
+    value: float
+    low: float
+    high: float
+
+    def __str__(self):
+        return f"{self.value:z.2f} [{self.low:z.2f}, {self.high:z.2f}]".replace("-", "−")
+
+
+def estimate(statistic, *samples):
+    """A statistic of one or several independent samples (each (runs,)), with its bootstrap interval.
+
+    A sample of a single run has no interval: its bounds are NaN.
+    """
+    value = float(statistic(*samples))
+    if min(len(sample) for sample in samples) < 2:
+        return Estimate(value, np.nan, np.nan)
+    interval = stats.bootstrap(samples, statistic, n_resamples=RESAMPLES, vectorized=False, method="percentile",
+                               rng=np.random.default_rng(0)).confidence_interval
+    return Estimate(value, float(interval.low), float(interval.high))
+
+
+def probability_of_improvement(better, worse):
+    """How probable it is that a run of `better` beats one of `worse`, a tie counting half: the Mann-Whitney U a pair."""
+    return float(stats.mannwhitneyu(better, worse).statistic) / (len(better) * len(worse))
+
+
+def band(curves, share=0.95):
+    """The band that holds the middle `share` of the runs at each point of curves (runs, points): (low, high)."""
+    return np.quantile(curves, [(1 - share) / 2, (1 + share) / 2], axis=0)
+
+
+def mean_band(curves, share=0.95):
+    """The interval of the mean over runs at each point of curves (runs, points): (low, high), as `estimate` has it."""
+    if len(curves) < 2:
+        return np.full((2, curves.shape[1]), np.nan)
+    interval = stats.bootstrap((curves,), np.mean, n_resamples=RESAMPLES, confidence_level=share, axis=0,
+                               method="percentile", rng=np.random.default_rng(0)).confidence_interval
+    return interval.low, interval.high

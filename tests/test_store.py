@@ -1,0 +1,105 @@
+"""Conditions on disk: found again, keyed by all that determines them, and never half there."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from neorl import Learning, WaterWorld, place_cells, simulate_once, store
+
+AGENT, WORLD = place_cells([3]), WaterWorld()
+IMPORT = re.compile(r"^from neorl(?:\.(\w+) import| import (\w+))", re.M)
+SIZE = {"steps": 500, "runs": 2, "progress": False}
+
+
+@pytest.fixture(autouse=True)
+def cache(tmp_path, monkeypatch):
+    monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
+    return tmp_path
+
+
+@pytest.fixture
+def computed(monkeypatch):
+    """Counts how often a condition is computed."""
+    calls = []
+    original = store.simulate
+    monkeypatch.setattr(store, "simulate", lambda *args, **kwargs: calls.append(args) or original(*args, **kwargs))
+    return calls
+
+
+def test_a_condition_is_computed_once(computed):
+    first, second = (simulate_once(AGENT, WORLD, **SIZE) for _ in range(2))
+    assert len(computed) == 1
+    np.testing.assert_array_equal(first.rewards, second.rewards)
+    np.testing.assert_array_equal(first.hits, second.hits)
+    assert (second.agent, second.world, second.steps) == (AGENT, WORLD, 500)
+
+
+def test_the_key_tells_all_that_determines_a_result_apart(monkeypatch):
+    keys = [store.condition_key(AGENT, WORLD, 500, 2, 0)]
+    keys.append(store.condition_key(place_cells([3], learning=Learning(discount=0.81)), WORLD, 500, 2, 0))
+    keys.append(store.condition_key(AGENT, WaterWorld(fps=30), 500, 2, 0))
+    keys += [store.condition_key(AGENT, WORLD, *size) for size in [(501, 2, 0), (500, 3, 0), (500, 2, 1)]]
+    monkeypatch.setattr(store, "source_digest", lambda: "another source")
+    keys.append(store.condition_key(AGENT, WORLD, 500, 2, 0))
+    assert len(set(keys)) == len(keys)
+
+
+def test_the_source_digest_covers_every_module_that_a_run_imports():
+    found, left = set(), {"simulation"}
+    while left:
+        name = left.pop()
+        found.add(name)
+        source = Path(store.__file__).with_name(f"{name}.py").read_text()
+        left |= {module or other for module, other in IMPORT.findall(source)} - found
+    assert found == set(store.SOURCES)
+
+
+@pytest.mark.parametrize("damage", [
+    lambda content: content[:-1], lambda content: b"", lambda content: content[:40], lambda content: b"x" * 100,
+    lambda content: content[:200] + bytes([content[200] ^ 1]) + content[201:],
+])
+def test_a_damaged_file_is_noticed_and_computed_again(cache, computed, damage):
+    whole = simulate_once(AGENT, WORLD, **SIZE)
+    (path,) = (cache / "conditions").iterdir()
+    path.write_bytes(damage(path.read_bytes()))
+    again = simulate_once(AGENT, WORLD, **SIZE)
+    assert len(computed) == 2
+    np.testing.assert_array_equal(whole.rewards, again.rewards)
+    simulate_once(AGENT, WORLD, **SIZE)
+    assert len(computed) == 2
+
+
+def test_a_killed_process_leaves_whole_conditions_behind(cache):
+    """Killed at any moment, a process leaves files that the next one can use, and the next one ends the work."""
+    work = ("from neorl import *\nfor seed in range(12):\n    simulate_once(place_cells([3]), WaterWorld(), "
+            "steps=20_000, runs=2, seed=seed, progress=False)\n")
+    process = subprocess.Popen([sys.executable, "-c", work])
+    deadline = time.monotonic() + 120
+    while len(finished(cache)) < 3 and time.monotonic() < deadline:
+        time.sleep(0.002)
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    left = finished(cache)
+    assert len(left) >= 3
+    assert all(store.read_arrays(path) is not None for path in left)
+    written = {path: path.stat().st_mtime_ns for path in left}
+    subprocess.run([sys.executable, "-c", work], check=True)
+    assert len(finished(cache)) == 12
+    assert all(path.stat().st_mtime_ns == written[path] for path in left)
+
+
+def finished(cache):
+    return [path for path in cache.glob("conditions/*") if not path.name.startswith(".")]
+
+
+def test_without_the_variable_the_cache_is_the_users(monkeypatch):
+    monkeypatch.delenv("NEORL_CACHE")
+    assert store.folder().name == "neorl-companion"
+    assert os.fspath(store.folder()).startswith(os.path.expanduser("~"))
