@@ -1,0 +1,120 @@
+"""Compute the notebooks and build the book: ``make book`` runs this, from the root of the repository.
+
+Each notebook runs through papermill into ``book/chapters``, where the book finds it, and is left alone while nothing
+that it depends on has changed. A file there is complete or absent, so the work can be stopped at any moment.
+"""
+
+import argparse
+import hashlib
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import nbformat
+import papermill
+from papermill.exceptions import PapermillExecutionError
+from traitlets.config import Config
+
+ROOT = Path(__file__).resolve().parent.parent
+CHAPTERS = ROOT / "book" / "chapters"
+HTML = ROOT / "_build" / "html" / "index.html"
+
+
+def main():
+    chosen = parse_arguments()
+    parameters = {name: value for name, value in vars(chosen).items() if value is not None}
+    try:
+        for notebook in sorted((ROOT / "notebooks").glob("*.ipynb")):
+            compute(notebook, parameters)
+    except PapermillExecutionError as error:
+        sys.exit(f"\n{error}")
+    build()
+    print(f"the book is at {HTML.as_uri()}")
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--runs", type=whole_number, default=20, help="runs a condition (default 20)")
+    parser.add_argument("--steps", type=whole_number, help="steps a run (by default the paper's)")
+    parser.add_argument("--seed", type=int, help="of all random numbers")
+    return parser.parse_args()
+
+
+def whole_number(text):
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"is {text!r}, allowed are integers ≥ 1")
+    return int(text)
+
+
+def compute(notebook, parameters):
+    """Run a notebook into the chapters, unless it is there already with the same parameters and sources."""
+    check_parameters(notebook, parameters)
+    target, record = CHAPTERS / notebook.name, CHAPTERS / f"{notebook.stem}.inputs.json"
+    wanted = {"parameters": parameters, "inputs": digest([notebook, ROOT / "environment.txt", *sources()])}
+    if target.exists() and record.exists() and json.loads(record.read_text()) == wanted:
+        print(f"{notebook.name}: nothing has changed")
+        return
+    print(f"{notebook.name}: {', '.join(f'{name} {value}' for name, value in parameters.items())}")
+    CHAPTERS.mkdir(parents=True, exist_ok=True)
+    record.unlink(missing_ok=True)
+    with tempfile.TemporaryDirectory(dir=CHAPTERS) as work:
+        unfinished = Path(work) / notebook.name
+        papermill.execute_notebook(
+            notebook, unfinished, parameters, cwd=ROOT / "notebooks", stderr_file=sys.stderr,
+            request_save_on_cell_execute=False,
+            config=Config(KernelManager={"transport": "ipc"}))  # over TCP the kernel warns that it is not encrypted
+        executed = nbformat.read(unfinished, nbformat.NO_CONVERT)
+        for cell in executed.cells:  # links are written for notebooks/, and the page lies in book/chapters/
+            cell.source = cell.source.replace("](../book/", "](../")
+        save_figures(executed)
+        nbformat.write(executed, unfinished)
+        os.replace(unfinished, target)
+    record.write_text(json.dumps(wanted))
+
+
+def check_parameters(notebook, parameters):
+    """Refuse a parameter that the notebook does not have; papermill itself would pass over it."""
+    known = papermill.inspect_notebook(str(notebook))
+    for name, value in parameters.items():
+        if name not in known:
+            raise ValueError(f"parameter {name} is {value!r}, allowed for {notebook.name} are {', '.join(known)}")
+
+
+def save_figures(notebook):
+    """Keep each named figure as a file of its own, so that other pages can show it."""
+    for cell in notebook.cells:
+        name = cell.metadata.get("mystnb", {}).get("figure", {}).get("name")
+        for output in cell.get("outputs", []):
+            image = output.get("data", {}).get("image/svg+xml")
+            if name and image:
+                (CHAPTERS / f"{name}.svg").write_text(image)
+
+
+def build():
+    """Build the book, with warnings as errors."""
+    record = ROOT / "_build" / "inputs.txt"
+    pages = [path for path in (ROOT / "book").rglob("*") if path.is_file()]
+    wanted = digest([ROOT / "_config.yml", ROOT / "environment.txt", *sources(), *sorted(pages)])
+    if HTML.exists() and record.exists() and record.read_text() == wanted:
+        return
+    record.unlink(missing_ok=True)
+    command = [Path(sys.executable).with_name("jupyter-book"), "build", "book", "--config", "_config.yml", "--path-output", ".",
+               "--all", "--quiet", "--warningiserror", "--keep-going", "--nitpick"]
+    if subprocess.run(command, cwd=ROOT).returncode:
+        sys.exit("the book was not built, see above")
+    record.write_text(wanted)
+
+
+def sources():
+    return sorted((ROOT / "neorl").glob("*.*"))
+
+
+def digest(paths):
+    return hashlib.sha256(b"".join(hashlib.sha256(path.read_bytes()).digest() for path in paths)).hexdigest()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,80 @@
+"""The notebooks as they lie in git, and what they refuse. That they run is shown by running them."""
+
+import ast
+import re
+from pathlib import Path
+
+import nbformat
+import pytest
+
+from neorl import notebook
+
+ROOT = Path(__file__).parent.parent
+NOTEBOOKS = {path.stem: nbformat.read(path, 4) for path in sorted((ROOT / "notebooks").glob("*.ipynb"))}
+
+
+@pytest.fixture(params=NOTEBOOKS)
+def cells(request):
+    return NOTEBOOKS[request.param].cells
+
+
+def test_there_are_notebooks():
+    assert "paper_a" in NOTEBOOKS
+
+
+def test_a_notebook_is_without_outputs(cells):
+    assert all(not cell.outputs and cell.execution_count is None for cell in cells if cell.cell_type == "code")
+
+
+def test_a_notebook_defines_no_function_or_class(cells):
+    for cell in cells:
+        if cell.cell_type == "code":
+            nodes = ast.walk(ast.parse(cell.source))
+            assert not any(isinstance(node, ast.FunctionDef | ast.ClassDef | ast.Lambda) for node in nodes)
+
+
+def test_a_notebook_has_one_cell_of_typed_parameters(cells):
+    (tagged,) = [cell for cell in cells if "parameters" in cell.metadata.get("tags", [])]
+    statements = ast.parse(tagged.source).body
+    assert all(isinstance(statement, ast.AnnAssign) for statement in statements)
+    assert [statement.target.id for statement in statements] == ["runs", "steps", "seed"]
+
+
+def test_every_figure_has_alt_text_and_a_caption(cells):
+    for cell in cells:
+        if cell.cell_type == "code" and re.search(r"figures\.(draw|new)_", cell.source):
+            assert len(cell.metadata["mystnb"]["image"]["alt"]) > 40
+            assert len(cell.metadata["mystnb"]["figure"]["caption"]) > 40
+
+
+def test_links_lead_somewhere(cells):
+    for cell in cells:
+        if cell.cell_type == "markdown":
+            for target in re.findall(r"\]\(([^)#:]+)\)", cell.source):
+                assert (ROOT / "notebooks" / target).exists(), target
+
+
+@pytest.mark.parametrize("change, message", [
+    ({"runs": 0}, "runs is 0, allowed are integers ≥ 1"), ({"runs": "4"}, "runs is '4'"),
+    ({"steps": -1}, "steps is -1"), ({"seed": 0.5}, "seed is 0.5"),
+])
+def test_a_bad_parameter_is_refused(change, message):
+    with pytest.raises(ValueError, match=message):
+        notebook.begin(**{"runs": 20, "steps": 1_000, "seed": 0, **change})
+
+
+def test_a_parameter_that_the_notebook_does_not_have_is_refused(monkeypatch):
+    class Shell:
+        user_ns = {"In": ["", "runs: int = 20", "# Parameters\nruns = 4\nrunz = 3\n", "notebook.begin(runs, 1, 0)"]}
+
+    monkeypatch.setattr(notebook, "get_ipython", Shell)
+    with pytest.raises(ValueError, match="parameter runz is unknown, allowed are runs, steps, seed"):
+        notebook.begin(runs=4, steps=1, seed=0)
+
+
+def test_few_runs_are_told_to_the_reader(capsys, monkeypatch):
+    shown = []
+    monkeypatch.setattr(notebook, "display", shown.append)
+    notebook.begin(runs=4, steps=1, seed=0)
+    notebook.begin(runs=20, steps=1, seed=0)
+    assert len(shown) == 1 and "4 runs: no verdicts" in shown[0].data
