@@ -125,6 +125,7 @@ class Plan(NamedTuple):
 
     resolution: np.ndarray  # int64 (maps,)
     first: np.ndarray  # int64 (maps,): where in q a map begins
+    first_cell: np.ndarray  # int64 (maps,): how many cells the maps before it have
     low: np.ndarray  # float64 (maps,): where the map begins, in pixels
     scale: np.ndarray  # float64 (maps,): intervals a pixel
     weight: np.ndarray  # float64 (maps,)
@@ -147,6 +148,7 @@ class Memory(NamedTuple):
     """All that changes in an agent."""
 
     q: np.ndarray  # float32 (n_values,): q[state, action, goal] of one map after the other
+    known: np.ndarray  # int64 (cells of all maps, 2): the goals, from and to, that a cell may know anything of
     cell: np.ndarray  # int64 (maps,): the active cell
     events: np.ndarray  # int64 (maps, 5): steps on which each action was taken since the cell was entered
     last_event: np.ndarray  # int64 (1,)
@@ -162,11 +164,11 @@ def compiled(agent, width):
     """The `Plan` of an agent on a board of `width` pixels."""
     learning, policy = agent.learning, agent.policy
     resolution = np.array([nres_map.resolution for nres_map in agent.maps], np.int64)
-    low, high = np.array([nres_map.extent for nres_map in agent.maps], float).T * width
-    sizes = N_EVENTS * resolution**4
+    low, high = (width * np.array(ends, float) for ends in zip(*(nres_map.extent for nres_map in agent.maps)))
+    cells, sizes = resolution**2, N_EVENTS * resolution**4
     weight = resolution.astype(float) ** WEIGHTINGS.index(agent.weighting)
-    return Plan(resolution, np.cumsum(sizes) - sizes, low, resolution / (high - low), weight / weight.sum(),
-                float(agent.valence_green), float(agent.valence_red), agent.own_cell == "counts",
+    return Plan(resolution, np.cumsum(sizes) - sizes, np.cumsum(cells) - cells, low, resolution / (high - low),
+                weight / weight.sum(), float(agent.valence_green), float(agent.valence_red), agent.own_cell == "counts",
                 np.float32(learning.learning_rate), np.float32(learning.discount), np.float32(learning.absence),
                 DRIVERS.index(learning.driver), CREDITS.index(learning.credit), learning.terminal, learning.trace,
                 learning.bootstrap, float(policy.exploration), policy.idle == "no-op")
@@ -175,7 +177,8 @@ def compiled(agent, width):
 def new_memory(agent, stream):
     """The `Memory` of an agent that has learned nothing."""
     maps, trace = len(agent.maps), agent.learning.trace
-    return Memory(np.zeros(agent.n_values, np.float32), np.zeros(maps, np.int64),
+    known = np.concatenate([np.tile([nres_map.cells, 0], (nres_map.cells, 1)) for nres_map in agent.maps])
+    return Memory(np.zeros(agent.n_values, np.float32), known, np.zeros(maps, np.int64),
                   np.zeros((maps, N_EVENTS + 1), np.int64), np.zeros(1, np.int64), np.zeros((maps, trace), np.int64),
                   np.zeros((maps, trace, N_EVENTS), np.float32), np.zeros(maps, np.int64),
                   np.zeros(max(nres_map.cells for nres_map in agent.maps), np.float32), np.zeros(N_EVENTS), stream)

@@ -39,7 +39,7 @@ def learn(q, cell_tm1, cell_t, credit, learning_rate=0.03, discount=0.8, termina
         raise ValueError(f"credit has {len(credit)} values, allowed are {N_EVENTS}")
     rates = np.float32(checks.real("learning_rate", learning_rate, 0, 1)) * credit
     discount = np.float32(checks.real("discount", discount, 0, 1))
-    learn_all_goals(q.reshape(-1), 0, cells, cell_tm1, cell_t, rates, ZERO, discount,
+    learn_all_goals(q.reshape(-1), 0, cells, np.tile([0, cells], (cells, 1)), cell_tm1, cell_t, rates, ZERO, discount,
                     checks.flag("terminal", terminal), np.empty(cells, np.float32))
 
 
@@ -72,36 +72,44 @@ def _check_q(q):
 
 
 @kernel
-def learn_all_goals(q, first, cells, cell_tm1, cell_t, rates, decay, discount, terminal, target):
+def learn_all_goals(q, first, cells, known, cell_tm1, cell_t, rates, decay, discount, terminal, target):
     """One update of every goal of the map that begins at q[first]; `target` is working memory for a value a goal.
 
+    known: int64 (cells, 2), the goals from … to − 1 of which a cell may know anything. All others are zero there and
+    remain so, which spares fine maps most of the work.
     rates: α ψ for each event. decay: the rate at which an event that did not occur sinks towards zero.
     """
-    row = first + cell_t * N_EVENTS * cells
-    north, south = q[row : row + cells], q[row + cells : row + 2 * cells]
-    east, west = q[row + 2 * cells : row + 3 * cells], q[row + 3 * cells : row + 4 * cells]
-    for goal in range(cells):  # comparisons instead of max(), so that the loop compiles to vector instructions
+    begin = min(min(known[cell_tm1, 0], known[cell_t, 0]), cell_t)
+    end = max(max(known[cell_tm1, 1], known[cell_t, 1]), cell_t + 1)
+    known[cell_tm1, 0], known[cell_tm1, 1] = begin, end
+    count = end - begin
+    row = first + cell_t * N_EVENTS * cells + begin
+    north, south = q[row : row + count], q[row + cells : row + cells + count]
+    east, west = q[row + 2 * cells : row + 2 * cells + count], q[row + 3 * cells : row + 3 * cells + count]
+    for goal in range(count):  # comparisons instead of max(), so that the loop compiles to vector instructions
         vertical = north[goal] if north[goal] > south[goal] else south[goal]
         horizontal = east[goal] if east[goal] > west[goal] else west[goal]
         target[goal] = discount * (vertical if vertical > horizontal else horizontal)
-    target[cell_t] = UNIT if terminal else UNIT + target[cell_t]
+    target[cell_t - begin] = UNIT if terminal else UNIT + target[cell_t - begin]
     for event in range(N_EVENTS):
-        row = first + (cell_tm1 * N_EVENTS + event) * cells
-        value = q[row : row + cells]
+        row = first + (cell_tm1 * N_EVENTS + event) * cells + begin
+        value = q[row : row + count]
         rate = rates[event]
         if rate > ZERO:
-            for goal in range(cells):
+            for goal in range(count):
                 new = value[goal] + rate * (target[goal] - value[goal])
                 value[goal] = new if new > SMALLEST else ZERO
         elif decay > ZERO:
-            for goal in range(cells):
+            for goal in range(count):
                 new = value[goal] - decay * value[goal]
                 value[goal] = new if new > SMALLEST else ZERO
 
 
 @kernel
-def learn_one_goal(q, first, cells, cell_tm1, goal, rates, fading):
+def learn_one_goal(q, first, cells, known, cell_tm1, goal, rates, fading):
     """Move one goal's value of each event in a cell towards 1, at `rates` times `fading`."""
+    known[cell_tm1, 0] = min(known[cell_tm1, 0], goal)
+    known[cell_tm1, 1] = max(known[cell_tm1, 1], goal + 1)
     for event in range(N_EVENTS):
         index = first + (cell_tm1 * N_EVENTS + event) * cells + goal
         q[index] += fading * rates[event] * (UNIT - q[index])

@@ -112,18 +112,19 @@ def perceive(plan, memory, state, m):
 @kernel
 def learn_transition(plan, memory, m, cell_tm1, cell_t):
     cells = plan.resolution[m] * plan.resolution[m]
+    known = memory.known[plan.first_cell[m] : plan.first_cell[m] + cells]
     slot = memory.trace_count[m] % plan.trace
     memory.trace_cell[m, slot] = cell_tm1
     rate_events(plan, memory, m, memory.trace_rates[m, slot])
     memory.trace_count[m] += 1
     if plan.bootstrap:
-        learn_all_goals(memory.q, plan.first[m], cells, cell_tm1, cell_t, memory.trace_rates[m, slot],
+        learn_all_goals(memory.q, plan.first[m], cells, known, cell_tm1, cell_t, memory.trace_rates[m, slot],
                         plan.learning_rate * plan.absence, plan.discount, plan.terminal, memory.target)
     fading = UNIT
     for back in range(min(memory.trace_count[m], plan.trace)):
         if back > 0 or not plan.bootstrap:
             slot = (memory.trace_count[m] - 1 - back) % plan.trace
-            learn_one_goal(memory.q, plan.first[m], cells, memory.trace_cell[m, slot], cell_t,
+            learn_one_goal(memory.q, plan.first[m], cells, known, memory.trace_cell[m, slot], cell_t,
                            memory.trace_rates[m, slot], fading)
         fading *= plan.discount
 

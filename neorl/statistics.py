@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy import stats
 
-RESAMPLES = 2_000
+RESAMPLES = 1_000
 
 
 class Estimate(NamedTuple):

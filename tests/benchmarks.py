@@ -29,9 +29,9 @@ def random_steps(state, rules, contacts, stream, steps):
 
 
 @kernel
-def random_changes(q, cells, path, rates, discount, target):
+def random_changes(q, cells, known, path, rates, discount, target):
     for change in range(path.shape[0] - 1):
-        learn_all_goals(q, 0, cells, path[change], path[change + 1], rates, ZERO, discount, True, target)
+        learn_all_goals(q, 0, cells, known, path[change], path[change + 1], rates, ZERO, discount, True, target)
 
 
 def updates_by_numpy(q, path):
@@ -60,7 +60,8 @@ def test_thousand_updates_of_four_actions_and_every_goal(benchmark, resolution, 
     path = np.clip(walk, 0, cells - 1)
     q = np.zeros((cells, 4, cells), np.float32)
     if by == "kernel":
-        arguments = (q.reshape(-1), cells, path, RATES, DISCOUNT, np.empty(cells, np.float32))
+        everything = np.tile([0, cells], (cells, 1))
+        arguments = (q.reshape(-1), cells, everything, path, RATES, DISCOUNT, np.empty(cells, np.float32))
         benchmark.pedantic(random_changes, arguments, warmup_rounds=3, rounds=30)
     else:
         benchmark.pedantic(updates_by_numpy, (q, path), warmup_rounds=3, rounds=30)

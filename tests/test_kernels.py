@@ -4,7 +4,7 @@ import numba
 import numpy as np
 import pytest
 
-from neorl import agent, horde, life, nres, stream, waterworld
+from neorl import Run, WaterWorld, agent, horde, life, nres, place_cells, stream, waterworld
 from neorl.kernel import kernel
 
 KERNELS = {value.__name__: value for module in (agent, horde, life, nres, stream, waterworld)
@@ -14,8 +14,6 @@ KERNELS = {value.__name__: value for module in (agent, horde, life, nres, stream
 @pytest.fixture(scope="module", autouse=True)
 def compiled():
     """Have every kernel compiled by a short run."""
-    from neorl import Run, WaterWorld, place_cells
-
     Run(place_cells([3]), WaterWorld(), seed=0).advance(10)
 
 
@@ -45,3 +43,9 @@ def test_a_kernel_that_allocates_does_not_compile():
 def test_the_goal_loop_compiles_to_vector_instructions():
     code = "".join(horde.learn_all_goals.inspect_llvm().values())
     assert "x float> " in code and "fmul <" in code
+
+
+def test_agents_of_any_number_of_maps_share_one_compilation():
+    for resolutions in ([3], [3, 7, 23]):
+        Run(place_cells(resolutions), WaterWorld(), seed=0).advance(10)
+    assert len(life.live.signatures) == 1
