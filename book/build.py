@@ -8,9 +8,9 @@ import argparse
 import hashlib
 import json
 import os
+import shutil
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 import nbformat
@@ -60,18 +60,20 @@ def compute(notebook, parameters):
     print(f"{notebook.name}: {', '.join(f'{name} {value}' for name, value in parameters.items())}")
     CHAPTERS.mkdir(parents=True, exist_ok=True)
     record.unlink(missing_ok=True)
-    with tempfile.TemporaryDirectory(dir=CHAPTERS) as work:
-        unfinished = Path(work) / notebook.name
-        papermill.execute_notebook(
-            notebook, unfinished, parameters, cwd=ROOT / "notebooks", stderr_file=sys.stderr,
-            request_save_on_cell_execute=False,
-            config=Config(KernelManager={"transport": "ipc"}))  # over TCP the kernel warns that it is not encrypted
-        executed = nbformat.read(unfinished, nbformat.NO_CONVERT)
-        for cell in executed.cells:  # links are written for notebooks/, and the page lies in book/chapters/
-            cell.source = cell.source.replace("](../book/", "](../")
-        save_figures(executed)
-        nbformat.write(executed, unfinished)
-        os.replace(unfinished, target)
+    work = CHAPTERS / f".{notebook.stem}"  # at a place of its own, so that what a killed process left is cleared
+    shutil.rmtree(work, ignore_errors=True)
+    work.mkdir()
+    papermill.execute_notebook(
+        notebook, work / notebook.name, parameters, cwd=ROOT / "notebooks", stderr_file=sys.stderr,
+        request_save_on_cell_execute=False,
+        config=Config(KernelManager={"transport": "ipc"}))  # over TCP the kernel warns that it is not encrypted
+    executed = nbformat.read(work / notebook.name, nbformat.NO_CONVERT)
+    for cell in executed.cells:  # links are written for notebooks/, and the page lies in book/chapters/
+        cell.source = cell.source.replace("](../book/", "](../")
+    save_figures(executed)
+    nbformat.write(executed, work / notebook.name)
+    os.replace(work / notebook.name, target)
+    work.rmdir()
     record.write_text(json.dumps(wanted))
 
 
@@ -101,8 +103,8 @@ def build():
     if HTML.exists() and record.exists() and record.read_text() == wanted:
         return
     record.unlink(missing_ok=True)
-    command = [Path(sys.executable).with_name("jupyter-book"), "build", "book", "--config", "_config.yml", "--path-output", ".",
-               "--all", "--quiet", "--warningiserror", "--keep-going", "--nitpick"]
+    command = [Path(sys.executable).with_name("jupyter-book"), "build", "book", "--config", "_config.yml",
+               "--path-output", ".", "--all", "--quiet", "--warningiserror", "--keep-going", "--nitpick"]
     if subprocess.run(command, cwd=ROOT).returncode:
         sys.exit("the book was not built, see above")
     record.write_text(wanted)

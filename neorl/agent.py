@@ -56,7 +56,7 @@ class Learning:
         checks.integer("trace", self.trace, at_least=1)
         checks.flag("bootstrap", self.bootstrap)
         if self.driver == "step" and (self.trace, self.bootstrap, self.credit, self.absence) != (1, True, "share", 0):
-            raise ValueError("driver is 'step', allowed with it are only the defaults of credit, absence, trace, bootstrap")
+            raise ValueError("driver is 'step', allowed with it are the defaults of credit, absence, trace, bootstrap")
 
 
 @dataclass(frozen=True)

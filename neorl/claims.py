@@ -56,7 +56,7 @@ def judge_single_layer(by_resolution, brownian):
     chance = probability_of_improvement(rate[least], brownian.rate())
     a2 = Claim("A2", place, "Every single resolution beats Brownian motion",
                "Smallest lead over the control in reward per second", "> 0", lead[least],
-               f"The smallest lead is that of N{least}, whose runs beat one of the control with probability {chance:.2f}.",
+               f"It is that of N{least}, whose runs beat one of the control with probability {chance:.2f}.",
                runs, verdict(runs, lead[least].low > 0, learned))
 
     early = estimate(_rank_correlation, *(by_resolution[n].rate(*EARLY) for n in sorted(by_resolution)))
@@ -130,8 +130,8 @@ def comparison(judged):
     names = sorted({claim.name for claims in judged.values() for claim in claims})
     rows = ["| Reading | " + " | ".join(names) + " |", "|---" * (len(names) + 1) + "|"]
     for reading, claims in judged.items():
-        cells = {claim.name: f"{signs[claim.verdict]}\u00a0{claim.here.value:z.2f}".replace("-", "−") for claim in claims}
-        rows.append(f"| {reading} | " + " | ".join(cells.get(name, "") for name in names) + " |")
+        cells = {claim.name: f"{signs[claim.verdict]}\u00a0{claim.here.value:z.2f}" for claim in claims}
+        rows.append(f"| {reading} | " + " | ".join(cells.get(name, "") for name in names).replace("-", "−") + " |")
     return "\n".join(rows)
 
 

@@ -1,6 +1,6 @@
 """The drawings of the book, on a transparent ground and in colours that serve a light page and a dark one.
 
-Colours keep apart for colour-blind readers, and never stand alone: a curve carries its name at its end, a creep its sign.
+Colours keep apart for colour-blind readers, and never stand alone: a curve carries its name, a creep its sign.
 """
 
 import numpy as np
@@ -49,7 +49,7 @@ def draw_cells(axes, nres_map, colour=INK, fills=None, width=1.0):
 
 
 def draw_values(axes, nres_map, values):
-    """Arrows for the action values in every cell, values (cells, 4): the vector (E − W, S − N), longest where largest."""
+    """Arrows for the action values in every cell, values (cells, 4): the vector (E − W, S − N)."""
     vector = np.stack([values[:, 2] - values[:, 3], values[:, 1] - values[:, 0]], axis=1)
     length = np.linalg.norm(vector, axis=1, keepdims=True)
     low, high = nres_map.extent

@@ -1,11 +1,11 @@
 """The Horde: one general value function for every cell of a map, all learned from the same stream of experience.
 
 ``q[state, action, goal]`` estimates the discounted value of taking an action in one cell for reaching another (Sutton
-et al. 2011; thesis sections 4.1.2 and 4.1.3). All goals learn off policy at every update, whether anybody asked for them or not: this
-is latent learning. A goal pays 1 when its cell is entered, and nothing else is ever paid.
+et al. 2011; thesis sections 4.1.2 and 4.1.3). All goals learn off policy at every update, whether anybody asked for
+them or not: this is latent learning. A goal pays 1 when its cell is entered, and nothing else is ever paid.
 
-1. *Inference inversion* (eq. 4.7, 4.8): a change of cell drives the update. Each event a that occurred in the cell just
-   left moves q[cell_tm1, a, :] towards γ max q[cell_t, :, :] at the rate ψ(a) α.
+1. *Inference inversion* (eq. 4.7, 4.8): a change of cell drives the update. Each event a that occurred in the cell
+   just left moves q[cell_tm1, a, :] towards γ max q[cell_t, :, :] at the rate ψ(a) α.
 2. *Temporal difference* (eq. 4.6) is the same update after every step, with the action taken as its only event.
 3. *Superposition* (eq. 4.3, 4.4): the value of an action is the sum of its values for the cells that hold elements of
    interest, each weighted by the valence of its element.

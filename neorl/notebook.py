@@ -23,7 +23,7 @@ def begin(runs, steps, seed):
     figures.use_style()
     if runs < RUNS_FOR_A_VERDICT:
         display(HTML(f'<div class="admonition warning"><p class="admonition-title">{runs} runs: no verdicts</p>'
-                     f"<p>This page was computed as a look. Verdicts need {RUNS_FOR_A_VERDICT} runs or more.</p></div>"))
+                     f"<p>This page is a first look. Verdicts need {RUNS_FOR_A_VERDICT} runs or more.</p></div>"))
 
 
 def injected_names():

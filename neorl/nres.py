@@ -1,8 +1,8 @@
 """NRES maps: neural representation of a Euclidean space by cells with mutually exclusive receptive fields.
 
 An N-map cuts each axis of the unit board into N equal intervals, so N × N square receptive fields tile the board and
-exactly one cell is active for any point (one-hot; thesis section 4.1.2, paper B section 2.1). Cells are counted row by row
-from the upper left. A point beyond the range of the map belongs to the nearest cell.
+exactly one cell is active for any point (one-hot; thesis section 4.1.2, paper B section 2.1). Cells are counted row by
+row from the upper left. A point beyond the range of the map belongs to the nearest cell.
 """
 
 from dataclasses import dataclass

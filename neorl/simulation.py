@@ -151,7 +151,8 @@ def usable_threads(agent):
     free = psutil.virtual_memory().available
     fitting = int(0.9 * free // (4 * agent.n_values))
     if fitting == 0:
-        raise MemoryError(f"a run of this agent needs {agent.n_values * 4 / 2**30:.1f} GiB, {free / 2**30:.1f} are free")
+        needed = agent.n_values * 4 / 2**30
+        raise MemoryError(f"a run of this agent needs {needed:.1f} GiB of memory, {free / 2**30:.1f} are free")
     return min(fitting, len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count())
 
 

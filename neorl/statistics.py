@@ -36,7 +36,7 @@ def estimate(statistic, *samples):
 
 
 def probability_of_improvement(better, worse):
-    """How probable it is that a run of `better` beats one of `worse`, a tie counting half: the Mann-Whitney U a pair."""
+    """How probably a run of `better` beats one of `worse`, a tie counting half: Mann-Whitney's U a pair."""
     return float(stats.mannwhitneyu(better, worse).statistic) / (len(better) * len(worse))
 
 

@@ -77,7 +77,7 @@ class WaterWorld:
     def __post_init__(self):
         checks.integer("width", self.width, at_least=1)
         if self.radius < 1:
-            raise ValueError(f"width is {self.width}, allowed are widths from 11 pixels: a creep's radius is 4.7 % of it")
+            raise ValueError(f"width is {self.width}, allowed are 11 pixels or more: a creep's radius is 4.7 % of it")
         checks.integer("n_creeps", self.n_creeps, at_least=1)
         checks.integer("fps", self.fps, at_least=1)
         checks.real("win_reward", self.win_reward)
@@ -165,7 +165,7 @@ def reset_board(state, rules):
 
 @kernel
 def step_board(state, rules, action, contacts):
-    """One step of the rules. Returns (reward, done); `contacts` takes what each creep paid, or 0 if it was not touched."""
+    """One step of the rules. Returns (reward, done); `contacts` takes what each creep paid, 0 if untouched."""
     move_agent(state, rules, action)
     reward, done = touch_creeps(state, rules, contacts)
     for creep in range(contacts.shape[0]):

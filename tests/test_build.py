@@ -49,13 +49,15 @@ def test_a_notebook_is_computed_when_something_has_changed_and_kept_when_not(not
     with pytest.raises(build.PapermillExecutionError):
         build.compute(notebook, {"runs": 13})
     assert nbformat.read(target, 4).cells[-1].outputs[0].text == "3\n"  # a failure leaves the page alone
-    assert sorted(path.name for path in build.CHAPTERS.iterdir()) == ["page.ipynb"]
+    assert (build.CHAPTERS / ".page" / "page.ipynb").exists()  # and shows how far it came
     build.compute(notebook, {"runs": 4})
     assert nbformat.read(target, 4).cells[-1].outputs[0].text == "4\n"
+    assert sorted(path.name for path in build.CHAPTERS.iterdir()) == ["page.inputs.json", "page.ipynb"]
 
 
 @pytest.mark.parametrize("runs", ["0", "-3", "many", "2.5"])
 def test_bad_runs_are_refused_before_anything_runs(runs):
-    refused = subprocess.run([sys.executable, ROOT / "book" / "build.py", "--runs", runs], capture_output=True, text=True)
+    command = [sys.executable, ROOT / "book" / "build.py", "--runs", runs]
+    refused = subprocess.run(command, capture_output=True, text=True)
     assert refused.returncode != 0
     assert "--runs" in refused.stderr and "allowed are integers ≥ 1" in refused.stderr

@@ -184,7 +184,8 @@ def test_a_bad_advance_is_refused_and_changes_nothing():
     run = Run(place_cells([3]), TANK, seed=0)
     rewards, hits = np.zeros(10, np.float32), np.zeros((10, 2), np.int16)
     for steps, given, message in [(-1, (rewards, hits), "steps is -1"), (101, (rewards, hits), "rewards is float32"),
-                                  (100, (rewards, hits[:, :1]), "hits is int16"), (100, (hits, hits), "rewards is int16")]:
+                                  (100, (rewards, hits[:, :1]), "hits is int16"),
+                                  (100, (hits, hits), "rewards is int16")]:
         with pytest.raises(ValueError, match=message):
             run.advance(steps, *given)
     run.state.agent_position = np.nan
