@@ -22,8 +22,10 @@ CREDIT_HAPPENED, CREDIT_LAST = 1, 2
 def live(plan, memory, rules, state, contacts, first_step, last_step, bin_steps, rewards, hits):
     """Live the steps first_step … last_step − 1, adding what they bring to the bins of `rewards` and `hits`.
 
+    Returns the reward that they bring in all.
     contacts: int8 (creeps,), working memory. rewards: float32 (bins,). hits: int16 (bins, 2), green and red creeps.
     """
+    total = 0.0
     for step in range(first_step, last_step):
         action = choose(plan, memory, state)
         for m in range(memory.cell.shape[0]):
@@ -32,6 +34,7 @@ def live(plan, memory, rules, state, contacts, first_step, last_step, bin_steps,
         reward, done = step_board(state, rules, action, contacts)
         for m in range(memory.cell.shape[0]):
             perceive(plan, memory, state, m)
+        total += reward
         interval = step // bin_steps
         rewards[interval] += np.float32(reward)
         for creep in range(contacts.shape[0]):
@@ -40,6 +43,7 @@ def live(plan, memory, rules, state, contacts, first_step, last_step, bin_steps,
         if done:
             reset_board(state, rules)
             settle(plan, memory, state)
+    return total
 
 
 @kernel

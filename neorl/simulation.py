@@ -21,7 +21,7 @@ from neorl.stream import new_stream
 from neorl.waterworld import WaterWorld, check_state
 
 BIN_SECONDS = 0.2
-SLICE = 5_000  # steps between two looks at the progress bar and at the keyboard
+SLICE = 10_000  # steps between two looks at the progress bar and at the keyboard
 
 
 class Run:
@@ -51,18 +51,17 @@ class Run:
         """
         check_state(self.state, self.world)
         last = self.step + checks.integer("steps", steps, at_least=0)
-        bins = new_bins(self.world, 1, last)
         if rewards is None:
-            rewards, hits = bins[0][0], bins[1][0]
-        for name, given, needed in zip(("rewards", "hits"), (rewards, hits), bins):
-            if given.dtype != needed.dtype or len(given) < needed.shape[1] or given.shape[1:] != needed.shape[2:]:
-                raise ValueError(f"{name} is {given.dtype} {given.shape}, needed is {needed.dtype} {needed.shape[1:]}")
-        before = float(rewards.sum())
+            rewards, hits = (bins[0] for bins in new_bins(self.world, 1, last))
+        shortest = -(-last // bin_steps(self.world))
+        for name, given, kind, beside in (("rewards", rewards, np.float32, ()), ("hits", hits, np.int16, (2,))):
+            if given.dtype != kind or len(given) < shortest or given.shape[1:] != beside:
+                raise ValueError(f"{name} is {given.dtype} {given.shape}, needed is {kind.__name__} {(shortest, *beside)}")
         with np.errstate(over="ignore"):
-            live(self.plan, self.memory, self.world.rules, self.state, self._contacts, self.step, last,
-                 bin_steps(self.world), rewards, hits)
+            brought = live(self.plan, self.memory, self.world.rules, self.state, self._contacts, self.step, last,
+                           bin_steps(self.world), rewards, hits)
         self.step = last
-        return float(rewards.sum()) - before
+        return brought
 
     def q(self, index=0):
         """The values of one map: float32 (cells, 4, cells), q[state, action, goal], a view."""

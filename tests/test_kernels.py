@@ -24,6 +24,7 @@ def test_the_kernels_are_found():
 @pytest.mark.parametrize("name", KERNELS)
 def test_a_kernel_has_the_options_of_all_and_calls_no_library(name):
     assert KERNELS[name].targetoptions == kernel(lambda: None).targetoptions
+    assert "fastmath" not in KERNELS[name].targetoptions
     for code in KERNELS[name].inspect_llvm().values():
         calls = [line for line in code.splitlines() if " call " in line and "@" in line]
         called = {line.split("@", 1)[1].split("(")[0] for line in calls}

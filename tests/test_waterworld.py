@@ -128,3 +128,45 @@ def test_a_bad_step_is_refused_and_changes_nothing():
     for seed in (-1, 0.5, None):
         with pytest.raises(ValueError, match="seed is"):
             world.reset(seed)
+
+
+def lonely(**fields):
+    """A tank whose only creep is far from an agent at rest, but for the given fields."""
+    world = WaterWorld(n_creeps=1)
+    state = world.reset(0)
+    state.creep_position = [200.0, 200.0]
+    state.creep_speed = 0.0
+    state.agent_position = [50.0, 50.0]
+    for name, value in fields.items():
+        setattr(state, name, value)
+    return world, state
+
+
+def test_an_agent_that_just_reaches_the_wall_is_stopped_in_x_and_glides_on_in_y():
+    highest = 250.0 - 2 * 12
+    world, state = lonely(agent_position=[highest, highest], agent_velocity=[0.0, 0.0])
+    world.step(state, "no-op")
+    assert state.agent_position.tolist() == [highest, highest]
+    state.agent_position = highest - 1.0
+    state.agent_velocity = 50.0
+    world.step(state, "no-op")
+    assert state.agent_velocity.tolist() == [0.0, 50.0 * 0.975]
+
+
+def test_contact_begins_one_rounded_pixel_inside_two_radii():
+    for distance, touched in [(24.0, False), (23.6, False), (23.4, True), (-24.0, False), (-23.5, True), (-23.6, False)]:
+        world, state = lonely(creep_position=[100.0 + distance, 90.0], agent_position=[100.0, 100.0])
+        assert world.step(state, "no-op")[1].tolist() == [touched], distance
+
+
+def test_a_creep_bounces_with_its_jitter_where_it_just_reaches_the_low_wall_but_not_the_high_one():
+    for wall, sign, bounces in [(12.0, -1.0, True), (238.0, 1.0, False)]:
+        world, state = lonely(creep_position=[wall - sign, 100.0], creep_direction=[sign, 0.0], creep_speed=50.0,
+                              creep_jitter=0.5)
+        world.step(state, "no-op")
+        assert state.creep_position[0].tolist() == [wall, 100.0]
+        assert state.creep_direction[0].tolist() == [-sign if bounces else sign, 0.0]
+    world, state = lonely(creep_position=[237.9, 100.0], creep_direction=[0.6, 0.8], creep_speed=50.0, creep_jitter=0.5)
+    world.step(state, "no-op")
+    turned = np.array([-0.6 * 1.25, 0.8])
+    np.testing.assert_allclose(state.creep_direction[0], turned / np.linalg.norm(turned))
