@@ -64,8 +64,8 @@ def compute(notebook, parameters):
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir()
     papermill.execute_notebook(
-        notebook, work / notebook.name, parameters, cwd=ROOT / "notebooks", stderr_file=sys.stderr,
-        request_save_on_cell_execute=False,
+        notebook, work / notebook.name, parameters, cwd=ROOT / "notebooks", request_save_on_cell_execute=False,
+        stderr_file=sys.stderr if sys.stderr.isatty() else None,  # the bars of single conditions, but not into a log
         config=Config(KernelManager={"transport": "ipc"}))  # over TCP the kernel warns that it is not encrypted
     executed = nbformat.read(work / notebook.name, nbformat.NO_CONVERT)
     for cell in executed.cells:  # links are written for notebooks/, and the page lies in book/chapters/

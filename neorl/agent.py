@@ -96,7 +96,7 @@ class Agent:
     own_cell: str = "silent"
 
     def __post_init__(self):
-        object.__setattr__(self, "maps", tuple(self.maps))
+        object.__setattr__(self, "maps", checks.several("maps", self.maps))
         if not self.maps or not all(isinstance(nres_map, NresMap) for nres_map in self.maps):
             raise ValueError(f"maps is {self.maps!r}, allowed are one NresMap or more")
         checks.one_of("weighting", self.weighting, WEIGHTINGS)
@@ -112,6 +112,7 @@ class Agent:
 
 def place_cells(resolutions, extent=(0.0, 1.0), **choices):
     """The place-cell agent of paper A: a map for each of `resolutions`; `choices` are the other fields of `Agent`."""
+    resolutions = checks.several("resolutions", resolutions)
     return Agent(tuple(NresMap(resolution, extent) for resolution in resolutions), **choices)
 
 

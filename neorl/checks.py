@@ -31,6 +31,13 @@ def one_of(name, value, allowed):
     raise ValueError(f"{name} is {value!r}, allowed are {', '.join(map(repr, allowed))}")
 
 
+def several(name, values):
+    """`values` as a tuple, if they are a list, a tuple, a range or an array."""
+    if isinstance(values, list | tuple | range | np.ndarray):
+        return tuple(values)
+    raise ValueError(f"{name} is {values!r}, allowed are lists and tuples")
+
+
 def flag(name, value):
     """`value`, if it is True or False."""
     return one_of(name, value, (True, False))

@@ -81,7 +81,7 @@ def choose(plan, memory, state):
         ties += value[action] == best
     skip = below(memory.stream, ties) if ties > 1 else 0
     action = 0
-    while value[action] != best or skip > 0:
+    while action < N_EVENTS - 1 and (value[action] != best or skip > 0):
         skip -= value[action] == best
         action += 1
     return action

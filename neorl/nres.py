@@ -27,7 +27,8 @@ class NresMap:
     extent: tuple[float, float] = (0.0, 1.0)
 
     def __post_init__(self):
-        checks.integer("resolution", self.resolution, at_least=1)
+        object.__setattr__(self, "resolution", checks.integer("resolution", self.resolution, at_least=1))
+        object.__setattr__(self, "extent", checks.several("extent", self.extent))
         if len(self.extent) != 2 or not np.all(np.isfinite(self.extent)) or self.extent[0] >= self.extent[1]:
             raise ValueError(f"extent is {self.extent!r}, allowed are two finite numbers, the lower one first")
 

@@ -56,7 +56,8 @@ class Run:
         shortest = -(-last // bin_steps(self.world))
         for name, given, kind, beside in (("rewards", rewards, np.float32, ()), ("hits", hits, np.int16, (2,))):
             if given.dtype != kind or len(given) < shortest or given.shape[1:] != beside:
-                raise ValueError(f"{name} is {given.dtype} {given.shape}, needed is {kind.__name__} {(shortest, *beside)}")
+                raise ValueError(f"{name} is {given.dtype} {given.shape}, allowed is {kind.__name__} from "
+                                 f"{(shortest, *beside)} on")
         with np.errstate(over="ignore"):
             brought = live(self.plan, self.memory, self.world.rules, self.state, self._contacts, self.step, last,
                            bin_steps(self.world), rewards, hits)
@@ -101,8 +102,15 @@ class Result:
         return self.rewards.sum(axis=1, dtype=float)
 
     def rate(self, begin=0.0, end=1.0):
-        """float64 (runs,): reward per simulated second between two shares of the run, to the nearest bin."""
+        """float64 (runs,): reward per simulated second between two shares of the run in [0, 1], to the nearest bin.
+
+        Raises ValueError for other shares, and for stretches shorter than a bin.
+        """
+        checks.real("begin", begin, 0, 1)
+        checks.real("end", end, 0, 1)
         first, last = (round(share * self.rewards.shape[1]) for share in (begin, end))
+        if first >= last:
+            raise ValueError(f"end is {end!r}, allowed are shares at least a bin after begin, {begin!r}")
         edges = np.concatenate([[0.0], self.time])
         return self.rewards[:, first:last].sum(axis=1, dtype=float) / (edges[last] - edges[first])
 

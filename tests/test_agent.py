@@ -11,6 +11,8 @@ from neorl.agent import compiled
     (lambda: Agent(()), r"maps is \(\), allowed are one NresMap or more"),
     (lambda: Agent((5,)), "maps is"),
     (lambda: place_cells([]), "maps is"),
+    (lambda: place_cells(5), "resolutions is 5, allowed are lists and tuples"),
+    (lambda: Agent(NresMap(5)), "maps is NresMap"),
     (lambda: place_cells([0]), "resolution is 0"),
     (lambda: place_cells([3], weighting="heavy"), "weighting is 'heavy', allowed are 'equal', 'resolution', 'cells'"),
     (lambda: place_cells([3], valence_red=np.nan), "valence_red is nan"),
@@ -36,6 +38,7 @@ def test_a_bad_choice_is_refused(make, message):
 def test_an_agent_is_a_value():
     assert place_cells([3, 7]) == Agent((NresMap(3), NresMap(7)))
     assert hash(place_cells([3])) != hash(place_cells([3], own_cell="counts"))
+    assert place_cells(np.array([3])) == place_cells((3,))
     assert brownian().policy.exploration == 1.0
 
 

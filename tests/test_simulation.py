@@ -161,6 +161,21 @@ def test_the_bins_add_up():
                                result.totals)
 
 
+@pytest.mark.parametrize("begin, end, message", [
+    (-0.1, 1, "begin is -0.1"), (0, 1.1, "end is 1.1"), (0.5, 0.5, "end is 0.5, allowed are"), (1, 0, "end is 0")])
+def test_a_bad_stretch_is_refused(begin, end, message):
+    result = simulate(place_cells([3]), TANK, steps=100, runs=1, progress=False)
+    with pytest.raises(ValueError, match=message):
+        result.rate(begin, end)
+
+
+def test_an_agent_whose_values_overflow_still_chooses():
+    with np.errstate(all="ignore"):
+        rule = Learning(terminal=False, discount=1.0)
+        agent = place_cells([3], valence_green=1e308, valence_red=-1e308, learning=rule)
+        assert simulate(agent, TANK, steps=50_000, runs=1, progress=False).hits.sum() > 0
+
+
 def test_learning_pays():
     """N7 after an hour beats Brownian motion clearly, which is claim A2 in small."""
     learner, control = (simulate(agent, TANK, steps=60_000, runs=4, progress=False).rate(0.5).mean()

@@ -154,7 +154,7 @@ def test_an_agent_that_just_reaches_the_wall_is_stopped_in_x_and_glides_on_in_y(
 
 
 def test_contact_begins_one_rounded_pixel_inside_two_radii():
-    for distance, touched in [(24.0, False), (23.6, False), (23.4, True), (-24.0, False), (-23.5, True), (-23.6, False)]:
+    for distance, touched in [(24, False), (23.6, False), (23.4, True), (-24, False), (-23.6, False), (-23.5, True)]:
         world, state = lonely(creep_position=[100.0 + distance, 90.0], agent_position=[100.0, 100.0])
         assert world.step(state, "no-op")[1].tolist() == [touched], distance
 
