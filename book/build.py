@@ -39,7 +39,6 @@ def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--runs", type=whole_number, default=20, help="runs a condition (default 20)")
     parser.add_argument("--steps", type=whole_number, help="steps a run (by default the paper's)")
-    parser.add_argument("--seed", type=int, help="of all random numbers")
     return parser.parse_args()
 
 
