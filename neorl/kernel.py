@@ -15,4 +15,5 @@ kernels that it calls, and a result must never come from code that is no longer 
 
 import numba
 
+# Without numba's memory runtime (_nrt) a kernel cannot allocate, and counts no references to the arrays it is handed.
 kernel = numba.njit(error_model="numpy", nogil=True, _nrt=False)
