@@ -1,5 +1,6 @@
 """Runs: the same to the last bit however they are made, and equal to a slow second telling of the rules."""
 
+import itertools
 import os
 import subprocess
 import sys
@@ -139,6 +140,14 @@ def test_a_run_is_the_same_in_slices():
     np.testing.assert_array_equal(whole.memory.q, sliced.memory.q)
     for one, other in zip(whole.state, sliced.state):
         np.testing.assert_array_equal(one, other)
+
+
+def test_runs_write_to_no_common_cache_line():
+    runs = [Run(place_cells([3]), TANK, run=run) for run in range(20)]
+    written = [(array.ctypes.data, array.ctypes.data + array.nbytes, run.memory) for run in runs
+               for array in (*run.memory, *run.state, run._contacts) if array.nbytes < 4_096]
+    for (_, end, one), (begin, _, other) in itertools.pairwise(sorted(written, key=lambda each: each[:2])):
+        assert begin - end >= 64 or one is other
 
 
 def test_runs_and_seeds_differ():
