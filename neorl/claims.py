@@ -136,9 +136,13 @@ def comparison(judged):
 
 
 def store(page, claims):
-    """Keep the claims of a page as JSON, with the digest of the source that they were computed with."""
-    content = {"page": page, "source": source_digest(), "claims": [asdict(claim) for claim in claims]}
-    write_whole(folder() / "claims" / f"{page}.json", json.dumps(content, indent=1).encode())
+    """Keep the claims of a page as JSON, with the digest of the source that they were computed with.
+
+    A bound that does not exist, as with a single run, is null.
+    """
+    kept = [{**asdict(claim), "here": [each if np.isfinite(each) else None for each in claim.here]} for claim in claims]
+    content = {"page": page, "source": source_digest(), "claims": kept}
+    write_whole(folder() / "claims" / f"{page}.json", json.dumps(content, indent=1, allow_nan=False).encode())
 
 
 def _difference(a, b):

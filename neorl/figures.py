@@ -38,10 +38,8 @@ def new_board(size=3.6):
 
 def draw_cells(axes, nres_map, colour=INK, fills=None, width=1.0):
     """The receptive fields of a map; `fills` gives cells a colour and an opacity: {cell: (colour, opacity)}."""
-    low, high = nres_map.extent
-    side = (high - low) / nres_map.resolution
-    for cell in range(nres_map.cells):
-        corner = low + side * (cell % nres_map.resolution), low + side * (cell // nres_map.resolution)
+    corners, side = _squares(nres_map)
+    for cell, corner in enumerate(corners):
         axes.add_patch(Rectangle(corner, side, side, fill=False, edgecolor=colour, linewidth=width))
         if fills and cell in fills:
             fill, opacity = fills[cell]
@@ -52,15 +50,20 @@ def draw_values(axes, nres_map, values):
     """Arrows for the action values in every cell, values (cells, 4): the vector (E − W, S − N)."""
     vector = np.stack([values[:, 2] - values[:, 3], values[:, 1] - values[:, 0]], axis=1)
     length = np.linalg.norm(vector, axis=1, keepdims=True)
-    low, high = nres_map.extent
-    side = (high - low) / nres_map.resolution
+    corners, side = _squares(nres_map)
     arrow = side * 0.8 * vector / np.where(length > 0, length, 1) * (length / max(length.max(), 1e-30)) ** 0.25
-    cells = np.arange(nres_map.cells)
-    centre = low + side * (np.stack([cells % nres_map.resolution, cells // nres_map.resolution], axis=1) + 0.5)
     shown = length[:, 0] > 0
-    start = (centre - arrow / 2)[shown]
+    start = (corners + side / 2 - arrow / 2)[shown]
     axes.quiver(start[:, 0], start[:, 1], arrow[shown, 0], arrow[shown, 1], color=AGENT, angles="xy",
                 scale_units="xy", scale=1, width=0.009)
+
+
+def _squares(nres_map):
+    """The upper left corners (cells, 2) of the receptive fields of a map, and the length of their sides."""
+    low, high = nres_map.extent
+    side = (high - low) / nres_map.resolution
+    rows, columns = np.divmod(np.arange(nres_map.cells), nres_map.resolution)
+    return low + side * np.stack([columns, rows], axis=1), side
 
 
 def draw_tank(axes, world, state):

@@ -30,9 +30,8 @@ def estimate(statistic, *samples):
     value = float(statistic(*samples))
     if min(len(sample) for sample in samples) < 2:
         return Estimate(value, np.nan, np.nan)
-    interval = stats.bootstrap(samples, statistic, n_resamples=RESAMPLES, vectorized=False, method="percentile",
-                               rng=np.random.default_rng(0)).confidence_interval
-    return Estimate(value, float(interval.low), float(interval.high))
+    low, high = _bootstrapped(samples, statistic, vectorized=False)
+    return Estimate(value, float(low), float(high))
 
 
 def probability_of_improvement(better, worse):
@@ -40,15 +39,18 @@ def probability_of_improvement(better, worse):
     return float(stats.mannwhitneyu(better, worse).statistic) / (len(better) * len(worse))
 
 
-def band(curves, share=0.95):
-    """The band that holds the middle `share` of the runs at each point of curves (runs, points): (low, high)."""
-    return np.quantile(curves, [(1 - share) / 2, (1 + share) / 2], axis=0)
+def band(curves):
+    """The band that holds the middle 95 % of the runs at each point of curves (runs, points): (low, high)."""
+    return np.quantile(curves, [0.025, 0.975], axis=0)
 
 
-def mean_band(curves, share=0.95):
+def mean_band(curves):
     """The interval of the mean over runs at each point of curves (runs, points): (low, high), as `estimate` has it."""
     if len(curves) < 2:
         return np.full((2, curves.shape[1]), np.nan)
-    interval = stats.bootstrap((curves,), np.mean, n_resamples=RESAMPLES, confidence_level=share, axis=0,
-                               method="percentile", rng=np.random.default_rng(0)).confidence_interval
-    return interval.low, interval.high
+    return _bootstrapped((curves,), np.mean, axis=0)
+
+
+def _bootstrapped(samples, statistic, **how):
+    return stats.bootstrap(samples, statistic, n_resamples=RESAMPLES, confidence_level=0.95, method="percentile",
+                           rng=np.random.default_rng(0), **how).confidence_interval

@@ -20,9 +20,7 @@ def made_up(early, final=None, runs=20):
 
 def as_the_paper_says(runs=20):
     single = {10: made_up(0.50, 0.6, runs), 30: made_up(0.40, 0.7, runs), 50: made_up(0.30, 1.0, runs),
-              70: made_up(0.20, 1.05, runs), 90: made_up(0.10, 1.1, runs)}
-    single[70] = made_up(0.20, 0.95, runs)
-    single[90] = made_up(0.10, 0.90, runs)
+              70: made_up(0.20, 0.95, runs), 90: made_up(0.10, 0.90, runs)}
     layers = {3: made_up(0.1, 0.05, runs), 7: made_up(0.1, 0.2, runs), 23: made_up(0.05, 0.3, runs)}
     return single, made_up(0.0, runs=runs), layers, made_up(0.2, 0.7, runs)
 
@@ -76,6 +74,14 @@ def test_claims_are_kept_as_data(tmp_path, monkeypatch):
     assert [claim["name"] for claim in kept["claims"]] == ["A1", "A2", "A3", "A4", "A5"]
     assert kept["claims"][3]["here"] == list(judged[3].here)
     assert kept["claims"][3]["runs"] == 20
+
+
+def test_a_bound_that_does_not_exist_is_kept_as_null(tmp_path, monkeypatch):
+    monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
+    claims.store("look", claims.judge_multiple_layers(*as_the_paper_says(runs=1)[2:]))
+    text = (tmp_path / "claims" / "look.json").read_text()
+    assert "NaN" not in text
+    assert json.loads(text)["claims"][0]["here"][1:] == [None, None]
 
 
 def test_tables_hold_every_claim_and_reading():
