@@ -1,14 +1,21 @@
 """neorl: agents that navigate by neural representations of Euclidean space, and the experiments of their thesis.
 
-The names below carry the papers; `neorl.statistics`, `neorl.claims` and `neorl.figures` serve the book's pages.
+An `Agent` is a network of `Node`s and `Desire`s, a node tiles the space of a `Modality`, and `simulate` lets agents live
+in `WaterWorld`. The agents of the papers are values of these types; `neorl.modality` holds the modalities by name.
+`neorl.statistics`, `neorl.claims` and `neorl.figures` serve the book's pages.
 """
 
-from neorl.agent import Agent, Learning, Policy, brownian, place_cells
+from neorl.agent import Agent, Desire, Learning, Node, Policy
 from neorl.horde import learn, superpose
+from neorl.modality import Modality
 from neorl.nres import NresMap
+from neorl.papers import (brownian, multimodal, network_a, network_b, network_c, network_d, object_vector_cells,
+                          place_cells)
 from neorl.simulation import Result, Run, simulate
 from neorl.store import simulate_once
 from neorl.waterworld import WaterWorld
 
-__all__ = ["Agent", "Learning", "NresMap", "Policy", "Result", "Run", "WaterWorld", "brownian", "learn", "place_cells",
-           "simulate", "simulate_once", "superpose"]
+__all__ = ["Agent", "Desire", "Learning", "Modality", "Node", "NresMap", "Policy", "Result", "Run", "WaterWorld",
+           "learn", "simulate", "simulate_once", "superpose",
+           "brownian", "multimodal", "network_a", "network_b", "network_c", "network_d", "object_vector_cells",
+           "place_cells"]

@@ -1,22 +1,24 @@
-"""A neoRL agent as data: its maps, how it learns, how it chooses, and what it values.
+"""A neoRL agent as data: a network of nodes, how it learns, how it chooses, and what it desires.
 
-Everything that the thesis leaves open is a field, with the book's default reading first; nothing here runs. `compiled`
-turns an agent into the flat arrays that the kernels take.
+A *node* holds the maps of one modality at several resolutions (paper C, section 1 and figure 3). *Desires* are the edges
+of the network. Each makes an element of interest of something for one node: of the green or the red creeps, of a point
+of the node's own space, or of what another node wants, or the node itself wanted a step ago. Whatever the thesis leaves
+open is a field, with the book's default reading first; nothing here runs.
 """
 
 from dataclasses import dataclass, field
-from typing import NamedTuple
-
-import numpy as np
+from graphlib import CycleError, TopologicalSorter
 
 from neorl import checks
 from neorl.horde import N_EVENTS, OWN_CELL
+from neorl.modality import Modality
 from neorl.nres import NresMap
 
 DRIVERS = ("cell", "step")
 CREDITS = ("share", "happened", "last")
 WEIGHTINGS = ("equal", "resolution", "cells")
 IDLE = ("random", "no-op")
+COLOURS = ("green", "red")
 
 
 @dataclass(frozen=True)
@@ -76,110 +78,156 @@ class Policy:
 
 
 @dataclass(frozen=True)
-class Agent:
-    """One neoRL agent: maps that learn side by side and add up their values (paper A, experiment 2).
+class Node:
+    """The maps of one modality, which learn side by side and add up their values (paper A, experiment 2).
 
-    maps: one `NresMap` or more.
-    weighting: of the maps in the sum. "equal"; "resolution", by N; "cells", by N².
-    valence_green, valence_red: the weight of an element of interest of that colour.
-    own_cell: whether an element in the agent's own cell is "silent", its desire met, or "counts".
+    name: any but "green" and "red". resolutions: one integer ≥ 1 or more.
+    weighting: of the maps in the sum. "equal"; "resolution", by N; "cells", by N². The weights add up to 1.
+    gain: of the node's values in the agent's; with 0 only the node's desires count.
 
     Raises ValueError for anything else.
     """
 
-    maps: tuple[NresMap, ...]
+    name: str
+    modality: Modality
+    resolutions: tuple[int, ...]
     weighting: str = "equal"
+    gain: float = 1.0
+
+    def __post_init__(self):
+        if not isinstance(self.name, str) or self.name in COLOURS:
+            raise ValueError(f"name is {self.name!r}, allowed are strings other than {COLOURS}")
+        object.__setattr__(self, "resolutions", checks.several("resolutions", self.resolutions))
+        if not self.resolutions:
+            raise ValueError("resolutions is (), allowed are one integer or more")
+        object.__setattr__(self, "resolutions", tuple(each.resolution for each in self.maps))
+        checks.one_of("weighting", self.weighting, WEIGHTINGS)
+        checks.real("gain", self.gain)
+
+    @property
+    def maps(self):
+        """An `NresMap` for each resolution."""
+        return tuple(NresMap(resolution, self.modality) for resolution in self.resolutions)
+
+
+@dataclass(frozen=True)
+class Desire:
+    """One edge of a network: `source` as an element of interest of the node `target`.
+
+    source: "green" or "red", the creeps of that colour; a point in the target's space, which whatever the node follows
+        is to reach; or the name of a node, whose desire vector Σ |w| (Q_E − Q_W, Q_S − Q_N) over its elements, times
+        `scale`, says where, as seen from the agent in board widths, the element lies (paper C, section 1).
+        A node that desires of itself does so by its desire vector of the step before: recursion.
+    valence: how much an element matters, and its sign. For a desire between nodes None stands for the sum of the
+        valences that the vector comes from; recursion needs a number, the weight r.
+    of: the names of the sources that the vector of a node comes from; () stands for all its elements.
+    scale: board widths for a vector of length 1, ≥ 0. signed: sum w instead of |w|.
+
+    Raises ValueError for anything else.
+    """
+
+    source: str | tuple[float, ...]
+    target: str
+    valence: float | None = None
+    of: tuple[str, ...] = ()
+    scale: float = 2.0
+    signed: bool = False
+
+    def __post_init__(self):
+        if not isinstance(self.source, str):
+            point = checks.several("source", self.source)
+            object.__setattr__(self, "source", tuple(checks.real("source", value) for value in point))
+        checks.instance("target", self.target, str)
+        if not self.between_nodes or self.source == self.target or self.valence is not None:
+            if self.valence is None:
+                raise ValueError(f"valence of the desire {self} is None, allowed are finite numbers")
+            checks.real("valence", self.valence)
+        object.__setattr__(self, "of", tuple(checks.instance("of", each, str) for each in checks.several("of", self.of)))
+        if self.of and not self.between_nodes:
+            raise ValueError(f"of is {self.of!r}, allowed for the desire {self} is (): it comes from no node")
+        checks.real("scale", self.scale, 0)
+        checks.flag("signed", self.signed)
+
+    def __str__(self):
+        return f"{self.source!r} → {self.target!r}"
+
+    @property
+    def between_nodes(self):
+        """Whether it comes from a node."""
+        return isinstance(self.source, str) and self.source not in COLOURS
+
+
+@dataclass(frozen=True)
+class Agent:
+    """One neoRL agent: a network of nodes. Its value of an action is the sum of those of its nodes, times their gains.
+
+    nodes: one `Node` or more, each name once. desires: any number of `Desire`.
+    own_cell: whether an element in the cell that it is to be reached from is "silent", its desire met, or "counts".
+
+    Raises ValueError for anything else, and for a network that cannot be evaluated: a desire from or to a node that
+    there is not, of elements that its node does not have, in a space where it has no meaning, or in a cycle of nodes.
+    """
+
+    nodes: tuple[Node, ...]
+    desires: tuple[Desire, ...] = ()
     learning: Learning = field(default_factory=Learning)
     policy: Policy = field(default_factory=Policy)
-    valence_green: float = 1.0
-    valence_red: float = -1.0
     own_cell: str = "silent"
 
     def __post_init__(self):
-        object.__setattr__(self, "maps", checks.several("maps", self.maps))
-        if not self.maps or not all(isinstance(nres_map, NresMap) for nres_map in self.maps):
-            raise ValueError(f"maps is {self.maps!r}, allowed are one NresMap or more")
-        checks.one_of("weighting", self.weighting, WEIGHTINGS)
-        checks.real("valence_green", self.valence_green)
-        checks.real("valence_red", self.valence_red)
+        for name, kind, fewest in (("nodes", Node, 1), ("desires", Desire, 0)):
+            object.__setattr__(self, name, checks.several(name, getattr(self, name)))
+            for each in getattr(self, name):
+                checks.instance(name, each, kind)
+            if len(getattr(self, name)) < fewest:
+                raise ValueError(f"{name} is (), allowed are one {kind.__name__} or more")
+        names = [node.name for node in self.nodes]
+        if len(set(names)) < len(names):
+            raise ValueError(f"nodes are {', '.join(map(repr, names))}, allowed is each name once")
+        checks.instance("learning", self.learning, Learning)
+        checks.instance("policy", self.policy, Policy)
         checks.one_of("own_cell", self.own_cell, OWN_CELL)
+        for desire in self.desires:
+            self._check_desire(desire)
+        self.evaluation_order  # which raises ValueError for a cycle
+
+    def _check_desire(self, desire):
+        nodes = {node.name: node for node in self.nodes}
+        for name in (desire.source, desire.target) if desire.between_nodes else (desire.target,):
+            if name not in nodes:
+                raise ValueError(f"desire {desire}: there is no node {name!r}, allowed are {', '.join(map(repr, nodes))}")
+        modality = nodes[desire.target].modality
+        if isinstance(desire.source, str) and not modality.takes_places:
+            raise ValueError(f"desire {desire}: what lies at a place has no point among {modality.name}s, allowed are "
+                             f"points of their own space")
+        if not isinstance(desire.source, str) and len(desire.source) != len(modality.axes):
+            raise ValueError(f"desire {desire}: allowed for {modality.name}s are points of {len(modality.axes)} "
+                             f"coordinates: {', '.join(modality.axes)}")
+        inputs = {other.source for other in self.desires if other.target == desire.source}
+        for source in desire.of:
+            if source not in inputs:
+                raise ValueError(f"desire {desire}: {source!r} is no element of the node {desire.source!r}")
+
+    @property
+    def evaluation_order(self):
+        """The names of the nodes, each after those that it takes desires from."""
+        before = {node.name: [] for node in self.nodes}
+        for desire in self.desires:
+            if desire.between_nodes and desire.source != desire.target:
+                before[desire.target].append(desire.source)
+        try:
+            return tuple(TopologicalSorter(before).static_order())
+        except CycleError as error:
+            source, target = error.args[1][:2]
+            raise ValueError(f"desire {source!r} → {target!r}: it closes the cycle {' → '.join(error.args[1])}, allowed "
+                             "is recursion of a node to itself alone") from None
+
+    @property
+    def maps(self):
+        """The maps of all nodes, one node after the other."""
+        return tuple(nres_map for node in self.nodes for nres_map in node.maps)
 
     @property
     def n_values(self):
         """How many Q values a run holds; each takes four bytes."""
         return sum(N_EVENTS * nres_map.cells**2 for nres_map in self.maps)
-
-
-def place_cells(resolutions, extent=(0.0, 1.0), **choices):
-    """The place-cell agent of paper A: a map for each of `resolutions`; `choices` are the other fields of `Agent`."""
-    resolutions = checks.several("resolutions", resolutions)
-    return Agent(tuple(NresMap(resolution, extent) for resolution in resolutions), **choices)
-
-
-def brownian():
-    """The control: every action drawn (ε = 1), so the agent moves as in Brownian motion (paper A, fig. 6)."""
-    return place_cells([1], policy=Policy(exploration=1.0))
-
-
-class Plan(NamedTuple):
-    """All that is chosen of an agent, as the kernels take it."""
-
-    resolution: np.ndarray  # int64 (maps,)
-    first: np.ndarray  # int64 (maps,): where in q a map begins
-    first_cell: np.ndarray  # int64 (maps,): how many cells the maps before it have
-    low: np.ndarray  # float64 (maps,): where the map begins, in pixels
-    scale: np.ndarray  # float64 (maps,): intervals a pixel
-    weight: np.ndarray  # float64 (maps,)
-    valence_green: float
-    valence_red: float
-    own_cell_counts: bool
-    learning_rate: np.float32
-    discount: np.float32
-    absence: np.float32
-    driver: int  # the place in DRIVERS
-    credit: int  # the place in CREDITS
-    terminal: bool
-    trace: int
-    bootstrap: bool
-    exploration: float
-    idle_is_no_op: bool
-
-
-class Memory(NamedTuple):
-    """All that changes in an agent."""
-
-    q: np.ndarray  # float32 (n_values,): q[state, action, goal] of one map after the other
-    known: np.ndarray  # int64 (cells of all maps, 2): the goals, from and to, that a cell may know anything of
-    cell: np.ndarray  # int64 (maps,): the active cell
-    events: np.ndarray  # int64 (maps, 5): steps on which each action was taken since the cell was entered
-    last_event: np.ndarray  # int64 (1,)
-    trace_cell: np.ndarray  # int64 (maps, trace): cells left, a ring
-    trace_rates: np.ndarray  # float32 (maps, trace, 4): the rates of their events
-    trace_count: np.ndarray  # int64 (maps,): cells left since the episode began
-    target: np.ndarray  # float32 (most cells,): working memory
-    value: np.ndarray  # float64 (4,): of each action, at the last choice that was not drawn
-    stream: np.ndarray  # uint64 (4,): the random numbers of the policy
-
-
-def compiled(agent, width):
-    """The `Plan` of an agent on a board of `width` pixels."""
-    learning, policy = agent.learning, agent.policy
-    resolution = np.array([nres_map.resolution for nres_map in agent.maps], np.int64)
-    low, high = (width * np.array(ends, float) for ends in zip(*(nres_map.extent for nres_map in agent.maps)))
-    cells, sizes = resolution**2, N_EVENTS * resolution**4
-    weight = resolution.astype(float) ** WEIGHTINGS.index(agent.weighting)
-    return Plan(resolution, np.cumsum(sizes) - sizes, np.cumsum(cells) - cells, low, resolution / (high - low),
-                weight / weight.sum(), float(agent.valence_green), float(agent.valence_red), agent.own_cell == "counts",
-                np.float32(learning.learning_rate), np.float32(learning.discount), np.float32(learning.absence),
-                DRIVERS.index(learning.driver), CREDITS.index(learning.credit), learning.terminal, learning.trace,
-                learning.bootstrap, float(policy.exploration), policy.idle == "no-op")
-
-
-def new_memory(agent, stream):
-    """The `Memory` of an agent that has learned nothing."""
-    maps, trace = len(agent.maps), agent.learning.trace
-    known = np.concatenate([np.tile([nres_map.cells, 0], (nres_map.cells, 1)) for nres_map in agent.maps])
-    return Memory(np.zeros(agent.n_values, np.float32), known, np.zeros(maps, np.int64),
-                  np.zeros((maps, N_EVENTS + 1), np.int64), np.zeros(1, np.int64), np.zeros((maps, trace), np.int64),
-                  np.zeros((maps, trace, N_EVENTS), np.float32), np.zeros(maps, np.int64),
-                  np.zeros(max(nres_map.cells for nres_map in agent.maps), np.float32), np.zeros(N_EVENTS), stream)

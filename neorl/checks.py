@@ -20,7 +20,8 @@ def real(name, value, at_least=-math.inf, at_most=math.inf):
     if isinstance(value, numbers.Real) and not isinstance(value, bool):
         if math.isfinite(value) and at_least <= value <= at_most:
             return float(value)
-    bounds = "finite numbers" if math.isinf(at_most) else f"numbers from {at_least:g} to {at_most:g}"
+    bounds = f"numbers from {at_least:g} to {at_most:g}" if math.isfinite(at_most) else "finite numbers"
+    bounds += f" ≥ {at_least:g}" if math.isinf(at_most) and math.isfinite(at_least) else ""
     raise ValueError(f"{name} is {value!r}, allowed are {bounds}")
 
 
@@ -48,6 +49,14 @@ def finite(name, array):
     if np.all(np.isfinite(array)):
         return array
     raise ValueError(f"{name} is {array!r}, allowed are finite numbers")
+
+
+def points(name, values, axes):
+    """`values` as an array (…, axes) of doubles, if they are finite and have a coordinate for each of the axes."""
+    array = finite(name, np.asarray(values, float))
+    if array.ndim == 0 or array.shape[-1] != len(axes):
+        raise ValueError(f"{name} has the shape {array.shape}, allowed are (…, {len(axes)}): {', '.join(axes)}")
+    return array
 
 
 def instance(name, value, kind):

@@ -5,16 +5,25 @@ Colours keep apart for colour-blind readers, and never stand alone: a curve carr
 
 import numpy as np
 from matplotlib import pyplot as plt
+from matplotlib.collections import LineCollection
 from matplotlib.patches import Circle, Rectangle
 from matplotlib_inline.backend_inline import set_matplotlib_formats
+from scipy.optimize import isotonic_regression
+from scipy.signal import butter, sosfiltfilt
 
-from neorl.simulation import bin_steps
+from neorl.modality import TAU
 from neorl.statistics import band, mean_band
 
 INK = "#808080"
 AGENT, GREEN, RED = "#3b8ad9", "#12946d", "#d9622b"
-CURVES = ("#d9622b", "#b98a14", "#12946d", "#3b8ad9", "#b565b8")
-POINTS = 300  # of an accumulated curve; more cannot be seen
+CURVES = ("#3e6ad1", "#b02d45", "#ac990f", "#01a7bf", "#85488f", "#b46411", "#9c86fd")
+POINTS = 400  # of a curve; more cannot be seen
+RASTER = 121  # places a side at which receptive fields are looked up
+HALF_SECOND = 0.5  # how far ahead a velocity is drawn
+
+# Paper B smooths its curves "by a Butterworth low-pass filter" (section 3). The thesis states neither of these.
+FILTER_ORDER = 4
+CUTOFF_PERIODS = 20  # in a run: what repeats more often is taken out
 
 
 def use_style():
@@ -28,42 +37,100 @@ def use_style():
     })
 
 
-def new_board(size=3.6):
-    """Axes over the unit board, y downward as in WaterWorld."""
-    axes = plt.figure(figsize=(size, size), layout="none").add_axes((0.01, 0.01, 0.98, 0.98))
-    axes.set(xlim=(-0.06, 1.06), ylim=(1.06, -0.06), aspect="equal")
+def new_board(size=3.6, low=0.0):
+    """Axes over the unit board, or from `low` to 1 on either side, y downward as in WaterWorld."""
+    return _as_board(plt.figure(figsize=(size, size), layout="none").add_axes((0.01, 0.01, 0.98, 0.98)), low)
+
+
+def new_boards(columns, rows):
+    """Axes over that many unit boards, row by row."""
+    width, _ = plt.rcParams["figure.figsize"]
+    figure, grid = plt.subplots(rows, columns, figsize=(width, 1.1 * width * rows / columns))
+    return [_as_board(axes, 0.0) for axes in grid.flat]
+
+
+def _as_board(axes, low):
+    margin = 0.06 * (1 - low)
+    axes.set(xlim=(low - margin, 1 + margin), ylim=(1 + margin, low - margin), aspect="equal")
     axes.axis("off")
     return axes
 
 
 def draw_cells(axes, nres_map, colour=INK, fills=None, width=1.0):
-    """The receptive fields of a map; `fills` gives cells a colour and an opacity: {cell: (colour, opacity)}."""
-    corners, side = _squares(nres_map)
+    """The receptive fields of a Cartesian map, some of them filled: fills {cell: (colour, opacity)}."""
+    corners, sides = _rectangles(nres_map)
     for cell, corner in enumerate(corners):
-        axes.add_patch(Rectangle(corner, side, side, fill=False, edgecolor=colour, linewidth=width))
+        axes.add_patch(Rectangle(corner, *sides, fill=False, edgecolor=colour, linewidth=width))
         if fills and cell in fills:
             fill, opacity = fills[cell]
-            axes.add_patch(Rectangle(corner, side, side, facecolor=fill, alpha=opacity, edgecolor="none"))
+            axes.add_patch(Rectangle(corner, *sides, facecolor=fill, alpha=opacity, edgecolor="none"))
 
 
 def draw_values(axes, nres_map, values):
     """Arrows for the action values in every cell, values (cells, 4): the vector (E − W, S − N)."""
     vector = np.stack([values[:, 2] - values[:, 3], values[:, 1] - values[:, 0]], axis=1)
     length = np.linalg.norm(vector, axis=1, keepdims=True)
-    corners, side = _squares(nres_map)
-    arrow = side * 0.8 * vector / np.where(length > 0, length, 1) * (length / max(length.max(), 1e-30)) ** 0.25
+    corners, sides = _rectangles(nres_map)
+    arrow = sides.min() * 0.8 * vector / np.where(length > 0, length, 1) * (length / max(length.max(), 1e-30)) ** 0.25
     shown = length[:, 0] > 0
-    start = (corners + side / 2 - arrow / 2)[shown]
+    start = (corners + sides / 2 - arrow / 2)[shown]
     axes.quiver(start[:, 0], start[:, 1], arrow[shown, 0], arrow[shown, 1], color=AGENT, angles="xy",
                 scale_units="xy", scale=1, width=0.009)
 
 
-def _squares(nres_map):
-    """The upper left corners (cells, 2) of the receptive fields of a map, and the length of their sides."""
-    low, high = nres_map.extent
-    side = (high - low) / nres_map.resolution
+def _rectangles(nres_map):
+    """The upper left corners (cells, 2) of the receptive fields of a map, and the lengths (2,) of their sides."""
+    low, high = np.array(nres_map.modality.ranges).T
+    sides = (high - low) / nres_map.resolution
     rows, columns = np.divmod(np.arange(nres_map.cells), nres_map.resolution)
-    return low + side * np.stack([columns, rows], axis=1), side
+    return low + sides * np.stack([columns, rows], axis=1), sides
+
+
+def draw_receptive_fields(axes, nres_map, world, state):
+    """The receptive fields of a map of any modality over the arena, those of its active cells filled.
+
+    A place stands for itself, for a thing there as the agent would see it, or for the velocity that takes the agent
+    there in half a second.
+    """
+    modality, n = nres_map.modality, nres_map.resolution
+    agent = state.agent_position / world.width
+    side = np.linspace(0, 1, RASTER)
+    places = np.stack(np.meshgrid(side, side), axis=-1)
+    vectors = {"position": places, "velocity": (places - agent) / HALF_SECOND}.get(modality.vector, places - agent)
+    at = _in_intervals(nres_map, modality.tune(vectors))
+    arena = axes.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
+    thin = {"linewidths": 0.8, "colors": INK, "zorder": -1}
+    for axis in range(len(modality.ranges)):
+        borders = np.arange(1, n)
+        borders = borders[(at[..., axis].min() < borders) & (borders < at[..., axis].max())]
+        if len(borders):
+            axes.contour(side, side, at[..., axis], borders, **thin)
+    if modality.has_direction and n > 1:
+        directions = TAU * (np.arange(n) - 0.5) / n
+        beyond = agent + 2 * np.stack([np.cos(directions), np.sin(directions)], axis=1)
+        rays = axes.add_collection(LineCollection([(agent, end) for end in beyond], **thin), autolim=False)
+        rays.set_clip_path(arena)
+    for cell in np.unique(nres_map.encode(modality.coordinates(world, state))):
+        inside = np.min([_depth(at[..., axis], cell // n**axis % n, n, axis >= len(modality.ranges))
+                         for axis in range(len(modality.axes))], axis=0)
+        axes.contourf(side, side, inside, [0, np.inf], colors=[AGENT], alpha=0.35, zorder=-2)
+
+
+def _in_intervals(nres_map, coordinates):
+    """Coordinates (…, axes) in intervals of a map: on each axis interval i spans i … i + 1."""
+    n, modality = nres_map.resolution, nres_map.modality
+    low, high = np.array([*modality.ranges, *[(-0.5 * TAU / n, TAU - 0.5 * TAU / n)] * modality.has_direction]).T
+    # An interval holds its lower end, a contour leaves to those below what lies on it: what lies there has to move.
+    return n * (coordinates - low) / (high - low) + 1e-9
+
+
+def _depth(at, interval, n, closed):
+    """How deep inside one of n intervals each coordinate lies, in intervals; negative outside."""
+    if closed and n > 1:
+        return 0.5 - np.abs((at - interval - 0.5 + n / 2) % n - n / 2)
+    above = at - interval if interval > 0 else np.ones_like(at)
+    below = interval + 1 - at if interval < n - 1 else np.ones_like(at)
+    return np.minimum(above, below)
 
 
 def draw_tank(axes, world, state):
@@ -77,16 +144,27 @@ def draw_tank(axes, world, state):
         x, y = position / world.width
         axes.add_patch(Circle((x, y), radius, facecolor=colour, edgecolor="none"))
         axes.text(x, y, sign, color="white", ha="center", va="center_baseline", weight="bold")
-        dx, dy = 0.5 * velocity / world.width
+        dx, dy = HALF_SECOND * velocity / world.width
         axes.annotate("", (x + dx, y + dy), (x, y), zorder=0,
                       arrowprops={"arrowstyle": "->", "color": INK, "linewidth": 1.4, "shrinkA": 0, "shrinkB": 0})
+
+
+def draw_desires(axes, run):
+    """Where the desires between the nodes of a run's agent land, as seen from its agent."""
+    start = run.state.agent_position / run.world.width
+    for desire, landing in zip(run.agent.desires, run.memory.landing):
+        if desire.between_nodes:
+            colour = {("green",): GREEN, ("red",): RED}.get(desire.of, INK)
+            axes.annotate("", start + landing, start, annotation_clip=False, arrowprops={
+                "arrowstyle": "->", "color": colour, "linestyle": "--", "linewidth": 1.6, "shrinkA": 8, "shrinkB": 3})
+            axes.plot(*(start + landing), marker="s", markersize=7, color=colour, clip_on=False)
 
 
 def draw_accumulated(results, control):
     """Accumulated reward over steps with the band of 95 % of the runs: results {name: Result}, and a control."""
     axes = plt.figure().add_subplot()
     ends = []
-    for (name, result), colour in zip([*results.items(), *control.items()], [*CURVES, INK]):
+    for (name, result), colour in zip([*results.items(), *control.items()], [*CURVES[:len(results)], INK]):
         points = np.linspace(0, result.rewards.shape[1] - 1, POINTS).astype(int)
         curves = result.rewards.cumsum(axis=1, dtype=float)[:, points]
         steps = result.time[points] * result.world.fps / 1000
@@ -102,35 +180,110 @@ def draw_proficiency(results, total=None, points=50):
 
     total: (name, [Result, …]), drawn as the sum of the rewards of its results, run by run.
     """
-    axes = plt.figure().add_subplot()
     curves = {name: binned_rate(result, points) for name, result in results.items()}
     if total:
         curves[total[0]] = sum(binned_rate(result, points) for result in total[1])
-    world, steps = next((result.world, result.steps) for result in results.values())
-    centre = (np.arange(points) + 0.5) / points * steps / world.fps / 60
+    _draw_rates(curves, results, [*CURVES[: len(results)], INK])
+
+
+def draw_smoothed(results):
+    """Mean reward per second over the run as paper B shows it, low-passed, with the 95 % interval of the mean.
+
+    results: {name: Result}, at most as many as there are `CURVES`. The mean before the filter lies thin behind it, cut
+    off where it leaves the picture.
+    """
+    rates = {name: binned_rate(result, min(POINTS, result.rewards.shape[1])) for name, result in results.items()}
+    curves = {name: low_passed(rate) for name, rate in rates.items()}
+    axes = _draw_rates(curves, results)
+    axes.set_ylim(axes.get_ylim())
+    for rate, line in zip(rates.values(), axes.lines):
+        axes.plot(line.get_xdata(), rate.mean(axis=0), color=line.get_color(), linewidth=0.5, alpha=0.4, zorder=1)
+
+
+def _draw_rates(curves, results, colours=CURVES):
+    """Axes with curves {name: reward per second (runs, points)} over the runs of results {name: Result}."""
+    seconds = next(iter(results.values())).seconds
+    (_, points), *_ = (curve.shape for curve in curves.values())
+    minutes = (np.arange(points) + 0.5) / points * seconds / 60
+    axes = _draw_means(minutes, curves, "simulated minutes", "reward per second", colours)
+    axes.set_xlim(0, seconds / 60)
+    axes.axhline(0, color=INK, linewidth=0.7, zorder=1)
+    return axes
+
+
+def draw_curves(xs, curves, xlabel, ylabel):
+    """Means over runs with their 95 % intervals, of curves {name: (runs, points)} over xs (points,)."""
+    _draw_means(xs, curves, xlabel, ylabel, CURVES)
+
+
+def _draw_means(xs, curves, xlabel, ylabel, colours):
+    axes = plt.figure().add_subplot()
     ends = []
-    for (name, curve), colour in zip(curves.items(), [*CURVES[:len(results)], INK]):
-        axes.plot(centre, curve.mean(axis=0), color=colour)
-        axes.fill_between(centre, *mean_band(curve), color=colour, alpha=0.2, linewidth=0)
-        ends.append((curve.mean(axis=0)[-points // 10:].mean(), name, colour))
-    axes.axhline(0, color=INK, linewidth=0.7)
-    axes.set(xlabel="simulated minutes", ylabel="reward per second", xlim=(0, steps / world.fps / 60))
+    for (name, curve), colour in zip(curves.items(), colours):
+        mean = curve.mean(axis=0)
+        axes.plot(xs, mean, color=colour)
+        if len(curve) > 1:
+            axes.fill_between(xs, *mean_band(curve), color=colour, alpha=0.2, linewidth=0)
+        ends.append((mean[-max(1, len(xs) // 10):].mean(), name, colour))
+    axes.set(xlabel=xlabel, ylabel=ylabel, xlim=(0, xs[-1]))
     name_ends(axes, ends)
+    return axes
 
 
 def binned_rate(result, points):
     """Reward per second (runs, points) over equal stretches of the run."""
     edges = np.linspace(0, result.rewards.shape[1], points + 1).astype(int)
     sums = np.add.reduceat(result.rewards, edges[:-1], axis=1)
-    return sums / (np.diff(edges) * bin_steps(result.world) / result.world.fps)
+    return sums / np.diff(np.concatenate([[0.0], result.time])[edges])
+
+
+def low_passed(rates):
+    """Curves (runs, points) through the filter forwards and backwards, so that nothing shifts in time.
+
+    Before and after it a curve goes on as its image in the point where a straight line through its first or last cutoff
+    period ends: the one at its very end would be as noisy as a curve that nobody filtered.
+    Raises ValueError if there are no more than 2 `CUTOFF_PERIODS` points.
+    """
+    points = rates.shape[1]
+    sections = butter(FILTER_ORDER, 2 * CUTOFF_PERIODS / points, output="sos")
+    near = points // CUTOFF_PERIODS
+    first, last = (np.polynomial.polynomial.polyfit(np.arange(near) + 0.5, end.T, 1)[0][:, None]
+                   for end in (rates[:, :near], rates[:, : -near - 1 : -1]))
+    mirrored = rates[:, ::-1]
+    longer = np.concatenate([2 * first - mirrored, rates, 2 * last - mirrored], axis=1)
+    return sosfiltfilt(sections, longer, axis=1)[:, points : 2 * points]
+
+
+def draw_sweep(xs, estimates_by_name, xlabel):
+    """Reward per second against a number: {name: [Estimate for each of xs]}, with their 95 % intervals."""
+    axes = plt.figure().add_subplot()
+    axes.axhline(0, color=INK, linewidth=0.7)
+    ends = []
+    for (name, estimates), colour in zip(estimates_by_name.items(), CURVES):
+        value, low, high = np.array(estimates).T
+        axes.plot(xs, value, color=colour, linewidth=0.8, marker="o", markersize=5)
+        axes.vlines(xs, low, high, color=colour, linewidth=1.8)
+        ends.append((value[-1], name, colour))
+    axes.set(xlabel=xlabel, ylabel="reward per second")
+    name_ends(axes, ends)
+
+
+def draw_costs(labels, measured, predicted):
+    """Microseconds a step of an agent that gets one map (label) after the other, and the sum of what each costs."""
+    axes = plt.figure().add_subplot()
+    axes.plot(labels, predicted, color=INK, linewidth=1.2)
+    axes.plot(labels, measured, color=CURVES[0], linestyle="none", marker="o", markersize=5)
+    axes.set(ylabel="microseconds a step", ylim=(0, None))
+    axes.tick_params(axis="x", rotation=60)
+    name_ends(axes, [(measured[-1], "measured", CURVES[0]), (predicted[-1], "sum", INK)])
 
 
 def name_ends(axes, ends):
     """Write the names of curves beside their ends (height, name, colour), moved apart where they would overlap."""
     low, high = axes.get_ylim()
-    gap = 0.075 * (high - low)
-    at = -np.inf
-    for height, name, colour in sorted(ends):
-        at = max(height, at + gap)
+    ends = sorted(ends)
+    apart = 0.075 * (high - low) * np.arange(len(ends))
+    heights = apart + isotonic_regression([height for height, *_ in ends] - apart).x
+    for at, (_, name, colour) in zip(heights, ends):
         axes.annotate(name, (1.02, at), xycoords=("axes fraction", "data"), color=colour, va="center",
                       annotation_clip=False)

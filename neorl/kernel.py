@@ -16,4 +16,7 @@ kernels that it calls, and a result must never come from code that is no longer 
 import numba
 
 # Without numba's memory runtime (_nrt) a kernel cannot allocate, and counts no references to the arrays it is handed.
-kernel = numba.njit(error_model="numpy", nogil=True, _nrt=False)
+OPTIONS = {"error_model": "numpy", "nogil": True, "_nrt": False}
+kernel = numba.njit(**OPTIONS)
+# A plan has so many arrays that handing it over costs more than most kernels that take it; inlined, it costs nothing.
+inlined_kernel = numba.njit(**OPTIONS, forceinline=True, no_cpython_wrapper=True, no_cfunc_wrapper=True)

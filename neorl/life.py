@@ -1,16 +1,19 @@
 """The life of an agent in WaterWorld, step by step: choose, act, perceive, learn.
 
-1. The values of the actions are superposed over maps and elements of interest; the policy chooses among them.
-2. The action is an event in the active cell of every map until the tank has moved on.
-3. A map whose active cell changes learns all its goals (with driver "step" it learns after every step).
-4. After the last green creep the tank starts afresh. The leap to the centre is no transition: nothing learns from it.
+1. The values of the actions come from desires through the network of nodes; the policy chooses among them.
+2. The action is an event in the active cell of every track until that track has moved on.
+3. A map learns all its goals from each track whose active cell changes (with driver "step", after every step).
+4. A creep that is touched has met the agent: its tracks learn that, then follow the fresh creep as if it had always
+   been there. After the last green creep the tank starts afresh. Neither leap is a transition that anything learns from.
+5. At rest, or at distance 0, a track keeps the direction that it had.
 """
 
 import numpy as np
 
-from neorl.horde import N_EVENTS, UNIT, ZERO, add_goal, learn_all_goals, learn_one_goal
-from neorl.kernel import kernel
-from neorl.nres import cell_at
+from neorl.horde import N_EVENTS, UNIT, ZERO, learn_all_goals, learn_one_goal
+from neorl.kernel import inlined_kernel, kernel
+from neorl.modality import OBJECTS
+from neorl.network import cell_of, contact_cell, evaluate, point_coordinates, without_direction
 from neorl.stream import below, uniform
 from neorl.waterworld import NO_OP, reset_board, step_board
 
@@ -28,12 +31,12 @@ def live(plan, memory, rules, state, contacts, first_step, last_step, bin_steps,
     total = 0.0
     for step in range(first_step, last_step):
         action = choose(plan, memory, state)
-        for m in range(memory.cell.shape[0]):
-            memory.events[m, action] += 1
+        for track in range(memory.cell.shape[0]):
+            memory.events[track, action] += 1
         memory.last_event[0] = action
         reward, done = step_board(state, rules, action, contacts)
-        for m in range(memory.cell.shape[0]):
-            perceive(plan, memory, state, m)
+        for n in range(plan.points.shape[0]):
+            perceive(plan, memory, state, contacts, n)
         total += reward
         interval = step // bin_steps
         rewards[interval] += np.float32(reward)
@@ -48,30 +51,38 @@ def live(plan, memory, rules, state, contacts, first_step, last_step, bin_steps,
 
 @kernel
 def settle(plan, memory, state):
-    """Take the present cells as given, with nothing that led to them."""
-    for m in range(memory.cell.shape[0]):
-        memory.cell[m] = cell_of(plan, m, state.agent_position[0], state.agent_position[1])
-        forget_events(memory, m)
-        memory.trace_count[m] = 0
+    """Take the present cells as given, with nothing that led to them, and desires without a past."""
+    for n in range(plan.points.shape[0]):
+        for point in range(plan.points[n]):
+            u, v = point_coordinates(plan, state, n, point)
+            for m in range(plan.first_map[n], plan.first_map[n + 1]):
+                appear(memory, plan.first_track[m] + point, cell_of(plan, m, u, v))
+    for e in range(plan.source.shape[0]):
+        memory.worth[e] = 0.0
+        for action in range(N_EVENTS):
+            memory.pull[e, action] = 0.0
 
 
-@kernel
-def cell_of(plan, m, x, y):
-    return cell_at(x - plan.low[m], y - plan.low[m], 0.0, plan.scale[m], plan.resolution[m])
+@inlined_kernel
+def appear(memory, track, cell):
+    """Begin a track in a cell."""
+    enter(memory, track, cell)
+    memory.trace_count[track] = 0
 
 
-@kernel
-def forget_events(memory, m):
+@inlined_kernel
+def enter(memory, track, cell):
+    memory.cell[track] = cell
     for event in range(N_EVENTS + 1):
-        memory.events[m, event] = 0
+        memory.events[track, event] = 0
 
 
-@kernel
+@inlined_kernel
 def choose(plan, memory, state):
     """The action of the behaviour policy."""
     if plan.exploration > 0.0 and uniform(memory.stream) < plan.exploration:
         return below(memory.stream, N_EVENTS)
-    superpose_all(plan, memory, state)
+    evaluate(plan, memory, state)
     value = memory.value
     best = max(max(value[0], value[1]), max(value[2], value[3]))
     if plan.idle_is_no_op and best == 0.0 and min(min(value[0], value[1]), min(value[2], value[3])) == 0.0:
@@ -87,60 +98,53 @@ def choose(plan, memory, state):
     return action
 
 
-@kernel
-def superpose_all(plan, memory, state):
-    """The value of each action, summed over maps and over the creeps as elements of interest."""
-    for action in range(N_EVENTS):
-        memory.value[action] = 0.0
-    for m in range(memory.cell.shape[0]):
-        cell = memory.cell[m]
-        cells = plan.resolution[m] * plan.resolution[m]
-        for creep in range(state.creep_speed.shape[0]):
-            goal = cell_of(plan, m, state.creep_position[creep, 0], state.creep_position[creep, 1])
-            if goal != cell or plan.own_cell_counts:
-                valence = plan.valence_green if state.creep_is_green[creep] else plan.valence_red
-                add_goal(memory.q, plan.first[m], cells, cell, goal, plan.weight[m] * valence, memory.value)
+@inlined_kernel
+def perceive(plan, memory, state, contacts, n):
+    """Let every map of a node find its active cells, and learn if there is reason to."""
+    for point in range(plan.points[n]):
+        met = plan.vector[n] == OBJECTS and contacts[point] != 0
+        u, v = point_coordinates(plan, state, n, point)
+        for m in range(plan.first_map[n], plan.first_map[n + 1]):
+            track = plan.first_track[m] + point
+            cell_tm1, cell = memory.cell[track], cell_of(plan, m, u, v)
+            if not met and without_direction(plan, m, u):
+                cell = contact_cell(plan, m, cell_tm1)
+            cell_t = contact_cell(plan, m, cell_tm1) if met else cell
+            if cell_t != cell_tm1 or plan.driver == DRIVER_STEP:
+                learn_transition(plan, memory, m, track, cell_tm1, cell_t)
+                enter(memory, track, cell_t)
+            if met:
+                appear(memory, track, cell)
 
 
-@kernel
-def perceive(plan, memory, state, m):
-    """Let a map find its active cell, and learn if there is reason to."""
-    cell_tm1 = memory.cell[m]
-    cell_t = cell_of(plan, m, state.agent_position[0], state.agent_position[1])
-    if cell_t != cell_tm1 or plan.driver == DRIVER_STEP:
-        learn_transition(plan, memory, m, cell_tm1, cell_t)
-        memory.cell[m] = cell_t
-        forget_events(memory, m)
-
-
-@kernel
-def learn_transition(plan, memory, m, cell_tm1, cell_t):
-    cells = plan.resolution[m] * plan.resolution[m]
+@inlined_kernel
+def learn_transition(plan, memory, m, track, cell_tm1, cell_t):
+    cells = plan.cells[m]
     known = memory.known[plan.first_cell[m] : plan.first_cell[m] + cells]
-    slot = memory.trace_count[m] % plan.trace
-    memory.trace_cell[m, slot] = cell_tm1
-    rate_events(plan, memory, m, memory.trace_rates[m, slot])
-    memory.trace_count[m] += 1
+    slot = memory.trace_count[track] % plan.trace
+    memory.trace_cell[track, slot] = cell_tm1
+    rate_events(plan, memory, track, memory.trace_rates[track, slot])
+    memory.trace_count[track] += 1
     if plan.bootstrap:
-        learn_all_goals(memory.q, plan.first[m], cells, known, cell_tm1, cell_t, memory.trace_rates[m, slot],
+        learn_all_goals(memory.q, plan.first[m], cells, known, cell_tm1, cell_t, memory.trace_rates[track, slot],
                         plan.learning_rate * plan.absence, plan.discount, plan.terminal, memory.target)
     fading = UNIT
-    for back in range(min(memory.trace_count[m], plan.trace)):
+    for back in range(min(memory.trace_count[track], plan.trace)):
         if back > 0 or not plan.bootstrap:
-            slot = (memory.trace_count[m] - 1 - back) % plan.trace
-            learn_one_goal(memory.q, plan.first[m], cells, known, memory.trace_cell[m, slot], cell_t,
-                           memory.trace_rates[m, slot], fading)
+            slot = (memory.trace_count[track] - 1 - back) % plan.trace
+            learn_one_goal(memory.q, plan.first[m], cells, known, memory.trace_cell[track, slot], cell_t,
+                           memory.trace_rates[track, slot], fading)
         fading *= plan.discount
 
 
-@kernel
-def rate_events(plan, memory, m, rates):
-    """The rates α ψ of the events in the cell that a map leaves (thesis eq. 4.7)."""
+@inlined_kernel
+def rate_events(plan, memory, track, rates):
+    """The rates α ψ of the events in the cell that a track leaves (thesis eq. 4.7)."""
     steps = 0
     for event in range(N_EVENTS + 1):
-        steps += memory.events[m, event]
+        steps += memory.events[track, event]
     for event in range(N_EVENTS):
-        count = memory.events[m, event]
+        count = memory.events[track, event]
         credit = np.float32(count) / np.float32(steps)
         if plan.credit == CREDIT_HAPPENED:
             credit = UNIT if count > 0 else ZERO

@@ -8,15 +8,17 @@ import os
 import threading
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import psutil
 from tqdm import tqdm
 
 from neorl import checks
-from neorl.agent import Agent, compiled, new_memory
+from neorl.agent import Agent
 from neorl.horde import N_EVENTS
 from neorl.life import live, settle
+from neorl.plan import compiled, new_memory
 from neorl.stream import new_stream
 from neorl.waterworld import WaterWorld, check_state
 
@@ -24,6 +26,15 @@ BIN_SECONDS = 0.2
 CACHE_LINES = 128  # bytes; two lines, because processors fetch them in pairs
 PAGE = 4_096
 SLICE = 10_000  # steps between two looks at the progress bar and at the keyboard
+TRACKED = ("cell", "events", "trace_cell", "trace_rates", "trace_count")  # in `Memory`
+
+
+class Output(NamedTuple):
+    """What a node puts out (paper C, figure 3), as of the agent's last choice that was not drawn."""
+
+    q: np.ndarray  # float64 (4,): the value of each action
+    desire: np.ndarray  # float64 (2,): Σ |w| (Q_E − Q_W, Q_S − Q_N) over its elements
+    valence: float  # Σ w
 
 
 class Run:
@@ -38,9 +49,9 @@ class Run:
         sequence = np.random.SeedSequence(checks.integer("seed", seed, at_least=0),
                                           spawn_key=(checks.integer("run", run, at_least=0),))
         self.agent, self.world = agent, world
-        self.plan = kept_apart(compiled(agent, world.width))
+        self.plan = kept_apart(compiled(agent, world))
         self.state = kept_apart(world.reset(sequence))
-        self.memory = kept_apart(new_memory(agent, new_stream(sequence.spawn(1)[0])))
+        self.memory = kept_apart(new_memory(self.plan, new_stream(sequence.spawn(1)[0])))
         self.step = 0
         self._contacts = on_lines_of_its_own(np.zeros(world.n_creeps, np.int8))
         settle(self.plan, self.memory, self.state)
@@ -66,10 +77,43 @@ class Run:
         self.step = last
         return brought
 
+    def change(self, agent):
+        """Go on as another agent, which keeps what this one knows.
+
+        A map keeps its values, its active cells and what led to them if both agents have it, in a node of the same
+        name, and as much trace. All else begins anew; so do the desires of the step before.
+        """
+        checks.instance("agent", agent, Agent)
+        plan = kept_apart(compiled(agent, self.world))
+        memory = kept_apart(new_memory(plan, self.memory.stream))
+        settle(plan, memory, self.state)
+        old = {key: m for m, key in enumerate(_map_keys(self.agent))}
+        for m, key in enumerate(_map_keys(agent)):
+            if key in old:
+                for firsts, names in (("first", ["q"]), ("first_cell", ["known"]), ("first_track", TRACKED)):
+                    begin, end = getattr(plan, firsts)[m : m + 2]
+                    begin_old, end_old = getattr(self.plan, firsts)[old[key] : old[key] + 2]
+                    for name in names:
+                        getattr(memory, name)[begin:end] = getattr(self.memory, name)[begin_old:end_old]
+        memory.last_event[:] = self.memory.last_event
+        self.agent, self.plan, self.memory = agent, plan, memory
+
+    def output(self, name):
+        """The `Output` of the node of that name. Raises ValueError if there is none."""
+        checks.one_of("name", name, tuple(node.name for node in self.agent.nodes))
+        inputs = [e for e, desire in enumerate(self.agent.desires) if desire.target == name]
+        pull, worth = self.memory.pull[inputs], self.memory.worth[inputs]
+        vector = np.stack([pull[:, 2] - pull[:, 3], pull[:, 1] - pull[:, 0]], axis=1)
+        return Output(pull.sum(axis=0), np.sign(worth) @ vector, float(worth.sum()))
+
     def q(self, index=0):
-        """The values of one map: float32 (cells, 4, cells), q[state, action, goal], a view."""
+        """The values of one of the agent's maps: float32 (cells, 4, cells), q[state, action, goal], a view."""
         first, cells = self.plan.first[index], self.agent.maps[index].cells
         return self.memory.q[first : first + N_EVENTS * cells**2].reshape(cells, N_EVENTS, cells)
+
+
+def _map_keys(agent):
+    return [(node.name, each, agent.learning.trace) for node in agent.nodes for each in node.maps]
 
 
 def kept_apart(fields):
@@ -102,6 +146,7 @@ class Result:
     seed: int
     rewards: np.ndarray
     hits: np.ndarray
+    changes: tuple[tuple[int, Agent], ...] = ()
 
     @property
     def seconds(self):
@@ -133,10 +178,11 @@ class Result:
         return self.rewards[:, first:last].sum(axis=1, dtype=float) / (edges[last] - edges[first])
 
 
-def simulate(agent, world, *, steps, runs, seed=0, threads=None, progress=True):
+def simulate(agent, world, *, steps, runs, seed=0, changes=(), threads=None, progress=True):
     """Let `runs` independent learners live `steps` steps each, one core a run, and return their `Result`.
 
     seed: integer ≥ 0; run k is the same for any number of runs and threads.
+    changes: (step, agent) pairs in order of time: from that step on every learner is another agent, see `Run.change`.
     threads: how many runs go side by side; by default as many as there are cores and as fit into the free memory.
     progress: show a progress bar.
     Raises ValueError for a bad argument, MemoryError if a single run does not fit into the free memory.
@@ -146,18 +192,22 @@ def simulate(agent, world, *, steps, runs, seed=0, threads=None, progress=True):
     checks.integer("steps", steps, at_least=1)
     checks.integer("runs", runs, at_least=1)
     checks.integer("seed", seed, at_least=0)
-    usable = usable_threads(agent)
+    changes = checked_changes(changes, steps)
+    usable = min(usable_threads(each) for each in (agent, *(later for _, later in changes)))
     threads = usable if threads is None else checks.integer("threads", threads, at_least=1)
     rewards, hits = new_bins(world, runs, steps)
-    label = "+".join(f"N{nres_map.resolution}" for nres_map in agent.maps)
+    label = ", ".join(f"{node.name} {'+'.join(f'N{n}' for n in node.resolutions)}" for node in agent.nodes)
     stop = threading.Event()
 
     def live_one(k, bar):
         run = Run(agent, world, seed, k)
-        while run.step < steps and not stop.is_set():
-            slice_steps = min(SLICE, steps - run.step)
-            run.advance(slice_steps, rewards[k], hits[k])
-            bar.update(slice_steps)
+        for until, later in (*changes, (steps, None)):
+            while run.step < until and not stop.is_set():
+                slice_steps = min(SLICE, until - run.step)
+                run.advance(slice_steps, rewards[k], hits[k])
+                bar.update(slice_steps)
+            if later:
+                run.change(later)
 
     with tqdm(total=runs * steps, desc=label, unit="step", unit_scale=True, leave=False, disable=not progress) as bar:
         with ThreadPoolExecutor(min(threads, runs)) as pool:
@@ -168,7 +218,19 @@ def simulate(agent, world, *, steps, runs, seed=0, threads=None, progress=True):
                 stop.set()
                 pool.shutdown(cancel_futures=True)
                 raise
-    return Result(agent, world, steps, runs, seed, rewards, hits)
+    return Result(agent, world, steps, runs, seed, rewards, hits, changes)
+
+
+def checked_changes(changes, steps):
+    """`changes` as a tuple. Raises ValueError unless they are (step, agent) pairs in order, within the run."""
+    changes = tuple(checks.several("changes", pair) for pair in checks.several("changes", changes))
+    least = 0
+    for pair in changes:
+        if len(pair) != 2:
+            raise ValueError(f"changes has {pair!r}, allowed are pairs (step, agent)")
+        least = checks.integer("step of a change", pair[0], at_least=least, at_most=steps)
+        checks.instance("agent of a change", pair[1], Agent)
+    return changes
 
 
 def usable_threads(agent):

@@ -18,20 +18,22 @@ from pathlib import Path
 import numpy as np
 import platformdirs
 
-from neorl.simulation import Result, simulate
+from neorl.simulation import Result, checked_changes, simulate
 
-SOURCES = ("agent", "checks", "horde", "kernel", "life", "nres", "simulation", "stream", "waterworld")
+SOURCES = ("agent", "checks", "horde", "kernel", "life", "modality", "network", "nres", "plan", "simulation", "stream",
+           "waterworld")
 DIGEST_BYTES = hashlib.sha256().digest_size
 
 
-def simulate_once(agent, world, *, steps, runs, seed=0, progress=True):
+def simulate_once(agent, world, *, steps, runs, seed=0, changes=(), progress=True):
     """`simulate`, unless the same condition is on disk already; then what was computed is read. Returns a `Result`."""
-    key = condition_key(agent, world, steps, runs, seed)
+    changes = checked_changes(changes, steps)
+    key = condition_key(agent, world, steps, runs, seed, changes)
     path = folder() / "conditions" / key
     arrays = read_arrays(path)
     if arrays is not None:
-        return Result(agent, world, steps, runs, seed, arrays["rewards"], arrays["hits"])
-    result = simulate(agent, world, steps=steps, runs=runs, seed=seed, progress=progress)
+        return Result(agent, world, steps, runs, seed, arrays["rewards"], arrays["hits"], changes)
+    result = simulate(agent, world, steps=steps, runs=runs, seed=seed, changes=changes, progress=progress)
     content = io.BytesIO()
     np.savez_compressed(content, rewards=result.rewards, hits=result.hits)
     write_whole(path, hashlib.sha256(content.getvalue()).digest() + content.getvalue())
@@ -43,9 +45,9 @@ def folder():
     return Path(os.environ.get("NEORL_CACHE") or platformdirs.user_cache_path("neorl-companion"))
 
 
-def condition_key(agent, world, steps, runs, seed):
+def condition_key(agent, world, steps, runs, seed, changes=()):
     """A name for a condition: 64 hexadecimal digits, of all that determines its result."""
-    return hashlib.sha256(repr((agent, world, steps, runs, seed, source_digest())).encode()).hexdigest()
+    return hashlib.sha256(repr((agent, world, steps, runs, seed, changes, source_digest())).encode()).hexdigest()
 
 
 def source_digest():

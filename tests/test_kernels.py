@@ -4,10 +4,12 @@ import numba
 import numpy as np
 import pytest
 
-from neorl import Run, WaterWorld, agent, horde, life, nres, place_cells, stream, waterworld
-from neorl.kernel import kernel
+from neorl import (Agent, Node, Run, WaterWorld, horde, life, modality, network, network_d, nres, place_cells, stream,
+                   waterworld)
+from neorl.kernel import inlined_kernel, kernel
+from neorl.modality import HEAD_DIRECTION_CELL
 
-KERNELS = {value.__name__: value for module in (agent, horde, life, nres, stream, waterworld)
+KERNELS = {value.__name__: value for module in (horde, life, modality, network, nres, stream, waterworld)
            for value in vars(module).values() if isinstance(value, numba.core.dispatcher.Dispatcher)}
 
 
@@ -23,7 +25,7 @@ def test_the_kernels_are_found():
 
 @pytest.mark.parametrize("name", KERNELS)
 def test_a_kernel_has_the_options_of_all_and_calls_no_library(name):
-    assert KERNELS[name].targetoptions == kernel(lambda: None).targetoptions
+    assert KERNELS[name].targetoptions in [each(lambda: None).targetoptions for each in (kernel, inlined_kernel)]
     assert "fastmath" not in KERNELS[name].targetoptions
     for code in KERNELS[name].inspect_llvm().values():
         calls = [line for line in code.splitlines() if " call " in line and "@" in line]
@@ -46,7 +48,7 @@ def test_the_goal_loop_compiles_to_vector_instructions():
     assert "x float> " in code and "fmul <" in code
 
 
-def test_agents_of_any_number_of_maps_share_one_compilation():
-    for resolutions in ([3], [3, 7, 23]):
-        Run(place_cells(resolutions), WaterWorld(), seed=0).advance(10)
+def test_agents_of_any_network_share_one_compilation():
+    for agent in (place_cells([3]), network_d([2, 5]), Agent((Node("HD", HEAD_DIRECTION_CELL, [8]),))):
+        Run(agent, WaterWorld(), seed=0).advance(10)
     assert len(life.live.signatures) == 1

@@ -9,20 +9,44 @@ import numpy as np
 import pytest
 
 import neorl
-from neorl import Learning, Policy, Run, WaterWorld, place_cells, simulate
+from neorl import (Agent, Desire, Learning, Node, Policy, Run, WaterWorld, multimodal, network_a, network_b, network_c,
+                   network_d, object_vector_cells, place_cells, simulate)
+from neorl.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
+                            LANDMARK_VECTOR_CELL, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL)
 from neorl.stream import new_stream, uniform
-from neorl.waterworld import reset_board
+from neorl.waterworld import ACTIONS, reset_board
 
 TANK = WaterWorld(n_creeps=8, win_reward=5.0)
+SENSES = (Node("PC", PLACE_CELL, (2, 5), gain=0.5), Node("border", BORDER_CELL, (3,)),
+          Node("polar", OBJECT_VECTOR_CELL, (4, 5)), Node("HD", HEAD_DIRECTION_CELL, (6,), gain=0.7),
+          Node("landmark", LANDMARK_VECTOR_CELL, (4,)), Node("wall", BOUNDARY_VECTOR_CELL, (3, 4)),
+          Node("speed", SPEED_CELL, (3, 4), weighting="cells"))
+WISHES = (Desire("green", "polar", 1.0), Desire("red", "polar", -0.5), Desire("polar", "PC"),
+          Desire("green", "border", 0.3), Desire("green", "HD", 1.0), Desire("HD", "polar", valence=0.2, scale=0.5),
+          Desire((0.3, 0.9), "PC", 1.0), Desire((0.4,), "speed", 0.5), Desire((0.1, np.pi), "wall", -1.0),
+          Desire("PC", "landmark", signed=True), Desire("polar", "polar", -0.5, of=("green", "polar")))
 READINGS = {
     "default": place_cells([3, 7]),
     "several": place_cells([2, 5, 9], weighting="cells", policy=Policy(exploration=0.3, idle="no-op")),
     "happened": place_cells([5], learning=Learning(credit="happened", absence=0.1)),
     "last": place_cells([5], learning=Learning(credit="last", terminal=False), own_cell="counts"),
-    "step": place_cells([5], learning=Learning(driver="step")),
-    "trace": place_cells([4, 7], extent=(0.25, 0.75), learning=Learning(trace=7)),
-    "leaky": place_cells([6], learning=Learning(trace=5, bootstrap=False)),
+    "step": multimodal([5], learning=Learning(driver="step")),
+    "trace": multimodal([4, 7], learning=Learning(trace=7)),
+    "leaky": place_cells([6], extent=(0.25, 0.75), learning=Learning(trace=5, bootstrap=False)),
+    "objects": object_vector_cells([3, 4], weighting="resolution"),
+    "A": network_a([2, 3]),
+    "B": network_b([3, 5], signed=True),
+    "C": network_c([3], object_gain=0.5),
+    "D": network_d([2, 5], policy=Policy(exploration=0.05)),
+    "all senses": Agent(SENSES, WISHES),
 }
+
+
+class Track:
+    """One point that a map follows."""
+
+    def __init__(self, cell):
+        self.cell, self.events, self.trace = cell, [], []
 
 
 def told_again(agent, world, steps, seed, run):
@@ -30,62 +54,138 @@ def told_again(agent, world, steps, seed, run):
     sequence = np.random.SeedSequence(seed).spawn(run + 1)[run]
     stream = new_stream(sequence.spawn(1)[0])
     state = world.reset(sequence)
-    rule, policy = agent.learning, agent.policy
-    alpha, decay = np.float32(rule.learning_rate), np.float32(rule.learning_rate) * np.float32(rule.absence)
-    q = [np.zeros((each.cells, 4, each.cells), np.float32) for each in agent.maps]
-    weights = np.array([float(each.resolution) ** ["equal", "resolution", "cells"].index(agent.weighting)
-                        for each in agent.maps])
-    weights /= weights.sum()
-    cells = [int(each.encode(state.agent_position / world.width)) for each in agent.maps]
-    events, traces = [[] for _ in q], [[] for _ in q]
+    policy, maps = agent.policy, agent.maps
+    owner = [node for node in agent.nodes for _ in node.resolutions]
+    q = [np.zeros((each.cells, 4, each.cells), np.float32) for each in maps]
+    tracks, pull, worth = fresh_tracks(agent, world, state), np.zeros((len(agent.desires), 4)), np.zeros(20)
     rewards = []
     for _ in range(steps):
         if policy.exploration > 0 and uniform(stream) < policy.exploration:
             action = int(uniform(stream) * 4)
         else:
-            valences = np.where(state.creep_is_green, agent.valence_green, agent.valence_red)
-            value = np.zeros(4)
-            for m, each in enumerate(agent.maps):
-                goals = each.encode(state.creep_position / world.width)
-                for goal, valence in zip(goals, valences):
-                    if goal != cells[m] or agent.own_cell == "counts":
-                        value += weights[m] * valence * q[m][cells[m], :, goal].astype(float)
+            value = values_told_again(agent, world, state, q, tracks, pull, worth)
             best = np.flatnonzero(value == value.max())
             if policy.idle == "no-op" and not value.any():
                 action = 4
             else:
                 action = int(best[int(uniform(stream) * len(best))] if len(best) > 1 else best[0])
-        reward, _, done = world.step(state, action)
+        reward, hits, done = world.step(state, action)
         rewards.append(reward)
-        for m, each in enumerate(agent.maps):
-            events[m].append(action)
-            cell_t = int(each.encode(state.agent_position / world.width))
-            if cell_t == cells[m] and rule.driver == "cell":
-                continue
-            counts = np.array([events[m].count(event) for event in range(4)])
-            credit = {"share": counts.astype(np.float32) / np.float32(len(events[m])),
-                      "happened": (counts > 0).astype(np.float32),
-                      "last": (np.arange(4) == action).astype(np.float32)}[rule.credit]
-            traces[m] = [(cells[m], alpha * credit), *traces[m]][:rule.trace]
-            if rule.bootstrap:
-                table, cell_tm1 = q[m], cells[m]
-                target = np.float32(rule.discount) * table[cell_t].max(axis=0)
-                target[cell_t] = 1 if rule.terminal else 1 + target[cell_t]
-                for event in range(4):
-                    rate, old = alpha * credit[event], table[cell_tm1, event].copy()
-                    new = old + rate * (target - old) if rate > 0 else old - decay * old
-                    table[cell_tm1, event] = np.where(new > 1e-30, new, 0)
-            fading = np.float32(1)
-            for back, (cell_left, rates) in enumerate(traces[m]):
-                if back > 0 or not rule.bootstrap:
-                    q[m][cell_left, :, cell_t] += fading * rates * (1 - q[m][cell_left, :, cell_t])
-                fading *= np.float32(rule.discount)
-            cells[m], events[m] = cell_t, []
+        cells = cells_told_again(agent, world, state)
+        for m, each in enumerate(maps):
+            for point, track in enumerate(tracks[m]):
+                met = each.modality.vector == "objects" and hits[point]
+                if without_direction(each.modality, world, state, point) and not met:
+                    cells[m][point] = meeting(each, track.cell)
+            for point, track in enumerate(tracks[m]):
+                track.events.append(action)
+                met = owner[m].modality.vector == "objects" and hits[point]
+                cell_t = meeting(each, track.cell) if met else cells[m][point]
+                if cell_t != track.cell or agent.learning.driver == "step":
+                    learn_told_again(agent.learning, q[m], track, cell_t, action)
+                if met:
+                    tracks[m][point] = Track(cells[m][point])
         if done:
             reset_board(state, world.rules)
-            cells = [int(each.encode(state.agent_position / world.width)) for each in agent.maps]
-            events, traces = [[] for _ in q], [[] for _ in q]
+            tracks = fresh_tracks(agent, world, state)
+            pull[:], worth[:] = 0, 0
     return rewards, q
+
+
+def cells_told_again(agent, world, state):
+    return [each.encode(each.modality.coordinates(world, state)).tolist() for each in agent.maps]
+
+
+def fresh_tracks(agent, world, state):
+    return [[Track(cell) for cell in cells] for cells in cells_told_again(agent, world, state)]
+
+
+def without_direction(modality, world, state, point):
+    """Whether what has no direction, because it is at rest or at distance 0, is to be given one."""
+    if modality.vector == "velocity":
+        return modality.has_direction and not state.agent_velocity.any()
+    return modality.has_direction and modality.coordinates(world, state)[point, 0] == 0
+
+
+def meeting(nres_map, cell):
+    """The cell at distance 0, in the direction of the cell before."""
+    if nres_map.modality.tuning == "angle":
+        return cell
+    if nres_map.modality.tuning == "polar":
+        return int(nres_map.encode([0, cell // nres_map.resolution / nres_map.resolution * 2 * np.pi]))
+    return int(nres_map.encode([0, 0]))
+
+
+def values_told_again(agent, world, state, q, tracks, pull, worth):
+    """The value of each action; `pull` and `worth` of each desire are those of the step before, and become today's."""
+    owner = [node.name for node in agent.nodes for _ in node.resolutions]
+    here, creeps = state.agent_position / world.width, state.creep_position / world.width
+    nodes, value = {node.name: node for node in agent.nodes}, np.zeros(4)
+    for name in agent.evaluation_order:
+        node = nodes[name]
+        weights = np.array([float(n) ** ["equal", "resolution", "cells"].index(node.weighting) for n in node.resolutions])
+        weights /= weights.sum()
+        mine = [m for m, other in enumerate(owner) if other == name]
+        elements = {e: elements_told_again(agent, desire, creeps - here, state.creep_is_green, pull, worth)
+                    for e, desire in enumerate(agent.desires) if desire.target == name}
+        for e, found in elements.items():
+            pull[e], worth[e] = 0, 0
+            for place, valence in found:
+                worth[e] += valence
+                for m, weight in zip(mine, weights):
+                    nres_map, modality = agent.maps[m], node.modality
+                    if not isinstance(agent.desires[e].source, str):
+                        pairs = [(track.cell, int(nres_map.encode(place))) for track in tracks[m]]
+                    elif modality.has_direction and modality.vector == "velocity" and not np.any(place):
+                        pairs = []
+                    elif modality.vector in ("position", "velocity"):
+                        vector = here + place if modality.vector == "position" else place
+                        pairs = [(tracks[m][0].cell, int(nres_map.encode(modality.tune(vector))))]
+                    else:
+                        cell = int(nres_map.encode(modality.tune(place)))
+                        pairs = [(cell, meeting(nres_map, cell))]
+                    for cell, goal in pairs:
+                        if cell != goal or agent.own_cell == "counts":
+                            pull[e] += weight * valence * q[m][cell, :, goal].astype(float)
+            value += node.gain * pull[e]
+    return value
+
+
+def elements_told_again(agent, desire, creeps, green, pull, worth):
+    """What a desire makes elements of: [(place as seen from the agent, or point of the node's space, valence), …]."""
+    if not isinstance(desire.source, str):
+        return [(desire.source, desire.valence)]
+    if not desire.between_nodes:
+        return [(place, desire.valence) for place, is_green in zip(creeps, green) if is_green == (desire.source == "green")]
+    place, valence = np.zeros(2), 0.0
+    for i, other in enumerate(agent.desires):
+        if other.target == desire.source and (not desire.of or other.source in desire.of):
+            sign = 1.0 if desire.signed or worth[i] > 0 else -1.0
+            place += sign * np.array([pull[i, 2] - pull[i, 3], pull[i, 1] - pull[i, 0]])
+            valence += worth[i]
+    return [(desire.scale * place, valence if desire.valence is None else desire.valence)]
+
+
+def learn_told_again(rule, table, track, cell_t, action):
+    alpha, decay = np.float32(rule.learning_rate), np.float32(rule.learning_rate) * np.float32(rule.absence)
+    counts = np.array([track.events.count(event) for event in range(4)])
+    credit = {"share": counts.astype(np.float32) / np.float32(len(track.events)),
+              "happened": (counts > 0).astype(np.float32),
+              "last": (np.arange(4) == action).astype(np.float32)}[rule.credit]
+    track.trace = [(track.cell, alpha * credit), *track.trace][:rule.trace]
+    if rule.bootstrap:
+        target = np.float32(rule.discount) * table[cell_t].max(axis=0)
+        target[cell_t] = 1 if rule.terminal else 1 + target[cell_t]
+        for event in range(4):
+            rate, old = alpha * credit[event], table[track.cell, event].copy()
+            new = old + rate * (target - old) if rate > 0 else old - decay * old
+            table[track.cell, event] = np.where(new > 1e-30, new, 0)
+    fading = np.float32(1)
+    for back, (cell_left, rates) in enumerate(track.trace):
+        if back > 0 or not rule.bootstrap:
+            table[cell_left, :, cell_t] += fading * rates * (1 - table[cell_left, :, cell_t])
+        fading *= np.float32(rule.discount)
+    track.cell, track.events = cell_t, []
 
 
 @pytest.mark.parametrize("name", READINGS)
@@ -97,7 +197,7 @@ def test_a_run_equals_the_rules_told_again_in_plain_python(name):
     assert brought == sum(rewards) != 0
     for m, table in enumerate(q):
         np.testing.assert_array_equal(run.q(m), table)
-        assert table.any()
+        assert table.any() or agent.maps[m].cells < 10
 
 
 def fingerprint(names, steps, **how):
@@ -113,7 +213,7 @@ def fingerprint(names, steps, **how):
 
 def test_runs_are_the_same_with_the_compiler_switched_off():
     """The other process is this file run as a program, with NUMBA_DISABLE_JIT."""
-    names, steps = ["several", "last", "trace", "step"], 250
+    names, steps = ["several", "last", "trace", "step", "D", "all senses"], 250
     interpreted = subprocess.run([sys.executable, __file__, str(steps), *names], capture_output=True, check=True,
                                  env={**os.environ, "NUMBA_DISABLE_JIT": "1"}).stdout
     assert interpreted == fingerprint(names, steps)
@@ -140,6 +240,97 @@ def test_a_run_is_the_same_in_slices():
     np.testing.assert_array_equal(whole.memory.q, sliced.memory.q)
     for one, other in zip(whole.state, sliced.state):
         np.testing.assert_array_equal(one, other)
+
+
+def test_becoming_the_same_agent_changes_nothing():
+    whole, changed = (Run(READINGS["trace"], TANK, seed=4) for _ in range(2))
+    whole.advance(3_000)
+    changed.advance(1_234)
+    changed.change(READINGS["trace"])
+    changed.advance(1_766)
+    for one, other in zip([*whole.memory, *whole.state], [*changed.memory, *changed.state]):
+        np.testing.assert_array_equal(one, other)
+
+
+def test_an_agent_that_gets_a_second_modality_keeps_what_it_knows():
+    run = Run(place_cells([3, 7]), TANK, seed=2)
+    run.advance(5_000)
+    knows = run.memory.q.copy()
+    run.change(multimodal([3, 5, 7]))
+    np.testing.assert_array_equal(np.concatenate([run.q(0).ravel(), run.q(2).ravel()]), knows)
+    assert knows.any() and not run.q(1).any() and not run.q(4).any()
+    run.advance(5_000)
+    assert run.q(1).any() and run.q(4).any()
+    run.change(place_cells([7]))
+    assert run.memory.q.size == 4 * 7**4 and run.q().any()
+
+
+def test_a_change_can_be_planned():
+    changes = [(1_000, multimodal([3, 7])), (2_500, multimodal([3, 7], place_gain=0.5))]
+    result = simulate(place_cells([3, 7]), TANK, steps=4_000, runs=2, seed=6, changes=changes, progress=False)
+    run = Run(place_cells([3, 7]), TANK, seed=6, run=1)
+    brought = run.advance(1_000)
+    for (_, agent), steps in zip(changes, (1_500, 1_500)):
+        run.change(agent)
+        brought += run.advance(steps)
+    assert brought == result.totals[1]
+    assert result.changes == tuple(changes)
+
+
+@pytest.mark.parametrize("changes, message", [
+    (5, "changes is 5"), ([(5,)], r"changes has \(5,\), allowed are pairs"), ([(101, place_cells())], "is 101, allowed"),
+    ([(50, place_cells()), (49, place_cells())], "step of a change is 49"), ([(5, "PC")], "agent of a change is 'PC'")])
+def test_bad_changes_are_refused(changes, message):
+    with pytest.raises(ValueError, match=message):
+        simulate(place_cells([3]), TANK, steps=100, runs=1, changes=changes, progress=False)
+
+
+def test_the_output_of_a_node():
+    run = Run(network_c([2, 5], object_gain=0.5), TANK, seed=0)
+    run.advance(20_000)
+    place, relative = run.output("PC"), run.output("OVC")
+    assert place.q.any() and relative.q.any()
+    np.testing.assert_allclose(run.memory.value, place.q + 0.5 * relative.q, atol=1e-15)
+    greens, reds = (sum(run.agent.desires[e].source == colour and run.memory.worth[e] for e in range(2))
+                    for colour in ("green", "red"))
+    assert place.valence == greens + reds == relative.valence
+    landing = run.memory.landing[2:4] / 2.0
+    np.testing.assert_allclose(landing.sum(axis=0), place.desire)
+    with pytest.raises(ValueError, match="name is 'HD', allowed are 'PC', 'OVC'"):
+        run.output("HD")
+
+
+def test_a_node_by_itself_wants_what_its_agent_does():
+    run = Run(place_cells([5]), TANK, seed=0)
+    run.advance(20_000)
+    np.testing.assert_array_equal(run.output("PC").q, run.memory.value)
+
+
+@pytest.mark.parametrize("modality, resolution, here, goal, action", [
+    (PLACE_CELL, 5, (0.5, 0.5), (0.7, 0.5), "E"), (BORDER_CELL, 3, (0.0, 0.0), (0.0, -0.25), "N"),
+    (OBJECT_VECTOR_CELL, 8, (0.4, 0.0), (0.0, 0.0), "E"), (OBJECT_VECTOR_CELL, 8, (0.4, np.pi), (0.0, np.pi), "W"),
+    (CARTESIAN_OBJECT_VECTOR_CELL, 7, (0.0, 0.3), (0.0, 0.0), "S"),
+    (BOUNDARY_VECTOR_CELL, 8, (0.4, 1.5 * np.pi), (0.1, 1.5 * np.pi), "N"),
+    (LANDMARK_VECTOR_CELL, 8, (0.4, np.pi), (0.1, np.pi), "W"), (HEAD_DIRECTION_CELL, 8, (0.0,), (1.5 * np.pi,), "N"),
+])
+def test_an_agent_of_any_modality_learns_which_way_to_go(modality, resolution, here, goal, action):
+    run = Run(Agent((Node("X", modality, [resolution]),), policy=Policy(exploration=1.0)), TANK, seed=1)
+    run.advance(200_000)
+    nres_map = run.agent.maps[0]
+    values = run.q()[nres_map.encode(here), :, nres_map.encode(goal)]
+    assert ACTIONS[values.argmax()] == action and values.max() > 1.05 * np.sort(values)[-2]
+
+
+def test_an_agent_learns_to_keep_a_speed():
+    speeds = {}
+    for wish in (0.1, 1.9):
+        run = Run(Agent((Node("speed", SPEED_CELL, [8]),), (Desire((wish,), "speed", 1.0),), policy=Policy(0.5)), TANK)
+        run.advance(50_000)
+        speeds[wish] = np.empty(2_000)
+        for step in range(2_000):
+            run.advance(1)
+            speeds[wish][step] = np.linalg.norm(run.state.agent_velocity) / TANK.width
+    assert np.median(speeds[1.9]) > 1.2 * np.median(speeds[0.1])
 
 
 def test_runs_write_to_no_common_cache_line():

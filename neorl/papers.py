@@ -1,0 +1,78 @@
+"""The agents of the thesis's papers, as values of `Agent`.
+
+`choices` are other fields of `Agent` (learning, policy, own_cell) or, for all nodes, of `Node` (weighting).
+"""
+
+from dataclasses import replace
+
+from neorl.agent import Agent, Desire, Node, Policy
+from neorl.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL
+
+PRIMES = (2, 3, 5, 7, 11, 13)  # the resolutions of paper B
+
+
+def place_cells(resolutions=PRIMES, extent=(0.0, 1.0), valence_green=1.0, valence_red=-1.0, **choices):
+    """The agent of paper A, and PC of paper B: one node of place cells that desires green creeps and fears red ones.
+
+    extent: (low, high), the stretch of either axis that the maps cover, in board widths.
+    """
+    modality = replace(PLACE_CELL, ranges=(extent, extent))
+    return _network([("PC", modality, 1.0)], resolutions, _creeps("PC", valence_green, valence_red), choices)
+
+
+def brownian():
+    """The control: every action drawn (ε = 1), so the agent moves as in Brownian motion (paper A, fig. 6)."""
+    return place_cells([1], policy=Policy(exploration=1.0))
+
+
+def object_vector_cells(resolutions=PRIMES, extent=(-1.0, 1.0), valence_green=1.0, valence_red=-1.0, **choices):
+    """OVC of paper B (fig. 4B): one node of object-vector cells in the Cartesian emulation."""
+    modality = replace(CARTESIAN_OBJECT_VECTOR_CELL, ranges=(extent, extent))
+    return _network([("OVC", modality, 1.0)], resolutions, _creeps("OVC", valence_green, valence_red), choices)
+
+
+def multimodal(resolutions=PRIMES, place_gain=1.0, object_gain=1.0, **choices):
+    """PC + OVC of paper B (fig. 5): both nodes see the creeps, and their values add."""
+    return _network(_both(place_gain, object_gain), resolutions, _creeps("PC") + _creeps("OVC"), choices)
+
+
+def network_a(resolutions=PRIMES, scale=2.0, signed=False, **choices):
+    """Agent A of paper C (fig. 4a): place cells make one desire of all creeps, object-vector cells act on it."""
+    desires = (Desire("PC", "OVC", scale=scale, signed=signed),)
+    return _network(_both(0.0, 1.0), resolutions, _creeps("PC") + desires, choices)
+
+
+def network_b(resolutions=PRIMES, scale=2.0, signed=False, **choices):
+    """Agent B of paper C (fig. 4b): a desire of the green creeps, and one of the red."""
+    return _network(_both(0.0, 1.0), resolutions, _creeps("PC") + _by_colour(scale, signed), choices)
+
+
+def network_c(resolutions=PRIMES, scale=2.0, signed=False, place_gain=1.0, object_gain=1.0, **choices):
+    """Agent C of paper C (fig. 4c): as B, and the values of both nodes add."""
+    desires = _creeps("PC") + _by_colour(scale, signed)
+    return _network(_both(place_gain, object_gain), resolutions, desires, choices)
+
+
+def network_d(resolutions=PRIMES, recursion=-1.0, scale=2.0, signed=False, place_gain=1.0, object_gain=1.0, **choices):
+    """Agent D of paper C (fig. 4d): as C, and the object-vector cells desire what they desired, with valence r."""
+    desires = _creeps("PC") + _by_colour(scale, signed)
+    desires += (Desire("OVC", "OVC", valence=recursion, scale=scale, signed=signed),)
+    return _network(_both(place_gain, object_gain), resolutions, desires, choices)
+
+
+def _both(place_gain, object_gain):
+    return [("PC", PLACE_CELL, place_gain), ("OVC", CARTESIAN_OBJECT_VECTOR_CELL, object_gain)]
+
+
+def _creeps(node, valence_green=1.0, valence_red=-1.0):
+    return Desire("green", node, valence_green), Desire("red", node, valence_red)
+
+
+def _by_colour(scale, signed):
+    return tuple(Desire("PC", "OVC", of=(colour,), scale=scale, signed=signed) for colour in ("green", "red"))
+
+
+def _network(nodes, resolutions, desires, choices):
+    weighting = choices.pop("weighting", "equal")
+    nodes = tuple(Node(name, modality, resolutions, weighting, gain) for name, modality, gain in nodes)
+    return Agent(nodes, desires, **choices)
