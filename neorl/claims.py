@@ -12,7 +12,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 from scipy import stats
 
-from neorl.statistics import Estimate, estimate, probability_of_improvement
+from neorl.statistics import Estimate, estimate, probability_of_improvement, time_to_final_level
 from neorl.store import folder, source_digest, write_whole
 
 RUNS_FOR_A_VERDICT = 10
@@ -108,6 +108,114 @@ def judge_multiple_layers(by_resolution, together):
     return [a6, a7]
 
 
+def judge_modalities(place, objects, both):
+    """Claims B1–B4 of paper B, from its figures 4 and 5.
+
+    place, objects: {N: `Result`} for single resolutions, and {"all": `Result`} for all of them together, of agents of
+    place cells and of object-vector cells. both: the `Result` of the agent with all maps of both.
+    """
+    runs = min(result.runs for result in [*place.values(), *objects.values(), both])
+    pc, ovc, joint = (result.rate(*FINAL) for result in (place["all"], objects["all"], both))
+    learned = min(estimate(np.mean, values).low for values in (pc, ovc, joint)) > 0
+    figure_4, figure_5 = "paper B, section 3.1 and figure 4", "paper B, section 3.2 and figure 5"
+
+    ratio = estimate(_ratio, ovc, pc)
+    early = estimate(_difference, objects["all"].rate(*EARLY), place["all"].rate(*EARLY))
+    b1 = Claim("B1", figure_4, "Object-vector agents match place-cell agents",
+               "Final reward per second of object-vector cells, divided by that of place cells", "comparable", ratio,
+               f"Comparable is read as between a half and two, with no loss early, where the lead is {early}.", runs,
+               verdict(runs, 0.5 <= ratio.low and ratio.high <= 2 and early.high >= 0,
+                       ratio.high >= 0.5 and ratio.low <= 2, learned))
+
+    leads, best = {}, {}
+    for name, results in (("place cells", place), ("object-vector cells", objects)):
+        final = {n: result.rate(*FINAL) for n, result in results.items() if n != "all"}
+        best[name] = max(final, key=lambda n: final[n].mean())
+        leads[name] = estimate(_lead_over_best, results["all"].rate(*FINAL), *final.values())
+    least = min(leads, key=lambda name: leads[name].value)
+    b2 = Claim("B2", figure_4, "Several resolutions beat each one, in both modalities",
+               "Lead of all maps over the best single one in final reward per second, in the modality where it is less",
+               "> 0", leads[least], "; ".join(f"With {name} it is {lead}, over N{best[name]}"
+                                              for name, lead in leads.items()) + ".", runs,
+               verdict(runs, all(lead.low > 0 for lead in leads.values()),
+                       any(lead.low > 0 for lead in leads.values()), learned))
+
+    gain = estimate(_ratio, joint, pc)
+    lead = estimate(_lead_over_best, joint, pc, ovc)
+    b3 = Claim("B3", figure_5, "Both modalities make 0.55 a second, place cells alone 0.29",
+               "Final reward per second of both, divided by that of place cells", "1.9", gain,
+               f"Both make {joint.mean():.2f}, place cells {pc.mean():.2f}, object-vector cells {ovc.mean():.2f}. The lead "
+               f"over the better one is {lead}; a run of both beats one of place cells with probability "
+               f"{probability_of_improvement(joint, pc):.2f}.", runs,
+               verdict(runs, gain.high >= 0.55 / 0.29 and lead.low > 0, gain.low > 1, learned))
+
+    minutes = {name: time_to_final_level(result) / 60 for name, result in (("both", both), ("place", place["all"]))}
+    quick, slow = (estimate(np.mean, values) for values in minutes.values())
+    ahead = estimate(_difference, minutes["both"], minutes["place"])
+    b4 = Claim("B4", figure_5, "Both make their final level after 15 minutes, place cells after more than 160",
+               "Simulated minutes that both take", "15", quick,
+               f"Place cells take {slow}; the difference is {ahead}. The rule allows twice the thesis's time for both, "
+               "and half of it for place cells.", runs,
+               verdict(runs, quick.high <= 30 and slow.low >= 80, ahead.high < 0, learned and both.seconds >= 60 * 160))
+    return [b1, b2, b3, b4]
+
+
+def judge_networks(a, b, c, d):
+    """Claims C1–C4 of paper C, from its figure 4e and the `Result`s of its four agents."""
+    runs = min(result.runs for result in (a, b, c, d))
+    final = {name: result.rate(*FINAL) for name, result in zip("ABCD", (a, b, c, d))}
+    learned = {name: estimate(np.mean, values).low > 0 for name, values in final.items()}
+    place = "paper C, section 3 and figure 4e"
+
+    rise = estimate(np.mean, final["A"] - a.rate(*EARLY))
+    level = estimate(np.mean, final["A"])
+    c1 = Claim("C1", place, "Network A improves over time but stays weak",
+               "Final reward per second of A, less its early one", "> 0", rise,
+               f"Finally it makes {level}. Weak is read as less than half of what network C makes, "
+               f"{final['C'].mean():.2f}.", runs,
+               verdict(runs, rise.low > 0 and level.high < 0.5 * final["C"].mean(),
+                       rise.low > 0 or level.high < 0.5 * final["C"].mean(), learned["C"]))
+    leads = []
+    for name, better, worse, text in (("C2", "B", "A", "A desire for each colour (B) beats one for all (A)"),
+                                      ("C3", "C", "B", "Values from both nodes (C) beat those of the last one (B)")):
+        lead = estimate(_difference, final[better], final[worse])
+        chance = probability_of_improvement(final[better], final[worse])
+        leads.append(Claim(name, place, text, f"Lead of {better} over {worse} in final reward per second", "> 0", lead,
+                           f"A run of {better} beats one of {worse} with probability {chance:.2f}.", runs,
+                           verdict(runs, lead.low > 0, lead.high > 0, learned[better])))
+    gain = estimate(_ratio, final["D"], final["C"])
+    c4 = Claim("C4", place, "Recursion (D) improves on C drastically",
+               "Final reward per second of D, divided by that of C", "≫ 1", gain,
+               "Drastically is read as by half or more. A run of D beats one of C with probability "
+               f"{probability_of_improvement(final['D'], final['C']):.2f}.", runs,
+               verdict(runs, gain.low >= 1.5, gain.low > 1, learned["C"]))
+    return [c1, *leads, c4]
+
+
+def judge_revaluing(revalued, throughout):
+    """Claim T1, from `Result`s of agents that want red creeps too, from half-time on and from the start."""
+    runs = min(revalued.runs, throughout.runs)
+    turned, always = (_red_a_minute(result, 0.5, 0.525) for result in (revalued, throughout))
+    before, after = (estimate(np.mean, _red_a_minute(revalued, *share)) for share in ((0.475, 0.5), (0.5, 0.525)))
+    lead = estimate(_difference, turned, always)
+    return Claim("T1", "thesis, section 4.1.2", "Moving or revaluing elements needs no retraining",
+                 "Red creeps a minute in the fortieth of the run after they come to be wanted, less what agents take "
+                 "that have wanted them from the start", "≥ 0", lead, f"Before the turn it is {before}, after it {after}.",
+                 runs, verdict(runs, lead.low >= 0 and after.low > before.high, after.low > before.high))
+
+
+def judge_cost(together, alone, none):
+    """Claim T2: what an agent's maps cost together and each alone; each (repetitions,), in the same unit a step.
+
+    together: with all maps. alone: a sequence, with each map alone. none: without any.
+    """
+    ratio = estimate(_cost_ratio, together, none, *alone)
+    return Claim("T2", "thesis, section 4.4", "Cost grows linearly with maps",
+                 "What all maps cost together, divided by the sum of what each costs alone", "1", ratio,
+                 "The rule allows a tenth more.", len(together),
+                 verdict(len(together), ratio.high <= 1.1, ratio.low <= 1.1))
+
+
 def verdict(runs, reproduced, partly, testable=True):
     if runs < RUNS_FOR_A_VERDICT:
         return "no verdict"
@@ -145,12 +253,22 @@ def store(page, claims):
     write_whole(folder() / "claims" / f"{page}.json", json.dumps(content, indent=1, allow_nan=False).encode())
 
 
+def _red_a_minute(result, begin, end):
+    first, last = round(begin * result.hits.shape[1]), round(end * result.hits.shape[1])
+    return result.hits[:, first:last, 1].sum(axis=1) / ((end - begin) * result.seconds / 60)
+
+
 def _difference(a, b):
     return a.mean() - b.mean()
 
 
 def _ratio(a, b):
     return a.mean() / b.mean()
+
+
+def _cost_ratio(together, none, *alone):
+    base = np.median(none)
+    return (np.median(together) - base) / sum(np.median(each) - base for each in alone)
 
 
 def _lead_over_best(a, *others):

@@ -39,6 +39,21 @@ def probability_of_improvement(better, worse):
     return float(stats.mannwhitneyu(better, worse).statistic) / (len(better) * len(worse))
 
 
+def time_to_final_level(result, share=0.9):
+    """When each run first makes `share` of its final level: float64 (runs,), in simulated seconds.
+
+    The final level is a run's own reward per second in its last fifth. It is made when the mean over the fortieth of
+    the run just past reaches it. A run whose final level is not positive never makes it, and counts as the whole run.
+    """
+    width = max(1, result.rewards.shape[1] // 40)
+    final = result.rate(0.8, 1.0)
+    sums = np.pad(result.rewards.cumsum(axis=1, dtype=float), ((0, 0), (1, 0)))
+    edges = np.concatenate([[0.0], result.time])
+    made = (sums[:, width:] - sums[:, :-width]) / (edges[width:] - edges[:-width]) >= share * final[:, None]
+    first = np.where(made.any(axis=1) & (final > 0), made.argmax(axis=1) + width, result.rewards.shape[1])
+    return edges[first]
+
+
 def band(curves):
     """The band that holds the middle 95 % of the runs at each point of curves (runs, points): (low, high)."""
     return np.quantile(curves, [0.025, 0.975], axis=0)

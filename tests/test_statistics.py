@@ -5,7 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from neorl.statistics import Estimate, band, estimate, mean_band, probability_of_improvement
+from neorl import Result, WaterWorld, place_cells
+from neorl.statistics import (Estimate, band, estimate, mean_band, probability_of_improvement,
+                              time_to_final_level)
 
 
 def test_the_probability_of_improvement_counts_pairs():
@@ -53,3 +55,14 @@ def test_the_band_of_a_mean_narrows_with_the_root_of_the_runs():
 def test_an_estimate_is_written_with_its_interval():
     assert str(Estimate(0.5, -0.001, 1.25)) == "0.50 [0.00, 1.25]"
     assert str(Estimate(-0.5, -1.0, 0.1)) == "−0.50 [−1.00, 0.10]"
+
+
+def test_the_time_to_the_final_level_is_that_of_each_run():
+    """400 bins of 0.2 s, so that the mean is over the 10 bins past: 2 s."""
+    rewards = np.zeros((4, 400), np.float32)
+    rewards[0] = 1  # from the start: as soon as there is a mean
+    rewards[1, 100:] = 1  # a step after 20 s is there to nine tenths 9 bins later
+    rewards[2] = np.arange(400) / 400  # a ramp, whose last fifth is at 359.5 / 400: nine tenths of it lie 5.5 before bin 330
+    rewards[3] = -1  # never
+    result = Result(place_cells([1]), WaterWorld(), 4_000, 4, 0, rewards, np.zeros((4, 400, 2), np.int16))
+    np.testing.assert_allclose(time_to_final_level(result), [2.0, 21.8, 66.0, 80.0])
