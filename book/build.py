@@ -26,8 +26,11 @@ HTML = ROOT / "_build" / "html" / "index.html"
 def main():
     chosen = parse_arguments()
     parameters = {name: value for name, value in vars(chosen).items() if value is not None}
+    notebooks = sorted((ROOT / "notebooks").glob("*.ipynb"))
+    for notebook in notebooks:
+        check_parameters(notebook, parameters)
     try:
-        for notebook in sorted((ROOT / "notebooks").glob("*.ipynb")):
+        for notebook in notebooks:
             compute(notebook, parameters)
     except PapermillExecutionError as error:
         sys.exit(f"\n{error}")
@@ -50,7 +53,6 @@ def whole_number(text):
 
 def compute(notebook, parameters):
     """Run a notebook into the chapters, unless it is there already with the same parameters and sources."""
-    check_parameters(notebook, parameters)
     target, record = CHAPTERS / notebook.name, CHAPTERS / f"{notebook.stem}.inputs.json"
     wanted = {"parameters": parameters, "inputs": digest([notebook, ROOT / "environment.txt", *sources()])}
     if target.exists() and record.exists() and json.loads(record.read_text()) == wanted:

@@ -6,7 +6,8 @@ A row is named for what it does once; the table tells how long that takes and ho
 import numpy as np
 import pytest
 
-from neorl import WaterWorld, place_cells, simulate
+from neorl import (WaterWorld, multimodal, network_a, network_b, network_c, network_d, object_vector_cells, place_cells,
+                   simulate)
 from neorl.horde import ZERO, learn_all_goals
 from neorl.kernel import kernel
 from neorl.stream import below, new_stream
@@ -85,3 +86,21 @@ def test_figure_7(benchmark):
             simulate(place_cells(resolutions), tank, steps=150_000, runs=100, progress=False)
 
     benchmark.pedantic(figure_7, rounds=1)
+
+
+@pytest.mark.benchmark(group="a hundred runs of each condition of a paper")
+@pytest.mark.parametrize("paper", ["B, 15 of 600,000 steps", "C, 4 of 300,000 steps"])
+def test_papers(benchmark, paper):
+    primes = [2, 3, 5, 7, 11, 13]
+    agents, steps = [make() for make in (network_a, network_b, network_c, network_d)], 300_000
+    if paper.startswith("B"):
+        sets = [*([n] for n in primes), primes]
+        agents = [make(chosen) for make in (place_cells, object_vector_cells) for chosen in sets] + [multimodal(primes)]
+        steps = 600_000
+    simulate(place_cells([3]), WaterWorld(), steps=1, runs=1, progress=False)
+
+    def conditions():
+        for agent in agents:
+            simulate(agent, WaterWorld(), steps=steps, runs=100, progress=False)
+
+    benchmark.pedantic(conditions, rounds=1)

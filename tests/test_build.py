@@ -28,7 +28,7 @@ def notebook(tmp_path, monkeypatch):
 
 def test_a_parameter_that_the_notebook_does_not_have_is_refused(notebook):
     with pytest.raises(ValueError, match="parameter runz is 4, allowed for page.ipynb are runs"):
-        build.compute(notebook, {"runz": 4})
+        build.check_parameters(notebook, {"runz": 4})
     assert not build.CHAPTERS.exists()
 
 

@@ -19,7 +19,7 @@ def cells(request):
 
 
 def test_there_are_notebooks():
-    assert "paper_a" in NOTEBOOKS
+    assert {"paper_a", "paper_b", "paper_c"} <= set(NOTEBOOKS)
 
 
 def test_a_notebook_is_without_outputs(cells):
@@ -61,6 +61,11 @@ def test_links_lead_somewhere(cells):
 def test_a_bad_parameter_is_refused(change, message):
     with pytest.raises(ValueError, match=message):
         notebook.begin(**{"runs": 20, "steps": 1_000, "seed": 0, **change})
+
+
+def test_too_short_a_run_is_refused_where_there_would_be_nothing_to_draw():
+    with pytest.raises(ValueError, match="steps is 999, allowed are integers ≥ 1000"):
+        notebook.begin(runs=20, steps=999, seed=0, fewest_steps=1_000)
 
 
 def test_a_parameter_that_the_notebook_does_not_have_is_refused(monkeypatch):
