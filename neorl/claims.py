@@ -135,8 +135,8 @@ def judge_modalities(place, objects, both):
     least = min(leads, key=lambda name: leads[name].value)
     b2 = Claim("B2", figure_4, "Several resolutions beat each one, in both modalities",
                "Lead of all maps over the best single one in final reward per second, in the modality where it is less",
-               "> 0", leads[least], "; ".join(f"With {name} it is {lead}, over N{best[name]}"
-                                              for name, lead in leads.items()) + ".", runs,
+               "> 0", leads[least], "It is " + "; ".join(f"{lead} with {name}, over N{best[name]}"
+                                                         for name, lead in leads.items()) + ".", runs,
                verdict(runs, all(lead.low > 0 for lead in leads.values()),
                        any(lead.low > 0 for lead in leads.values()), learned))
 
@@ -188,7 +188,7 @@ def judge_networks(a, b, c, d):
                "Final reward per second of D, divided by that of C", "≫ 1", gain,
                "Drastically is read as by half or more. A run of D beats one of C with probability "
                f"{probability_of_improvement(final['D'], final['C']):.2f}.", runs,
-               verdict(runs, gain.low >= 1.5, gain.low > 1, learned["C"]))
+               verdict(runs, gain.low >= 1.5, gain.low > 1 or gain.high >= 1.5, learned["C"]))
     return [c1, *leads, c4]
 
 
@@ -241,6 +241,24 @@ def comparison(judged):
         cells = {claim.name: f"{signs[claim.verdict]}\u00a0{claim.here.value:z.2f}" for claim in claims}
         rows.append(f"| {reading} | " + " | ".join(cells.get(name, "") for name in names).replace("-", "−") + " |")
     return "\n".join(rows)
+
+
+def summary(judged):
+    """Where each claim is reproduced, and which readings come closest, in Markdown: judged {reading: [Claim, …]}."""
+    by_reading = {reading: {claim.name: claim.verdict for claim in claims} for reading, claims in judged.items()}
+    texts = {claim.name: claim.text for claims in judged.values() for claim in claims}
+    if any("no verdict" in verdicts.values() for verdicts in by_reading.values()):
+        return "With so few runs there is nothing to sum up."
+    lines = ["Each claim, and where it is reproduced:", ""]
+    for name, text in texts.items():
+        where = [reading for reading, verdicts in by_reading.items() if verdicts.get(name) == "reproduced"]
+        lines.append(f"- **{name}** {text}: *{'; '.join(where) or 'none of these readings'}*.")
+    score = {reading: tuple([*verdicts.values()].count(kind) for kind in ("reproduced", "partly"))
+             for reading, verdicts in by_reading.items()}
+    closest = [reading for reading in score if score[reading] == max(score.values())]
+    return "\n".join([*lines, "", "Closest to the paper comes *{}*: {} of its claims are reproduced and {} partly. In the "
+                      "default reading they are {} and {}.".format("*, *".join(closest), *max(score.values()),
+                                                                   *score["default"])])
 
 
 def store(page, claims):

@@ -176,6 +176,8 @@ def turn(x, y):
     return turned if turned < 1.0 else 0.0
 
 
+# O'Keefe and Dostrovsky 1971; Solstad et al. 2008; Høydal et al. 2019 and, in its Cartesian emulation, paper B section 3;
+# Lever et al. 2009; Deshmukh and Knierim 2013; Taube et al. 1990; Kropff et al. 2015.
 PLACE_CELL = Modality("place cell", "position", "cartesian", ((0, 1), (0, 1)))
 BORDER_CELL = Modality("border cell", "position", "proximal", ((-0.25, 0.25), (-0.25, 0.25)))
 OBJECT_VECTOR_CELL = Modality("object-vector cell", "objects", "polar", ((0, 1),))

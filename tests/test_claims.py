@@ -184,3 +184,16 @@ def test_tables_hold_every_claim_and_reading():
     compared = claims.comparison({"one": claims.judge_single_layer(single, brownian) + layered, "other": layered})
     assert compared.splitlines()[0] == "| Reading | A1 | A2 | A3 | A4 | A5 | A6 | A7 |"
     assert compared.splitlines()[3].startswith("| other |  |  |  |  |  | ●\u00a00.16 |")
+
+
+def test_a_summary_names_where_claims_hold_and_what_comes_closest():
+    good, bad = (claims.judge_networks(*(made_up(0.0, final) for final in finals))
+                 for finals in [(0.05, 0.15, 0.3, 0.6), (0.05, 0.02, 0.3, 0.1)])
+    text = claims.summary({"default": bad, "other": good})
+    assert "- **C1** Network A improves over time but stays weak: *default; other*." in text
+    assert "- **C4** Recursion (D) improves on C drastically: *other*." in text
+    assert "Closest to the paper comes *other*: 4 of its claims are reproduced and 0 partly." in text
+    assert text.endswith("In the default reading they are 2 and 0.")
+    assert "none of these readings" in claims.summary({"default": bad})
+    assert claims.summary({"default": claims.judge_networks(*paper_c(runs=2))}) == (
+        "With so few runs there is nothing to sum up.")
