@@ -2,7 +2,7 @@
 
 An `Agent` is a network of `Node`s and `Desire`s, a node tiles the space of a `Modality`, and `simulate` lets agents live
 in `WaterWorld`. The agents of the papers are values of these types; `neorl.modality` holds the modalities by name.
-`neorl.statistics`, `neorl.claims` and `neorl.figures` serve the book's pages.
+`neorl.statistics`, `neorl.claims`, `neorl.figures` and `neorl.network_figures` serve the book's pages.
 """
 
 from neorl.agent import Agent, Desire, Learning, Node, Policy

@@ -90,53 +90,82 @@ class Memory(NamedTuple):
 
 def compiled(agent, world):
     """The `Plan` of an agent in a world."""
-    nodes, maps, desires = agent.nodes, agent.maps, agent.desires
-    learning, policy = agent.learning, agent.policy
+    nodes, maps, desires, learning = agent.nodes, agent.maps, agent.desires, agent.learning
     names = [node.name for node in nodes]
-    tiles = [np.array(column) for column in zip(*map(tiling, maps))]
-    cells = np.array([nres_map.cells for nres_map in maps], np.int64)
-    contact = [nres_map.encode(np.zeros(len(nres_map.modality.axes))) for nres_map in maps]
-    points = np.array([{"objects": world.n_creeps, "boundaries": 4, "landmarks": len(node.modality.landmarks)}.get(
-        node.modality.vector, 1) for node in nodes], np.int64)
-    reach = [([high for _, high in node.modality.ranges] or [0.0]) for node in nodes]
-    landmarks = [node.modality.landmarks for node in nodes]
+    modalities = [node.modality for node in nodes]
+    columns, rows, low_u, scale_u, low_v, scale_v, closed = (np.array(column) for column in zip(*map(tiling, maps)))
+    cells = columns * rows
+    points = [{"objects": world.n_creeps, "boundaries": 4, "landmarks": len(modality.landmarks)}.get(modality.vector, 1)
+              for modality in modalities]
+    reach = [[high for _, high in modality.ranges] or [0.0] for modality in modalities]
     inputs = [[e for e, desire in enumerate(desires) if desire.target == name] for name in names]
-    goal = np.zeros((len(desires), len(maps)), np.int64)
-    for e, desire in enumerate(desires):
-        for m, (name, nres_map) in enumerate((node.name, each) for node in nodes for each in node.maps):
-            if desire.target == name and not isinstance(desire.source, str):
-                goal[e, m] = nres_map.encode(desire.source)
+    owners = [name for node, name in zip(nodes, names) for _ in node.resolutions]
+    elements = [[desire.source == other.target and (not desire.of or other.source in desire.of) for other in desires]
+                for desire in desires]
+    goal = [[nres_map.encode(desire.source) if _source(desire) == POINT and desire.target == owner else 0
+             for owner, nres_map in zip(owners, maps)] for desire in desires]
     return Plan(
-        float(world.width), *tiles, cells, np.array(contact, np.int64),
-        np.concatenate([_weights(node) for node in nodes]), _firsts(N_EVENTS * cells**2), _firsts(cells),
-        _firsts([count for node, count in zip(nodes, points) for _ in node.resolutions]),
-        np.array([Vector[node.modality.vector] for node in nodes], np.int64),
-        np.array([Tuning[node.modality.tuning] for node in nodes], np.int64),
-        np.array([(each[0], each[-1]) for each in reach], float), np.array([float(node.gain) for node in nodes]), points,
-        _firsts([len(node.resolutions) for node in nodes]), _firsts([len(each) for each in landmarks]),
-        _firsts([len(each) for each in inputs]), np.array(sum(landmarks, ()), float).reshape(-1, 2),
-        np.array(sum(inputs, []), np.int64), np.array([names.index(name) for name in agent.evaluation_order], np.int64),
-        np.array([_source(desire) for desire in desires], np.int64),
-        np.array([desire.valence or 0.0 for desire in desires], float),
-        np.array([desire.valence is None for desire in desires], np.bool_),
-        np.array([desire.scale for desire in desires], float),
-        np.array([desire.signed for desire in desires], np.bool_),
-        np.array([[desire.source == other.target and (not desire.of or other.source in desire.of) for other in desires]
-                  for desire in desires], np.bool_).reshape(len(desires), len(desires)),
-        goal, agent.own_cell == "counts", np.float32(learning.learning_rate), np.float32(learning.discount),
-        np.float32(learning.absence), DRIVERS.index(learning.driver), CREDITS.index(learning.credit), learning.terminal,
-        learning.trace, learning.bootstrap, float(policy.exploration), policy.idle == "no-op")
+        width=float(world.width),
+        columns=columns, rows=rows, low_u=low_u, scale_u=scale_u, low_v=low_v, scale_v=scale_v, closed=closed,
+        cells=cells,
+        contact=_integers(nres_map.encode(np.zeros(len(nres_map.modality.axes))) for nres_map in maps),
+        weight=np.concatenate([_weights(node) for node in nodes]),
+        first=_firsts(N_EVENTS * cells**2),
+        first_cell=_firsts(cells),
+        first_track=_firsts([count for node, count in zip(nodes, points) for _ in node.resolutions]),
+        vector=_integers(Vector[modality.vector] for modality in modalities),
+        tuning=_integers(Tuning[modality.tuning] for modality in modalities),
+        reach=np.array([(each[0], each[-1]) for each in reach], float),
+        gain=np.array([node.gain for node in nodes], float),
+        points=_integers(points),
+        first_map=_firsts([len(node.resolutions) for node in nodes]),
+        first_landmark=_firsts([len(modality.landmarks) for modality in modalities]),
+        first_input=_firsts([len(each) for each in inputs]),
+        landmark=np.array([place for modality in modalities for place in modality.landmarks], float).reshape(-1, 2),
+        inputs=_integers(e for each in inputs for e in each),
+        order=_integers(names.index(name) for name in agent.evaluation_order),
+        source=_integers(_source(desire) for desire in desires),
+        valence=np.array([desire.valence or 0.0 for desire in desires], float),
+        sums_valence=np.array([desire.valence is None for desire in desires], np.bool_),
+        scale=np.array([desire.scale for desire in desires], float),
+        signed=np.array([desire.signed for desire in desires], np.bool_),
+        elements=np.array(elements, np.bool_).reshape(len(desires), len(desires)),
+        goal=np.array(goal, np.int64).reshape(len(desires), len(maps)),
+        own_cell_counts=agent.own_cell == "counts",
+        learning_rate=np.float32(learning.learning_rate),
+        discount=np.float32(learning.discount),
+        absence=np.float32(learning.absence),
+        driver=DRIVERS.index(learning.driver),
+        credit=CREDITS.index(learning.credit),
+        terminal=learning.terminal,
+        trace=learning.trace,
+        bootstrap=learning.bootstrap,
+        exploration=float(agent.policy.exploration),
+        idle_is_no_op=agent.policy.idle == "no-op")
 
 
 def new_memory(plan, stream):
     """The `Memory` of an agent that has learned nothing."""
-    tracks, desires, trace = plan.first_track[-1], len(plan.source), plan.trace
-    known = np.concatenate([np.tile([cells, 0], (cells, 1)) for cells in plan.cells])
-    return Memory(np.zeros(plan.first[-1], np.float32), known, np.zeros(tracks, np.int64),
-                  np.zeros((tracks, N_EVENTS + 1), np.int64), np.zeros(1, np.int64), np.zeros((tracks, trace), np.int64),
-                  np.zeros((tracks, trace, N_EVENTS), np.float32), np.zeros(tracks, np.int64),
-                  np.zeros(plan.cells.max(), np.float32), np.zeros((desires, N_EVENTS)), np.zeros((desires, 2)),
-                  np.zeros(desires), np.zeros(N_EVENTS), stream)
+    tracks, desires = plan.first_track[-1], len(plan.source)
+    return Memory(
+        q=np.zeros(plan.first[-1], np.float32),
+        known=np.concatenate([np.tile([cells, 0], (cells, 1)) for cells in plan.cells]),
+        cell=np.zeros(tracks, np.int64),
+        events=np.zeros((tracks, N_EVENTS + 1), np.int64),
+        last_event=np.zeros(1, np.int64),
+        trace_cell=np.zeros((tracks, plan.trace), np.int64),
+        trace_rates=np.zeros((tracks, plan.trace, N_EVENTS), np.float32),
+        trace_count=np.zeros(tracks, np.int64),
+        target=np.zeros(plan.cells.max(), np.float32),
+        pull=np.zeros((desires, N_EVENTS)),
+        landing=np.zeros((desires, 2)),
+        worth=np.zeros(desires),
+        value=np.zeros(N_EVENTS),
+        stream=stream)
+
+
+def _integers(values):
+    return np.array([int(value) for value in values], np.int64)
 
 
 def _weights(node):

@@ -82,6 +82,7 @@ class Run:
 
         A map keeps its values, its active cells and what led to them if both agents have it, in a node of the same
         name, and as much trace. All else begins anew; so do the desires of the step before.
+        Raises ValueError unless it is an `Agent`.
         """
         checks.instance("agent", agent, Agent)
         plan = kept_apart(compiled(agent, self.world))
@@ -137,6 +138,7 @@ class Result:
     """What the runs of one condition brought.
 
     rewards: float32 (runs, bins), summed over bins of 0.2 s. hits: int16 (runs, bins, 2), green and red creeps.
+    changes: (step, agent) pairs, what the runs became when.
     """
 
     agent: Agent
