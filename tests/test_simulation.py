@@ -39,6 +39,8 @@ READINGS = {
     "C": network_c([3], object_gain=0.5),
     "D": network_d([2, 5], policy=Policy(exploration=0.05)),
     "all senses": Agent(SENSES, WISHES),
+    "compass": Agent((Node("PC", PLACE_CELL, (7,), gain=0.0), Node("HD", HEAD_DIRECTION_CELL, (4,))),
+                     (Desire("green", "PC", 1.0), Desire("PC", "HD"))),
 }
 
 
