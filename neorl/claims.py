@@ -188,7 +188,7 @@ def judge_networks(a, b, c, d):
                "Final reward per second of D, divided by that of C", "≫ 1", gain,
                "Drastically is read as by half or more. A run of D beats one of C with probability "
                f"{probability_of_improvement(final['D'], final['C']):.2f}.", runs,
-               verdict(runs, gain.low >= 1.5, gain.low > 1 or gain.high >= 1.5, learned["C"]))
+               verdict(runs, gain.low >= 1.5, gain.low > 1, learned["C"]))
     return [c1, *leads, c4]
 
 
