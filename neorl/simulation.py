@@ -64,16 +64,17 @@ class Run:
         """
         check_state(self.state, self.world)
         last = self.step + checks.integer("steps", steps, at_least=0)
-        if rewards is None:
-            rewards, hits = (bins[0] for bins in new_bins(self.world, 1, last))
-        shortest = -(-last // bin_steps(self.world))
+        bin_length = bin_steps(self.world)
+        if rewards is None:  # a single bin, which nobody looks at
+            bin_length, rewards, hits = last + 1, np.zeros(1, np.float32), np.zeros((1, 2), np.int16)
+        shortest = -(-last // bin_length)
         for name, given, kind, beside in (("rewards", rewards, np.float32, ()), ("hits", hits, np.int16, (2,))):
             if given.dtype != kind or len(given) < shortest or given.shape[1:] != beside:
                 raise ValueError(f"{name} is {given.dtype} {given.shape}, allowed is {kind.__name__} from "
                                  f"{(shortest, *beside)} on")
         with np.errstate(over="ignore"):
             brought = live(self.plan, self.memory, self.world.rules, self.state, self._contacts, self.step, last,
-                           bin_steps(self.world), rewards, hits)
+                           bin_length, rewards, hits)
         self.step = last
         return brought
 
