@@ -272,8 +272,7 @@ def store(page, claims):
 
 
 def _red_a_minute(result, begin, end):
-    first, last = round(begin * result.hits.shape[1]), round(end * result.hits.shape[1])
-    return result.hits[:, first:last, 1].sum(axis=1) / ((end - begin) * result.seconds / 60)
+    return 60 * result.hit_rate(begin, end)[:, 1]
 
 
 def _difference(a, b):

@@ -11,6 +11,7 @@ from matplotlib_inline.backend_inline import set_matplotlib_formats
 from scipy.optimize import isotonic_regression
 from scipy.signal import butter, sosfiltfilt
 
+from neorl.horde import as_vectors
 from neorl.modality import TAU
 from neorl.statistics import band, mean_band
 
@@ -68,7 +69,7 @@ def draw_cells(axes, nres_map, colour=INK, fills=None, width=1.0):
 
 def draw_values(axes, nres_map, values):
     """Arrows for the action values in every cell, values (cells, 4): the vector (E − W, S − N)."""
-    vector = np.stack([values[:, 2] - values[:, 3], values[:, 1] - values[:, 0]], axis=1)
+    vector = as_vectors(values)
     length = np.linalg.norm(vector, axis=1, keepdims=True)
     corners, sides = _rectangles(nres_map)
     arrow = sides.min() * 0.8 * vector / np.where(length > 0, length, 1) * (length / max(length.max(), 1e-30)) ** 0.25
@@ -154,10 +155,16 @@ def draw_desires(axes, run):
     start = run.state.agent_position / run.world.width
     for desire, landing in zip(run.agent.desires, run.memory.landing):
         if desire.between_nodes:
-            colour = {("green",): GREEN, ("red",): RED}.get(desire.of, INK)
+            colour = desire_colour(desire)
             axes.annotate("", start + landing, start, annotation_clip=False, arrowprops={
                 "arrowstyle": "->", "color": colour, "linestyle": "--", "linewidth": 1.6, "shrinkA": 8, "shrinkB": 3})
             axes.plot(*(start + landing), marker="s", markersize=7, color=colour, clip_on=False)
+
+
+def desire_colour(desire):
+    """The colour of the creeps that a desire comes from, if it comes from those of one colour alone."""
+    (source,) = desire.of if len(desire.of) == 1 else (desire.source,)
+    return {"green": GREEN, "red": RED}.get(source, INK)
 
 
 def draw_accumulated(results, control):
@@ -234,7 +241,7 @@ def binned_rate(result, points):
     """Reward per second (runs, points) over equal stretches of the run."""
     edges = np.linspace(0, result.rewards.shape[1], points + 1).astype(int)
     sums = np.add.reduceat(result.rewards, edges[:-1], axis=1)
-    return sums / np.diff(np.concatenate([[0.0], result.time])[edges])
+    return sums / np.diff(result.edges[edges])
 
 
 def low_passed(rates):

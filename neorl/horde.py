@@ -64,6 +64,11 @@ def superpose(q, cell, goals, valences, own_cell="silent"):
     return value
 
 
+def as_vectors(values):
+    """Action values (n, 4) as vectors in the arena (n, 2): (E − W, S − N)."""
+    return np.stack([values[:, 2] - values[:, 3], values[:, 1] - values[:, 0]], axis=1)
+
+
 def _check_q(q):
     cells = q.shape[0]
     if q.dtype != np.float32 or q.shape != (cells, N_EVENTS, cells) or not q.flags.c_contiguous:

@@ -107,9 +107,7 @@ def perceive(plan, memory, state, contacts, n):
         for m in range(plan.first_map[n], plan.first_map[n + 1]):
             track = plan.first_track[m] + point
             cell_tm1, cell = memory.cell[track], cell_of(plan, m, u, v)
-            if not met and without_direction(plan, m, u):
-                cell = contact_cell(plan, m, cell_tm1)
-            cell_t = contact_cell(plan, m, cell_tm1) if met else cell
+            cell_t = contact_cell(plan, m, cell_tm1) if met or without_direction(plan, m, u) else cell
             if cell_t != cell_tm1 or plan.driver == DRIVER_STEP:
                 learn_transition(plan, memory, m, track, cell_tm1, cell_t)
                 enter(memory, track, cell_t)

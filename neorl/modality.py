@@ -90,6 +90,11 @@ class Modality:
         return self.tuning in ("polar", "angle")
 
     @property
+    def in_pair(self):
+        """Where the coordinates stand in the pairs of `tuned`, of which a 1-D modality has only one: a slice."""
+        return slice(1, 2) if self.tuning == "angle" else slice(len(self.axes))
+
+    @property
     def frame(self):
         """The reference frame; a length alone has none."""
         return "–" if self.tuning == "length" else FRAMES.get(self.vector, "centred on the agent, allocentric direction")
@@ -118,8 +123,7 @@ class Modality:
         kind, reach = int(Tuning[self.tuning]), [high for _, high in self.ranges] or [0.0]
         pairs = np.array([tuned(kind, x, y, reach[0], reach[-1]) for x, y in vectors.reshape(-1, 2)]).reshape(-1, 2)
         pairs[:, 1] *= TAU if self.has_direction else 1.0
-        kept = {"angle": slice(1, 2), "length": slice(0, 1)}.get(self.tuning, slice(None))
-        return pairs[:, kept].reshape(*vectors.shape[:-1], len(self.axes))
+        return pairs[:, self.in_pair].reshape(*vectors.shape[:-1], len(self.axes))
 
 
 @kernel

@@ -77,7 +77,8 @@ def call_up(plan, memory, state, n, e):
 @inlined_kernel
 def add_element(plan, memory, n, x, y, dx, dy, valence, pull):
     """Let an element at (dx, dy) from the agent, which is at (x, y), call up its goal in every map of a node."""
-    at_place, of_agent = plan.vector[n] == POSITION, plan.vector[n] == POSITION or plan.vector[n] == VELOCITY
+    at_place = plan.vector[n] == POSITION
+    of_agent = at_place or plan.vector[n] == VELOCITY
     u, v = place_coordinates(plan, n, x + dx if at_place else dx, y + dy if at_place else dy)
     for m in range(plan.first_map[n], plan.first_map[n + 1]):
         cell = cell_of(plan, m, u, v)

@@ -15,7 +15,7 @@ from matplotlib.path import Path
 from matplotlib.textpath import TextPath
 
 from neorl.agent import Desire
-from neorl.figures import AGENT, GREEN, INK, RED
+from neorl.figures import AGENT, INK, desire_colour
 
 LARGEST = 11  # points an em
 SMALL = 0.92  # of an em: all letters but those of names
@@ -160,8 +160,8 @@ def _draw(axes, em, drawing):
         for i, desire in enumerate(box.loops):
             inset, top = 0.6 + 0.5 * (len(box.loops) - 1 - i), box.top - LOOP * (i + 1)
             end, start = box.left + inset, box.right - inset
-            _draw_arrow(axes, em, [(start, box.top), (start, top), (end, top), (end, box.top)], _colour(desire))
-            _write(axes, em, (start + end) / 2, top + LOOP / 2, _label(desire), _colour(desire))
+            _draw_arrow(axes, em, [(start, box.top), (start, top), (end, top), (end, box.top)], desire_colour(desire))
+            _write(axes, em, (start + end) / 2, top + LOOP / 2, _label(desire), desire_colour(desire))
     heights = [drawing.boxes[name].middle for name in drawing.gains] or [drawing.height / 2]
     top, bottom = min(heights) - 1.2, max(heights) + 1.2
     _draw_box(axes, em, drawing.q_left, top, Q_WIDTH, bottom - top)
@@ -174,7 +174,7 @@ def _draw(axes, em, drawing):
 
 def _draw_input(axes, em, desire, box, boxes):
     """What comes in at one port of a node: an element from outside, or the desire of another node."""
-    y, label, colour = box.port(desire), _label(desire), _colour(desire)
+    y, label, colour = box.port(desire), _label(desire), desire_colour(desire)
     if desire.between_nodes:
         x = boxes[desire.source].lane(desire)
         _draw_arrow(axes, em, [(x, boxes[desire.source].bottom), (x, y), (box.left, y)], colour)
@@ -234,11 +234,6 @@ def _label(desire):
     if not isinstance(desire.source, str):
         origin = f"({', '.join(map(_number, desire.source))})"
     return f"{origin}: {valence}" if origin else valence
-
-
-def _colour(desire):
-    (source,) = desire.of if len(desire.of) == 1 else (desire.source,)
-    return {"green": GREEN, "red": RED}.get(source, INK)
 
 
 def _number(value, sign=""):

@@ -45,7 +45,7 @@ class NresMap:
         points = checks.points("points", points, self.modality.axes)
         axes = points.shape[-1]
         pairs = np.zeros((points.size // axes, 2))
-        pairs[:, slice(1, 2) if self.modality.tuning == "angle" else slice(axes)] = points.reshape(-1, axes)
+        pairs[:, self.modality.in_pair] = points.reshape(-1, axes)
         if self.modality.has_direction:
             pairs[:, 1] = pairs[:, 1] / TAU % 1.0
         tiles = tiling(self)

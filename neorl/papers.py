@@ -44,20 +44,20 @@ def network_a(resolutions=PRIMES, scale=2.0, signed=False, **choices):
 
 def network_b(resolutions=PRIMES, scale=2.0, signed=False, **choices):
     """Agent B of paper C (fig. 4b): a desire of the green creeps, and one of the red."""
-    return _network(_both(0.0, 1.0), resolutions, _creeps("PC") + _by_colour(scale, signed), choices)
+    return network_c(resolutions, scale, signed, place_gain=0.0, **choices)
 
 
 def network_c(resolutions=PRIMES, scale=2.0, signed=False, place_gain=1.0, object_gain=1.0, **choices):
     """Agent C of paper C (fig. 4c): as B, and the values of both nodes add."""
-    desires = _creeps("PC") + _by_colour(scale, signed)
-    return _network(_both(place_gain, object_gain), resolutions, desires, choices)
+    desires = tuple(Desire("PC", "OVC", of=(colour,), scale=scale, signed=signed) for colour in ("green", "red"))
+    return _network(_both(place_gain, object_gain), resolutions, _creeps("PC") + desires, choices)
 
 
 def network_d(resolutions=PRIMES, recursion=-1.0, scale=2.0, signed=False, place_gain=1.0, object_gain=1.0, **choices):
     """Agent D of paper C (fig. 4d): as C, and the object-vector cells desire what they desired, with valence r."""
-    desires = _creeps("PC") + _by_colour(scale, signed)
-    desires += (Desire("OVC", "OVC", valence=recursion, scale=scale, signed=signed),)
-    return _network(_both(place_gain, object_gain), resolutions, desires, choices)
+    without = network_c(resolutions, scale, signed, place_gain, object_gain, **choices)
+    recurring = Desire("OVC", "OVC", valence=recursion, scale=scale, signed=signed)
+    return replace(without, desires=(*without.desires, recurring))
 
 
 def _both(place_gain, object_gain):
@@ -66,10 +66,6 @@ def _both(place_gain, object_gain):
 
 def _creeps(node, valence_green=1.0, valence_red=-1.0):
     return Desire("green", node, valence_green), Desire("red", node, valence_red)
-
-
-def _by_colour(scale, signed):
-    return tuple(Desire("PC", "OVC", of=(colour,), scale=scale, signed=signed) for colour in ("green", "red"))
 
 
 def _network(nodes, resolutions, desires, choices):

@@ -16,7 +16,7 @@ from tqdm import tqdm
 
 from neorl import checks
 from neorl.agent import Agent
-from neorl.horde import N_EVENTS
+from neorl.horde import N_EVENTS, as_vectors
 from neorl.life import live, settle
 from neorl.plan import compiled, new_memory
 from neorl.stream import new_stream
@@ -105,8 +105,7 @@ class Run:
         checks.one_of("name", name, tuple(node.name for node in self.agent.nodes))
         inputs = [e for e, desire in enumerate(self.agent.desires) if desire.target == name]
         pull, worth = self.memory.pull[inputs], self.memory.worth[inputs]
-        vector = np.stack([pull[:, 2] - pull[:, 3], pull[:, 1] - pull[:, 0]], axis=1)
-        return Output(pull.sum(axis=0), np.sign(worth) @ vector, float(worth.sum()))
+        return Output(pull.sum(axis=0), np.sign(worth) @ as_vectors(pull), float(worth.sum()))
 
     def q(self, index=0):
         """The values of one of the agent's maps: float32 (cells, 4, cells), q[state, action, goal], a view."""
@@ -157,10 +156,15 @@ class Result:
         return self.steps / self.world.fps
 
     @property
+    def edges(self):
+        """float64 (bins + 1,): when the first bin begins and each bin ends, in simulated seconds."""
+        steps = np.arange(self.rewards.shape[1] + 1) * bin_steps(self.world)
+        return np.minimum(steps, self.steps) / self.world.fps
+
+    @property
     def time(self):
         """float64 (bins,): when each bin ends, in simulated seconds."""
-        ends = np.arange(1, self.rewards.shape[1] + 1) * bin_steps(self.world)
-        return np.minimum(ends, self.steps) / self.world.fps
+        return self.edges[1:]
 
     @property
     def totals(self):
@@ -172,13 +176,21 @@ class Result:
 
         Raises ValueError for other shares, and for stretches shorter than a bin.
         """
+        bins, seconds = self._stretch(begin, end)
+        return self.rewards[:, bins].sum(axis=1, dtype=float) / seconds
+
+    def hit_rate(self, begin=0.0, end=1.0):
+        """float64 (runs, 2): green and red creeps taken per simulated second between two shares, as in `rate`."""
+        bins, seconds = self._stretch(begin, end)
+        return self.hits[:, bins].sum(axis=1) / seconds
+
+    def _stretch(self, begin, end):
         checks.real("begin", begin, 0, 1)
         checks.real("end", end, 0, 1)
         first, last = (round(share * self.rewards.shape[1]) for share in (begin, end))
         if first >= last:
             raise ValueError(f"end is {end!r}, allowed are shares at least a bin after begin, {begin!r}")
-        edges = np.concatenate([[0.0], self.time])
-        return self.rewards[:, first:last].sum(axis=1, dtype=float) / (edges[last] - edges[first])
+        return slice(first, last), self.edges[last] - self.edges[first]
 
 
 def simulate(agent, world, *, steps, runs, seed=0, changes=(), threads=None, progress=True):

@@ -48,7 +48,7 @@ def time_to_final_level(result, share=0.9):
     width = max(1, result.rewards.shape[1] // 40)
     final = result.rate(0.8, 1.0)
     sums = np.pad(result.rewards.cumsum(axis=1, dtype=float), ((0, 0), (1, 0)))
-    edges = np.concatenate([[0.0], result.time])
+    edges = result.edges
     made = (sums[:, width:] - sums[:, :-width]) / (edges[width:] - edges[:-width]) >= share * final[:, None]
     first = np.where(made.any(axis=1) & (final > 0), made.argmax(axis=1) + width, result.rewards.shape[1])
     return edges[first]

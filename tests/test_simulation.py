@@ -358,6 +358,8 @@ def test_the_bins_add_up():
     assert wins == int(wins) > 0
     assert result.time[-1] == result.seconds == pytest.approx(40_003 / 30)
     np.testing.assert_allclose(result.rate() * result.seconds, result.totals)
+    np.testing.assert_allclose(result.hit_rate() * result.seconds, result.hits.sum(axis=1))
+    assert result.edges[0] == 0
     first, rest = result.rate(0, 0.25), result.rate(0.25, 1)
     np.testing.assert_allclose((first * result.time[1666] + rest * (result.seconds - result.time[1666])),
                                result.totals)
