@@ -1,7 +1,7 @@
 """neorl: agents that navigate by neural representations of Euclidean space, and the experiments of their thesis.
 
-An `Agent` is a network of `Node`s and `Desire`s, a node tiles the space of a `Modality`, and `simulate` lets agents live
-in `WaterWorld`. The agents of the papers are values of these types; `neorl.modality` holds the modalities by name.
+An `Agent` is a network of `Node`s and `Desire`s, a node tiles the space of a `Modality`, and `simulate` lets agents
+live in `WaterWorld`. The agents of the papers are values of these types; `neorl.modality` holds the modalities by name.
 `neorl.statistics`, `neorl.claims`, `neorl.figures` and `neorl.network_figures` serve the book's pages.
 """
 

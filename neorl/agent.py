@@ -1,9 +1,9 @@
 """A neoRL agent as data: a network of nodes, how it learns, how it chooses, and what it desires.
 
-A *node* holds the maps of one modality at several resolutions (paper C, section 1 and figure 3). *Desires* are the edges
-of the network. Each makes an element of interest of something for one node: of the green or the red creeps, of a point
-of the node's own space, or of what another node wants, or the node itself wanted a step ago. Whatever the thesis leaves
-open is a field, with the book's default reading first; nothing here runs.
+A *node* holds the maps of one modality at several resolutions (paper C, section 1 and figure 3). *Desires* are the
+edges of the network. Each makes an element of interest of something for one node: of the green or the red creeps, of a
+point of the node's own space, or of what another node wants, or the node itself wanted a step ago. Whatever the thesis
+leaves open is a field, with the book's default reading first; nothing here runs.
 """
 
 from dataclasses import dataclass, field
@@ -142,7 +142,8 @@ class Desire:
             if self.valence is None:
                 raise ValueError(f"valence of the desire {self} is None, allowed are finite numbers")
             checks.real("valence", self.valence)
-        object.__setattr__(self, "of", tuple(checks.instance("of", each, str) for each in checks.several("of", self.of)))
+        of = tuple(checks.instance("of", each, str) for each in checks.several("of", self.of))
+        object.__setattr__(self, "of", of)
         if self.of and not self.between_nodes:
             raise ValueError(f"of is {self.of!r}, allowed for the desire {self} is (): it comes from no node")
         checks.real("scale", self.scale, 0)
@@ -195,7 +196,8 @@ class Agent:
         nodes = {node.name: node for node in self.nodes}
         for name in (desire.source, desire.target) if desire.between_nodes else (desire.target,):
             if name not in nodes:
-                raise ValueError(f"desire {desire}: there is no node {name!r}, allowed are {', '.join(map(repr, nodes))}")
+                raise ValueError(f"desire {desire}: there is no node {name!r}, allowed are "
+                                 f"{', '.join(map(repr, nodes))}")
         modality = nodes[desire.target].modality
         if isinstance(desire.source, str) and not modality.takes_places:
             raise ValueError(f"desire {desire}: what lies at a place has no point among {modality.name}s, allowed are "
@@ -219,8 +221,8 @@ class Agent:
             return tuple(TopologicalSorter(before).static_order())
         except CycleError as error:
             source, target = error.args[1][:2]
-            raise ValueError(f"desire {source!r} → {target!r}: it closes the cycle {' → '.join(error.args[1])}, allowed "
-                             "is recursion of a node to itself alone") from None
+            raise ValueError(f"desire {source!r} → {target!r}: it closes the cycle {' → '.join(error.args[1])}, "
+                             "allowed is recursion of a node to itself alone") from None
 
     @property
     def maps(self):

@@ -144,8 +144,8 @@ def judge_modalities(place, objects, both):
     lead = estimate(_lead_over_best, joint, pc, ovc)
     b3 = Claim("B3", figure_5, "Both modalities make 0.55 a second, place cells alone 0.29",
                "Final reward per second of both, divided by that of place cells", "1.9", gain,
-               f"Both make {joint.mean():.2f}, place cells {pc.mean():.2f}, object-vector cells {ovc.mean():.2f}. The lead "
-               f"over the better one is {lead}; a run of both beats one of place cells with probability "
+               f"Both make {joint.mean():.2f}, place cells {pc.mean():.2f}, object-vector cells {ovc.mean():.2f}. The "
+               f"lead over the better one is {lead}; a run of both beats one of place cells with probability "
                f"{probability_of_improvement(joint, pc):.2f}.", runs,
                verdict(runs, gain.high >= 0.55 / 0.29 and lead.low > 0, gain.low > 1, learned))
 
@@ -200,8 +200,9 @@ def judge_revaluing(revalued, throughout):
     lead = estimate(_difference, turned, always)
     return Claim("T1", "thesis, section 4.1.2", "Moving or revaluing elements needs no retraining",
                  "Red creeps a minute in the fortieth of the run after they come to be wanted, less what agents take "
-                 "that have wanted them from the start", "≥ 0", lead, f"Before the turn it is {before}, after it {after}.",
-                 runs, verdict(runs, lead.low >= 0 and after.low > before.high, after.low > before.high))
+                 "that have wanted them from the start", "≥ 0", lead,
+                 f"Before the turn it is {before}, after it {after}.", runs,
+                 verdict(runs, lead.low >= 0 and after.low > before.high, after.low > before.high))
 
 
 def judge_cost(together, alone, none):
@@ -256,8 +257,8 @@ def summary(judged):
     score = {reading: tuple([*verdicts.values()].count(kind) for kind in ("reproduced", "partly"))
              for reading, verdicts in by_reading.items()}
     closest = [reading for reading in score if score[reading] == max(score.values())]
-    return "\n".join([*lines, "", "Closest to the paper comes *{}*: {} of its claims are reproduced and {} partly. In the "
-                      "default reading they are {} and {}.".format("*, *".join(closest), *max(score.values()),
+    return "\n".join([*lines, "", "Closest to the paper comes *{}*: {} of its claims are reproduced and {} partly. In "
+                      "the default reading they are {} and {}.".format("*, *".join(closest), *max(score.values()),
                                                                    *score["default"])])
 
 

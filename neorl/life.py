@@ -4,7 +4,7 @@
 2. The action is an event in the active cell of every track until that track has moved on.
 3. A map learns all its goals from each track whose active cell changes (with driver "step", after every step).
 4. A creep that is touched has met the agent: its tracks learn that, then follow the fresh creep as if it had always
-   been there. After the last green creep the tank starts afresh. Neither leap is a transition that anything learns from.
+   been there. After the last green creep the tank starts afresh. Neither leap is a transition to learn from.
 5. At rest, or at distance 0, a track keeps the direction that it had.
 """
 

@@ -9,8 +9,8 @@ tuned to (thesis section 2.2 and table 2.1; paper B, table 1):
   in the middle of the board;
 - *polar*: length and direction; *angle*: the direction alone; *length*: the length alone.
 
-A direction runs from east (0) by way of south, since y points down. A vector of length 0 has none: by itself it is taken
-to be east, and in the life of an agent it keeps the direction that it had (see `neorl.life`).
+A direction runs from east (0) by way of south, since y points down. A vector of length 0 has none: by itself it is
+taken to be east, and in the life of an agent it keeps the direction that it had (see `neorl.life`).
 """
 
 import math
@@ -36,6 +36,7 @@ TUNED = {"position": ("cartesian", "proximal"), "velocity": ("cartesian", "polar
 TUNED |= dict.fromkeys(("objects", "boundaries", "landmarks"), ("cartesian", "polar"))
 AXES = {"cartesian": ("x", "y"), "proximal": ("x", "y"), "polar": ("distance", "direction"), "angle": ("direction",),
         "length": ("speed",)}
+SEEN_FROM_AGENT = "centred on the agent, allocentric direction"
 FRAMES = {"position": "allocentric", "velocity": "allocentric direction"}
 
 
@@ -97,7 +98,7 @@ class Modality:
     @property
     def frame(self):
         """The reference frame; a length alone has none."""
-        return "–" if self.tuning == "length" else FRAMES.get(self.vector, "centred on the agent, allocentric direction")
+        return "–" if self.tuning == "length" else FRAMES.get(self.vector, SEEN_FROM_AGENT)
 
     @property
     def takes_places(self):
@@ -180,8 +181,8 @@ def turn(x, y):
     return turned if turned < 1.0 else 0.0
 
 
-# O'Keefe and Dostrovsky 1971; Solstad et al. 2008; Høydal et al. 2019 and, in its Cartesian emulation, paper B section 3;
-# Lever et al. 2009; Deshmukh and Knierim 2013; Taube et al. 1990; Kropff et al. 2015.
+# O'Keefe and Dostrovsky 1971; Solstad et al. 2008; Høydal et al. 2019 and, in its Cartesian emulation, paper B,
+# section 3; Lever et al. 2009; Deshmukh and Knierim 2013; Taube et al. 1990; Kropff et al. 2015.
 PLACE_CELL = Modality("place cell", "position", "cartesian", ((0, 1), (0, 1)))
 BORDER_CELL = Modality("border cell", "position", "proximal", ((-0.25, 0.25), (-0.25, 0.25)))
 OBJECT_VECTOR_CELL = Modality("object-vector cell", "objects", "polar", ((0, 1),))

@@ -125,7 +125,8 @@ def values_told_again(agent, world, state, q, tracks, pull, worth):
     nodes, value = {node.name: node for node in agent.nodes}, np.zeros(4)
     for name in agent.evaluation_order:
         node = nodes[name]
-        weights = np.array([float(n) ** ["equal", "resolution", "cells"].index(node.weighting) for n in node.resolutions])
+        power = ["equal", "resolution", "cells"].index(node.weighting)
+        weights = np.array([float(n) ** power for n in node.resolutions])
         weights /= weights.sum()
         mine = [m for m, other in enumerate(owner) if other == name]
         elements = {e: elements_told_again(agent, desire, creeps - here, state.creep_is_green, pull, worth)
@@ -158,7 +159,8 @@ def elements_told_again(agent, desire, creeps, green, pull, worth):
     if not isinstance(desire.source, str):
         return [(desire.source, desire.valence)]
     if not desire.between_nodes:
-        return [(place, desire.valence) for place, is_green in zip(creeps, green) if is_green == (desire.source == "green")]
+        wanted = green == (desire.source == "green")
+        return [(place, desire.valence) for place in creeps[wanted]]
     place, valence = np.zeros(2), 0.0
     for i, other in enumerate(agent.desires):
         if other.target == desire.source and (not desire.of or other.source in desire.of):
@@ -280,7 +282,8 @@ def test_a_change_can_be_planned():
 
 
 @pytest.mark.parametrize("changes, message", [
-    (5, "changes is 5"), ([(5,)], r"changes has \(5,\), allowed are pairs"), ([(101, place_cells())], "is 101, allowed"),
+    (5, "changes is 5"), ([(5,)], r"changes has \(5,\), allowed are pairs"),
+    ([(101, place_cells())], "is 101, allowed"),
     ([(50, place_cells()), (49, place_cells())], "step of a change is 49"), ([(5, "PC")], "agent of a change is 'PC'")])
 def test_bad_changes_are_refused(changes, message):
     with pytest.raises(ValueError, match=message):

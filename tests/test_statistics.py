@@ -62,7 +62,7 @@ def test_the_time_to_the_final_level_is_that_of_each_run():
     rewards = np.zeros((4, 400), np.float32)
     rewards[0] = 1  # from the start: as soon as there is a mean
     rewards[1, 100:] = 1  # a step after 20 s is there to nine tenths 9 bins later
-    rewards[2] = np.arange(400) / 400  # a ramp, whose last fifth is at 359.5 / 400: nine tenths of it lie 5.5 before bin 330
+    rewards[2] = np.arange(400) / 400  # the last fifth is at 359.5 / 400; nine tenths of it lie 5.5 before bin 330
     rewards[3] = -1  # never
     result = Result(place_cells([1]), WaterWorld(), 4_000, 4, 0, rewards, np.zeros((4, 400, 2), np.int16))
     np.testing.assert_allclose(time_to_final_level(result), [2.0, 21.8, 66.0, 80.0])
