@@ -5,7 +5,7 @@ live in `WaterWorld`. The agents of the papers are values of these types; `neorl
 `neorl.statistics`, `neorl.claims`, `neorl.figures` and `neorl.network_figures` serve the book's pages.
 """
 
-from neorl.agent import Agent, Desire, Learning, Node, Policy
+from neorl.agent import Agent, Desire, Learning, Node, Place, Policy
 from neorl.horde import learn, superpose
 from neorl.modality import Modality
 from neorl.nres import NresMap
@@ -15,7 +15,7 @@ from neorl.simulation import Result, Run, simulate
 from neorl.store import simulate_once
 from neorl.waterworld import WaterWorld
 
-__all__ = ["Agent", "Desire", "Learning", "Modality", "Node", "NresMap", "Policy", "Result", "Run", "WaterWorld",
-           "learn", "simulate", "simulate_once", "superpose",
+__all__ = ["Agent", "Desire", "Learning", "Modality", "Node", "NresMap", "Place", "Policy", "Result", "Run",
+           "WaterWorld", "learn", "simulate", "simulate_once", "superpose",
            "brownian", "multimodal", "network_a", "network_b", "network_c", "network_d", "object_vector_cells",
            "place_cells"]

@@ -111,13 +111,29 @@ class Node:
 
 
 @dataclass(frozen=True)
+class Place:
+    """A place in the arena, in board widths from its upper left corner: an element of interest that stays where it is.
+
+    Raises ValueError unless both are finite numbers.
+    """
+
+    x: float
+    y: float
+
+    def __post_init__(self):
+        checks.real("x", self.x)
+        checks.real("y", self.y)
+
+
+@dataclass(frozen=True)
 class Desire:
     """One edge of a network: `source` as an element of interest of the node `target`.
 
-    source: "green" or "red", the creeps of that colour; a point in the target's space, which whatever the node follows
-        is to reach; or the name of a node, whose desire vector Σ |w| (Q_E − Q_W, Q_S − Q_N) over its elements, times
-        `scale`, says where, as seen from the agent in board widths, the element lies (paper C, section 1).
-        A node that desires of itself does so by its desire vector of the step before: recursion.
+    source: "green" or "red", the creeps of that colour; a `Place`, like a creep that does not move; a point in the
+        target's space, which whatever the node follows is to reach; or the name of a node, whose desire vector
+        Σ |w| (Q_E − Q_W, Q_S − Q_N) over its elements, times `scale`, says where, as seen from the agent in board
+        widths, the element lies (paper C, section 1). A node that desires of itself does so by its desire vector of
+        the step before: recursion.
     valence: how much an element matters, and its sign. For a desire between nodes None stands for the sum of the
         valences that the vector comes from; recursion needs a number, the weight r.
     of: the names of the sources that the vector of a node comes from; () stands for all its elements.
@@ -126,7 +142,7 @@ class Desire:
     Raises ValueError for anything else.
     """
 
-    source: str | tuple[float, ...]
+    source: str | Place | tuple[float, ...]
     target: str
     valence: float | None = None
     of: tuple[str, ...] = ()
@@ -134,7 +150,7 @@ class Desire:
     signed: bool = False
 
     def __post_init__(self):
-        if not isinstance(self.source, str):
+        if not isinstance(self.source, str | Place):
             point = checks.several("source", self.source)
             object.__setattr__(self, "source", tuple(checks.real("source", value) for value in point))
         checks.instance("target", self.target, str)
@@ -199,10 +215,10 @@ class Agent:
                 raise ValueError(f"desire {desire}: there is no node {name!r}, allowed are "
                                  f"{', '.join(map(repr, nodes))}")
         modality = nodes[desire.target].modality
-        if isinstance(desire.source, str) and not modality.takes_places:
+        if isinstance(desire.source, str | Place) and not modality.takes_places:
             raise ValueError(f"desire {desire}: what lies at a place has no point among {modality.name}s, allowed are "
                              f"points of their own space")
-        if not isinstance(desire.source, str) and len(desire.source) != len(modality.axes):
+        if isinstance(desire.source, tuple) and len(desire.source) != len(modality.axes):
             raise ValueError(f"desire {desire}: allowed for {modality.name}s are points of {len(modality.axes)} "
                              f"coordinates: {', '.join(modality.axes)}")
         inputs = {other.source for other in self.desires if other.target == desire.source}

@@ -11,22 +11,24 @@
 import numpy as np
 
 from neorl.horde import N_EVENTS, UNIT, ZERO, learn_all_goals, learn_one_goal
-from neorl.kernel import inlined_kernel, kernel
+from neorl.kernel import array, inlined_kernel, kernel
 from neorl.modality import OBJECTS
 from neorl.network import cell_of, contact_cell, evaluate, point_coordinates, without_direction
+from neorl.plan import Memory, Plan
 from neorl.stream import below, uniform
-from neorl.waterworld import NO_OP, reset_board, step_board
+from neorl.waterworld import NO_OP, Rules, WaterWorldState, reset_board, step_board
 
 DRIVER_STEP = 1
 CREDIT_HAPPENED, CREDIT_LAST = 1, 2
 
 
 @kernel
-def live(plan, memory, rules, state, contacts, first_step, last_step, bin_steps, rewards, hits):
+def live(plan: Plan, memory: Memory, rules: Rules, state: WaterWorldState, contacts: array("int8", "creeps"),
+         first_step: int, last_step: int, bin_steps: int, rewards: array("float32", "bins"),
+         hits: array("int16", "bins", 2)) -> float:
     """Live the steps first_step … last_step − 1, adding what they bring to the bins of `rewards` and `hits`.
 
-    Returns the reward that they bring in all.
-    contacts: int8 (creeps,), working memory. rewards: float32 (bins,). hits: int16 (bins, 2), green and red creeps.
+    Returns the reward that they bring in all. contacts: working memory. hits: green and red creeps.
     """
     total = 0.0
     for step in range(first_step, last_step):
@@ -50,17 +52,22 @@ def live(plan, memory, rules, state, contacts, first_step, last_step, bin_steps,
 
 
 @kernel
-def settle(plan, memory, state):
+def settle(plan: Plan, memory: Memory, state: WaterWorldState) -> None:
     """Take the present cells as given, with nothing that led to them, and desires without a past."""
     for n in range(plan.points.shape[0]):
         for point in range(plan.points[n]):
-            u, v = point_coordinates(plan, state, n, point)
-            for m in range(plan.first_map[n], plan.first_map[n + 1]):
-                appear(memory, plan.first_track[m] + point, cell_of(plan, m, u, v))
+            settle_point(plan, memory, state, n, point)
     for e in range(plan.source.shape[0]):
         memory.worth[e] = 0.0
         for action in range(N_EVENTS):
             memory.pull[e, action] = 0.0
+
+
+@inlined_kernel
+def settle_point(plan, memory, state, n, point):
+    u, v = point_coordinates(plan, state, n, point)
+    for m in range(plan.first_map[n], plan.first_map[n + 1]):
+        appear(memory, plan.first_track[m] + point, cell_of(plan, m, u, v))
 
 
 @inlined_kernel

@@ -29,8 +29,8 @@ TERMS = 14  # of the series of the arctangent, so that it is exact to the last f
 
 Vector = IntEnum("Vector", "position velocity objects boundaries landmarks", start=0)
 Tuning = IntEnum("Tuning", "cartesian proximal polar angle length", start=0)
-POSITION, VELOCITY, OBJECTS, BOUNDARIES, _ = map(int, Vector)
-CARTESIAN, PROXIMAL, *_ = map(int, Tuning)
+POSITION, VELOCITY, OBJECTS, BOUNDARIES, LANDMARKS = map(int, Vector)
+CARTESIAN, PROXIMAL, POLAR, ANGLE, LENGTH = map(int, Tuning)
 
 TUNED = {"position": ("cartesian", "proximal"), "velocity": ("cartesian", "polar", "angle", "length")}
 TUNED |= dict.fromkeys(("objects", "boundaries", "landmarks"), ("cartesian", "polar"))
@@ -91,6 +91,12 @@ class Modality:
         return self.tuning in ("polar", "angle")
 
     @property
+    def space(self):
+        """What `nres.tiling` takes of it: (tuning, low, high, low, high), 0 and 1 where an axis has no range."""
+        bounds = [float(bound) for pair in self.ranges for bound in pair]
+        return int(Tuning[self.tuning]), *[*bounds, 0.0, 1.0, 0.0, 1.0][:4]
+
+    @property
     def in_pair(self):
         """Where the coordinates stand in the pairs of `tuned`, of which a 1-D modality has only one: a slice."""
         return slice(1, 2) if self.tuning == "angle" else slice(len(self.axes))
@@ -125,6 +131,15 @@ class Modality:
         pairs = np.array([tuned(kind, x, y, reach[0], reach[-1]) for x, y in vectors.reshape(-1, 2)]).reshape(-1, 2)
         pairs[:, 1] *= TAU if self.has_direction else 1.0
         return pairs[:, self.in_pair].reshape(*vectors.shape[:-1], len(self.axes))
+
+    def as_pairs(self, points):
+        """Coordinates (…, axes) as kernels take them: float64 (points, 2), a direction in turns."""
+        points = np.asarray(points, float).reshape(-1, len(self.axes))
+        pairs = np.zeros((len(points), 2))
+        pairs[:, self.in_pair] = points
+        if self.has_direction:
+            pairs[:, 1] = pairs[:, 1] / TAU % 1.0
+        return pairs
 
 
 @kernel

@@ -14,7 +14,7 @@ from neorl.horde import N_EVENTS, add_goal
 from neorl.kernel import inlined_kernel
 from neorl.modality import BOUNDARIES, OBJECTS, POSITION, VELOCITY, boundary_vector, tuned
 from neorl.nres import cell_at
-from neorl.plan import NODE, POINT, RED
+from neorl.plan import NODE, PLACE, POINT, RED
 
 
 @inlined_kernel
@@ -51,27 +51,31 @@ def project(plan, memory, e):
 
 @inlined_kernel
 def call_up(plan, memory, state, n, e):
-    """What one desire adds to the Q-vector of its node, into memory.pull."""
+    """What one desire adds to the Q-vector of its node, into memory.pull, and the valence of its elements together."""
     pull, source, valence = memory.pull[e], plan.source[e], plan.valence[e]
     for action in range(N_EVENTS):
         pull[action] = 0.0
-    x, y = state.agent_position[0] / plan.width, state.agent_position[1] / plan.width
     if source == NODE:
-        dx, dy = memory.landing[e, 0], memory.landing[e, 1]
-        add_element(plan, memory, n, x, y, dx, dy, memory.worth[e], pull)
-    elif source == POINT:
-        memory.worth[e] = valence
+        valence = memory.worth[e]
+    memory.worth[e] = valence if source >= NODE else 0.0
+    if source == POINT:
         for m in range(plan.first_map[n], plan.first_map[n + 1]):
             for track in range(plan.first_track[m], plan.first_track[m + 1]):
                 add_value(plan, memory, m, memory.cell[track], plan.goal[e, m], valence, pull)
-    else:
-        memory.worth[e] = 0.0
-        for creep in range(state.creep_speed.shape[0]):
-            if state.creep_is_green[creep] != (source == RED):
-                memory.worth[e] += valence
-                dx = state.creep_position[creep, 0] / plan.width - x
-                dy = state.creep_position[creep, 1] / plan.width - y
-                add_element(plan, memory, n, x, y, dx, dy, valence, pull)
+        return
+    x, y = state.agent_position[0] / plan.width, state.agent_position[1] / plan.width
+    for thing in range(1 if source >= NODE else state.creep_speed.shape[0]):
+        if source == NODE:
+            dx, dy = memory.landing[e, 0], memory.landing[e, 1]
+        elif source == PLACE:
+            dx, dy = plan.at[e, 0] - x, plan.at[e, 1] - y
+        elif state.creep_is_green[thing] == (source == RED):
+            continue
+        else:
+            memory.worth[e] += valence
+            dx = state.creep_position[thing, 0] / plan.width - x
+            dy = state.creep_position[thing, 1] / plan.width - y
+        add_element(plan, memory, n, x, y, dx, dy, valence, pull)
 
 
 @inlined_kernel
@@ -113,7 +117,7 @@ def point_coordinates(plan, state, n, point):
 
 @inlined_kernel
 def place_coordinates(plan, n, x, y):
-    return tuned(plan.tuning[n], x, y, plan.reach[n, 0], plan.reach[n, 1])
+    return tuned(plan.tuning[n], x, y, plan.high[n, 0], plan.high[n, 1])
 
 
 @inlined_kernel

@@ -4,7 +4,7 @@ Lengths are in ems, the height of a letter, and y runs downward. Every node has 
 node downward in a lane that later nodes keep clear of: so no line runs through a node.
 """
 
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from textwrap import wrap
 from typing import NamedTuple
 
@@ -14,7 +14,7 @@ from matplotlib.patches import Circle, FancyArrowPatch, FancyBboxPatch
 from matplotlib.path import Path
 from matplotlib.textpath import TextPath
 
-from neorl.agent import Desire
+from neorl.agent import Desire, Place
 from neorl.figures import AGENT, INK, desire_colour
 
 LARGEST = 11  # points an em
@@ -232,7 +232,8 @@ def _label(desire):
         valence = f"r = {valence.removeprefix('+')}"
     origin = ", ".join(desire.of)
     if not isinstance(desire.source, str):
-        origin = f"({', '.join(map(_number, desire.source))})"
+        point = astuple(desire.source) if isinstance(desire.source, Place) else desire.source
+        origin = f"({', '.join(map(_number, point))})"
     return f"{origin}: {valence}" if origin else valence
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from neorl import checks
 from neorl.kernel import kernel
-from neorl.modality import PLACE_CELL, TAU, Modality
+from neorl.modality import ANGLE, LENGTH, PLACE_CELL, POLAR, Modality
 
 
 @dataclass(frozen=True)
@@ -43,13 +43,9 @@ class NresMap:
         Raises ValueError if a point is not finite or has another number of coordinates.
         """
         points = checks.points("points", points, self.modality.axes)
-        axes = points.shape[-1]
-        pairs = np.zeros((points.size // axes, 2))
-        pairs[:, self.modality.in_pair] = points.reshape(-1, axes)
-        if self.modality.has_direction:
-            pairs[:, 1] = pairs[:, 1] / TAU % 1.0
-        tiles = tiling(self)
-        return np.array([cell_at(*pair, *tiles) for pair in pairs], np.int64).reshape(points.shape[:-1])
+        tiles = tiling(self.resolution, *self.modality.space)
+        cells = [cell_at(*pair, *tiles) for pair in self.modality.as_pairs(points)]
+        return np.array(cells, np.int64).reshape(points.shape[:-1])
 
     def covers(self, points):
         """Whether each point lies in the range of the map, so that encoding it clamps nothing: bool (…)."""
@@ -58,19 +54,16 @@ class NresMap:
         return np.all((low <= points) & (points <= high), axis=-1)
 
 
-def tiling(nres_map):
+@kernel
+def tiling(resolution, tuning, low_0, high_0, low_1, high_1):
     """How `cell_at` cuts the two axes: (columns, rows, low_u, scale_u, low_v, scale_v, closed)."""
-    n, modality = nres_map.resolution, nres_map.modality
-    ranges = list(modality.ranges)
-    if modality.has_direction:
-        ranges.append((-0.5 / n, 1 - 0.5 / n))  # turns
-    count = [n] * len(ranges)
-    if len(ranges) == 1:
-        at = 0 if modality.has_direction else 1
-        ranges.insert(at, (0.0, 1.0))
-        count.insert(at, 1)
-    (low_u, high_u), (low_v, high_v) = ranges
-    return (*count, low_u, count[0] / (high_u - low_u), low_v, count[1] / (high_v - low_v), modality.has_direction)
+    columns = 1 if tuning == ANGLE else resolution
+    rows = 1 if tuning == LENGTH else resolution
+    closed = tuning == ANGLE or tuning == POLAR
+    if closed:  # in turns, the first interval centred on east
+        low_1 = -0.5 / resolution
+        high_1 = 1.0 + low_1
+    return columns, rows, low_0, columns / (high_0 - low_0), low_1, rows / (high_1 - low_1), closed
 
 
 @kernel

@@ -2,18 +2,20 @@
 
 Maps follow one another in the order of the agent's nodes. A *track* is one point that a map follows: the agent itself,
 or one of the things that its modality is about. All tracks of a map share its values. Desires keep the agent's order.
+The fields of a plan that follow from others are filled in by a kernel, so that whoever has no Python can have a plan.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from neorl.agent import COLOURS, CREDITS, DRIVERS, WEIGHTINGS
+from neorl.agent import COLOURS, CREDITS, DRIVERS, WEIGHTINGS, Place
 from neorl.horde import N_EVENTS
-from neorl.modality import Tuning, Vector
-from neorl.nres import tiling
+from neorl.kernel import array, kernel, zeros
+from neorl.modality import BOUNDARIES, LANDMARKS, OBJECTS, TAU, Vector
+from neorl.nres import cell_at, tiling
 
-GREEN, RED, NODE, POINT = range(4)  # where a desire comes from
+GREEN, RED, NODE, POINT, PLACE = range(5)  # where a desire comes from; one thing from NODE on
 
 
 class Plan(NamedTuple):
@@ -21,39 +23,44 @@ class Plan(NamedTuple):
 
     width: float  # of the board, in pixels
     # of each map
-    columns: np.ndarray  # int64
-    rows: np.ndarray  # int64
-    low_u: np.ndarray  # float64: where the first column begins
-    scale_u: np.ndarray  # float64: columns a unit
-    low_v: np.ndarray  # float64
-    scale_v: np.ndarray  # float64
-    closed: np.ndarray  # bool: whether the last row borders on the first
-    cells: np.ndarray  # int64
-    contact: np.ndarray  # int64: the cell of the vector (0, 0)
-    weight: np.ndarray  # float64
-    first: np.ndarray  # int64: where in q the map begins
-    first_cell: np.ndarray  # int64: how many cells the maps before it have
-    first_track: np.ndarray  # int64
+    resolution: array("int64", "maps")
+    columns: array("int64", "maps")
+    rows: array("int64", "maps")
+    low_u: array("float64", "maps")  # where the first column begins
+    scale_u: array("float64", "maps")  # columns a unit
+    low_v: array("float64", "maps")
+    scale_v: array("float64", "maps")
+    closed: array("bool", "maps")  # whether the last row borders on the first
+    cells: array("int64", "maps")
+    contact: array("int64", "maps")  # the cell of the vector (0, 0)
+    weight: array("float64", "maps")
+    first: array("int64", "maps + 1")  # where in q the map begins
+    first_cell: array("int64", "maps + 1")  # how many cells the maps before it have
+    first_track: array("int64", "maps + 1")
     # of each node
-    vector: np.ndarray  # int64, see `modality.Vector`
-    tuning: np.ndarray  # int64, see `modality.Tuning`
-    reach: np.ndarray  # float64 (nodes, 2), of proximal tuning
-    gain: np.ndarray  # float64
-    points: np.ndarray  # int64: how many it follows
-    first_map: np.ndarray  # int64
-    first_landmark: np.ndarray  # int64
-    first_input: np.ndarray  # int64: where in `inputs` its desires begin
-    landmark: np.ndarray  # float64 (landmarks, 2)
-    inputs: np.ndarray  # int64: desires, those of one node after those of the other
-    order: np.ndarray  # int64: nodes, each after those that it takes desires from
+    vector: array("int64", "nodes")  # see `modality.Vector`
+    tuning: array("int64", "nodes")  # see `modality.Tuning`
+    low: array("float64", "nodes", 2)  # the range of each axis, 0 to 1 if it has none
+    high: array("float64", "nodes", 2)
+    weighting: array("int64", "nodes")  # the place in WEIGHTINGS
+    gain: array("float64", "nodes")
+    points: array("int64", "nodes")  # how many it follows
+    first_map: array("int64", "nodes + 1")
+    first_landmark: array("int64", "nodes + 1")
+    first_input: array("int64", "nodes + 1")  # where in `inputs` its desires begin
+    order: array("int64", "nodes")  # nodes, each after those that it takes desires from
+    landmark: array("float64", "landmarks", 2)
+    inputs: array("int64", "desires")  # desires, those of one node after those of the other
     # of each desire
-    source: np.ndarray  # int64: GREEN, RED, NODE or POINT
-    valence: np.ndarray  # float64
-    sums_valence: np.ndarray  # bool: whether the valence is that of its elements instead
-    scale: np.ndarray  # float64
-    signed: np.ndarray  # bool
-    elements: np.ndarray  # bool (desires, desires): which desires of its source its vector comes from
-    goal: np.ndarray  # int64 (desires, maps): the cell of a POINT
+    source: array("int64", "desires")  # GREEN, RED, NODE, POINT or PLACE
+    target: array("int64", "desires")  # the node
+    valence: array("float64", "desires")
+    sums_valence: array("bool", "desires")  # whether the valence is that of its elements instead
+    scale: array("float64", "desires")
+    signed: array("bool", "desires")
+    elements: array("bool", "desires", "desires")  # which desires of its source its vector comes from
+    at: array("float64", "desires", 2)  # of a POINT its coordinates, a direction in turns; of a PLACE where it is
+    goal: array("int64", "desires", "maps")  # the cell of a POINT
     # learning and policy, as in `Learning` and `Policy`
     own_cell_counts: bool
     learning_rate: np.float32
@@ -71,66 +78,62 @@ class Plan(NamedTuple):
 class Memory(NamedTuple):
     """All that changes in an agent."""
 
-    q: np.ndarray  # float32 (n_values,): q[state, action, goal] of one map after the other
-    known: np.ndarray  # int64 (cells of all maps, 2): the goals, from and to, that a cell may know anything of
-    cell: np.ndarray  # int64 (tracks,): the active cell
-    events: np.ndarray  # int64 (tracks, 5): steps on which each action was taken since the cell was entered
-    last_event: np.ndarray  # int64 (1,)
-    trace_cell: np.ndarray  # int64 (tracks, trace): cells left, a ring
-    trace_rates: np.ndarray  # float32 (tracks, trace, 4): the rates of their events
-    trace_count: np.ndarray  # int64 (tracks,): cells left since the point appeared
-    target: np.ndarray  # float32 (most cells,): working memory
+    q: array("float32", "values")  # q[state, action, goal] of one map after the other
+    known: array("int64", "cells", 2)  # of all maps: the goals, from and to, that a cell may know anything of
+    cell: array("int64", "tracks")  # the active cell
+    events: array("int64", "tracks", 5)  # steps on which each action was taken since the cell was entered
+    last_event: array("int64", 1)
+    trace_cell: array("int64", "tracks", "trace")  # cells left, a ring
+    trace_rates: array("float32", "tracks", "trace", 4)  # the rates of their events
+    trace_count: array("int64", "tracks")  # cells left since the point appeared
+    target: array("float32", "cells")  # working memory
     # as of the last choice that was not drawn
-    pull: np.ndarray  # float64 (desires, 4): what each desire adds to the value of each action in its node
-    landing: np.ndarray  # float64 (desires, 2): where a node's desire lands, as seen from the agent, in board widths
-    worth: np.ndarray  # float64 (desires,): its valence, all its elements together
-    value: np.ndarray  # float64 (4,): of each action
-    stream: np.ndarray  # uint64 (4,): the random numbers of the policy
+    pull: array("float64", "desires", 4)  # what each desire adds to the value of each action in its node
+    landing: array("float64", "desires", 2)  # where a node's desire lands, as seen from the agent, in board widths
+    worth: array("float64", "desires")  # its valence, all its elements together
+    value: array("float64", 4)  # of each action
+    stream: array("uint64", 4)  # the random numbers of the policy
 
 
 def compiled(agent, world):
     """The `Plan` of an agent in a world."""
-    nodes, maps, desires, learning = agent.nodes, agent.maps, agent.desires, agent.learning
+    choices, sizes = chosen(agent, world)
+    plan = Plan(**zeros(Plan, sizes) | choices)
+    lay_out(plan, world.n_creeps)
+    return plan
+
+
+def chosen(agent, world):
+    """What `lay_out` makes a plan of: the chosen fields of a `Plan`, and the sizes of all."""
+    nodes, desires, learning = agent.nodes, agent.desires, agent.learning
     names = [node.name for node in nodes]
     modalities = [node.modality for node in nodes]
-    columns, rows, low_u, scale_u, low_v, scale_v, closed = (np.array(column) for column in zip(*map(tiling, maps)))
-    cells = columns * rows
-    points = [{"objects": world.n_creeps, "boundaries": 4, "landmarks": len(modality.landmarks)}.get(modality.vector, 1)
-              for modality in modalities]
-    reach = [[high for _, high in modality.ranges] or [0.0] for modality in modalities]
-    inputs = [[e for e, desire in enumerate(desires) if desire.target == name] for name in names]
-    owners = [name for node, name in zip(nodes, names) for _ in node.resolutions]
+    spaces = np.array([modality.space for modality in modalities])
+    landmarks = [place for modality in modalities for place in modality.landmarks]
     elements = [[desire.source == other.target and (not desire.of or other.source in desire.of) for other in desires]
                 for desire in desires]
-    goal = [[nres_map.encode(desire.source) if _source(desire) == POINT and desire.target == owner else 0
-             for owner, nres_map in zip(owners, maps)] for desire in desires]
-    return Plan(
+    resolution = [n for node in nodes for n in node.resolutions]
+    choices = dict(
         width=float(world.width),
-        columns=columns, rows=rows, low_u=low_u, scale_u=scale_u, low_v=low_v, scale_v=scale_v, closed=closed,
-        cells=cells,
-        contact=_integers(nres_map.encode(np.zeros(len(nres_map.modality.axes))) for nres_map in maps),
-        weight=np.concatenate([_weights(node) for node in nodes]),
-        first=_firsts(N_EVENTS * cells**2),
-        first_cell=_firsts(cells),
-        first_track=_firsts([count for node, count in zip(nodes, points) for _ in node.resolutions]),
+        resolution=_integers(resolution),
         vector=_integers(Vector[modality.vector] for modality in modalities),
-        tuning=_integers(Tuning[modality.tuning] for modality in modalities),
-        reach=np.array([(each[0], each[-1]) for each in reach], float),
+        tuning=_integers(spaces[:, 0]),
+        low=spaces[:, [1, 3]],
+        high=spaces[:, [2, 4]],
+        weighting=_integers(WEIGHTINGS.index(node.weighting) for node in nodes),
         gain=np.array([node.gain for node in nodes], float),
-        points=_integers(points),
         first_map=_firsts([len(node.resolutions) for node in nodes]),
         first_landmark=_firsts([len(modality.landmarks) for modality in modalities]),
-        first_input=_firsts([len(each) for each in inputs]),
-        landmark=np.array([place for modality in modalities for place in modality.landmarks], float).reshape(-1, 2),
-        inputs=_integers(e for each in inputs for e in each),
         order=_integers(names.index(name) for name in agent.evaluation_order),
+        landmark=np.array(landmarks, float).reshape(-1, 2),
         source=_integers(_source(desire) for desire in desires),
+        target=_integers(names.index(desire.target) for desire in desires),
         valence=np.array([desire.valence or 0.0 for desire in desires], float),
         sums_valence=np.array([desire.valence is None for desire in desires], np.bool_),
         scale=np.array([desire.scale for desire in desires], float),
         signed=np.array([desire.signed for desire in desires], np.bool_),
         elements=np.array(elements, np.bool_).reshape(len(desires), len(desires)),
-        goal=np.array(goal, np.int64).reshape(len(desires), len(maps)),
+        at=np.array([_at(desire, modalities[names.index(desire.target)]) for desire in desires], float).reshape(-1, 2),
         own_cell_counts=agent.own_cell == "counts",
         learning_rate=np.float32(learning.learning_rate),
         discount=np.float32(learning.discount),
@@ -142,35 +145,69 @@ def compiled(agent, world):
         bootstrap=learning.bootstrap,
         exploration=float(agent.policy.exploration),
         idle_is_no_op=agent.policy.idle == "no-op")
+    return choices, {"maps": len(resolution), "nodes": len(nodes), "landmarks": len(landmarks), "desires": len(desires)}
+
+
+@kernel
+def lay_out(plan: Plan, n_creeps: int) -> None:
+    """Fill in the fields of a plan that follow from the chosen ones."""
+    for n in range(plan.vector.shape[0]):
+        points = 1
+        if plan.vector[n] == OBJECTS:
+            points = n_creeps
+        elif plan.vector[n] == BOUNDARIES:
+            points = 4
+        elif plan.vector[n] == LANDMARKS:
+            points = plan.first_landmark[n + 1] - plan.first_landmark[n]
+        plan.points[n] = points
+        total = 0.0
+        for m in range(plan.first_map[n], plan.first_map[n + 1]):
+            tiles = tiling(plan.resolution[m], plan.tuning[n], plan.low[n, 0], plan.high[n, 0], plan.low[n, 1],
+                           plan.high[n, 1])
+            cells = tiles[0] * tiles[1]
+            plan.columns[m], plan.rows[m], plan.low_u[m], plan.scale_u[m] = tiles[0], tiles[1], tiles[2], tiles[3]
+            plan.low_v[m], plan.scale_v[m], plan.closed[m] = tiles[4], tiles[5], tiles[6]
+            plan.cells[m] = cells
+            plan.contact[m] = cell_at(0.0, 0.0, *tiles)
+            plan.weight[m] = 1.0
+            for _ in range(plan.weighting[n]):
+                plan.weight[m] *= plan.resolution[m]
+            total += plan.weight[m]
+            plan.first[m + 1] = plan.first[m] + N_EVENTS * cells * cells
+            plan.first_cell[m + 1] = plan.first_cell[m] + cells
+            plan.first_track[m + 1] = plan.first_track[m] + points
+            for e in range(plan.source.shape[0]):
+                if plan.source[e] == POINT and plan.target[e] == n:
+                    plan.goal[e, m] = cell_at(plan.at[e, 0], plan.at[e, 1], *tiles)
+        for m in range(plan.first_map[n], plan.first_map[n + 1]):
+            plan.weight[m] /= total
+        end = plan.first_input[n]
+        for e in range(plan.target.shape[0]):
+            if plan.target[e] == n:
+                plan.inputs[end] = e
+                end += 1
+        plan.first_input[n + 1] = end
 
 
 def new_memory(plan, stream):
     """The `Memory` of an agent that has learned nothing."""
-    tracks, desires = plan.first_track[-1], len(plan.source)
-    return Memory(
-        q=np.zeros(plan.first[-1], np.float32),
-        known=np.concatenate([np.tile([cells, 0], (cells, 1)) for cells in plan.cells]),
-        cell=np.zeros(tracks, np.int64),
-        events=np.zeros((tracks, N_EVENTS + 1), np.int64),
-        last_event=np.zeros(1, np.int64),
-        trace_cell=np.zeros((tracks, plan.trace), np.int64),
-        trace_rates=np.zeros((tracks, plan.trace, N_EVENTS), np.float32),
-        trace_count=np.zeros(tracks, np.int64),
-        target=np.zeros(plan.cells.max(), np.float32),
-        pull=np.zeros((desires, N_EVENTS)),
-        landing=np.zeros((desires, 2)),
-        worth=np.zeros(desires),
-        value=np.zeros(N_EVENTS),
-        stream=stream)
+    sizes = {"values": plan.first[-1], "cells": plan.first_cell[-1], "tracks": plan.first_track[-1],
+             "trace": plan.trace, "desires": len(plan.source)}
+    memory = Memory(**zeros(Memory, sizes) | {"stream": stream})
+    know_nothing(plan, memory)
+    return memory
+
+
+@kernel
+def know_nothing(plan: Plan, memory: Memory) -> None:
+    """Let no cell know of any goal."""
+    for m in range(plan.cells.shape[0]):
+        for cell in range(plan.first_cell[m], plan.first_cell[m + 1]):
+            memory.known[cell, 0], memory.known[cell, 1] = plan.cells[m], 0
 
 
 def _integers(values):
     return np.array([int(value) for value in values], np.int64)
-
-
-def _weights(node):
-    weights = np.array(node.resolutions, float) ** WEIGHTINGS.index(node.weighting)
-    return weights / weights.sum()
 
 
 def _firsts(sizes):
@@ -178,6 +215,17 @@ def _firsts(sizes):
 
 
 def _source(desire):
+    if isinstance(desire.source, Place):
+        return PLACE
     if not isinstance(desire.source, str):
         return POINT
     return COLOURS.index(desire.source) if desire.source in COLOURS else NODE
+
+
+def _at(desire, modality):
+    """The two numbers that say where a desire is, if it is at a fixed point."""
+    if isinstance(desire.source, str):
+        return 0.0, 0.0
+    if isinstance(desire.source, Place):
+        return desire.source.x, desire.source.y
+    return modality.as_pairs(desire.source)[0]

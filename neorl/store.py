@@ -12,7 +12,6 @@ import hashlib
 import io
 import os
 import tempfile
-import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -30,13 +29,14 @@ def simulate_once(agent, world, *, steps, runs, seed=0, changes=(), progress=Tru
     changes = checked_changes(changes, steps)
     key = condition_key(agent, world, steps, runs, seed, changes)
     path = folder() / "conditions" / key
-    arrays = read_arrays(path)
-    if arrays is not None:
+    kept = read_checked(path)
+    if kept is not None:
+        arrays = np.load(io.BytesIO(kept))
         return Result(agent, world, steps, runs, seed, arrays["rewards"], arrays["hits"], changes)
     result = simulate(agent, world, steps=steps, runs=runs, seed=seed, changes=changes, progress=progress)
     content = io.BytesIO()
     np.savez_compressed(content, rewards=result.rewards, hits=result.hits)
-    write_whole(path, hashlib.sha256(content.getvalue()).digest() + content.getvalue())
+    write_checked(path, content.getvalue())
     return result
 
 
@@ -56,15 +56,18 @@ def source_digest():
     return hashlib.sha256(b"".join((here / f"{name}.py").read_bytes() for name in SOURCES)).hexdigest()
 
 
-def read_arrays(path):
-    """The arrays of a file, or None if there is no such file or it is damaged."""
+def read_checked(path):
+    """What `write_checked` has written, or None if there is no such file or it is damaged."""
     try:
         content = path.read_bytes()
-        if hashlib.sha256(content[DIGEST_BYTES:]).digest() != content[:DIGEST_BYTES]:
-            return None
-        return dict(np.load(io.BytesIO(content[DIGEST_BYTES:])))
-    except (OSError, ValueError, zipfile.BadZipFile):
+    except OSError:
         return None
+    return content[DIGEST_BYTES:] if hashlib.sha256(content[DIGEST_BYTES:]).digest() == content[:DIGEST_BYTES] else None
+
+
+def write_checked(path, content):
+    """Write bytes to a file, after a digest of them."""
+    write_whole(path, hashlib.sha256(content).digest() + content)
 
 
 def write_whole(path, content):

@@ -20,7 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl import checks
-from neorl.kernel import kernel
+from neorl.kernel import array, kernel, zeros
 from neorl.stream import below, new_stream, uniform
 
 ACTIONS = ("N", "S", "E", "W", "no-op")
@@ -35,14 +35,14 @@ class WaterWorldState(NamedTuple):
     Every field is an array that can be written to; assigning to a field copies into it.
     """
 
-    agent_position: np.ndarray  # float64 (2,): x, y
-    agent_velocity: np.ndarray  # float64 (2,)
-    creep_position: np.ndarray  # float64 (n, 2)
-    creep_direction: np.ndarray  # float64 (n, 2), of length 1
-    creep_speed: np.ndarray  # float64 (n,)
-    creep_is_green: np.ndarray  # bool (n,)
-    creep_jitter: np.ndarray  # float64 (n,) in [0, 1]
-    stream: np.ndarray  # uint64 (4,): the random numbers of fresh creeps
+    agent_position: array("float64", 2)  # x, y
+    agent_velocity: array("float64", 2)
+    creep_position: array("float64", "creeps", 2)
+    creep_direction: array("float64", "creeps", 2)  # of length 1
+    creep_speed: array("float64", "creeps")
+    creep_is_green: array("bool", "creeps")
+    creep_jitter: array("float64", "creeps")  # in [0, 1]
+    stream: array("uint64", 4)  # the random numbers of fresh creeps
 
     def __setattr__(self, name, value):
         getattr(self, name)[...] = value
@@ -99,9 +99,7 @@ class WaterWorld:
         """
         if not isinstance(seed, np.random.SeedSequence):
             seed = np.random.SeedSequence(checks.integer("seed", seed, at_least=0))
-        n = self.n_creeps
-        state = WaterWorldState(np.empty(2), np.empty(2), np.empty((n, 2)), np.empty((n, 2)), np.empty(n),
-                                np.empty(n, np.bool_), np.empty(n), new_stream(seed))
+        state = WaterWorldState(**zeros(WaterWorldState, {"creeps": self.n_creeps}) | {"stream": new_stream(seed)})
         with np.errstate(over="ignore"):
             reset_board(state, self.rules)
         return state
@@ -151,7 +149,7 @@ def draw_creep(state, rules, creep):
 
 
 @kernel
-def reset_board(state, rules):
+def reset_board(state: WaterWorldState, rules: Rules) -> None:
     """Start an episode: the agent at rest in the centre, fresh creeps, at least one of them green."""
     for axis in range(2):
         state.agent_position[axis] = 0.5 * rules.width

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from neorl import (Agent, Desire, Learning, Node, NresMap, Policy, Run, WaterWorld, brownian, multimodal, network_a,
-                   network_b, network_c, network_d, object_vector_cells, place_cells)
+from neorl import (Agent, Desire, Learning, Node, NresMap, Place, Policy, Run, WaterWorld, brownian, multimodal,
+                   network_a, network_b, network_c, network_d, object_vector_cells, place_cells)
 from neorl.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
                             LANDMARK_VECTOR_CELL, MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL)
 from neorl.plan import GREEN, NODE, POINT, RED, compiled
@@ -29,6 +29,8 @@ PAPERS = (place_cells, brownian, object_vector_cells, multimodal, network_a, net
     (lambda: Desire("PC", "PC"), "valence of the desire 'PC' → 'PC' is None, allowed are finite numbers"),
     (lambda: Desire("red", "PC", np.nan), "valence is nan"),
     (lambda: Desire("PC", "OVC", "much"), "valence is 'much'"),
+    (lambda: Place(0.5, float("nan")), "y is nan, allowed are finite numbers"),
+    (lambda: Desire(Place(0.5, 0.5), "PC"), "valence of the desire Place.* is None"),
     (lambda: Desire(0.5, "PC", 1.0), "source is 0.5, allowed are lists and tuples"),
     (lambda: Desire((0.5, np.nan), "PC", 1.0), "source is nan, allowed are finite numbers"),
     (lambda: Desire("PC", "OVC", of="green"), "of is 'green', allowed are lists and tuples"),
@@ -75,6 +77,7 @@ def test_a_bad_choice_is_refused(make, message):
      "desire ('PC' → 'OVC': .* PC → OVC → HD → PC|'OVC' → 'HD': .* OVC → HD → PC → OVC|"
      "'HD' → 'PC': .* HD → PC → OVC → HD), allowed is recursion"),
     ([Desire("green", "speed", 1.0)], "desire 'green' → 'speed': what lies at a place has no point among speed cells"),
+    ([Desire(Place(0.5, 0.5), "speed", 1.0)], "desire Place.* → 'speed': what lies at a place"),
     ([Desire("PC", "speed")], "desire 'PC' → 'speed': .* allowed are points of their own space"),
     ([Desire("speed", "speed", 1.0)], "desire 'speed' → 'speed': what lies at a place"),
     ([Desire((0.5,), "PC", 1.0)], r"desire \(0.5,\) → 'PC': allowed for place cells are points of 2 coordinates: x, y"),

@@ -8,10 +8,10 @@ from matplotlib import pyplot as plt
 from matplotlib.patches import Circle, FancyArrowPatch, FancyBboxPatch
 from matplotlib.path import Path
 
-from neorl import (Agent, Desire, Node, multimodal, network_a, network_b, network_c, network_d, object_vector_cells,
-                   place_cells)
+from neorl import (Agent, Desire, Node, Place, multimodal, network_a, network_b, network_c, network_d,
+                   object_vector_cells, place_cells)
 from neorl.figures import GREEN, INK, RED
-from neorl.modality import HEAD_DIRECTION_CELL, OBJECT_VECTOR_CELL, PLACE_CELL
+from neorl.modality import CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL, OBJECT_VECTOR_CELL, PLACE_CELL
 from neorl.network_figures import draw_network, draw_networks
 
 matplotlib.use("agg")
@@ -125,6 +125,11 @@ def test_elements_carry_sign_and_valence():
 def test_fixed_points_and_elements_of_nodes_are_named():
     draw_network(entangled())
     assert {"×", "(0.5, 0.25): +2", "PC: r = 0.5"} <= set(texts())
+
+
+def test_a_place_is_named():
+    draw_network(Agent([Node("OVC", CARTESIAN_OBJECT_VECTOR_CELL, [3])], [Desire(Place(0.1, 0.9), "OVC", 1.0)]))
+    assert "(0.1, 0.9): +1" in texts()
 
 
 def test_desires_of_some_elements_are_told_apart():

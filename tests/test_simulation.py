@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import neorl
-from neorl import (Agent, Desire, Learning, Node, Policy, Run, WaterWorld, multimodal, network_a, network_b, network_c,
-                   network_d, object_vector_cells, place_cells, simulate)
+from neorl import (Agent, Desire, Learning, Node, Place, Policy, Run, WaterWorld, multimodal, network_a, network_b,
+                   network_c, network_d, object_vector_cells, place_cells, simulate)
 from neorl.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
                             LANDMARK_VECTOR_CELL, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL)
 from neorl.stream import new_stream, uniform
@@ -24,6 +24,8 @@ SENSES = (Node("PC", PLACE_CELL, (2, 5), gain=0.5), Node("border", BORDER_CELL, 
 WISHES = (Desire("green", "polar", 1.0), Desire("red", "polar", -0.5), Desire("polar", "PC"),
           Desire("green", "border", 0.3), Desire("green", "HD", 1.0), Desire("HD", "polar", valence=0.2, scale=0.5),
           Desire((0.3, 0.9), "PC", 1.0), Desire((0.4,), "speed", 0.5), Desire((0.1, np.pi), "wall", -1.0),
+          Desire(Place(0.2, 0.7), "PC", 0.5), Desire(Place(0.6, 0.1), "polar", -0.4),
+          Desire(Place(0.9, 0.9), "HD", 0.3),
           Desire("PC", "landmark", signed=True), Desire("polar", "polar", -0.5, of=("green", "polar")))
 READINGS = {
     "default": place_cells([3, 7]),
@@ -129,7 +131,7 @@ def values_told_again(agent, world, state, q, tracks, pull, worth):
         weights = np.array([float(n) ** power for n in node.resolutions])
         weights /= weights.sum()
         mine = [m for m, other in enumerate(owner) if other == name]
-        elements = {e: elements_told_again(agent, desire, creeps - here, state.creep_is_green, pull, worth)
+        elements = {e: elements_told_again(agent, desire, here, creeps - here, state.creep_is_green, pull, worth)
                     for e, desire in enumerate(agent.desires) if desire.target == name}
         for e, found in elements.items():
             pull[e], worth[e] = 0, 0
@@ -137,7 +139,7 @@ def values_told_again(agent, world, state, q, tracks, pull, worth):
                 worth[e] += valence
                 for m, weight in zip(mine, weights):
                     nres_map, modality = agent.maps[m], node.modality
-                    if not isinstance(agent.desires[e].source, str):
+                    if isinstance(agent.desires[e].source, tuple):
                         pairs = [(track.cell, int(nres_map.encode(place))) for track in tracks[m]]
                     elif modality.has_direction and modality.vector == "velocity" and not np.any(place):
                         pairs = []
@@ -154,10 +156,12 @@ def values_told_again(agent, world, state, q, tracks, pull, worth):
     return value
 
 
-def elements_told_again(agent, desire, creeps, green, pull, worth):
+def elements_told_again(agent, desire, here, creeps, green, pull, worth):
     """What a desire makes elements of: [(place as seen from the agent, or point of the node's space, valence), …]."""
-    if not isinstance(desire.source, str):
+    if isinstance(desire.source, tuple):
         return [(desire.source, desire.valence)]
+    if isinstance(desire.source, Place):
+        return [(np.array([desire.source.x, desire.source.y]) - here, desire.valence)]
     if not desire.between_nodes:
         wanted = green == (desire.source == "green")
         return [(place, desire.valence) for place in creeps[wanted]]

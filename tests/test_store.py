@@ -88,7 +88,7 @@ def test_a_killed_process_leaves_whole_conditions_behind(cache):
     process.wait()
     left = finished(cache)
     assert len(left) >= 3
-    assert all(store.read_arrays(path) is not None for path in left)
+    assert all(store.read_checked(path) is not None for path in left)
     written = {path: path.stat().st_mtime_ns for path in left}
     subprocess.run([sys.executable, "-c", work], check=True)
     assert len(finished(cache)) == 12
