@@ -8,6 +8,7 @@ import argparse
 import hashlib
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -21,6 +22,8 @@ from traitlets.config import Config
 ROOT = Path(__file__).resolve().parent.parent
 CHAPTERS = ROOT / "book" / "chapters"
 HTML = ROOT / "_build" / "html" / "index.html"
+WIDGET_STATE = "application/vnd.jupyter.widget-state+json"
+WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 
 
 def main():
@@ -72,6 +75,7 @@ def compute(notebook, parameters):
     for cell in executed.cells:  # links are written for notebooks/, and the page lies in book/chapters/
         cell.source = cell.source.replace("](../book/", "](../")
     save_figures(executed)
+    save_widgets(executed)
     nbformat.write(executed, work / notebook.name)
     os.replace(work / notebook.name, target)
     work.rmdir()
@@ -96,6 +100,42 @@ def save_figures(notebook):
                 (CHAPTERS / f"{name}.svg").write_text(image)
 
 
+def save_widgets(notebook):
+    """Keep each named widget as a file of its own, and in the notebook no state but that of the widgets it shows."""
+    stored = notebook.metadata.get("widgets", {}).get(WIDGET_STATE, {"state": {}})
+    kept = {}
+    for cell in notebook.cells:
+        name = cell.metadata.get("widget", {}).get("name")
+        data = [output.get("data", {}) for output in cell.get("outputs", [])]
+        views = [shown[WIDGET_VIEW] for shown in data if WIDGET_VIEW in shown]
+        if name and len(views) != 1:
+            raise ValueError(f"cell of widget {name} shows {len(views)} widgets, allowed is 1")
+        for view in views:
+            records = reachable(stored["state"], view["model_id"])
+            kept.update(records)
+            if name:
+                tags = [script(WIDGET_STATE, {**stored, "state": records}), script(WIDGET_VIEW, view)]
+                (CHAPTERS / f"{name}.html").write_text("\n".join(tags) + "\n")
+    stored["state"] = kept
+
+
+def reachable(state, model):
+    """The records of a model and of all that it refers to, directly or through others."""
+    found, waiting = {}, [model]
+    while waiting:
+        model = waiting.pop()
+        if model in state and model not in found:
+            found[model] = state[model]
+            waiting += re.findall(r'"(?:IPY_MODEL_|anywidget:)(\w+)"', json.dumps(state[model]["state"]))
+    return found
+
+
+def script(kind, content):
+    """A tag that holds JSON. No "<" is left in it, so nothing that a string says can end the tag."""
+    text = json.dumps(content).replace("<", r"\u003c")
+    return f'<script type="{kind}">{text}</script>'
+
+
 def build():
     """Build the book, with warnings as errors."""
     record = ROOT / "_build" / "inputs.txt"
@@ -112,7 +152,7 @@ def build():
 
 
 def sources():
-    return sorted((ROOT / "neorl").glob("*.*"))
+    return sorted([*(ROOT / "neorl").glob("*.*"), *(ROOT / "neorl" / "explorer").glob("*.*")])
 
 
 def digest(paths):

@@ -1,7 +1,85 @@
-"""Settings of the test suite."""
+"""Settings of the test suite, and the browser that opens pages for it."""
 
+import functools
+import http.server
+import shutil
+import threading
+
+import pytest
 from hypothesis import settings
+from playwright.sync_api import Error, sync_playwright
 
 # No deadline: a kernel compiles on its first call. Derandomised: a test that fails here fails everywhere.
 settings.register_profile("neorl", deadline=None, derandomize=True)
 settings.load_profile("neorl")
+
+BROWSERS = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"]
+QUIET = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+         "--disable-component-update", "--disable-sync"]  # it asks nobody for anything by itself
+
+
+@pytest.fixture(scope="session")
+def chromium():
+    """The browser of this machine, else the one that Playwright has installed."""
+    found = next(filter(None, map(shutil.which, BROWSERS)), None)
+    with sync_playwright() as playwright:
+        try:
+            browser = playwright.chromium.launch(executable_path=found, args=QUIET)
+        except Error:
+            if found:
+                raise
+            pytest.skip("no Chromium: install it, or run playwright install chromium")
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def open_page(chromium):
+    """Open a page of a folder. When the test ends, nothing may have gone wrong in it or been asked of anybody else.
+
+    `open_page(folder, path, over="http" or "file")` gives Playwright's page; `**options` are those of its context.
+    A test that wants something to go wrong takes it out of `open_page.complaints`.
+    """
+    servers, contexts, complaints = [], [], []
+
+    def open_page(folder, path, over="http", **options):
+        if over == "http":
+            servers.append(serve(folder))
+            origin = f"http://127.0.0.1:{servers[-1].server_port}/"
+        else:
+            origin = f"{folder.as_uri()}/"
+
+        def check(request):
+            if not request.url.startswith((origin, "blob:", "data:")):
+                complaints.append(f"request to {request.url}")
+
+        context = chromium.new_context(**options)
+        context.set_default_timeout(10_000)
+        contexts.append(context)
+        context.on("request", check)
+        context.on("weberror", lambda uncaught: complaints.append(f"uncaught {uncaught.error}"))
+        context.on("console", lambda message: message.type in ("error", "warning") and complaints.append(
+            f"console {message.type}: {message.text} ({message.location})"))
+        page = context.new_page()
+        page.goto(origin + path)
+        return page
+
+    open_page.complaints = complaints
+    yield open_page
+    for context in contexts:
+        context.close()
+    for server in servers:
+        server.shutdown()
+        server.server_close()
+    assert not complaints
+
+
+class QuietHandler(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_):
+        pass
+
+
+def serve(folder):
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(QuietHandler, directory=folder))
+    threading.Thread(target=server.serve_forever, args=(0.05,), daemon=True).start()
+    return server

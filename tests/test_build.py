@@ -1,6 +1,8 @@
 """The building of the book: what it refuses, and when it has nothing to do."""
 
+import base64
 import json
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -53,6 +55,103 @@ def test_a_notebook_is_computed_when_something_has_changed_and_kept_when_not(not
     build.compute(notebook, {"runs": 4})
     assert nbformat.read(target, 4).cells[-1].outputs[0].text == "4\n"
     assert sorted(path.name for path in build.CHAPTERS.iterdir()) == ["page.inputs.json", "page.ipynb"]
+
+
+TEXT = "</script><!-- <script> </SCRIPT >"  # which must not end the tag that holds it
+
+
+def anywidget(**values):
+    esm = f"export default {{ render({{ el }}) {{ el.append({json.dumps(TEXT)}); el.className = 'told'; }} }}"
+    return {"model_module": "anywidget", "state": {"_esm": esm, **values}}
+
+
+def page_of_widgets(*cells):
+    """A notebook that has stored four models, of which one refers to two others, and shows those that are asked for."""
+    state = {"one": anywidget(layout="IPY_MODEL_two", parts=[{"part": "anywidget:three"}], lost="IPY_MODEL_lost"),
+             "two": {"model_module": "@jupyter-widgets/base", "state": {"_view_name": "LayoutView"}},
+             "three": anywidget(parent="IPY_MODEL_one"), "four": anywidget()}
+    widgets = {build.WIDGET_STATE: {"version_major": 2, "version_minor": 0, "state": state}}
+    page = nbformat.v4.new_notebook(metadata={"widgets": widgets})
+    for name, models in cells:
+        views = [nbformat.v4.new_output("display_data", {build.WIDGET_VIEW: {"model_id": model}}) for model in models]
+        cell = nbformat.v4.new_code_cell(outputs=views, metadata={"widget": {"name": name}} if name else {})
+        page.cells += [cell, nbformat.v4.new_markdown_cell("Prose.")]
+    return page
+
+
+def contents(name):
+    """The JSON of the two tags of a named widget: the state by model, and the view."""
+    lines = (build.CHAPTERS / f"{name}.html").read_text().splitlines()
+    tags = [f'<script type="{kind}">' for kind in (build.WIDGET_STATE, build.WIDGET_VIEW)]
+    state, view = [json.loads(line.removeprefix(tag).removesuffix("</script>"))
+                   for line, tag in zip(lines, tags, strict=True)]
+    return state["state"], view
+
+
+@pytest.fixture
+def chapters(tmp_path, monkeypatch):
+    monkeypatch.setattr(build, "CHAPTERS", tmp_path)
+    return tmp_path
+
+
+def test_a_named_widget_is_saved_with_the_state_of_all_that_it_refers_to(chapters):
+    page = page_of_widgets(("first", ["one"]), (None, ["four"]), ("last", ["four"]))
+    stored = page.metadata.widgets[build.WIDGET_STATE].state.copy()
+    build.save_widgets(page)
+    assert contents("first") == ({model: stored[model] for model in ["one", "two", "three"]}, {"model_id": "one"})
+    assert contents("last") == ({"four": stored["four"]}, {"model_id": "four"})
+    assert sorted(path.name for path in chapters.iterdir()) == ["first.html", "last.html"]
+
+
+def test_the_state_of_widgets_that_a_page_does_not_show_is_dropped(chapters):
+    for models, kept in [(["four"], {"four"}), (["one", "four"], {"one", "two", "three", "four"}), ([], set())]:
+        page = page_of_widgets((None, models))
+        build.save_widgets(page)
+        assert set(page.metadata.widgets[build.WIDGET_STATE].state) == kept
+    page = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell()])
+    build.save_widgets(page)
+    assert page.metadata == {}
+    assert not list(chapters.iterdir())
+
+
+@pytest.mark.parametrize("models", [[], ["one", "four"]])
+def test_a_named_cell_shows_one_widget(chapters, models):
+    message = f"cell of widget first shows {len(models)} widgets, allowed is 1"
+    with pytest.raises(ValueError, match=message):
+        build.save_widgets(page_of_widgets(("first", models)))
+
+
+def test_a_saved_widget_lives_on_any_page(chapters, open_page):
+    build.save_widgets(page_of_widgets(("first", ["one"])))
+    shutil.copy(ROOT / "book" / "vendor" / "widgets.js", chapters)
+    head = '<!doctype html><link rel="icon" href="data:,"><script defer src="widgets.js"></script><body>'
+    (chapters / "page.html").write_text(f"{head}{(chapters / 'first.html').read_text()}<p>The end.</p>")
+    page = open_page(chapters, "page.html", over="file")
+    assert page.locator(".told").inner_text() == TEXT
+    assert page.locator("p").inner_text() == "The end."
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_computed_notebook_keeps_its_widgets(notebook):
+    page = nbformat.read(notebook, 4)
+    source = """import anywidget, traitlets
+class Counter(anywidget.AnyWidget):
+    _esm = "export default {}"
+    count = traitlets.Int(1).tag(sync=True)
+    data = traitlets.Bytes(b"").tag(sync=True)
+hidden, counter = Counter(count=7), Counter(data=bytes(range(256)))
+counter.count = 2
+counter"""
+    page.cells.append(nbformat.v4.new_code_cell(source, metadata={"widget": {"name": "counter"}}))
+    nbformat.write(page, notebook)
+    build.compute(notebook, {"runs": 3})
+    state, view = contents("counter")
+    assert state[view["model_id"]]["state"]["count"] == 2
+    assert state[view["model_id"]]["state"]["_esm"] == "export default {}"
+    (buffer,) = state[view["model_id"]]["buffers"]
+    assert buffer["path"] == ["data"] and base64.b64decode(buffer["data"]) == bytes(range(256))
+    kept = nbformat.read(build.CHAPTERS / "page.ipynb", 4).metadata.widgets[build.WIDGET_STATE]["state"]
+    assert kept == state
 
 
 @pytest.mark.parametrize("runs", ["0", "-3", "many", "2.5"])
