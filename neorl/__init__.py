@@ -2,7 +2,8 @@
 
 An `Agent` is a network of `Node`s and `Desire`s, a node tiles the space of a `Modality`, and `simulate` lets agents
 live in `WaterWorld`. The agents of the papers are values of these types; `neorl.modality` holds the modalities by name.
-`neorl.statistics`, `neorl.claims`, `neorl.figures` and `neorl.network_figures` serve the book's pages.
+`neorl.statistics`, `neorl.claims`, `neorl.figures` and `neorl.network_figures` serve the book's pages; `neorl.wasm`
+takes the kernels into a page, where an `Explorer` runs them.
 """
 
 from neorl.agent import Agent, Desire, Learning, Node, Place, Policy
@@ -19,3 +20,13 @@ __all__ = ["Agent", "Desire", "Learning", "Modality", "Node", "NresMap", "Place"
            "WaterWorld", "learn", "simulate", "simulate_once", "superpose",
            "brownian", "multimodal", "network_a", "network_b", "network_c", "network_d", "object_vector_cells",
            "place_cells"]
+
+
+def __getattr__(name):
+    if name == "Explorer":  # imported when asked for, since the rest of the package does without anywidget
+        try:
+            from neorl.explorer import Explorer
+        except ModuleNotFoundError as error:
+            raise ImportError(f"neorl.Explorer needs {error.name}: pip install {error.name}") from error
+        return Explorer
+    raise AttributeError(f"module 'neorl' has no attribute {name!r}")

@@ -5,9 +5,10 @@ A row is named for what it does once; the table tells how long that takes and ho
 
 import numpy as np
 import pytest
+from explorer_page import write_page
 
-from neorl import (WaterWorld, multimodal, network_a, network_b, network_c, network_d, object_vector_cells, place_cells,
-                   simulate)
+from neorl import (Explorer, Run, WaterWorld, multimodal, network_a, network_b, network_c, network_d,
+                   object_vector_cells, place_cells, simulate)
 from neorl.horde import ZERO, learn_all_goals
 from neorl.kernel import kernel
 from neorl.stream import below, new_stream
@@ -104,3 +105,26 @@ def test_papers(benchmark, paper):
             simulate(agent, WaterWorld(), steps=steps, runs=100, progress=False)
 
     benchmark.pedantic(conditions, rounds=1)
+
+
+@pytest.mark.benchmark(group="a million steps of both modalities, on one core, and in a page that draws them")
+@pytest.mark.parametrize("where", ["native", "page"])
+def test_million_steps_of_both_modalities(benchmark, where, tmp_path, request):
+    if where == "native":
+        benchmark.pedantic(Run(multimodal(), WaterWorld()).advance, [1_000_000], warmup_rounds=1, rounds=5)
+        return
+    write_page(tmp_path, [Explorer(preset="Place and object-vector cells", speed=0.0)], without_end)
+    page = request.getfixturevalue("open_page")(tmp_path, "page.html")
+    page.wait_for_selector("[data-state=running]")
+    page.wait_for_timeout(2_000)  # by then the browser has optimised what it runs
+    live = """() => new Promise((resolve) => {
+        const { dataset } = document.querySelector(".neorl-explorer"), end = Number(dataset.step) + 1e6;
+        const look = () => Number(dataset.step) >= end ? resolve() : setTimeout(look, 1);
+        look();
+    })"""
+    benchmark.pedantic(page.evaluate, [live], rounds=5)
+
+
+def without_end(record):
+    for preset in record["state"]["_presets"].values():
+        preset["steps"] = 10**9

@@ -1,0 +1,203 @@
+"""The Explorer: a widget that runs the book's own kernels in the reader's browser.
+
+What it needs is in its state, so it works in a page without Python: the kernels in WebAssembly (`neorl.wasm`), its
+*presets* (agents as plans, with the band of the runs that a page has of them), and its traits, which are the controls.
+
+- `settings.js` makes a plan of a preset and of the traits, `engine.js` runs it in a worker, and nothing else decides
+  a run: run k of a seed is the run that `neorl.Run` makes of it.
+- `drawing.js` draws; `page.js`, `controls.js`, `hands.js` and `widget.js` are what the reader sees and turns.
+"""
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import traitlets
+from anywidget import AnyWidget
+
+from neorl import checks, papers, wasm
+from neorl.agent import Agent, Node
+from neorl.modality import MODALITIES
+from neorl.plan import RED, chosen
+from neorl.simulation import Result, bin_steps
+from neorl.statistics import band
+from neorl.waterworld import WaterWorld
+
+AGENTS = {"Place cells": papers.place_cells, "Object-vector cells": papers.object_vector_cells,
+          "Place and object-vector cells": papers.multimodal, "Network A": papers.network_a,
+          "Network B": papers.network_b, "Network C": papers.network_c, "Network D": papers.network_d}
+STEPS = 300_000  # of a run, where the page has no condition
+CURVE_BINS = 50
+MODALITY_FIELDS = ("vector", "tuning", "low", "high", "first_landmark", "landmark")  # of a plan
+SCRIPTS = ("settings.js", "drawing.js", "page.js", "controls.js", "hands.js", "widget.js")
+
+
+def _text(*names):
+    return "\n".join((Path(__file__).parent / name).read_text() for name in names)
+
+
+class Explorer(AnyWidget):
+    """A neoRL agent to watch, change and play against; in JupyterLab and, from its stored state, in a static page.
+
+    conditions: {name: `Result`}, the conditions of the page, whose bands and runs it shows. Their agents have the same
+        resolutions in every node. The tank is that of the first, or one of 3 creeps.
+    preset: the name of a condition or of one of `neorl.explorer.AGENTS`; by default the first condition or agent.
+    traits: any of those below, to begin with.
+
+    Traits: resolutions (1 … 90 each), modality (the name of one, "" if the preset has more than one node or a modality
+    of its own), recursion (None if there is none), valence_red, gains (one a node), learning_rate and discount (0 … 1),
+    n_creeps (1 … 20), seed (below 2³²), run, speed (times real time, 0 for as fast as it goes), playing.
+    Choosing a preset sets those that it determines. seconds and score follow the run, about once a second.
+
+    Raises ValueError for a condition that cannot be shown, TraitError for a bad trait, RuntimeError if the WebAssembly
+    module cannot be built.
+    """
+
+    _esm = _text(*SCRIPTS)
+    _css = _text("widget.css")
+    _engine = traitlets.Unicode(_text("engine.js")).tag(sync=True)
+    _wasm = traitlets.Bytes().tag(sync=True)
+    _layout = traitlets.Dict().tag(sync=True)
+    _presets = traitlets.Dict().tag(sync=True)
+    _modalities = traitlets.Dict().tag(sync=True)
+
+    preset = traitlets.Unicode().tag(sync=True)
+    resolutions = traitlets.List(traitlets.Int(min=1, max=90), minlen=1).tag(sync=True)
+    modality = traitlets.Unicode().tag(sync=True)
+    recursion = traitlets.Float(allow_none=True).tag(sync=True)
+    valence_red = traitlets.Float().tag(sync=True)
+    gains = traitlets.List(traitlets.Float()).tag(sync=True)
+    learning_rate = traitlets.Float(min=0, max=1).tag(sync=True)
+    discount = traitlets.Float(min=0, max=1).tag(sync=True)
+    n_creeps = traitlets.Int(min=1, max=20).tag(sync=True)
+    seed = traitlets.Int(min=0, max=2**32 - 1).tag(sync=True)
+    run = traitlets.Int(min=0, max=2**32 - 1).tag(sync=True)
+    speed = traitlets.Float(20.0, min=0).tag(sync=True)
+    playing = traitlets.Bool(True).tag(sync=True)
+    seconds = traitlets.Float().tag(sync=True)
+    score = traitlets.Float().tag(sync=True)
+
+    def __init__(self, conditions=None, preset=None, **traits):
+        conditions = conditions or {}
+        for name, result in conditions.items():
+            _check_condition(name, result)
+        first = next(iter(conditions.values()), None)
+        self._tank = first.world if first else WaterWorld()
+        self._agents = {name: result.agent for name, result in conditions.items()}
+        self._agents |= {name: make() for name, make in AGENTS.items() if name not in conditions}
+        presets = {name: _preset(name, agent, self._tank, conditions.get(name)) | {"place": place}
+                   for place, (name, agent) in enumerate(self._agents.items())}
+        preset = checks.one_of("preset", preset or next(iter(presets)), tuple(presets))
+        for name in traits:
+            checks.one_of("trait", name, tuple(each for each in self.traits(sync=True) if not each.startswith("_")))
+        begin = {"preset": preset, "seed": first.seed if first else 0, **_settings(presets[preset]), **traits}
+        super().__init__(_wasm=wasm.module(), _layout=wasm.layout(), _presets=presets, _modalities=_modalities(),
+                         **begin)
+
+    @property
+    def agent(self):
+        """The `Agent` that the traits describe, but for elements that somebody has dropped in the page."""
+        preset = self._agents[self.preset]
+        named = {each.name: each for each in MODALITIES}
+        nodes = [replace(node, resolutions=self.resolutions, gain=gain) for node, gain in zip(preset.nodes, self.gains)]
+        if self.modality and len(nodes) == 1:
+            nodes = [replace(nodes[0], modality=named[self.modality])]
+        desires = [replace(each, valence=self.valence_red) if each.source == "red" else
+                   replace(each, valence=self.recursion) if each.source == each.target else each
+                   for each in preset.desires]
+        learning = replace(preset.learning, learning_rate=self.learning_rate, discount=self.discount)
+        return replace(preset, nodes=nodes, desires=desires, learning=learning)
+
+    @property
+    def world(self):
+        """The `WaterWorld` that it lives in."""
+        return replace(self._tank, n_creeps=self.n_creeps)
+
+    @traitlets.validate("preset", "modality", "recursion", "valence_red", "gains")
+    def _check(self, proposal):
+        name, value = proposal["trait"].name, proposal["value"]
+        try:
+            if name == "preset":
+                return checks.one_of(name, value, tuple(self._presets))
+            if name == "modality":
+                return checks.one_of(name, value, ("", *self._modalities))
+            if name == "gains" and len(value) != len(self._agents[self.preset].nodes):
+                nodes = len(self._agents[self.preset].nodes)
+                raise ValueError(f"gains is {value!r}, allowed is one for each of the {nodes} nodes")
+            for number in value if name == "gains" else () if value is None else (value,):
+                checks.real(name, number)
+            return value
+        except ValueError as error:
+            raise traitlets.TraitError(str(error)) from None
+
+    @traitlets.observe("preset")
+    def _take_settings(self, change):
+        if change["old"]:
+            with self.hold_sync():
+                for name, value in _settings(self._presets[change["new"]]).items():
+                    setattr(self, name, value)
+
+
+def _check_condition(name, result):
+    checks.instance(f"condition {name}", result, Result)
+    if len({node.resolutions for node in result.agent.nodes}) > 1:
+        raise ValueError(f"condition {name} has nodes of different resolutions, allowed are the same in every node")
+    checks.integer(f"seed of condition {name}", result.seed, at_least=0, at_most=2**32 - 1)
+
+
+def _settings(preset):
+    """The traits that a preset determines."""
+    return {name: preset[name] for name in ("resolutions", "modality", "recursion", "valence_red", "gains",
+                                            "learning_rate", "discount", "n_creeps")}
+
+
+def _preset(name, agent, world, result):
+    """A preset as the page takes it: its settings, its plan before it is laid out, and what its runs brought."""
+    plan = _plan(agent, world)
+    red = [e for e, source in enumerate(plan["source"]) if source == RED]
+    recurring = [e for e, desire in enumerate(agent.desires) if desire.source == desire.target]
+    names = [node.name for node in agent.nodes]
+    steps = result.steps if result else STEPS
+    modality = agent.nodes[0].modality
+    return {
+        "label": name, "group": "On this page" if result else "Agents", "nodes": names,
+        "resolutions": list(agent.nodes[0].resolutions),
+        "modality": modality.name if len(names) == 1 and modality in MODALITIES else "",
+        "gains": [node.gain for node in agent.nodes], "learning_rate": agent.learning.learning_rate,
+        "discount": agent.learning.discount, "valence_red": plan["valence"][red[0]] if red else 0.0,
+        "recursion": plan["valence"][recurring[0]] if recurring else None, "n_creeps": world.n_creeps,
+        "world": {"fps": world.fps, "rules": world.rules._asdict()}, "steps": steps, "red": red, "recurring": recurring,
+        "seed": result.seed if result else 0, "runs": result.runs if result else 0,
+        "band": _band(result) if result else None, "totals": result.totals.tolist() if result else [],
+        "changes": [{"step": step, "plan": _plan(later, world)} for step, later in (result.changes if result else ())],
+        "plan": plan}
+
+
+def _plan(agent, world):
+    """The chosen fields of a plan, ready for JSON, and the names that the page shows."""
+    choices, _ = chosen(agent, world)
+    plan = {name: value.tolist() if isinstance(value, np.ndarray | np.generic) else value
+            for name, value in choices.items()}
+    desires = [{"source": each.source if each.between_nodes else "", "target": each.target, "of": list(each.of)}
+               for each in agent.desires]
+    return plan | {"nodes": [node.name for node in agent.nodes], "desires": desires}
+
+
+def _band(result):
+    """Reward per second in bins of the run: where the middle 95 % of the runs lie, and their mean."""
+    each = math.ceil(result.rewards.shape[1] / CURVE_BINS)
+    begins = np.arange(0, result.rewards.shape[1], each)
+    edges = result.edges[[*begins, -1]]
+    rates = np.add.reduceat(result.rewards, begins, axis=1, dtype=float) / np.diff(edges)
+    low, high = band(rates)
+    curves = {"edges": edges, "low": low, "middle": rates.mean(axis=0), "high": high}
+    return {**{name: curve.round(4).tolist() for name, curve in curves.items()},
+            "steps_per_bin": each * bin_steps(result.world)}
+
+
+def _modalities():
+    """For each modality the fields of the plan of a node that has it."""
+    plans = {each.name: chosen(Agent((Node("", each, (1,)),)), WaterWorld())[0]
+             for each in MODALITIES if each.takes_places}
+    return {name: {field: plan[field].tolist() for field in MODALITY_FIELDS} for name, plan in plans.items()}

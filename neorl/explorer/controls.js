@@ -1,0 +1,196 @@
+/* The Explorer's controls: what the reader turns becomes a trait, and what the traits say is shown. */
+
+class Controls {
+  part(selector) {
+    return this.root.querySelector(selector);
+  }
+
+  control(name) {
+    return this.part(`[name="${name}"]`);
+  }
+
+  action(name) {
+    return this.part(`[data-action="${name}"]`);
+  }
+
+  fillMenus() {
+    for (const key of orderedKeys(this.presets)) {
+      const { group, label, totals } = this.presets[key];
+      const groups = [...this.control("preset").children];
+      const same = groups.find((each) => each.label === group) ?? document.createElement("optgroup");
+      same.label = group;
+      same.append(new Option(label, key));
+      this.control("preset").append(same);
+      if (totals.length) this.control("open-preset").append(new Option(label, key));
+    }
+    this.control("modality").append(...Object.keys(this.modalities).map((name) => new Option(name, name)));
+    this.part(".open").hidden = !this.control("open-preset").length;
+    this.limitRun();
+  }
+
+  turned({ type, target }) {
+    const { name, type: kind, value } = target;
+    if (type !== (["text", "number"].includes(kind) ? "change" : "input")) return null;
+    if (kind === "number" && !target.reportValidity()) return null;
+    const act = { resolutions: () => this.writeResolutions(target), "open-preset": () => this.limitRun(),
+      preset: () => this.write({ ...initialSettings(this.presets, value), preset: value }),
+      modality: () => this.write({ modality: value }), speed: () => this.write({ speed: SPEEDS[value] }),
+      learning_rate: () => this.write({ learning_rate: Number((10 ** value).toPrecision(2)) }), "open-run": () => null,
+      map: () => this.look({ map: Number(value), goal: null }), field: () => this.look({}),
+      "element-valence": () => this.changeElement(this.selected, { valence: Number(value) }) }[name];
+    if (act) return act();
+    const [, node] = name.match(/^gain-(\d+)$/) ?? [];
+    return this.write(node ? { gains: this.model.get("gains").with(node, Number(value)) } : { [name]: Number(value) });
+  }
+
+  clicked({ action, chip: resolution }) {
+    if (resolution) return this.toggleResolution(Number(resolution));
+    const acts = { play: () => this.togglePlay(), step: () => this.step(), reset: () => this.reset(),
+      open: () => this.openRun(), drop: () => this.dropElement({ x: 0.5, y: 0.5 }), delete: () => this.deleteElement(),
+      game: () => (this.game ? this.leaveGame() : this.joinGame()) };
+    return acts[action]?.();
+  }
+
+  togglePlay() {
+    const again = this.frame?.ended;
+    if (again) this.reset();
+    this.write({ playing: again || !this.model.get("playing") });
+  }
+
+  step() {
+    this.write({ playing: false });
+    return this.advancing ? null : this.advance(1, TIMED_BUDGET);
+  }
+
+  reset() {
+    this.elements = [];
+    this.select(null);
+    this.note("run");
+  }
+
+  openRun() {
+    const [key, run] = [this.control("open-preset").value, this.control("open-run")];
+    if (!run.reportValidity()) return;
+    this.reset();
+    this.write({ ...initialSettings(this.presets, key), preset: key, seed: this.presets[key].seed,
+      run: run.valueAsNumber, speed: 0, playing: true });
+  }
+
+  limitRun() {
+    this.control("open-run").max = (this.presets[this.control("open-preset").value]?.totals.length ?? 1) - 1;
+  }
+
+  writeResolutions(field) {
+    const numbers = field.value.split(/[\s,;]+/).filter(Boolean).map(Number);
+    const valid = isList(numbers, isWhole(1, 90));
+    field.setCustomValidity(valid ? "" : ALLOWED);
+    if (valid) this.write({ resolutions: inOrder(numbers) });
+    else field.reportValidity();
+  }
+
+  toggleResolution(one) {
+    const before = this.model.get("resolutions");
+    const after = before.includes(one) ? before.filter((other) => other !== one) : inOrder([...before, one]);
+    if (after.length) this.write({ resolutions: after });
+  }
+
+  write(values) {
+    for (const [name, value] of Object.entries(values)) {
+      if (JSON.stringify(this.model.get(name)) === JSON.stringify(value)) continue;
+      this.model.set(name, value);
+      this.note(name);
+    }
+    this.model.save_changes();
+  }
+
+  refresh() {
+    const { frame, root, model } = this;
+    const [running, before] = [this.running(), root.dataset.state];
+    const idle = this.failed ? "failed" : this.beginning || !frame ? "loading" : frame.ended ? "ended" : "paused";
+    Object.assign(root.dataset, { state: running ? "running" : idle, condition: this.condition ?? "" });
+    if (running && before !== "running") Object.assign(this, { since: performance.now(), counted: 0 });
+    if (!running && before === "running" && frame) this.rate = 0, this.report();
+    this.action("play").textContent = frame?.ended ? "Play again" : model.get("playing") ? "Pause" : "Play";
+    this.action("game").textContent = this.game ? "Leave the game" : "Play against it";
+    this.action("game").ariaPressed = Boolean(this.game);
+    this.action("drop").disabled = this.elements.length >= MOST_ELEMENTS;
+    for (const name of ["step", "game"]) this.action(name).disabled = !frame || frame.ended;
+    this.part(".pad").hidden = !this.game;
+    this.control("speed").disabled = Boolean(this.game);
+    this.part(".element").hidden = this.selected === null;
+    this.showLegend();
+    this.wake();
+  }
+
+  showLegend() {
+    const { label, runs, band } = this.presets[this.condition] ?? {};
+    const swatch = (kind) => Object.assign(document.createElement("span"), { className: `swatch ${kind}` });
+    this.part(".legend").replaceChildren(swatch("own"), this.changed ? "this run, changed on the way" : "this run",
+      ...(band ? [swatch("band"), `95 % of the ${runs} runs of ${label}`] : []));
+  }
+
+  showControls() {
+    const { model } = this;
+    const { nodes, recursion } = this.presets[model.get("preset")];
+    for (const name of ["modality", "seed", "run"]) this.control(name).value = model.get(name);
+    this.control("modality").disabled = this.control("modality").parentElement.hidden = nodes.length > 1;
+    this.control("recursion").disabled = this.control("recursion").parentElement.hidden = recursion === null;
+    this.control("resolutions").value = model.get("resolutions").join(", ");
+    this.control("resolutions").setCustomValidity("");
+    for (const chip of this.part(".chips").children) {
+      chip.ariaPressed = model.get("resolutions").includes(Number(chip.dataset.chip));
+    }
+    const sliders = ["recursion", "valence_red", "discount", "n_creeps"];
+    for (const name of sliders) this.showSlider(name, model.get(name) ?? 0);
+    const [rate, speed] = [model.get("learning_rate"), model.get("speed")];
+    this.showSlider("learning_rate", Math.log10(rate || 0.001), shown(rate));
+    const notch = speed ? SPEEDS.findLastIndex((each) => each && each <= Math.max(1, speed)) : SPEEDS.length - 1;
+    this.showSlider("speed", notch, speed ? `${shown(speed)}× real time` : "as fast as it goes");
+    grow(this.part(".gains"), nodes.length, (index) => slide(`gain-${index}`, "", 0, 5, 0.1));
+    nodes.forEach((node, index) => {
+      this.control(`gain-${index}`).parentElement.firstChild.textContent = `Gain of ${node}`;
+      this.showSlider(`gain-${index}`, model.get("gains")[index]);
+    });
+  }
+
+  showSlider(name, value, text = shown(value)) {
+    const slider = this.control(name);
+    slider.value = value;
+    slider.nextElementSibling.value = slider.ariaValueText = text;
+  }
+
+  draw(now = performance.now()) {
+    const { frame, seen, cursor, colours, condition, length = { steps: 1, bin: 1 }, world = { fps: 1 } } = this;
+    Object.assign(this, { drawn: now, stale: false });
+    if (!this.arena.clientWidth) return;
+    drawArena(this.arena, colours, { frame, map: this.maps[seen.map], goal: seen.goal, cursor });
+    drawCurve(this.curve, colours, { seconds: length.steps / world.fps, binSeconds: length.bin / world.fps,
+      rewards: frame?.rewards, bins: frame?.ended ? frame.rewards.length : Math.floor((frame?.step ?? 0) / length.bin),
+      band: this.presets[condition]?.band });
+    if (!frame) return;
+    this.placeHandles();
+    const speed = `${grouped(this.rate)} steps a second, ${grouped(this.rate / world.fps)} × real time`;
+    this.part(".lived").textContent = this.livedText() + (this.running() && this.rate ? ` · ${speed}` : "");
+    this.part(".said").textContent = this.sentences().join(" ") || HINT;
+  }
+
+  livedText() {
+    return `${(this.frame.step / this.world.fps / 60).toFixed(1)} minutes lived · score ${shown(this.frame.reward)}`;
+  }
+
+  sentences() {
+    const { frame, seen, maps, game, presets, condition, model } = this;
+    const [said, run, score] = [[], model.get("run"), shown(frame.reward)];
+    const { totals = [], seed, steps } = presets[condition] ?? {};
+    if (frame.ended) said.push(`Run ${run} is over: its score is ${score}.`);
+    if (frame.ended && run < totals.length && seed === model.get("seed") && steps === frame.step && !this.changed) {
+      const same = Math.abs(totals[run] - frame.reward) < 1e-6 ? "the same" : "not the same";
+      said.push(`The notebook computed ${shown(totals[run])} for this run: ${same}.`);
+    }
+    if (game) said.push(`You: ${shown(frame.player?.reward ?? 0)}. neoRL: ${shown(frame.reward - game.score)}.`,
+      "Steer with the arrows; Escape leaves.");
+    const cell = seen.goal === null ? "" : `Cell ${seen.goal} of ${nameOf(maps[seen.map])}`;
+    if (cell) said.push(`${cell}: how to get there. Nobody asked for it.`);
+    return said;
+  }
+}

@@ -1,0 +1,313 @@
+/* Drawings of the Explorer: the arena and the reward over the run, each on a canvas of its own.
+
+Nothing here keeps anything or listens to anything: a drawing is made from what it is given. Places are in board widths,
+y downward, as in the frames of the engine. Positions are drawn as they are, so that discs reach over the border of the
+tank as they do in the figures of the book. Colours come from the style sheet, which takes them from the page. */
+
+const [BOARD_MARGIN, LONGEST_DESIRE, BEYOND] = [0.055, 0.3, 3]; // in board widths; no drawing reaches beyond the last
+const [HALF_A_SECOND, FULL_TURN] = [0.5, 2 * Math.PI]; // a velocity is drawn that far ahead
+const FIELD_TILES = 15; // a side, for the superposed value
+
+/** The colours and the font that the style sheet gives the widget on this page. */
+function readColours(root) {
+  const style = getComputedStyle(root);
+  const valueOf = (name) => [name, style.getPropertyValue(`--${name}`).trim()];
+  const names = ["ink", "paper", "agent", "green", "red", "goal"];
+  return { ...Object.fromEntries(names.map(valueOf)), font: style.fontFamily };
+}
+
+/** Where a place lies on the arena's canvas, as a share of its side; and back. */
+const shareOf = (place) => (place + BOARD_MARGIN) / (1 + 2 * BOARD_MARGIN);
+const placeAt = (share) => share * (1 + 2 * BOARD_MARGIN) - BOARD_MARGIN;
+
+const inSight = (place) => Math.max(-0.03, Math.min(1.03, place));
+const clampedToBoard = (place) => Math.max(0, Math.min(1, place));
+
+/** A context on which a unit is a pixel of the page, with as many dots as the screen has. */
+function fittedContext(canvas) {
+  const { clientWidth, clientHeight } = canvas;
+  const [width, height] = [clientWidth, clientHeight].map((side) => Math.round(side * devicePixelRatio));
+  if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+  const context = canvas.getContext("2d");
+  context.setTransform(width / (clientWidth || 1), 0, 0, height / (clientHeight || 1), 0, 0);
+  context.clearRect(0, 0, clientWidth, clientHeight);
+  return context;
+}
+
+/** The arena. scene: {frame, map, goal (cell), cursor}; each may be null. */
+function drawArena(canvas, colours, { frame, map, goal, cursor }) {
+  const context = fittedContext(canvas);
+  const unit = canvas.clientWidth / (1 + 2 * BOARD_MARGIN);
+  context.translate(BOARD_MARGIN * unit, BOARD_MARGIN * unit);
+  const board = { context, unit, colours };
+  const tank = new Path2D();
+  tank.rect(0, 0, unit, unit);
+  context.save();
+  context.clip(tank);
+  if (frame && map) drawMap(board, cellsOf(map, frame.agent), frame, goal);
+  if (frame?.field) drawField(board, frame.field);
+  context.restore();
+  stroke(board, colours.ink, 1.4, 0.75, (path) => path.addPath(tank));
+  if (frame) drawMovers(board, frame);
+  if (cursor) drawCursor(board, cursor);
+}
+
+function drawMap(board, cells, frame, goal) {
+  const { unit, colours } = board;
+  for (const cell of frame.active) fillPath(board, colours.agent, 0.24, (path) => cells.addRegion(path, cell, unit));
+  stroke(board, colours.ink, 0.8, cells.count > 16 ? 0.3 : 0.5, (path) => cells.addBorders(path, unit));
+  if (goal === null) return;
+  const addGoal = (path) => cells.addRegion(path, goal, unit);
+  fillPath(board, colours.goal, 0.25, addGoal);
+  stroke(board, colours.goal, 2.4, 1, addGoal);
+  if (frame.goal) drawVectors(board, colours.goal, 1.5, 0.95, frame.goal, (cell) => cells.middle(cell));
+}
+
+/** The receptive fields of a map in the arena: their borders, the region of a cell, and its middle with its size. */
+function cellsOf(map, agent) {
+  const origin = map.vector === "position" ? { x: 0, y: 0 } : agent;
+  const scale = map.vector === "velocity" ? HALF_A_SECOND : 1; // where a velocity takes the agent in half a second
+  const make = ["cartesian", "proximal"].includes(map.tuning) ? squareCells : roundCells;
+  return make(map, origin, scale);
+}
+
+function bordersOf(count, low, perUnit) {
+  return Array.from({ length: count + 1 }, (_, index) => low + index / perUnit);
+}
+
+function squareCells(map, origin, scale) {
+  const place = (start, reach) => (border) => {
+    if (map.tuning === "cartesian") return start + scale * border;
+    return border < 1e-9 ? border + reach : border + 1 - reach; // the middle of the board is a single value, 0
+  };
+  const xs = bordersOf(map.columns, map.low_u, map.scale_u).map(place(origin.x, map.reach[0]));
+  const ys = bordersOf(map.rows, map.low_v, map.scale_v).map(place(origin.y, map.reach[1]));
+  // What lies beyond the range of a map belongs to the cell at its end.
+  const shown = (borders, index) => {
+    const last = borders.length - 2;
+    return [index > 0 ? clampedToBoard(borders[index]) : 0, index < last ? clampedToBoard(borders[index + 1]) : 1];
+  };
+  const corners = (cell) => [...shown(xs, cell % map.columns), ...shown(ys, Math.floor(cell / map.columns))];
+  return {
+    count: Math.max(map.columns, map.rows),
+    addBorders(path, unit) {
+      for (const x of xs.slice(1, -1)) path.moveTo(x * unit, 0), path.lineTo(x * unit, unit);
+      for (const y of ys.slice(1, -1)) path.moveTo(0, y * unit), path.lineTo(unit, y * unit);
+    },
+    addRegion(path, cell, unit) {
+      const [left, right, top, bottom] = corners(cell);
+      path.rect(left * unit, top * unit, (right - left) * unit, (bottom - top) * unit);
+    },
+    middle(cell) {
+      const [left, right, top, bottom] = corners(cell);
+      return { x: (left + right) / 2, y: (top + bottom) / 2, size: Math.min(right - left, bottom - top) };
+    },
+  };
+}
+
+function roundCells(map, { x, y }, scale) {
+  const radii = bordersOf(map.columns, map.low_u, map.scale_u).map((radius) => scale * radius);
+  const angles = bordersOf(map.rows, map.low_v, map.scale_v).map((turns) => FULL_TURN * turns);
+  const extent = (cell) => {
+    const [ring, sector] = [cell % map.columns, Math.floor(cell / map.columns)];
+    const [from, to] = map.rows > 1 ? [angles[sector], angles[sector + 1]] : [0, FULL_TURN];
+    return { inner: radii[ring], outer: ring < map.columns - 1 ? radii[ring + 1] : BEYOND, from, to, ring };
+  };
+  return {
+    count: Math.max(map.columns, map.rows),
+    addBorders(path, unit) {
+      for (const radius of radii.slice(1, -1)) {
+        path.moveTo((x + radius) * unit, y * unit);
+        path.arc(x * unit, y * unit, radius * unit, 0, FULL_TURN);
+      }
+      for (const angle of map.rows > 1 ? angles.slice(1) : []) {
+        path.moveTo(x * unit, y * unit);
+        path.lineTo((x + BEYOND * Math.cos(angle)) * unit, (y + BEYOND * Math.sin(angle)) * unit);
+      }
+    },
+    addRegion(path, cell, unit) {
+      const { inner, outer, from, to } = extent(cell);
+      const whole = to - from === FULL_TURN;
+      path.arc(x * unit, y * unit, outer * unit, from, to);
+      if (whole) path.moveTo((x + inner) * unit, y * unit);
+      path.arc(x * unit, y * unit, inner * unit, to, from, true);
+      if (!whole) path.closePath();
+    },
+    middle(cell) {
+      const { inner, from, to, ring } = extent(cell);
+      const width = map.columns > 1 ? radii[ring + 1] - inner : 0.36;
+      const radius = inner + width / 2;
+      const angle = map.rows > 1 ? (from + to) / 2 : 0;
+      const size = Math.min(width, map.rows > 1 ? radius * (to - from) : width);
+      return { x: x + radius * Math.cos(angle), y: y + radius * Math.sin(angle), size };
+    },
+  };
+}
+
+function drawField(board, field) {
+  const [size, rowOf] = [1 / FIELD_TILES, (tile) => Math.floor(tile / FIELD_TILES)];
+  drawVectors(board, board.colours.ink, 1.2, 0.5, field, (tile) =>
+    ({ x: size * ((tile % FIELD_TILES) + 0.5), y: size * (rowOf(tile) + 0.5), size }));
+}
+
+/** An arrow for each vector (x, y, x, y, …) around its middle, as long as the fourth root of it, as in the book. */
+function drawVectors(board, colour, width, alpha, vectors, middle) {
+  let longest = 0;
+  for (let i = 0; i < vectors.length; i += 2) longest = Math.max(longest, Math.hypot(vectors[i], vectors[i + 1]));
+  if (!longest) return;
+  stroke(board, colour, width, alpha, (path) => {
+    for (let i = 0; i < vectors.length; i += 2) {
+      const length = Math.hypot(vectors[i], vectors[i + 1]);
+      const { x, y, size } = middle(i / 2);
+      if (!length || size <= 0 || x < 0 || x > 1 || y < 0 || y > 1) continue;
+      const drawn = 0.8 * Math.min(size, 0.2) * (length / longest) ** 0.25;
+      const [dx, dy] = [(drawn * vectors[i]) / length, (drawn * vectors[i + 1]) / length];
+      addArrow(path, board.unit, x - dx / 2, y - dy / 2, dx, dy, Math.min(6, 0.35 * drawn * board.unit));
+    }
+  });
+}
+
+function addArrow(path, unit, x, y, dx, dy, head) {
+  path.moveTo(x * unit, y * unit);
+  path.lineTo((x + dx) * unit, (y + dy) * unit);
+  addHead(path, unit, x + dx, y + dy, dx, dy, head);
+}
+
+function addHead(path, unit, x, y, dx, dy, head) {
+  for (const angle of [-0.5, 0.5].map((side) => Math.atan2(dy, dx) + side)) {
+    path.moveTo(x * unit, y * unit);
+    path.lineTo(x * unit - head * Math.cos(angle), y * unit - head * Math.sin(angle));
+  }
+}
+
+function drawMovers(board, { agent, creeps, player, nodes, landings, radius }) {
+  const { colours, unit } = board;
+  const movers = [...creeps, ...(player ? [player] : []), agent];
+  stroke(board, colours.ink, 1.4, 0.8, (path) => {
+    for (const { x, y, vx, vy } of movers.filter((each) => Math.hypot(each.vx, each.vy) > 0.02)) {
+      addArrow(path, unit, x, y, HALF_A_SECOND * vx, HALF_A_SECOND * vy, 6);
+    }
+  });
+  for (const creep of creeps) drawDisc(board, creep, radius, ...signOf(board, creep.green ? 1 : -1));
+  drawDisc(board, agent, radius, colours.agent, "");
+  if (player) {
+    drawDisc(board, player, radius, colours.ink, "");
+    drawDisc(board, player, 0.78 * radius, colours.paper, "Y", colours.ink);
+  }
+  nodes.forEach((node, index) => drawDesire(board, agent, node, index));
+  const isElsewhere = ({ x, y }) => Math.hypot(x - agent.x, y - agent.y) > radius;
+  for (const landing of landings.filter(isElsewhere)) drawLanding(board, landing);
+}
+
+function drawDisc(board, { x, y }, radius, colour, sign, signColour = "#fff") {
+  const { unit } = board;
+  fillPath(board, colour, 1, (path) => path.arc(x * unit, y * unit, radius * unit, 0, FULL_TURN));
+  write(board, sign, x * unit, y * unit, `bold ${1.4 * radius * unit}px`, signColour);
+}
+
+/** A node's desire, dashed, with the node's name at its end. Long ones are shortened, so that all stay in sight. */
+function drawDesire(board, agent, { name, x, y }, index) {
+  const length = Math.hypot(x, y);
+  const drawn = LONGEST_DESIRE * (1 - Math.exp(-2 * length));
+  if (drawn < 0.05) return;
+  const [dx, dy, ahead] = [(drawn * x) / length, (drawn * y) / length, 1 + 0.028 / drawn];
+  board.context.setLineDash([5, 4]);
+  stroke(board, board.colours.agent, 2, 1, (path) => addArrow(path, board.unit, agent.x, agent.y, dx, dy, 0));
+  board.context.setLineDash([]);
+  stroke(board, board.colours.agent, 2, 1, (path) => addHead(path, board.unit, agent.x + dx, agent.y + dy, dx, dy, 7));
+  const aside = (index % 2 ? -1 : 1) * (0.022 / drawn); // so that the names of two that agree stay apart
+  const [textX, textY] = [agent.x + dx * ahead - dy * aside, agent.y + dy * ahead + dx * aside].map(clampedToBoard);
+  write(board, name, textX * board.unit, textY * board.unit, "600 12px", board.colours.agent, board.colours.paper);
+}
+
+/** Where the desire of one node lands for another: a diamond with its sign, at the border if it lands outside. */
+function drawLanding(board, { x, y, valence }) {
+  const half = 0.028 * board.unit;
+  const [left, top] = [x, y].map((place) => inSight(place) * board.unit);
+  const [colour, sign] = signOf(board, valence);
+  const addDiamond = (path) => {
+    path.moveTo(left, top - half);
+    for (const [dx, dy] of [[half, 0], [0, half], [-half, 0]]) path.lineTo(left + dx, top + dy);
+    path.closePath();
+  };
+  stroke(board, board.colours.paper, 3, 1, addDiamond);
+  fillPath(board, colour, 1, addDiamond);
+  write(board, sign, left, top, `bold ${1.3 * half}px`, "#fff");
+}
+
+function signOf({ colours }, valence) {
+  return valence < 0 ? [colours.red, "−"] : [colours.green, "+"];
+}
+
+function drawCursor(board, { x, y }) {
+  stroke(board, board.colours.goal, 2, 1, (path) => {
+    for (const [dx, dy] of [[0.03, 0], [-0.03, 0], [0, 0.03], [0, -0.03]]) {
+      addArrow(path, board.unit, x + dx / 4, y + dy / 4, dx, dy, 0);
+    }
+  });
+}
+
+/** Reward per second over the run. curve: {seconds, binSeconds, rewards, bins (lived to their end), band or none}. */
+function drawCurve(canvas, colours, { seconds, binSeconds, rewards, bins, band }) {
+  const board = { context: fittedContext(canvas), colours };
+  const [left, top, right, bottom] = [34, 8, canvas.clientWidth - 8, canvas.clientHeight - 20];
+  const edges = bordersOf(bins, 0, 1 / binSeconds).map((edge) => Math.min(edge, seconds));
+  const rates = Array.from({ length: bins }, (_, bin) => rewards[bin] / (edges[bin + 1] - edges[bin]));
+  const values = [0, 0.5, ...rates, ...(band ? [...band.low, ...band.high] : [])];
+  const [least, most] = [Math.min(...values), Math.max(...values)];
+  const [step, minutes] = [roundStep((most - least) / 3), roundStep(seconds / 240)];
+  const xOf = (second) => left + ((right - left) * second) / seconds;
+  const yOf = (rate) => bottom - ((bottom - top) * (rate - least)) / (most - least);
+  const label = (text, x, y, align) => write(board, text, x, y, "11px", colours.ink, null, align);
+  for (let tick = Math.ceil(least / step); tick * step <= most; tick += 1) {
+    const [text, y] = [String(Number((tick * step).toFixed(6))).replace("-", "−"), yOf(tick * step)];
+    stroke(board, colours.ink, 0.8, tick ? 0.15 : 0.7, (path) => addLine(path, [[left, y], [right, y]]));
+    label(text, left - 6, y, "right");
+  }
+  for (let at = 0; at <= seconds / 60; at += minutes) {
+    const isLast = at + minutes > seconds / 60;
+    label(`${Number(at.toFixed(3))}${isLast ? " min" : ""}`, xOf(60 * at), bottom + 13, isLast ? "right" : "center");
+  }
+  const pointsOf = (borders, heights) => Array.from(heights, (rate, bin) =>
+    [xOf((borders[bin] + borders[bin + 1]) / 2), yOf(rate)]);
+  if (band) {
+    const outline = [...pointsOf(band.edges, band.low), ...pointsOf(band.edges, band.high).reverse()];
+    fillPath(board, colours.ink, 0.2, (path) => addLine(path, outline));
+    stroke(board, colours.ink, 1, 0.8, (path) => addLine(path, pointsOf(band.edges, band.middle)));
+  }
+  stroke(board, colours.agent, 1.8, 1, (path) => addLine(path, pointsOf(edges, rates)));
+}
+
+function addLine(path, points) {
+  for (const point of points) path.lineTo(...point);
+}
+
+/** The 1, 2 or 5 times a power of ten next above a number. */
+function roundStep(least) {
+  const power = 10 ** Math.floor(Math.log10(least));
+  return power * ([1, 2, 5].find((times) => times * power >= least) ?? 10);
+}
+
+function stroke({ context }, colour, width, alpha, add) {
+  Object.assign(context, { strokeStyle: colour, lineWidth: width, globalAlpha: alpha, lineJoin: "round" });
+  context.stroke(pathOf(add));
+}
+
+function fillPath({ context }, colour, alpha, add) {
+  Object.assign(context, { fillStyle: colour, globalAlpha: alpha });
+  context.fill(pathOf(add));
+}
+
+function pathOf(add) {
+  const path = new Path2D();
+  add(path);
+  return path;
+}
+
+/** Write a text around a point, if wanted with a halo that keeps it legible over anything. */
+function write({ context, colours }, text, x, y, size, colour, halo = null, textAlign = "center") {
+  Object.assign(context, { font: `${size} ${colours.font}`, textAlign, textBaseline: "middle", globalAlpha: 1,
+    fillStyle: colour, strokeStyle: halo, lineWidth: 3 });
+  if (halo) context.strokeText(text, x, y);
+  context.fillText(text, x, y + 0.5);
+}

@@ -1,0 +1,63 @@
+/* What the Explorer's page consists of, and small helpers of its parts. */
+
+const SPEEDS = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 0]; // times real time; 0: as fast as it goes
+const [TIMED_BUDGET, FREE_BUDGET, STEPS_WITHOUT_END] = [12, 32, 1e9]; // milliseconds, milliseconds, steps
+const [MOST_ELEMENTS, MOST_SEED, NO_ACTION] = [5, 2 ** 32 - 1, 4];
+const [DOUBLE_TAP, NEARBY] = [350, 0.06]; // milliseconds and board widths between the two taps
+const THRUST_EVERY = 90; // milliseconds; a held key pushes one step at a time, or nobody could steer
+// The action of the game, and the direction in the tank
+const KEYS = { ArrowUp: [0, 0, -1], ArrowDown: [1, 0, 1], ArrowRight: [2, 1, 0], ArrowLeft: [3, -1, 0] };
+const NEW_RUN = ["preset", "resolutions", "modality", "n_creeps", "seed", "run"];
+const GOES_ON = ["recursion", "valence_red", "gains", "learning_rate", "discount"];
+const OF_PRESET = [...GOES_ON, "resolutions", "modality", "n_creeps"]; // what a preset has defaults of
+const ALLOWED = "Resolutions are whole numbers from 1 to 90, such as 3, 5, 7.";
+const HINT = "Click a cell: how to get there. Double-click: drop an element of interest. Drag the creeps.";
+
+const slide = (name, label, least, most, step) => `<label class="slide"><span>${label}</span><input type="range"
+  name="${name}" min="${least}" max="${most}" step="${step}"><output></output></label>`;
+const choice = (name, label) => `<label class="labelled"><span>${label}</span><select name="${name}"></select></label>`;
+const number = (name, label) => `<label class="labelled"><span>${label}</span><input type="number" name="${name}"
+  min="0" max="${MOST_SEED}" value="0" required></label>`;
+const press = (action, label) => `<button type="button" data-action="${action}">${label}</button>`;
+const chip = (n) => `<button type="button" data-chip="${n}" aria-label="Resolution ${n}">${n}</button>`;
+const pad = (key) => `<button type="button" data-key="Arrow${key.slice(0, -2)}" aria-label="${key.slice(0, -2)}">
+  ${key.at(-1)}</button>`;
+const PAGE = `<p role="alert" hidden></p>
+  <div class="bar">${choice("preset", "Agent")}<div class="buttons">${press("play", "Play")}${press("step", "Step")}
+    ${press("reset", "Reset")}</div>${slide("speed", "Speed", 0, SPEEDS.length - 1, 1)}</div>
+  <div class="columns"><div class="board">
+    <div class="arena"><canvas tabindex="0" role="application" aria-label="The tank. Arrow keys move a cursor, Enter
+      chooses the cell under it, Escape lets go of it."></canvas><div class="grips"></div><div class="marks"></div>
+      <div class="pad" hidden>${["Up ↑", "Left ←", "Down ↓", "Right →"].map(pad).join("")}</div></div>
+    <p class="said">${HINT}</p>
+    <div class="element" hidden>${slide("element-valence", "It is worth", -2, 2, 0.1)}
+      ${press("delete", "Delete")}</div>
+    <div class="buttons">${press("drop", "Drop an element")}${press("game", "Play against it")}</div>
+    <div class="shown">${choice("map", "Map shown")}<label class="tick"><input type="checkbox" name="field" checked>Show
+      field</label></div></div>
+  <div class="side"><p class="title">Reward per second</p>
+    <canvas role="img" aria-label="Reward per simulated second over the minutes of the run"></canvas>
+    <p class="legend"></p><p class="lived"></p>${choice("modality", "Modality")}
+    <label class="labelled"><span>Resolutions</span><input type="text" name="resolutions"></label>
+    <div class="chips" role="group" aria-label="Resolutions">${[2, 3, 5, 7, 11, 13].map(chip).join("")}</div>
+    ${slide("recursion", "Recursion", -3, 1, 0.1)}${slide("valence_red", "Valence of red", -2, 2, 0.1)}</div></div>
+  <div class="open">${number("open-run", "Open run")}${choice("open-preset", "of")}${press("open", "Open")}</div>
+  <details><summary>More</summary><div class="more">${slide("learning_rate", "Learning rate α", -3, 0, 0.01)}
+    ${slide("discount", "Discount γ", 0, 0.99, 0.01)}${slide("n_creeps", "Creeps", 1, 12, 1)}<div class="gains"></div>
+    ${number("seed", "Seed")}${number("run", "Run")}</div></details><p class="unseen" aria-live="polite"></p>`;
+
+const shown = (value) => String(Number(Number(value).toPrecision(value >= 1000 ? 9 : 3))).replace("-", "−");
+const signed = (value) => (value > 0 ? "+" : "") + shown(value);
+const grouped = (value) => Math.round(value).toLocaleString("en-GB");
+const isWhole = (low, high) => (value) => Number.isInteger(value) && value >= low && value <= high;
+const isList = (value, test) => Array.isArray(value) && value.length > 0 && value.every(test);
+const inOrder = (numbers) => [...new Set(numbers)].sort((a, b) => a - b);
+const shifted = ({ x, y }, dx, dy, by) => ({ x: clampedToBoard(x + by * dx), y: clampedToBoard(y + by * dy) });
+const indexOf = (element) => [...element.parentElement.children].indexOf(element);
+const nameOf = ({ node, resolution }) => `${node} N${resolution}`;
+
+/** Makes or removes children until there are as many as wanted. */
+function grow(parent, count, markupOf) {
+  while (parent.children.length > count) parent.lastChild.remove();
+  while (parent.children.length < count) parent.insertAdjacentHTML("beforeend", markupOf(parent.children.length));
+}

@@ -1,0 +1,340 @@
+/* The Explorer in the page: a learner that lives while the reader watches, with everything that can be turned.
+
+- The traits are the truth: a control writes its trait, and what happens follows from the change of the trait, whether
+  it comes from a control, from Python or from a linked widget. Changes of one moment are followed together.
+- Another body, map or tank begins a new run; another wish, or way of learning, goes on with what was learned.
+- The simulation lives in a worker, which answers every request once and in order. It moves only when asked, and has
+  one request for steps at a time: a widget that is out of sight asks for none.
+- Whatever goes wrong ends in a sentence, and the next change of a control tries again. */
+
+/** The worker. Each request resolves to its answer; a failure goes to onFailure, and nothing is answered after it. */
+function startEngine(source, onFailure) {
+  if (typeof WebAssembly !== "object" || typeof Worker !== "function") {
+    throw new Error("This browser cannot run the simulation: it needs WebAssembly and web workers.");
+  }
+  const address = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
+  const [worker, waiting] = [new Worker(address), []];
+  const stop = () => {
+    worker.onmessage = worker.onerror = null;
+    worker.terminate();
+    URL.revokeObjectURL(address);
+  };
+  const fail = (message = "its program cannot be read") => // a sentence, or what a machine says
+    onFailure(message.endsWith(".") ? message : `The simulation has stopped: ${message}.`);
+  worker.onmessage = ({ data }) => (data.type === "failed" ? fail(data.message) : waiting.shift()?.(data));
+  worker.onerror = (event) => {
+    event.preventDefault();
+    fail(event.message);
+  };
+  const ask = (message, transfer) => {
+    worker.postMessage(message, transfer);
+    return new Promise((resolve) => waiting.push(resolve));
+  };
+  return { ask, stop };
+}
+
+class Explorer extends Hands {
+  constructor(model, place) {
+    super();
+    Object.assign(this, { model, presets: model.get("_presets"), modalities: model.get("_modalities"),
+      frame: null, maps: [], wanted: { map: 0, goal: null }, seen: { map: 0, goal: null }, elements: [], selected: null,
+      noted: new Set(), undo: [], owed: 0, counted: 0, rate: 0, drawn: 0, told: 0, failed: false });
+    this.calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.root = Object.assign(document.createElement("div"), { className: "neorl-explorer", innerHTML: PAGE });
+    [this.arena, this.curve] = this.root.querySelectorAll("canvas");
+    this.fillMenus();
+    place.append(this.root);
+    this.listen();
+    this.recolour();
+    if (this.calm) this.write({ playing: false });
+    this.refresh();
+  }
+
+  listen() {
+    const on = (target, types, act) => types.split(" ").forEach((type) => {
+      const safe = this.safely(act);
+      target.addEventListener(type, safe);
+      this.undo.push(() => target.removeEventListener(type, safe));
+    });
+    const watch = (observer, ...targets) => {
+      for (const target of targets) observer.observe(...target);
+      this.undo.push(() => observer.disconnect());
+    };
+    on(this.root, "input change", (event) => this.turned(event));
+    on(this.root, "click", ({ target }) => this.clicked(target.closest("button")?.dataset ?? {}));
+    on(this.root, "keydown", (event) => this.pressed(event));
+    on(this.root, "focusin", ({ target }) => target.matches(".interest") && this.select(indexOf(target)));
+    const tank = this.part(".arena");
+    on(tank, "pointerdown", (event) => this.grasp(event));
+    on(tank, "pointermove", (event) => this.pull(event));
+    on(tank, "pointerup pointercancel keyup focusout", () => this.game && (this.game.held = NO_ACTION));
+    on(tank, "lostpointercapture", () => { this.held = null; });
+    on(tank, "click", (event) => this.tap(event));
+    on(document, "visibilitychange", () => this.refresh());
+    on(window, "resize", () => this.wake()); // also when the page gets to a screen with other dots
+    on(matchMedia("(prefers-color-scheme: dark)"), "change", () => this.recolour());
+    const theme = { attributeFilter: ["data-theme", "data-mode", "data-jp-theme-name", "class"] };
+    watch(new MutationObserver(() => this.recolour()), [document.documentElement, theme], [document.body, theme]);
+    watch(new ResizeObserver(() => this.wake()), [this.arena], [this.curve]);
+    watch(new IntersectionObserver((entries) => this.approach(entries.at(-1)), { rootMargin: "200px" }), [this.root]);
+    watch(new IntersectionObserver((entries) => this.sight(entries.at(-1))), [this.root]);
+    for (const name of [...NEW_RUN, ...GOES_ON, "speed", "playing"]) {
+      const note = () => this.note(name);
+      this.model.on(`change:${name}`, note);
+      this.undo.push(() => this.model.off(`change:${name}`, note));
+    }
+  }
+
+  approach({ isIntersecting }) {
+    if (isIntersecting && !this.near) this.near = true, this.note("near");
+  }
+
+  sight({ isIntersecting }) {
+    this.inSight = isIntersecting;
+    this.refresh();
+  }
+
+  recolour() {
+    this.colours = readColours(this.root);
+    this.wake();
+  }
+
+  // What follows from traits
+
+  note(name) {
+    this.noted.add(name);
+    if (this.following) return;
+    this.following = true;
+    queueMicrotask(this.safely(() => this.follow()));
+  }
+
+  async follow() {
+    const { model, noted, presets, modalities } = this;
+    while (noted.size) {
+      this.control("preset").value = model.get("preset");
+      if (noted.has("preset") && presets[model.get("preset")] && !OF_PRESET.some((name) => noted.has(name))) {
+        this.write(initialSettings(presets, model.get("preset"))); // as if chosen from the menu
+      }
+      const problem = problemOf(presets, modalities, model);
+      this.complain(problem);
+      if (problem || !this.near) break;
+      const names = [...noted];
+      noted.clear();
+      this.condition = conditionOf(presets, modalities, this.settings());
+      this.showControls();
+      if (!this.engine || names.some((name) => NEW_RUN.includes(name))) await this.begin();
+      else if (names.some((name) => name === "elements" || GOES_ON.includes(name))) await this.change();
+      this.refresh();
+    }
+    this.following = false;
+  }
+
+  settings() {
+    return Object.fromEntries(["preset", ...OF_PRESET].map((name) => [name, this.model.get(name)]));
+  }
+
+  plan() {
+    return chosenPlan(this.presets, this.modalities, this.settings(), this.elements);
+  }
+
+  async begin() {
+    const { presets, model } = this;
+    const [{ steps, band }, seed, run] = [presets[model.get("preset")], model.get("seed"), model.get("run")];
+    this.beginning = true;
+    this.forgetGame();
+    this.refresh();
+    this.world = worldOf(presets, this.settings());
+    this.length = { steps, bin: band?.steps_per_bin ?? Math.ceil(steps / 50) };
+    if (!this.engine) await this.load();
+    const changes = this.condition === model.get("preset") ? presets[this.condition].changes : [];
+    const { maps } = await this.engine.ask({ type: "begin", plan: this.plan(), world: this.world, seed, run, steps,
+      bin_steps: this.length.bin, changes });
+    Object.assign(this, { changed: this.elements.length > 0, cursor: null, owed: 0, beginning: false });
+    await this.look({ map: this.likeBefore(maps), goal: null }, maps);
+  }
+
+  async load() {
+    const { buffer, byteOffset, byteLength } = this.model.get("_wasm");
+    this.engine = startEngine(this.model.get("_engine"), (message) => this.fail(message));
+    const wasm = buffer.slice(byteOffset, byteOffset + byteLength);
+    await this.engine.ask({ type: "load", wasm, layout: this.model.get("_layout") }, [wasm]);
+  }
+
+  /** Which map to show: the one of the same name as before, or else one with cells that are large enough to click. */
+  likeBefore(maps) {
+    const menu = this.control("map");
+    const [before, names] = [menu.selectedOptions[0]?.label, maps.map(nameOf)];
+    const large = maps.findLastIndex(({ node, resolution }) => node === maps[0].node && resolution <= 7);
+    menu.replaceChildren(...names.map((name, index) => new Option(name, index)));
+    menu.value = names.includes(before) ? names.indexOf(before) : Math.max(0, large);
+    return Number(menu.value);
+  }
+
+  async change() {
+    this.changed ||= this.frame?.step > 0 || this.elements.length > 0;
+    this.take(await this.engine.ask({ type: "change", plan: this.plan() }));
+  }
+
+  async look(choice, maps = this.maps) {
+    Object.assign(this.wanted, choice);
+    if (!this.engine || this.beginning) return;
+    const [seen, field] = [{ ...this.wanted }, this.control("field").checked ? FIELD_TILES : 0];
+    const frame = await this.engine.ask({ type: "look", ...seen, field });
+    Object.assign(this, { seen, maps });
+    this.take(frame);
+  }
+
+  // The run
+
+  running() {
+    const lives = this.frame && !this.frame.ended && !this.beginning && !this.failed;
+    return Boolean(lives && this.model.get("playing") && this.inSight && !document.hidden);
+  }
+
+  async advance(steps, budget) {
+    this.advancing = true;
+    const frame = await this.engine.ask({ type: "advance", steps, budget });
+    this.advancing = false;
+    this.take(frame);
+    this.count(frame.steps);
+    if (this.running() && this.speed() === 0) this.safely(() => this.advance(STEPS_WITHOUT_END, FREE_BUDGET))();
+  }
+
+  speed() {
+    return this.game ? 1 : this.model.get("speed");
+  }
+
+  take(frame) {
+    if (this.beginning) return; // it is of the run before
+    this.frame = frame;
+    if (frame.maps && frame.maps.map(nameOf).join() !== this.maps.map(nameOf).join()) this.takeMaps(frame.maps);
+    Object.assign(this.root.dataset, { step: frame.step, score: frame.reward, goal: this.seen.goal ?? "" });
+    if (frame.ended && this.game) this.safely(() => this.leaveGame())();
+    if (frame.ended) this.refresh();
+    this.wake();
+  }
+
+  /** The agent has become another, as some conditions do on the way. */
+  takeMaps(maps) {
+    const map = this.likeBefore(maps);
+    this.maps = maps;
+    if (map !== this.seen.map) this.safely(() => this.look({ map, goal: null }))();
+  }
+
+  count(steps) {
+    this.counted += steps;
+    const now = performance.now();
+    if (!this.running() || now - this.since < 1000) return;
+    Object.assign(this, { rate: Math.round((1000 * this.counted) / (now - this.since)), counted: 0, since: now });
+    this.report();
+  }
+
+  /** Tells Python, and now and then those who hear the page and do not see it. */
+  report() {
+    const { model, frame, world, root } = this;
+    root.dataset.rate = this.rate;
+    model.set("seconds", frame.step / world.fps);
+    model.set("score", frame.reward);
+    model.save_changes();
+    if (this.running() && performance.now() - this.told < 5000) return;
+    this.told = performance.now();
+    this.part(".unseen").textContent = [this.livedText(), ...this.sentences()].join(". ");
+  }
+
+  wake() {
+    this.stale = true;
+    this.schedule();
+  }
+
+  schedule() {
+    this.scheduled ??= requestAnimationFrame(this.safely((now) => this.tick(now)));
+  }
+
+  tick(now) {
+    this.scheduled = null;
+    const elapsed = Math.min(now - (this.ticked ?? now), 100) / 1000;
+    this.ticked = now;
+    if (this.dragged) this.sendDragged();
+    if (this.running()) {
+      const [free, most] = [this.speed() === 0, this.speed() * this.world.fps];
+      this.owed = Math.min(this.owed + elapsed * most, Math.max(1, most / 10));
+      const steps = free ? STEPS_WITHOUT_END : Math.floor(this.owed);
+      if (!this.advancing && steps > 0) {
+        if (this.game) this.steer(now);
+        this.owed -= free ? 0 : steps;
+        this.safely(() => this.advance(steps, free ? FREE_BUDGET : TIMED_BUDGET))();
+      }
+      this.schedule();
+    }
+    if (this.stale && (!this.calm || !this.running() || now - this.drawn >= 500)) this.draw(now);
+  }
+
+  // When something goes wrong, and the end
+
+  safely(act) {
+    return async (...given) => {
+      try {
+        await act(...given);
+      } catch (error) {
+        this.fail(`The Explorer has stopped: ${error.message}`);
+      }
+    };
+  }
+
+  complain(message) {
+    this.failed = Boolean(message);
+    Object.assign(this.part("[role=alert]"), { hidden: !message, textContent: message });
+    this.refresh();
+  }
+
+  fail(message) {
+    this.engine?.stop();
+    Object.assign(this, { engine: null, following: false, beginning: false, advancing: false });
+    this.complain(message);
+  }
+
+  stop() {
+    this.inSight = false;
+    cancelAnimationFrame(this.scheduled);
+    this.engine?.stop();
+    for (const undo of this.undo) undo();
+    this.root.remove();
+  }
+}
+
+/** What is wrong with the values of the traits, as a sentence, or "". */
+function problemOf(presets, modalities, model) {
+  const preset = Object.hasOwn(presets, model.get("preset")) ? presets[model.get("preset")] : null;
+  if (!preset) return `There is no agent “${model.get("preset")}”. Choose one from the menu.`;
+  const [isNumber, isPlace, { nodes }] = [Number.isFinite, isWhole(0, MOST_SEED), preset];
+  const allowed = {
+    resolutions: (value) => isList(value, isWhole(1, 90)), valence_red: isNumber, learning_rate: isNumber,
+    modality: (value) => nodes.length > 1 || value === "" || Object.hasOwn(modalities, value), discount: isNumber,
+    gains: (value) => isList(value, isNumber) && value.length === nodes.length, n_creeps: isWhole(1, 20), seed: isPlace,
+    recursion: (value) => preset.recursion === null || isNumber(value), speed: (value) => value >= 0, run: isPlace };
+  const wrong = Object.keys(allowed).find((name) => !allowed[name](model.get(name)));
+  return wrong ? `The Explorer cannot run with ${wrong} = ${JSON.stringify(model.get(wrong))}.` : "";
+}
+
+/** What the page should have stored of a widget and has not, as a sentence, or "". */
+function damageOf(model) {
+  const isFull = (value) => value !== null && typeof value === "object" && Object.keys(value).length > 0;
+  const sound = { _presets: isFull, _modalities: isFull, _layout: isFull, _engine: (text) => Boolean(text),
+    _wasm: (bytes) => ArrayBuffer.isView(bytes) && bytes.byteLength > 0 };
+  const missing = Object.keys(sound).filter((name) => !sound[name](model.get(name)));
+  return missing.length ? `The Explorer cannot start: this page does not hold its ${missing.join(", ")}.` : "";
+}
+
+function render({ model, el }) {
+  try {
+    const damage = damageOf(model);
+    if (damage) throw new Error(damage);
+    const explorer = new Explorer(model, el);
+    return () => explorer.stop();
+  } catch (error) {
+    el.innerHTML = `<div class="neorl-explorer" data-state="failed"><p role="alert"></p></div>`;
+    el.querySelector("[role=alert]").textContent = error.message;
+  }
+}
+
+export default { render };
