@@ -9,6 +9,9 @@ the same to the last bit on any machine, on any number of threads, and with the 
 - it draws random numbers from a stream that it is handed (`neorl.stream`), never from ``np.random``;
 - it writes ``np.float32(...)`` where single precision is meant: a literal is double for numba, but weak for NumPy.
 
+Annotations say what the arrays of a named tuple hold, and what a kernel takes that is called from outside Python
+(`neorl.wasm`); numba does not read them.
+
 Nothing that is compiled is kept on disk: numba notices a change in a kernel's own file, but not in the files of the
 kernels that it calls, and a result must never come from code that is no longer there.
 """

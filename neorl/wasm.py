@@ -83,11 +83,11 @@ def _described(field):
 
 def _arguments(kernel):
     return {name: field.__name__ if field in TUPLES.values() else _described(field)
-            for name, field in fields(kernel.py_func).items() if name != "return"}
+            for name, field in fields(kernel).items() if name != "return"}
 
 
 def _result(kernel):
-    return SCALARS.get(fields(kernel.py_func)["return"])
+    return SCALARS.get(fields(kernel)["return"])
 
 
 def _flat(kernel):

@@ -10,8 +10,8 @@ import pytest
 from traitlets import TraitError
 
 import neorl
-from neorl import (Agent, Explorer, Learning, Node, Policy, WaterWorld, modality, network_d, object_vector_cells,
-                   place_cells, simulate)
+from neorl import (Agent, Desire, Explorer, Learning, Node, Policy, WaterWorld, modality, multimodal, network_d,
+                   object_vector_cells, place_cells, simulate)
 from neorl.explorer import AGENTS, CURVE_BINS
 
 TANK = WaterWorld(n_creeps=8, win_reward=5.0)
@@ -91,7 +91,9 @@ def test_a_bad_trait_is_refused_and_the_old_one_stays(trait, value, allowed):
 @pytest.mark.parametrize("result, allowed", [
     (place_cells([3]), "condition X is Agent.*, allowed is a Result"),
     (simulate(Agent([Node("PC", modality.PLACE_CELL, [3]), Node("HD", modality.HEAD_DIRECTION_CELL, [8])]), TANK,
-              steps=10, runs=1, progress=False), "nodes of different resolutions"),
+              steps=10, runs=1, progress=False), "condition X has different resolutions, "),
+    (simulate(replace(multimodal(), desires=[Desire("red", "PC", -1.0), Desire("red", "OVC", -0.5)]), TANK,
+              steps=10, runs=1, progress=False), "condition X has different valences of red, "),
     (simulate(place_cells([3]), TANK, steps=10, runs=1, seed=2**32, progress=False), "seed of condition X is 429"),
 ])
 def test_a_condition_that_cannot_be_shown_is_refused(result, allowed):
@@ -104,6 +106,14 @@ def test_a_condition_that_cannot_be_shown_is_refused(result, allowed):
 def test_an_unknown_trait_is_refused():
     with pytest.raises(ValueError, match="trait is 'resolution', allowed are .*'resolutions'"):
         Explorer(resolution=[3])
+
+
+def test_each_condition_keeps_its_tank(conditions):
+    other = simulate(place_cells([4]), WaterWorld(width=100, n_creeps=2, fps=30), steps=10, runs=1, progress=False)
+    explorer = Explorer(conditions | {"other": other}, preset="other")
+    assert explorer.world == other.world
+    explorer.preset = "Network D"
+    assert explorer.world == TANK
 
 
 def test_an_agent_of_other_ways_keeps_them():

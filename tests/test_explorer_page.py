@@ -121,8 +121,9 @@ def test_creeps_resolutions_modality_and_seed_begin_the_run_that_python_begins(o
     assert explorer.get_attribute("data-condition") == ""
 
 
-def test_what_is_dropped_is_an_element_of_interest_for_the_nodes_that_count(open_page, site):
-    page = open_page(*site("both"))
+@pytest.mark.parametrize("name, agent", [("both", BOTH), ("D", network_d([3, 4]))])
+def test_what_is_dropped_is_an_element_of_interest_for_the_nodes_that_count(open_page, site, name, agent):
+    page = open_page(*site(name))
     explorer_of(page)
     press(page, "drop")
     page.keyboard.press("ArrowLeft")
@@ -130,9 +131,27 @@ def test_what_is_dropped_is_an_element_of_interest_for_the_nodes_that_count(open
     element = page.locator(".interest")
     expect(element).to_have_text("−1.5")
     dropped = [Desire(Place(0.48, 0.5), node, -1.5) for node in ("PC", "OVC")]
-    assert play_to_the_end(page) == lived(replace(BOTH, desires=(*BOTH.desires, *dropped)))
+    assert play_to_the_end(page) == lived(replace(agent, desires=(*agent.desires, *dropped)))
     press(page, "reset")
     expect(element).to_have_count(0)
+
+
+def test_elements_and_creeps_are_dragged_to_where_the_pointer_goes(open_page, site):
+    page = open_page(*site("both"))
+    explorer_of(page)
+    press(page, "drop")
+    box = page.locator(".arena").bounding_box()
+    for thing, x, y in ((".interest", 0.2, 0.8), (".grip", 0.7, 0.3)):
+        place = page.locator(thing).first
+        begin = place.bounding_box()
+        page.mouse.move(begin["x"] + begin["width"] / 2, begin["y"] + begin["height"] / 2)
+        page.mouse.down()
+        page.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
+        page.mouse.move(box["x"] + x * box["width"], box["y"] + y * box["height"], steps=3)
+        page.mouse.up()
+        expect(place).to_have_attribute("style", re.compile(rf"left: {100 * x:.0f}\b.*top: {100 * y:.0f}\b|"
+                                                            rf"left: {100 * x - 1:.0f}\.9.*top: {100 * y - 1:.0f}\.9"))
+    expect(page.locator(".legend")).to_contain_text("changed on the way")
 
 
 def test_a_change_on_the_way_keeps_what_was_learned(open_page, site):

@@ -17,7 +17,7 @@ from neorl.plan import Memory, Plan, chosen
 from neorl.waterworld import WaterWorldState
 
 STEPS = 50_000
-LAYERS = (10, 30, 3, 7, 23)
+LAYERS = (10, 30, 50, 70, 90, 3, 7, 23)
 PRIMES = (2, 3, 5, 7, 11, 13)
 PAPERS = {
     "Brownian": (neorl.brownian(), 8),

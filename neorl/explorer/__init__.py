@@ -34,21 +34,22 @@ SCRIPTS = ("settings.js", "drawing.js", "page.js", "controls.js", "hands.js", "w
 
 
 def _text(*names):
-    return "\n".join((Path(__file__).parent / name).read_text() for name in names)
+    return "\n".join((Path(__file__).parent / name).read_text(encoding="utf-8") for name in names)
 
 
 class Explorer(AnyWidget):
     """A neoRL agent to watch, change and play against; in JupyterLab and, from its stored state, in a static page.
 
-    conditions: {name: `Result`}, the conditions of the page, whose bands and runs it shows. Their agents have the same
-        resolutions in every node. The tank is that of the first, or one of 3 creeps.
+    conditions: {name: `Result`}, the conditions of the page, whose bands and runs it shows. Each of their agents has
+        the same resolutions in every node, one valence of red and one of recursion.
     preset: the name of a condition or of one of `neorl.explorer.AGENTS`; by default the first condition or agent.
     traits: any of those below, to begin with.
 
     Traits: resolutions (1 … 90 each), modality (the name of one, "" if the preset has more than one node or a modality
     of its own), recursion (None if there is none), valence_red, gains (one a node), learning_rate and discount (0 … 1),
     n_creeps (1 … 20), seed (below 2³²), run, speed (times real time, 0 for as fast as it goes), playing.
-    Choosing a preset sets those that it determines. seconds and score follow the run, about once a second.
+    Choosing a preset sets those that it determines. An agent that is no condition lives in the tank of the first
+    condition, or else in one of 3 creeps. seconds and score follow the run, about once a second.
 
     Raises ValueError for a condition that cannot be shown, TraitError for a bad trait, RuntimeError if the WebAssembly
     module cannot be built.
@@ -83,11 +84,11 @@ class Explorer(AnyWidget):
         for name, result in conditions.items():
             _check_condition(name, result)
         first = next(iter(conditions.values()), None)
-        self._tank = first.world if first else WaterWorld()
-        self._agents = {name: result.agent for name, result in conditions.items()}
-        self._agents |= {name: make() for name, make in AGENTS.items() if name not in conditions}
-        presets = {name: _preset(name, agent, self._tank, conditions.get(name)) | {"place": place}
-                   for place, (name, agent) in enumerate(self._agents.items())}
+        tank = first.world if first else WaterWorld()
+        self._lives = {name: (result.agent, result.world) for name, result in conditions.items()}
+        self._lives |= {name: (make(), tank) for name, make in AGENTS.items() if name not in conditions}
+        presets = {name: _preset(name, agent, world, conditions.get(name)) | {"place": place}
+                   for place, (name, (agent, world)) in enumerate(self._lives.items())}
         preset = checks.one_of("preset", preset or next(iter(presets)), tuple(presets))
         for name in traits:
             checks.one_of("trait", name, tuple(each for each in self.traits(sync=True) if not each.startswith("_")))
@@ -98,7 +99,7 @@ class Explorer(AnyWidget):
     @property
     def agent(self):
         """The `Agent` that the traits describe, but for elements that somebody has dropped in the page."""
-        preset = self._agents[self.preset]
+        preset, _ = self._lives[self.preset]
         named = {each.name: each for each in MODALITIES}
         nodes = [replace(node, resolutions=self.resolutions, gain=gain) for node, gain in zip(preset.nodes, self.gains)]
         if self.modality and len(nodes) == 1:
@@ -112,7 +113,8 @@ class Explorer(AnyWidget):
     @property
     def world(self):
         """The `WaterWorld` that it lives in."""
-        return replace(self._tank, n_creeps=self.n_creeps)
+        _, tank = self._lives[self.preset]
+        return replace(tank, n_creeps=self.n_creeps)
 
     @traitlets.validate("preset", "modality", "recursion", "valence_red", "gains")
     def _check(self, proposal):
@@ -122,8 +124,8 @@ class Explorer(AnyWidget):
                 return checks.one_of(name, value, tuple(self._presets))
             if name == "modality":
                 return checks.one_of(name, value, ("", *self._modalities))
-            if name == "gains" and len(value) != len(self._agents[self.preset].nodes):
-                nodes = len(self._agents[self.preset].nodes)
+            nodes = len(self._lives[self.preset][0].nodes)
+            if name == "gains" and len(value) != nodes:
                 raise ValueError(f"gains is {value!r}, allowed is one for each of the {nodes} nodes")
             for number in value if name == "gains" else () if value is None else (value,):
                 checks.real(name, number)
@@ -141,8 +143,12 @@ class Explorer(AnyWidget):
 
 def _check_condition(name, result):
     checks.instance(f"condition {name}", result, Result)
-    if len({node.resolutions for node in result.agent.nodes}) > 1:
-        raise ValueError(f"condition {name} has nodes of different resolutions, allowed are the same in every node")
+    agent = result.agent
+    for what, values in (("resolutions", {node.resolutions for node in agent.nodes}),
+                         ("valences of red", {each.valence for each in agent.desires if each.source == "red"}),
+                         ("recursions", {each.valence for each in agent.desires if each.source == each.target})):
+        if len(values) > 1:
+            raise ValueError(f"condition {name} has different {what}, {values}, allowed are the same throughout")
     checks.integer(f"seed of condition {name}", result.seed, at_least=0, at_most=2**32 - 1)
 
 

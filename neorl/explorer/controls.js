@@ -189,8 +189,11 @@ class Controls {
     }
     if (game) said.push(`You: ${shown(frame.player?.reward ?? 0)}. neoRL: ${shown(frame.reward - game.score)}.`,
       "Steer with the arrows; Escape leaves.");
-    const cell = seen.goal === null ? "" : `Cell ${seen.goal} of ${nameOf(maps[seen.map])}`;
-    if (cell) said.push(`${cell}: how to get there. Nobody asked for it.`);
+    if (seen.goal !== null) {
+      const { vector } = maps[seen.map];
+      const what = { position: "how to get there", velocity: "how to come to move so" }[vector] ?? "how to get a thing there";
+      said.push(`Cell ${seen.goal} of ${nameOf(maps[seen.map])}: ${what}. Nobody asked for it.`);
+    }
     return said;
   }
 }
