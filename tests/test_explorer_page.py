@@ -19,7 +19,8 @@ BOTH, PLACES = multimodal([2, 3, 5]), place_cells([5, 3])
 def conditions():
     return {"both": simulate(BOTH, TANK, **SIZE), "places": simulate(PLACES, TANK, **SIZE),
             "joins": simulate(PLACES, TANK, changes=[(10_000, multimodal([5, 3]))], **SIZE),
-            "D": simulate(network_d([3, 4]), TANK, **SIZE)}
+            "D": simulate(network_d([3, 4]), TANK, **SIZE),
+            "turned": simulate(network_d([3, 4]), TANK, changes=[(10_000, network_d([3, 4], recursion=0.5))], **SIZE)}
 
 
 @pytest.fixture
@@ -74,7 +75,7 @@ def test_it_starts_by_itself_and_the_reward_curve_grows(open_page, site, over):
 
 
 @pytest.mark.parametrize("over", ["http", "file"])
-@pytest.mark.parametrize("name, run", [("both", 7), ("places", 11), ("joins", 4), ("D", 0)])
+@pytest.mark.parametrize("name, run", [("both", 7), ("places", 11), ("joins", 4), ("turned", 2), ("D", 0)])
 def test_a_run_opened_by_its_number_ends_with_the_score_that_python_has(open_page, site, conditions, name, run, over):
     page = open_page(*site("both", seed=99), over)
     explorer = explorer_of(page)

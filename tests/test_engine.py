@@ -1,0 +1,141 @@
+"""The Explorer's engine, asked directly: what it reports of a run is what Python has of it."""
+
+import base64
+import json
+
+import numpy as np
+import pytest
+
+from neorl import Explorer, NresMap, Run, WaterWorld, network_d, onlooker, place_cells, simulate
+from neorl.horde import as_vectors
+from neorl.plan import Memory
+
+ENGINE = """
+const ask = (worker, request) => new Promise((resolve, reject) => {
+  worker.onmessage = ({ data }) => resolve(data);
+  worker.onerror = ({ message }) => reject(new Error(message));
+  worker.postMessage(request);
+});
+async function answers(requests) {
+  const worker = new Worker(URL.createObjectURL(new Blob([state._engine])));
+  const wasm = Uint8Array.from(atob(state.wasm), (byte) => byte.charCodeAt(0)).buffer;
+  const all = [await ask(worker, { type: "load", wasm, layout: state._layout })];
+  for (const request of requests) all.push(await ask(worker, request));
+  worker.terminate();
+  return JSON.parse(JSON.stringify(all.slice(1), (_, value) => ArrayBuffer.isView(value) ? [...value] : value));
+}
+"""
+TANK = WaterWorld(n_creeps=4)
+AGENT = network_d([4, 5])
+STEPS, SEED, K = 3_000, 5, 2
+
+
+@pytest.fixture(scope="module")
+def state():
+    result = simulate(AGENT, TANK, steps=STEPS, runs=2, seed=SEED, progress=False)
+    state = Explorer({"D": result, "N90": simulate(place_cells([90]), TANK, steps=1, runs=1, progress=False)}).get_state()
+    return {name: state[name] for name in ("_engine", "_layout", "_presets")} | {
+        "wasm": base64.b64encode(state["_wasm"]).decode()}
+
+
+@pytest.fixture
+def ask(open_page, tmp_path, state):
+    """`ask(request, …)` gives what the engine of a run that has just begun answers to each."""
+    preset = state["_presets"]["D"]
+    world = preset["world"] | {"n_creeps": TANK.n_creeps}
+    begin = {"type": "begin", "plan": preset["plan"], "world": world, "seed": SEED, "run": K, "steps": 10 * STEPS,
+             "bin_steps": 100}
+    script = f"const state = {json.dumps(state)};{ENGINE}".replace("</", r"<\/")
+    (tmp_path / "page.html").write_text(f'<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">'
+                                        f'<script>{script}</script>')
+    page = open_page(tmp_path, "page.html")
+
+    def ask(*requests, **changes):
+        return page.evaluate("requests => answers(requests)", [begin | changes, *requests])
+    return ask
+
+
+def advance(steps):
+    return {"type": "advance", "steps": steps, "budget": 60_000}
+
+
+def test_a_frame_tells_what_the_run_holds(ask):
+    goal = 7
+    begun, _, frame = ask({"type": "look", "map": 3, "goal": goal, "field": 9}, advance(STEPS))
+    run = Run(AGENT, TANK, SEED, K)
+    rewards, hits = np.zeros(2 * STEPS, np.float32), np.zeros((2 * STEPS, 2), np.int16)
+    assert frame["reward"] == run.advance(STEPS, rewards, hits)
+    assert frame["step"] == STEPS and not frame["ended"]
+    assert np.array_equal(frame["rewards"][: STEPS // 100], rewards[: STEPS // 10].reshape(-1, 10).sum(axis=1))
+    assert [(each["node"], each["resolution"]) for each in begun["maps"]] == [
+        ("PC", 4), ("PC", 5), ("OVC", 4), ("OVC", 5)]
+
+    width, state = TANK.width, run.state
+    assert [frame["agent"][name] for name in "xy"] == pytest.approx(state.agent_position / width)
+    assert [frame["agent"][name] for name in ("vx", "vy")] == pytest.approx(state.agent_velocity / width)
+    creeps = frame["creeps"]
+    assert [creep["green"] for creep in creeps] == state.creep_is_green.tolist()
+    assert np.array([(creep["x"], creep["y"]) for creep in creeps]) == pytest.approx(state.creep_position / width)
+    velocity = state.creep_direction * state.creep_speed[:, None] / width
+    assert np.array([(creep["vx"], creep["vy"]) for creep in creeps]) == pytest.approx(velocity)
+    assert frame["active"] == run.memory.cell[run.plan.first_track[3] : run.plan.first_track[4]].tolist()
+
+    for node in frame["nodes"]:
+        output = run.output(node["name"])
+        assert (node["x"], node["y"], node["valence"]) == pytest.approx((*output.desire, output.valence))
+    landings = run.memory.landing[2:] + state.agent_position / width
+    assert np.array([(each["x"], each["y"]) for each in frame["landings"]]) == pytest.approx(landings)
+    assert [each["valence"] for each in frame["landings"]] == run.memory.worth[2:].tolist()
+    assert [each["recurs"] for each in frame["landings"]] == [False, False, True]
+
+    assert np.array(frame["goal"]).reshape(-1, 2) == pytest.approx(as_vectors(run.q(3)[:, :, goal]))
+    elsewhere = Memory(**{name: value.copy() for name, value in run.memory._asdict().items()})
+    values = np.zeros((81, 4))
+    onlooker.survey(run.plan, run.memory, elsewhere, state._replace(agent_position=np.zeros(2)), 9, values)
+    assert np.array(frame["field"]).reshape(-1, 2) == pytest.approx(as_vectors(values), rel=1e-6)
+
+
+def test_a_second_agent_does_what_it_is_told_on_the_same_creeps(ask):
+    actions = np.random.default_rng(0).integers(0, 5, 600).tolist()
+    frame = ask(advance(STEPS), *(each for action in actions
+                                  for each in ({"type": "play", "action": action}, advance(1))))[-1]
+    run = Run(AGENT, TANK, SEED, K)
+    run.advance(STEPS)
+    second = run.state._replace(agent_position=np.full(2, 0.1 * TANK.width), agent_velocity=np.zeros(2))
+    contacts, paid, touched = np.zeros(TANK.n_creeps, np.int8), 0.0, 0
+    for action in actions:
+        run.advance(1)
+        paid += onlooker.step_second(run.plan, run.memory, TANK.rules, run.state, second, contacts, action)
+        touched += np.abs(contacts).sum()
+    assert touched > 3 and frame["player"]["reward"] == paid
+    assert [frame["player"][name] for name in "xy"] == pytest.approx(second.agent_position / TANK.width)
+    assert [frame["agent"][name] for name in "xy"] == pytest.approx(run.state.agent_position / TANK.width)
+
+
+def test_a_place_is_found_in_the_cell_that_it_lies_in(ask):
+    places = [(0.1, 0.9), (0.55, 0.3), (0.99, 0.01)]
+    found = ask(*({"type": "find", "map": m, "x": x, "y": y} for m in (1, 2) for x, y in places))[1:]
+    agent = Run(AGENT, TANK, SEED, K).state.agent_position / TANK.width
+    expected = [*NresMap(5).encode(places), *NresMap(4, AGENT.nodes[1].modality).encode(places - agent)]
+    assert [each["cell"] for each in found] == expected
+
+
+def test_a_creep_is_put_where_it_is_dragged_but_inside_the_tank(ask):
+    frames = ask({"type": "drag", "creep": 1, "x": 0.3, "y": 0.6}, {"type": "drag", "creep": 1, "x": -2, "y": 3})
+    at = [(frame["creeps"][1]["x"], frame["creeps"][1]["y"]) for frame in frames[1:]]
+    radius = TANK.radius / TANK.width
+    assert at[0] == pytest.approx((0.3, 0.6)) and at[1] == pytest.approx((radius, 1 - radius))
+
+
+def test_a_run_ends_at_its_length(ask):
+    frame = ask(advance(10**9), advance(10**9), steps=500)[-1]
+    assert frame["ended"] and frame["step"] == 500
+
+
+def test_what_cannot_be_done_is_a_sentence(ask, state):
+    plan = state["_presets"]["N90"]["plan"]
+    four = plan | {"resolution": [90] * 4, "first_map": [0, 4]}
+    refused, then = ask(advance(1), plan=four)
+    assert refused == {"type": "failed", "message": "These maps need 3.9 GB of memory, and a page can have 3. "
+                                                    "Choose coarser ones."}
+    assert then == {"type": "failed", "message": "No run has begun."}
