@@ -153,7 +153,7 @@ def draw_tank(axes, world, state):
 def draw_desires(axes, run):
     """Where the desires between the nodes of a run's agent land, as seen from its agent."""
     start = run.state.agent_position / run.world.width
-    for desire, landing in zip(run.agent.desires, run.memory.landing):
+    for desire, landing in zip(run.agent.desires, run.memory.landing[:, :2]):
         if desire.between_nodes:
             colour = desire_colour(desire)
             axes.annotate("", start + landing, start, annotation_clip=False, arrowprops={

@@ -46,7 +46,7 @@ def project(plan, memory, e):
             valence += memory.worth[i]
     memory.landing[e, 0] = plan.scale[e] * east
     memory.landing[e, 1] = plan.scale[e] * south
-    memory.worth[e] = valence if plan.sums_valence[e] else plan.valence[e]
+    memory.landing[e, 2] = valence if plan.sums_valence[e] else plan.valence[e]
 
 
 @inlined_kernel
@@ -56,7 +56,7 @@ def call_up(plan, memory, state, n, e):
     for action in range(N_EVENTS):
         pull[action] = 0.0
     if source == NODE:
-        valence = memory.worth[e]
+        valence = memory.landing[e, 2]
     memory.worth[e] = valence if source >= NODE else 0.0
     if source == POINT:
         for m in range(plan.first_map[n], plan.first_map[n + 1]):

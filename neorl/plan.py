@@ -89,7 +89,7 @@ class Memory(NamedTuple):
     target: array("float32", "cells")  # working memory
     # as of the last choice that was not drawn
     pull: array("float64", "desires", 4)  # what each desire adds to the value of each action in its node
-    landing: array("float64", "desires", 2)  # where a node's desire lands, as seen from the agent, in board widths
+    landing: array("float64", "desires", 3)  # where a node's desire lands, seen from the agent, and with what valence
     worth: array("float64", "desires")  # its valence, all its elements together
     value: array("float64", 4)  # of each action
     stream: array("uint64", 4)  # the random numbers of the policy

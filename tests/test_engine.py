@@ -83,7 +83,7 @@ def test_a_frame_tells_what_the_run_holds(ask):
     for node in frame["nodes"]:
         output = run.output(node["name"])
         assert (node["x"], node["y"], node["valence"]) == pytest.approx((*output.desire, output.valence))
-    landings = run.memory.landing[2:] + state.agent_position / width
+    landings = run.memory.landing[2:, :2] + state.agent_position / width
     assert np.array([(each["x"], each["y"]) for each in frame["landings"]]) == pytest.approx(landings)
     assert [each["valence"] for each in frame["landings"]] == run.memory.worth[2:].tolist()
     assert [each["recurs"] for each in frame["landings"]] == [False, False, True]

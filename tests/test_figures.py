@@ -255,7 +255,7 @@ def test_desires_are_drawn_where_they_land():
     axes = figures.new_board()
     figures.draw_desires(axes, run)
     landed = [line.get_xydata()[0] - run.state.agent_position / 250 for line in axes.lines]
-    np.testing.assert_allclose(landed, run.memory.landing[2:])
+    np.testing.assert_allclose(landed, run.memory.landing[2:, :2])
     assert [line.get_color() for line in axes.lines] == [figures.GREEN, figures.RED]
 
 

@@ -4,6 +4,7 @@ import itertools
 import os
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ import pytest
 import neorl
 from neorl import (Agent, Desire, Learning, Node, Place, Policy, Run, WaterWorld, multimodal, network_a, network_b,
                    network_c, network_d, object_vector_cells, place_cells, simulate)
+from neorl.horde import as_vectors
 from neorl.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
                             LANDMARK_VECTOR_CELL, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL)
 from neorl.stream import new_stream, uniform
@@ -27,6 +29,8 @@ WISHES = (Desire("green", "polar", 1.0), Desire("red", "polar", -0.5), Desire("p
           Desire(Place(0.2, 0.7), "PC", 0.5), Desire(Place(0.6, 0.1), "polar", -0.4),
           Desire(Place(0.9, 0.9), "HD", 0.3),
           Desire("PC", "landmark", signed=True), Desire("polar", "polar", -0.5, of=("green", "polar")))
+A_THAT_RECURS = replace(network_a([3, 5]), desires=(
+    *network_a().desires, Desire("OVC", "OVC", valence=0.5), Desire("OVC", "OVC", valence=-0.7, of=("PC", "OVC"))))
 READINGS = {
     "default": place_cells([3, 7]),
     "several": place_cells([2, 5, 9], weighting="cells", policy=Policy(exploration=0.3, idle="no-op")),
@@ -40,6 +44,7 @@ READINGS = {
     "B": network_b([3, 5], signed=True),
     "C": network_c([3], object_gain=0.5),
     "D": network_d([2, 5], policy=Policy(exploration=0.05)),
+    "A that recurs": A_THAT_RECURS,
     "all senses": Agent(SENSES, WISHES),
     "compass": Agent((Node("PC", PLACE_CELL, (7,), gain=0.0), Node("HD", HEAD_DIRECTION_CELL, (4,))),
                      (Desire("green", "PC", 1.0), Desire("PC", "HD"))),
@@ -303,7 +308,7 @@ def test_the_output_of_a_node():
     greens, reds = (sum(run.agent.desires[e].source == colour and run.memory.worth[e] for e in range(2))
                     for colour in ("green", "red"))
     assert place.valence == greens + reds == relative.valence
-    landing = run.memory.landing[2:4] / 2.0
+    landing = run.memory.landing[2:4, :2] / 2.0
     np.testing.assert_allclose(landing.sum(axis=0), place.desire)
     with pytest.raises(ValueError, match="name is 'HD', allowed are 'PC', 'OVC'"):
         run.output("HD")
@@ -436,3 +441,16 @@ def test_a_run_that_fails_ends_the_others(monkeypatch):
 
 if __name__ == "__main__":
     sys.stdout.buffer.write(fingerprint(sys.argv[2:], int(sys.argv[1])))
+
+
+def test_recursion_takes_vectors_and_valences_of_the_step_before():
+    run = Run(A_THAT_RECURS, WaterWorld(), seed=0)
+    run.advance(2_000)
+    while not run.memory.pull[2:].any(axis=1).all():
+        run.advance(1)
+    run.memory.worth[2:] *= -1  # what was wanted a step ago had the other sign
+    pull, worth = run.memory.pull[2:].copy(), run.memory.worth[2:].copy()
+    run.advance(1)
+    expected = 2.0 * np.where(worth > 0, 1.0, -1.0) @ as_vectors(pull)
+    assert expected.all()
+    np.testing.assert_allclose(run.memory.landing[3:, :2], [expected, expected])

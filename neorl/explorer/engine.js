@@ -262,7 +262,7 @@ function frame(milliseconds = 0, steps = 0) {
     nodes: choices.nodes.map((name, n) => ({ name, ...desire(n) })),
     landings: choices.desires.flatMap(({ source, target }, e) => (Number(plan.source[e]) !== NODE ? [] : [{
       source, target, recurs: source === target, valence: memory.worth[e],
-      x: agent.x + memory.landing[2 * e], y: agent.y + memory.landing[2 * e + 1],
+      x: agent.x + memory.landing[3 * e], y: agent.y + memory.landing[3 * e + 1],
     }])),
     field: look.field ? field(look.field) : null,
     goal: look.goal === null ? null : valueFunction(look.map, look.goal),
