@@ -33,7 +33,8 @@ STEPS, SEED, K = 3_000, 5, 2
 @pytest.fixture(scope="module")
 def state():
     result = simulate(AGENT, TANK, steps=STEPS, runs=2, seed=SEED, progress=False)
-    state = Explorer({"D": result, "N90": simulate(place_cells([90]), TANK, steps=1, runs=1, progress=False)}).get_state()
+    large = simulate(place_cells([90]), TANK, steps=1, runs=1, progress=False)
+    state = Explorer({"D": result, "N90": large}).get_state()
     return {name: state[name] for name in ("_engine", "_layout", "_presets")} | {
         "wasm": base64.b64encode(state["_wasm"]).decode()}
 

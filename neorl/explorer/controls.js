@@ -191,7 +191,8 @@ class Controls {
       "Steer with the arrows; Escape leaves.");
     if (seen.goal !== null) {
       const { vector } = maps[seen.map];
-      const what = { position: "how to get there", velocity: "how to come to move so" }[vector] ?? "how to get a thing there";
+      const ways = { position: "how to get there", velocity: "how to come to move so" };
+      const what = ways[vector] ?? "how to get a thing there";
       said.push(`Cell ${seen.goal} of ${nameOf(maps[seen.map])}: ${what}. Nobody asked for it.`);
     }
     return said;
