@@ -13,9 +13,7 @@ const PAGE = 65536;
 const MOST_GIGABYTES = 3;
 const SLICE_MS = 4; // between two looks at the clock
 const NODE = 2; // the source of a desire that comes from a node, in `plan.source`
-const OWN = { // of a second body in the same tank; it shares all else
-  agent_position: true, agent_velocity: true,
-};
+const OWN = ["agent_position", "agent_velocity"]; // of a second body in the same tank; it shares all else
 const VECTORS = ["position", "velocity", "objects", "boundaries", "landmarks"];
 const TUNINGS = ["cartesian", "proximal", "polar", "angle", "length"];
 
@@ -102,7 +100,7 @@ function newRun({ plan: choices, world, steps, bin_steps }) {
   const machine = new Machine(bytes);
   const memory = machine.tuple("Memory", sizes);
   const state = machine.tuple("WaterWorldState", sizes);
-  const shared = Object.fromEntries(Object.entries(state).filter(([name]) => !OWN[name]));
+  const shared = Object.fromEntries(Object.entries(state).filter(([name]) => !OWN.includes(name)));
   const made = {
     machine, sizes, world, steps, bin_steps, choices, memory, state, rules: world.rules, step: 0, reward: 0,
     plan: machine.tuple("Plan", sizes, choices),
@@ -165,7 +163,7 @@ function change({ plan: choices }) {
   } else {
     run = newRun({ ...old, plan: choices });
     for (const name of Object.keys(old.state)) run.state[name].set(old.state[name]);
-    for (const name of Object.keys(OWN)) run.second[name].set(old.second[name]);
+    for (const name of OWN) run.second[name].set(old.second[name]);
     for (const name of ["stream", "last_event"]) run.memory[name].set(old.memory[name]);
     for (const name of ["rewards", "hits"]) run[name].set(old[name]);
     const { step, reward, player, changes } = old;
