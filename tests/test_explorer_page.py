@@ -86,6 +86,9 @@ def test_a_run_opened_by_its_number_ends_with_the_score_that_python_has(open_pag
     wait(page, "ended")
     total = conditions[name].totals[run]
     assert float(explorer.get_attribute("data-score")) == total
+    nodes = (conditions[name].changes or [(0, conditions[name].agent)])[-1][1].nodes
+    maps = [f"{node.name} N{n}" for node in nodes for n in node.resolutions]
+    expect(page.locator('[name="map"] option')).to_have_text(maps)
     expect(explorer).to_contain_text(re.compile(r"The notebook computed .* for this run: the same\."))
 
 

@@ -132,7 +132,7 @@ function begin(request) {
   call("know_nothing");
   call("settle");
   look = { ...look, map: Math.min(look.map, run.sizes.maps - 1), goal: null };
-  return { ...frame(), type: "begun", maps: maps(), megabytes: run.memory.q.byteLength / 2 ** 20 };
+  return { ...frame(), type: "begun", maps: maps() };
 }
 
 function maps() {
@@ -143,13 +143,13 @@ function maps() {
     return {
       node: choices.nodes[n], resolution: Number(resolution), vector: VECTORS[plan.vector[n]], columns, rows, cells,
       tuning: TUNINGS[plan.tuning[n]], low_u: plan.low_u[m], scale_u: plan.scale_u[m], low_v: plan.low_v[m],
-      scale_v: plan.scale_v[m], closed: Boolean(plan.closed[m]), reach: [plan.high[2 * n], plan.high[2 * n + 1]],
+      scale_v: plan.scale_v[m], reach: [plan.high[2 * n], plan.high[2 * n + 1]],
     };
   });
 }
 
 /** Go on as another agent, as `Run.change` does: a map that both have stays as it is, the desires of before do not. */
-function change({ plan: choices }) {
+function become(choices) {
   const old = run;
   const keys = mapKeys(choices);
   if (choices.source.length === old.sizes.desires && keys.join() === mapKeys(old.choices).join()) {
@@ -165,7 +165,7 @@ function change({ plan: choices }) {
     for (const name of Object.keys(old.state)) run.state[name].set(old.state[name]);
     for (const name of OWN) run.second[name].set(old.second[name]);
     for (const name of ["stream", "last_event"]) run.memory[name].set(old.memory[name]);
-    for (const name of ["rewards", "hits"]) run[name].set(old[name]);
+    run.rewards.set(old.rewards);
     const { step, reward, player, changes } = old;
     Object.assign(run, { step, reward, player, changes });
     call("know_nothing");
@@ -175,7 +175,6 @@ function change({ plan: choices }) {
   }
   look = { ...look, map: Math.min(look.map, run.sizes.maps - 1) };
   run.newMaps = true;
-  return frame();
 }
 
 function mapKeys({ first_map, first_landmark, resolution, nodes, trace, ...choices }) {
@@ -205,7 +204,7 @@ function advance({ steps, budget }) {
   const first = run.step;
   const end = Math.min(run.steps, first + steps);
   while (run.step < end && performance.now() - began < budget) {
-    if (run.changes[0]?.step === run.step) change(run.changes.shift());
+    if (run.changes[0]?.step === run.step) become(run.changes.shift().plan);
     const next = Math.min(end, run.step + (run.player ? 1 : run.slice), run.changes[0]?.step ?? end);
     const before = performance.now();
     run.reward += call("live", { first_step: run.step, last_step: next });
@@ -214,7 +213,7 @@ function advance({ steps, budget }) {
     else if (performance.now() - before < SLICE_MS / 2) run.slice *= 2;
     else if (performance.now() - before > SLICE_MS && run.slice > 1) run.slice /= 2;
   }
-  return frame(performance.now() - began, run.step - first);
+  return frame(run.step - first);
 }
 
 function play({ action }) {
@@ -240,7 +239,7 @@ function find({ map, x, y }) {
   return { type: "found", map, cell: call("cell_seen_at", { m: map, x, y }) };
 }
 
-function frame(milliseconds = 0, steps = 0) {
+function frame(steps = 0) {
   const { state, second, player, rules, plan, memory, choices, newMaps } = run;
   run.newMaps = false;
   const body = ({ agent_position: at, agent_velocity: moving }) =>
@@ -254,7 +253,7 @@ function frame(milliseconds = 0, steps = 0) {
   const [from, to] = [plan.first_track[look.map], plan.first_track[look.map + 1]].map(Number);
   return {
     type: "frame", step: run.step, ended: run.step >= run.steps, reward: run.reward, rewards: run.rewards.slice(),
-    maps: newMaps && maps(), milliseconds, steps, agent, radius: rules.radius / rules.width, creeps,
+    maps: newMaps && maps(), steps, agent, radius: rules.radius / rules.width, creeps,
     player: player && { ...body(second), reward: player.reward },
     active: Array.from(memory.cell.subarray(from, to), Number),
     nodes: choices.nodes.map((name, n) => ({ name, ...desire(n) })),
@@ -306,7 +305,10 @@ const REQUESTS = {
     return { type: "ready" };
   },
   begin,
-  change,
+  change({ plan }) {
+    become(plan);
+    return frame();
+  },
   look({ map, goal, field: side }) {
     look = { map, goal, field: side };
     return frame();
