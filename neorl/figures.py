@@ -13,6 +13,7 @@ from scipy.signal import butter, sosfiltfilt
 
 from neorl.horde import as_vectors
 from neorl.modality import TAU
+from neorl.onlooker import HALF_SECOND
 from neorl.statistics import band, mean_band
 
 INK = "#808080"
@@ -20,7 +21,6 @@ AGENT, GREEN, RED = "#3b8ad9", "#12946d", "#d9622b"
 CURVES = ("#3e6ad1", "#b02d45", "#ac990f", "#01a7bf", "#85488f", "#b46411", "#9c86fd")
 POINTS = 400  # of a curve; more cannot be seen
 RASTER = 121  # places a side at which receptive fields are looked up
-HALF_SECOND = 0.5  # how far ahead a velocity is drawn
 
 # Paper B smooths its curves "by a Butterworth low-pass filter" (section 3). The thesis states neither of these.
 FILTER_ORDER = 4

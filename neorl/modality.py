@@ -127,8 +127,8 @@ class Modality:
         Raises ValueError if a vector is not finite or not of two components.
         """
         vectors = checks.points("vectors", vectors, ("x", "y"))
-        kind, reach = int(Tuning[self.tuning]), [high for _, high in self.ranges] or [0.0]
-        pairs = np.array([tuned(kind, x, y, reach[0], reach[-1]) for x, y in vectors.reshape(-1, 2)]).reshape(-1, 2)
+        tuning, _, reach_x, _, reach_y = self.space
+        pairs = np.array([tuned(tuning, x, y, reach_x, reach_y) for x, y in vectors.reshape(-1, 2)]).reshape(-1, 2)
         pairs[:, 1] *= TAU if self.has_direction else 1.0
         return pairs[:, self.in_pair].reshape(*vectors.shape[:-1], len(self.axes))
 

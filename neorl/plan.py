@@ -12,7 +12,7 @@ import numpy as np
 from neorl.agent import COLOURS, CREDITS, DRIVERS, WEIGHTINGS, Place
 from neorl.horde import N_EVENTS
 from neorl.kernel import array, kernel, zeros
-from neorl.modality import BOUNDARIES, LANDMARKS, OBJECTS, TAU, Vector
+from neorl.modality import BOUNDARIES, LANDMARKS, OBJECTS, Vector
 from neorl.nres import cell_at, tiling
 
 GREEN, RED, NODE, POINT, PLACE = range(5)  # where a desire comes from; one thing from NODE on

@@ -1,11 +1,14 @@
 """A page that holds nothing but Explorers and the host that brings them to life."""
 
 import json
+import sys
 from pathlib import Path
 
 from ipywidgets.embed import embed_data
 
-HOST = Path(__file__).parent.parent / "book" / "vendor" / "widgets.js"
+BOOK = Path(__file__).parent.parent / "book"
+sys.path.insert(0, str(BOOK))
+from build import WIDGET_STATE, WIDGET_VIEW, script  # noqa: E402
 
 
 def write_page(folder, explorers, change=None):
@@ -14,9 +17,7 @@ def write_page(folder, explorers, change=None):
     state = json.loads(json.dumps(data["manager_state"], sort_keys=True))  # as notebooks are stored
     if change:
         change(state["state"][explorers[0].model_id])
-    scripts = [("state", state), *(("view", view) for view in data["view_specs"])]
-    body = "\n".join('<script type="application/vnd.jupyter.widget-{}+json">{}</script>'.format(
-        kind, json.dumps(content).replace("<", r"\u003c")) for kind, content in scripts)
+    body = "\n".join([script(WIDGET_STATE, state), *(script(WIDGET_VIEW, view) for view in data["view_specs"])])
     (folder / "page.html").write_text(f'<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">'
                                       f'<body style="width: 700px">{body}<script src="widgets.js"></script>')
-    (folder / "widgets.js").write_text(HOST.read_text())
+    (folder / "widgets.js").write_text((BOOK / "vendor" / "widgets.js").read_text())

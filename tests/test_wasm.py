@@ -6,7 +6,6 @@ import sys
 
 import numpy as np
 import pytest
-import wasmtime
 from webassembly import Machine, compiled
 
 import neorl

@@ -33,7 +33,7 @@ class Controls {
     if (type !== (["text", "number"].includes(kind) ? "change" : "input")) return null;
     if (kind === "number" && !target.reportValidity()) return null;
     const act = { resolutions: () => this.writeResolutions(target), "open-preset": () => this.limitRun(),
-      preset: () => this.write({ ...initialSettings(this.presets, value), preset: value }),
+      preset: () => this.write(initialSettings(this.presets, value)),
       modality: () => this.write({ modality: value }), speed: () => this.write({ speed: SPEEDS[value] }),
       learning_rate: () => this.write({ learning_rate: Number((10 ** value).toPrecision(2)) }), "open-run": () => null,
       map: () => this.look({ map: Number(value), goal: null }), field: () => this.look({}),
@@ -72,7 +72,7 @@ class Controls {
     const [key, run] = [this.control("open-preset").value, this.control("open-run")];
     if (!run.reportValidity()) return;
     this.reset();
-    this.write({ ...initialSettings(this.presets, key), preset: key, seed: this.presets[key].seed,
+    this.write({ ...initialSettings(this.presets, key), seed: this.presets[key].seed,
       run: run.valueAsNumber, speed: 0, playing: true });
   }
 

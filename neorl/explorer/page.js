@@ -8,8 +8,6 @@ const THRUST_EVERY = 90; // milliseconds; a held key pushes one step at a time, 
 // The action of the game, and the direction in the tank
 const KEYS = { ArrowUp: [0, 0, -1], ArrowDown: [1, 0, 1], ArrowRight: [2, 1, 0], ArrowLeft: [3, -1, 0] };
 const NEW_RUN = ["preset", "resolutions", "modality", "n_creeps", "seed", "run"];
-const GOES_ON = ["recursion", "valence_red", "gains", "learning_rate", "discount"];
-const OF_PRESET = [...GOES_ON, "resolutions", "modality", "n_creeps"]; // what a preset has defaults of
 const ALLOWED = "Resolutions are whole numbers from 1 to 90, such as 3, 5, 7.";
 const HINT = "Click a cell: how to get there. Double-click: drop an element of interest. Drag the creeps.";
 

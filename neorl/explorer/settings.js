@@ -1,5 +1,7 @@
 // From the controls to the plan that the engine runs: a preset's plan, with what the reader has set put in its place.
 
+const GOES_ON = ["recursion", "valence_red", "gains", "learning_rate", "discount"]; // may change while a run lives
+const OF_PRESET = [...GOES_ON, "resolutions", "modality", "n_creeps"]; // what a preset has defaults of
 const PLACE = 4; // the source of a desire that is a place in the arena, in `plan.source`
 
 /** The keys of the presets as Python had them; what is stored may come in another order. */
@@ -8,8 +10,7 @@ function orderedKeys(presets) {
 }
 
 function initialSettings(presets, key) {
-  const { resolutions, modality, recursion, valence_red, gains, learning_rate, discount, n_creeps } = presets[key];
-  return { preset: key, resolutions, modality, recursion, valence_red, gains, learning_rate, discount, n_creeps };
+  return { preset: key, ...Object.fromEntries(OF_PRESET.map((name) => [name, presets[key][name]])) };
 }
 
 /** `elements`: [{x, y, valence}], what the reader has dropped; every node whose values count sees them. */
