@@ -5,7 +5,8 @@ Rules, as in the PyGame Learning Environment (Tasfi 2016; thesis section 4.2), f
 1. The agent's action adds a quarter of the width to one component of its velocity (per step, not per second; north
    is −y), or nothing. Then it moves. A component that stays inside [0, width − 2 radius] keeps 97.5 % of its
    velocity, one that leaves is clamped to the wall and stopped.
-2. A creep is touched where the rounded positions differ by less than two radii in both axes: squares, not discs. It
+2. A creep is touched where the positions, in whole pixels, differ by less than two radii in both axes: squares, not
+   discs. Pygame rounds positions since version 2, and cut off what is behind the point before. A creep that is touched
    pays +1 if green and −1 if red, and a fresh creep takes its place.
 3. If no green creep is left, the step also pays `win_reward` and the episode is over.
 4. Every creep, fresh ones too, moves at its own constant speed. At a wall it is clamped and turns back with a jitter.
@@ -25,6 +26,7 @@ from neorl.stream import below, new_stream, uniform
 
 ACTIONS = ("N", "S", "E", "W", "no-op")
 NO_OP = 4
+CONTACTS = ("rounded", "truncated")
 DRAG = 0.975
 DIAGONAL = 1.0 / math.sqrt(2.0)
 
@@ -55,6 +57,7 @@ class Rules(NamedTuple):
     radius: float
     dt: float  # seconds a step
     win_reward: float
+    rounding: float  # what is added to a coordinate before it is cut to whole pixels
 
 
 @dataclass(frozen=True)
@@ -65,6 +68,8 @@ class WaterWorld:
     n_creeps: creeps in the tank at any time, at least 1.
     fps: steps in a simulated second, at least 1. An action works per step, so this changes the task.
     win_reward: paid on top when the last green creep is taken: 5 in the original and in paper A, 0 in papers B and C.
+    contact: whether positions are "rounded" to whole pixels before they are compared, as in pygame 2, or "truncated",
+        as in pygame 1.9.
 
     Raises ValueError for anything else.
     """
@@ -73,6 +78,7 @@ class WaterWorld:
     n_creeps: int = 3
     fps: int = 50
     win_reward: float = 0.0
+    contact: str = "rounded"
 
     def __post_init__(self):
         checks.integer("width", self.width, at_least=1)
@@ -81,6 +87,7 @@ class WaterWorld:
         checks.integer("n_creeps", self.n_creeps, at_least=1)
         checks.integer("fps", self.fps, at_least=1)
         checks.real("win_reward", self.win_reward)
+        checks.one_of("contact", self.contact, CONTACTS)
 
     @property
     def radius(self):
@@ -90,7 +97,8 @@ class WaterWorld:
     @property
     def rules(self):
         """The rules as the kernels take them."""
-        return Rules(float(self.width), float(self.radius), 1.0 / self.fps, float(self.win_reward))
+        return Rules(float(self.width), float(self.radius), 1.0 / self.fps, float(self.win_reward),
+                     0.5 if self.contact == "rounded" else 0.0)
 
     def reset(self, seed):
         """A fresh state: the agent at rest in the centre, creeps drawn until one is green.
@@ -194,13 +202,13 @@ def move_agent(state, rules, action):
 
 @kernel
 def touch_creeps(state, rules, contacts):
-    agent_x = np.floor(state.agent_position[0] + 0.5)
-    agent_y = np.floor(state.agent_position[1] + 0.5)
+    agent_x = np.floor(state.agent_position[0] + rules.rounding)
+    agent_y = np.floor(state.agent_position[1] + rules.rounding)
     reach = 2.0 * rules.radius
     reward, greens = 0.0, 0
     for creep in range(contacts.shape[0]):
-        dx = abs(agent_x - np.floor(state.creep_position[creep, 0] + 0.5))
-        dy = abs(agent_y - np.floor(state.creep_position[creep, 1] + 0.5))
+        dx = abs(agent_x - np.floor(state.creep_position[creep, 0] + rules.rounding))
+        dy = abs(agent_y - np.floor(state.creep_position[creep, 1] + rules.rounding))
         contacts[creep] = 0
         if dx < reach and dy < reach:
             contacts[creep] = 1 if state.creep_is_green[creep] else -1

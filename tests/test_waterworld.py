@@ -170,3 +170,18 @@ def test_a_creep_bounces_with_its_jitter_where_it_just_reaches_the_low_wall_but_
     world.step(state, "no-op")
     turned = np.array([-0.6 * 1.25, 0.8])
     np.testing.assert_allclose(state.creep_direction[0], turned / np.linalg.norm(turned))
+
+
+@pytest.mark.parametrize("contact, touched", [("rounded", False), ("truncated", True)])
+def test_positions_are_compared_in_whole_pixels_by_either_rule(contact, touched):
+    """Side by side at 100.4 and 123.5: 24 pixels apart if rounded, 23 if truncated, and two radii are 24."""
+    world = WaterWorld(n_creeps=1, contact=contact)
+    state = world.reset(0)
+    state.creep_is_green = True
+    state.agent_position, state.creep_position = (100.4, 100.0), (123.5, 100.0)
+    assert world.step(state, "no-op")[1].tolist() == [touched]
+
+
+def test_an_unknown_contact_rule_is_refused():
+    with pytest.raises(ValueError, match="contact is 'near', allowed are 'rounded', 'truncated'"):
+        WaterWorld(contact="near")
