@@ -12,12 +12,17 @@ import hashlib
 import io
 import os
 import tempfile
+from dataclasses import dataclass, fields
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 import platformdirs
 
+from neorl import checks
+from neorl.agent import Agent
 from neorl.simulation import Result, checked_changes, simulate
+from neorl.waterworld import WaterWorld
 
 SOURCES = ("agent", "checks", "horde", "kernel", "life", "modality", "network", "nres", "plan", "simulation", "stream",
            "waterworld")
@@ -26,18 +31,66 @@ DIGEST_BYTES = hashlib.sha256().digest_size
 
 def simulate_once(agent, world, *, steps, runs, seed=0, changes=(), progress=True):
     """`simulate`, unless the same condition is on disk already; then what was computed is read. Returns a `Result`."""
-    changes = checked_changes(changes, steps)
-    key = condition_key(agent, world, steps, runs, seed, changes)
-    path = folder() / "conditions" / key
-    kept = read_checked(path)
-    if kept is not None:
-        arrays = np.load(io.BytesIO(kept))
-        return Result(agent, world, steps, runs, seed, arrays["rewards"], arrays["hits"], changes)
-    result = simulate(agent, world, steps=steps, runs=runs, seed=seed, changes=changes, progress=progress)
+    condition = Condition(agent, world, steps, runs, seed, changes)
+    result = read(condition)
+    if result is None:
+        result = simulate(**condition.choices, progress=progress)
+        keep(condition, result)
+    return result
+
+
+@dataclass(frozen=True)
+class Condition:
+    """All that determines a `Result`: the arguments of `simulate` of the same names.
+
+    Raises ValueError for what `simulate` would refuse.
+    """
+
+    agent: Agent
+    world: WaterWorld
+    steps: int
+    runs: int
+    seed: int = 0
+    changes: tuple[tuple[int, Agent], ...] = ()
+
+    def __post_init__(self):
+        checks.instance("agent", self.agent, Agent)
+        checks.instance("world", self.world, WaterWorld)
+        checks.integer("steps", self.steps, at_least=1)
+        checks.integer("runs", self.runs, at_least=1)
+        checks.integer("seed", self.seed, at_least=0)
+        object.__setattr__(self, "changes", checked_changes(self.changes, self.steps))
+
+    @property
+    def choices(self):
+        """The condition as keyword arguments."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    @property
+    def key(self):
+        """A name for the condition and the source that it runs with: 64 hexadecimal digits."""
+        return hashlib.sha256(repr((self, source_digest())).encode()).hexdigest()
+
+    @property
+    def path(self):
+        """Where its result is kept."""
+        return folder() / "conditions" / self.key
+
+
+def read(condition):
+    """The `Result` of a condition if it is on disk, or else None."""
+    content = read_checked(condition.path)
+    if content is None:
+        return None
+    arrays = np.load(io.BytesIO(content))
+    return Result(**condition.choices, rewards=arrays["rewards"], hits=arrays["hits"])
+
+
+def keep(condition, result):
+    """Write the `Result` of a condition to disk."""
     content = io.BytesIO()
     np.savez_compressed(content, rewards=result.rewards, hits=result.hits)
-    write_checked(path, content.getvalue())
-    return result
+    write_checked(condition.path, content.getvalue())
 
 
 def folder():
@@ -45,11 +98,7 @@ def folder():
     return Path(os.environ.get("NEORL_CACHE") or platformdirs.user_cache_path("neorl-companion"))
 
 
-def condition_key(agent, world, steps, runs, seed, changes=()):
-    """A name for a condition: 64 hexadecimal digits, of all that determines its result."""
-    return hashlib.sha256(repr((agent, world, steps, runs, seed, changes, source_digest())).encode()).hexdigest()
-
-
+@cache
 def source_digest():
     """A digest of the source of every module that takes part in a run."""
     here = Path(__file__).parent

@@ -6,12 +6,13 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from neorl import Learning, WaterWorld, place_cells, simulate_once, store
+from neorl import Condition, Learning, WaterWorld, place_cells, simulate_once, store
 
 AGENT, WORLD = place_cells([3]), WaterWorld()
 IMPORT = re.compile(r"^from neorl(?:\.(\w+) import| import (\w+))", re.M)
@@ -42,12 +43,14 @@ def test_a_condition_is_computed_once(computed):
 
 
 def test_the_key_tells_all_that_determines_a_result_apart(monkeypatch):
-    keys = [store.condition_key(AGENT, WORLD, 500, 2, 0)]
-    keys.append(store.condition_key(place_cells([3], learning=Learning(discount=0.81)), WORLD, 500, 2, 0))
-    keys.append(store.condition_key(AGENT, WaterWorld(fps=30), 500, 2, 0))
-    keys += [store.condition_key(AGENT, WORLD, *size) for size in [(501, 2, 0), (500, 3, 0), (500, 2, 1)]]
+    condition = Condition(AGENT, WORLD, 500, 2, 0)
+    keys = [condition.key]
+    keys.append(replace(condition, agent=place_cells([3], learning=Learning(discount=0.81))).key)
+    keys += [replace(condition, world=world).key for world in (WaterWorld(fps=30), WaterWorld(contact="truncated"))]
+    keys += [replace(condition, **size).key for size in ({"steps": 501}, {"runs": 3}, {"seed": 1})]
+    keys.append(replace(condition, changes=[(100, AGENT)]).key)
     monkeypatch.setattr(store, "source_digest", lambda: "another source")
-    keys.append(store.condition_key(AGENT, WORLD, 500, 2, 0))
+    keys.append(condition.key)
     assert len(set(keys)) == len(keys)
 
 
@@ -103,3 +106,12 @@ def test_without_the_variable_the_cache_is_the_users(monkeypatch):
     monkeypatch.delenv("NEORL_CACHE")
     assert store.folder().name == "neorl-companion"
     assert os.fspath(store.folder()).startswith(os.path.expanduser("~"))
+
+
+@pytest.mark.parametrize("change, message", [
+    ({"agent": "PC"}, "agent is 'PC'"), ({"world": 3}, "world is 3"), ({"steps": 0}, "steps is 0"),
+    ({"runs": -1}, "runs is -1"), ({"seed": 0.5}, "seed is 0.5"), ({"changes": [(600, AGENT)]}, "step of a change"),
+])
+def test_a_condition_that_could_not_run_is_refused(change, message):
+    with pytest.raises(ValueError, match=message):
+        Condition(**{"agent": AGENT, "world": WORLD, "steps": 500, "runs": 2, **change})
