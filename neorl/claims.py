@@ -1,37 +1,45 @@
-"""The claims of the thesis as data, and the rules by which the numbers here decide them.
+"""The rules by which the numbers here decide the claims of the thesis, written down before the numbers.
 
 A verdict is *reproduced*, *partly* or *not reproduced*, by a rule that stands in the code below and is the same for
 every reading of the thesis. A claim that compares agents is *not testable* where they have learned nothing to compare,
-and with fewer than 10 runs a condition there is no verdict at all. Rewards are per simulated second and means over
-runs; early is the first tenth of a run, final the last fifth.
+and with fewer than 10 runs a condition a page gives no verdict at all. A claim that is not reproduced is *open* while
+its intervals leave room for it, so that more runs might. Rewards are per simulated second and means over runs; early
+is the first tenth of a run, final the last fifth. `neorl.statements` holds what is claimed.
 """
 
-import json
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 import numpy as np
 from scipy import stats
 
+from neorl.statements import STATEMENTS
 from neorl.statistics import Estimate, estimate, probability_of_improvement, time_to_final_level
-from neorl.store import folder, source_digest, write_whole
 
 RUNS_FOR_A_VERDICT = 10
 EARLY, FINAL = (0.0, 0.1), (0.8, 1.0)
+VERDICTS = ("reproduced", "partly", "not reproduced", "not testable", "no verdict")
 
 
 @dataclass(frozen=True)
 class Claim:
-    """One claim: where it stands, what it says, the thesis's number, ours with its interval, and the verdict."""
+    """What was found about one claim of `STATEMENTS`: our number with its interval, and what the rule makes of it."""
 
     name: str
-    place: str
-    text: str
-    statistic: str
-    thesis: str
     here: Estimate
     detail: str
     runs: int
-    verdict: str
+    outcome: str  # one of VERDICTS but the last, whatever the number of runs
+    open: bool
+
+    @property
+    def statement(self):
+        """What is claimed, a `Statement`."""
+        return STATEMENTS[self.name]
+
+    @property
+    def verdict(self):
+        """The outcome, if there are runs enough for a verdict."""
+        return self.outcome if self.runs >= RUNS_FOR_A_VERDICT else "no verdict"
 
 
 def judge_single_layer(by_resolution, brownian):
@@ -43,40 +51,35 @@ def judge_single_layer(by_resolution, brownian):
     rate = {n: result.rate() for n, result in by_resolution.items()}
     mean = {n: values.mean() for n, values in rate.items()}
     best = max(mean, key=mean.get)
-    place = "paper A, Results, single layer, and figure 6"
 
     control = estimate(np.mean, brownian.rate())
-    a1 = Claim("A1", place, "Brownian motion scores about 0", "Reward per second of the control", "about 0", control,
-               f"The best agent, N{best}, makes {mean[best]:.2f}.", runs,
-               verdict(runs, control.low <= 0 <= control.high, max(-control.low, control.high) < 0.1 * mean[best]))
+    a1 = _judged("A1", control, f"The best agent, N{best}, makes {mean[best]:.2f}.", runs,
+                 reproduced=control.low <= 0 <= control.high,
+                 partly=max(-control.low, control.high) < 0.1 * mean[best], possible=False)
 
     lead = {n: estimate(_difference, values, brownian.rate()) for n, values in rate.items()}
     learned = any(each.low > 0 for each in lead.values())
     least = min(lead, key=lambda n: lead[n].low)
     chance = probability_of_improvement(rate[least], brownian.rate())
-    a2 = Claim("A2", place, "Every single resolution beats Brownian motion",
-               "Smallest lead over the control in reward per second", "> 0", lead[least],
-               f"It is that of N{least}, whose runs beat one of the control with probability {chance:.2f}.",
-               runs, verdict(runs, lead[least].low > 0, learned))
+    a2 = _judged("A2", lead[least], f"It is that of N{least}, whose runs beat one of the control with probability "
+                 f"{chance}.", runs, reproduced=lead[least].low > 0, partly=learned,
+                 possible=all(each.high > 0 for each in lead.values()))
 
     early = estimate(_rank_correlation, *(by_resolution[n].rate(*EARLY) for n in sorted(by_resolution)))
     final = estimate(_rank_correlation, *(by_resolution[n].rate(*FINAL) for n in sorted(by_resolution)))
-    a3 = Claim("A3", place, "Coarse maps learn faster at first and saturate lower",
-               "Rank correlation of N with the final reward per second", "> 0, and < 0 early", final,
-               f"Early it is {early}.", runs,
-               verdict(runs, early.high < 0 < final.low, early.high < 0 or final.low > 0, learned))
+    a3 = _judged("A3", final, f"Early it is {early}.", runs, reproduced=early.high < 0 < final.low,
+                 partly=early.high < 0 or final.low > 0, possible=early.low < 0 < final.high, testable=learned)
 
     others = [values for n, values in rate.items() if n != 50]
     ahead = estimate(_lead_over_best, rate[50], *others)
-    a4 = Claim("A4", place, "N50 accumulates most in 150,000 steps",
-               "Lead of N50 over the best other in reward per second", "> 0", ahead, f"N{best} accumulates most.",
-               runs, verdict(runs, ahead.low > 0, ahead.high > 0, learned))
+    a4 = _judged("A4", ahead, f"N{best} accumulates most.", runs, reproduced=ahead.low > 0, partly=ahead.high > 0,
+                 possible=ahead.high > 0, testable=learned)
 
     ratio = estimate(_ratio, rate[70], rate[10])
-    a5 = Claim("A5", place, "N70 learns about as fast as N10, with 49 times the states",
-               "Reward accumulated by N70, divided by that of N10", "comparable", ratio,
-               "Comparable is read as between a half and two.", runs,
-               verdict(runs, 0.5 <= ratio.low and ratio.high <= 2, ratio.high >= 0.5 and ratio.low <= 2, learned))
+    overlapping = ratio.high >= 0.5 and ratio.low <= 2
+    a5 = _judged("A5", ratio, "Comparable is read as between a half and two.", runs,
+                 reproduced=0.5 <= ratio.low and ratio.high <= 2, partly=overlapping, possible=overlapping,
+                 testable=learned)
     return [a1, a2, a3, a4, a5]
 
 
@@ -89,43 +92,38 @@ def judge_multiple_layers(by_resolution, together):
     final = {n: result.rate(*FINAL) for n, result in by_resolution.items()}
     best = max(final, key=lambda n: final[n].mean())
     learned = {n: estimate(np.mean, values).low > 0 for n, values in final.items()}
-    place = "paper A, Results, multiple resolutions, and figure 7"
 
     surplus = estimate(_lead_over_sum, together.rate(*FINAL), *final.values())
     lead = estimate(_difference, together.rate(*FINAL), final[best])
     chance = probability_of_improvement(together.rate(*FINAL), final[best])
-    a6 = Claim("A6", place, "3, 7 and 23 together beat the sum of the three alone",
-               "Final reward per second together, less the sum of the three alone", "> 0", surplus,
-               f"Over the best alone, N{best}, the lead is {lead}; the probability of improvement {chance:.2f}.", runs,
-               verdict(runs, surplus.low > 0, lead.low > 0, learned[best]))
+    a6 = _judged("A6", surplus, f"Over the best alone, N{best}, the lead is {lead}; the probability of improvement "
+                 f"{chance}.", runs, reproduced=surplus.low > 0, partly=lead.low > 0, possible=surplus.high > 0,
+                 testable=learned[best])
 
     ratio = estimate(_ratio, together.rate(*FINAL), final[7])
     early = estimate(_difference, together.rate(*EARLY), by_resolution[7].rate(*EARLY))
-    a7 = Claim("A7", place, "Together they make 3.5 times as much as N7, and learn at least as fast",
-               "Final reward per second together, divided by that of N7", "3.5", ratio,
-               f"Early the lead over N7 is {early}.", runs,
-               verdict(runs, 1 < ratio.low and ratio.high >= 3.5 and early.high >= 0, ratio.low > 1, learned[7]))
+    as_said = ratio.high >= 3.5 and early.high >= 0
+    a7 = _judged("A7", ratio, f"Early the lead over N7 is {early}.", runs, reproduced=1 < ratio.low and as_said,
+                 partly=ratio.low > 1, possible=as_said, testable=learned[7])
     return [a6, a7]
 
 
 def judge_modalities(place, objects, both):
-    """Claims B1–B4 of paper B, from its figures 4 and 5.
+    """Claims B1–B3 of paper B, from its figures 4 and 5.
 
     place, objects: {N: `Result`} for single resolutions, and {"all": `Result`} for all of them together, of agents of
     place cells and of object-vector cells. both: the `Result` of the agent with all maps of both.
     """
     runs = min(result.runs for result in [*place.values(), *objects.values(), both])
     pc, ovc, joint = (result.rate(*FINAL) for result in (place["all"], objects["all"], both))
-    learned = min(estimate(np.mean, values).low for values in (pc, ovc, joint)) > 0
-    figure_4, figure_5 = "paper B, section 3.1 and figure 4", "paper B, section 3.2 and figure 5"
+    learned = _all_learned(pc, ovc, joint)
 
     ratio = estimate(_ratio, ovc, pc)
     early = estimate(_difference, objects["all"].rate(*EARLY), place["all"].rate(*EARLY))
-    b1 = Claim("B1", figure_4, "Object-vector agents match place-cell agents",
-               "Final reward per second of object-vector cells, divided by that of place cells", "comparable", ratio,
-               f"Comparable is read as between a half and two, with no loss early, where the lead is {early}.", runs,
-               verdict(runs, 0.5 <= ratio.low and ratio.high <= 2 and early.high >= 0,
-                       ratio.high >= 0.5 and ratio.low <= 2, learned))
+    overlapping = ratio.high >= 0.5 and ratio.low <= 2
+    b1 = _judged("B1", ratio, "Comparable is read as between a half and two, with no loss early, where the lead is "
+                 f"{early}.", runs, reproduced=0.5 <= ratio.low and ratio.high <= 2 and early.high >= 0,
+                 partly=overlapping, possible=overlapping and early.high >= 0, testable=learned)
 
     leads, best = {}, {}
     for name, results in (("place cells", place), ("object-vector cells", objects)):
@@ -133,31 +131,33 @@ def judge_modalities(place, objects, both):
         best[name] = max(final, key=lambda n: final[n].mean())
         leads[name] = estimate(_lead_over_best, results["all"].rate(*FINAL), *final.values())
     least = min(leads, key=lambda name: leads[name].value)
-    b2 = Claim("B2", figure_4, "Several resolutions beat each one, in both modalities",
-               "Lead of all maps over the best single one in final reward per second, in the modality where it is less",
-               "> 0", leads[least], "It is " + "; ".join(f"{lead} with {name}, over N{best[name]}"
-                                                         for name, lead in leads.items()) + ".", runs,
-               verdict(runs, all(lead.low > 0 for lead in leads.values()),
-                       any(lead.low > 0 for lead in leads.values()), learned))
+    b2 = _judged("B2", leads[least], "It is " + "; ".join(f"{lead} with {name}, over N{best[name]}"
+                                                          for name, lead in leads.items()) + ".", runs,
+                 reproduced=all(lead.low > 0 for lead in leads.values()),
+                 partly=any(lead.low > 0 for lead in leads.values()),
+                 possible=all(lead.high > 0 for lead in leads.values()), testable=learned)
 
     gain = estimate(_ratio, joint, pc)
     lead = estimate(_lead_over_best, joint, pc, ovc)
-    b3 = Claim("B3", figure_5, "Both modalities make 0.55 a second, place cells alone 0.29",
-               "Final reward per second of both, divided by that of place cells", "1.9", gain,
-               f"Both make {joint.mean():.2f}, place cells {pc.mean():.2f}, object-vector cells {ovc.mean():.2f}. The "
-               f"lead over the better one is {lead}; a run of both beats one of place cells with probability "
-               f"{probability_of_improvement(joint, pc):.2f}.", runs,
-               verdict(runs, gain.high >= 0.55 / 0.29 and lead.low > 0, gain.low > 1, learned))
+    b3 = _judged("B3", gain, f"Both make {joint.mean():.2f}, place cells {pc.mean():.2f}, object-vector cells "
+                 f"{ovc.mean():.2f}. The lead over the better one is {lead}; a run of both beats one of place cells "
+                 f"with probability {probability_of_improvement(joint, pc)}.", runs,
+                 reproduced=gain.high >= 0.55 / 0.29 and lead.low > 0, partly=gain.low > 1,
+                 possible=gain.high >= 0.55 / 0.29 and lead.high > 0, testable=learned)
+    return [b1, b2, b3]
 
-    minutes = {name: time_to_final_level(result) / 60 for name, result in (("both", both), ("place", place["all"]))}
-    quick, slow = (estimate(np.mean, values) for values in minutes.values())
-    ahead = estimate(_difference, minutes["both"], minutes["place"])
-    b4 = Claim("B4", figure_5, "Both make their final level after 15 minutes, place cells after more than 160",
-               "Simulated minutes that both take", "15", quick,
-               f"Place cells take {slow}; the difference is {ahead}. The rule allows twice the thesis's time for both, "
-               "and half of it for place cells.", runs,
-               verdict(runs, quick.high <= 30 and slow.low >= 80, ahead.high < 0, learned and both.seconds >= 60 * 160))
-    return [b1, b2, b3, b4]
+
+def judge_pace(place, both):
+    """Claim B4 of paper B, from `Result`s of agents with all maps of place cells, and with all of both modalities."""
+    runs = min(place.runs, both.runs)
+    learned = _all_learned(place.rate(*FINAL), both.rate(*FINAL))
+    quick, slow = (time_to_final_level(result) / 60 for result in (both, place))
+    ahead = estimate(_difference, quick, slow)
+    quick, slow = (estimate(np.mean, minutes) for minutes in (quick, slow))
+    return _judged("B4", quick, f"Place cells take {slow}; the difference is {ahead}. The rule allows twice the "
+                   "thesis's time for both, and half of it for place cells.", runs,
+                   reproduced=quick.high <= 30 and slow.low >= 80, partly=ahead.high < 0,
+                   possible=quick.low <= 30 and slow.high >= 80, testable=learned and both.seconds >= 60 * 160)
 
 
 def judge_networks(a, b, c, d):
@@ -165,30 +165,25 @@ def judge_networks(a, b, c, d):
     runs = min(result.runs for result in (a, b, c, d))
     final = {name: result.rate(*FINAL) for name, result in zip("ABCD", (a, b, c, d))}
     learned = {name: estimate(np.mean, values).low > 0 for name, values in final.items()}
-    place = "paper C, section 3 and figure 4e"
 
     rise = estimate(np.mean, final["A"] - a.rate(*EARLY))
     level = estimate(np.mean, final["A"])
-    c1 = Claim("C1", place, "Network A improves over time but stays weak",
-               "Final reward per second of A, less its early one", "> 0", rise,
-               f"Finally it makes {level}. Weak is read as less than half of what network C makes, "
-               f"{final['C'].mean():.2f}.", runs,
-               verdict(runs, rise.low > 0 and level.high < 0.5 * final["C"].mean(),
-                       rise.low > 0 or level.high < 0.5 * final["C"].mean(), learned["C"]))
+    weak = 0.5 * final["C"].mean()
+    c1 = _judged("C1", rise, f"Finally it makes {level}. Weak is read as less than half of what network C makes, "
+                 f"{final['C'].mean():.2f}.", runs, reproduced=rise.low > 0 and level.high < weak,
+                 partly=rise.low > 0 or level.high < weak, possible=rise.high > 0 and level.low < weak,
+                 testable=learned["C"])
     leads = []
-    for name, better, worse, text in (("C2", "B", "A", "A desire for each colour (B) beats one for all (A)"),
-                                      ("C3", "C", "B", "Values from both nodes (C) beat those of the last one (B)")):
+    for name, better, worse in (("C2", "B", "A"), ("C3", "C", "B")):
         lead = estimate(_difference, final[better], final[worse])
         chance = probability_of_improvement(final[better], final[worse])
-        leads.append(Claim(name, place, text, f"Lead of {better} over {worse} in final reward per second", "> 0", lead,
-                           f"A run of {better} beats one of {worse} with probability {chance:.2f}.", runs,
-                           verdict(runs, lead.low > 0, lead.high > 0, learned[better])))
+        leads.append(_judged(name, lead, f"A run of {better} beats one of {worse} with probability {chance}.", runs,
+                             reproduced=lead.low > 0, partly=lead.high > 0, possible=lead.high > 0,
+                             testable=learned[better]))
     gain = estimate(_ratio, final["D"], final["C"])
-    c4 = Claim("C4", place, "Recursion (D) improves on C drastically",
-               "Final reward per second of D, divided by that of C", "≫ 1", gain,
-               "Drastically is read as by half or more. A run of D beats one of C with probability "
-               f"{probability_of_improvement(final['D'], final['C']):.2f}.", runs,
-               verdict(runs, gain.low >= 1.5, gain.low > 1, learned["C"]))
+    c4 = _judged("C4", gain, "Drastically is read as by half or more. A run of D beats one of C with probability "
+                 f"{probability_of_improvement(final['D'], final['C'])}.", runs, reproduced=gain.low >= 1.5,
+                 partly=gain.low > 1, possible=gain.high >= 1.5, testable=learned["C"])
     return [c1, *leads, c4]
 
 
@@ -198,11 +193,9 @@ def judge_revaluing(revalued, throughout):
     turned, always = (_red_a_minute(result, 0.5, 0.525) for result in (revalued, throughout))
     before, after = (estimate(np.mean, _red_a_minute(revalued, *share)) for share in ((0.475, 0.5), (0.5, 0.525)))
     lead = estimate(_difference, turned, always)
-    return Claim("T1", "thesis, section 4.1.2", "Moving or revaluing elements needs no retraining",
-                 "Red creeps a minute in the fortieth of the run after they come to be wanted, less what agents take "
-                 "that have wanted them from the start", "≥ 0", lead,
-                 f"Before the turn it is {before}, after it {after}.", runs,
-                 verdict(runs, lead.low >= 0 and after.low > before.high, after.low > before.high))
+    return _judged("T1", lead, f"Before the turn it is {before}, after it {after}.", runs,
+                   reproduced=lead.low >= 0 and after.low > before.high, partly=after.low > before.high,
+                   possible=lead.high >= 0 and after.high > before.low)
 
 
 def judge_cost(together, alone, none):
@@ -211,93 +204,51 @@ def judge_cost(together, alone, none):
     together: with all maps. alone: a sequence, with each map alone. none: without any.
     """
     ratio = estimate(_cost_ratio, together, none, *alone)
-    return Claim("T2", "thesis, section 4.4", "Cost grows linearly with maps",
-                 "What all maps cost together, divided by the sum of what each costs alone", "1", ratio,
-                 "The rule allows a tenth more.", len(together),
-                 verdict(len(together), ratio.high <= 1.1, ratio.low <= 1.1))
+    return _judged("T2", ratio, "The rule allows a tenth more.", len(together), reproduced=ratio.high <= 1.1,
+                   partly=ratio.low <= 1.1, possible=ratio.low <= 1.1)
 
 
-def verdict(runs, reproduced, partly, testable=True):
-    if runs < RUNS_FOR_A_VERDICT:
-        return "no verdict"
-    if not testable:
-        return "not testable"
-    return "reproduced" if reproduced else "partly" if partly else "not reproduced"
+def _judged(name, here, detail, runs, *, reproduced, partly, possible, testable=True):
+    outcome = "not testable" if not testable else VERDICTS[0 if reproduced else 1 if partly else 2]
+    return Claim(name, here, detail, runs, outcome, bool(testable and possible and not reproduced))
 
 
-def table(claims):
-    """The claims as a Markdown table."""
-    rows = ["| Claim | Thesis, and here with 95 % interval | Verdict |", "|---|---|---|"]
-    rows += [f"| **{claim.name}** {claim.text} | {claim.statistic}. Thesis: {claim.thesis}. Here: {claim.here}. "
-             f"{claim.detail} | **{claim.verdict}** |" for claim in claims]
-    return "\n".join(rows)
-
-
-def comparison(judged):
-    """Verdicts under several readings as a Markdown table: judged {reading: [Claim, …]}."""
-    signs = {"reproduced": "●", "partly": "◐", "not reproduced": "○", "not testable": "–", "no verdict": "–"}
-    names = sorted({claim.name for claims in judged.values() for claim in claims})
-    rows = ["| Reading | " + " | ".join(names) + " |", "|---" * (len(names) + 1) + "|"]
-    for reading, claims in judged.items():
-        cells = {claim.name: f"{signs[claim.verdict]}\u00a0{claim.here.value:z.2f}" for claim in claims}
-        rows.append(f"| {reading} | " + " | ".join(cells.get(name, "") for name in names).replace("-", "−") + " |")
-    return "\n".join(rows)
-
-
-def summary(judged):
-    """Where each claim is reproduced, and which readings come closest, in Markdown: judged {reading: [Claim, …]}."""
-    by_reading = {reading: {claim.name: claim.verdict for claim in claims} for reading, claims in judged.items()}
-    texts = {claim.name: claim.text for claims in judged.values() for claim in claims}
-    if any("no verdict" in verdicts.values() for verdicts in by_reading.values()):
-        return "With so few runs there is nothing to sum up."
-    lines = ["Each claim, and where it is reproduced:", ""]
-    for name, text in texts.items():
-        where = [reading for reading, verdicts in by_reading.items() if verdicts.get(name) == "reproduced"]
-        lines.append(f"- **{name}** {text}: *{'; '.join(where) or 'none of these readings'}*.")
-    score = {reading: tuple([*verdicts.values()].count(kind) for kind in ("reproduced", "partly"))
-             for reading, verdicts in by_reading.items()}
-    closest = [reading for reading in score if score[reading] == max(score.values())]
-    return "\n".join([*lines, "", "Closest to the paper comes *{}*: {} of its claims are reproduced and {} partly. In "
-                      "the default reading they are {} and {}.".format("*, *".join(closest), *max(score.values()),
-                                                                   *score["default"])])
-
-
-def store(page, claims):
-    """Keep the claims of a page as JSON, with the digest of the source that they were computed with.
-
-    A bound that does not exist, as with a single run, is null.
-    """
-    kept = [{**asdict(claim), "here": [each if np.isfinite(each) else None for each in claim.here]} for claim in claims]
-    content = {"page": page, "source": source_digest(), "claims": kept}
-    write_whole(folder() / "claims" / f"{page}.json", json.dumps(content, indent=1, allow_nan=False).encode())
+def _all_learned(*rates):
+    return min(estimate(np.mean, rate).low for rate in rates) > 0
 
 
 def _red_a_minute(result, begin, end):
     return 60 * result.hit_rate(begin, end)[:, 1]
 
 
-def _difference(a, b):
-    return a.mean() - b.mean()
+def _difference(a, b, axis):
+    return a.mean(axis) - b.mean(axis)
 
 
-def _ratio(a, b):
-    return a.mean() / b.mean()
+def _ratio(a, b, axis):
+    """0 where b has earned nothing, since no claim of a ratio holds there."""
+    above, below = np.asarray(a.mean(axis)), np.asarray(b.mean(axis))
+    return np.divide(above, below, out=np.zeros(above.shape), where=below != 0)
 
 
-def _cost_ratio(together, none, *alone):
-    base = np.median(none)
-    return (np.median(together) - base) / sum(np.median(each) - base for each in alone)
+def _cost_ratio(together, none, *alone, axis):
+    base = np.median(none, axis)
+    return (np.median(together, axis) - base) / sum(np.median(each, axis) - base for each in alone)
 
 
-def _lead_over_best(a, *others):
-    return a.mean() - max(other.mean() for other in others)
+def _lead_over_best(a, *others, axis):
+    return a.mean(axis) - np.max([other.mean(axis) for other in others], axis=0)
 
 
-def _lead_over_sum(a, *others):
-    return a.mean() - sum(other.mean() for other in others)
+def _lead_over_sum(a, *others, axis):
+    return a.mean(axis) - sum(other.mean(axis) for other in others)
 
 
-def _rank_correlation(*samples):
-    group = np.repeat(np.arange(len(samples)), [len(sample) for sample in samples])
-    ranks = stats.rankdata([group, np.concatenate(samples)], axis=1)
-    return np.corrcoef(ranks)[0, 1]  # Spearman's; scipy's own takes ten times as long, thousands of times over
+def _rank_correlation(*samples, axis):
+    """Spearman's, of the samples' places with their values; scipy's own takes one pair of samples at a time."""
+    group = np.repeat(np.arange(len(samples)), [sample.shape[axis] for sample in samples])
+    ranks = stats.rankdata(np.concatenate(samples, axis), axis=axis)
+    place = stats.rankdata(group) - (len(group) + 1) / 2
+    off = ranks - (len(group) + 1) / 2
+    spread = np.asarray(np.sqrt((off**2).sum(axis) * (place**2).sum()))
+    return np.divide((off * place).sum(axis), spread, out=np.zeros(spread.shape), where=spread > 0)

@@ -14,7 +14,7 @@ from scipy.signal import butter, sosfiltfilt
 from neorl.horde import as_vectors
 from neorl.modality import TAU
 from neorl.onlooker import HALF_SECOND
-from neorl.statistics import band, mean_band
+from neorl.statistics import mean_band, tolerance_band
 
 INK = "#808080"
 AGENT, GREEN, RED = "#3b8ad9", "#12946d", "#d9622b"
@@ -168,7 +168,7 @@ def desire_colour(desire):
 
 
 def draw_accumulated(results, control):
-    """Accumulated reward over steps with the band of 95 % of the runs: results {name: Result}, and a control."""
+    """Accumulated reward over steps with its tolerance band: results {name: Result}, and a control."""
     axes = plt.figure().add_subplot()
     ends = []
     for (name, result), colour in zip([*results.items(), *control.items()], [*CURVES[:len(results)], INK]):
@@ -176,7 +176,7 @@ def draw_accumulated(results, control):
         curves = result.rewards.cumsum(axis=1, dtype=float)[:, points]
         steps = result.time[points] * result.world.fps / 1000
         axes.plot(steps, curves.mean(axis=0), color=colour)
-        axes.fill_between(steps, *band(curves), color=colour, alpha=0.18, linewidth=0)
+        axes.fill_between(steps, *tolerance_band(curves), color=colour, alpha=0.18, linewidth=0)
         ends.append((curves[:, -1].mean(), name, colour))
     axes.set(xlabel="steps, in thousands", ylabel="accumulated reward", xlim=(0, steps[-1]))
     name_ends(axes, ends)

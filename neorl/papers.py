@@ -1,23 +1,22 @@
 """The agents of the thesis's papers, as values of `Agent`.
 
-`choices` are other fields of `Agent` (learning, policy, own_cell) or, for all nodes, of `Node` (weighting).
+`choices` are other fields of `Agent` (learning, policy, own_cell) or, for all nodes, `weighting` of `Node` and
+`coverage`: the share of either axis's range, about its middle, that the maps cover. What lies beyond belongs to their
+outermost cells.
 """
 
 from dataclasses import replace
 
+from neorl import checks
 from neorl.agent import Agent, Desire, Node, Policy
 from neorl.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL
 
 PRIMES = (2, 3, 5, 7, 11, 13)  # the resolutions of paper B
 
 
-def place_cells(resolutions=PRIMES, extent=(0.0, 1.0), valence_green=1.0, valence_red=-1.0, **choices):
-    """The agent of paper A, and PC of paper B: one node of place cells that desires green creeps and fears red ones.
-
-    extent: (low, high), the stretch of either axis that the maps cover, in board widths.
-    """
-    modality = replace(PLACE_CELL, ranges=(extent, extent))
-    return _network([("PC", modality, 1.0)], resolutions, _creeps("PC", valence_green, valence_red), choices)
+def place_cells(resolutions=PRIMES, valence_green=1.0, valence_red=-1.0, **choices):
+    """The agent of paper A, and PC of paper B: one node of place cells that desires green creeps and fears red ones."""
+    return _network([("PC", PLACE_CELL, 1.0)], resolutions, _creeps("PC", valence_green, valence_red), choices)
 
 
 def brownian():
@@ -25,10 +24,10 @@ def brownian():
     return place_cells([1], policy=Policy(exploration=1.0))
 
 
-def object_vector_cells(resolutions=PRIMES, extent=(-1.0, 1.0), valence_green=1.0, valence_red=-1.0, **choices):
+def object_vector_cells(resolutions=PRIMES, valence_green=1.0, valence_red=-1.0, **choices):
     """OVC of paper B (fig. 4B): one node of object-vector cells in the Cartesian emulation."""
-    modality = replace(CARTESIAN_OBJECT_VECTOR_CELL, ranges=(extent, extent))
-    return _network([("OVC", modality, 1.0)], resolutions, _creeps("OVC", valence_green, valence_red), choices)
+    desires = _creeps("OVC", valence_green, valence_red)
+    return _network([("OVC", CARTESIAN_OBJECT_VECTOR_CELL, 1.0)], resolutions, desires, choices)
 
 
 def multimodal(resolutions=PRIMES, place_gain=1.0, object_gain=1.0, **choices):
@@ -70,5 +69,16 @@ def _creeps(node, valence_green=1.0, valence_red=-1.0):
 
 def _network(nodes, resolutions, desires, choices):
     weighting = choices.pop("weighting", "equal")
-    nodes = tuple(Node(name, modality, resolutions, weighting, gain) for name, modality, gain in nodes)
+    coverage = checks.real("coverage", choices.pop("coverage", 1.0))
+    nodes = tuple(Node(name, _covering(coverage, modality), resolutions, weighting, gain)
+                  for name, modality, gain in nodes)
     return Agent(nodes, desires, **choices)
+
+
+def _covering(share, modality):
+    """The modality with the ranges of its axes cut down to a share about their middle."""
+    if share <= 0:
+        raise ValueError(f"coverage is {share!r}, allowed are numbers above 0")
+    ranges = tuple((low + (1 - share) * (high - low) / 2, high - (1 - share) * (high - low) / 2)
+                   for low, high in modality.ranges)
+    return replace(modality, ranges=ranges)

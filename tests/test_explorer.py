@@ -117,7 +117,7 @@ def test_each_condition_keeps_its_tank(conditions):
 
 
 def test_an_agent_of_other_ways_keeps_them():
-    agent = place_cells([4], extent=(0.25, 0.75), policy=Policy(exploration=0.1), own_cell="counts")
+    agent = place_cells([4], coverage=0.5, policy=Policy(exploration=0.1), own_cell="counts")
     explorer = Explorer({"half": simulate(agent, TANK, steps=10, runs=1, progress=False)})
     assert explorer.agent == agent and explorer.modality == ""
 

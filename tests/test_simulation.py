@@ -38,7 +38,7 @@ READINGS = {
     "last": place_cells([5], learning=Learning(credit="last", terminal=False), own_cell="counts"),
     "step": multimodal([5], learning=Learning(driver="step")),
     "trace": multimodal([4, 7], learning=Learning(trace=7)),
-    "leaky": place_cells([6], extent=(0.25, 0.75), learning=Learning(trace=5, bootstrap=False)),
+    "leaky": place_cells([6], coverage=0.5, learning=Learning(trace=5, bootstrap=False)),
     "objects": object_vector_cells([3, 4], weighting="resolution"),
     "A": network_a([2, 3]),
     "B": network_b([3, 5], signed=True),

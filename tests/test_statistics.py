@@ -4,16 +4,17 @@ import math
 
 import numpy as np
 import pytest
+from scipy import stats
 
 from neorl import Result, WaterWorld, place_cells
-from neorl.statistics import (Estimate, band, estimate, mean_band, probability_of_improvement,
-                              time_to_final_level)
+from neorl.statistics import (Estimate, estimate, mean_band, probability_of_improvement, time_to_final_level,
+                              time_to_level, tolerance_band, tolerated_share)
 
 
 def test_the_probability_of_improvement_counts_pairs():
-    assert probability_of_improvement([3, 4], [1, 2]) == 1.0
-    assert probability_of_improvement([1, 2], [3, 4]) == 0.0
-    assert probability_of_improvement([1, 3], [2, 3]) == pytest.approx(1.5 / 4)  # 3 > 2, and 3 = 3 counts half
+    assert probability_of_improvement([3, 4], [1, 2]) == (1.0, 1.0, 1.0)
+    assert probability_of_improvement([1, 2], [3, 4]) == (0.0, 0.0, 0.0)
+    assert probability_of_improvement([1, 3], [2, 3]).value == pytest.approx(1.5 / 4)  # 3 > 2; 3 = 3 counts half
 
 
 def test_the_interval_of_a_constant_has_no_width():
@@ -34,15 +35,65 @@ def test_the_interval_of_a_difference_covers_the_truth_as_often_as_it_says():
     rng, covered, trials = np.random.default_rng(1), 0, 150
     for _ in range(trials):
         a, b = rng.normal(1.0, 1.0, 30), rng.normal(0.3, 2.0, 30)
-        low, high = estimate(lambda x, y: x.mean() - y.mean(), a, b)[1:]
+        low, high = estimate(lambda x, y, axis: x.mean(axis) - y.mean(axis), a, b)[1:]
         covered += low <= 0.7 <= high
     assert 0.88 <= covered / trials <= 0.99
 
 
-def test_a_band_holds_the_middle_of_the_runs():
-    curves = np.arange(101.0)[:, None] * [1, 10]
-    low, high = band(curves)
-    np.testing.assert_allclose([low, high], [[2.5, 25], [97.5, 975]])
+def test_the_interval_of_a_probability_of_improvement_covers_the_truth_as_often_as_it_says():
+    """Normal samples a standard deviation apart: a draw of one beats one of the other with probability Φ(1/√2)."""
+    rng, truth, covered, trials = np.random.default_rng(3), 0.7602, 0, 150
+    for _ in range(trials):
+        low, high = probability_of_improvement(rng.normal(1, 1, 30), rng.normal(0, 1, 30))[1:]
+        covered += low <= truth <= high
+    assert 0.88 <= covered / trials <= 0.99
+
+
+def test_a_bootstrap_draws_from_the_generator_that_it_is_given():
+    sample = np.random.default_rng(0).normal(size=20)
+    generator = np.random.default_rng(7)
+    first, second = (estimate(np.mean, sample, rng=generator) for _ in range(2))
+    assert first != second
+    assert estimate(np.mean, sample, rng=7) == first
+
+
+def test_the_tolerated_share_is_wilks():
+    """The whole range of 59 runs less one at each end, and of 93: cases from tables of Wilks's formula."""
+    assert tolerated_share(93) == pytest.approx(0.95, abs=5e-4)  # two-sided 95 % / 95 %
+    assert tolerated_share(46) == pytest.approx(0.90, abs=2e-3)
+    n, p = 20, tolerated_share(20)  # fewer than 95 % hold p or more: 1 − n pⁿ⁻¹ + (n − 1) pⁿ = 0.95
+    assert 1 - n * p ** (n - 1) + (n - 1) * p**n == pytest.approx(0.95)
+    assert tolerated_share(1) == 0.0
+
+
+def test_a_tolerance_band_lies_between_order_statistics():
+    runs = np.random.default_rng(0).permutation(np.arange(1.0, 101.0))
+    low, high = tolerance_band(runs[:, None] * [1, 10])
+    beyond = int(low[0])
+    np.testing.assert_array_equal([low, high], [[beyond, 10 * beyond], [101 - beyond, 10 * (101 - beyond)]])
+    assert tolerated_share(100, beyond) >= 0.75 > tolerated_share(100, beyond + 1)
+
+
+@pytest.mark.parametrize("runs", [1, 2, 17])
+def test_with_few_runs_a_tolerance_band_is_their_range(runs):
+    assert tolerated_share(runs) < 0.75 <= tolerated_share(18)
+    curves = np.arange(float(runs))[:, None]
+    np.testing.assert_array_equal(tolerance_band(curves), [[0], [runs - 1]])
+
+
+@pytest.mark.parametrize("runs", [20, 100])
+@pytest.mark.parametrize("law", ["normal", "exponential", "cauchy"])
+def test_a_tolerance_band_holds_its_share_as_often_as_it_says_whatever_the_law(law, runs):
+    law = {"normal": stats.norm, "exponential": stats.expon, "cauchy": stats.cauchy}[law]
+    low, high = tolerance_band(law.rvs(size=(runs, 2_000), random_state=1))
+    enough = (law.cdf(high) - law.cdf(low) >= 0.75).mean()
+    assert 0.94 <= enough <= 1.0
+
+
+@pytest.mark.parametrize("change", [{"share": 1.5}, {"confidence": -0.1}])
+def test_a_tolerance_band_refuses_what_is_no_share(change):
+    with pytest.raises(ValueError, match=f"{[*change][0]} is {[*change.values()][0]}, allowed are numbers from 0 to 1"):
+        tolerance_band(np.ones((20, 1)), **change)
 
 
 def test_the_band_of_a_mean_narrows_with_the_root_of_the_runs():
@@ -55,6 +106,7 @@ def test_the_band_of_a_mean_narrows_with_the_root_of_the_runs():
 def test_an_estimate_is_written_with_its_interval():
     assert str(Estimate(0.5, -0.001, 1.25)) == "0.50 [0.00, 1.25]"
     assert str(Estimate(-0.5, -1.0, 0.1)) == "−0.50 [−1.00, 0.10]"
+    assert str(Estimate(0.5, math.nan, math.nan)) == "0.50"
 
 
 def test_the_time_to_the_final_level_is_that_of_each_run():
@@ -66,3 +118,5 @@ def test_the_time_to_the_final_level_is_that_of_each_run():
     rewards[3] = -1  # never
     result = Result(place_cells([1]), WaterWorld(), 4_000, 4, 0, rewards, np.zeros((4, 400, 2), np.int16))
     np.testing.assert_allclose(time_to_final_level(result), [2.0, 21.8, 66.0, 80.0])
+    np.testing.assert_allclose(time_to_level(result, 0.5), [2.0, 20.2, 9.2, 80.0])  # bin 101; bins 36 to 45
+    np.testing.assert_allclose(time_to_level(result, [9, 9, 9, -9]), [80.0, 80.0, 80.0, 2.0])

@@ -21,7 +21,7 @@ from neorl.agent import Agent, Node
 from neorl.modality import MODALITIES
 from neorl.plan import RED, chosen
 from neorl.simulation import Result, bin_steps
-from neorl.statistics import band
+from neorl.statistics import tolerance_band
 from neorl.waterworld import WaterWorld
 
 AGENTS = {"Place cells": papers.place_cells, "Object-vector cells": papers.object_vector_cells,
@@ -191,12 +191,12 @@ def _plan(agent, world):
 
 
 def _band(result):
-    """Reward per second in bins of the run: where the middle 95 % of the runs lie, and their mean."""
+    """Reward per second in bins of the run: the tolerance band of the runs, and their mean."""
     each = math.ceil(result.rewards.shape[1] / CURVE_BINS)
     begins = np.arange(0, result.rewards.shape[1], each)
     edges = result.edges[[*begins, -1]]
     rates = np.add.reduceat(result.rewards, begins, axis=1, dtype=float) / np.diff(edges)
-    low, high = band(rates)
+    low, high = tolerance_band(rates)
     curves = {"edges": edges, "low": low, "middle": rates.mean(axis=0), "high": high}
     return {**{name: curve.round(4).tolist() for name, curve in curves.items()},
             "steps_per_bin": each * bin_steps(result.world)}

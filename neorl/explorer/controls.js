@@ -126,7 +126,7 @@ class Controls {
     const { label, runs, band } = this.presets[this.condition] ?? {};
     const swatch = (kind) => Object.assign(document.createElement("span"), { className: `swatch ${kind}` });
     this.part(".legend").replaceChildren(swatch("own"), this.changed ? "this run, changed on the way" : "this run",
-      ...(band ? [swatch("band"), `95 % of the ${runs} runs of ${label}`] : []));
+      ...(band ? [swatch("band"), `tolerance band of ${label}, from ${runs} runs`] : []));
   }
 
   showControls() {

@@ -1,0 +1,81 @@
+"""The figures of the multiverse: for one claim the effect under every reading, for all which choices matter."""
+
+from textwrap import fill
+
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.colors import LinearSegmentedColormap
+
+from neorl.figures import AGENT, INK, RED
+from neorl.multiverse import CHOICES, outcome
+from neorl.statements import STATEMENTS
+
+COLOURS = {"holds": AGENT, "undecided": RED, "fails": INK}
+SHADES = LinearSegmentedColormap.from_list("shades", [AGENT + "10", AGENT + "ff"])
+ROW = 0.2  # inches
+
+
+def draw_specification(readings, judged, name):
+    """The specification curve of a claim: its number under every reading in order of size, and the choices below.
+
+    readings: [Reading, …]. judged: {name: `Claim`} for each of them. Where a number is not finite, or off the middle
+    95 % of them, it stands at the edge.
+    """
+    claims = [each[name] for each in judged]
+    here = np.array([claim.here for claim in claims])
+    order = np.argsort(np.nan_to_num(here[:, 0], nan=-np.inf), kind="stable")
+    shown = {key: choice for key, choice in CHOICES.items() if name[0] in choice.papers}
+    width, _ = plt.rcParams["figure.figsize"]
+    below = ROW * len(shown)
+    figure, (curve, strips) = plt.subplots(2, 1, figsize=(width, 2.1 + below), sharex=True,
+                                           height_ratios=(1.9, below))
+    low, high = _limits(here[:, 0], STATEMENTS[name].borders)
+    at = np.arange(len(order))
+    value, bottom, top = np.clip(np.nan_to_num(here[order], nan=low, posinf=high, neginf=low), low, high).T
+    outcomes = np.array([outcome(claims[i]) for i in order])
+    for kind, colour in COLOURS.items():
+        of_kind = outcomes == kind
+        curve.vlines(at[of_kind], bottom[of_kind], top[of_kind], color=colour, alpha=0.3, linewidth=1)
+        curve.plot(at[of_kind], value[of_kind], linestyle="none", marker="o", markersize=2.5, color=colour,
+                   label=f"{kind} {of_kind.mean():.0%}".replace("%", " %"))
+    for border in STATEMENTS[name].borders:
+        curve.axhline(border, color=INK, linewidth=0.8, linestyle="--")
+    margin = 0.03 * (high - low)
+    curve.set_ylim(low - margin, high + margin)
+    curve.set_title(fill(f"{name}: {STATEMENTS[name].text}", 58), size=11, color=INK)
+    curve.legend(frameon=False, labelcolor="linecolor", fontsize=9, handlelength=0.6, loc="upper left")
+    places = [[choice.place(getattr(readings[i], key)) for i in order] for key, choice in shown.items()]
+    strips.imshow(places, aspect="auto", cmap=SHADES, vmin=0, vmax=1, interpolation="nearest")
+    strips.set_yticks(range(len(shown)), [choice.label for choice in shown.values()], fontsize=9)
+    strips.set(xlabel="readings, in order of the number above", xticks=[])
+    ends = strips.secondary_yaxis("right")
+    ends.set_yticks(range(len(shown)), [choice.levels for choice in shown.values()], fontsize=8)
+    for axes in (strips, ends):
+        axes.tick_params(length=0)
+        axes.spines[:].set_visible(False)
+
+
+def _limits(values, borders):
+    """The range of the middle 95 % of the finite values, and of the borders of the claim."""
+    finite = values[np.isfinite(values)]
+    low, high = np.quantile(finite, [0.025, 0.975]) if len(finite) else (0.0, 1.0)
+    low, high = min(low, *borders, *borders), max(high, *borders, *borders)
+    return (low, high) if low < high else (low - 0.5, high + 0.5)
+
+
+def draw_importance(importance):
+    """Which choices matter for which claim: {name of the claim: {name of the choice: importance}}, areas of discs."""
+    width, _ = plt.rcParams["figure.figsize"]
+    figure, axes = plt.subplots(figsize=(width, ROW * 1.25 * len(CHOICES) + 0.5))
+    keys = list(CHOICES)
+    for column, shares in enumerate(importance.values()):
+        for key, share in shares.items():
+            axes.plot(column, keys.index(key), marker="o", color=AGENT, markersize=13 * np.sqrt(np.clip(share, 0, 1)))
+    axes.set_xticks(range(len(importance)), importance, fontsize=9)
+    axes.set_yticks(range(len(keys)), [CHOICES[key].label for key in keys], fontsize=9)
+    axes.set(xlim=(-0.6, len(importance) - 0.4), ylim=(len(keys) - 0.4, -0.6))
+    axes.xaxis.tick_top()
+    axes.tick_params(length=0)
+    axes.grid(color=INK, alpha=0.2, linewidth=0.5)
+    axes.set_axisbelow(True)
+    axes.spines[:].set_visible(False)
