@@ -1,6 +1,7 @@
 # make book   compute every notebook and build the book   RUNS=20 runs a condition; 4 is a look, 100 the papers' scale
 # make test   run the tests
 # make lab    open the notebooks in JupyterLab
+# make readme write the claims of the last build into the README
 # make bench  measure the speed of the kernels
 # make clean  remove all that these made, and nothing else
 PYTHON ?= python3
@@ -11,7 +12,7 @@ export NEORL_CACHE := $(CURDIR)/.cache
 export PYTHONUNBUFFERED := 1
 
 .DEFAULT_GOAL := book
-.PHONY: book test lab bench clean
+.PHONY: book test lab readme bench clean
 
 book: .venv/ready
 	$(BIN)/python book/build.py --runs $(RUNS) $(if $(STEPS),--steps $(STEPS))
@@ -21,6 +22,9 @@ test: .venv/ready
 
 lab: .venv/ready
 	$(BIN)/jupyter lab --notebook-dir notebooks
+
+readme: .venv/ready
+	$(BIN)/python book/readme.py
 
 bench: .venv/ready
 	$(BIN)/python -m pytest --benchmark-only --benchmark-disable-gc tests/benchmarks.py

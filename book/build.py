@@ -7,6 +7,7 @@ that it depends on has changed. A file there is complete or absent, so the work 
 import argparse
 import hashlib
 import json
+import math
 import os
 import re
 import shutil
@@ -19,6 +20,8 @@ import papermill
 from papermill.exceptions import PapermillExecutionError
 from traitlets.config import Config
 
+from neorl import ledger, store
+
 ROOT = Path(__file__).resolve().parent.parent
 CHAPTERS = ROOT / "book" / "chapters"
 HTML = ROOT / "_build" / "html" / "index.html"
@@ -29,14 +32,16 @@ WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 def main():
     chosen = parse_arguments()
     parameters = {name: value for name, value in vars(chosen).items() if value is not None}
-    notebooks = sorted((ROOT / "notebooks").glob("*.ipynb"))
-    for notebook in notebooks:
-        check_parameters(notebook, parameters)
+    notebooks = {path: parameters for path in sorted((ROOT / "notebooks").glob("*.ipynb"))}
+    notebooks[ROOT / "notebooks" / "assumptions.ipynb"] = parameters | {"points": points(chosen.runs)}
+    for notebook, its_parameters in notebooks.items():
+        check_parameters(notebook, its_parameters)
     try:
-        for notebook in notebooks:
-            compute(notebook, parameters)
+        for notebook, its_parameters in notebooks.items():
+            compute(notebook, its_parameters)
     except PapermillExecutionError as error:
         sys.exit(f"\n{error}")
+    write_claims()
     build()
     print(f"the book is at {HTML.as_uri()}")
 
@@ -52,6 +57,11 @@ def whole_number(text):
     if not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"is {text!r}, allowed are integers ≥ 1")
     return int(text)
+
+
+def points(runs):
+    """How many readings the assumptions are varied in: a power of two, 256 with 100 runs and 32 with 20."""
+    return 2 ** max(2, int(math.log2(2.56 * runs)))
 
 
 def compute(notebook, parameters):
@@ -76,6 +86,9 @@ def compute(notebook, parameters):
         cell.source = cell.source.replace("](../book/", "](../")
     save_figures(executed)
     save_widgets(executed)
+    claims = store.folder() / "claims" / f"{notebook.stem}.json"
+    if claims.exists():
+        shutil.copy(claims, CHAPTERS / f"{notebook.stem}.claims.json")
     nbformat.write(executed, work / notebook.name)
     os.replace(work / notebook.name, target)
     work.rmdir()
@@ -134,6 +147,14 @@ def script(kind, content):
     """A tag that holds JSON. No "<" is left in it, so nothing that a string says can end the tag."""
     text = json.dumps(content).replace("<", r"\u003c")
     return f'<script type="{kind}">{text}</script>'
+
+
+def write_claims():
+    """The table of all claims, from what the notebooks have found, for the page that includes it."""
+    table = ledger.page(ledger.read(sorted(CHAPTERS.glob("*.claims.json"))))
+    target = CHAPTERS / "claims-table.md"
+    if not target.exists() or target.read_text(encoding="utf-8") != table:
+        target.write_text(table, encoding="utf-8")
 
 
 def build():

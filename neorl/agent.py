@@ -69,7 +69,7 @@ class Policy:
     idle: what to do while every action is worth exactly 0: "random" or "no-op".
     """
 
-    exploration: float = 0.0
+    exploration: float = 0.02
     idle: str = "random"
 
     def __post_init__(self):
@@ -91,7 +91,7 @@ class Node:
     name: str
     modality: Modality
     resolutions: tuple[int, ...]
-    weighting: str = "equal"
+    weighting: str = "resolution"
     gain: float = 1.0
 
     def __post_init__(self):

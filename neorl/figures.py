@@ -59,8 +59,7 @@ def _as_board(axes, low):
 
 def draw_cells(axes, nres_map, colour=INK, fills=None, width=1.0):
     """The receptive fields of a Cartesian map, some of them filled: fills {cell: (colour, opacity)}."""
-    corners, sides = _rectangles(nres_map)
-    for cell, corner in enumerate(corners):
+    for cell, (corner, sides) in enumerate(zip(*_rectangles(nres_map))):
         axes.add_patch(Rectangle(corner, *sides, fill=False, edgecolor=colour, linewidth=width))
         if fills and cell in fills:
             fill, opacity = fills[cell]
@@ -80,11 +79,15 @@ def draw_values(axes, nres_map, values):
 
 
 def _rectangles(nres_map):
-    """The upper left corners (cells, 2) of the receptive fields of a map, and the lengths (2,) of their sides."""
-    low, high = np.array(nres_map.modality.ranges).T
-    sides = (high - low) / nres_map.resolution
-    rows, columns = np.divmod(np.arange(nres_map.cells), nres_map.resolution)
-    return low + sides * np.stack([columns, rows], axis=1), sides
+    """The upper left corners and the sides of the receptive fields of a map, (cells, 2) each."""
+    # What lies beyond the range of a map belongs to the cell at its end, as far as things can be.
+    n, furthest = nres_map.resolution, (0, 1) if nres_map.modality.vector == "position" else (-1, 1)
+    borders = np.array([np.linspace(low, high, n + 1) for low, high in nres_map.modality.ranges])
+    borders[:, 0] = np.minimum(borders[:, 0], furthest[0])
+    borders[:, -1] = np.maximum(borders[:, -1], furthest[1])
+    rows, columns = np.divmod(np.arange(nres_map.cells), n)
+    begin, end = (np.stack([borders[0, columns + i], borders[1, rows + i]], axis=1) for i in (0, 1))
+    return begin, end - begin
 
 
 def draw_receptive_fields(axes, nres_map, world, state):

@@ -74,16 +74,15 @@ def read(paths):
 
 def page(record):
     """The table of all claims for the book, in MyST Markdown."""
-    rows = ["| Claim | Thesis | Here, with 95 % interval | Verdict | Readings |", "|---|---|---|---|---|"]
+    rows = ["| Claim | Verdict | What it rests on |", "|---|---|---|"]
     for name, claim in STATEMENTS.items():
         found = record["claims"].get(name)
-        here, verdict = "", NOT_COMPUTED
+        verdict, evidence = NOT_COMPUTED, f"{claim.statistic}. Thesis ({claim.place}): {claim.thesis}."
         if found:
-            here = f"{_number(found)}, {found['runs']} runs. {found['detail']}"
-            verdict = (f"**{found['verdict']}** ({{ref}}`figure <{claim.figure}>`, "
-                       f"{{ref}}`rule <{label(claim.rule)}>`)")
-        rows.append(f"| **{name}** {claim.text} ({claim.place}) | {claim.statistic}: {claim.thesis} | {here} | "
-                    f"{verdict} | {_share(record, name)} |")
+            verdict = f"**{found['verdict']}**"
+            evidence += (f" Here: {_number(found)}, {found['runs']} runs. {found['detail']} "
+                         f"({{ref}}`Figure <{claim.figure}>`, {{ref}}`rule <{label(claim.rule)}>`)")
+        rows.append(f"| **{name}** {claim.text} | {verdict}{_share(record, name)} | {evidence} |")
     return "\n".join(rows) + "\n"
 
 
@@ -91,9 +90,10 @@ def in_short(record):
     """The same table in short, in plain Markdown."""
     rows = ["| Claim | Thesis | Here | Verdict | Holds in |", "|---|---|---|---|---|"]
     for name, claim in STATEMENTS.items():
-        found = record["claims"].get(name)
+        found, share = (record[what].get(name) for what in ("claims", "shares"))
         rows.append(f"| {name} {claim.text} | {claim.thesis} | {_number(found) if found else ''} | "
-                    f"{found['verdict'] if found else NOT_COMPUTED} | {_share(record, name, short=True)} |")
+                    f"{found['verdict'] if found else NOT_COMPUTED} | "
+                    f"{_percent(share['holds'], share['readings']) if share else ''} |")
     return "\n".join(rows) + "\n"
 
 
@@ -106,9 +106,13 @@ def _number(found):
     return str(Estimate(*(np.nan if each is None else each for each in found["here"])))
 
 
-def _share(record, name, short=False):
+def _share(record, name):
     found = record["shares"].get(name)
     if not found:
-        return "" if short else "–"
-    holds, undecided = (f"{found[kind] / found['readings']:.0%}".replace("%", " %") for kind in ("holds", "undecided"))
-    return holds if short else f"holds in {holds} of {found['readings']}, undecided in {undecided}"
+        return ""
+    holds, undecided = (_percent(found[kind], found["readings"]) for kind in ("holds", "undecided"))
+    return f"; holds in {holds} of {found['readings']} readings, undecided in {undecided}"
+
+
+def _percent(part, whole):
+    return f"{100 * part / whole:.0f}\u00a0%"

@@ -19,10 +19,11 @@ from sklearn.inspection import permutation_importance
 from sklearn.model_selection import KFold
 
 from neorl import checks, papers
-from neorl.agent import CREDITS, IDLE, WEIGHTINGS, Learning, Policy
+from neorl.agent import CREDITS, IDLE, WEIGHTINGS, Learning, Node, Policy
 from neorl.claims import (judge_modalities, judge_multiple_layers, judge_networks, judge_pace, judge_revaluing,
                           judge_single_layer)
 from neorl.horde import OWN_CELL
+from neorl.statistics import Estimate, estimate
 from neorl.store import Condition
 from neorl.waterworld import CONTACTS, WaterWorld
 
@@ -30,7 +31,8 @@ SINGLE, LAYERS, PRIMES = (10, 30, 50, 70, 90), (3, 7, 23), papers.PRIMES
 VECTORS = ("by size", "signed", "incoming")
 PAPER_FPS = 50  # at which lengths are told
 LENGTHS = {"A": 150_000, "B": 600_000, "C": 300_000}  # of the papers' runs, in steps
-LONGER = 12  # times as long do agents live whose time to their final level is taken
+LONGER = 16  # times as long do agents live whose time to their final level is taken
+CONTROLS = 8  # times as many runs of Brownian motion, which most readings share
 
 
 @dataclass(frozen=True)
@@ -38,7 +40,8 @@ class Reading:
     """One reading of all that the thesis leaves open; the defaults are those of the book.
 
     credit: one of `agent.CREDITS`, or "step" for temporal difference, to which `absence`, `trace` and `bootstrap` do
-        not apply. bootstrap: always, where `trace` is 1 and nothing would be passed on otherwise.
+        not apply. bootstrap: always, where `trace` is 1 and nothing would be passed on otherwise. idle: always "random"
+        where `exploration` is 0 and the agent would never move otherwise.
     coverage: share of their range that maps cover. place_gain: of place cells where object-vector cells have 1.
     vectors: what a desire vector adds up. "by size", "signed" (see `Desire`), or "incoming": by size, but for the one
         that recurs, which is signed and of what came in from other nodes alone.
@@ -53,8 +56,8 @@ class Reading:
     bootstrap: bool = Learning.bootstrap
     terminal: bool = Learning.terminal
     own_cell: str = "silent"
-    coverage: float = 1.0
-    weighting: str = "equal"
+    coverage: float = papers.COVERAGE
+    weighting: str = Node.weighting
     exploration: float = Policy.exploration
     idle: str = Policy.idle
     place_gain: float = 1.0
@@ -76,8 +79,12 @@ class Reading:
     @property
     def agents(self):
         """The makers' arguments that all its agents share."""
-        return {"learning": self.learning, "policy": Policy(self.exploration, self.idle), "own_cell": self.own_cell,
-                "coverage": self.coverage, "weighting": self.weighting}
+        policy = Policy(self.exploration, self.idle if self.exploration else "random")
+        return {"learning": self.learning, "policy": policy, "own_cell": self.own_cell, "coverage": self.coverage,
+                "weighting": self.weighting}
+
+
+PLAINEST = Reading(coverage=1.0, weighting="equal", exploration=0.0)  # nothing that the thesis does not ask for
 
 
 class Choice(NamedTuple):
@@ -91,10 +98,15 @@ class Choice(NamedTuple):
     def levels(self):
         """What it is chosen from, in words."""
         if isinstance(self.prior, tuple):
-            words = {True: "yes", False: "no"}
-            return ", ".join(words[level] if isinstance(level, bool) else f"{level}" if isinstance(level, str)
-                             else f"{level:g}" for level in dict.fromkeys(self.prior)).replace("-", "−")
-        return "{:g} … {:g}".format(*self.prior.support())
+            return ", ".join(map(self.words, dict.fromkeys(self.prior)))
+        return " … ".join(map(self.words, self.prior.support()))
+
+    @staticmethod
+    def words(value):
+        """A value in words."""
+        if isinstance(value, bool):
+            return "yes" if value else "no"
+        return value if isinstance(value, str) else f"{value:.3g}".replace("-", "−")
 
     def at(self, share):
         """The value below which a share in [0, 1) of the prior lies."""
@@ -149,7 +161,7 @@ def conditions(reading, steps, runs, seed=0):
     """The conditions that a reading is judged by: {name: `Condition`}.
 
     steps: of a run at 50 steps a second, but no more than the paper's; papers B and C live the same simulated time at
-    any rate. For B4 agents live 12 times as long, half as many runs and at least two.
+    any rate. For B4 agents live 16 times as long, half as many runs and at least two, unless paper B's are as long.
     """
     eight, three = (WaterWorld(n_creeps=n, win_reward=win, fps=reading.fps, contact=reading.contact)
                     for n, win in ((8, 5.0), (3, 0.0)))
@@ -161,7 +173,7 @@ def conditions(reading, steps, runs, seed=0):
         return Condition(agent, world, length, runs, seed)
 
     found = {("single", n): living(papers.place_cells([n], **each), "A") for n in SINGLE}
-    found["brownian"] = living(papers.brownian(), "A")
+    found["brownian"] = living(papers.brownian(), "A", runs=CONTROLS * runs)
     found |= {("layer", n): living(papers.place_cells([n], **each), "A") for n in LAYERS}
     found["layers"] = living(papers.place_cells(LAYERS, **each), "A")
     for name, chosen in {**{n: [n] for n in PRIMES}, "all": PRIMES}.items():
@@ -169,7 +181,8 @@ def conditions(reading, steps, runs, seed=0):
         found["objects", name] = living(papers.object_vector_cells(chosen, **each), "B")
     both = papers.multimodal(PRIMES, **gain, **each)
     found["both"] = living(both, "B")
-    found |= {("pace", name): living(agent, "B", LONGER * steps, max(2, runs // 2))
+    longer = {"length": LONGER * steps, "runs": max(2, runs // 2)} if steps < LENGTHS["B"] else {}
+    found |= {("pace", name): living(agent, "B", **longer)
               for name, agent in (("place", found["place", "all"].agent), ("both", both))}
     found |= {("network", name): living(agent, "C") for name, agent in networks(reading).items()}
     wanting = replace(both, desires=[replace(desire, valence=1.0) for desire in both.desires])
@@ -228,20 +241,59 @@ def held(claims):
     return [name for name, claim in claims.items() if outcome(claim) == "holds"]
 
 
+class Support(NamedTuple):
+    """How many claims hold at one level of a choice, and by how much that leads the level of the plainest reading."""
+
+    choice: str
+    level: str
+    is_plainest: bool
+    is_default: bool
+    held: float
+    lead: Estimate
+
+
+def support(readings, judged):
+    """A `Support` for each level of each choice, the mean over all readings that have it.
+
+    A choice without levels is cut into quarters of its prior.
+    """
+    counts = np.array([len(held(claims)) for claims in judged])
+    found = []
+    for name, choice in CHOICES.items():
+        if isinstance(choice.prior, tuple):
+            levels = list(map(choice.words, dict.fromkeys(choice.prior)))
+            at = [levels.index(choice.words(getattr(reading, name))) for reading in [PLAINEST, Reading(), *readings]]
+        else:
+            ends = [choice.words(choice.prior.ppf(quarter / 4)) for quarter in range(5)]
+            levels = [" … ".join(pair) for pair in zip(ends, ends[1:])]
+            at = [min(int(4 * choice.place(getattr(reading, name))), 3) for reading in [PLAINEST, Reading(), *readings]]
+        (plainest, default), at = at[:2], np.array(at[2:])
+        for level, words in enumerate(levels):
+            if np.any(at == level) and np.any(at == plainest):
+                lead = estimate(_lead, counts[at == level], counts[at == plainest])
+                mean = counts[at == level].mean()
+                found.append(Support(name, words, level == plainest, level == default, mean, lead))
+    return found
+
+
+def _lead(ours, plainest, axis):
+    return ours.mean(axis) - plainest.mean(axis)
+
+
 def importance(readings, judged, name, seed=0):
     """How much each choice matters for the number of a claim: ({name of the choice: importance}, R²).
 
     A random forest predicts the rank that the number has among all readings. Its importance is what the R² of the
     forest at readings that it has not seen loses when the values of one choice are shuffled (Breiman 2001), the mean
-    over four folds of the readings; R² is what there is to lose.
+    over four folds of the readings (fewer if there are not two in each); R² is what there is to lose.
     """
     chosen = [key for key, choice in CHOICES.items() if name[0] in choice.papers]
     places = np.array([[CHOICES[key].place(getattr(reading, key)) for key in chosen] for reading in readings])
     ranks = stats.rankdata([claims[name].here.value for claims in judged]) / len(judged)
     lost, explained = [], []
-    for learned, unseen in KFold(4, shuffle=True, random_state=seed).split(places):
-        forest = RandomForestRegressor(random_state=seed).fit(places[learned], ranks[learned])
-        found = permutation_importance(forest, places[unseen], ranks[unseen], n_repeats=5, random_state=seed)
+    for learned, unseen in KFold(min(4, len(readings) // 2), shuffle=True, random_state=seed).split(places):
+        forest = RandomForestRegressor(50, random_state=seed).fit(places[learned], ranks[learned])
+        found = permutation_importance(forest, places[unseen], ranks[unseen], n_repeats=3, random_state=seed)
         lost.append(found.importances_mean)
         explained.append(forest.score(places[unseen], ranks[unseen]))
     return dict(zip(chosen, np.mean(lost, axis=0))), float(np.mean(explained))

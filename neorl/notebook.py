@@ -9,15 +9,16 @@ from neorl import checks, figures
 from neorl.claims import RUNS_FOR_A_VERDICT
 
 
-def begin(runs, steps, seed, fewest_steps=1):
+def begin(runs, steps, seed, fewest_steps=1, **others):
     """Check the parameters of a notebook, set the style of its figures, and tell the reader if the runs are few.
 
     runs: integer ≥ 1. steps: integer ≥ `fewest_steps`, so that there is something to draw. seed: integer ≥ 0.
+    others: further parameters of the notebook, which it checks itself.
     Raises ValueError for anything else, and for a parameter that papermill has injected but the notebook does not have.
     """
     known = {"runs": checks.integer("runs", runs, at_least=1),
              "steps": checks.integer("steps", steps, at_least=fewest_steps),
-             "seed": checks.integer("seed", seed, at_least=0)}
+             "seed": checks.integer("seed", seed, at_least=0), **others}
     for name in injected_names():
         if name not in known:
             raise ValueError(f"parameter {name} is unknown, allowed are {', '.join(known)}")

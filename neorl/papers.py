@@ -1,8 +1,8 @@
 """The agents of the thesis's papers, as values of `Agent`.
 
 `choices` are other fields of `Agent` (learning, policy, own_cell) or, for all nodes, `weighting` of `Node` and
-`coverage`: the share of either axis's range, about its middle, that the maps cover. What lies beyond belongs to their
-outermost cells.
+`coverage`: the share of either axis's range, about its middle, that the maps cut into equal cells. What lies beyond
+belongs to the outermost ones.
 """
 
 from dataclasses import replace
@@ -12,6 +12,7 @@ from neorl.agent import Agent, Desire, Node, Policy
 from neorl.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL
 
 PRIMES = (2, 3, 5, 7, 11, 13)  # the resolutions of paper B
+COVERAGE = 0.5
 
 
 def place_cells(resolutions=PRIMES, valence_green=1.0, valence_red=-1.0, **choices):
@@ -68,8 +69,8 @@ def _creeps(node, valence_green=1.0, valence_red=-1.0):
 
 
 def _network(nodes, resolutions, desires, choices):
-    weighting = choices.pop("weighting", "equal")
-    coverage = checks.real("coverage", choices.pop("coverage", 1.0))
+    weighting = choices.pop("weighting", Node.weighting)
+    coverage = checks.real("coverage", choices.pop("coverage", COVERAGE))
     nodes = tuple(Node(name, _covering(coverage, modality), resolutions, weighting, gain)
                   for name, modality, gain in nodes)
     return Agent(nodes, desires, **choices)

@@ -189,13 +189,33 @@ def lay_out(plan: Plan, n_creeps: int) -> None:
         plan.first_input[n + 1] = end
 
 
-def new_memory(plan, stream):
-    """The `Memory` of an agent that has learned nothing."""
-    sizes = {"values": plan.first[-1], "cells": plan.first_cell[-1], "tracks": plan.first_track[-1],
+def new_memory(plan, stream, old=None):
+    """The `Memory` of an agent that has learned nothing.
+
+    old: a memory of the same plan that nobody needs any more, whose room for values is used again: to get a gigabyte
+    from the system, page by page, takes longer than to live in it.
+    """
+    sizes = {"values": 0 if old else plan.first[-1], "cells": plan.first_cell[-1], "tracks": plan.first_track[-1],
              "trace": plan.trace, "desires": len(plan.source)}
     memory = Memory(**zeros(Memory, sizes) | {"stream": stream})
+    if old:
+        forget(plan, old)
+        memory = memory._replace(q=old.q)
     know_nothing(plan, memory)
     return memory
+
+
+@kernel
+def forget(plan: Plan, memory: Memory) -> None:
+    """Set all values to zero that are not."""
+    for m in range(plan.cells.shape[0]):
+        cells = plan.cells[m]
+        for cell in range(cells):
+            begin, end = memory.known[plan.first_cell[m] + cell, 0], memory.known[plan.first_cell[m] + cell, 1]
+            for event in range(N_EVENTS):
+                row = plan.first[m] + (cell * N_EVENTS + event) * cells
+                for goal in range(begin, end):
+                    memory.q[row + goal] = 0.0
 
 
 @kernel

@@ -41,9 +41,10 @@ class Run:
     """One learner in one tank, from its first step on.
 
     agent, world: what is chosen. memory, state: what changes, as flat arrays (see `Memory` and `WaterWorldState`).
+    after: a run of the same agent that is over; its values are overwritten.
     """
 
-    def __init__(self, agent, world, seed=0, run=0):
+    def __init__(self, agent, world, seed=0, run=0, after=None):
         checks.instance("agent", agent, Agent)
         checks.instance("world", world, WaterWorld)
         sequence = np.random.SeedSequence(checks.integer("seed", seed, at_least=0),
@@ -51,7 +52,8 @@ class Run:
         self.agent, self.world = agent, world
         self.plan = kept_apart(compiled(agent, world))
         self.state = kept_apart(world.reset(sequence))
-        self.memory = kept_apart(new_memory(self.plan, new_stream(sequence.spawn(1)[0])))
+        old = after.memory if after and after.agent == agent else None
+        self.memory = kept_apart(new_memory(self.plan, new_stream(sequence.spawn(1)[0]), old))
         self.step = 0
         self._contacts = on_lines_of_its_own(np.zeros(world.n_creeps, np.int8))
         settle(self.plan, self.memory, self.state)
@@ -212,10 +214,10 @@ def simulate(agent, world, *, steps, runs, seed=0, changes=(), threads=None, pro
     threads = usable if threads is None else checks.integer("threads", threads, at_least=1)
     rewards, hits = new_bins(world, runs, steps)
     label = ", ".join(f"{node.name} {'+'.join(f'N{n}' for n in node.resolutions)}" for node in agent.nodes)
-    stop = threading.Event()
+    stop, before = threading.Event(), threading.local()
 
     def live_one(k, bar):
-        run = Run(agent, world, seed, k)
+        run = before.run = Run(agent, world, seed, k, after=getattr(before, "run", None))
         for until, later in (*changes, (steps, None)):
             while run.step < until and not stop.is_set():
                 slice_steps = min(SLICE, until - run.step)

@@ -72,8 +72,8 @@ STATEMENTS = {
                     "judge_cost", (1.1,)),
     "T3": Statement("section 3.4.2, observation 1", "The states that a Markov process needs grow exponentially with "
                     "the steps that matter", "States over steps", "Ψ^L"),
-    "T4": Statement("section 3.1", "Q-learning learns |S||A| values where a model of the transitions has |S|²|A|",
-                    "Values of either", "|S||A| and |S|²|A|"),
+    "T4": Statement("section 3.1", "Q-learning learns S·A values where a model of the transitions has S²·A",
+                    "Values of either", "S·A and S²·A"),
     "T5": Statement("paper A, Experiments, and paper B, section 3", "One core keeps up with real time",
                     "Share of a core at 50 steps a second", "< 1"),
     "H1": Statement("section 2.2, figure 2.2", "Latent learning: who is rewarded from day 11 on overtakes who was "

@@ -35,6 +35,7 @@ def sweep(conditions, executor=None, progress=True):
     for condition in conditions:
         checks.instance("condition", condition, Condition)
     waiting = [condition for condition in dict.fromkeys(conditions) if read_checked(condition.path) is None]
+    waiting.sort(key=lambda condition: -condition.agent.n_values)  # the large ones take over each other's memory
     total = sum(condition.steps * condition.runs for condition in waiting)
     with tqdm(total=total, unit="step", unit_scale=True, desc="sweep", leave=False, disable=not progress) as bar:
         for attempt in range(ATTEMPTS):

@@ -6,8 +6,10 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import expect
 
+from neorl.statements import STATEMENTS
+
 HTML = Path(__file__).parent.parent / "_build" / "html"
-PAGES = {"index.html": "Figure 5: PC + OVC", "chapters/paper_a.html": "Figure 7: all, by N²",
+PAGES = {"index.html": "Figure 5: PC + OVC", "chapters/paper_a.html": "Figure 7: all, by N",
          "chapters/paper_b.html": "Figure 5: PC + OVC", "chapters/paper_c.html": "Figure 4e: D"}
 pytestmark = pytest.mark.skipif(not HTML.exists(), reason="no book: run make book first")
 
@@ -34,3 +36,21 @@ def test_the_explorer_of_a_page_starts_and_reruns_the_runs_of_its_figures(open_p
 def test_a_page_without_a_widget_asks_for_nothing(open_page):
     page = open_page(HTML, "sources.html")
     assert page.locator(".neorl-explorer").count() == 0
+
+
+def test_the_page_of_claims_has_all_of_them_and_its_links_lead_somewhere(open_page):
+    page = open_page(HTML, "claims.html")
+    rows = page.locator("table").first.locator("tbody tr")
+    assert rows.count() == len(STATEMENTS)
+    assert [row.split()[0] for row in rows.all_inner_texts()] == list(STATEMENTS)
+    links = rows.locator("a").evaluate_all("links => links.map(link => link.getAttribute('href'))")
+    assert len(links) == 2 * sum("not computed" not in row for row in rows.all_inner_texts()) > 0
+    for link in links:
+        name, _, target = link.partition("#")
+        assert f'id="{target}"' in (HTML / (name or "claims.html")).read_text(encoding="utf-8")
+
+
+def test_the_chapter_on_assumptions_has_a_curve_for_every_claim_that_readings_matter_for(open_page):
+    page = open_page(HTML, "chapters/assumptions.html")
+    assert page.locator("figure[id^=fig-spec] img").count() == 16
+    expect(page.locator("body")).to_contain_text("the same as from this process, to the last bit")

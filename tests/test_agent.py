@@ -1,5 +1,7 @@
 """Agents as data: what is refused, what can be evaluated, and what an agent compiles to."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -105,8 +107,10 @@ def test_an_agent_is_a_value(make):
 
 def test_the_agent_of_paper_a_is_one_node_and_two_desires():
     desires = (Desire("green", "PC", 1.0), Desire("red", "PC", -1.0))
-    assert place_cells([3, 7]) == Agent((Node("PC", PLACE_CELL, (3, 7)),), desires)
-    assert place_cells([3, 7]) == Agent([Node("PC", PLACE_CELL, np.array([3, 7]))], list(desires))
+    middle = replace(PLACE_CELL, ranges=((0.25, 0.75), (0.25, 0.75)))
+    assert place_cells([3, 7]) == Agent((Node("PC", middle, (3, 7)),), desires)
+    assert place_cells([3, 7]) == Agent([Node("PC", middle, np.array([3, 7]))], list(desires))
+    assert place_cells([3, 7], coverage=1) == Agent((Node("PC", PLACE_CELL, (3, 7)),), desires)
     assert place_cells([3]) != place_cells([3], own_cell="counts")
     assert brownian().policy == Policy(exploration=1.0)
 

@@ -160,3 +160,26 @@ def test_bad_runs_are_refused_before_anything_runs(runs):
     refused = subprocess.run(command, capture_output=True, text=True)
     assert refused.returncode != 0
     assert "--runs" in refused.stderr and "allowed are integers ≥ 1" in refused.stderr
+
+
+@pytest.mark.parametrize("runs, points", [(1, 4), (4, 8), (20, 32), (50, 128), (99, 128), (100, 256)])
+def test_the_assumptions_are_varied_in_a_power_of_two_of_readings(runs, points):
+    assert build.points(runs) == points
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_what_a_notebook_has_found_stands_beside_its_page_and_in_the_table_of_all_claims(notebook, tmp_path,
+                                                                                          monkeypatch):
+    monkeypatch.setenv("NEORL_CACHE", str(tmp_path / "cache"))
+    content = nbformat.read(notebook, 4)
+    content.cells[2].source = ("from neorl import ledger\nledger.store('page', shares={'A2': "
+                               "{'holds': 1, 'undecided': 1, 'untestable': 0, 'readings': 4}})")
+    nbformat.write(content, notebook)
+    build.compute(notebook, {"runs": 3})
+    build.write_claims()
+    table = (build.CHAPTERS / "claims-table.md").read_text()
+    assert "holds in 25\u00a0% of 4 readings, undecided in 25\u00a0%" in table
+    assert table.count("not computed in this build") == 21
+    written = (build.CHAPTERS / "claims-table.md").stat().st_mtime_ns
+    build.write_claims()
+    assert (build.CHAPTERS / "claims-table.md").stat().st_mtime_ns == written

@@ -7,7 +7,7 @@ import pytest
 from explorer_page import write_page
 from playwright.sync_api import expect
 
-from neorl import Desire, Explorer, NresMap, Place, Run, WaterWorld, multimodal, network_d, place_cells, simulate
+from neorl import Desire, Explorer, Place, Run, WaterWorld, multimodal, network_d, place_cells, simulate
 from neorl.modality import OBJECT_VECTOR_CELL
 
 SIZE = {"steps": 30_000, "runs": 12, "seed": 3, "progress": False}
@@ -187,7 +187,7 @@ def test_a_click_on_a_cell_shows_how_to_get_there(open_page, site, over):
     box = arena.bounding_box()
     arena.click(position={"x": 0.32 * box["width"], "y": 0.68 * box["height"]})
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal !== ''")
-    assert explorer.get_attribute("data-goal") == str(int(NresMap(5).encode([0.3, 0.7])))
+    assert explorer.get_attribute("data-goal") == str(int(place_cells([5]).maps[0].encode([0.3, 0.7])))
     expect(explorer).to_contain_text("Nobody asked for it")
     page.wait_for_timeout(300)
     assert arena.screenshot() != before

@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from neorl import NresMap, Result, Run, WaterWorld, brownian, figures, network_b, place_cells, simulate
+from neorl import (NresMap, Result, Run, WaterWorld, brownian, figures, network_b, object_vector_cells, place_cells,
+                   simulate)
 from neorl.figures import binned_rate, low_passed
 from neorl.modality import HEAD_DIRECTION_CELL, MODALITIES, PLACE_CELL, TAU, Modality
 from neorl.statistics import Estimate
@@ -184,6 +185,17 @@ def test_cells_of_a_map_with_ranges_of_its_own():
     figures.draw_cells(axes, NresMap(2, Modality("", "position", "cartesian", ((0, 1), (-1, 3)))))
     boxes = [(*patch.get_xy(), patch.get_width(), patch.get_height()) for patch in axes.patches]
     assert boxes == [(0, -1, 0.5, 2), (0.5, -1, 0.5, 2), (0, 1, 0.5, 2), (0.5, 1, 0.5, 2)]
+
+
+def test_the_outermost_cells_of_a_map_reach_as_far_as_things_can_be():
+    axes = figures.new_board(low=-1)
+    for nres_map in (place_cells([2]).maps[0], object_vector_cells([2]).maps[0]):
+        figures.draw_cells(axes, nres_map)
+    boxes = [patch.get_bbox().extents.tolist() for patch in axes.patches]
+    assert boxes[:4] == [[0, 0, 0.5, 0.5], [0.5, 0, 1, 0.5], [0, 0.5, 0.5, 1], [0.5, 0.5, 1, 1]]
+    assert boxes[4:] == [[-1, -1, 0, 0], [0, -1, 1, 0], [-1, 0, 0, 1], [0, 0, 1, 1]]
+    figures.draw_cells(axes, place_cells([5]).maps[0])
+    assert sorted({round(patch.get_width(), 9) for patch in axes.patches[8:]}) == [0.1, 0.35]
 
 
 def moving_tank():

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from neorl import (Learning, multimodal, multiverse, network_a, network_b, network_c, network_d, place_cells, simulate)
+from neorl import (Learning, Policy, multimodal, multiverse, network_a, network_b, network_c, network_d, place_cells,
+                   simulate)
 from neorl.claims import Claim
-from neorl.multiverse import CHOICES, Reading
+from neorl.multiverse import CHOICES, PLAINEST, Reading
 from neorl.multiverse_figures import draw_importance, draw_specification
 from neorl.statistics import Estimate
 
@@ -35,7 +36,7 @@ def test_every_field_of_a_reading_is_varied_and_has_its_default_in_the_prior():
 
 @pytest.mark.parametrize("change", [
     {"learning_rate": 0.1}, {"discount": 0.5}, {"credit": "last"}, {"credit": "step"}, {"absence": 0.3}, {"trace": 10},
-    {"terminal": False}, {"own_cell": "counts"}, {"coverage": 0.5}, {"weighting": "cells"}, {"exploration": 0.1},
+    {"terminal": False}, {"own_cell": "counts"}, {"coverage": 1.0}, {"weighting": "cells"}, {"exploration": 0.1},
     {"idle": "no-op"}, {"place_gain": 5.0}, {"vectors": "signed"}, {"vectors": "incoming"}, {"scale": 0.5},
     {"recursion": 1.0}, {"fps": 30}, {"contact": "truncated"}])
 def test_every_choice_changes_the_conditions_of_the_papers_that_it_belongs_to_and_no_others(change):
@@ -47,16 +48,24 @@ def test_every_choice_changes_the_conditions_of_the_papers_that_it_belongs_to_an
     assert changed == set(CHOICES[name].papers)
 
 
-def test_bootstrapping_can_only_be_left_out_where_a_trace_is():
+def test_what_would_teach_an_agent_nothing_is_no_reading():
+    assert replace(PLAINEST, idle="no-op").agents == PLAINEST.agents
+    assert Reading(idle="no-op", exploration=0.1).agents["policy"] == Policy(0.1, "no-op")
     assert Reading(bootstrap=False).learning == Learning()
     assert Reading(bootstrap=False, trace=10).learning == Learning(trace=10, bootstrap=False)
     assert Reading(credit="step", trace=100, absence=0.3).learning == Learning(driver="step")
 
 
+def test_the_plainest_reading_is_neither_in_the_middle_nor_weighted_nor_curious():
+    found = multiverse.conditions(PLAINEST, 600_000, 10)
+    assert found["both"].agent == multimodal(coverage=1, weighting="equal", policy=Policy(exploration=0))
+    assert found["pace", "both"] == found["both"]  # long enough
+
+
 def test_papers_b_and_c_live_the_same_time_at_any_rate_and_paper_a_the_same_steps():
-    found = multiverse.conditions(Reading(fps=30), 40_000, 4)
-    assert (found["single", 10].steps, found["both"].steps, found["network", "D"].steps) == (40_000, 24_000, 24_000)
-    assert (found["pace", "both"].steps, found["pace", "both"].runs) == (288_000, 2)
+    found = multiverse.conditions(Reading(fps=30), 30_000, 4)
+    assert (found["single", 10].steps, found["both"].steps, found["network", "D"].steps) == (30_000, 18_000, 18_000)
+    assert (found["pace", "both"].steps, found["pace", "both"].runs, found["brownian"].runs) == (288_000, 2, 32)
     assert found["pace", "both"].steps / 30 == 160 * 60
 
 
@@ -105,6 +114,18 @@ def made_up():
     readings = multiverse.design(128)
     values = [CHOICES["discount"].place(reading.discount) + 0.5 * (reading.credit == "last") for reading in readings]
     return readings, [{"C2": judged(value, "reproduced" if value > 1 else "not reproduced")} for value in values]
+
+
+def test_support_counts_the_claims_that_hold_at_each_level(made_up):
+    found = {(each.choice, each.level): each for each in multiverse.support(*made_up)}
+    assert found["credit", "last"].lead.low > 0 and found["contact", "truncated"].lead.low < 0
+    assert found["credit", "share"].is_plainest and found["credit", "share"].lead.value == 0
+    assert found["coverage", "1"].is_plainest and found["coverage", "0.5"].is_default
+    assert found["discount", "0.838 … 0.95"].held > found["discount", "0.5 … 0.613"].held == 0
+    assert [level for name, level in found if name == "discount"] == ["0.5 … 0.613", "0.613 … 0.725",
+                                                                       "0.725 … 0.838", "0.838 … 0.95"]
+    assert [found["discount", level].is_plainest for name, level in found if name == "discount"] == [False, False, True,
+                                                                                                    False]
 
 
 def test_the_choices_that_matter_are_found(made_up):

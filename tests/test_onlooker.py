@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from neorl import (Agent, Node, NresMap, Run, WaterWorld, multimodal, network_d, object_vector_cells, place_cells,
-                   superpose)
+from neorl import (Agent, Node, NresMap, Policy, Run, WaterWorld, multimodal, network_d, object_vector_cells,
+                   place_cells, superpose)
 from neorl.modality import HEAD_DIRECTION_CELL
 from neorl.onlooker import HALF_SECOND, cell_seen_at, step_second, survey
 
@@ -23,20 +23,20 @@ def surveyed(run, side):
 
 
 def test_a_survey_is_the_superposition_at_every_place():
-    run = Run(place_cells([5, 7]), TANK, seed=1)
+    run = Run(place_cells([5, 7], weighting="equal"), TANK, seed=1)
     run.advance(5_000)
     expected = np.zeros((9, 4))
-    for m, n in enumerate((5, 7)):
-        goals = NresMap(n).encode(run.state.creep_position / TANK.width)
+    for m, nres_map in enumerate(run.agent.maps):
+        goals = nres_map.encode(run.state.creep_position / TANK.width)
         valences = np.where(run.state.creep_is_green, 1.0, -1.0)
         for tile in range(9):
-            cell = int(NresMap(n).encode([(tile % 3 + 0.5) / 3, (tile // 3 + 0.5) / 3]))
+            cell = int(nres_map.encode([(tile % 3 + 0.5) / 3, (tile // 3 + 0.5) / 3]))
             expected[tile] += 0.5 * superpose(run.q(m), cell, goals, valences)
     assert expected.any() and surveyed(run, 3) == pytest.approx(expected)
 
 
 def test_a_survey_at_the_agents_own_place_is_what_it_chooses_by_next():
-    run = Run(network_d([4, 5]), TANK, seed=2)
+    run = Run(network_d([4, 5], policy=Policy(exploration=0.0)), TANK, seed=2)
     for _ in range(20):
         run.advance(500)
         run.state.agent_position[:] = TANK.width / 2

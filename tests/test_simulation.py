@@ -454,3 +454,22 @@ def test_recursion_takes_vectors_and_valences_of_the_step_before():
     expected = 2.0 * np.where(worth > 0, 1.0, -1.0) @ as_vectors(pull)
     assert expected.all()
     np.testing.assert_allclose(run.memory.landing[3:, :2], [expected, expected])
+
+
+@pytest.mark.parametrize("agent", [multimodal([3, 12]), place_cells([14], learning=Learning(trace=5, absence=0.2))])
+def test_a_run_in_the_room_of_another_begins_with_nothing_and_is_the_same(agent):
+    before = Run(agent, WaterWorld(), seed=0, run=3)
+    before.advance(20_000)
+    room = before.memory.q
+    after, fresh = Run(agent, WaterWorld(), seed=0, run=4, after=before), Run(agent, WaterWorld(), seed=0, run=4)
+    assert np.shares_memory(after.memory.q, room) and not after.memory.q.any()
+    assert after.advance(20_000) == fresh.advance(20_000)
+    assert all(map(np.array_equal, [*after.memory, *after.state], [*fresh.memory, *fresh.state]))
+
+
+def test_a_run_after_that_of_another_agent_has_room_of_its_own():
+    before = Run(place_cells([14]), WaterWorld())
+    before.advance(5_000)
+    knew = before.memory.q.copy()
+    assert not np.shares_memory(Run(place_cells([13]), WaterWorld(), after=before).memory.q, before.memory.q)
+    np.testing.assert_array_equal(before.memory.q, knew)

@@ -1,0 +1,19 @@
+"""Write the claims of the last build into the README, in short: ``make readme``, after ``make book``."""
+
+import re
+from pathlib import Path
+
+from neorl import ledger
+
+ROOT = Path(__file__).resolve().parent.parent
+BETWEEN = re.compile(r"(?<=<!-- claims: make readme -->\n).*(?=<!-- end of claims -->)", re.S)
+
+
+def main():
+    readme = ROOT / "README.md"
+    table = ledger.in_short(ledger.read(sorted((ROOT / "book" / "chapters").glob("*.claims.json"))))
+    readme.write_text(BETWEEN.sub(lambda _: table, readme.read_text(encoding="utf-8")), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,85 @@
+"""Where every constant comes from: the thesis, the environment it used, the author's public code, or this book.
+
+The values are read from the code that uses them, so that the table cannot tell another story.
+"""
+
+from typing import NamedTuple
+
+from neorl import waterworld
+from neorl.figures import CUTOFF_PERIODS, FILTER_ORDER
+from neorl.multiverse import CHOICES, LAYERS, LENGTHS, PRIMES, SINGLE, Reading, conditions
+from neorl.simulation import BIN_SECONDS
+
+PLE = "WaterWorld of the PyGame Learning Environment, rules confirmed against recordings of it"
+AUTHOR = "the author's later public code"
+OURS = "this book's choice"
+
+
+class Constant(NamedTuple):
+    """One constant: its value in words, and its source."""
+
+    name: str
+    value: str
+    source: str
+
+
+def constants():
+    """Every `Constant` that a result of the book rests on."""
+    default = conditions(Reading(), max(LENGTHS.values()), 1)
+    eight, three = default["layers"].world, default["both"].world
+    fixed = [
+        Constant("side of the tank", f"{three.width} pixels", AUTHOR),
+        Constant("radius of agent and creeps", f"{three.radius} pixels", PLE),
+        Constant("acceleration of an action", "a quarter of the width a second, each step", PLE),
+        Constant("drag", f"{waterworld.DRAG} a step", PLE),
+        Constant("speed of creeps", "up to a quarter of the width a second", PLE),
+        Constant("creeps, paper A", f"{eight.n_creeps}", "paper A, WaterWorld (and the author's later public code)"),
+        Constant("creeps, papers B and C", f"{three.n_creeps}", "paper C, section 2; for paper B " + AUTHOR),
+        Constant("reward for the last green creep, paper A", f"{eight.win_reward:g}", "paper A, WaterWorld"),
+        Constant("the same, papers B and C", f"{three.win_reward:g}", "paper B, section 3; " + AUTHOR),
+        Constant("valence of creeps", "+1 and −1", "paper B, section 3, and paper C, section 2"),
+        Constant("resolutions of single maps, paper A", _listed(SINGLE), "paper A, figure 6"),
+        Constant("resolutions together, paper A", _listed(LAYERS), "paper A, Experiments"),
+        Constant("resolutions, papers B and C", _listed(PRIMES), "paper B, section 3; for paper C " + OURS),
+        Constant("steps of a run, paper A", f"{LENGTHS['A']:,}", "paper A, Experiments"),
+        Constant("the same, papers B and C", f"{LENGTHS['B']:,} and {LENGTHS['C']:,}",
+                 OURS + ": paper B speaks of more than 160 minutes"),
+        Constant("exploration of the control", "1", "paper A, Experiments"),
+        Constant("bins of reward", f"{BIN_SECONDS} s", "paper B, section 3, and " + AUTHOR),
+        Constant("filter of paper B's curves", f"Butterworth, order {FILTER_ORDER}, {CUTOFF_PERIODS} periods a run",
+                 "paper B, section 3; order and cutoff are " + OURS),
+    ]
+    return fixed + [Constant(choice.label, choice.words(getattr(Reading(), name)), SOURCES[name])
+                    for name, choice in CHOICES.items()]
+
+
+SOURCES = {
+    "learning_rate": f"{OURS}; section 4.1.3, equation 4.6, has no value",
+    "discount": f"{OURS}; section 3.1, equation 3.2, has no value",
+    "credit": f"{OURS}; section 4.1.3, equation 4.7, asks for more credit for more occurrences",
+    "absence": f"{OURS}; section 4.1.3 says that ψ(0) may act negatively, and not how",
+    "trace": f"{OURS}; section 4.1.3 speaks of a leaky integrator",
+    "bootstrap": "section 4.1.3, equation 4.8",
+    "terminal": OURS,
+    "own_cell": OURS,
+    "coverage": OURS,
+    "weighting": "paper A, Experiments: inversely to the size of a receptive field, its side or its area",
+    "exploration": OURS,
+    "idle": f"{OURS}; {AUTHOR} does nothing",
+    "place_gain": "paper C, section 3, has 1 : 1; a drawing on the author's site has 5",
+    "vectors": f"{OURS}; paper C, section 1, has the plain sum",
+    "scale": OURS,
+    "recursion": "paper C, section 3",
+    "fps": f"{AUTHOR}; agrees with paper A, where 150,000 steps take somewhat under an hour",
+    "contact": f"{OURS}: that of today's pygame",
+}
+
+
+def table():
+    """The constants as a Markdown table."""
+    rows = ["| Constant | Value | From |", "|---|---|---|"]
+    return "\n".join(rows + [f"| {each.name} | {each.value} | {each.source} |" for each in constants()])
+
+
+def _listed(resolutions):
+    return ", ".join(f"N{n}" for n in resolutions)
