@@ -3,7 +3,7 @@
 A *node* holds the maps of one modality at several resolutions (paper C, section 1 and figure 3). *Desires* are the
 edges of the network. Each makes an element of interest of something for one node: of the green or the red creeps, of a
 point of the node's own space, or of what another node wants, or the node itself wanted a step ago. Whatever the thesis
-leaves open is a field, with the book's default reading first; nothing here runs.
+leaves open is a field, whose default is the book's reading (see `neorl.multiverse`); nothing here runs.
 """
 
 from dataclasses import dataclass, field

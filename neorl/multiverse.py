@@ -246,8 +246,8 @@ class Support(NamedTuple):
 
     choice: str
     level: str
+    value: object
     is_plainest: bool
-    is_default: bool
     held: float
     lead: Estimate
 
@@ -255,25 +255,33 @@ class Support(NamedTuple):
 def support(readings, judged):
     """A `Support` for each level of each choice, the mean over all readings that have it.
 
-    A choice without levels is cut into quarters of its prior.
+    A choice without levels is cut into quarters of its prior, the value of each being its median. There is no support
+    for a level that no reading has.
     """
     counts = np.array([len(held(claims)) for claims in judged])
     found = []
     for name, choice in CHOICES.items():
         if isinstance(choice.prior, tuple):
-            levels = list(map(choice.words, dict.fromkeys(choice.prior)))
-            at = [levels.index(choice.words(getattr(reading, name))) for reading in [PLAINEST, Reading(), *readings]]
+            values = list(dict.fromkeys(choice.prior))
+            levels = list(map(choice.words, values))
+            plainest, *at = [values.index(getattr(reading, name)) for reading in [PLAINEST, *readings]]
         else:
+            values = [choice.at((2 * quarter + 1) / 8) for quarter in range(4)]
             ends = [choice.words(choice.prior.ppf(quarter / 4)) for quarter in range(5)]
             levels = [" … ".join(pair) for pair in zip(ends, ends[1:])]
-            at = [min(int(4 * choice.place(getattr(reading, name))), 3) for reading in [PLAINEST, Reading(), *readings]]
-        (plainest, default), at = at[:2], np.array(at[2:])
-        for level, words in enumerate(levels):
+            plainest, *at = [min(int(4 * choice.place(getattr(reading, name))), 3) for reading in [PLAINEST, *readings]]
+        at = np.array(at)
+        for level, (value, words) in enumerate(zip(values, levels)):
             if np.any(at == level) and np.any(at == plainest):
                 lead = estimate(_lead, counts[at == level], counts[at == plainest])
-                mean = counts[at == level].mean()
-                found.append(Support(name, words, level == plainest, level == default, mean, lead))
+                found.append(Support(name, words, value, level == plainest, counts[at == level].mean(), lead))
     return found
+
+
+def leading(supports):
+    """The plainest reading but for each choice's level, the nearest to it in the prior, that clearly leads it."""
+    levels = {each.choice: each.value for each in reversed(supports) if each.lead.low > 0}
+    return replace(PLAINEST, **levels)
 
 
 def _lead(ours, plainest, axis):

@@ -27,7 +27,7 @@ def draw_specification(readings, judged, name):
     shown = {key: choice for key, choice in CHOICES.items() if name[0] in choice.papers}
     width, _ = plt.rcParams["figure.figsize"]
     below = ROW * len(shown)
-    figure, (curve, strips) = plt.subplots(2, 1, figsize=(width, 2.1 + below), sharex=True,
+    figure, (curve, strips) = plt.subplots(2, 1, figsize=(width, 2.4 + below), sharex=True,
                                            height_ratios=(1.9, below))
     low, high = _limits(here[:, 0], STATEMENTS[name].borders)
     at = np.arange(len(order))
@@ -42,8 +42,9 @@ def draw_specification(readings, judged, name):
         curve.axhline(border, color=INK, linewidth=0.8, linestyle="--")
     margin = 0.03 * (high - low)
     curve.set_ylim(low - margin, high + margin)
-    curve.set_title(fill(f"{name}: {STATEMENTS[name].text}", 58), size=11, color=INK)
-    curve.legend(frameon=False, labelcolor="linecolor", fontsize=9, handlelength=0.6, loc="upper left")
+    figure.suptitle(fill(f"{name}: {STATEMENTS[name].text}", 58), size=11, color=INK)
+    curve.legend(frameon=False, labelcolor="linecolor", fontsize=9, handlelength=0.6, ncols=3, loc="lower center",
+                 bbox_to_anchor=(0.5, 1.0))
     places = [[choice.place(getattr(readings[i], key)) for i in order] for key, choice in shown.items()]
     strips.imshow(places, aspect="auto", cmap=SHADES, vmin=0, vmax=1, interpolation="nearest")
     strips.set_yticks(range(len(shown)), [choice.label for choice in shown.values()], fontsize=9)

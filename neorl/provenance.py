@@ -13,6 +13,7 @@ from neorl.simulation import BIN_SECONDS
 PLE = "WaterWorld of the PyGame Learning Environment, rules confirmed against recordings of it"
 AUTHOR = "the author's later public code"
 OURS = "this book's choice"
+SUPPORTED = f"{OURS}, by the support that it has among all readings"
 
 
 class Constant(NamedTuple):
@@ -36,13 +37,13 @@ def constants():
         Constant("creeps, paper A", f"{eight.n_creeps}", "paper A, WaterWorld (and the author's later public code)"),
         Constant("creeps, papers B and C", f"{three.n_creeps}", "paper C, section 2; for paper B " + AUTHOR),
         Constant("reward for the last green creep, paper A", f"{eight.win_reward:g}", "paper A, WaterWorld"),
-        Constant("the same, papers B and C", f"{three.win_reward:g}", "paper B, section 3; " + AUTHOR),
+        Constant("the same reward, papers B and C", f"{three.win_reward:g}", "paper B, section 3; " + AUTHOR),
         Constant("valence of creeps", "+1 and −1", "paper B, section 3, and paper C, section 2"),
         Constant("resolutions of single maps, paper A", _listed(SINGLE), "paper A, figure 6"),
         Constant("resolutions together, paper A", _listed(LAYERS), "paper A, Experiments"),
         Constant("resolutions, papers B and C", _listed(PRIMES), "paper B, section 3; for paper C " + OURS),
         Constant("steps of a run, paper A", f"{LENGTHS['A']:,}", "paper A, Experiments"),
-        Constant("the same, papers B and C", f"{LENGTHS['B']:,} and {LENGTHS['C']:,}",
+        Constant("steps of a run, papers B and C", f"{LENGTHS['B']:,} and {LENGTHS['C']:,}",
                  OURS + ": paper B speaks of more than 160 minutes"),
         Constant("exploration of the control", "1", "paper A, Experiments"),
         Constant("bins of reward", f"{BIN_SECONDS} s", "paper B, section 3, and " + AUTHOR),
@@ -62,9 +63,9 @@ SOURCES = {
     "bootstrap": "section 4.1.3, equation 4.8",
     "terminal": OURS,
     "own_cell": OURS,
-    "coverage": OURS,
-    "weighting": "paper A, Experiments: inversely to the size of a receptive field, its side or its area",
-    "exploration": OURS,
+    "coverage": SUPPORTED,
+    "weighting": f"{SUPPORTED}; paper A, Experiments, has the inverse of the size of a receptive field",
+    "exploration": SUPPORTED,
     "idle": f"{OURS}; {AUTHOR} does nothing",
     "place_gain": "paper C, section 3, has 1 : 1; a drawing on the author's site has 5",
     "vectors": f"{OURS}; paper C, section 1, has the plain sum",

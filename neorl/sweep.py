@@ -28,8 +28,8 @@ def sweep(conditions, executor=None, progress=True):
         cores and as fit into memory. It is left open.
     progress: show a progress bar, with the time that is left at the pace so far.
 
-    Raises ValueError for a bad argument, RuntimeError for conditions that have failed three times, after all others
-    are kept; the next call goes on from there.
+    Raises ValueError for a bad argument, MemoryError if a single run does not fit into the free memory of this machine,
+    RuntimeError for conditions that have failed three times, after all others are kept; the next call goes on there.
     """
     conditions = checks.several("conditions", conditions)
     for condition in conditions:
@@ -38,7 +38,7 @@ def sweep(conditions, executor=None, progress=True):
     waiting.sort(key=lambda condition: -condition.agent.n_values)  # the large ones take over each other's memory
     total = sum(condition.steps * condition.runs for condition in waiting)
     with tqdm(total=total, unit="step", unit_scale=True, desc="sweep", leave=False, disable=not progress) as bar:
-        for attempt in range(ATTEMPTS):
+        for _ in range(ATTEMPTS):
             errors = _run(waiting, executor, bar) if waiting else {}
             waiting = list(errors)
             if any(isinstance(error, BrokenExecutor) for error in errors.values()):

@@ -73,10 +73,10 @@ def test_the_page_has_every_claim_of_the_thesis_and_says_which_were_not_computed
     assert [name for name in STATEMENTS if f"**{name}** " in page] == list(STATEMENTS)
     assert len(page.splitlines()) == 2 + len(STATEMENTS)
     assert "not computed in this build" in row(page, "H1") and "not computed in this build" in row(page, "A1")
-    assert row(page, "C2") == (
-        "| **C2** A desire for each colour (B) beats one for all (A) | **reproduced**; holds in 25\u00a0% of 256 readings,"
-        " undecided in 10\u00a0% | Lead of B over A in final reward per second. Thesis (paper C, section 3 and figure 4e):"
-        " > 0. Here: 0.10 [0.09, 0.11], 20 runs. A run of B beats one of A with probability 1.00 [1.00, 1.00]. "
+    assert row(page, "C2").replace("\u00a0", " ") == (
+        "| **C2** A desire for each colour (B) beats one for all (A) | **reproduced**; holds in 25 % of 256 readings, "
+        "undecided in 10 % | Lead of B over A in final reward per second. Thesis (paper C, section 3 and figure 4e): "
+        "> 0. Here: 0.10 [0.09, 0.11], 20 runs. A run of B beats one of A with probability 1.00 [1.00, 1.00]. "
         "({ref}`Figure <fig-proficiency-networks>`, {ref}`rule <rule-judge-networks>`) |")
 
 

@@ -120,12 +120,24 @@ def test_support_counts_the_claims_that_hold_at_each_level(made_up):
     found = {(each.choice, each.level): each for each in multiverse.support(*made_up)}
     assert found["credit", "last"].lead.low > 0 and found["contact", "truncated"].lead.low < 0
     assert found["credit", "share"].is_plainest and found["credit", "share"].lead.value == 0
-    assert found["coverage", "1"].is_plainest and found["coverage", "0.5"].is_default
+    assert found["credit", "last"].value == "last"
+    assert found["discount", "0.5 … 0.613"].value == pytest.approx(0.5 + 0.45 / 8)
+    assert found["coverage", "1"].is_plainest and not found["coverage", "0.5"].is_plainest
     assert found["discount", "0.838 … 0.95"].held > found["discount", "0.5 … 0.613"].held == 0
     assert [level for name, level in found if name == "discount"] == ["0.5 … 0.613", "0.613 … 0.725",
                                                                        "0.725 … 0.838", "0.838 … 0.95"]
     assert [found["discount", level].is_plainest for name, level in found if name == "discount"] == [False, False, True,
                                                                                                     False]
+
+
+def test_what_leads_is_the_plainest_reading_but_for_what_clearly_leads_it():
+    nothing, half, more = Estimate(0.3, -0.1, 0.7), Estimate(0.5, 0.1, 0.9), Estimate(0.9, 0.5, 1.3)
+    supports = [multiverse.Support("coverage", "1", 1.0, True, 1.0, Estimate(0, -0.2, 0.2)),
+                multiverse.Support("coverage", "0.5", 0.5, False, 1.5, half),
+                multiverse.Support("exploration", "0.02", 0.02, False, 1.5, half),
+                multiverse.Support("exploration", "0.1", 0.1, False, 1.9, more),
+                multiverse.Support("credit", "last", "last", False, 1.3, nothing)]
+    assert multiverse.leading(supports) == replace(PLAINEST, coverage=0.5, exploration=0.02)
 
 
 def test_the_choices_that_matter_are_found(made_up):
