@@ -117,8 +117,18 @@ def test_each_condition_keeps_its_tank(conditions):
 
 
 def test_an_agent_of_other_ways_keeps_them():
-    agent = place_cells([4], coverage=0.5, policy=Policy(exploration=0.1), own_cell="counts")
-    explorer = Explorer({"half": simulate(agent, TANK, steps=10, runs=1, progress=False)})
+    agent = place_cells([4], coverage=0.7, policy=Policy(exploration=0.1), own_cell="counts")
+    explorer = Explorer({"narrow": simulate(agent, TANK, steps=10, runs=1, progress=False)})
+    assert explorer.agent == agent and explorer.modality == "place cell"
+    explorer.modality = "border cell"
+    explorer.modality = "place cell"
+    assert explorer.agent == agent
+
+
+def test_a_modality_of_ones_own_has_no_name_in_the_menu():
+    own = replace(modality.PLACE_CELL, name="my cell")
+    agent = Agent([Node("PC", own, [4])], [Desire("green", "PC", 1.0)])
+    explorer = Explorer({"own": simulate(agent, TANK, steps=10, runs=1, progress=False)})
     assert explorer.agent == agent and explorer.modality == ""
 
 

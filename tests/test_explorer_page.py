@@ -125,6 +125,16 @@ def test_creeps_resolutions_modality_and_seed_begin_the_run_that_python_begins(o
     assert explorer.get_attribute("data-condition") == ""
 
 
+def test_the_modality_of_a_preset_stands_in_the_menu_and_comes_back_with_its_ranges(open_page, site):
+    page = open_page(*site("places"))
+    menu = page.locator('[name="modality"]')
+    expect(menu).to_have_value("place cell")
+    menu.select_option("border cell")
+    menu.select_option("place cell")
+    assert play_to_the_end(page) == lived(PLACES)
+    assert explorer_of(page).get_attribute("data-condition") == "places"
+
+
 @pytest.mark.parametrize("name, agent", [("both", BOTH), ("D", network_d([3, 4]))])
 def test_what_is_dropped_is_an_element_of_interest_for_the_nodes_that_count(open_page, site, name, agent):
     page = open_page(*site(name))

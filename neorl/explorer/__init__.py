@@ -45,9 +45,10 @@ class Explorer(AnyWidget):
     preset: the name of a condition or of one of `neorl.explorer.AGENTS`; by default the first condition or agent.
     traits: any of those below, to begin with.
 
-    Traits: resolutions (1 … 90 each), modality (the name of one, "" if the preset has more than one node or a modality
-    of its own), recursion (None if there is none), valence_red, gains (one a node), learning_rate and discount (0 … 1),
-    n_creeps (1 … 20), seed (below 2³²), run, speed (times real time, 0 for as fast as it goes), playing.
+    Traits: resolutions (1 … 90 each), modality (the name of one, which has the ranges of the preset if it is that of the
+    preset; "" if the preset has more than one node or a modality of its own), recursion (None if there is none),
+    valence_red, gains (one a node), learning_rate and discount (0 … 1), n_creeps (1 … 20), seed (below 2³²), run, speed
+    (times real time, 0 for as fast as it goes), playing.
     Choosing a preset sets those that it determines. An agent that is no condition lives in the tank of the first
     condition, or else in one of 3 creeps. seconds and score follow the run, about once a second.
 
@@ -102,7 +103,7 @@ class Explorer(AnyWidget):
         preset, _ = self._lives[self.preset]
         named = {each.name: each for each in MODALITIES}
         nodes = [replace(node, resolutions=self.resolutions, gain=gain) for node, gain in zip(preset.nodes, self.gains)]
-        if self.modality and len(nodes) == 1:
+        if self.modality not in ("", self._presets[self.preset]["modality"]) and len(nodes) == 1:
             nodes = [replace(nodes[0], modality=named[self.modality])]
         desires = [replace(each, valence=self.valence_red) if each.source == "red" else
                    replace(each, valence=self.recursion) if each.source == each.target else each
@@ -169,7 +170,7 @@ def _preset(name, agent, world, result):
     return {
         "label": name, "group": "On this page" if result else "Agents", "nodes": names,
         "resolutions": list(agent.nodes[0].resolutions),
-        "modality": modality.name if len(names) == 1 and modality in MODALITIES else "",
+        "modality": _named(modality) if len(names) == 1 else "",
         "gains": [node.gain for node in agent.nodes], "learning_rate": agent.learning.learning_rate,
         "discount": agent.learning.discount, "valence_red": plan["valence"][red[0]] if red else 0.0,
         "recursion": plan["valence"][recurring[0]] if recurring else None, "n_creeps": world.n_creeps,
@@ -178,6 +179,12 @@ def _preset(name, agent, world, result):
         "band": _band(result) if result else None, "totals": result.totals.tolist() if result else [],
         "changes": [{"step": step, "plan": _plan(later, world)} for step, later in (result.changes if result else ())],
         "plan": plan}
+
+
+def _named(modality):
+    """The name of a modality, if it is one of `MODALITIES` but for its ranges, or else ""."""
+    known = [(each.name, each.vector, each.tuning, each.landmarks) for each in MODALITIES]
+    return modality.name if (modality.name, modality.vector, modality.tuning, modality.landmarks) in known else ""
 
 
 def _plan(agent, world):

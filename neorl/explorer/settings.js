@@ -19,7 +19,9 @@ function chosenPlan(presets, modalities, settings, elements = []) {
   const plan = structuredClone(preset.plan);
   plan.resolution = plan.nodes.flatMap(() => settings.resolutions);
   plan.first_map = [0, ...plan.nodes.map((_, n) => (n + 1) * settings.resolutions.length)];
-  if (settings.modality && plan.nodes.length === 1) Object.assign(plan, modalities[settings.modality]);
+  if (plan.nodes.length === 1 && settings.modality !== preset.modality) { // the preset's may have ranges of its own
+    Object.assign(plan, modalities[settings.modality]);
+  }
   plan.gain = [...settings.gains];
   plan.learning_rate = Math.fround(settings.learning_rate);
   plan.discount = Math.fround(settings.discount);
