@@ -45,7 +45,7 @@ class Explorer(AnyWidget):
     preset: the name of a condition or of one of `neorl.explorer.AGENTS`; by default the first condition or agent.
     traits: any of those below, to begin with.
 
-    Traits: resolutions (1 … 90 each), modality (the name of one, which has the ranges of the preset if it is that of the
+    Traits: resolutions (1 … 90 each), modality (the name of one, with the ranges of the preset if it is that of the
     preset; "" if the preset has more than one node or a modality of its own), recursion (None if there is none),
     valence_red, gains (one a node), learning_rate and discount (0 … 1), n_creeps (1 … 20), seed (below 2³²), run, speed
     (times real time, 0 for as fast as it goes), playing.
