@@ -13,7 +13,7 @@ import numpy as np
 from scipy import stats
 
 from neorl.statements import STATEMENTS
-from neorl.statistics import Estimate, estimate, probability_of_improvement, time_to_final_level
+from neorl.statistics import Estimate, difference, estimate, probability_of_improvement, time_to_final_level
 
 RUNS_FOR_A_VERDICT = 10
 EARLY, FINAL = (0.0, 0.1), (0.8, 1.0)
@@ -57,7 +57,7 @@ def judge_single_layer(by_resolution, brownian):
                  reproduced=control.low <= 0 <= control.high,
                  partly=max(-control.low, control.high) < 0.1 * mean[best], possible=False)
 
-    lead = {n: estimate(_difference, values, brownian.rate()) for n, values in rate.items()}
+    lead = {n: estimate(difference, values, brownian.rate()) for n, values in rate.items()}
     learned = any(each.low > 0 for each in lead.values())
     least = min(lead, key=lambda n: lead[n].low)
     chance = probability_of_improvement(rate[least], brownian.rate())
@@ -94,14 +94,14 @@ def judge_multiple_layers(by_resolution, together):
     learned = {n: estimate(np.mean, values).low > 0 for n, values in final.items()}
 
     surplus = estimate(_lead_over_sum, together.rate(*FINAL), *final.values())
-    lead = estimate(_difference, together.rate(*FINAL), final[best])
+    lead = estimate(difference, together.rate(*FINAL), final[best])
     chance = probability_of_improvement(together.rate(*FINAL), final[best])
     a6 = _judged("A6", surplus, f"Over the best alone, N{best}, the lead is {lead}; the probability of improvement "
                  f"{chance}.", runs, reproduced=surplus.low > 0, partly=lead.low > 0, possible=surplus.high > 0,
                  testable=learned[best])
 
     ratio = estimate(_ratio, together.rate(*FINAL), final[7])
-    early = estimate(_difference, together.rate(*EARLY), by_resolution[7].rate(*EARLY))
+    early = estimate(difference, together.rate(*EARLY), by_resolution[7].rate(*EARLY))
     as_said = ratio.high >= 3.5 and early.high >= 0
     a7 = _judged("A7", ratio, f"Early the lead over N7 is {early}.", runs, reproduced=1 < ratio.low and as_said,
                  partly=ratio.low > 1, possible=as_said, testable=learned[7])
@@ -119,7 +119,7 @@ def judge_modalities(place, objects, both):
     learned = _all_learned(pc, ovc, joint)
 
     ratio = estimate(_ratio, ovc, pc)
-    early = estimate(_difference, objects["all"].rate(*EARLY), place["all"].rate(*EARLY))
+    early = estimate(difference, objects["all"].rate(*EARLY), place["all"].rate(*EARLY))
     overlapping = ratio.high >= 0.5 and ratio.low <= 2
     b1 = _judged("B1", ratio, "Comparable is read as between a half and two, with no loss early, where the lead is "
                  f"{early}.", runs, reproduced=0.5 <= ratio.low and ratio.high <= 2 and early.high >= 0,
@@ -152,7 +152,7 @@ def judge_pace(place, both):
     runs = min(place.runs, both.runs)
     learned = _all_learned(place.rate(*FINAL), both.rate(*FINAL))
     quick, slow = (time_to_final_level(result) / 60 for result in (both, place))
-    ahead = estimate(_difference, quick, slow)
+    ahead = estimate(difference, quick, slow)
     quick, slow = (estimate(np.mean, minutes) for minutes in (quick, slow))
     return _judged("B4", quick, f"Place cells take {slow}; the difference is {ahead}. The rule allows twice the "
                    "thesis's time for both, and half of it for place cells.", runs,
@@ -175,7 +175,7 @@ def judge_networks(a, b, c, d):
                  testable=learned["C"])
     leads = []
     for name, better, worse in (("C2", "B", "A"), ("C3", "C", "B")):
-        lead = estimate(_difference, final[better], final[worse])
+        lead = estimate(difference, final[better], final[worse])
         chance = probability_of_improvement(final[better], final[worse])
         leads.append(_judged(name, lead, f"A run of {better} beats one of {worse} with probability {chance}.", runs,
                              reproduced=lead.low > 0, partly=lead.high > 0, possible=lead.high > 0,
@@ -192,7 +192,7 @@ def judge_revaluing(revalued, throughout):
     runs = min(revalued.runs, throughout.runs)
     turned, always = (_red_a_minute(result, 0.5, 0.525) for result in (revalued, throughout))
     before, after = (estimate(np.mean, _red_a_minute(revalued, *share)) for share in ((0.475, 0.5), (0.5, 0.525)))
-    lead = estimate(_difference, turned, always)
+    lead = estimate(difference, turned, always)
     return _judged("T1", lead, f"Before the turn it is {before}, after it {after}.", runs,
                    reproduced=lead.low >= 0 and after.low > before.high, partly=after.low > before.high,
                    possible=lead.high >= 0 and after.high > before.low)
@@ -219,10 +219,6 @@ def _all_learned(*rates):
 
 def _red_a_minute(result, begin, end):
     return 60 * result.hit_rate(begin, end)[:, 1]
-
-
-def _difference(a, b, axis):
-    return a.mean(axis) - b.mean(axis)
 
 
 def _ratio(a, b, axis):

@@ -19,11 +19,11 @@ from sklearn.inspection import permutation_importance
 from sklearn.model_selection import KFold
 
 from neorl import checks, papers
-from neorl.agent import CREDITS, IDLE, WEIGHTINGS, Learning, Node, Policy
+from neorl.agent import CREDITS, IDLE, WEIGHTINGS, Agent, Desire, Learning, Node, Policy
 from neorl.claims import (judge_modalities, judge_multiple_layers, judge_networks, judge_pace, judge_revaluing,
                           judge_single_layer)
 from neorl.horde import OWN_CELL
-from neorl.statistics import Estimate, estimate
+from neorl.statistics import Estimate, difference, estimate
 from neorl.store import Condition
 from neorl.waterworld import CONTACTS, WaterWorld
 
@@ -55,14 +55,14 @@ class Reading:
     trace: int = Learning.trace
     bootstrap: bool = Learning.bootstrap
     terminal: bool = Learning.terminal
-    own_cell: str = "silent"
+    own_cell: str = Agent.own_cell
     coverage: float = papers.COVERAGE
     weighting: str = Node.weighting
     exploration: float = Policy.exploration
     idle: str = Policy.idle
     place_gain: float = 1.0
     vectors: str = "by size"
-    scale: float = 2.0
+    scale: float = Desire.scale
     recursion: float = -1.0
     fps: int = WaterWorld.fps
     contact: str = WaterWorld.contact
@@ -165,7 +165,7 @@ def conditions(reading, steps, runs, seed=0):
     """
     eight, three = (WaterWorld(n_creeps=n, win_reward=win, fps=reading.fps, contact=reading.contact)
                     for n, win in ((8, 5.0), (3, 0.0)))
-    each, gain = reading.agents, {"place_gain": reading.place_gain}
+    each = reading.agents
 
     def living(agent, paper, length=steps, runs=runs):
         world, length = (eight if paper == "A" else three), min(length, LENGTHS[paper])
@@ -179,7 +179,7 @@ def conditions(reading, steps, runs, seed=0):
     for name, chosen in {**{n: [n] for n in PRIMES}, "all": PRIMES}.items():
         found["place", name] = living(papers.place_cells(chosen, **each), "B")
         found["objects", name] = living(papers.object_vector_cells(chosen, **each), "B")
-    both = papers.multimodal(PRIMES, **gain, **each)
+    both = papers.multimodal(PRIMES, place_gain=reading.place_gain, **each)
     found["both"] = living(both, "B")
     longer = {"length": LONGER * steps, "runs": max(2, runs // 2)} if steps < LENGTHS["B"] else {}
     found |= {("pace", name): living(agent, "B", **longer)
@@ -193,11 +193,10 @@ def conditions(reading, steps, runs, seed=0):
 
 def networks(reading):
     """Networks A to D of paper C under a reading: {name: `Agent`}."""
-    passing = {"scale": reading.scale, "signed": reading.vectors == "signed"}
-    gain = {"place_gain": reading.place_gain}
-    made = {"A": papers.network_a(**passing, **reading.agents), "B": papers.network_b(**passing, **reading.agents),
-            "C": papers.network_c(**passing, **gain, **reading.agents),
-            "D": papers.network_d(recursion=reading.recursion, **passing, **gain, **reading.agents)}
+    shared = {"scale": reading.scale, "signed": reading.vectors == "signed", **reading.agents}
+    adding = {"place_gain": reading.place_gain, **shared}
+    made = {"A": papers.network_a(**shared), "B": papers.network_b(**shared), "C": papers.network_c(**adding),
+            "D": papers.network_d(recursion=reading.recursion, **adding)}
     if reading.vectors == "incoming":
         *others, recurring = made["D"].desires
         made["D"] = replace(made["D"], desires=[*others, replace(recurring, of=("PC",), signed=True)])
@@ -273,7 +272,7 @@ def support(readings, judged):
         at = np.array(at)
         for level, (value, words) in enumerate(zip(values, levels)):
             if np.any(at == level) and np.any(at == plainest):
-                lead = estimate(_lead, counts[at == level], counts[at == plainest])
+                lead = estimate(difference, counts[at == level], counts[at == plainest])
                 found.append(Support(name, words, value, level == plainest, counts[at == level].mean(), lead))
     return found
 
@@ -282,10 +281,6 @@ def leading(supports):
     """The plainest reading but for each choice's level, the nearest to it in the prior, that clearly leads it."""
     levels = {each.choice: each.value for each in reversed(supports) if each.lead.low > 0}
     return replace(PLAINEST, **levels)
-
-
-def _lead(ours, plainest, axis):
-    return ours.mean(axis) - plainest.mean(axis)
 
 
 def importance(readings, judged, name, seed=0):

@@ -60,7 +60,7 @@ def _limits(values, borders):
     """The range of the middle 95 % of the finite values, and of the borders of the claim."""
     finite = values[np.isfinite(values)]
     low, high = np.quantile(finite, [0.025, 0.975]) if len(finite) else (0.0, 1.0)
-    low, high = min(low, *borders, *borders), max(high, *borders, *borders)
+    low, high = min(low, *borders), max(high, *borders)
     return (low, high) if low < high else (low - 0.5, high + 0.5)
 
 

@@ -39,6 +39,11 @@ def estimate(statistic, *samples, rng=0):
     return Estimate(value, float(low), float(high))
 
 
+def difference(a, b, axis):
+    """The mean of a less that of b, for `estimate`."""
+    return a.mean(axis) - b.mean(axis)
+
+
 def probability_of_improvement(better, worse, rng=0):
     """How probably a run of `better` beats one of `worse`, a tie counting half, as an `Estimate`.
 

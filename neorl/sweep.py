@@ -55,7 +55,8 @@ def _run(conditions, executor, bar):
     """Compute conditions, and return those that failed, {condition: exception}."""
     if executor is None:
         agents = [agent for each in conditions for agent in (each.agent, *(later for _, later in each.changes))]
-        with ThreadPoolExecutor(min(map(usable_threads, agents))) as cores:
+        largest = max(agents, key=lambda agent: agent.n_values)
+        with ThreadPoolExecutor(usable_threads(largest)) as cores:
             return _run(conditions, cores, bar)
     tasks, errors = {}, {}
     try:

@@ -18,6 +18,13 @@ QUIET = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "-
          "--disable-component-update", "--disable-sync"]  # it asks nobody for anything by itself
 
 
+@pytest.fixture
+def cache(tmp_path, monkeypatch):
+    """An empty folder for what is kept, in place of the user's."""
+    monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
+    return tmp_path
+
+
 @pytest.fixture(scope="session")
 def chromium():
     """The browser of this machine, else the one that Playwright has installed."""

@@ -8,11 +8,7 @@ from test_claims import as_the_paper_says, made_up, paper_c
 from neorl import claims, ledger
 from neorl.statements import STATEMENTS
 
-
-@pytest.fixture(autouse=True)
-def cache(tmp_path, monkeypatch):
-    monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
-    return tmp_path
+pytestmark = pytest.mark.usefixtures("cache")
 
 
 def test_claims_are_kept_as_data(cache):

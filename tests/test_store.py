@@ -17,12 +17,7 @@ from neorl import Condition, Learning, WaterWorld, place_cells, simulate_once, s
 AGENT, WORLD = place_cells([3]), WaterWorld()
 IMPORT = re.compile(r"^from neorl(?:\.(\w+) import| import (\w+))", re.M)
 SIZE = {"steps": 500, "runs": 2, "progress": False}
-
-
-@pytest.fixture(autouse=True)
-def cache(tmp_path, monkeypatch):
-    monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
-    return tmp_path
+pytestmark = pytest.mark.usefixtures("cache")
 
 
 @pytest.fixture

@@ -19,12 +19,7 @@ sweep_module = sys.modules["neorl.sweep"]  # `neorl.sweep` is the function
 WORLD = WaterWorld()
 CONDITIONS = [Condition(place_cells([n]), WORLD, 2_000, 2, seed) for n in (2, 3) for seed in (0, 1)]
 CONDITIONS.append(Condition(place_cells([3]), WORLD, 2_000, 2, changes=[(1_000, multimodal([3]))]))
-
-
-@pytest.fixture(autouse=True)
-def cache(tmp_path, monkeypatch):
-    monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
-    return tmp_path
+pytestmark = pytest.mark.usefixtures("cache")
 
 
 @pytest.fixture
