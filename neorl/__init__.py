@@ -3,7 +3,8 @@
 An `Agent` is a network of `Node`s and `Desire`s, a node tiles the space of a `Modality`, and `simulate` lets agents
 live in `WaterWorld`; `sweep` does many `Condition`s at a time. The agents of the papers are values of these types;
 `neorl.modality` holds the modalities by name. `neorl.statistics`, `neorl.claims`, `neorl.ledger`, `neorl.figures` and
-`neorl.multiverse` serve the book's pages; `neorl.wasm` takes the kernels into a page, where an `Explorer` runs them.
+`neorl.multiverse` serve the book's pages, and `neorl.classics` holds the small experiments of its chapters;
+`neorl.wasm` takes the kernels into a page, where an `Explorer` runs them.
 """
 
 from neorl.agent import Agent, Desire, Learning, Node, Place, Policy

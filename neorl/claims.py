@@ -208,6 +208,69 @@ def judge_cost(together, alone, none):
                    partly=ratio.low <= 1.1, possible=ratio.low <= 1.1)
 
 
+def judge_real_time(load, delay):
+    """Claim T5: the load of each window of a run in real time, in cores, and when each step was done.
+
+    load: (windows,). delay: (windows, steps), the time from when a step was due until it was done, in steps.
+    """
+    share, latest = estimate(np.mean, load), delay.max()
+    return _judged("T5", share, f"Of {delay.size} steps, {(delay > 1).sum()} were not done when the next one was due; "
+                   f"the latest was done {latest:.2f} steps after it was due. The rule allows 2.", len(load),
+                   reproduced=share.high < 1 and latest <= 2, partly=share.high < 1, possible=share.low < 1)
+
+
+def judge_latent_learning(agent, rivals, first_reward=11):
+    """Claim H1, from what {group: record} of animals did, each record with ``errors`` (animals, days).
+
+    agent: of neoRL, for the groups "throughout", "never" and "delayed", which is rewarded from day ``first_reward`` on.
+    rivals: {name: the same} of others, which are told of and not judged.
+    """
+    runs = min(len(record.errors) for record in agent.values())
+    after, next_day = slice(first_reward, None), slice(first_reward, first_reward + 1)
+    lead = _more_errors(agent, "delayed", "throughout", after)
+    at_once = _more_errors(agent, "delayed", "throughout", next_day)
+    worth = _more_errors(agent, "never", "throughout", after)
+    others = "; ".join(f"{name} {_more_errors(groups, 'delayed', 'throughout', after)}"
+                       for name, groups in rivals.items())
+    return _judged("H1", lead, f"On the day after the first reward it is {at_once}. Level is read as within a tenth of "
+                   f"what reward makes of a difference, {worth.value:.2f}. With other learners it is: {others}.", runs,
+                   reproduced=lead.high < 0, partly=max(lead.high, at_once.high) <= 0.1 * worth.value,
+                   possible=lead.low < 0, testable=worth.low > 0)
+
+
+def judge_temporality(met, whole, short):
+    """Claim T3, from what learners have met and made in processes that remember (`neorl.classics.temporality`).
+
+    met: {Ψ: (memories, states)}, how many states each run has met with each memory L, (runs, memories). whole, short:
+    what agents that remember all L steps make above chance, and agents that remember one step less; each (runs,).
+    """
+    growth = {size: estimate(np.mean, _powers(memories, np.log(states) / np.log(size)))
+              for size, (memories, states) in met.items()}
+    furthest = max(growth, key=lambda size: abs(growth[size].value - 1))
+    fits = [0.9 <= power.low and power.high <= 1.1 for power in growth.values()]
+    overlapping = all(power.low <= 1.1 and 0.9 <= power.high for power in growth.values())
+    gain, rest = estimate(np.mean, whole), estimate(np.mean, short)
+    powers = "; ".join(f"{power} with Ψ = {size}" for size, power in growth.items())
+    return _judged("T3", growth[furthest], f"It is {powers}. The states are needed if who remembers a step less makes "
+                   f"less than half as much above chance: {rest}, where all steps make {gain}.",
+                   min(len(whole), len(short)), reproduced=all(fits) and rest.high < 0.5 * gain.low, partly=any(fits),
+                   possible=overlapping and rest.low < 0.5 * gain.high, testable=gain.low > 0)
+
+
+def judge_tables(states, values, entries, filled):
+    """Claim T4, from the tables of learners in processes of many sizes.
+
+    states: S of each process, (sizes,). values, entries, filled: how many action values each learner has, how many
+    entries its model of the transitions has, and how many of these are not 0; each (runs, sizes).
+    """
+    value, entry, full = (estimate(np.mean, _powers(np.log(states), np.log(table)))
+                          for table in (values, entries, filled))
+    fits = [abs(value.value - 1) <= 0.1, abs(entry.value - 2) <= 0.1]
+    return _judged("T4", entry, f"The values of Q-learning grow by the power {value}, and the entries of the model "
+                   f"that differ from 0 by {full}. The rule allows 0.1 more or less.", len(values),
+                   reproduced=all(fits), partly=any(fits), possible=False)
+
+
 def _judged(name, here, detail, runs, *, reproduced, partly, possible, testable=True):
     outcome = "not testable" if not testable else VERDICTS[0 if reproduced else 1 if partly else 2]
     return Claim(name, here, detail, runs, outcome, bool(testable and possible and not reproduced))
@@ -221,10 +284,19 @@ def _red_a_minute(result, begin, end):
     return 60 * result.hit_rate(begin, end)[:, 1]
 
 
+def _powers(xs, ys):
+    """The slope of each row of ys over xs."""
+    return np.polyfit(xs, np.asarray(ys).T, 1)[0]
+
+
 def _ratio(a, b, axis):
     """0 where b has earned nothing, since no claim of a ratio holds there."""
     above, below = np.asarray(a.mean(axis)), np.asarray(b.mean(axis))
     return np.divide(above, below, out=np.zeros(above.shape), where=below != 0)
+
+
+def _more_errors(groups, more, less, days):
+    return estimate(difference, *(groups[group].errors[:, days].mean(axis=1) for group in (more, less)))
 
 
 def _cost_ratio(together, none, *alone, axis):

@@ -264,8 +264,8 @@ def low_passed(rates):
     return sosfiltfilt(sections, longer, axis=1)[:, points : 2 * points]
 
 
-def draw_sweep(xs, estimates_by_name, xlabel):
-    """Reward per second against a number: {name: [Estimate for each of xs]}, with their 95 % intervals."""
+def draw_sweep(xs, estimates_by_name, xlabel, ylabel="reward per second"):
+    """A reward against a number: {name: [Estimate for each of xs]}, with their 95 % intervals."""
     axes = plt.figure().add_subplot()
     axes.axhline(0, color=INK, linewidth=0.7)
     ends = []
@@ -274,7 +274,7 @@ def draw_sweep(xs, estimates_by_name, xlabel):
         axes.plot(xs, value, color=colour, linewidth=0.8, marker="o", markersize=5)
         axes.vlines(xs, low, high, color=colour, linewidth=1.8)
         ends.append((value[-1], name, colour))
-    axes.set(xlabel=xlabel, ylabel="reward per second")
+    axes.set(xlabel=xlabel, ylabel=ylabel)
     name_ends(axes, ends)
 
 

@@ -71,11 +71,15 @@ STATEMENTS = {
                     "What all maps cost together, divided by the sum of what each costs alone", "1", "fig-cost",
                     "judge_cost", (1.1,)),
     "T3": Statement("section 3.4.2, observation 1", "The states that a Markov process needs grow exponentially with "
-                    "the steps that matter", "States over steps", "Ψ^L"),
+                    "the steps that matter", "Power of Ψ by which the states met grow with each step L that matters, "
+                    "in the alphabet where it is furthest from the thesis's", "1, as in Ψ^L", "fig-3-states",
+                    "judge_temporality", (0.9, 1.1)),
     "T4": Statement("section 3.1", "Q-learning learns S·A values where a model of the transitions has S²·A",
-                    "Values of either", "S·A and S²·A"),
+                    "Power of S by which the entries of the model grow", "2, and 1 for Q-learning", "fig-3-tables",
+                    "judge_tables", (1.9, 2.1)),
     "T5": Statement("paper A, Experiments, and paper B, section 3", "One core keeps up with real time",
-                    "Share of a core at 50 steps a second", "< 1"),
-    "H1": Statement("section 2.2, figure 2.2", "Latent learning: who is rewarded from day 11 on overtakes who was "
-                    "throughout", "Errors a day after the first reward", "fewer"),
+                    "Share of a core at 50 steps a second", "< 1", "fig-4-realtime", "judge_real_time", (1.0,)),
+    "H1": Statement("section 2.1.2, figure 2.2", "Latent learning: who is rewarded from day 11 on overtakes who was "
+                    "throughout", "Errors a day after the first reward, less those of who was rewarded throughout",
+                    "fewer", "fig-2-errors", "judge_latent_learning"),
 }

@@ -1,11 +1,13 @@
 """The rules of the verdicts, on results made up so that the answer is known."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from neorl import Result, WaterWorld, claims, place_cells
+from neorl.classics.latent_learning import Record
 from neorl.statements import STATEMENTS
 
 
@@ -154,6 +156,19 @@ def test_the_cost_of_maps_is_judged_by_the_sum_of_what_each_costs(together, expe
     assert claims.judge_cost(np.full(9, 7.0), alone, np.full(10, 1.0)).verdict == "no verdict"
 
 
+@pytest.mark.parametrize("load, latest, expected", [
+    (0.02, 0.1, "reproduced"), (0.02, 1.5, "reproduced"), (0.9, 2.1, "partly"), (1.1, 0.5, "not reproduced"),
+])
+def test_real_time_is_judged_by_the_share_of_a_core_and_by_the_latest_step(load, latest, expected):
+    delay = np.full((12, 30), 0.1)
+    delay[3, 4] = latest
+    claim = claims.judge_real_time(np.full(12, load), delay)
+    assert (claim.verdict, claim.here.value) == (expected, pytest.approx(load))
+    assert claim.open == (expected == "partly")  # the machine may have been busy with something else
+    assert f"Of 360 steps, {int(latest > 1)} were not done" in claim.detail
+    assert claims.judge_real_time(np.full(9, load), delay[:9]).verdict == "no verdict"
+
+
 @pytest.mark.parametrize("runs", [1, 2, 9])
 def test_a_look_gives_no_verdicts(runs):
     assert set(verdicts(*as_the_paper_says(runs)).values()) == {"no verdict"}
@@ -193,3 +208,67 @@ def test_agents_that_have_earned_nothing_are_no_reason_to_divide_by_zero():
 def test_every_rule_is_named_in_the_statements():
     rules = {name for name in vars(claims) if name.startswith("judge_")}
     assert {statement.rule for statement in STATEMENTS.values()} - {""} == rules
+
+
+def met(power=1.0, runs=20):
+    """States met by runs that grow as Ψ to that power of L, with a little noise."""
+    noise = np.random.default_rng(0).uniform(0.99, 1.01, (runs, 5))
+    memories = np.arange(1, 6)
+    return {size: (memories, size ** (power * memories) * noise) for size in (2, 3)}
+
+
+def above_chance(level, runs=20):
+    return level + np.random.default_rng(0).normal(0, 0.01, runs)
+
+
+@pytest.mark.parametrize("states, whole, short, expected", [
+    (met(), 0.5, 0.0, "reproduced"), (met(1.05), 0.5, 0.2, "reproduced"), (met(), 0.5, 0.4, "partly"),
+    (met() | {4: met(0.5)[2]}, 0.5, 0.0, "partly"), (met(0.5), 0.5, 0.0, "not reproduced"),
+    (met(1.2), 0.5, 0.0, "not reproduced"), (met(), 0.0, 0.0, "not testable"),
+])
+def test_states_are_judged_by_their_growth_and_by_whether_they_are_needed(states, whole, short, expected):
+    claim = claims.judge_temporality(states, above_chance(whole), above_chance(short))
+    assert claim.verdict == expected
+
+
+def test_the_growth_of_states_is_told_for_the_alphabet_furthest_from_the_thesis():
+    claim = claims.judge_temporality(met() | {4: met(2.5)[2]}, above_chance(0.5), above_chance(0.0))
+    assert claim.here.value == pytest.approx(1.25, abs=0.01)  # 2 to the power 2.5 is 4 to the power 1.25
+    assert "with Ψ = 3" in claim.detail
+
+
+@pytest.mark.parametrize("value_power, entry_power, expected", [
+    (1, 2, "reproduced"), (1.05, 1.95, "reproduced"), (1, 1.5, "partly"), (1.5, 2, "partly"),
+    (2, 1, "not reproduced"),
+])
+def test_tables_are_judged_by_the_powers_by_which_they_grow(value_power, entry_power, expected):
+    states = np.array([4, 16, 64])
+    tables = [np.tile(3.0 * states**power, (20, 1)) for power in (value_power, entry_power, 1.25)]
+    claim = claims.judge_tables(states, *tables)
+    assert claim.verdict == expected and not claim.open
+    assert claim.here == pytest.approx([entry_power] * 3)
+    assert f"{value_power:.2f}" in claim.detail and "1.25" in claim.detail
+
+
+def in_the_maze(day_12, later, runs=20, never=14.0):
+    """Errors of the three groups, those fed throughout making 2 a day from day 12 on, with a little noise."""
+    noise = np.random.default_rng(0).normal(0, 0.1, (3, runs, 17))
+    means = {"throughout": [14.0] * 11 + [2.0] * 6, "never": [14.0] * 11 + [never] * 6,
+             "delayed": [14.0] * 11 + [day_12] + [later] * 5}
+    return {group: Record(mean + each, known=None) for (group, mean), each in zip(means.items(), noise)}
+
+
+@pytest.mark.parametrize("rats, expected", [
+    (in_the_maze(1.0, 1.0), "reproduced"), (in_the_maze(3.0, 1.0), "reproduced"),  # within a day or two
+    (in_the_maze(2.0, 2.0), "partly"), (in_the_maze(6.0, 2.0), "not reproduced"),  # level, but not at once
+    (in_the_maze(2.0, 4.0), "not reproduced"), (in_the_maze(14.0, 9.0), "not reproduced"),
+    (in_the_maze(1.0, 1.0, never=2.0), "not testable"), (in_the_maze(1.0, 1.0, runs=9), "no verdict"),
+])
+def test_latent_learning_is_judged_by_errors_after_the_first_reward(rats, expected):
+    assert claims.judge_latent_learning(rats, {}).verdict == expected
+
+
+def test_the_rivals_of_latent_learning_are_told_of_and_not_judged():
+    claim = claims.judge_latent_learning(in_the_maze(1.0, 1.0), {"another": in_the_maze(14.0, 8.0)})
+    assert claim.here.value == pytest.approx(-1, abs=0.1)
+    assert re.search(r"another (6\.9|7\.0)", claim.detail) and re.search(r"difference, 1(1\.9|2\.0)", claim.detail)

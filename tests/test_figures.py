@@ -153,13 +153,13 @@ def test_a_last_bin_that_is_short_counts_as_short():
 def test_a_sweep_shows_values_and_intervals():
     estimates = {"D": [Estimate(0.1, 0.0, 0.3), Estimate(0.4, 0.3, 0.5)],
                  "single run": [Estimate(0.2, np.nan, np.nan)] * 2}
-    figures.draw_sweep([-1, 0.5], estimates, "r")
+    figures.draw_sweep([-1, 0.5], estimates, "r", "reward")
     plt.gcf().draw_without_rendering()
     axes = plt.gca()
     np.testing.assert_array_equal(axes.lines[1].get_xydata(), [[-1, 0.1], [0.5, 0.4]])
     np.testing.assert_array_equal(axes.collections[0].get_segments(), [[[-1, 0], [-1, 0.3]], [[0.5, 0.3], [0.5, 0.5]]])
     assert {text.get_text() for text in axes.texts} == set(estimates)
-    assert (axes.get_xlabel(), axes.get_ylabel()) == ("r", "reward per second")
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("r", "reward")
 
 
 def test_arrows_point_where_values_pull():

@@ -1,0 +1,68 @@
+"""Grid worlds drawn in text: a "#" is a wall, every other character a state.
+
+The four actions are N, S, E and W, in this order as everywhere in neorl. Who walks into a wall or over the border
+stays. States are counted row by row from the upper left.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from neorl import checks
+
+WALL = "#"
+MOVES = np.array([(0, -1), (0, 1), (1, 0), (-1, 0)])  # N, S, E, W as (x, y), y downward
+
+
+@dataclass(frozen=True)
+class Grid:
+    """A grid world.
+
+    rows: strings of equal length, from the top; at least one character of them is no wall.
+
+    Raises ValueError for anything else.
+    """
+
+    rows: tuple[str, ...]
+
+    def __post_init__(self):
+        object.__setattr__(self, "rows", checks.several("rows", self.rows))
+        if len({len(row) for row in self.rows}) != 1 or not set("".join(self.rows)) - {WALL}:
+            raise ValueError(f"rows is {self.rows!r}, allowed are strings of equal length that are not all wall")
+
+    @cached_property
+    def places(self):
+        """Where each state is: int64 (states, 2), column and row."""
+        return np.array([(x, y) for y, row in enumerate(self.rows) for x, mark in enumerate(row) if mark != WALL])
+
+    @property
+    def states(self):
+        """How many states there are."""
+        return len(self.places)
+
+    @cached_property
+    def next_state(self):
+        """Where each action leads: int64 (states, 4)."""
+        state_at = {tuple(place): state for state, place in enumerate(self.places)}
+        return np.array([[state_at.get(tuple(place + move), state) for move in MOVES]
+                         for state, place in enumerate(self.places)])
+
+    def marked(self, mark):
+        """The states that a character marks, as a list of integers."""
+        return [state for state, (x, y) in enumerate(self.places) if self.rows[y][x] == mark]
+
+    def transitions(self, slip=0.0):
+        """The probability of each next state: float64 (states, 4, states).
+
+        slip: how probably a step goes in a direction drawn from all four instead, from 0 to 1.
+        Raises ValueError for anything else.
+        """
+        checks.real("slip", slip, 0, 1)
+        probability = np.zeros((self.states, 4, self.states))
+        each = np.arange(self.states)
+        for action in range(4):
+            probability[each, action, self.next_state[:, action]] += 1 - slip
+            for direction in range(4):
+                probability[each, action, self.next_state[:, direction]] += slip / 4
+        return probability

@@ -1,0 +1,176 @@
+"""A neuron in three sketches: its action potential, its soma that integrates, and its synapse that changes.
+
+1. *Action potential*: the equations of Hodgkin and Huxley (1952) for the giant axon of the squid at 6.3 °C. Gates open
+   and close at rates that hang on the potential, and let sodium in and potassium out.
+2. *Integration*: a leaky integrate-and-fire neuron (Lapicque 1907). What flows in raises the potential, a leak draws it
+   back to rest; at the threshold the neuron fires and is reset. Between two steps the solution is exact.
+3. *Synapse*: each spike sets off a current that decays exponentially. Its efficacy changes with what happens to the
+   animal, for minutes or for good (Kandel and Tauc 1965; Sutton et al. 2002; thesis section 2.2).
+
+Units throughout: milliseconds, millivolts, megaohms and nanoamperes; in the axon microamperes per square centimetre.
+"""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.signal import lfilter
+from scipy.special import exprel
+
+from neorl import checks
+
+# Hodgkin and Huxley 1952, table 3, with potentials inside against outside and rest at −65 mV.
+REST = -65.0
+CAPACITY = 1.0  # µF/cm²
+SODIUM, POTASSIUM, LEAK = 120.0, 36.0, 0.3  # mS/cm², all channels open
+SODIUM_AT, POTASSIUM_AT, LEAK_AT = REST + 115.0, REST - 12.0, REST + 10.613  # mV, where each current reverses
+RESOLUTION = 0.01  # ms between two points of an action potential
+
+
+class Axon(NamedTuple):
+    """A stretch of axon over time: all float64 (points,)."""
+
+    time: np.ndarray  # ms
+    potential: np.ndarray  # mV
+    m: np.ndarray  # share of the sodium gates that activation has opened
+    h: np.ndarray  # share of the sodium gates that inactivation has not closed
+    n: np.ndarray  # share of the potassium gates that are open
+
+
+def action_potential(current, start=5.0, stop=6.0, duration=25.0):
+    """An axon at rest that gets a pulse of current (Hodgkin and Huxley 1952, eq. 26): an `Axon`.
+
+    current: µA/cm². The pulse lasts from ``start`` to ``stop``, the trace from 0 to ``duration``; ms, in this order.
+    Raises ValueError for anything else.
+    """
+    checks.real("current", current)
+    times = [checks.real(name, value, 0) for name, value in
+             [("start", start), ("stop", stop), ("duration", duration)]]
+    if not times[0] < times[1] < times[2]:
+        raise ValueError(f"start, stop and duration are {start}, {stop} and {duration}, allowed are rising times")
+    state, parts = np.array([REST, *gates_at_rest()]), []
+    # In pieces, so that the solver never steps across an edge of the pulse.
+    for begin, end, inflow in zip([0.0, start, stop], times, [0.0, current, 0.0]):
+        points = np.arange(round(begin / RESOLUTION), round(end / RESOLUTION)) * RESOLUTION
+        solution = solve_ivp(_axon_change, (begin, end), state, method="LSODA", t_eval=[*points, end], args=(inflow,),
+                             rtol=1e-7, atol=1e-8)
+        state = solution.y[:, -1]
+        parts.append(np.vstack([solution.t, solution.y])[:, :-1])
+    return Axon(*np.concatenate(parts, axis=1))
+
+
+def gates_at_rest():
+    """How far the gates m, h and n are open at rest: float64 (3,), from 0 to 1."""
+    opening, closing = gate_rates(REST)
+    return opening / (opening + closing)
+
+
+def gate_rates(potential):
+    """How fast the gates m, h and n open and close at a potential in mV: two float64 (3,), per ms.
+
+    Hodgkin and Huxley 1952, eq. 12, 13, 20, 21, 23 and 24.
+    """
+    above = potential - REST
+    opening = np.array([1.0 / exprel((25 - above) / 10), 0.07 * np.exp(-above / 20), 0.1 / exprel((10 - above) / 10)])
+    closing = np.array([4.0 * np.exp(-above / 18), 1.0 / (np.exp((30 - above) / 10) + 1), 0.125 * np.exp(-above / 80)])
+    return opening, closing
+
+
+def _axon_change(time, state, inflow):
+    potential, gates = state[0], state[1:]
+    m, h, n = gates
+    outflow = (SODIUM * m**3 * h * (potential - SODIUM_AT) + POTASSIUM * n**4 * (potential - POTASSIUM_AT)
+               + LEAK * (potential - LEAK_AT))
+    opening, closing = gate_rates(potential)
+    return np.array([(inflow - outflow) / CAPACITY, *(opening * (1 - gates) - closing * gates)])
+
+
+@dataclass(frozen=True)
+class Neuron:
+    """A leaky integrate-and-fire neuron; by default that of Dayan and Abbott (2001, chapter 5).
+
+    rest, threshold, reset: mV, with ``rest`` and ``reset`` below ``threshold``.
+    time_constant: of the leak, ms, above 0. resistance: MΩ, above 0. refractory: ms after a spike at ``reset``, ≥ 0.
+
+    Raises ValueError for anything else.
+    """
+
+    rest: float = -65.0
+    threshold: float = -50.0
+    reset: float = -65.0
+    time_constant: float = 10.0
+    resistance: float = 10.0
+    refractory: float = 2.0
+
+    def __post_init__(self):
+        for name in ("rest", "threshold", "reset"):
+            checks.real(name, getattr(self, name))
+        for name in ("time_constant", "resistance", "refractory"):
+            checks.real(name, getattr(self, name), 0 if name == "refractory" else 1e-9)
+        if not max(self.rest, self.reset) < self.threshold:
+            raise ValueError(f"threshold is {self.threshold}, allowed are potentials above rest and reset")
+
+
+def integrate(current, neuron=Neuron(), step=0.1):
+    """Let neurons integrate a current and fire: the potential in mV, float64, and spikes, bool, both of its shape.
+
+    current: float (steps, …), nA, time first; constant over a step. step: ms, above 0.
+    Raises ValueError for anything else.
+    """
+    current = checks.finite("current", np.asarray(current, float))
+    fraction = -np.expm1(-checks.real("step", step, 1e-9) / neuron.time_constant)
+    pause = round(neuron.refractory / step)
+    target = neuron.rest + neuron.resistance * current
+    potential, spikes = np.empty(current.shape), np.zeros(current.shape, bool)
+    now, resting = np.full(current.shape[1:], neuron.rest), np.zeros(current.shape[1:], int)
+    for t in range(len(current)):
+        now = np.where(resting > 0, neuron.reset, now + fraction * (target[t] - now))
+        resting = np.maximum(resting - 1, 0)
+        spikes[t] = now >= neuron.threshold
+        potential[t] = now
+        now = np.where(spikes[t], neuron.reset, now)
+        resting = np.where(spikes[t], pause, resting)
+    return potential, spikes
+
+
+def firing_rate(current, neuron=Neuron()):
+    """Spikes per second of a neuron under a constant current in nA, in closed form: float64, of the current's shape.
+
+    It is the inverse of the refractory time and of the time from reset to threshold (Dayan and Abbott 2001, eq. 5.11).
+    """
+    drive = neuron.rest + neuron.resistance * checks.finite("current", np.asarray(current, float))
+    fires = drive > neuron.threshold
+    safe = np.where(fires, drive, neuron.threshold + 1.0)
+    rise = neuron.time_constant * np.log((safe - neuron.reset) / (safe - neuron.threshold))
+    return np.where(fires, 1000.0 / (neuron.refractory + rise), 0.0)
+
+
+def synaptic_current(spikes, weight, decay=5.0, step=0.1):
+    """The current in nA that spikes set off behind a synapse: float64, of the shape of ``spikes``, time first.
+
+    spikes: how many in each step. weight: nA a spike, negative if the synapse inhibits. decay: time constant, ms.
+    """
+    decay = np.exp(-checks.real("step", step, 1e-9) / checks.real("decay", decay, 1e-9))
+    return lfilter([checks.real("weight", weight)], [1.0, -decay], np.asarray(spikes, float), axis=0)
+
+
+def efficacy(minutes, shocks, fading=15.0, short=1.0, lasting=1.0):
+    """How strong a synapse is when the animal is shocked at some times, 1 before any shock: float64 (minutes,).
+
+    A shock raises a trace to 1, which fades with the time constant ``fading``, in minutes; efficacy is up by ``short``
+    times the trace. For good it rises by ``lasting`` × trace × (1 − trace) at a shock that finds the trace of another,
+    so that a single shock leaves nothing, nor do shocks in one go. It sketches what is seen, and not the mechanism.
+
+    minutes: when to look, (minutes,). shocks: when they fall, rising. Raises ValueError for anything else.
+    """
+    minutes = checks.finite("minutes", np.asarray(minutes, float))
+    shocks = checks.finite("shocks", np.asarray(shocks, float))
+    checks.real("fading", fading, 1e-9)
+    if np.any(np.diff(shocks) <= 0):
+        raise ValueError(f"shocks is {shocks!r}, allowed are rising times")
+    found = np.exp(-np.diff(shocks) / fading)
+    kept = np.concatenate([[0.0, 0.0], np.cumsum(lasting * found * (1 - found))])[: len(shocks) + 1]
+    past = np.searchsorted(shocks, minutes, side="right")
+    latest = np.concatenate([[-np.inf], shocks])[past]
+    return 1.0 + short * np.exp(-(minutes - latest) / fading) + kept[past]

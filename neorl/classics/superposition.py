@@ -1,0 +1,51 @@
+"""Functions of two variables as sums of functions of one (thesis section 4.1.1, equation 4.2).
+
+1. Kolmogorov and Arnold write every continuous function as Σ_q χ_q(Σ_p ψ_qp(x_p)), with 2n + 1 outer functions χ.
+2. Here the inner functions are as plain as can be, so that each term is a *ridge*: χ(x cos θ + y sin θ).
+3. Ridges are added one at a time, each at the angle θ that explains most of what the others have left over (projection
+   pursuit, Friedman and Stuetzle 1981). The outer functions are polynomials, fitted by least squares all together.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from neorl import checks
+
+DEGREE = 10  # of the outer functions
+ANGLES = np.pi * np.arange(60) / 60
+
+
+class Ridges(NamedTuple):
+    """What a sum of ridges makes of a function."""
+
+    angles: np.ndarray  # θ of each ridge: float64 (terms,)
+    errors: np.ndarray  # root mean square left over by 0, 1, … ridges: float64 (terms + 1,), in standard deviations
+
+
+def fit_ridges(values, terms, angles=ANGLES):
+    """The `Ridges` that fit a function over the square from −1 to 1.
+
+    values: float64 (side, side), not all equal, at points spread evenly; the first axis is y. terms: integer ≥ 1.
+    angles: those to choose from, in radians; by default 60 of them, spread over half a turn.
+    Raises ValueError for anything else.
+    """
+    values = checks.finite("values", np.asarray(values, float))
+    if values.ndim != 2 or values.shape[0] != values.shape[1] or np.ptp(values) == 0:
+        raise ValueError(f"values has the shape {values.shape}, allowed are squares (side, side), not all equal")
+    checks.integer("terms", terms, at_least=1)
+    side = np.linspace(-1, 1, len(values))
+    x, y = (each.ravel() for each in np.meshgrid(side, side))
+    outer = [np.linalg.qr(np.vander((x * np.cos(angle) + y * np.sin(angle)) / 2, DEGREE + 1))[0] for angle in angles]
+    left = values.ravel() - values.mean()
+    spread = left.std()
+    chosen, errors, found = [], [1.0], np.empty((left.size, 0))
+    for _ in range(terms):
+        best = int(np.argmax([np.square(each.T @ left).sum() for each in outer]))
+        new = outer[best] - found @ (found.T @ outer[best])
+        directions, sizes, _ = np.linalg.svd(new, full_matrices=False)
+        found = np.hstack([found, directions[:, sizes > 1e-8]])  # not what earlier ridges have said already
+        left = left - found @ (found.T @ left)
+        chosen.append(angles[best])
+        errors.append(left.std() / spread)
+    return Ridges(np.array(chosen), np.array(errors))

@@ -1,0 +1,84 @@
+"""Wold's decomposition by example: a series is filtered white noise plus what its past foretells (thesis eq. 4.1).
+
+1. The series is x_t = z_t + u_t. The noise y_t is white, and z_t = y_t + b_1 y_{t−1} + b_2 y_{t−2} + …
+2. The deterministic part u_t is one oscillation, of a phase that each run draws.
+3. `decompose` sees the series alone. It takes the oscillation with the least squared error for u_t, predicts the rest
+   from its past by least squares, and calls what it cannot predict the *innovations*: they stand for y_t.
+4. The coefficients b_k are those of the regression of the rest on the innovations, as Wold defines them.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy import linalg, optimize, signal
+
+from neorl import checks
+
+PAST = 20  # values of the past that predict the next one
+
+
+class Parts(NamedTuple):
+    """A series taken apart. Without the ``PAST`` first values, before which too little is known of the past."""
+
+    deterministic: np.ndarray  # u_t: float64 (steps − PAST,)
+    stochastic: np.ndarray  # z_t: float64 (steps − PAST,)
+    innovations: np.ndarray  # y_t: float64 (steps − PAST,)
+    coefficients: np.ndarray  # b_1, b_2, …: float64 (order,)
+
+
+def generate(coefficients, amplitude, period, steps, run=0, seed=0):
+    """A series and its parts, the ``PAST`` first values left out of the parts: (float64 (steps,), `Parts`).
+
+    coefficients: b_1, b_2, … of noise with a standard deviation of 1. amplitude, period: of the oscillation, > 0; the
+    period in steps. steps: integer > 2 ``PAST``. run, seed: integers ≥ 0.
+    Raises ValueError for anything else.
+    """
+    coefficients = checks.finite("coefficients", np.asarray(coefficients, float))
+    checks.real("amplitude", amplitude, 0)
+    checks.real("period", period, 2)
+    checks.integer("steps", steps, at_least=2 * PAST + 1)
+    sequence = np.random.SeedSequence(checks.integer("seed", seed, at_least=0),
+                                      spawn_key=(checks.integer("run", run, at_least=0),))
+    rng = np.random.default_rng(sequence)
+    oscillation = amplitude * np.cos(2 * np.pi * (np.arange(steps) / period + rng.random()))
+    noise = rng.normal(size=steps + len(coefficients))
+    filtered = signal.lfilter([1, *coefficients], 1, noise)[len(coefficients):]
+    parts = (each[PAST:] for each in (oscillation, filtered, noise[len(coefficients):]))
+    return filtered + oscillation, Parts(*parts, coefficients)
+
+
+def decompose(series, order):
+    """A series taken apart into `Parts`, with b_1 … b_order. series: float64 (steps,), steps > 2 ``PAST``.
+
+    Raises ValueError for anything else.
+    """
+    series = checks.finite("series", np.asarray(series, float))
+    if series.ndim != 1 or len(series) <= 2 * PAST:
+        raise ValueError(f"series has the shape {series.shape}, allowed are (steps,) with more than {2 * PAST} steps")
+    checks.integer("order", order, at_least=1, at_most=PAST)
+    spectrum = np.abs(np.fft.rfft(series))
+    peak = 1 + spectrum[1:-1].argmax()
+    frequency = optimize.minimize_scalar(_left_over, args=(series,), bounds=(peak - 1, peak + 1), method="bounded",
+                                         options={"xatol": 1e-6}).x
+    deterministic = _oscillation(frequency, series)
+    rest = series - deterministic
+    past = linalg.toeplitz(rest[PAST - 1 : -1], rest[PAST - 1 :: -1])
+    innovations = rest[PAST:] - past @ _least_squares(past, rest[PAST:])
+    earlier = np.stack([innovations[order - k : -k] for k in range(1, order + 1)], axis=1)
+    coefficients = _least_squares(earlier, rest[PAST + order :])
+    return Parts(deterministic[PAST:], rest[PAST:], innovations, coefficients)
+
+
+def _left_over(frequency, series):
+    return np.square(series - _oscillation(frequency, series)).sum()
+
+
+def _oscillation(frequency, series):
+    """The best oscillation of a frequency, in periods a series."""
+    angle = 2 * np.pi * frequency * np.arange(len(series)) / len(series)
+    basis = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    return basis @ _least_squares(basis, series)
+
+
+def _least_squares(basis, series):
+    return np.linalg.solve(basis.T @ basis, basis.T @ series)  # many times faster than lstsq, and well conditioned here
