@@ -1,0 +1,116 @@
+/* The Replay in the page: recorded runs side by side, in step, at the speed at which they were lived.
+
+It draws while it plays and is in sight, and whenever the page changes its colours or its size. */
+
+const CONTROLS = `<div class="tanks"></div><div class="bar"><div class="buttons">
+  <button type="button" data-action="play"></button></div>
+  <label class="slide"><span>Time</span><input type="range" name="time" min="0" step="1"><output></output></label></div>`;
+const TANK = `<div class="board"><p class="title"></p><div class="arena"><canvas role="img"></canvas></div>
+  <p class="legend"></p></div>`;
+
+/** A frame as `drawMovers` takes it, of a recording. */
+function frameOf({ agent, creeps, green, radius, fineness }, at) {
+  const mover = (numbers) => {
+    const [x, y, vx, vy] = numbers.map((number) => number / fineness);
+    return { x, y, vx, vy };
+  };
+  return { agent: mover(agent[at]), creeps: creeps[at].map((each, index) => ({ ...mover(each), green: green[at][index] })),
+    radius, player: null, nodes: [], landings: [], active: [] };
+}
+
+class Replay {
+  constructor(model, place) {
+    Object.assign(this, { model, recordings: model.get("_recordings"), at: 0, owed: 0, before: null, inSight: false });
+    this.seconds = this.recordings[0].seconds;
+    this.root = Object.assign(document.createElement("div"), { className: "neorl-explorer neorl-replay",
+      innerHTML: CONTROLS });
+    const tanks = this.root.querySelector(".tanks");
+    for (const { name } of this.recordings) {
+      tanks.insertAdjacentHTML("beforeend", TANK);
+      tanks.lastElementChild.querySelector(".title").textContent = name;
+      tanks.lastElementChild.querySelector("canvas").setAttribute("aria-label", `The tank: ${name}`);
+    }
+    [this.button, this.slider] = this.root.querySelectorAll("button, input");
+    this.slider.max = this.seconds.length - 1;
+    this.playing = model.get("playing") && !matchMedia("(prefers-reduced-motion: reduce)").matches;
+    place.append(this.root);
+    this.listen();
+    this.draw();
+  }
+
+  listen() {
+    this.button.addEventListener("click", () => {
+      if (this.isOver()) this.at = 0;
+      this.play(!this.playing);
+    });
+    this.slider.addEventListener("input", () => {
+      this.at = Number(this.slider.value);
+      this.play(false);
+    });
+    const redraw = () => this.draw();
+    const sight = new IntersectionObserver((entries) => {
+      this.inSight = entries.at(-1).isIntersecting;
+      this.play(this.playing);
+    });
+    const [sizes, theme, dark] = [new ResizeObserver(redraw), new MutationObserver(redraw),
+      matchMedia("(prefers-color-scheme: dark)")];
+    sight.observe(this.root);
+    sizes.observe(this.root);
+    theme.observe(document.documentElement, { attributes: true });
+    dark.addEventListener("change", redraw);
+    this.stop = () => {
+      this.playing = false;
+      for (const watcher of [sight, sizes, theme]) watcher.disconnect();
+      dark.removeEventListener("change", redraw);
+      this.root.remove();
+    };
+  }
+
+  isOver() {
+    return this.at === this.seconds.length - 1;
+  }
+
+  play(playing) {
+    this.playing = playing;
+    this.before = null;
+    this.draw();
+    if (playing && this.inSight && !this.asked) this.ask();
+  }
+
+  ask() {
+    this.asked = requestAnimationFrame((now) => {
+      this.asked = null;
+      if (!this.playing || !this.inSight) return;
+      this.owed = this.before === null ? 0 : this.owed + (now - this.before) / 1000;
+      this.before = now;
+      while (!this.isOver() && this.owed >= this.seconds[this.at + 1] - this.seconds[this.at]) {
+        this.owed -= this.seconds[this.at + 1] - this.seconds[this.at];
+        this.at += 1;
+      }
+      if (this.isOver()) this.playing = false;
+      this.draw();
+      if (this.playing) this.ask();
+    });
+  }
+
+  draw() {
+    const colours = readColours(this.root);
+    const boards = this.root.querySelectorAll(".board");
+    this.recordings.forEach((recording, index) => {
+      const [green, red] = recording.hits[this.at];
+      drawArena(boards[index].querySelector("canvas"), colours, { frame: frameOf(recording, this.at), map: null });
+      boards[index].querySelector(".legend").textContent = `${green} green, ${red} red`;
+    });
+    this.button.textContent = this.playing ? "Pause" : this.isOver() ? "Play again" : "Play";
+    this.slider.value = this.at;
+    this.root.querySelector("output").textContent = `${this.seconds[this.at].toFixed(1)} s`;
+    Object.assign(this.root.dataset, { state: this.playing ? "playing" : "paused", frame: this.at });
+  }
+}
+
+function render({ model, el }) {
+  const replay = new Replay(model, el);
+  return () => replay.stop();
+}
+
+export default { render };
