@@ -1,0 +1,76 @@
+"""Sphinx extension: what the reference pages make of docstrings.
+
+Kernels are left out, since whoever imports the package calls the functions around them. The fields of a class are
+told by the comments beside them. A name in single backticks leads to what it names, if the reference has that.
+"""
+
+import ast
+import dataclasses
+import inspect
+import pydoc
+import re
+import textwrap
+
+from numba.core.dispatcher import Dispatcher
+from sphinx.util.nodes import make_refnode
+
+ITEM = re.compile(r"(Raises|Returns) |(\w+(?:,? \w+){0,3}): ")
+SENTENCE = re.compile(r"(?<=\.) (?=\w+(?:, \w+)*: )")
+
+
+def setup(app):
+    app.setup_extension("sphinx.ext.autodoc")
+    app.connect("autodoc-skip-member", skip_member)
+    app.connect("autodoc-process-docstring", read_docstring)
+    app.connect("missing-reference", find_name)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
+
+
+def skip_member(app, what, name, member, skip, options):
+    """Leave out kernels, and what Python itself writes about the fields of a named tuple."""
+    if isinstance(member, Dispatcher) or str(member.__doc__).startswith("Alias for field number"):
+        return True
+    return None
+
+
+def read_docstring(app, what, name, member, options, lines):
+    """Make lists of what a docstring tells about arguments, and add to it the comments beside the fields of a class."""
+    lines[:] = as_list(lines)
+    if what == "class" and (hasattr(member, "_fields") or dataclasses.is_dataclass(member)):
+        source = textwrap.dedent(inspect.getsource(member))
+        rows = source.splitlines()
+        for node in ast.parse(source).body[0].body:
+            comment = isinstance(node, ast.AnnAssign) and re.search(r"  # (.*)", rows[node.end_lineno - 1])
+            if comment:
+                lines += as_list([f"{node.target.id}: {comment[1]}"])
+        lines += [""]
+
+
+def as_list(lines):
+    """The lines of a docstring, with an item for each sentence that starts as "name: " or "Raises "."""
+    made, in_item = [], False
+    for line in [part for line in lines for part in SENTENCE.split(escaped(line))]:
+        start = ITEM.match(line)
+        if start:
+            made += ["", f"*{start[1]}*" if start[1] else f"``{start[2]}``", f"    {line[start.end():]}"]
+        else:
+            made.append(f"    {line.strip()}" if in_item and line else line)
+        in_item = bool(start or in_item and line)
+    return made
+
+
+def escaped(line):
+    """A line of a docstring without what reStructuredText would take for markup."""
+    return re.sub(r"`(\w+)`(?=\w)", r"`\1`\\ ", line.replace("|", r"\|"))
+
+
+def find_name(app, env, node, content):
+    """Resolve a name of a docstring from any module of ours; one from elsewhere stays as it is written."""
+    if node.get("refdomain") != "py":
+        return None
+    target = node["reftarget"]
+    found = env.get_domain("py").find_obj(env, None, None, target.removeprefix("neorl."), None, searchmode=1)
+    if len(found) == 1:
+        [(name, entry)] = found
+        return make_refnode(app.builder, node["refdoc"], entry.docname, entry.node_id, content, name)
+    return None if target.startswith("neorl.") and pydoc.locate(target) is None else content

@@ -1,0 +1,28 @@
+"""Sphinx extension: the buttons that lead to the repository, and to its notebooks on Binder and Colab.
+
+``repository.url`` in _config.yml is their one setting; while it is empty there are none. The book shows notebooks as
+they were computed, in chapters/, and readers run them as they lie in the repository, in notebooks/.
+"""
+
+
+def setup(app):
+    app.connect("config-inited", follow_setting, priority=400)  # before the theme reads its options
+    app.connect("html-page-context", lead_to_notebooks, priority=502)  # after the theme has made its buttons
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
+
+
+def follow_setting(app, config):
+    """Show buttons if there is a repository, and none if there is not."""
+    options = config.html_theme_options
+    if options.get("repository_url"):
+        options["use_repository_button"] = True
+    else:
+        options.pop("launch_buttons", None)
+
+
+def lead_to_notebooks(app, page, template, context, doctree):
+    """Let the buttons of a computed notebook open the one that it was computed from."""
+    for group in context.get("header_buttons", []):
+        for button in group.get("buttons", []):
+            if group.get("label") == "launch-buttons":
+                button["url"] = button["url"].replace("book/chapters/", "notebooks/")
