@@ -13,6 +13,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import nbformat
@@ -32,7 +33,7 @@ WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 def main():
     chosen = parse_arguments()
     parameters = {name: value for name, value in vars(chosen).items() if value is not None}
-    notebooks = {path: parameters for path in sorted((ROOT / "notebooks").glob("*.ipynb"))}
+    notebooks = {path: parameters for path in sorted(sorted((ROOT / "notebooks").glob("*.ipynb")), key=concludes)}
     notebooks[ROOT / "notebooks" / "assumptions.ipynb"] = parameters | {"points": points(chosen.runs)}
     for notebook, its_parameters in notebooks.items():
         check_parameters(notebook, its_parameters)
@@ -64,10 +65,16 @@ def points(runs):
     return 2 ** max(2, int(math.log2(2.56 * runs)))
 
 
+def concludes(notebook):
+    """Whether a notebook reads what all others have found, so that it comes after them."""
+    return notebook.stem == "chapter_5"
+
+
 def compute(notebook, parameters):
     """Run a notebook into the chapters, unless it is there already with the same parameters and sources."""
     target, record = CHAPTERS / notebook.name, CHAPTERS / f"{notebook.stem}.inputs.json"
-    wanted = {"parameters": parameters, "inputs": digest([notebook, ROOT / "environment.txt", *sources()])}
+    found = sorted(CHAPTERS.glob("*.claims.json")) if concludes(notebook) else []
+    wanted = {"parameters": parameters, "inputs": digest([notebook, ROOT / "environment.txt", *sources(), *found])}
     if target.exists() and record.exists() and json.loads(record.read_text()) == wanted:
         print(f"{notebook.name}: nothing has changed")
         return
@@ -77,13 +84,14 @@ def compute(notebook, parameters):
     work = CHAPTERS / f".{notebook.stem}"  # at a place of its own, so that what a killed process left is cleared
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir()
-    papermill.execute_notebook(
-        notebook, work / notebook.name, parameters, cwd=ROOT / "notebooks", request_save_on_cell_execute=False,
-        stderr_file=sys.stderr if sys.stderr.isatty() else None,  # the bars of single conditions, but not into a log
-        config=Config(KernelManager={"transport": "ipc"}))  # over TCP the kernel warns that it is not encrypted
+    with tempfile.TemporaryDirectory() as sockets:  # over TCP the kernel warns that it is not encrypted
+        papermill.execute_notebook(
+            notebook, work / notebook.name, parameters, cwd=ROOT / "notebooks", request_save_on_cell_execute=False,
+            stderr_file=sys.stderr if sys.stderr.isatty() else None,  # the bars of conditions, but not into a log
+            config=Config(KernelManager={"transport": "ipc", "ip": f"{sockets}/kernel"}))
     executed = nbformat.read(work / notebook.name, nbformat.NO_CONVERT)
     for cell in executed.cells:  # links are written for notebooks/, and the page lies in book/chapters/
-        cell.source = cell.source.replace("](../book/", "](../")
+        cell.source = link_terms(cell.source).replace("](../book/", "](../")
     save_figures(executed)
     save_widgets(executed)
     claims = store.folder() / "claims" / f"{notebook.stem}.json"
@@ -101,6 +109,19 @@ def check_parameters(notebook, parameters):
     for name, value in parameters.items():
         if name not in known:
             raise ValueError(f"parameter {name} is {value!r}, allowed for {notebook.name} are {', '.join(known)}")
+
+
+def link_terms(text):
+    """Markdown whose links into the glossary are Sphinx's references to its terms."""
+    known = terms()
+    return re.sub(r"\[([^]]+)\]\(\.\./book/glossary\.md#([^)]+)\)",
+                  lambda link: f"{{term}}`{link[1]} <{known.get(link[2], link[2])}>`", text)
+
+
+def terms():
+    """The terms of the glossary by the names that links have for them, in lower case with hyphens: {name: term}."""
+    _, listed = (ROOT / "book" / "glossary.md").read_text(encoding="utf-8").split("```{glossary}\n")
+    return {term.lower().replace(" ", "-"): term for term in re.findall(r"^\w.*", listed, re.MULTILINE)}
 
 
 def save_figures(notebook):
@@ -160,8 +181,8 @@ def write_claims():
 def build():
     """Build the book, with warnings as errors."""
     record = ROOT / "_build" / "inputs.txt"
-    pages = [path for path in (ROOT / "book").rglob("*") if path.is_file()]
-    wanted = digest([ROOT / "_config.yml", ROOT / "environment.txt", *sources(), *sorted(pages)])
+    pages = files(ROOT / "book")
+    wanted = digest([ROOT / "_config.yml", ROOT / "environment.txt", *sources(), *pages])
     if HTML.exists() and record.exists() and record.read_text() == wanted:
         return
     record.unlink(missing_ok=True)
@@ -173,7 +194,11 @@ def build():
 
 
 def sources():
-    return sorted([*(ROOT / "neorl").glob("*.*"), *(ROOT / "neorl" / "explorer").glob("*.*")])
+    return files(ROOT / "neorl")
+
+
+def files(folder):
+    return sorted(path for path in folder.rglob("*") if path.is_file() and "__pycache__" not in path.parts)
 
 
 def digest(paths):

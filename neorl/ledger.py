@@ -65,11 +65,28 @@ def store(page, claims=(), shares=None):
     write_whole(folder() / "claims" / f"{page}.json", json.dumps(content, indent=1, allow_nan=False).encode())
 
 
-def read(paths):
-    """The records in JSON files, as one: {"claims": {name: …}, "shares": {name: …}}."""
+def read(paths=None):
+    """The records in JSON files, as one: {"claims": {name: …}, "shares": {name: …}}. By default all that are kept."""
+    paths = sorted((folder() / "claims").glob("*.json")) if paths is None else paths
     records = [json.loads(path.read_text(encoding="utf-8")) for path in paths]
     return {what: {name: found for record in records for name, found in record[what].items()}
             for what in ("claims", "shares")}
+
+
+def number(found):
+    """Our number for a claim, with its interval, as text. found: a claim of a record."""
+    return str(Estimate(*(np.nan if each is None else each for each in found["here"])))
+
+
+def standing(record, names):
+    """What became of some claims, in Markdown: a line for each verdict. record: as `read` has it."""
+    lines = []
+    for verdict in (*VERDICTS, NOT_COMPUTED):
+        found = [f"{STATEMENTS[name].text} ({name})" for name in names
+                 if record["claims"].get(name, {"verdict": NOT_COMPUTED})["verdict"] == verdict]
+        if found:
+            lines.append(f"- *{verdict.capitalize()}*: {'; '.join(found)}.")
+    return "\n".join(lines)
 
 
 def page(record):
@@ -80,7 +97,7 @@ def page(record):
         verdict, evidence = NOT_COMPUTED, f"{claim.statistic}. Thesis ({claim.place}): {claim.thesis}."
         if found:
             verdict = f"**{found['verdict']}**"
-            evidence += (f" Here: {_number(found)}, {found['runs']} runs. {found['detail']} "
+            evidence += (f" Here: {number(found)}, {found['runs']} runs. {found['detail']} "
                          f"({{ref}}`Figure <{claim.figure}>`, {{ref}}`rule <{label(claim.rule)}>`)")
         rows.append(f"| **{name}** {claim.text} | {verdict}{_share(record, name)} | {evidence} |")
     return "\n".join(rows) + "\n"
@@ -91,7 +108,7 @@ def in_short(record):
     rows = ["| Claim | Thesis | Here | Verdict | Holds in |", "|---|---|---|---|---|"]
     for name, claim in STATEMENTS.items():
         found, share = (record[what].get(name) for what in ("claims", "shares"))
-        rows.append(f"| {name} {claim.text} | {claim.thesis} | {_number(found) if found else ''} | "
+        rows.append(f"| {name} {claim.text} | {claim.thesis} | {number(found) if found else ''} | "
                     f"{found['verdict'] if found else NOT_COMPUTED} | "
                     f"{_percent(share['holds'], share['readings']) if share else ''} |")
     return "\n".join(rows) + "\n"
@@ -100,10 +117,6 @@ def in_short(record):
 def label(rule):
     """The label under which the book shows the code of a rule."""
     return f"rule-{rule.replace('_', '-')}"
-
-
-def _number(found):
-    return str(Estimate(*(np.nan if each is None else each for each in found["here"])))
 
 
 def _share(record, name):

@@ -1,10 +1,12 @@
-"""The figures of the multiverse: for one claim the effect under every reading, for all which choices matter."""
+"""The figures of the multiverse: for one claim the effect under every reading; for all, under how many readings they
+hold, and which choices matter."""
 
 from textwrap import fill
 
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.patches import Rectangle
 
 from neorl.figures import AGENT, INK, RED
 from neorl.multiverse import CHOICES, outcome
@@ -62,6 +64,32 @@ def _limits(values, borders):
     low, high = np.quantile(finite, [0.025, 0.975]) if len(finite) else (0.0, 1.0)
     low, high = min(low, *borders), max(high, *borders)
     return (low, high) if low < high else (low - 0.5, high + 0.5)
+
+
+def draw_standing(record, names):
+    """The verdicts of claims, and the share of readings that they hold under: record as `neorl.ledger.read` has it.
+
+    names: of the claims, from the top. What is undecided comes after what holds, in another colour.
+    """
+    width, _ = plt.rcParams["figure.figsize"]
+    axes = plt.figure(figsize=(width, 1.3 * ROW * len(names) + 0.7)).add_subplot()
+    for row, name in enumerate(names):
+        share = record["shares"].get(name)
+        if share:
+            holds, undecided = (100 * share[kind] / share["readings"] for kind in ("holds", "undecided"))
+            axes.barh(row, holds, 0.55, color=COLOURS["holds"])
+            axes.barh(row, undecided, 0.55, left=holds, color=COLOURS["undecided"], alpha=0.45)
+        else:
+            axes.text(1, row, "not varied over readings", fontsize=9, va="center")
+    verdicts = {name: record["claims"].get(name, {"verdict": "not computed"})["verdict"] for name in names}
+    axes.set_yticks(range(len(names)), [f"{name}  {verdicts[name]}" for name in names], fontsize=10)
+    axes.set(xlim=(0, 100), ylim=(len(names) - 0.4, -0.6), xlabel="% of readings")
+    axes.tick_params(axis="y", length=0)
+    axes.spines["left"].set_visible(False)
+    handles = [Rectangle((0, 0), 1, 1, color=COLOURS[kind], alpha=alpha)
+               for kind, alpha in (("holds", 1.0), ("undecided", 0.45))]
+    axes.legend(handles, ["holds", "undecided"], frameon=False, fontsize=9, ncols=2, labelcolor=INK, loc="lower left",
+                bbox_to_anchor=(0, 1.0), borderpad=0)
 
 
 def draw_importance(importance):

@@ -54,3 +54,25 @@ def test_the_chapter_on_assumptions_has_a_curve_for_every_claim_that_readings_ma
     page = open_page(HTML, "chapters/assumptions.html")
     assert page.locator("figure[id^=fig-spec] img").count() == 16
     expect(page.locator("body")).to_contain_text("the same as from this process, to the last bit")
+
+
+def test_the_first_chapter_plays_two_lives_side_by_side(open_page):
+    page = open_page(HTML, "chapters/chapter_1.html")
+    replay = page.locator(".neorl-replay")
+    replay.scroll_into_view_if_needed()
+    page.wait_for_function("Number(document.querySelector('.neorl-replay').dataset.frame) > 10")
+    assert replay.locator(".title").all_inner_texts() == ["Newborn", "Veteran"]
+
+
+@pytest.mark.parametrize("chapter", range(1, 6))
+def test_a_term_leads_to_the_glossary_and_from_there_to_the_function(open_page, chapter):
+    page = open_page(HTML, f"chapters/chapter_{chapter}.html")
+    links = page.locator("a[href*='glossary.html#term-']")
+    assert links.count() > 3
+    links.first.click()
+    page.wait_for_url("**/glossary.html#term-*")
+    places = {link.split("#")[1] for link in page.locator("dd a[href*='api_']").evaluate_all(
+        "links => links.map(link => link.href)")}
+    assert len(places) > 15
+    reference = "".join(path.read_text(encoding="utf-8") for path in HTML.glob("api_*.html"))
+    assert not [place for place in places if f'id="{place}"' not in reference]

@@ -183,3 +183,24 @@ def test_what_a_notebook_has_found_stands_beside_its_page_and_in_the_table_of_al
     written = (build.CHAPTERS / "claims-table.md").stat().st_mtime_ns
     build.write_claims()
     assert (build.CHAPTERS / "claims-table.md").stat().st_mtime_ns == written
+
+
+def test_links_into_the_glossary_become_references_to_its_terms():
+    text = ("A [map of cells](../book/glossary.md#nres-map), [off-policy](../book/glossary.md#off-policy), "
+            "[s](../book/s.md)")
+    assert build.link_terms(text) == (
+        "A {term}`map of cells <NRES map>`, {term}`off-policy <off-policy>`, [s](../book/s.md)")
+    assert build.link_terms("[lost](../book/glossary.md#lost)") == "{term}`lost <lost>`"  # which Sphinx complains about
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_the_conclusion_comes_last_and_is_computed_again_when_a_claim_has_changed(notebook, capsys):
+    names = sorted((build.ROOT / "notebooks").glob("*.ipynb"), key=build.concludes)
+    assert names[-1].stem == "chapter_5" and len(names) > 5
+    conclusion = notebook.rename(notebook.with_name("chapter_5.ipynb"))
+    build.compute(conclusion, {"runs": 3})
+    build.compute(conclusion, {"runs": 3})
+    assert capsys.readouterr().out.count("nothing has changed") == 1
+    (build.CHAPTERS / "paper_a.claims.json").write_text("{}")
+    build.compute(conclusion, {"runs": 3})
+    assert "nothing has changed" not in capsys.readouterr().out

@@ -3,9 +3,11 @@
 import json
 
 import pytest
+from matplotlib import pyplot as plt
 from test_claims import as_the_paper_says, made_up, paper_c
 
 from neorl import claims, ledger
+from neorl.multiverse_figures import draw_standing
 from neorl.statements import STATEMENTS
 
 pytestmark = pytest.mark.usefixtures("cache")
@@ -86,3 +88,26 @@ def test_the_short_table_says_the_same(record):
     assert row(table, "C2") == ("| C2 A desire for each colour (B) beats one for all (A) | > 0 | 0.10 [0.09, 0.11] | "
                                 "reproduced | 25\u00a0% |")
     assert row(table, "H1").endswith("| fewer |  | not computed in this build |  |")
+
+
+def test_claims_are_listed_by_what_became_of_them(record):
+    assert ledger.standing(record, ["H1", "C3", "C2", "A6"]) == (
+        "- *Reproduced*: Values from both nodes (C) beat those of the last one (B) (C3); A desire for each colour (B) "
+        "beats one for all (A) (C2).\n- *No verdict*: 3, 7 and 23 together beat the sum of the three alone (A6).\n"
+        f"- *Not computed in this build*: {STATEMENTS['H1'].text} (H1).")
+
+
+def test_all_that_is_kept_is_read_unless_files_are_named(record, cache):
+    (cache / "claims" / "notes.txt").touch()
+    assert ledger.read() == record
+    assert list(ledger.read([cache / "claims" / "look.json"])["claims"]) == ["A6", "A7"]
+
+
+def test_readings_are_drawn_beside_the_verdicts(record):
+    draw_standing(record, ["C2", "A6", "T5"])
+    axes = plt.gca()
+    assert [tick.get_text() for tick in axes.get_yticklabels()] == [
+        "C2  reproduced", "A6  no verdict", "T5  not computed"]
+    assert [(bar.get_x(), bar.get_width()) for bar in axes.patches] == [(0, 25), (25, pytest.approx(100 * 26 / 256))]
+    assert [text.get_text() for text in axes.texts] == ["not varied over readings"] * 2
+    plt.close()

@@ -2,6 +2,7 @@
 
 import ast
 import re
+import sys
 from pathlib import Path
 
 import nbformat
@@ -10,7 +11,12 @@ import pytest
 from neorl import notebook
 
 ROOT = Path(__file__).parent.parent
+sys.path.insert(0, str(ROOT / "book"))
+import build  # noqa: E402
+
 NOTEBOOKS = {path.stem: nbformat.read(path, 4) for path in sorted((ROOT / "notebooks").glob("*.ipynb"))}
+
+CHAPTERS = [f"chapter_{number}" for number in range(1, 6)]
 
 
 @pytest.fixture(params=NOTEBOOKS)
@@ -19,7 +25,7 @@ def cells(request):
 
 
 def test_there_are_notebooks():
-    assert {"paper_a", "paper_b", "paper_c"} <= set(NOTEBOOKS)
+    assert {"paper_a", "paper_b", "paper_c", *CHAPTERS} <= set(NOTEBOOKS)
 
 
 def test_a_notebook_is_without_outputs(cells):
@@ -51,8 +57,25 @@ def test_every_figure_has_alt_text_and_a_caption(cells):
 def test_links_lead_somewhere(cells):
     for cell in cells:
         if cell.cell_type == "markdown":
-            for target in re.findall(r"\]\(([^)#:]+)\)", cell.source):
+            for target, place in re.findall(r"\]\(([^)#:]+)(?:#([^)]*))?\)", cell.source):
                 assert (ROOT / "notebooks" / target).exists(), target
+                assert not place or target == "../book/glossary.md" and place in build.terms(), place
+        else:  # what a cell puts out lies in book/chapters/ as it is
+            assert "](../book/" not in cell.source
+
+
+@pytest.mark.parametrize("chapter", CHAPTERS)
+def test_a_chapter_tells_how_long_it_takes_shows_little_code_and_ends_with_exercises(chapter):
+    cells = NOTEBOOKS[chapter].cells
+    assert re.search(r"(seconds|minutes?)\b", cells[0].source)
+    shown = [cell for cell in cells
+             if cell.cell_type == "code" and "remove-input" not in cell.metadata.get("tags", [])]
+    assert sum(len(cell.source.splitlines()) for cell in shown) <= 300
+    prose = "\n".join(cell.source for cell in cells if cell.cell_type == "markdown")
+    assert "../book/glossary.md#" in prose
+    _, exercises = prose.split("\n## Exercises\n")
+    folded = [cell for cell in cells[-4:] if "hide-cell" in cell.metadata.get("tags", [])]
+    assert "<details><summary>Solution</summary>" in exercises or folded
 
 
 @pytest.mark.parametrize("change, message", [
