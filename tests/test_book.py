@@ -19,7 +19,7 @@ PUBLIC = sorted(".".join(path.relative_to(ROOT / "neorl").with_suffix("").parts)
 def make_book(tmp_path):
     """Build a book of two pages by the settings of ours, with another repository, and return its pages' HTML."""
 
-    def make(url="", reference="neorl.classics.grid"):
+    def make(url="", modules=("neorl.classics.grid",)):
         shutil.rmtree(tmp_path / "book", ignore_errors=True)
         chapters = tmp_path / "book" / "chapters"
         chapters.mkdir(parents=True)
@@ -30,8 +30,8 @@ def make_book(tmp_path):
         (tmp_path / "_config.yml").write_text(yaml.safe_dump(settings))
         toc = "format: jb-book\nroot: index\nchapters:\n  - file: chapters/page\n"
         (tmp_path / "book" / "_toc.yml").write_text(toc)
-        (tmp_path / "book" / "index.md").write_text(
-            f"# Reference\n\n```{{eval-rst}}\n.. automodule:: {reference}\n```\n")
+        reference = "\n\n".join(f".. automodule:: {module}" for module in modules)
+        (tmp_path / "book" / "index.md").write_text(f"# Reference\n\n```{{eval-rst}}\n{reference}\n```\n")
         kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3"},
                   "language_info": {"name": "python", "pygments_lexer": "ipython3"}}
         cells = [nbformat.v4.new_markdown_cell("# Page"), nbformat.v4.new_code_cell("1")]
@@ -55,11 +55,12 @@ def test_a_notebook_opens_from_the_repository_that_is_set(make_book):
 
 
 def test_without_a_repository_there_are_no_buttons_and_docstrings_become_lists_with_links(make_book):
-    page, reference = make_book(reference="neorl.simulation")
+    page, reference = make_book(modules=["neorl.simulation", "neorl.store"])
     assert "mybinder" not in page and "colab" not in page and "fa-github" not in page
     text = re.sub(r"<[^>]+>", "", reference)
     assert "Raises" in text and "ValueError" in text
-    assert re.search(r'href="#neorl.simulation.Result"[^>]*><code[^>]*><span class="pre">Result', reference)
+    of_store = reference.split('id="neorl.store.simulate_once"')[1].split("</article>")[0]
+    assert re.search(r'href="#neorl.simulation.Result"[^>]*><code[^>]*><span class="pre">Result', of_store)
     assert "float64 (4,): the value of each action" in text  # a comment beside a field
     assert "Alias for field number" not in text
 

@@ -20,7 +20,7 @@ def notebook(tmp_path, monkeypatch):
     """A notebook of two cells, and chapters of its own."""
     monkeypatch.setattr(build, "CHAPTERS", tmp_path / "chapters")
     cells = [nbformat.v4.new_code_cell("runs: int = 20", metadata={"tags": ["parameters"]}),
-             nbformat.v4.new_markdown_cell("[Sources](../book/sources.md)"),
+             nbformat.v4.new_markdown_cell("[Sources](../book/sources.md) of [maps](../book/glossary.md#nres-map)"),
              nbformat.v4.new_code_cell("assert runs != 13\nprint(runs)")]
     metadata = {"kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"}}
     path = tmp_path / "page.ipynb"
@@ -40,7 +40,7 @@ def test_a_notebook_is_computed_when_something_has_changed_and_kept_when_not(not
     build.compute(notebook, {"runs": 3})
     executed = nbformat.read(target, 4)
     assert executed.cells[-1].outputs[0].text == "3\n"
-    assert executed.cells[2].source == "[Sources](../sources.md)"
+    assert executed.cells[2].source == "[Sources](../sources.md) of {term}`maps <NRES map>`"
     assert json.loads((build.CHAPTERS / "page.inputs.json").read_text())["parameters"] == {"runs": 3}
 
     before = target.stat().st_mtime_ns

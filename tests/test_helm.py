@@ -57,6 +57,7 @@ def test_a_newborn_and_a_veteran_begin_on_the_same_board_and_know_nothing_and_wh
     teacher = Run(agent, TANK, seed=5, run=2)
     teacher.advance(5_000)
     assert not first.q().any() and np.array_equal(second.q(), teacher.q()) and teacher.q().any()
+    assert np.array_equal(second.memory.known, teacher.memory.known)
     assert second.step == 0
     second.advance(1_000)  # what it knows of goals is not forgotten while it goes on learning
     assert second.q().sum() > 0.5 * teacher.q().sum()

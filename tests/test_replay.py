@@ -63,6 +63,8 @@ def test_a_replay_plays_to_its_end_in_real_time_and_can_be_moved(open_page, tmp_
         green, red = recording.hits[-1]
         expect(replay.locator(".legend").nth(index)).to_have_text(f"{green} green, {red} red")
         expect(replay.locator(".title").nth(index)).to_have_text(recording.name)
+    replay.get_by_text("Play again").click()
+    expect(replay).to_have_attribute("data-state", "playing")
     replay.locator("[name=time]").fill("10")
     green, red = recordings[0].hits[20]
     expect(replay.locator(".legend").first).to_have_text(f"{green} green, {red} red")
