@@ -4,6 +4,8 @@ A *newborn* knows nothing. A *veteran* is a newborn with the values that a run o
 learning. Trials begin on fresh boards, the same for both, which the veteran has never seen.
 """
 
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 
 from neorl import checks
@@ -33,7 +35,8 @@ def trials(agent, world, *, lessons, steps, runs, seed=0):
 
     lessons: steps that a veteran has lived before. steps: of a trial. Raises ValueError for a bad argument.
     """
-    checks.integer("runs", runs, at_least=1)
-    return np.array([[first.advance(steps) for first in (newborn(agent, world, seed, k),
-                                                         veteran(agent, world, lessons, seed, k))]
-                     for k in range(runs)]).T
+    def pair(k):
+        return newborn(agent, world, seed, k).advance(steps), veteran(agent, world, lessons, seed, k).advance(steps)
+
+    with ThreadPoolExecutor() as pool:
+        return np.array(list(pool.map(pair, range(checks.integer("runs", runs, at_least=1))))).T
