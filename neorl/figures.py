@@ -20,6 +20,7 @@ INK = "#808080"
 AGENT, GREEN, RED = "#3b8ad9", "#12946d", "#d9622b"
 CURVES = ("#3e6ad1", "#b02d45", "#ac990f", "#01a7bf", "#85488f", "#b46411", "#9c86fd")
 POINTS = 400  # of a curve; more cannot be seen
+LOW_PANEL = 0.17  # of the height of a panel, for the name of a curve
 RASTER = 121  # places a side at which receptive fields are looked up
 
 # Paper B smooths its curves "by a Butterworth low-pass filter" (section 3). The thesis states neither of these.
@@ -268,13 +269,18 @@ def draw_sweep(xs, estimates_by_name, xlabel, ylabel="reward per second"):
     """A reward against a number: {name: [Estimate for each of xs]}, with their 95 % intervals."""
     axes = plt.figure().add_subplot()
     axes.axhline(0, color=INK, linewidth=0.7)
+    axes.set(xlabel=xlabel, ylabel=ylabel)
+    add_estimates(axes, xs, estimates_by_name, linewidth=0.8)
+
+
+def add_estimates(axes, xs, estimates_by_name, linewidth):
+    """Points with their 95 % intervals, joined by lines of that width: {name: [Estimate for each of xs]}."""
     ends = []
     for (name, estimates), colour in zip(estimates_by_name.items(), CURVES):
         value, low, high = np.array(estimates).T
-        axes.plot(xs, value, color=colour, linewidth=0.8, marker="o", markersize=5)
+        axes.plot(xs, value, color=colour, linewidth=linewidth, marker="o", markersize=5)
         axes.vlines(xs, low, high, color=colour, linewidth=1.8)
         ends.append((value[-1], name, colour))
-    axes.set(xlabel=xlabel, ylabel=ylabel)
     name_ends(axes, ends)
 
 
@@ -288,11 +294,14 @@ def draw_costs(labels, measured, predicted):
     name_ends(axes, [(measured[-1], "measured", CURVES[0]), (predicted[-1], "sum", INK)])
 
 
-def name_ends(axes, ends):
-    """Write the names of curves beside their ends (height, name, colour), moved apart where they would overlap."""
+def name_ends(axes, ends, line=0.075):
+    """Write the names of curves beside their ends (height, name, colour), moved apart where they would overlap.
+
+    line: the room that a name needs, as a share of the height of the axes; more in a low panel.
+    """
     low, high = axes.get_ylim()
     ends = sorted(ends)
-    apart = 0.075 * (high - low) * np.arange(len(ends))
+    apart = line * (high - low) * np.arange(len(ends))
     heights = apart + isotonic_regression([height for height, *_ in ends] - apart).x
     for at, (_, name, colour) in zip(heights, ends):
         axes.annotate(name, (1.02, at), xycoords=("axes fraction", "data"), color=colour, va="center",

@@ -5,17 +5,27 @@ import http.server
 import shutil
 import threading
 
+import matplotlib
 import pytest
 from hypothesis import settings
+from matplotlib import pyplot as plt
 from playwright.sync_api import Error, sync_playwright
 
 # No deadline: a kernel compiles on its first call. Derandomised: a test that fails here fails everywhere.
 settings.register_profile("neorl", deadline=None, derandomize=True)
 settings.load_profile("neorl")
+matplotlib.use("agg")
 
 BROWSERS = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"]
 QUIET = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
          "--disable-component-update", "--disable-sync"]  # it asks nobody for anything by itself
+
+
+@pytest.fixture(autouse=True)
+def closed():
+    """What a test has drawn is closed after it."""
+    yield
+    plt.close("all")
 
 
 @pytest.fixture

@@ -3,7 +3,6 @@
 from collections import defaultdict
 from itertools import combinations
 
-import matplotlib
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
@@ -15,15 +14,8 @@ from neorl.figures import CURVES
 from neorl.statistics import probability_of_improvement
 from neorl.stream import new_stream
 
-matplotlib.use("agg")
 JUNCTION = Grid(("o.....o", "###.###", "###.###", "###o###"))
 SMALL = Game(rows=("ao.", ".#.", "o.g"), fruits=1, chase=0.5, limit=9)
-
-
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
 
 
 def plainly(game, learner, steps, seed, run):

@@ -1,6 +1,5 @@
 """Ensembles of learners against a plain Python of the same rules, closed forms, and what others have found."""
 
-import matplotlib
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
@@ -10,14 +9,6 @@ from neorl.classics import concerns_figures, ensembles
 from neorl.classics.ensembles import CHOOSERS, DYNA, LEARNERS, ROOMS, Maze, best_reward, walk
 from neorl.figures import CURVES, INK
 from neorl.statistics import estimate
-
-matplotlib.use("agg")
-
-
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
 
 
 def softmax(values):

@@ -1,6 +1,5 @@
 """Drawings: the numbers that they show."""
 
-import matplotlib
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
@@ -10,14 +9,6 @@ from neorl import (NresMap, Result, Run, WaterWorld, brownian, figures, network_
 from neorl.figures import binned_rate, low_passed
 from neorl.modality import HEAD_DIRECTION_CELL, MODALITIES, PLACE_CELL, TAU, Modality
 from neorl.statistics import Estimate
-
-matplotlib.use("agg")
-
-
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
 
 
 @pytest.fixture(scope="module")

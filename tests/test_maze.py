@@ -1,6 +1,5 @@
 """The maze of T-shaped units, the animals that run it, and what is drawn of them."""
 
-import matplotlib
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
@@ -13,14 +12,7 @@ from neorl.classics.maze import Maze, random_maze
 from neorl.statistics import Estimate
 from neorl.stream import new_stream
 
-matplotlib.use("agg")
 N, S, E, W = range(4)
-
-
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
 
 
 def walk(maze, moves, state=0):

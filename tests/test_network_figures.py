@@ -14,14 +14,7 @@ from neorl.figures import GREEN, INK, RED
 from neorl.modality import CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL, OBJECT_VECTOR_CELL, PLACE_CELL
 from neorl.network_figures import draw_network, draw_networks
 
-matplotlib.use("agg")
 CREEPS = (Desire("green", "PC", 1.0), Desire("red", "PC", -1.0))
-
-
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
 
 
 def chain():

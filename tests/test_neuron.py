@@ -1,22 +1,14 @@
 """The neuron against closed forms and against what is known of the equations."""
 
-import matplotlib
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
+from neorl import figures
 from neorl.classics import psychology_figures
 from neorl.classics.grid import Grid
 from neorl.classics.neuron import (REST, Neuron, action_potential, efficacy, firing_rate, gate_rates, gates_at_rest,
                                    integrate, synaptic_current)
-
-matplotlib.use("agg")
-
-
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
 
 
 def test_an_axon_that_is_left_alone_stays_at_rest():
@@ -126,7 +118,7 @@ def test_the_four_parts_are_drawn_over_one_time():
 
 def test_names_beside_a_low_panel_keep_apart():
     axes = plt.figure().add_subplot(ylim=(0, 10))
-    psychology_figures.name_ends_of_low_panel(axes, [(5.0, "a", "red"), (5.1, "b", "blue"), (0.0, "c", "green")])
+    figures.name_ends(axes, [(5.0, "a", "red"), (5.1, "b", "blue"), (0.0, "c", "green")], figures.LOW_PANEL)
     heights = {text.get_text(): text.xy[1] for text in axes.texts}
     assert heights["c"] == 0.0 and heights["b"] - heights["a"] == pytest.approx(1.7)
 

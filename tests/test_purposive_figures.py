@@ -1,6 +1,5 @@
 """The drawings of chapter 4: the numbers that they show."""
 
-import matplotlib
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
@@ -12,8 +11,6 @@ from neorl.classics.walks import expected_squared_displacement, walk
 from neorl.figures import CURVES, use_style
 from neorl.statistics import Estimate
 
-matplotlib.use("agg")
-
 
 @pytest.fixture(autouse=True)
 def style(monkeypatch):
@@ -21,7 +18,6 @@ def style(monkeypatch):
     with plt.rc_context():
         use_style()
         yield
-    plt.close("all")
 
 
 def drawn():

@@ -2,7 +2,6 @@
 
 import itertools
 
-import matplotlib
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
@@ -10,15 +9,8 @@ from matplotlib import pyplot as plt
 from neorl.classics import decision, decision_figures, temporality
 from neorl.classics.grid import Grid
 
-matplotlib.use("agg")
 CLIFF = Grid(("....", ".CCG"))
 WORTH = {CLIFF.marked("C")[0]: -1.0, CLIFF.marked("C")[1]: -1.0, CLIFF.marked("G")[0]: 1.0}
-
-
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
 
 
 def test_histories_are_counted_in_base_psi_with_the_newest_last():

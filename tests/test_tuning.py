@@ -1,6 +1,5 @@
 """Trajectories and tuning against closed forms and against cases counted by hand."""
 
-import matplotlib
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
@@ -10,14 +9,6 @@ from neorl.classics import tuning_figures
 from neorl.classics.tuning import Trajectory, Tuning, egocentric, in_field, information, roam, spikes, tuning
 from neorl.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, HEAD_DIRECTION_CELL, LANDMARK_VECTOR_CELL,
                             OBJECT_VECTOR_CELL, SPEED_CELL, TAU)
-
-matplotlib.use("agg")
-
-
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
 
 
 @pytest.fixture(scope="module")

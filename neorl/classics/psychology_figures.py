@@ -2,12 +2,11 @@
 
 import numpy as np
 from matplotlib import pyplot as plt
-from scipy.optimize import isotonic_regression
 
 from neorl import figures
 from neorl.classics.grid_figures import draw_grid, draw_policy, new_grids
 from neorl.classics.neuron import firing_rate
-from neorl.figures import AGENT, CURVES, GREEN, INK, RED
+from neorl.figures import AGENT, CURVES, GREEN, INK, LOW_PANEL, RED
 
 
 def draw_latencies(latencies, published):
@@ -93,7 +92,7 @@ def draw_parts(time, inflow, potential, spikes, answers, threshold):
     for (name, answer), colour in zip(answers.items(), (GREEN, CURVES[4])):
         synapse.plot(time, answer, color=colour, linewidth=1.0)
         ends.append((answer[-1], name, colour))
-    name_ends_of_low_panel(synapse, ends)
+    figures.name_ends(synapse, ends, line=LOW_PANEL)
     figures.name_ends(soma, [(threshold, "threshold", INK)])
     titles = ("dendrite: current in, nA", "soma: potential, mV", "axon: spikes", "synapse: the next neuron, mV")
     for axes, title in zip(panels, titles):
@@ -110,12 +109,3 @@ def draw_efficacies(minutes, efficacies):
         ends.append((efficacy[-1], name, colour))
     axes.set(xlabel="minutes", ylabel="efficacy of the synapse", ylim=(0, None), xlim=(0, minutes[-1]))
     figures.name_ends(axes, ends)
-
-
-def name_ends_of_low_panel(axes, ends):
-    """What ``neorl.figures.name_ends`` does, with more room between the names, since a low panel has fewer lines."""
-    low, high = axes.get_ylim()
-    ends = sorted(ends)
-    apart = 0.17 * (high - low) * np.arange(len(ends))
-    heights = apart + isotonic_regression([height for height, *_ in ends] - apart).x
-    figures.name_ends(axes, [(at, name, colour) for at, (_, name, colour) in zip(heights, ends)])

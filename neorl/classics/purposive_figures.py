@@ -8,7 +8,7 @@ from matplotlib.ticker import MaxNLocator, PercentFormatter
 from neorl.classics.credit import ROLES
 from neorl.classics.grid_figures import draw_grid, draw_policy, new_grids
 from neorl.classics.walks import expected_squared_displacement
-from neorl.figures import AGENT, CURVES, GREEN, INK, RED, name_ends
+from neorl.figures import AGENT, CURVES, GREEN, INK, RED, add_estimates, name_ends
 from neorl.statistics import mean_band
 
 
@@ -135,15 +135,9 @@ def draw_estimates(xs, estimates_by_name, xlabel, ylabel, logarithmic=False):
     """Values with their 95 % intervals against a number: {name: [Estimate for each of xs]}."""
     axes = plt.figure().add_subplot()
     axes.set_xscale("symlog" if logarithmic and min(xs) == 0 else "log" if logarithmic else "linear")
-    ends = []
-    for (name, estimates), colour in zip(estimates_by_name.items(), CURVES):
-        value, low, high = np.array(estimates).T
-        axes.plot(xs, value, color=colour, linewidth=1.2, marker="o", markersize=5)
-        axes.vlines(xs, low, high, color=colour, linewidth=1.8)
-        ends.append((value[-1], name, colour))
     axes.set(xlabel=xlabel, ylabel=ylabel, xticks=xs, xticklabels=[f"{x:g}" for x in xs])
     axes.minorticks_off()
-    name_ends(axes, ends)
+    add_estimates(axes, xs, estimates_by_name, linewidth=1.2)
 
 
 def draw_load(pace, seconds):

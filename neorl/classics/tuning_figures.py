@@ -5,9 +5,8 @@ from matplotlib import pyplot as plt
 from matplotlib.patches import Arc, Rectangle
 
 from neorl import figures
-from neorl.classics.psychology_figures import name_ends_of_low_panel
 from neorl.classics.tuning import egocentric
-from neorl.figures import AGENT, CURVES, GREEN, INK, RED
+from neorl.figures import AGENT, CURVES, GREEN, INK, LOW_PANEL, RED
 
 
 def draw_frames(point, heading, distance, bearing):
@@ -73,8 +72,8 @@ def draw_landmark(seconds, places, heading, landmark, allocentric, seen):
             axes.plot(seconds, component, color=colour)
         axes.set_title(title, fontsize=11, loc="left")
         axes.set_xlim(0, seconds[-1])
-        name_ends_of_low_panel(axes, [(component[-1], name, colour)
-                                      for component, name, colour in zip(vectors.T, names, CURVES)])
+        ends = [(component[-1], name, colour) for component, name, colour in zip(vectors.T, names, CURVES)]
+        figures.name_ends(axes, ends, line=LOW_PANEL)
     outer.tick_params(labelbottom=False)
     inner.set_xlabel("seconds")
 
