@@ -165,7 +165,8 @@ OBJECTS = (
 
 NETWORKS = (
     Pin("gain of place cells, paper C", ("network_gain",), "1:1 weight ratio between ξPC and ξOVC",
-        "paper C, section 3", "1. A drawing of network D on the author's site has 5.", lambda reading: reading.network_gain == 1),
+        "paper C, section 3", "1. A drawing of network D on the author's site has 5.",
+        lambda reading: reading.network_gain == 1),
     Pin("desire vector", ("vectors",), "represents the vector sum", "paper C, section 1",
         "Q-vectors add up as they are, with the sign of each element's valence.",
         lambda reading: reading.vectors == "signed"),
