@@ -21,8 +21,8 @@ ROW = 0.2  # inches
 def draw_specification(readings, judged, name, choices=WITHIN):
     """The specification curve of a claim: its number under every reading in order of size, and the choices below.
 
-    readings: [Reading, …]. judged: {name: `Claim`} for each of them. choices: what they vary. Where a number is not finite, or off the middle
-    95 % of them, it stands at the edge.
+    readings: [Reading, …]. judged: {name: `Claim`} for each of them. choices: what is shown of them, as `design` takes
+    it. Where a number is not finite, or off the middle 95 % of them, it stands at the edge.
     """
     claims = [each[name] for each in judged]
     here = np.array([claim.here for claim in claims])
@@ -94,7 +94,10 @@ def draw_standing(record, names):
 
 
 def draw_importance(importance, choices=WITHIN):
-    """Which choices matter for which claim: {name of the claim: {name of the choice: importance}}, areas of discs."""
+    """Which choices matter for which claim: {name of the claim: {name of the choice: importance}}, areas of discs.
+
+    choices: what was varied, as `design` takes it.
+    """
     width, _ = plt.rcParams["figure.figsize"]
     figure, axes = plt.subplots(figsize=(width, ROW * 1.25 * len(choices) + 0.5))
     keys = list(choices)

@@ -3,8 +3,8 @@
 1. Each choice has a prior of its own, a distribution or levels that are equally likely, stated before any result.
 2. Within the text (`WITHIN`), what `neorl.text` pins has one value and is not varied, and what is open is varied widely.
 3. Beyond the text (`BEYOND`), what is pinned varies as well, together with all else.
-4. The reading to the letter takes what the text pins. Where more than one value is left, it takes the form that a
-   sentence or an equation prints, and otherwise the plainest, which stands first among the levels, or the middle of the
+4. The reading to the letter takes what the text pins. Where more than one value is left, it takes the one that a
+   sentence or an equation prints, or else the plainest, which stands first among the levels, or else the middle of the
    prior. `neorl.text` says which and why.
 """
 
@@ -41,13 +41,14 @@ class LogUniform:
         if share < self.zero:
             return 0.0
         share = (share - self.zero) / (1 - self.zero)
-        return MEASURES[self.measure][1](self.low * (self.high / self.low) ** share)
+        return float(MEASURES[self.measure][1](self.low * (self.high / self.low) ** share))
 
     def cdf(self, value):
         """The share that lies below a number; 0 for what lies at 0 beside."""
         if self.zero and value == 0:
             return 0.0
-        share = math.log(MEASURES[self.measure][0](value) / self.low) / math.log(self.high / self.low)
+        measure = MEASURES[self.measure][0](value)
+        share = math.log(measure / self.low) / math.log(self.high / self.low)
         return self.zero + (1 - self.zero) * min(max(share, 0.0), 1.0)
 
     def support(self):
@@ -91,7 +92,9 @@ class Choice(NamedTuple):
             return "yes" if value else "no"
         if isinstance(value, tuple):
             return f"{{{', '.join(map(str, value))}}}"
-        return value if isinstance(value, str) else f"{value:.3g}".replace("-", "−")
+        if isinstance(value, str):
+            return value
+        return (f"{value:.3g}" if abs(value) < 999.5 else f"{value:,.0f}").replace("-", "−")
 
     def at(self, share):
         """The value below which a share in [0, 1) of the prior lies."""

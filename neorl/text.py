@@ -78,15 +78,16 @@ POLICY_AND_MAPS = (
         "[N, S, E, W].", "paper A, WaterWorld",
         "The no-op is no action of the agent, and equal values are a tie. The draw among them is uniform: “Learning "
         "can be regarded as inserting bias into this stochastic process” (section 4.1.1). With ε = 0 the agent would "
-        "otherwise rest where it starts for good, and no event would occur to learn from.",
+        "otherwise rest where it starts for good, and no event would occur to learn from. The author's later code does "
+        "nothing while values add up to zero.",
         lambda reading: reading.idle == "random"),
     Pin("range of place cells", ("coverage",), "Each axis is divided into N = 5 equal intervals", "paper B, figure 3",
         "Maps of places cut the whole board into equal cells; so do figure 2 and Results of paper A.",
         lambda reading: reading.coverage == 1),
     Pin("weight of a map", ("weighting",), "the contribution of each learner is inversely proportional to the size of "
         "its receptive field", "paper A, Experiments",
-        "Weights grow with the resolution N (size is a width, the plainest, since the text orders receptive fields by "
-        "it) or with N² (size is an area); equal weights are excluded. Paper B takes this over.",
+        "Weights are proportional to the resolution N if a size is a width, the plainest, or to N² if it is an area; "
+        "equal weights are excluded. Paper B takes this over.",
         lambda reading: reading.weighting in ("resolution", "cells")),
     Pin("elements in the agent's own cell", ("own_cell",), "the set of NRES cells occupied by an element of interest",
         "paper A, equation 4; section 4.1.2, equation 4.4", "Every cell that holds an element counts, the agent's own "
@@ -110,13 +111,13 @@ LEARNING = (
     Pin("credit of events that did not occur", ("absence",), "zero occurrences would affect learning negatively "
         "according the result of ψ(0)", "section 4.1.3, at equation 4.7", "ψ(0) < 0; its size is open.",
         lambda reading: reading.absence > 0 and reading.credit != "step"),
-    Pin("form of that", ("absence_form",), "increasing the inference value for events that happened and decreasing the "
+    Pin("form of ψ(0)", ("absence_form",), "increasing the inference value for events that happened and decreasing the "
         "value otherwise", "section 4.1.3, at equation 4.8",
         "Equation 4.8 with a negative rate moves a value away from its target, which is the plainest; a value that "
         "decays towards zero decreases, too."),
     Pin("memory", ("memory", "credit"), "assigning credit to events after each transition s⁻ → s⁺ as a leaky "
         "integrator", "section 4.1.3",
-        "Something leaks: what led here through earlier cells is remembered, or how active an event was, or both. "
+        "Either the cells left earlier are remembered with their events, or how active an event was, or both. "
         "Section 4.4 has “an update rule based on the persistence school and memory traces”. How long is open; the "
         "plainest remembers cells.",
         lambda reading: (reading.memory > 0 or reading.credit == "activity") and reading.credit != "step"),
@@ -124,10 +125,10 @@ LEARNING = (
         "Memory fades with each transition, the plainest, or with time."),
     Pin("value in memory", ("memory_value",), "inferences are updated according to how active the corresponding event "
         "was before state transition", "section 4.4",
-        "Earlier cells learn at a faded rate, and towards 1, which is the plainest, or towards less the further back."),
+        "Earlier cells learn at a faded rate: towards 1, which is the plainest, or towards γ^k if left k cells ago."),
     Pin("time constant of activity", ("activity",), "how active the corresponding event was before state transition",
-        "section 4.4", "Activity may be a leaky integrator of an event's own, apart from its count in the cell; its "
-        "time constant is open, and half a second the middle of its prior."),
+        "section 4.4", "How active an event was may be a leaky integrator, and not its count in the cell. The time "
+        "constant is open."),
     Pin("learning rate, α", ("learning_rate",), "is a ‘learning factor’", "section 4.1.3, equation 4.6",
         "No value is given."),
     Pin("discount, γ", ("discount",), "is the scalar discounting factor", "section 3.1, equation 3.2",
@@ -146,17 +147,17 @@ OBJECTS = (
         "interpretation by vector subtraction", "paper B, section 3",
         "Differences of places lie between −1 and 1 board width. Whether N intervals divide all of that, the plainest, "
         "or less, and what lies beyond belongs to the outermost, is open."),
-    Pin("what object-vector cells learn from", ("causes",), "the learning agent should look for the cause of the "
+    Pin("transitions of object vectors", ("causes",), "the learning agent should look for the cause of the "
         "transition rather than delving into one’s own actions", "section 4.1.2",
-        "Every change of a thing's cell is a transition, and teaches, which is the plainest; or it teaches only if the "
-        "agent's motion is its cause."),
+        "Each change of an object's cell is a transition to learn from, which is the plainest, or only one that the "
+        "agent's own motion is a cause of."),
     Pin("capture", ("capture",), "When the agent encounters an object, it is replaced by a new object",
         "paper B, section 3",
         "To encounter an object is to be where it is, so the plainest is an arrival at o − s = 0; or its vector leaps "
         "to the new object's, which is learned like any change of cell; or neither is learned."),
-    Pin("objects learned from", ("attention",), "OVC is centered on the self with an allocentric representation of "
-        "other objects", "paper B, figure 4", "Each object has a vector, and the plainest learns from each; one at a "
-        "time, the nearest or the nearest green one, is possible."),
+    Pin("objects with a vector", ("attention",), "OVC is centered on the self with an allocentric representation of "
+        "other objects", "paper B, figure 4", "Each object has a vector to learn from, which is the plainest, or one "
+        "at a time: the nearest, or the nearest green one."),
     Pin("gain of place cells, paper B", ("place_gain",), "behavior can later be harvested as a weighted sum over the "
         "OVF’s according to priorities", "paper B, section 2.2",
         "Priorities of modalities are not given, and the plainest is 1 : 1, as in paper C. The author's later code has "
@@ -165,7 +166,7 @@ OBJECTS = (
 
 NETWORKS = (
     Pin("gain of place cells, paper C", ("network_gain",), "1:1 weight ratio between ξPC and ξOVC",
-        "paper C, section 3", "1. A drawing of network D on the author's site has 5.",
+        "paper C, section 3", "A gain of 1. A drawing of network D on the author's site has 5.",
         lambda reading: reading.network_gain == 1),
     Pin("desire vector", ("vectors",), "represents the vector sum", "paper C, section 1",
         "Q-vectors add up as they are, with the sign of each element's valence.",
@@ -174,7 +175,7 @@ NETWORKS = (
         "At d itself, seen from the agent: a scale of 1. The unit of length is ours, the width of the board.",
         lambda reading: reading.scale == 1),
     Pin("recursion, r", ("recursion",), "experiment [d] only explores a unitary feedback loop r = −1.0",
-        "paper C, section 3", "−1.", lambda reading: reading.recursion == -1),
+        "paper C, section 3", "A weight of −1.", lambda reading: reading.recursion == -1),
     Pin("resolutions, paper C", ("network_resolutions",), "The individual neoRL sub-nodes ξ³, ξ⁷, ξ²³ are trained by "
         "latent learning", "paper C, section 1",
         "The experiments name none. The paper shows nodes of N3, N7 and N23, the plainest; paper B has primes up to "
