@@ -1,7 +1,7 @@
 """What is plausible beforehand, for every choice of a reading: one space within the text, and one beyond it.
 
 1. Each choice has a prior of its own, a distribution or levels that are equally likely, stated before any result.
-2. Within the text (`WITHIN`), what `neorl.text` pins has one value and is not varied, and what is open is varied widely.
+2. Within the text (`WITHIN`), what `neorl.text` pins has one value and is not varied; what is open is varied widely.
 3. Beyond the text (`BEYOND`), what is pinned varies as well, together with all else.
 4. The reading to the letter takes what the text pins. Where more than one value is left, it takes the one that a
    sentence or an equation prints, or else the plainest, which stands first among the levels, or else the middle of the
