@@ -186,8 +186,10 @@ def judge(results):
         judged += claims.judge_single_layer(by["single"], by["brownian"][8])
     if complete("layers"):
         judged += claims.judge_multiple_layers(by["layer"], results["layers"], by["brownian"][8])
+    if complete("modal"):
+        judged += claims.judge_modalities(by["place"]["all"], by["objects"]["all"], results["both"], by["brownian"][3])
     if complete("modal", "resolutions"):
-        judged += claims.judge_modalities(by["place"], by["objects"], results["both"], by["brownian"][3])
+        judged += [claims.judge_resolutions(by["place"], by["objects"], by["brownian"][3])]
     if complete("pace"):
         judged += [claims.judge_pace(**by["pace"], brownian=by["brownian"][3])]
     if complete("networks"):

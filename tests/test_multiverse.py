@@ -194,13 +194,13 @@ def results():
 
 def test_a_reading_is_judged_on_all_claims_that_readings_matter_for(results):
     judged = judge(results)
-    assert list(judged) == ["A1", "A2", "A3", "A4", "A5", "A6", "A7", "A8", "B1", "B2", "B3", "B6", "B4", "C1", "C2",
+    assert list(judged) == ["A1", "A2", "A3", "A4", "A5", "A6", "A7", "A8", "B1", "B3", "B6", "B2", "B4", "C1", "C2",
                             "C3", "C4", "T1", "T6"]
     assert judged["B4"].outcome == "not testable"  # in runs of minutes
 
 
 @pytest.mark.parametrize("groups, names", [
-    (["single"], {"A1", "A2", "A3", "A4", "A5"}), (["layers"], {"A6", "A7", "A8"}), (["modal"], set()),
+    (["single"], {"A1", "A2", "A3", "A4", "A5"}), (["layers"], {"A6", "A7", "A8"}), (["modal"], {"B1", "B3", "B6"}), (["resolutions"], set()),
     (["modal", "resolutions"], {"B1", "B2", "B3", "B6"}), (["networks", "revaluing"], {"C1", "C2", "C3", "C4", "T1"}),
     (["pace"], {"B4"})])
 def test_some_groups_suffice_for_some_claims(results, groups, names):
