@@ -12,6 +12,7 @@ from neorl.figures import CURVES, INK, name_ends
 MARKERS = "osD^vP*"  # of readings, one for each colour
 ROW = 0.62  # inches
 ROOM = 0.06  # of the height of a panel, beyond the levels that are marked
+REACH = 0.5  # of the range of the numbers, beyond which intervals are cut off
 SMALL = 9  # points
 
 
@@ -19,7 +20,8 @@ def draw_against_thesis(thesis, readings, xlabel=""):
     """Numbers of the thesis, each with what was found instead: a row for each, with dots and 95 % intervals.
 
     thesis: {label: number}, all in one unit, that of `xlabel`. readings: {name: {label: Estimate}}, with the same
-    labels, at most 7; an estimate without bounds (NaN) is a dot alone. Returns the axes.
+    labels, at most 7; an estimate without bounds (NaN) is a dot alone. An interval that reaches far beyond all numbers
+    leaves the picture. Returns the axes.
     Raises ValueError for no labels, for labels that differ, and for more readings.
     """
     if not thesis:
@@ -44,6 +46,10 @@ def draw_against_thesis(thesis, readings, xlabel=""):
         axes.plot(value, rows + shift, color=colour, linestyle="none", marker=marker, markersize=6, label=name)
         axes.hlines(rows + shift, low, high, color=colour)
     axes.set(yticks=rows, yticklabels=thesis, ylim=(len(rows) - 0.5, -0.75), xlabel=xlabel)
+    values = [*numbers, *(estimate.value for found in readings.values() for estimate in found.values())]
+    low, high = sorted(axes.get_xlim())
+    reach = REACH * (max(values) - min(values)) or np.inf
+    axes.set_xlim(max(low, min(values) - reach), min(high, max(values) + reach))
     if readings:
         axes.legend(frameon=False, ncols=len(readings), loc="lower center", bbox_to_anchor=(0.5, 1), borderpad=0.2)
     return axes

@@ -34,6 +34,12 @@ def test_what_was_found_lies_within_its_row_the_first_row_on_top():
     assert bottom > top
 
 
+def test_an_interval_without_end_does_not_push_the_numbers_together():
+    wild = {"calibrated": {"place cells": Estimate(0.3, -90, 90), "both": Estimate(0.5, 0.4, 0.6)}}
+    assert draw_against_thesis(THESIS, wild).get_xlim() == pytest.approx((0.16, 0.68))
+    assert draw_against_thesis({"resets": 1.0}, {"here": {"resets": Estimate(1.0, 0.5, 2.0)}}).get_xlim()[1] > 2
+
+
 def test_readings_differ_in_more_than_colour():
     markers = [line.get_marker() for line in draw_against_thesis(THESIS, FOUND).lines]
     assert len(set(markers)) == len(markers)
