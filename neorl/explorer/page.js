@@ -9,6 +9,7 @@ const THRUST_EVERY = 90; // milliseconds; a held key pushes one step at a time, 
 const KEYS = { ArrowUp: [0, 0, -1], ArrowDown: [1, 0, 1], ArrowRight: [2, 1, 0], ArrowLeft: [3, -1, 0] };
 const NEW_RUN = ["preset", "resolutions", "modality", "n_creeps", "seed", "run"];
 const ALLOWED = "Resolutions are whole numbers from 1 to 90, such as 3, 5, 7.";
+const STOPPED = "The simulation has stopped. Reset begins it again.";
 const HINT = "Click a cell: how to get there. Double-click: drop an element of interest. Drag the creeps.";
 
 const slide = (name, label, least, most, step) => `<label class="slide"><span>${label}</span><input type="range"
@@ -52,7 +53,14 @@ const isList = (value, test) => Array.isArray(value) && value.length > 0 && valu
 const inOrder = (numbers) => [...new Set(numbers)].sort((a, b) => a - b);
 const shifted = ({ x, y }, dx, dy, by) => ({ x: clampedToBoard(x + by * dx), y: clampedToBoard(y + by * dy) });
 const indexOf = (element) => [...element.parentElement.children].indexOf(element);
-const nameOf = ({ node, resolution }) => `${node} N${resolution}`;
+
+/** An error that the reader can mend, as a sentence. The words of all others are kept from the page. */
+class Refusal extends Error {}
+
+/** All that the page holds of one run: another run has another of these, and nothing of it. */
+const newLife = (given = {}) => ({ frame: null, world: { fps: 1 }, length: { steps: 1, bin: 1 }, changed: false,
+  advancing: false, owed: 0, counted: 0, rate: 0, cursor: null, game: null, held: null, slid: false, dragged: null,
+  tapped: null, ...given });
 
 /** Makes or removes children until there are as many as wanted. */
 function grow(parent, count, markupOf) {
