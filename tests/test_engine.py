@@ -6,7 +6,8 @@ import json
 import numpy as np
 import pytest
 
-from neorl import Explorer, NresMap, Run, WaterWorld, network_d, onlooker, place_cells, simulate
+from neorl import Explorer, Learning, NresMap, Run, WaterWorld, network_d, onlooker, place_cells, simulate
+from neorl.explorer import _plan
 from neorl.horde import as_vectors
 from neorl.plan import Memory
 
@@ -94,6 +95,46 @@ def test_a_frame_tells_what_the_run_holds(ask):
     values = np.zeros((81, 4))
     onlooker.survey(run.plan, run.memory, elsewhere, state._replace(agent_position=np.zeros(2)), 9, values)
     assert np.array(frame["field"]).reshape(-1, 2) == pytest.approx(as_vectors(values), rel=1e-6)
+
+
+RULES = [
+    Learning(memory=30.0),
+    Learning(memory=2.0, memory_unit="seconds", memory_value="discounted", bootstrap=False),
+    Learning(memory=0.5, absence=0.1, absence_form="away", credit="activity"),
+    Learning(memory=5.0, causes="own", capture="leap", attention="wanted", credit="count"),
+]
+
+
+def learned(run, m, goal):
+    """As the engine gives it: east minus west and south minus north in each cell, in float32."""
+    return as_vectors(run.q(m)[:, :, goal].astype(float)).astype(np.float32).tolist()
+
+
+@pytest.mark.parametrize("rule", RULES, ids=str)
+def test_what_is_learned_with_a_memory_is_what_python_learns_to_the_last_bit(ask, rule):
+    agent, goal = network_d([4, 5], learning=rule), 9
+    frame = ask(advance(STEPS), {"type": "look", "map": "OVC N5", "goal": goal}, plan=_plan(agent, TANK))[-1]
+    run = Run(agent, TANK, SEED, K)
+    assert frame["reward"] == run.advance(STEPS)
+    assert np.reshape(frame["seen"]["ways"], (-1, 2)).tolist() == learned(run, 3, goal)
+    assert np.count_nonzero(frame["seen"]["ways"]) > 20
+
+
+@pytest.mark.parametrize("later", [
+    network_d([4, 5], learning=Learning(memory=100.0, discount=0.95)),
+    network_d([5, 7], learning=Learning(memory=3.0)),
+    network_d([4, 5], learning=Learning()),
+])
+def test_a_memory_that_changes_on_the_way_goes_on_as_in_python(ask, later):
+    agent, goal = network_d([4, 5], learning=Learning(memory=30.0)), 9
+    frame = ask(advance(STEPS), {"type": "change", "plan": _plan(later, TANK)}, advance(STEPS),
+                {"type": "look", "map": "PC N5", "goal": goal}, plan=_plan(agent, TANK))[-1]
+    run = Run(agent, TANK, SEED, K)
+    reward = run.advance(STEPS)
+    run.change(later)
+    assert frame["reward"] == reward + run.advance(STEPS)
+    m = [f"{node.name} N{n}" for node in later.nodes for n in node.resolutions].index("PC N5")
+    assert np.reshape(frame["seen"]["ways"], (-1, 2)).tolist() == learned(run, m, goal)
 
 
 def test_a_second_agent_does_what_it_is_told_on_the_same_creeps(ask):

@@ -42,8 +42,9 @@ def test_conditions_come_first_and_set_tank_seed_and_traits(conditions):
 
 def test_each_trait_changes_its_field_of_the_agent():
     explorer = Explorer(preset="Network D", learning_rate=0.2, discount=0.5, recursion=0.5, valence_red=-2.0,
-                        gains=[0.5, 2.0], n_creeps=4, resolutions=[3, 6])
-    agent = network_d([3, 6], recursion=0.5, place_gain=0.5, object_gain=2.0, learning=Learning(0.2, 0.5))
+                        gains=[0.5, 2.0], n_creeps=4, resolutions=[3, 6], memory=20.0)
+    agent = network_d([3, 6], recursion=0.5, place_gain=0.5, object_gain=2.0,
+                      learning=Learning(0.2, 0.5, memory=20.0))
     desires = [replace(each, valence=-2.0) if each.source == "red" else each for each in agent.desires]
     assert explorer.agent == replace(agent, desires=desires)
     assert explorer.world == WaterWorld(n_creeps=4)
@@ -78,6 +79,7 @@ def test_the_state_is_json_and_a_second_widget_brings_its_own(conditions):
     ("valence_red", float("nan"), "valence_red is nan, allowed are finite numbers"),
     ("recursion", float("inf"), "recursion is inf, allowed are finite numbers"),
     ("resolutions", [], "resolutions"), ("resolutions", [91], "91"), ("n_creeps", 0, "n_creeps"), ("seed", -1, "seed"),
+    ("memory", -1, "memory"), ("memory", float("inf"), "memory is inf, allowed are finite numbers"),
     ("discount", 1.5, "discount"), ("learning_rate", -0.1, "learning_rate"), ("speed", -1, "speed"),
 ])
 def test_a_bad_trait_is_refused_and_the_old_one_stays(trait, value, allowed):
@@ -123,6 +125,18 @@ def test_an_agent_of_other_ways_keeps_them():
     explorer.modality = "border cell"
     explorer.modality = "place cell"
     assert explorer.agent == agent
+
+
+@pytest.mark.parametrize("rule", [Learning(trace=3), Learning(driver="step")])
+def test_an_agent_with_a_trace_or_that_learns_at_every_step_takes_no_memory(rule):
+    result = simulate(place_cells([3], learning=rule), TANK, steps=10, runs=1, progress=False)
+    explorer = Explorer({"X": result})
+    assert explorer.agent.learning == rule
+    with pytest.raises(TraitError, match="memory is 3.0, allowed is 0 for an agent with a trace or one that learns"):
+        explorer.memory = 3.0
+    explorer.preset = "Place cells"
+    explorer.memory = 3.0
+    assert explorer.agent.learning.memory == 3.0
 
 
 def test_a_modality_of_ones_own_has_no_name_in_the_menu():

@@ -98,7 +98,8 @@ def test_a_run_opened_by_its_number_ends_with_the_score_that_python_has(open_pag
     ("recursion", 0.7, lambda agent: replace(agent, desires=[
         replace(each, valence=0.7) if each.source == each.target else each for each in agent.desires])),
     ("gain-1", 3.0, lambda agent: replace(agent, nodes=[agent.nodes[0], replace(agent.nodes[1], gain=3.0)])),
-    ("discount", 0.5, lambda agent: replace(agent, learning=replace(agent.learning, discount=0.5))),
+    ("horizon", 0.3, lambda agent: replace(agent, learning=replace(agent.learning, discount=0.5))),
+    ("memory", 1.48, lambda agent: replace(agent, learning=replace(agent.learning, memory=30.0))),
 ])
 def test_a_slider_changes_the_run_as_python_changes_the_agent(open_page, site, conditions, name, value, change):
     page = open_page(*site("D"))
@@ -107,6 +108,25 @@ def test_a_slider_changes_the_run_as_python_changes_the_agent(open_page, site, c
     score = play_to_the_end(page)
     assert score == lived(change(network_d([3, 4])))
     assert score != conditions["D"].totals[0]
+
+
+def test_no_memory_stands_at_the_left_end_of_its_slider(open_page, site, conditions):
+    page = open_page(*site("D", memory=1000.0))
+    explorer_of(page)
+    assert page.locator('[name="memory"]').input_value() == "3"
+    set_slider(page, "memory", -1)
+    assert play_to_the_end(page) == conditions["D"].totals[0]
+    assert explorer_of(page).get_attribute("data-condition") == "D"
+
+
+def test_the_horizon_of_a_preset_stands_on_its_slider(open_page, site):
+    page = open_page(*site("D", discount=0.8))
+    explorer_of(page)
+    horizon = page.locator('[name="horizon"]')
+    assert (horizon.input_value(), horizon.locator("+ output").text_content()) == ("0.7", "5")
+    set_slider(page, "horizon", 1)
+    set_slider(page, "horizon", 0.7)
+    assert explorer_of(page).get_attribute("data-condition") == "D"
 
 
 def test_creeps_resolutions_modality_and_seed_begin_the_run_that_python_begins(open_page, site):

@@ -47,8 +47,9 @@ class Explorer(AnyWidget):
 
     Traits: resolutions (1 … 90 each), modality (the name of one, with the ranges of the preset if it is that of the
     preset; "" if the preset has more than one node or a modality of its own), recursion (None if there is none),
-    valence_red, gains (one a node), learning_rate and discount (0 … 1), n_creeps (1 … 20), seed (below 2³²), run, speed
-    (times real time, 0 for as fast as it goes), playing.
+    valence_red, gains (one a node), learning_rate and discount (0 … 1), memory (≥ 0, in the unit of the preset; 0 if it
+    has a trace or learns at every step), n_creeps (1 … 20), seed (below 2³²), run, speed (times real time, 0 for as
+    fast as it goes), playing.
     Choosing a preset sets those that it determines. An agent that is no condition lives in the tank of the first
     condition, or else in one of 3 creeps. seconds and score follow the run, about once a second.
 
@@ -72,6 +73,7 @@ class Explorer(AnyWidget):
     gains = traitlets.List(traitlets.Float()).tag(sync=True)
     learning_rate = traitlets.Float(min=0, max=1).tag(sync=True)
     discount = traitlets.Float(min=0, max=1).tag(sync=True)
+    memory = traitlets.Float(min=0).tag(sync=True)
     n_creeps = traitlets.Int(min=1, max=20).tag(sync=True)
     seed = traitlets.Int(min=0, max=2**32 - 1).tag(sync=True)
     run = traitlets.Int(min=0, max=2**32 - 1).tag(sync=True)
@@ -108,7 +110,8 @@ class Explorer(AnyWidget):
         desires = [replace(each, valence=self.valence_red) if each.source == "red" else
                    replace(each, valence=self.recursion) if each.source == each.target else each
                    for each in preset.desires]
-        learning = replace(preset.learning, learning_rate=self.learning_rate, discount=self.discount)
+        learning = replace(preset.learning, learning_rate=self.learning_rate, discount=self.discount,
+                           memory=self.memory)
         return replace(preset, nodes=nodes, desires=desires, learning=learning)
 
     @property
@@ -117,7 +120,7 @@ class Explorer(AnyWidget):
         _, tank = self._lives[self.preset]
         return replace(tank, n_creeps=self.n_creeps)
 
-    @traitlets.validate("preset", "modality", "recursion", "valence_red", "gains")
+    @traitlets.validate("preset", "modality", "recursion", "valence_red", "gains", "memory")
     def _check(self, proposal):
         name, value = proposal["trait"].name, proposal["value"]
         try:
@@ -128,6 +131,9 @@ class Explorer(AnyWidget):
             nodes = len(self._lives[self.preset][0].nodes)
             if name == "gains" and len(value) != nodes:
                 raise ValueError(f"gains is {value!r}, allowed is one for each of the {nodes} nodes")
+            if name == "memory" and value and not self._presets[self.preset]["can_remember"]:
+                raise ValueError(f"memory is {value!r}, allowed is 0 for an agent with a trace or one that learns at "
+                                 "every step")
             for number in value if name == "gains" else () if value is None else (value,):
                 checks.real(name, number)
             return value
@@ -156,7 +162,7 @@ def _check_condition(name, result):
 def _settings(preset):
     """The traits that a preset determines."""
     return {name: preset[name] for name in ("resolutions", "modality", "recursion", "valence_red", "gains",
-                                            "learning_rate", "discount", "n_creeps")}
+                                            "learning_rate", "discount", "memory", "n_creeps")}
 
 
 def _preset(name, agent, world, result):
@@ -167,12 +173,15 @@ def _preset(name, agent, world, result):
     names = [node.name for node in agent.nodes]
     steps = result.steps if result else STEPS
     modality = agent.nodes[0].modality
+    learning = agent.learning
     return {
         "label": name, "group": "On this page" if result else "Agents", "nodes": names,
         "resolutions": list(agent.nodes[0].resolutions),
         "modality": _named(modality) if len(names) == 1 else "",
-        "gains": [node.gain for node in agent.nodes], "learning_rate": agent.learning.learning_rate,
-        "discount": agent.learning.discount, "valence_red": plan["valence"][red[0]] if red else 0.0,
+        "gains": [node.gain for node in agent.nodes], "learning_rate": learning.learning_rate,
+        "discount": learning.discount, "memory": learning.memory,
+        "can_remember": learning.driver == "cell" and learning.trace == 1,
+        "valence_red": plan["valence"][red[0]] if red else 0.0,
         "recursion": plan["valence"][recurring[0]] if recurring else None, "n_creeps": world.n_creeps,
         "world": {"fps": world.fps, "rules": world.rules._asdict()}, "steps": steps, "red": red, "recurring": recurring,
         "seed": result.seed if result else 0, "runs": result.runs if result else 0,

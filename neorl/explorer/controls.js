@@ -35,7 +35,9 @@ class Controls {
     const act = { resolutions: () => this.writeResolutions(target), "open-preset": () => this.limitRun(),
       preset: () => this.write(initialSettings(this.presets, value)),
       modality: () => this.write({ modality: value }), speed: () => this.write({ speed: SPEEDS[value] }),
-      learning_rate: () => this.write({ learning_rate: Number((10 ** value).toPrecision(2)) }), "open-run": () => null,
+      learning_rate: () => this.write({ learning_rate: power(value) }), "open-run": () => null,
+      horizon: () => this.write({ discount: 1 - 1 / power(value) }),
+      memory: () => this.write({ memory: Number(value) === NO_MEMORY ? 0 : power(value) }),
       map: () => this.look({ map: value, goal: null }), field: () => this.look({ field: this.fieldTiles() }),
       "element-valence": () => this.changeElement(this.selected, { valence: Number(value) }) }[name];
     if (act) return act();
@@ -140,7 +142,7 @@ class Controls {
 
   showControls() {
     const { model } = this;
-    const { nodes, recursion } = this.presets[model.get("preset")];
+    const { nodes, recursion, can_remember, plan } = this.presets[model.get("preset")];
     for (const name of ["modality", "seed", "run"]) this.control(name).value = model.get(name);
     this.control("modality").disabled = this.control("modality").parentElement.hidden = nodes.length > 1;
     this.control("recursion").disabled = this.control("recursion").parentElement.hidden = recursion === null;
@@ -149,10 +151,14 @@ class Controls {
     for (const chip of this.part(".chips").children) {
       chip.ariaPressed = model.get("resolutions").includes(Number(chip.dataset.chip));
     }
-    const sliders = ["recursion", "valence_red", "discount", "n_creeps"];
+    this.control("memory").disabled = this.control("memory").parentElement.hidden = !can_remember;
+    this.control("memory").previousElementSibling.textContent = `Memory, ${plan.memory_by_time ? "seconds" : "cells"}`;
+    const sliders = ["recursion", "valence_red", "n_creeps"];
     for (const name of sliders) this.showSlider(name, model.get(name) ?? 0);
-    const rate = model.get("learning_rate");
+    const [rate, horizon, memory] = [model.get("learning_rate"), 1 / (1 - model.get("discount")), model.get("memory")];
     this.showSlider("learning_rate", Math.log10(rate || 0.001), shown(rate));
+    this.showSlider("horizon", Math.log10(horizon), horizon === Infinity ? "∞" : shown(horizon));
+    this.showSlider("memory", memory ? Math.log10(memory) : NO_MEMORY, shown(memory));
     grow(this.part(".gains"), nodes.length, (index) => slide(`gain-${index}`, "", 0, 5, 0.1));
     nodes.forEach((node, index) => {
       this.control(`gain-${index}`).parentElement.firstChild.textContent = `Gain of ${node}`;
