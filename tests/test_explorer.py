@@ -13,6 +13,8 @@ import neorl
 from neorl import (Agent, Desire, Explorer, Learning, Node, Policy, WaterWorld, modality, multimodal, network_d,
                    object_vector_cells, place_cells, simulate)
 from neorl.explorer import AGENTS, CURVE_BINS
+from neorl.priors import TO_THE_LETTER as LETTER
+from neorl.reading import Reading, networks
 
 TANK = WaterWorld(n_creeps=8, win_reward=5.0)
 SIZE = {"steps": 12_345, "runs": 12, "seed": 5, "progress": False}
@@ -27,8 +29,25 @@ def conditions():
 @pytest.mark.parametrize("name", AGENTS)
 def test_the_traits_of_a_preset_describe_its_agent(name):
     explorer = Explorer(preset=name)
-    assert explorer.agent == AGENTS[name]()
+    assert explorer.agent == AGENTS[name]
     assert explorer.world == WaterWorld()
+
+
+def test_the_menu_has_the_agents_of_both_readings():
+    calibrated, letter = network_d(), networks(LETTER)["D"]
+    assert AGENTS["Network D"] == calibrated == networks(Reading())["D"]
+    assert AGENTS["Network D, to the letter"] == letter != calibrated
+    groups = [(each["group"], name) for name, each in Explorer()._presets.items()]
+    assert [group for group, _ in groups] == 7 * ["Calibrated"] + 4 * ["To the letter"]
+    assert all(name.endswith(", to the letter") == (group == "To the letter") for group, name in groups)
+
+
+def test_agents_to_the_letter_live_at_its_pace_in_the_tank_of_the_page():
+    slow = simulate(place_cells([3]), WaterWorld(n_creeps=2, fps=25), steps=10, runs=1, progress=False)
+    explorer = Explorer({"slow": slow}, preset="Network D, to the letter")
+    assert explorer.world == WaterWorld(n_creeps=2, fps=LETTER.fps, contact=LETTER.contact)
+    explorer.preset = "Network D"
+    assert explorer.world == slow.world
 
 
 def test_conditions_come_first_and_set_tank_seed_and_traits(conditions):

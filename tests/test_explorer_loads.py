@@ -62,7 +62,7 @@ def explorer(open_page, tmp_path):
 
 
 def wait(page, state):
-    page.wait_for_function("state => document.querySelector('.neorl-explorer').dataset.state === state", arg=state)
+    page.wait_for_function("state => document.querySelector('.neorl-explorer')?.dataset.state === state", arg=state)
 
 
 def test_clicks_at_random_while_agents_are_loaded_do_no_harm(explorer):
@@ -93,7 +93,7 @@ def test_what_was_asked_of_the_run_before_is_not_answered(explorer):
         root = explorer.locator(".neorl-explorer")
         assert [root.get_attribute(f"data-{name}") for name in ("step", "score", "goal")] == ["0", "0", ""]
         expect(explorer.locator('[name="map"] option').first).to_have_text(
-            re.compile("^" + AGENTS[second]().nodes[0].name))
+            re.compile("^" + AGENTS[second].nodes[0].name))
 
 
 def test_reset_revives_from_maps_that_are_too_large(explorer):

@@ -285,6 +285,17 @@ def test_every_control_has_a_name_for_those_who_hear_the_page(open_page, site):
     assert unnamed == []
 
 
+def test_every_number_of_a_slider_has_room_on_a_phone(open_page, site):
+    phone = {"viewport": {"width": 400, "height": 900}}
+    page = open_page(*site("Network D, to the letter", memory=0.123, discount=0.99), **phone)
+    explorer_of(page)
+    page.evaluate("document.body.style.width = 'auto'")
+    page.locator("summary").click()
+    crowded = page.evaluate("""[...document.querySelectorAll(".neorl-explorer output")].filter(
+        (each) => each.scrollWidth > each.clientWidth).map((each) => each.textContent)""")
+    assert crowded == [] and page.evaluate("document.documentElement.scrollWidth") == 400
+
+
 def spoilt(**changes):
     def change(record):
         record["state"] |= changes

@@ -20,13 +20,22 @@ from neorl import checks, papers, wasm
 from neorl.agent import Agent, Node
 from neorl.modality import MODALITIES
 from neorl.plan import RED, chosen
+from neorl.priors import TO_THE_LETTER as LETTER
+from neorl.reading import networks
 from neorl.simulation import Result, bin_steps
 from neorl.statistics import tolerance_band
 from neorl.waterworld import WaterWorld
 
-AGENTS = {"Place cells": papers.place_cells, "Object-vector cells": papers.object_vector_cells,
-          "Place and object-vector cells": papers.multimodal, "Network A": papers.network_a,
-          "Network B": papers.network_b, "Network C": papers.network_c, "Network D": papers.network_d}
+CALIBRATED = {  # the defaults of the package
+    "Place cells": papers.place_cells(), "Object-vector cells": papers.object_vector_cells(),
+    "Place and object-vector cells": papers.multimodal(), "Network A": papers.network_a(),
+    "Network B": papers.network_b(), "Network C": papers.network_c(), "Network D": papers.network_d()}
+TO_THE_LETTER = {
+    "Place cells, to the letter": papers.place_cells(**LETTER.place_agents),
+    "Object-vector cells, to the letter": papers.object_vector_cells(**LETTER.agents),
+    "Place and object-vector cells, to the letter": papers.multimodal(place_gain=LETTER.place_gain, **LETTER.agents),
+    "Network D, to the letter": networks(LETTER)["D"]}
+AGENTS = CALIBRATED | TO_THE_LETTER
 STEPS = 300_000  # of a run, where the page has no condition
 CURVE_BINS = 50
 MODALITY_FIELDS = ("vector", "tuning", "low", "high", "first_landmark", "landmark")  # of a plan
@@ -51,7 +60,8 @@ class Explorer(AnyWidget):
     has a trace or learns at every step), n_creeps (1 … 20), seed (below 2³²), run, speed (times real time, 0 for as
     fast as it goes), playing.
     Choosing a preset sets those that it determines. An agent that is no condition lives in the tank of the first
-    condition, or else in one of 3 creeps. seconds and score follow the run, about once a second.
+    condition, or else in one of 3 creeps; one to the letter at the letter's steps a second, and with its contacts.
+    seconds and score follow the run, about once a second.
 
     Raises ValueError for a condition that cannot be shown, TraitError for a bad trait, RuntimeError if the WebAssembly
     module cannot be built.
@@ -88,8 +98,10 @@ class Explorer(AnyWidget):
             _check_condition(name, result)
         first = next(iter(conditions.values()), None)
         tank = first.world if first else WaterWorld()
-        self._lives = {name: (result.agent, result.world) for name, result in conditions.items()}
-        self._lives |= {name: (make(), tank) for name, make in AGENTS.items() if name not in conditions}
+        as_printed = replace(tank, fps=LETTER.fps, contact=LETTER.contact)
+        agents = {name: (agent, as_printed if name in TO_THE_LETTER else tank) for name, agent in AGENTS.items()}
+        own = {name: (result.agent, result.world) for name, result in conditions.items()}
+        self._lives = own | agents | own  # a condition stands before an agent, and for one of its name
         presets = {name: _preset(name, agent, world, conditions.get(name)) | {"place": place}
                    for place, (name, (agent, world)) in enumerate(self._lives.items())}
         preset = checks.one_of("preset", preset or next(iter(presets)), tuple(presets))
@@ -175,7 +187,8 @@ def _preset(name, agent, world, result):
     modality = agent.nodes[0].modality
     learning = agent.learning
     return {
-        "label": name, "group": "On this page" if result else "Agents", "nodes": names,
+        "label": name, "nodes": names,
+        "group": "On this page" if result else "To the letter" if name in TO_THE_LETTER else "Calibrated",
         "resolutions": list(agent.nodes[0].resolutions),
         "modality": _named(modality) if len(names) == 1 else "",
         "gains": [node.gain for node in agent.nodes], "learning_rate": learning.learning_rate,
