@@ -146,7 +146,7 @@ def test_an_agent_of_other_ways_keeps_them():
     assert explorer.agent == agent
 
 
-@pytest.mark.parametrize("rule", [Learning(trace=3), Learning(driver="step")])
+@pytest.mark.parametrize("rule", [Learning(trace=3, memory=0.0), Learning(driver="step")])
 def test_an_agent_with_a_trace_or_that_learns_at_every_step_takes_no_memory(rule):
     result = simulate(place_cells([3], learning=rule), TANK, steps=10, runs=1, progress=False)
     explorer = Explorer({"X": result})

@@ -7,20 +7,22 @@ import pytest
 from explorer_page import write_page
 from playwright.sync_api import expect
 
-from neorl import Desire, Explorer, Place, Run, WaterWorld, multimodal, network_d, place_cells, simulate
+from neorl import Desire, Explorer, Learning, Place, Run, WaterWorld, multimodal, network_d, place_cells, simulate
 from neorl.modality import OBJECT_VECTOR_CELL
 
 SIZE = {"steps": 30_000, "runs": 12, "seed": 3, "progress": False}
 TANK = WaterWorld()
 BOTH, PLACES = multimodal([2, 3, 5]), place_cells([5, 3])
+NETWORK = network_d([3, 4], learning=Learning(discount=0.8, memory=0.0))
+TURNED = network_d([3, 4], recursion=0.5, learning=NETWORK.learning)
 
 
 @pytest.fixture(scope="module")
 def conditions():
     return {"both": simulate(BOTH, TANK, **SIZE), "places": simulate(PLACES, TANK, **SIZE),
             "joins": simulate(PLACES, TANK, changes=[(10_000, multimodal([5, 3]))], **SIZE),
-            "D": simulate(network_d([3, 4]), TANK, **SIZE),
-            "turned": simulate(network_d([3, 4]), TANK, changes=[(10_000, network_d([3, 4], recursion=0.5))], **SIZE)}
+            "D": simulate(NETWORK, TANK, **SIZE),
+            "turned": simulate(NETWORK, TANK, changes=[(10_000, TURNED)], **SIZE)}
 
 
 @pytest.fixture
@@ -106,7 +108,7 @@ def test_a_slider_changes_the_run_as_python_changes_the_agent(open_page, site, c
     explorer_of(page)
     set_slider(page, name, value)
     score = play_to_the_end(page)
-    assert score == lived(change(network_d([3, 4])))
+    assert score == lived(change(NETWORK))
     assert score != conditions["D"].totals[0]
 
 
@@ -155,7 +157,7 @@ def test_the_modality_of_a_preset_stands_in_the_menu_and_comes_back_with_its_ran
     assert explorer_of(page).get_attribute("data-condition") == "places"
 
 
-@pytest.mark.parametrize("name, agent", [("both", BOTH), ("D", network_d([3, 4]))])
+@pytest.mark.parametrize("name, agent", [("both", BOTH), ("D", NETWORK)])
 def test_what_is_dropped_is_an_element_of_interest_for_the_nodes_that_count(open_page, site, name, agent):
     page = open_page(*site(name))
     explorer_of(page)
