@@ -27,7 +27,10 @@ def main():
         write_table(rows, chosen.table)
         print(f"{(time.monotonic() - begin) / 60:.1f} minutes: {summary(rows)}", flush=True)
 
-    calibration.calibrate(chosen.minutes, table, seed=chosen.seed, runs=chosen.runs, steps=chosen.steps, keep=keep)
+    table = calibration.calibrate(chosen.minutes, table, seed=chosen.seed, runs=chosen.runs, steps=chosen.steps,
+                                  keep=keep)
+    if chosen.confirm:
+        keep(calibration.confirm(table, chosen.confirm, chosen.fresh_runs, seed=chosen.seed))
 
 
 def parse_arguments():
@@ -35,6 +38,8 @@ def parse_arguments():
     parser.add_argument("--minutes", type=float, default=45, help="how long (default 45)")
     parser.add_argument("--runs", type=int, default=calibration.RUNS, help=f"runs a condition ({calibration.RUNS})")
     parser.add_argument("--steps", type=int, default=calibration.STEPS, help=f"steps a run ({calibration.STEPS})")
+    parser.add_argument("--confirm", type=int, default=12, help="readings run again at the end, the nearest (12)")
+    parser.add_argument("--fresh-runs", type=int, default=20, help="runs a condition of these (20)")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--table", type=Path, default=TABLE, help="the file (by default that of the package)")
     parser.add_argument("--anew", action="store_true", help="begin a new table in place of the one that is there")

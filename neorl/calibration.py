@@ -16,8 +16,10 @@ rather than one that climbs to what fits best:
 4. *Waves.* What was run teaches the next emulator, and so on until time is up. Each wave runs its candidates in the
    cheapest group, and of all readings so far those that look best in the next one, fewer from group to group.
 
-Every reading has a seed of its own, so no luck of one tank is shared by all. A search that looks at thousands of noisy
-numbers finds lucky ones: what it finds counts only after it has been run again with fresh seeds.
+5. *Confirmation.* A search that looks at thousands of noisy numbers finds lucky ones. So the nearest readings are run
+   again, with fresh seeds and more runs, and what they come to then is what counts.
+
+Every row has a seed of its own, so no luck of one tank is shared by all.
 """
 
 import time
@@ -65,6 +67,20 @@ def calibrate(minutes, table=(), executor=None, seed=0, runs=RUNS, steps=STEPS, 
         if keep:
             keep([row for row in table if row.statistics])
     return [row for row in table if row.statistics]
+
+
+def confirm(table, n, runs, executor=None, seed=0):
+    """The table with the n nearest of its complete readings run again, with fresh seeds and so many runs.
+
+    seed: as in `calibrate`. Raises ValueError for a bad argument, and if no row is complete.
+    """
+    begin, wave = len(table), 1 + max((row.wave for row in table), default=0)
+    nearest = calibration_table.nearest(table)[: checks.integer("n", n, at_least=1)]
+    again = [Row(wave, 1_000 * seed + begin + i, checks.integer("runs", runs, at_least=2), row.steps, row.reading)
+             for i, row in enumerate(nearest)]
+    for group in GROUPS:
+        again = calibration_table.run(again, group, executor)
+    return [*table, *again]
 
 
 def _work(table, seed, runs, steps):

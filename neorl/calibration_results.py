@@ -13,6 +13,7 @@ from scipy import stats
 
 from neorl import checks
 from neorl.calibration import Emulator, reading_at
+from neorl.calibration_table import nearest
 from neorl.calibration_targets import CLAIMS, TARGETS, distance
 from neorl.priors import WITHIN
 
@@ -40,12 +41,12 @@ def accepted(table):
 
     Raises ValueError if no row is complete.
     """
-    complete = sorted(_complete(table), key=lambda row: row.distance)
+    complete = nearest(table)
     agreeing = [row for row in complete if row.distance == 0]
     if agreeing:
         return agreeing, f"the {len(agreeing)} readings that agree with all targets"
-    nearest = complete[:NEAREST]
-    return nearest, f"the {len(nearest)} readings nearest to the targets; none of {len(complete)} agrees with all"
+    near = complete[:NEAREST]
+    return near, f"the {len(near)} readings nearest to the targets; none of {len(complete)} agrees with all"
 
 
 def posterior(table, draws=DRAWS, seed=0):
@@ -132,7 +133,7 @@ def claims_together(table):
     rows, both = tested.T @ tested, held.T @ held
     alone = held.T @ tested  # rows with both measured in which the first holds
     expected = np.divide(alone * alone.T, rows, out=np.zeros(rows.shape), where=rows > 0)
-    found = [row.held for row in _complete(table)]
+    found = [row.held for row in nearest(table)]
     largest = [each for each in set(found) if not any(each < other for other in found)]
     sets = [(tuple(sorted(each)), sum(each <= other for other in found)) for each in largest]
     sets.sort(key=lambda entry: (-len(entry[0]), -entry[1], entry[0]))
@@ -140,18 +141,23 @@ def claims_together(table):
 
 
 def best(table):
-    """The complete row with the smallest distance to all targets. Raises ValueError if there is none."""
-    return min(_complete(table), key=lambda row: row.distance)
+    """The row nearest to all targets, of those that were run most often, which are the confirmed ones.
+
+    Raises ValueError if no row is complete.
+    """
+    complete = nearest(table)
+    most = max(row.runs for row in complete)
+    return next(row for row in complete if row.runs == most)
 
 
 def giving(table):
     """What it would help to give a claim up: {claim: (smallest distance to the targets of the others, its Row)}."""
-    found = {}
+    complete, found = nearest(table), {}
     for claim in CLAIMS:
         def without(row, claim=claim):
             return distance({name: each for name, each in row.statistics.items() if TARGETS[name].claim != claim})
-        nearest = min(_complete(table), key=without)
-        found[claim] = without(nearest), nearest
+        near = min(complete, key=without)
+        found[claim] = without(near), near
     return found
 
 
@@ -162,10 +168,3 @@ def progress(table):
         least = min([least, *(row.distance for row in table if row.wave == wave and row.complete)])
         found[wave] = least
     return found
-
-
-def _complete(table):
-    complete = [row for row in table if row.complete]
-    if not complete:
-        raise ValueError(f"table has {len(table)} rows, none of them with all groups measured")
-    return complete

@@ -102,6 +102,20 @@ def rerun(table, n, seed=0, groups=tuple(GROUPS), executor=None):
     return list(zip(kept, again))
 
 
+def nearest(table):
+    """The complete rows by their distance, the nearest first; of rows with the same reading the one with most runs.
+
+    Raises ValueError if no row is complete.
+    """
+    by_reading = {}
+    for row in table:
+        if row.complete and (row.reading not in by_reading or by_reading[row.reading].runs < row.runs):
+            by_reading[row.reading] = row
+    if not by_reading:
+        raise ValueError(f"table has {len(table)} rows, none of them with all groups measured")
+    return sorted(by_reading.values(), key=lambda row: row.distance)
+
+
 def write_table(table, path):
     """Write rows to a file of comma-separated values, one line each after a line of names."""
     content = io.StringIO()

@@ -188,6 +188,19 @@ def test_waves_close_in_on_the_readings_that_agree(small):
     assert sum(row.complete and row.distance == 0 for row in table) > 10
 
 
+def test_the_nearest_are_confirmed_with_fresh_seeds_and_more_runs(small):
+    table = calibration.calibrate(0.3)
+    confirmed = calibration.confirm(table, 5, 20)
+    assert confirmed[: len(table)] == table
+    near = calibration_table.nearest(table)[:5]
+    assert [row.reading for row in confirmed[-5:]] == [row.reading for row in near]
+    assert {row.runs for row in confirmed[-5:]} == {20} and all(row.complete for row in confirmed[-5:])
+    assert not {row.seed for row in confirmed[-5:]} & {row.seed for row in table}
+    assert {row.wave for row in confirmed[-5:]} == {1 + max(row.wave for row in table)}
+    with pytest.raises(ValueError, match="table has 0 rows"):
+        calibration.confirm([], 5, 20)
+
+
 def test_a_search_goes_on_from_a_table(small):
     short = calibration.calibrate(0.05)
     longer = calibration.calibrate(0.2, table=short)

@@ -84,12 +84,21 @@ def test_the_accepted_rows_agree_with_all_targets_or_are_the_nearest():
     found, rule = calibration_results.accepted(table)
     assert "nearest" in rule and len(found) == len(table)
     assert [row.distance for row in found] == sorted(row.distance for row in table)
-    table += [replace(table[0], statistics=statistics(CLAIMS))]
+    table += [replace(table[0], runs=9, statistics=statistics(CLAIMS))]
     found, rule = calibration_results.accepted(table)
     assert found == table[-1:] and "agree with all" in rule
     assert calibration_results.best(table) == table[-1]
     with pytest.raises(ValueError, match="none of them with all groups"):
         calibration_results.best([replace(table[0], statistics={})])
+
+
+def test_the_best_is_a_confirmed_row_and_a_reading_counts_as_it_was_confirmed():
+    lucky, honest = rows(CLAIMS, {"A6"})
+    assert calibration_results.best([lucky, honest]) == lucky
+    confirmed = replace(lucky, seed=9, runs=20, statistics=statistics({"A7"}))
+    assert calibration_results.best([lucky, honest, confirmed]) == confirmed
+    assert calibration_table.nearest([lucky, confirmed, honest]) == sorted([confirmed, honest],
+                                                                           key=lambda row: row.distance)
 
 
 def test_claims_that_exclude_each_other_are_found():
