@@ -83,6 +83,11 @@ def lives(row, executor=None, progress=False):
     return dict(zip(wanted, sweep(list(wanted.values()), executor, progress)))
 
 
+def measured(row, life):
+    """The row with the statistics of all groups, of what `lives` gave."""
+    return replace(row, statistics={name: each for group in GROUPS for name, each in measure(group, life).items()})
+
+
 def rerun(table, n, seed=0, groups=tuple(GROUPS), executor=None):
     """Compute n rows of a table again: [(row as it stands, row as it comes out), …], which should be equal.
 
