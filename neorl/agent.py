@@ -15,7 +15,13 @@ from neorl.modality import Modality
 from neorl.nres import NresMap
 
 DRIVERS = ("cell", "step")
-CREDITS = ("share", "happened", "last")
+CREDITS = ("share", "happened", "last", "count", "activity")
+ABSENCE_FORMS = ("decay", "away")
+MEMORY_UNITS = ("cells", "seconds")
+MEMORY_VALUES = ("reached", "discounted")
+CAUSES = ("any", "own")
+CAPTURES = ("contact", "leap", "silent")
+ATTENTIONS = ("each", "nearest", "wanted")
 WEIGHTINGS = ("equal", "resolution", "cells")
 IDLE = ("random", "no-op")
 COLOURS = ("green", "red")
@@ -27,14 +33,29 @@ class Learning:
 
     learning_rate: α in [0, 1]. discount: γ in [0, 1] for each update.
     driver: what makes an update. "cell": a change of cell, inference inversion (eq. 4.7, 4.8); "step": every step,
-        temporal difference (eq. 4.6), to which the fields below do not apply.
+        temporal difference (eq. 4.6), to which no field below but `terminal` applies.
     credit: ψ of an event in the cell just left. "share": the share of the steps there on which it occurred;
-        "happened": 1 if it occurred at all; "last": 1 for the last event only.
-    absence: −ψ(0) in [0, 1]: events that did not occur sink towards zero at the rate α · absence.
+        "happened": 1 if it occurred at all; "count": the number of steps on which it occurred, α ψ being 1 at most;
+        "activity": how active it was at the end, see `activity`; "last": 1 for the last event only.
+    activity: seconds > 0, the time constant of the leaky integrator of the credit "activity". It is 1 for an event
+        that has occurred on every step for long; below 0.01 it counts as 0 (section 4.4).
+    absence: −ψ(0) in [0, 1]: the values of events that did not occur sink at the rate α · absence.
+    absence_form: towards zero, "decay", or "away" from the target as eq. 4.8 has it with a negative rate; values then
+        stay within 0 and the highest that there can be.
     terminal: a goal reached is worth 1; otherwise 1 plus the discounted value of reaching it again.
     trace: how many of the cells left most recently learn that the cell now entered is where they led to, the k-th
-        before the last at γ^k times its rate (a leaky integrator). 1 is the cell just left alone.
+        before the last at γ^k times its rate. 1 is the cell just left alone.
+    memory: a leaky integrator over all cells left, ≥ 0. They all learn that the cell now entered is where they led to,
+        at rates that fade by memory / (1 + memory) at each change of cell, so that it is the mean number of earlier
+        cells remembered. 0 is none. It takes the place of a trace.
+    memory_unit: "cells", or "seconds": `memory` is a time constant, and rates fade with each step.
+    memory_value: what the goal is worth to a cell left k cells ago: 1, "reached", or γ^k, "discounted".
     bootstrap: the cell just left also learns about all other goals from the cell entered (the γ max Q of eq. 4.8).
+    causes: of changes of cell that things as seen from the agent learn from. "any", or "own": those that would have
+        occurred had the thing stood still.
+    capture: what the capture of a thing is to them: "contact", arrival at distance 0; "leap", a change to the cell of
+        the fresh thing like any other; "silent", nothing. They begin anew with the fresh thing, but for a leap.
+    attention: which things they follow: "each", the "nearest", or the one "wanted", the nearest green one.
 
     Raises ValueError for anything else.
     """
@@ -43,22 +64,45 @@ class Learning:
     discount: float = 0.8
     driver: str = "cell"
     credit: str = "share"
+    activity: float = 0.5
     absence: float = 0.0
+    absence_form: str = "decay"
     terminal: bool = True
     trace: int = 1
+    memory: float = 0.0
+    memory_unit: str = "cells"
+    memory_value: str = "reached"
     bootstrap: bool = True
+    causes: str = "any"
+    capture: str = "contact"
+    attention: str = "each"
 
     def __post_init__(self):
         checks.real("learning_rate", self.learning_rate, 0, 1)
         checks.real("discount", self.discount, 0, 1)
         checks.one_of("driver", self.driver, DRIVERS)
         checks.one_of("credit", self.credit, CREDITS)
+        checks.real("activity", self.activity, 0)
         checks.real("absence", self.absence, 0, 1)
+        checks.one_of("absence_form", self.absence_form, ABSENCE_FORMS)
         checks.flag("terminal", self.terminal)
         checks.integer("trace", self.trace, at_least=1)
+        checks.real("memory", self.memory, 0)
+        checks.one_of("memory_unit", self.memory_unit, MEMORY_UNITS)
+        checks.one_of("memory_value", self.memory_value, MEMORY_VALUES)
         checks.flag("bootstrap", self.bootstrap)
-        if self.driver == "step" and (self.trace, self.bootstrap, self.credit, self.absence) != (1, True, "share", 0):
-            raise ValueError("driver is 'step', allowed with it are the defaults of credit, absence, trace, bootstrap")
+        checks.one_of("causes", self.causes, CAUSES)
+        checks.one_of("capture", self.capture, CAPTURES)
+        checks.one_of("attention", self.attention, ATTENTIONS)
+        if self.driver == "step" and any(getattr(self, name) != value for name, value in AT_EVERY_STEP.items()):
+            raise ValueError(f"driver is 'step', allowed with it are the defaults of {', '.join(AT_EVERY_STEP)}")
+        if self.memory > 0 and self.trace > 1:
+            raise ValueError(f"trace is {self.trace}, allowed with memory, here {self.memory}, is 1")
+
+
+# What temporal difference leaves no choice of.
+AT_EVERY_STEP = {"credit": "share", "absence": 0.0, "trace": 1, "memory": 0.0, "bootstrap": True, "causes": "any",
+                 "capture": "contact", "attention": "each"}
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,7 @@ from neorl.kernel import kernel
 N_EVENTS = 4  # N, S, E, W; the no-op is no event
 OWN_CELL = ("silent", "counts")  # an element in the agent's own cell
 ZERO, UNIT, SMALLEST = np.float32(0.0), np.float32(1.0), np.float32(1e-30)
+UNBOUNDED = np.float32(np.inf)
 
 
 def learn(q, cell_tm1, cell_t, credit, learning_rate=0.03, discount=0.8, terminal=True):
@@ -39,8 +40,8 @@ def learn(q, cell_tm1, cell_t, credit, learning_rate=0.03, discount=0.8, termina
         raise ValueError(f"credit has {len(credit)} values, allowed are {N_EVENTS}")
     rates = np.float32(checks.real("learning_rate", learning_rate, 0, 1)) * credit
     discount = np.float32(checks.real("discount", discount, 0, 1))
-    learn_all_goals(q.reshape(-1), 0, cells, np.tile([0, cells], (cells, 1)), cell_tm1, cell_t, rates, ZERO, discount,
-                    checks.flag("terminal", terminal), np.empty(cells, np.float32))
+    learn_all_goals(q.reshape(-1), 0, cells, np.tile([0, cells], (cells, 1)), cell_tm1, cell_t, rates, ZERO, False,
+                    discount, checks.flag("terminal", terminal), np.empty(cells, np.float32))
 
 
 def superpose(q, cell, goals, valences, own_cell="silent"):
@@ -77,12 +78,13 @@ def _check_q(q):
 
 
 @kernel
-def learn_all_goals(q, first, cells, known, cell_tm1, cell_t, rates, decay, discount, terminal, target):
+def learn_all_goals(q, first, cells, known, cell_tm1, cell_t, rates, decay, away, discount, terminal, target):
     """One update of every goal of the map that begins at q[first]; `target` is working memory for a value a goal.
 
     known: int64 (cells, 2), the goals from … to − 1 of which a cell may know anything. All others are zero there and
     remain so, which spares fine maps most of the work.
-    rates: α ψ for each event. decay: the rate at which an event that did not occur sinks towards zero.
+    rates: α ψ for each event. decay: the rate −α ψ(0) at which the values of an event that did not occur sink: towards
+    zero or, if `away`, away from the target.
     """
     begin = min(min(known[cell_tm1, 0], known[cell_t, 0]), cell_t)
     end = max(max(known[cell_tm1, 1], known[cell_t, 1]), cell_t + 1)
@@ -96,13 +98,16 @@ def learn_all_goals(q, first, cells, known, cell_tm1, cell_t, rates, decay, disc
         horizontal = east[goal] if east[goal] > west[goal] else west[goal]
         target[goal] = discount * (vertical if vertical > horizontal else horizontal)
     target[cell_t - begin] = UNIT if terminal else UNIT + target[cell_t - begin]
+    highest = UNIT if terminal else UNIT / (UNIT - discount)
     for event in range(N_EVENTS):
         row = first + (cell_tm1 * N_EVENTS + event) * cells + begin
         value = q[row : row + count]
-        rate = rates[event]
-        if rate > ZERO:
+        occurred = rates[event] > ZERO
+        if occurred or away and decay > ZERO:
+            rate, bound = (rates[event], UNBOUNDED) if occurred else (-decay, highest)
             for goal in range(count):
                 new = value[goal] + rate * (target[goal] - value[goal])
+                new = new if new < bound else bound
                 value[goal] = new if new > SMALLEST else ZERO
         elif decay > ZERO:
             for goal in range(count):
@@ -111,13 +116,26 @@ def learn_all_goals(q, first, cells, known, cell_tm1, cell_t, rates, decay, disc
 
 
 @kernel
-def learn_one_goal(q, first, cells, known, cell_tm1, goal, rates, fading):
-    """Move one goal's value of each event in a cell towards 1, at `rates` times `fading`."""
+def learn_one_goal(q, first, cells, known, cell_tm1, goal, rates, decay, away, fading):
+    """Move one goal's value of each event in a cell towards 1, at `rates` times `fading`, or let it sink at `decay`."""
     known[cell_tm1, 0] = min(known[cell_tm1, 0], goal)
     known[cell_tm1, 1] = max(known[cell_tm1, 1], goal + 1)
     for event in range(N_EVENTS):
         index = first + (cell_tm1 * N_EVENTS + event) * cells + goal
-        q[index] += fading * rates[event] * (UNIT - q[index])
+        if rates[event] > ZERO:
+            q[index] += fading * rates[event] * (UNIT - q[index])
+        elif decay > ZERO:
+            q[index] = sunk(q[index], fading * decay, UNIT, away, UNIT)
+
+
+@kernel
+def sunk(value, rate, target, away, highest):
+    """The value of an event that did not occur: nearer to zero, or away from its target but within 0 … `highest`."""
+    if away:
+        value = min(value - rate * (target - value), highest)
+    else:
+        value -= rate * value
+    return value if value > SMALLEST else ZERO
 
 
 @kernel

@@ -6,20 +6,27 @@
 4. A creep that is touched has met the agent: its tracks learn that, then follow the fresh creep as if it had always
    been there. After the last green creep the tank starts afresh. Neither leap is a transition to learn from.
 5. At rest, or at distance 0, a track keeps the direction that it had.
+6. What a capture is, which changes of cell a thing's tracks learn from and which things have any are choices of
+   `neorl.agent.Learning`; a track that does not learn follows its point all the same.
 """
 
 import numpy as np
 
+from neorl.agent import ATTENTIONS, CAPTURES, CREDITS, DRIVERS
 from neorl.horde import N_EVENTS, UNIT, ZERO, learn_all_goals, learn_one_goal
 from neorl.kernel import array, inlined_kernel, kernel
 from neorl.modality import OBJECTS
-from neorl.network import cell_of, contact_cell, evaluate, point_coordinates, without_direction
+from neorl.network import cell_of, contact_cell, evaluate, place_coordinates, point_coordinates, without_direction
 from neorl.plan import Memory, Plan
 from neorl.stream import below, uniform
+from neorl.traces import CUT, fade, join, learn_remembered
 from neorl.waterworld import NO_OP, Rules, WaterWorldState, reset_board, step_board
 
-DRIVER_STEP = 1
-CREDIT_HAPPENED, CREDIT_LAST = 1, 2
+DRIVER_STEP = DRIVERS.index("step")
+_, CREDIT_HAPPENED, CREDIT_LAST, CREDIT_COUNT, CREDIT_ACTIVITY = range(len(CREDITS))
+CONTACT, LEAP = map(CAPTURES.index, ("contact", "leap"))
+EACH, WANTED = map(ATTENTIONS.index, ("each", "wanted"))
+INACTIVE = np.float32(0.01)
 
 
 @kernel
@@ -36,9 +43,14 @@ def live(plan: Plan, memory: Memory, rules: Rules, state: WaterWorldState, conta
         for track in range(memory.cell.shape[0]):
             memory.events[track, action] += 1
         memory.last_event[0] = action
+        if plan.credit == CREDIT_ACTIVITY:
+            for event in range(N_EVENTS):
+                memory.activity[event] *= plan.activity
+                memory.activity[event] += UNIT - plan.activity if event == action else ZERO
         reward, done = step_board(state, rules, action, contacts)
         for n in range(plan.points.shape[0]):
             perceive(plan, memory, state, contacts, n)
+        attend(plan, memory, state)
         total += reward
         interval = step // bin_steps
         rewards[interval] += np.float32(reward)
@@ -57,6 +69,9 @@ def settle(plan: Plan, memory: Memory, state: WaterWorldState) -> None:
     for n in range(plan.points.shape[0]):
         for point in range(plan.points[n]):
             settle_point(plan, memory, state, n, point)
+    for event in range(N_EVENTS):
+        memory.activity[event] = ZERO
+    attend(plan, memory, state)
     for e in range(plan.source.shape[0]):
         memory.worth[e] = 0.0
         for action in range(N_EVENTS):
@@ -67,14 +82,17 @@ def settle(plan: Plan, memory: Memory, state: WaterWorldState) -> None:
 def settle_point(plan, memory, state, n, point):
     u, v = point_coordinates(plan, state, n, point)
     for m in range(plan.first_map[n], plan.first_map[n + 1]):
-        appear(memory, plan.first_track[m] + point, cell_of(plan, m, u, v))
+        appear(plan, memory, m, point, cell_of(plan, m, u, v))
 
 
 @inlined_kernel
-def appear(memory, track, cell):
-    """Begin a track in a cell."""
+def appear(plan, memory, m, point, cell):
+    """Begin the track of a point in a cell."""
+    track = plan.first_track[m] + point
     enter(memory, track, cell)
     memory.trace_count[track] = 0
+    if plan.memory_fade > ZERO:
+        fade_memory(plan, memory, m, point, ZERO)
 
 
 @inlined_kernel
@@ -82,6 +100,41 @@ def enter(memory, track, cell):
     memory.cell[track] = cell
     for event in range(N_EVENTS + 1):
         memory.events[track, event] = 0
+
+
+@inlined_kernel
+def traces_of(plan, m, point):
+    """Where what the track of a point remembers begins and ends."""
+    begin = plan.first_trace[m] + point * plan.cells[m]
+    return begin, begin + plan.cells[m]
+
+
+@inlined_kernel
+def fade_memory(plan, memory, m, point, factor):
+    track = plan.first_track[m] + point
+    begin, end = traces_of(plan, m, point)
+    memory.remembered_count[track] = fade(
+        memory.remembered[begin:end], memory.remembered_count[track], memory.strength[begin:end],
+        memory.trace_weight[begin:end], memory.trace_worth[begin:end], factor,
+        plan.discount if plan.memory_discounts else UNIT)
+
+
+@inlined_kernel
+def attend(plan, memory, state):
+    """See where the things are, and which of them is to be learned about."""
+    if plan.own_causes:
+        for thing in range(memory.seen.shape[0]):
+            memory.seen[thing, 0] = state.creep_position[thing, 0]
+            memory.seen[thing, 1] = state.creep_position[thing, 1]
+    if plan.attention != EACH:
+        nearest = np.inf
+        for thing in range(memory.seen.shape[0]):
+            dx = state.creep_position[thing, 0] - state.agent_position[0]
+            dy = state.creep_position[thing, 1] - state.agent_position[1]
+            distance = dx * dx + dy * dy
+            if distance < nearest and (plan.attention != WANTED or state.creep_is_green[thing]):
+                nearest = distance
+                memory.attended[0] = thing
 
 
 @inlined_kernel
@@ -108,38 +161,89 @@ def choose(plan, memory, state):
 @inlined_kernel
 def perceive(plan, memory, state, contacts, n):
     """Let every map of a node find its active cells, and learn if there is reason to."""
+    things = plan.vector[n] == OBJECTS
     for point in range(plan.points[n]):
-        met = plan.vector[n] == OBJECTS and contacts[point] != 0
+        met = things and contacts[point] != 0
+        attended = not things or plan.attention == EACH or memory.attended[0] == point
         u, v = point_coordinates(plan, state, n, point)
         for m in range(plan.first_map[n], plan.first_map[n + 1]):
             track = plan.first_track[m] + point
             cell_tm1, cell = memory.cell[track], cell_of(plan, m, u, v)
-            cell_t = contact_cell(plan, m, cell_tm1) if met or without_direction(plan, m, u) else cell
-            if cell_t != cell_tm1 or plan.driver == DRIVER_STEP:
-                learn_transition(plan, memory, m, track, cell_tm1, cell_t)
+            arrives = met and plan.capture == CONTACT
+            cell_t = contact_cell(plan, m, cell_tm1) if arrives or without_direction(plan, m, u) else cell
+            ends = not attended or met and plan.capture != LEAP
+            if attended and (arrives or not ends) and (cell_t != cell_tm1 or plan.driver == DRIVER_STEP):
+                caused = arrives or not (things and plan.own_causes) or moved_alone(plan, memory, state, n, m, point)
+                learn_transition(plan, memory, m, point, cell_tm1, cell_t, caused)
                 enter(memory, track, cell_t)
-            if met:
-                appear(memory, track, cell)
+            if ends:
+                appear(plan, memory, m, point, cell)
 
 
 @inlined_kernel
-def learn_transition(plan, memory, m, track, cell_tm1, cell_t):
+def moved_alone(plan, memory, state, n, m, point):
+    """Whether a thing's cell would have changed had the thing stood still in this step."""
+    u, v = place_coordinates(plan, n, (memory.seen[point, 0] - state.agent_position[0]) / plan.width,
+                             (memory.seen[point, 1] - state.agent_position[1]) / plan.width)
+    return cell_of(plan, m, u, v) != memory.cell[plan.first_track[m] + point]
+
+
+@inlined_kernel
+def learn_transition(plan, memory, m, point, cell_tm1, cell_t, caused):
+    """Learn from a change of cell; one that the agent has not caused only lets what is remembered fade."""
+    track = plan.first_track[m] + point
     cells = plan.cells[m]
     known = memory.known[plan.first_cell[m] : plan.first_cell[m] + cells]
+    decay = plan.learning_rate * plan.absence
+    begin, end = traces_of(plan, m, point)
+    if plan.memory_fade > ZERO:
+        fade_memory(plan, memory, m, point, faded(plan, memory, track))
+    if not caused:
+        return
     slot = memory.trace_count[track] % plan.trace
     memory.trace_cell[track, slot] = cell_tm1
     rate_events(plan, memory, track, memory.trace_rates[track, slot])
     memory.trace_count[track] += 1
     if plan.bootstrap:
         learn_all_goals(memory.q, plan.first[m], cells, known, cell_tm1, cell_t, memory.trace_rates[track, slot],
-                        plan.learning_rate * plan.absence, plan.discount, plan.terminal, memory.target)
+                        decay, plan.away, plan.discount, plan.terminal, memory.target)
+    if plan.memory_fade > ZERO:
+        if plan.bootstrap:  # the cell just left has learned already
+            learn_from_memory(plan, memory, m, track, begin, end, cell_t)
+        memory.remembered_count[track] = join(
+            memory.remembered[begin:end], memory.remembered_count[track], memory.strength[begin:end],
+            memory.trace_weight[begin:end], memory.trace_worth[begin:end], cell_tm1, memory.trace_rates[track, slot],
+            decay)
+        if not plan.bootstrap:
+            learn_from_memory(plan, memory, m, track, begin, end, cell_t)
+        return
     fading = UNIT
     for back in range(min(memory.trace_count[track], plan.trace)):
         if back > 0 or not plan.bootstrap:
             slot = (memory.trace_count[track] - 1 - back) % plan.trace
             learn_one_goal(memory.q, plan.first[m], cells, known, memory.trace_cell[track, slot], cell_t,
-                           memory.trace_rates[track, slot], fading)
+                           memory.trace_rates[track, slot], decay, plan.away, fading)
         fading *= plan.discount
+
+
+@inlined_kernel
+def learn_from_memory(plan, memory, m, track, begin, end, goal):
+    learn_remembered(memory.q, plan.first[m], plan.cells[m], memory.known[plan.first_cell[m] : plan.first_cell[m + 1]],
+                     memory.remembered[begin:end], memory.remembered_count[track], memory.trace_weight[begin:end],
+                     memory.trace_worth[begin:end], goal, plan.away)
+
+
+@inlined_kernel
+def faded(plan, memory, track):
+    """By which factor what is remembered fades while a track leaves its cell."""
+    factor = plan.memory_fade
+    if plan.memory_by_time:
+        steps = 0
+        for event in range(N_EVENTS + 1):
+            steps += memory.events[track, event]
+        for _ in range(steps - 1):
+            factor = factor * plan.memory_fade if factor > CUT else ZERO
+    return factor
 
 
 @inlined_kernel
@@ -155,4 +259,8 @@ def rate_events(plan, memory, track, rates):
             credit = UNIT if count > 0 else ZERO
         elif plan.credit == CREDIT_LAST:
             credit = UNIT if event == memory.last_event[0] else ZERO
-        rates[event] = plan.learning_rate * credit
+        elif plan.credit == CREDIT_COUNT:
+            credit = np.float32(count)
+        elif plan.credit == CREDIT_ACTIVITY:
+            credit = memory.activity[event] if memory.activity[event] >= INACTIVE else ZERO
+        rates[event] = min(plan.learning_rate * credit, UNIT)

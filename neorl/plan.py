@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl.agent import COLOURS, CREDITS, DRIVERS, WEIGHTINGS, Place
+from neorl.agent import ATTENTIONS, CAPTURES, COLOURS, CREDITS, DRIVERS, WEIGHTINGS, Place
 from neorl.horde import N_EVENTS
 from neorl.kernel import array, kernel, zeros
 from neorl.modality import BOUNDARIES, LANDMARKS, OBJECTS, Vector
@@ -37,6 +37,7 @@ class Plan(NamedTuple):
     first: array("int64", "maps + 1")  # where in q the map begins
     first_cell: array("int64", "maps + 1")  # how many cells the maps before it have
     first_track: array("int64", "maps + 1")
+    first_trace: array("int64", "maps + 1")  # where in what is remembered its tracks begin, each with all cells
     # of each node
     vector: array("int64", "nodes")  # see `modality.Vector`
     tuning: array("int64", "nodes")  # see `modality.Tuning`
@@ -66,11 +67,19 @@ class Plan(NamedTuple):
     learning_rate: np.float32
     discount: np.float32
     absence: np.float32
+    away: bool  # whether what is absent sinks away from the target
     driver: int  # the place in DRIVERS
     credit: int  # the place in CREDITS
+    activity: np.float32  # what a step leaves of the activity of an event
     terminal: bool
     trace: int
+    memory_fade: np.float32  # what a change of cell, or a step, leaves of what is remembered; 0 without memory
+    memory_by_time: bool
+    memory_discounts: bool
     bootstrap: bool
+    own_causes: bool
+    capture: int  # the place in CAPTURES
+    attention: int  # the place in ATTENTIONS
     exploration: float
     idle_is_no_op: bool
 
@@ -86,6 +95,14 @@ class Memory(NamedTuple):
     trace_cell: array("int64", "tracks", "trace")  # cells left, a ring
     trace_rates: array("float32", "tracks", "trace", 4)  # the rates of their events
     trace_count: array("int64", "tracks")  # cells left since the point appeared
+    remembered: array("int64", "traces")  # the cells that a track remembers, see `neorl.traces`
+    remembered_count: array("int64", "tracks")
+    strength: array("float32", "traces")
+    trace_weight: array("float32", "traces", 8)
+    trace_worth: array("float32", "traces", 8)
+    activity: array("float32", 4)  # of each event
+    seen: array("float64", "creeps", 2)  # where the things were after the last step, in pixels
+    attended: array("int64", 1)  # which of them is learned about
     target: array("float32", "cells")  # working memory
     # as of the last choice that was not drawn
     pull: array("float64", "desires", 4)  # what each desire adds to the value of each action in its node
@@ -138,11 +155,19 @@ def chosen(agent, world):
         learning_rate=np.float32(learning.learning_rate),
         discount=np.float32(learning.discount),
         absence=np.float32(learning.absence),
+        away=learning.absence_form == "away",
         driver=DRIVERS.index(learning.driver),
         credit=CREDITS.index(learning.credit),
+        activity=_left_after_one(learning.activity * world.fps),
         terminal=learning.terminal,
         trace=learning.trace,
+        memory_fade=_left_after_one(learning.memory * (world.fps if learning.memory_unit == "seconds" else 1)),
+        memory_by_time=learning.memory_unit == "seconds",
+        memory_discounts=learning.memory_value == "discounted",
         bootstrap=learning.bootstrap,
+        own_causes=learning.causes == "own",
+        capture=CAPTURES.index(learning.capture),
+        attention=ATTENTIONS.index(learning.attention),
         exploration=float(agent.policy.exploration),
         idle_is_no_op=agent.policy.idle == "no-op")
     return choices, {"maps": len(resolution), "nodes": len(nodes), "landmarks": len(landmarks), "desires": len(desires)}
@@ -176,6 +201,7 @@ def lay_out(plan: Plan, n_creeps: int) -> None:
             plan.first[m + 1] = plan.first[m] + N_EVENTS * cells * cells
             plan.first_cell[m + 1] = plan.first_cell[m] + cells
             plan.first_track[m + 1] = plan.first_track[m] + points
+            plan.first_trace[m + 1] = plan.first_trace[m] + points * cells
             for e in range(plan.source.shape[0]):
                 if plan.source[e] == POINT and plan.target[e] == n:
                     plan.goal[e, m] = cell_at(plan.at[e, 0], plan.at[e, 1], *tiles)
@@ -189,14 +215,15 @@ def lay_out(plan: Plan, n_creeps: int) -> None:
         plan.first_input[n + 1] = end
 
 
-def new_memory(plan, stream, old=None):
-    """The `Memory` of an agent that has learned nothing.
+def new_memory(plan, stream, n_creeps, old=None):
+    """The `Memory` of an agent that has learned nothing, in a tank of so many creeps.
 
     old: a memory of the same plan that nobody needs any more, whose room for values is used again: to get a gigabyte
     from the system, page by page, takes longer than to live in it.
     """
     sizes = {"values": 0 if old else plan.first[-1], "cells": plan.first_cell[-1], "tracks": plan.first_track[-1],
-             "trace": plan.trace, "desires": len(plan.source)}
+             "trace": plan.trace, "traces": plan.first_trace[-1] if plan.memory_fade > 0 else 0,
+             "desires": len(plan.source), "creeps": n_creeps}
     memory = Memory(**zeros(Memory, sizes) | {"stream": stream})
     if old:
         forget(plan, old)
@@ -224,6 +251,11 @@ def know_nothing(plan: Plan, memory: Memory) -> None:
     for m in range(plan.cells.shape[0]):
         for cell in range(plan.first_cell[m], plan.first_cell[m + 1]):
             memory.known[cell, 0], memory.known[cell, 1] = plan.cells[m], 0
+
+
+def _left_after_one(constant):
+    """What is left after one step, or change, of what fades with a time constant of so many."""
+    return np.float32(constant / (1.0 + constant))
 
 
 def _integers(values):

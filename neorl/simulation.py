@@ -26,7 +26,10 @@ BIN_SECONDS = 0.2
 CACHE_LINES = 128  # bytes; two lines, because processors fetch them in pairs
 PAGE = 4_096
 SLICE = 10_000  # steps between two looks at the progress bar and at the keyboard
-TRACKED = ("cell", "events", "trace_cell", "trace_rates", "trace_count")  # in `Memory`
+# What `Memory` has of each map, by the array of a plan that says where it begins.
+OF_A_MAP = {"first": ("q",), "first_cell": ("known",),
+            "first_track": ("cell", "events", "trace_cell", "trace_rates", "trace_count", "remembered_count"),
+            "first_trace": ("remembered", "strength", "trace_weight", "trace_worth")}
 
 
 class Output(NamedTuple):
@@ -53,7 +56,7 @@ class Run:
         self.plan = kept_apart(compiled(agent, world))
         self.state = kept_apart(world.reset(sequence))
         old = after.memory if after and after.agent == agent else None
-        self.memory = kept_apart(new_memory(self.plan, new_stream(sequence.spawn(1)[0]), old))
+        self.memory = kept_apart(new_memory(self.plan, new_stream(sequence.spawn(1)[0]), world.n_creeps, old))
         self.step = 0
         self._contacts = on_lines_of_its_own(np.zeros(world.n_creeps, np.int8))
         settle(self.plan, self.memory, self.state)
@@ -89,17 +92,18 @@ class Run:
         """
         checks.instance("agent", agent, Agent)
         plan = kept_apart(compiled(agent, self.world))
-        memory = kept_apart(new_memory(plan, self.memory.stream))
+        memory = kept_apart(new_memory(plan, self.memory.stream, self.world.n_creeps))
         settle(plan, memory, self.state)
         old = {key: m for m, key in enumerate(_map_keys(self.agent))}
         for m, key in enumerate(_map_keys(agent)):
             if key in old:
-                for firsts, names in (("first", ["q"]), ("first_cell", ["known"]), ("first_track", TRACKED)):
+                for firsts, names in OF_A_MAP.items():
                     begin, end = getattr(plan, firsts)[m : m + 2]
                     begin_old, end_old = getattr(self.plan, firsts)[old[key] : old[key] + 2]
                     for name in names:
                         getattr(memory, name)[begin:end] = getattr(self.memory, name)[begin_old:end_old]
-        memory.last_event[:] = self.memory.last_event
+        for name in ("last_event", "activity", "attended"):
+            getattr(memory, name)[:] = getattr(self.memory, name)
         self.agent, self.plan, self.memory = agent, plan, memory
 
     def output(self, name):
@@ -116,7 +120,8 @@ class Run:
 
 
 def _map_keys(agent):
-    return [(node.name, each, agent.learning.trace) for node in agent.nodes for each in node.maps]
+    rule = agent.learning
+    return [(node.name, each, rule.trace, rule.memory > 0) for node in agent.nodes for each in node.maps]
 
 
 def kept_apart(fields):

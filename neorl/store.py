@@ -25,7 +25,7 @@ from neorl.simulation import Result, checked_changes, simulate
 from neorl.waterworld import WaterWorld
 
 SOURCES = ("agent", "checks", "horde", "kernel", "life", "modality", "network", "nres", "plan", "simulation", "stream",
-           "waterworld")
+           "traces", "waterworld")
 DIGEST_BYTES = hashlib.sha256().digest_size
 
 

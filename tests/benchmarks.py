@@ -33,7 +33,7 @@ def random_steps(state, rules, contacts, stream, steps):
 @kernel
 def random_changes(q, cells, known, path, rates, discount, target):
     for change in range(path.shape[0] - 1):
-        learn_all_goals(q, 0, cells, known, path[change], path[change + 1], rates, ZERO, discount, True, target)
+        learn_all_goals(q, 0, cells, known, path[change], path[change + 1], rates, ZERO, False, discount, True, target)
 
 
 def updates_by_numpy(q, path):

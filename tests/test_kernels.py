@@ -5,11 +5,11 @@ import numpy as np
 import pytest
 
 from neorl import (Agent, Node, Run, WaterWorld, horde, life, modality, network, network_d, nres, onlooker,
-                   place_cells, plan, stream, waterworld)
+                   place_cells, plan, stream, traces, waterworld)
 from neorl.kernel import inlined_kernel, kernel
 from neorl.modality import HEAD_DIRECTION_CELL
 
-MODULES = (horde, life, modality, network, nres, onlooker, plan, stream, waterworld)
+MODULES = (horde, life, modality, network, nres, onlooker, plan, stream, traces, waterworld)
 KERNELS = {value.__name__: value for module in MODULES
            for value in vars(module).values() if isinstance(value, numba.core.dispatcher.Dispatcher)}
 

@@ -40,6 +40,21 @@ READINGS = {
     "trace": multimodal([4, 7], learning=Learning(trace=7)),
     "leaky": place_cells([6], coverage=0.5, learning=Learning(trace=5, bootstrap=False)),
     "objects": object_vector_cells([3, 4], weighting="resolution"),
+    "memory": multimodal([3, 6], learning=Learning(memory=4.0)),
+    "memory alone": multimodal([2, 5], learning=Learning(memory=30.0, bootstrap=False, absence=0.3, learning_rate=0.3)),
+    "memory of seconds": multimodal([4], learning=Learning(memory=0.2, memory_unit="seconds", memory_value="discounted",
+                                                           bootstrap=False, credit="happened")),
+    "away": multimodal([5], learning=Learning(absence=0.2, absence_form="away", terminal=False)),
+    "away alone": multimodal([5], learning=Learning(absence=0.2, absence_form="away", bootstrap=False, trace=4)),
+    "away with memory": multimodal([5], learning=Learning(absence=0.4, absence_form="away", memory=6.0, bootstrap=False,
+                                                          memory_value="discounted")),
+    "count": place_cells([4], learning=Learning(credit="count", learning_rate=0.4)),
+    "activity": multimodal([4], learning=Learning(credit="activity", activity=0.1, absence=0.1, memory=2.0)),
+    "own causes": multimodal([7], learning=Learning(causes="own", memory=5.0)),
+    "leap": multimodal([4], learning=Learning(capture="leap", causes="own", memory=3.0, bootstrap=False)),
+    "silent": object_vector_cells([4], learning=Learning(capture="silent")),
+    "nearest": multimodal([5], learning=Learning(attention="nearest", memory=5.0)),
+    "wanted": multimodal([5], learning=Learning(attention="wanted", causes="own")),
     "A": network_a([2, 3]),
     "B": network_b([3, 5], signed=True),
     "C": network_c([3], object_gain=0.5),
@@ -55,7 +70,7 @@ class Track:
     """One point that a map follows."""
 
     def __init__(self, cell):
-        self.cell, self.events, self.trace = cell, [], []
+        self.cell, self.events, self.trace, self.memory = cell, [], [], {}
 
 
 def told_again(agent, world, steps, seed, run):
@@ -67,7 +82,8 @@ def told_again(agent, world, steps, seed, run):
     owner = [node for node in agent.nodes for _ in node.resolutions]
     q = [np.zeros((each.cells, 4, each.cells), np.float32) for each in maps]
     tracks, pull, worth = fresh_tracks(agent, world, state), np.zeros((len(agent.desires), 4)), np.zeros(20)
-    rewards = []
+    rule, rewards, activity = agent.learning, [], np.zeros(4, np.float32)
+    keep = np.float32(rule.activity * world.fps / (1 + rule.activity * world.fps))
     for _ in range(steps):
         if policy.exploration > 0 and uniform(stream) < policy.exploration:
             action = int(uniform(stream) * 4)
@@ -78,7 +94,10 @@ def told_again(agent, world, steps, seed, run):
                 action = 4
             else:
                 action = int(best[int(uniform(stream) * len(best))] if len(best) > 1 else best[0])
+        activity = keep * activity + (np.float32(1) - keep) * (np.arange(4) == action).astype(np.float32)
+        before, attended = state.creep_position.copy(), attended_told_again(rule, state)
         reward, hits, done = world.step(state, action)
+        still = state._replace(creep_position=before)
         rewards.append(reward)
         cells = cells_told_again(agent, world, state)
         for m, each in enumerate(maps):
@@ -88,16 +107,23 @@ def told_again(agent, world, steps, seed, run):
                     cells[m][point] = meeting(each, track.cell)
             for point, track in enumerate(tracks[m]):
                 track.events.append(action)
-                met = owner[m].modality.vector == "objects" and hits[point]
-                cell_t = meeting(each, track.cell) if met else cells[m][point]
-                if cell_t != track.cell or agent.learning.driver == "step":
-                    learn_told_again(agent.learning, q[m], track, cell_t, action)
-                if met:
+                is_thing = each.modality.vector == "objects"
+                met = is_thing and hits[point]
+                arrives, ends = met and rule.capture == "contact", met and rule.capture != "leap"
+                if is_thing and attended not in (None, point):
+                    tracks[m][point] = Track(cells[m][point])
+                    continue
+                cell_t = meeting(each, track.cell) if arrives else cells[m][point]
+                if (arrives or not ends) and (cell_t != track.cell or rule.driver == "step"):
+                    own = rule.causes == "own" and is_thing and not arrives
+                    caused = not own or each.encode(each.modality.coordinates(world, still))[point] != track.cell
+                    learn_told_again(rule, world, q[m], track, cell_t, action, activity, caused)
+                if ends:
                     tracks[m][point] = Track(cells[m][point])
         if done:
             reset_board(state, world.rules)
             tracks = fresh_tracks(agent, world, state)
-            pull[:], worth[:] = 0, 0
+            pull[:], worth[:], activity = 0, 0, np.zeros(4, np.float32)
     return rewards, q
 
 
@@ -107,6 +133,14 @@ def cells_told_again(agent, world, state):
 
 def fresh_tracks(agent, world, state):
     return [[Track(cell) for cell in cells] for cells in cells_told_again(agent, world, state)]
+
+
+def attended_told_again(rule, state):
+    """Which thing is to be learned about, None for each."""
+    if rule.attention == "each":
+        return None
+    distances = ((state.creep_position - state.agent_position) ** 2).sum(axis=1)
+    return int(np.where(state.creep_is_green | (rule.attention == "nearest"), distances, np.inf).argmin())
 
 
 def without_direction(modality, world, state, point):
@@ -179,26 +213,80 @@ def elements_told_again(agent, desire, here, creeps, green, pull, worth):
     return [(desire.scale * place, valence if desire.valence is None else desire.valence)]
 
 
-def learn_told_again(rule, table, track, cell_t, action):
+def learn_told_again(rule, world, table, track, cell_t, action, activity, caused):
     alpha, decay = np.float32(rule.learning_rate), np.float32(rule.learning_rate) * np.float32(rule.absence)
+    away, one = rule.absence_form == "away", np.float32(1)
     counts = np.array([track.events.count(event) for event in range(4)])
     credit = {"share": counts.astype(np.float32) / np.float32(len(track.events)),
-              "happened": (counts > 0).astype(np.float32),
+              "happened": (counts > 0).astype(np.float32), "count": counts.astype(np.float32),
+              "activity": np.where(activity < np.float32(0.01), np.float32(0), activity),
               "last": (np.arange(4) == action).astype(np.float32)}[rule.credit]
-    track.trace = [(track.cell, alpha * credit), *track.trace][:rule.trace]
+    rates = np.minimum(alpha * credit, one)
+    if rule.memory:
+        fade_told_again(rule, world, track)
+    if not caused:
+        track.cell, track.events = cell_t, []
+        return
+    track.trace = [(track.cell, rates), *track.trace][:rule.trace]
     if rule.bootstrap:
         target = np.float32(rule.discount) * table[cell_t].max(axis=0)
         target[cell_t] = 1 if rule.terminal else 1 + target[cell_t]
+        highest = one if rule.terminal else one / (one - np.float32(rule.discount))
         for event in range(4):
-            rate, old = alpha * credit[event], table[track.cell, event].copy()
-            new = old + rate * (target - old) if rate > 0 else old - decay * old
+            rate, old = rates[event], table[track.cell, event].copy()
+            absent = sunk_told_again(old, decay, target, away, highest) if decay > 0 else old
+            new = old + rate * (target - old) if rate > 0 else absent
             table[track.cell, event] = np.where(new > 1e-30, new, 0)
-    fading = np.float32(1)
-    for back, (cell_left, rates) in enumerate(track.trace):
-        if back > 0 or not rule.bootstrap:
-            table[cell_left, :, cell_t] += fading * rates * (1 - table[cell_left, :, cell_t])
-        fading *= np.float32(rule.discount)
+    if rule.memory:
+        for joins in (rule.bootstrap, not rule.bootstrap):
+            if not joins:
+                found = track.memory.setdefault(track.cell, [np.float32(0), np.zeros((2, 2, 4), np.float32)])
+                found[0] += one
+                found[1][:] += np.array([rates, np.where(rates > 0, np.float32(0), decay)])
+            else:
+                remember_told_again(table, track, cell_t, away)
+    else:
+        fading = one
+        for back, (cell_left, rates) in enumerate(track.trace):
+            if back > 0 or not rule.bootstrap:
+                for event in range(4):
+                    old = table[cell_left, event, cell_t]
+                    absent = sunk_told_again(old, fading * decay, one, away, one) if decay > 0 else old
+                    table[cell_left, event, cell_t] = old + fading * rates[event] * (1 - old) if rates[event] else absent
+            fading *= np.float32(rule.discount)
     track.cell, track.events = cell_t, []
+
+
+def sunk_told_again(old, rate, target, away, highest):
+    new = np.minimum(old - rate * (target - old), highest) if away else old - rate * old
+    return np.where(new > 1e-30, new, np.float32(0))
+
+
+def fade_told_again(rule, world, track):
+    """`track.memory` is {cell: [strength, [weights, worths] of what happened and what was absent]}."""
+    constant = rule.memory * (world.fps if rule.memory_unit == "seconds" else 1)
+    once = factor = np.float32(constant / (1 + constant))
+    for _ in range(len(track.events) - 1 if rule.memory_unit == "seconds" else 0):
+        factor = factor * once if factor > np.float32(1e-4) else np.float32(0)
+    for cell, found in [*track.memory.items()]:
+        found[0] *= factor
+        found[1] *= factor
+        found[1][1] *= np.float32(rule.discount) if rule.memory_value == "discounted" else np.float32(1)
+        if found[0] < np.float32(1e-4):
+            del track.memory[cell]
+
+
+def remember_told_again(table, track, goal, away):
+    one = np.float32(1)
+    for cell, (_, (weights, worths)) in track.memory.items():
+        for event in range(4):
+            value = table[cell, event, goal]
+            if weights[0, event] > 0:
+                value += min(weights[0, event], one) * (worths[0, event] / weights[0, event] - value)
+            if weights[1, event] > 0:
+                value = sunk_told_again(value, min(weights[1, event], one), worths[1, event] / weights[1, event], away,
+                                        one)
+            table[cell, event, goal] = value if value > 1e-30 else 0
 
 
 @pytest.mark.parametrize("name", READINGS)

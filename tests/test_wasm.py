@@ -9,7 +9,7 @@ import pytest
 from webassembly import Machine, compiled
 
 import neorl
-from neorl import (Agent, Desire, Node, Place, Run, WaterWorld, modality, multimodal, network_a, network_b, network_c,
+from neorl import (Agent, Desire, Learning, Node, Place, Run, WaterWorld, modality, multimodal, network_a, network_b, network_c,
                    network_d, object_vector_cells, onlooker, place_cells, store, wasm)
 from neorl.kernel import zeros
 from neorl.plan import Memory, Plan, chosen
@@ -18,6 +18,13 @@ from neorl.waterworld import WaterWorldState
 STEPS = 50_000
 LAYERS = (10, 30, 50, 70, 90, 3, 7, 23)
 PRIMES = (2, 3, 5, 7, 11, 13)
+MEMORIES = {
+    "memory": Learning(memory=20.0, credit="happened", absence=0.1, causes="own"),
+    "memory of seconds": Learning(memory=0.5, memory_unit="seconds", memory_value="discounted", bootstrap=False,
+                                  absence=0.2, absence_form="away", credit="count", capture="leap"),
+    "activity": Learning(credit="activity", absence=0.2, absence_form="away", terminal=False, attention="wanted",
+                         capture="silent"),
+}
 PAPERS = {
     "Brownian": (neorl.brownian(), 8),
     **{f"A, N{n}": (place_cells([n]), 8) for n in LAYERS},
@@ -26,6 +33,7 @@ PAPERS = {
     **{f"B, {make.__name__}": (make(), 3) for make in (place_cells, object_vector_cells, multimodal)},
     **{f"C, {make.__name__}": (make(), 3) for make in (network_a, network_b, network_c, network_d)},
     **{f"C, signed {make.__name__}": (make(signed=True), 3) for make in (network_a, network_b, network_c, network_d)},
+    **{f"{name}": (multimodal([3, 7], learning=rule), 3) for name, rule in MEMORIES.items()},
     "every modality": (Agent([Node(each.name, each, [1, 4]) for each in modality.MODALITIES],
                              [*(Desire("green", each.name, 1.0) for each in modality.MODALITIES if each.takes_places),
                               Desire(Place(0.2, 0.9), "object-vector cell", -1.0),
@@ -37,7 +45,8 @@ def sizes_of(run):
     plan = run.plan
     return {"maps": len(plan.cells), "nodes": len(plan.vector), "landmarks": len(plan.landmark),
             "desires": len(plan.source), "values": plan.first[-1], "cells": plan.first_cell[-1],
-            "tracks": plan.first_track[-1], "trace": plan.trace, "creeps": run.world.n_creeps, "words": 0, "bins": 1}
+            "tracks": plan.first_track[-1], "trace": plan.trace, "creeps": run.world.n_creeps, "words": 0, "bins": 1,
+            "traces": len(run.memory.strength)}
 
 
 def copied(run):
@@ -127,7 +136,7 @@ def test_looking_and_joining_in_equal_native_calls():
 
 def test_the_module_is_small_and_asks_for_memory_alone():
     _, module = compiled()
-    assert len(wasm.module()) < 60_000
+    assert len(wasm.module()) < 82_000
     assert [each.name for each in module.imports] == ["memory"]
     assert {each.name for each in module.exports} == {"__heap_base", *wasm.layout()["exports"]}
 

@@ -120,7 +120,8 @@ def live_in(effort, delay, hold, light, bell, stream, by_step, credit, learning_
             if by_step:
                 for event in range(N_EVENTS):
                     rates[event] = learning_rate if occurs[event] else ZERO
-                learn_all_goals(q, 0, CELLS, known, 0, cell, rates, ZERO, discount, terminal, target)
+                learn_all_goals(q, 0, CELLS, known, 0, cell, rates, ZERO, False, discount, terminal,
+                                target)
             over = uniform(stream) * hold < 1.0
         if not by_step:
             steps = counts[0] + counts[1]  # one of the levers is pressed on every step
@@ -131,7 +132,8 @@ def live_in(effort, delay, hold, light, bell, stream, by_step, credit, learning_
                 elif credit == CREDIT_LAST:
                     share = UNIT if occurs[event] else ZERO
                 rates[event] = learning_rate * share
-            learn_all_goals(q, 0, CELLS, known, 0, cell, rates, learning_rate * absence, discount, terminal, target)
+            learn_all_goals(q, 0, CELLS, known, 0, cell, rates, learning_rate * absence, False, discount,
+                            terminal, target)
         for event in range(N_EVENTS):
             values[visit, event, 0] = q[event * CELLS + 1]
             values[visit, event, 1] = q[event * CELLS + 2]

@@ -182,7 +182,7 @@ def _live(learner, learning_rate, discount, exploration, trace, next_state, goal
                 for each in range(4):
                     memory.rates[each] = np.float32(learning_rate if each == action_tm1 else 0.0)
                 learn_all_goals(memory.horde, 0, next_state.shape[0], memory.reach, state_tm1, state, memory.rates,
-                                np.float32(0.0), np.float32(discount), True, memory.target)
+                                np.float32(0.0), False, np.float32(discount), True, memory.target)
             if ended:
                 break
             if learner != SARSA:

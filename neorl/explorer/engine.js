@@ -94,6 +94,7 @@ function newRun({ plan: choices, world, steps, bin_steps }) {
   draft.call("lay_out", sizes, { plan: laidOut, n_creeps: world.n_creeps });
   const last = (name) => Number(laidOut[name].at(-1));
   Object.assign(sizes, { values: last("first"), cells: last("first_cell"), tracks: last("first_track") });
+  sizes.traces = choices.memory_fade > 0 ? last("first_trace") : 0;
 
   const bytes = 2 ** 20 + 8 * sizes.bins + bytesOf("Plan", sizes) + bytesOf("Memory", sizes)
     + bytesOf("Memory", { ...sizes, values: 0 }) + 3 * bytesOf("WaterWorldState", sizes);
@@ -164,7 +165,7 @@ function become(choices) {
     run = newRun({ ...old, plan: choices });
     for (const name of Object.keys(old.state)) run.state[name].set(old.state[name]);
     for (const name of OWN) run.second[name].set(old.second[name]);
-    for (const name of ["stream", "last_event"]) run.memory[name].set(old.memory[name]);
+    for (const name of ["stream", "last_event", "activity", "attended"]) run.memory[name].set(old.memory[name]);
     run.rewards.set(old.rewards);
     const { step, reward, player, changes } = old;
     Object.assign(run, { step, reward, player, changes });
@@ -177,19 +178,20 @@ function become(choices) {
   run.newMaps = true;
 }
 
-function mapKeys({ first_map, first_landmark, resolution, nodes, trace, ...choices }) {
+function mapKeys({ first_map, first_landmark, resolution, nodes, trace, memory_fade, ...choices }) {
   return resolution.map((each, m) => {
     const n = first_map.findLastIndex((first) => first <= m);
     const space = ["vector", "tuning", "low", "high"].map((name) => choices[name][n]);
     const landmarks = choices.landmark.slice(first_landmark[n], first_landmark[n + 1]);
-    return JSON.stringify([nodes[n], each, trace, space, landmarks]);
+    return JSON.stringify([nodes[n], each, trace, memory_fade > 0, space, landmarks]);
   });
 }
 
 /** Take over all that an old run knows of a map, and what led to its active cells. */
 function keepMap(old, from, to) {
   const parts = [["first", ["q"]], ["first_cell", ["known"]],
-    ["first_track", ["cell", "events", "trace_cell", "trace_rates", "trace_count"]]];
+    ["first_track", ["cell", "events", "trace_cell", "trace_rates", "trace_count", "remembered_count"]],
+    ["first_trace", ["remembered", "strength", "trace_weight", "trace_worth"]]];
   for (const [firsts, names] of parts) {
     const [begin, end] = [old.plan[firsts][from], old.plan[firsts][from + 1]].map(Number);
     for (const name of names) {

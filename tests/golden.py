@@ -1,0 +1,96 @@
+"""Runs whose every bit is on record in ``golden.json``: a change of code must leave them as they are.
+
+Each agent spells out its choices, so that the record stands whatever the defaults become. As a program the file
+prints digests: ``python tests/golden.py STEPS NAME …``, or writes the record anew: ``python tests/golden.py --write``.
+"""
+
+import hashlib
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from neorl import (Agent, Desire, Learning, Node, Place, Policy, Run, WaterWorld, brownian, modality, multimodal,
+                   network_a, network_b, network_c, network_d, object_vector_cells, place_cells)
+
+RECORD = Path(__file__).parent / "golden.json"
+SHORT, LONG = 200, 6_000
+PLAIN = {"learning_rate": 0.03, "discount": 0.8, "driver": "cell", "credit": "share", "absence": 0.0, "terminal": True,
+         "trace": 1, "bootstrap": True}
+PRIMES = (2, 3, 5, 7, 11, 13)
+CHOICES = {"policy": Policy(0.02, "random"), "own_cell": "silent", "coverage": 0.5, "weighting": "resolution"}
+
+
+def learning(**changes):
+    return CHOICES | {"learning": Learning(**PLAIN | changes)}
+
+
+def every_modality():
+    desires = [*(Desire("green", each.name, 1.0) for each in modality.MODALITIES if each.takes_places),
+               Desire(Place(0.2, 0.9), "object-vector cell", -1.0), Desire((0.3, 0.3), "place cell", 0.4)]
+    each = learning()
+    nodes = [Node(each.name, each, [1, 4], "resolution") for each in modality.MODALITIES]
+    return Agent(nodes, desires, each["learning"], each["policy"], each["own_cell"])
+
+
+RULES = {
+    "happened": {"credit": "happened"}, "last": {"credit": "last"}, "absence": {"absence": 0.1},
+    "not terminal": {"terminal": False}, "trace": {"trace": 12}, "no bootstrapping": {"bootstrap": False},
+    "long trace alone": {"trace": 60, "bootstrap": False, "discount": 0.95}, "step": {"driver": "step"},
+    "step, not terminal": {"driver": "step", "terminal": False},
+}
+NETWORKS = {"A": network_a, "B": network_b, "C": network_c, "D": network_d}
+RUNS = {
+    "Brownian": (brownian(), 8),
+    **{f"place N{n}": (place_cells([n], **learning()), 8) for n in (3, 7, 10, 23)},
+    **{f"place, weights {by}": (place_cells([3, 7, 23], **learning() | {"weighting": by}), 8)
+       for by in ("equal", "resolution", "cells")},
+    "objects": (object_vector_cells(PRIMES, **learning()), 3),
+    "objects N5": (object_vector_cells([5], **learning()), 3),
+    "both": (multimodal(PRIMES, **learning()), 3),
+    "both, gain of place": (multimodal(PRIMES, place_gain=5.0, **learning()), 3),
+    "whole board": (multimodal([3, 7], **learning() | {"coverage": 1.0}), 3),
+    "own cell counts": (multimodal([3, 7], **learning() | {"own_cell": "counts"}), 3),
+    "greedy": (multimodal([3, 7], **learning() | {"policy": Policy(0.0, "random")}), 3),
+    "no-op": (multimodal([3, 7], **learning() | {"policy": Policy(0.1, "no-op")}), 3),
+    **{f"network {name}": (make(PRIMES, scale=2.0, **learning()), 3) for name, make in NETWORKS.items()},
+    **{f"network {name}, signed": (make([3, 7], scale=1.0, signed=True, **learning()), 3)
+       for name, make in NETWORKS.items()},
+    "recursion": (network_d([3, 7], recursion=0.5, scale=1.3, **learning()), 3),
+    "every modality": (every_modality(), 4),
+    **{f"place, {name}": (place_cells([4, 9], **learning(**rule)), 8) for name, rule in RULES.items()},
+    **{f"both, {name}": (multimodal([4, 7], **learning(**rule)), 3) for name, rule in RULES.items()},
+}
+CHANGES = {
+    "joined by objects": ((LONG // 3, "both"),),
+    "revalued and back": ((LONG // 4, "network C"), (LONG // 2, "network D"), (3 * LONG // 4, "objects")),
+}
+
+
+def lived(name, steps):
+    """A run of that name, and the reward that it brought."""
+    agent, creeps = RUNS["place N7" if name == "joined by objects" else "network D" if name in CHANGES else name]
+    run = Run(agent, WaterWorld(width=250, n_creeps=creeps, fps=50, win_reward=5.0 if creeps == 8 else 0.0,
+                                contact="rounded"), seed=7, run=3)
+    reward = 0.0
+    for step, later in CHANGES.get(name, ()):
+        reward += run.advance(min(step, steps) - run.step)
+        if step < steps:
+            run.change(RUNS[later][0])
+    return run, reward + run.advance(steps - run.step)
+
+
+def digest(name, steps):
+    """Reward and a digest of every value and of the tank: what is on record."""
+    run, reward = lived(name, steps)
+    content = [run.memory.q, *run.state]
+    return f"{float(reward)} {hashlib.sha256(b''.join(np.ascontiguousarray(each).tobytes() for each in content)).hexdigest()}"
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["--write"]:
+        record = {name: {str(steps): digest(name, steps) for steps in (SHORT, LONG)} for name in [*RUNS, *CHANGES]}
+        RECORD.write_text(json.dumps(record, indent=1) + "\n")
+    else:
+        print(json.dumps({name: digest(name, int(sys.argv[1])) for name in sys.argv[2:]}))
