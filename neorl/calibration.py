@@ -50,7 +50,7 @@ def calibrate(minutes, table=(), executor=None, seed=0, runs=RUNS, steps=STEPS, 
     """Run readings for so many minutes, and return the table with them: a list of `Row`.
 
     table: rows to go on from. executor: see `neorl.sweep`. seed: of the design and of the candidates; the row at place
-    i of the table lives with the seed 1000 · seed + i. runs, steps: of each reading, see `multiverse.conditions`.
+    i of the table lives with the seed 1000 · seed + i. runs, steps: of each reading, see `reading.conditions`.
     keep: is called with the table whenever it has grown, to write it down for instance.
     The time is looked at between chunks of 16 readings, so it takes up to a chunk longer.
     Raises ValueError for a bad argument.

@@ -13,9 +13,10 @@ from importlib import resources
 
 import numpy as np
 
-from neorl import checks, multiverse
+from neorl import checks
 from neorl.calibration_targets import GROUPS, TARGETS, Measure, distance, held, measure, tested
-from neorl.multiverse import Reading
+from neorl.reading import Reading
+from neorl.reading import conditions as all_conditions
 from neorl.sweep import sweep
 
 SHIPPED = resources.files("neorl") / "data" / "calibration.csv"
@@ -27,7 +28,7 @@ class Row:
     """One reading that has been run.
 
     wave: in which it was chosen, 0 for the design. seed, runs: of all its conditions. steps: at most, see
-    `multiverse.conditions`. statistics: {name of the target: `Measure`}, of the groups it has been run in.
+    `reading.conditions`. statistics: {name of the target: `Measure`}, of the groups it has been run in.
     """
 
     wave: int
@@ -65,7 +66,7 @@ class Row:
 
 def conditions(row, group):
     """The conditions of a row in a group: {key: `Condition`}."""
-    found = multiverse.conditions(row.reading, row.steps, row.runs, row.seed)
+    found = all_conditions(row.reading, row.steps, row.runs, row.seed)
     return {key: found[key] for key in GROUPS[group].keys}
 
 

@@ -172,7 +172,7 @@ TARGETS = {
 
 @dataclass(frozen=True)
 class Group:
-    """Conditions that are computed together: keys of `multiverse.conditions`, and the targets that they suffice for."""
+    """Conditions that are computed together: keys of `reading.conditions`, and the targets that they suffice for."""
 
     keys: tuple
     targets: tuple[str, ...]
