@@ -9,7 +9,8 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.patches import Rectangle
 
 from neorl.figures import AGENT, INK, RED
-from neorl.multiverse import CHOICES, outcome
+from neorl.multiverse import outcome
+from neorl.priors import WITHIN
 from neorl.statements import STATEMENTS
 
 COLOURS = {"holds": AGENT, "undecided": RED, "fails": INK}
@@ -17,16 +18,16 @@ SHADES = LinearSegmentedColormap.from_list("shades", [AGENT + "10", AGENT + "ff"
 ROW = 0.2  # inches
 
 
-def draw_specification(readings, judged, name):
+def draw_specification(readings, judged, name, choices=WITHIN):
     """The specification curve of a claim: its number under every reading in order of size, and the choices below.
 
-    readings: [Reading, …]. judged: {name: `Claim`} for each of them. Where a number is not finite, or off the middle
-    95 % of them, it stands at the edge.
+    readings: [Reading, …]. judged: {name: `Claim`} for each of them. choices: what is shown of them, as `design` takes
+    it. Where a number is not finite, or off the middle 95 % of them, it stands at the edge.
     """
     claims = [each[name] for each in judged]
     here = np.array([claim.here for claim in claims])
     order = np.argsort(np.nan_to_num(here[:, 0], nan=-np.inf), kind="stable")
-    shown = {key: choice for key, choice in CHOICES.items() if name[0] in choice.papers}
+    shown = {key: choice for key, choice in choices.items() if name[0] in choice.papers}
     width, _ = plt.rcParams["figure.figsize"]
     below = ROW * len(shown)
     figure, (curve, strips) = plt.subplots(2, 1, figsize=(width, 2.4 + below), sharex=True,
@@ -92,16 +93,19 @@ def draw_standing(record, names):
                 bbox_to_anchor=(0, 1.0), borderpad=0)
 
 
-def draw_importance(importance):
-    """Which choices matter for which claim: {name of the claim: {name of the choice: importance}}, areas of discs."""
+def draw_importance(importance, choices=WITHIN):
+    """Which choices matter for which claim: {name of the claim: {name of the choice: importance}}, areas of discs.
+
+    choices: what was varied, as `design` takes it.
+    """
     width, _ = plt.rcParams["figure.figsize"]
-    figure, axes = plt.subplots(figsize=(width, ROW * 1.25 * len(CHOICES) + 0.5))
-    keys = list(CHOICES)
+    figure, axes = plt.subplots(figsize=(width, ROW * 1.25 * len(choices) + 0.5))
+    keys = list(choices)
     for column, shares in enumerate(importance.values()):
         for key, share in shares.items():
             axes.plot(column, keys.index(key), marker="o", color=AGENT, markersize=13 * np.sqrt(np.clip(share, 0, 1)))
     axes.set_xticks(range(len(importance)), importance, fontsize=9)
-    axes.set_yticks(range(len(keys)), [CHOICES[key].label for key in keys], fontsize=9)
+    axes.set_yticks(range(len(keys)), [choices[key].label for key in keys], fontsize=9)
     axes.set(xlim=(-0.6, len(importance) - 0.4), ylim=(len(keys) - 0.4, -0.6))
     axes.xaxis.tick_top()
     axes.tick_params(length=0)

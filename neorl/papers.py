@@ -2,7 +2,7 @@
 
 `choices` are other fields of `Agent` (learning, policy, own_cell) or, for all nodes, `weighting` of `Node` and
 `coverage`: the share of either axis's range, about its middle, that the maps cut into equal cells. What lies beyond
-belongs to the outermost ones.
+belongs to the outermost ones. `object_coverage` is that of object-vector cells, if they have another.
 """
 
 from dataclasses import replace
@@ -70,16 +70,22 @@ def _creeps(node, valence_green=1.0, valence_red=-1.0):
 
 def _network(nodes, resolutions, desires, choices):
     weighting = choices.pop("weighting", Node.weighting)
-    coverage = checks.real("coverage", choices.pop("coverage", COVERAGE))
-    nodes = tuple(Node(name, _covering(coverage, modality), resolutions, weighting, gain)
-                  for name, modality, gain in nodes)
+    coverage = _share("coverage", choices.pop("coverage", COVERAGE))
+    of_objects = _share("object_coverage", choices.pop("object_coverage", coverage))
+    nodes = tuple(Node(name, _covering(coverage if modality is PLACE_CELL else of_objects, modality), resolutions,
+                       weighting, gain) for name, modality, gain in nodes)
     return Agent(nodes, desires, **choices)
+
+
+def _share(name, value):
+    share = checks.real(name, value)
+    if share <= 0:
+        raise ValueError(f"{name} is {value!r}, allowed are numbers above 0")
+    return share
 
 
 def _covering(share, modality):
     """The modality with the ranges of its axes cut down to a share about their middle."""
-    if share <= 0:
-        raise ValueError(f"coverage is {share!r}, allowed are numbers above 0")
     ranges = tuple((low + (1 - share) * (high - low) / 2, high - (1 - share) * (high - low) / 2)
                    for low, high in modality.ranges)
     return replace(modality, ranges=ranges)

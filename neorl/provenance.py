@@ -1,19 +1,21 @@
 """Where every constant comes from: the thesis, the environment it used, the author's public code, or this book.
 
-The values are read from the code that uses them, so that the table cannot tell another story.
+The values are read from the code that uses them, and the sources of a reading's choices from `neorl.text`, so the table
+cannot say anything else.
 """
 
 from typing import NamedTuple
 
 from neorl import waterworld
 from neorl.figures import CUTOFF_PERIODS, FILTER_ORDER
-from neorl.multiverse import CHOICES, LAYERS, LENGTHS, PRIMES, SINGLE, Reading, conditions
+from neorl.priors import BEYOND
+from neorl.reading import LAYERS, LENGTHS, PRIMES, SINGLE, Reading, conditions
 from neorl.simulation import BIN_SECONDS
+from neorl.text import PINS
 
 PLE = "WaterWorld of the PyGame Learning Environment, rules confirmed against recordings of it"
 AUTHOR = "the author's later public code"
 OURS = "this book's choice"
-SUPPORTED = f"{OURS}, by the support that it has among all readings"
 
 
 class Constant(NamedTuple):
@@ -41,7 +43,7 @@ def constants():
         Constant("valence of creeps", "+1 and −1", "paper B, section 3, and paper C, section 2"),
         Constant("resolutions of single maps, paper A", _listed(SINGLE), "paper A, figure 6"),
         Constant("resolutions together, paper A", _listed(LAYERS), "paper A, Experiments"),
-        Constant("resolutions, papers B and C", _listed(PRIMES), "paper B, section 3; for paper C " + OURS),
+        Constant("resolutions, paper B", _listed(PRIMES), "paper B, section 3"),
         Constant("steps of a run, paper A", f"{LENGTHS['A']:,}", "paper A, Experiments"),
         Constant("steps of a run, papers B and C", f"{LENGTHS['B']:,} and {LENGTHS['C']:,}",
                  OURS + ": paper B speaks of more than 160 minutes"),
@@ -50,30 +52,20 @@ def constants():
         Constant("filter of paper B's curves", f"Butterworth, order {FILTER_ORDER}, {CUTOFF_PERIODS} periods a run",
                  "paper B, section 3; order and cutoff are " + OURS),
     ]
-    return fixed + [Constant(choice.label, choice.words(getattr(Reading(), name)), SOURCES[name])
-                    for name, choice in CHOICES.items()]
+    return fixed + [Constant(choice.label, choice.words(getattr(Reading(), name)), source(name))
+                    for name, choice in BEYOND.items()]
 
 
-SOURCES = {
-    "learning_rate": f"{OURS}; section 4.1.3, equation 4.6, has no value",
-    "discount": f"{OURS}; section 3.1, equation 3.2, has no value",
-    "credit": f"{OURS}; section 4.1.3, equation 4.7, asks for more credit for more occurrences",
-    "absence": f"{OURS}; section 4.1.3 says that ψ(0) may act negatively, and not how",
-    "trace": f"{OURS}; section 4.1.3 speaks of a leaky integrator",
-    "bootstrap": "section 4.1.3, equation 4.8",
-    "terminal": OURS,
-    "own_cell": OURS,
-    "coverage": SUPPORTED,
-    "weighting": f"{SUPPORTED}; paper A, Experiments, has the inverse of the size of a receptive field",
-    "exploration": SUPPORTED,
-    "idle": f"{OURS}; {AUTHOR} does nothing",
-    "place_gain": "paper C, section 3, has 1 : 1; a drawing on the author's site has 5",
-    "vectors": f"{OURS}; paper C, section 1, has the plain sum",
-    "scale": OURS,
-    "recursion": "paper C, section 3",
-    "fps": f"{AUTHOR}; agrees with paper A, where 150,000 steps take somewhat under an hour",
-    "contact": f"{OURS}: that of today's pygame",
-}
+def source(name):
+    """Where the default of a field of `Reading` comes from, in words."""
+    places = []
+    for pin in PINS:
+        if pin.fields[:1] == (name,):
+            if pin.status == "open":
+                places.append(f"{OURS}; open in {pin.place}" if pin.place else OURS)
+            else:
+                places.append(pin.place if pin.allows(Reading()) else f"{OURS}, against {pin.place}")
+    return "; ".join(dict.fromkeys(places))
 
 
 def table():

@@ -60,8 +60,17 @@ PAPERS = (place_cells, brownian, object_vector_cells, multimodal, network_a, net
     (lambda: Learning(trace=0), "trace is 0"),
     (lambda: Learning(terminal=1.5), "terminal is 1.5"),
     (lambda: Learning(bootstrap=None), "bootstrap is None"),
-    *((lambda choice=choice: Learning(driver="step", **choice), "driver is 'step', allowed with it")
-      for choice in ({"trace": 5}, {"bootstrap": False}, {"credit": "last"}, {"absence": 0.1})),
+    *((lambda choice=choice: Learning(driver="step", **choice), f"{[*choice][0]} is .*, allowed with driver 'step' is")
+      for choice in ({"trace": 5}, {"memory": 7.5}, {"credit": "last"}, {"absence": 0.15})),
+    (lambda: Learning(memory=-1), "memory is -1"),
+    (lambda: Learning(memory=2.0, trace=3), "trace is 3, allowed with memory, here 2.0, is 1"),
+    (lambda: Learning(memory_unit="minutes"), "memory_unit is 'minutes', allowed are 'cells', 'seconds'"),
+    (lambda: Learning(memory_value=1), "memory_value is 1"),
+    (lambda: Learning(absence_form="up"), "absence_form is 'up'"),
+    (lambda: Learning(activity=-0.1), "activity is -0.1"),
+    (lambda: Learning(causes="other"), "causes is 'other'"),
+    (lambda: Learning(capture="hit"), "capture is 'hit'"),
+    (lambda: Learning(attention="all"), "attention is 'all'"),
     (lambda: Policy(exploration=1.1), "exploration is 1.1"),
     (lambda: Policy(idle="sleep"), "idle is 'sleep'"),
 ])
@@ -112,6 +121,17 @@ def test_the_agent_of_paper_a_is_one_node_and_two_desires():
     assert place_cells([3, 7]) == Agent([Node("PC", middle, np.array([3, 7]))], list(desires))
     assert place_cells([3, 7], coverage=1) == Agent((Node("PC", PLACE_CELL, (3, 7)),), desires)
     assert place_cells([3]) != place_cells([3], own_cell="counts")
+    assert place_cells([3], object_coverage=0.1) == place_cells([3])
+
+
+def test_object_vectors_may_have_a_range_of_their_own():
+    places, objects = multimodal([3], coverage=1, object_coverage=0.25).nodes
+    assert places.modality == PLACE_CELL and objects.modality.ranges == ((-0.25, 0.25), (-0.25, 0.25))
+    assert network_d([3], coverage=0.3, object_coverage=0.3) == network_d([3], coverage=0.3)
+    assert object_vector_cells([3], coverage=0.2, object_coverage=1).nodes[0].modality == CARTESIAN_OBJECT_VECTOR_CELL
+    for name in ("coverage", "object_coverage"):
+        with pytest.raises(ValueError, match=f"{name} is 0, allowed are numbers above 0"):
+            multimodal([3], **{name: 0})
     assert brownian().policy == Policy(exploration=1.0)
 
 

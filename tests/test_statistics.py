@@ -7,8 +7,9 @@ import pytest
 from scipy import stats
 
 from neorl import Result, WaterWorld, place_cells
-from neorl.statistics import (Estimate, estimate, mean_band, probability_of_improvement, time_to_final_level,
-                              time_to_level, tolerance_band, tolerated_share)
+from neorl.statistics import (Estimate, estimate, lead_over_best, lead_over_sum, least_of_most, mean_band,
+                              minutes_sooner, points, probability_of_improvement, rank_correlation, ratio, resets,
+                              time_to_final_level, time_to_level, tolerance_band, tolerated_share)
 
 
 def test_the_probability_of_improvement_counts_pairs():
@@ -120,3 +121,59 @@ def test_the_time_to_the_final_level_is_that_of_each_run():
     np.testing.assert_allclose(time_to_final_level(result), [2.0, 21.8, 66.0, 80.0])
     np.testing.assert_allclose(time_to_level(result, 0.5), [2.0, 20.2, 9.2, 80.0])  # bin 101; bins 36 to 45
     np.testing.assert_allclose(time_to_level(result, [9, 9, 9, -9]), [80.0, 80.0, 80.0, 2.0])
+
+
+def steps_up(bins, at, runs=10, height=1.0, before=0.0):
+    """Runs of 80 s that earn `before`, and `height` a second from a bin on."""
+    rewards = np.full((runs, bins), before, np.float32)
+    rewards[:, at:] = height * 0.2
+    hits = np.zeros((runs, bins, 2), np.int16)
+    return Result(place_cells([1]), WaterWorld(), 10 * bins, runs, 0, rewards, hits)
+
+
+def test_a_lead_in_time_is_that_of_the_mean_over_runs():
+    early, late = steps_up(400, 100), steps_up(400, 250)
+    assert minutes_sooner(early, late, 0.5) == pytest.approx([0.5] * 3)  # 150 bins of 0.2 s
+    assert minutes_sooner(late, early, 0.5) == pytest.approx([-0.5] * 3)
+    assert minutes_sooner(early, late, 2.0) == (0, 0, 0)  # neither ever
+    assert minutes_sooner(early, steps_up(400, 250, height=0.4), 0.5).value == pytest.approx((80 - 21) / 60, abs=0.01)
+    assert np.isnan(minutes_sooner(steps_up(400, 1, runs=1), late, 0.5).low)
+
+
+def test_a_lead_in_time_over_a_sum_is_that_over_what_the_parts_earn_together():
+    whole, parts = steps_up(400, 100), [steps_up(400, 200, height=0.6), steps_up(400, 300, 7, height=0.6)]
+    assert minutes_sooner(whole, parts, 0.5).value == pytest.approx(100 * 0.2 / 60, abs=0.02)  # the first is enough
+    assert minutes_sooner(whole, parts, 1.0).value == pytest.approx(200 * 0.2 / 60, abs=0.02)  # it takes both
+
+
+def test_a_lead_in_time_is_not_made_by_the_noise_of_single_runs():
+    """A run in ten is at a level by itself; the mean over runs comes to it at the time of the step."""
+    noisy = steps_up(400, 200, runs=100)
+    noisy.rewards[::10, 20:40] = 0.2
+    assert np.sum(time_to_level(noisy, 0.5) < 10) == 10
+    assert minutes_sooner(noisy, steps_up(400, 200, runs=100), 0.5).value == 0
+
+
+def test_resets_and_points_follow_from_rewards_and_creeps():
+    hits = np.zeros((2, 3, 2), np.int16)
+    hits[0], hits[1] = [[3, 1], [2, 0], [0, 4]], [[1, 0], [0, 0], [0, 0]]
+    rewards = np.array([[2 + 5, 2 + 5, -4], [1, 0, 0]], np.float32)
+    result = Result(place_cells([1]), WaterWorld(win_reward=5.0), 30, 2, 0, rewards, hits)
+    assert list(points(result)) == [0, 1] and list(resets(result)) == [2, 0]
+    with pytest.raises(ValueError, match="win_reward of the world is 0.0, allowed are worlds"):
+        resets(Result(place_cells([1]), WaterWorld(), 30, 2, 0, rewards, hits))
+
+
+def test_leads_and_ratios_are_those_of_means():
+    a, b, c = np.array([4.0, 6.0]), np.array([1.0, 3.0]), np.array([2.0, 2.0, 2.0])
+    assert (ratio(a, b, axis=-1), ratio(a, 0 * b, axis=-1)) == (2.5, 0)
+    assert (lead_over_best(a, b, c, axis=-1), lead_over_sum(a, b, c, axis=-1)) == (3, 1)
+    assert least_of_most(a, b, c, axis=-1) == 0.4
+    assert least_of_most(0 * a, 0 * b, axis=-1) == 0
+
+
+def test_a_rank_correlation_is_spearmans():
+    samples = [np.random.default_rng(n).normal(n / 2, 1, 8) for n in range(4)]
+    expected = stats.spearmanr(np.repeat(np.arange(4), 8), np.concatenate(samples)).statistic
+    assert rank_correlation(*samples, axis=-1) == pytest.approx(expected)
+    assert rank_correlation(*[np.zeros(3)] * 2, axis=-1) == 0
