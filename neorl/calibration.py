@@ -4,7 +4,7 @@ The method is history matching (Craig et al. 1997; Vernon et al. 2010), a search
 rather than one that climbs to what fits best:
 
 1. *Design.* Readings are drawn evenly through the priors within the text, a scrambled Sobol sequence. All are run in
-   the cheapest group of conditions, and the first quarter of them in every group, so that the dear ones are not known of
+   the cheapest group of conditions, and the first of them in every group, so that the dear ones are not known of
    favourites alone.
 2. *Emulator.* Random forests learn from the readings that have been run to predict each statistic from the choices.
    The prediction has an uncertainty: how far the trees disagree, and the noise of a few runs.
@@ -34,10 +34,10 @@ from neorl.calibration_table import Row
 from neorl.calibration_targets import GROUPS, TARGETS
 from neorl.priors import TO_THE_LETTER, WITHIN
 
-RUNS, STEPS = 4, 600_000  # of a reading: the papers' own lengths
-DESIGN = 256  # readings in wave 0, a power of two
+RUNS, STEPS = 2, 600_000  # of a reading: the papers' own lengths
+DESIGN, IN_FULL = 512, 48  # readings in wave 0, a power of two, and how many of them are run in every group
 CHUNK = 16  # readings that are run between two looks at the clock
-WAVE = {"layers": 96, "modalities": 48, "networks": 24, "single": 24}  # readings a wave, in each group
+WAVE = {"layers": 192, "modalities": 64, "networks": 40, "single": 12}  # readings a wave, in each group
 POOL = 4_000  # candidates a wave
 PARENTS, RENEWED, MOVED = 30, 0.1, 0.05  # of children: best rows, share of choices drawn anew, move of numbers
 IMPLAUSIBLE = 3.0
@@ -96,7 +96,7 @@ def _work(table, seed, runs, steps):
         add(0, design(DESIGN, seed)[len(table):])
     yield from _chunks(first, _lacking(table, first, range(DESIGN)))
     for group in others:
-        yield from _chunks(group, _lacking(table, group, range(DESIGN // 4)))
+        yield from _chunks(group, _lacking(table, group, range(IN_FULL)))
     while True:
         wave = 1 + max(row.wave for row in table)
         rng = np.random.default_rng([seed, wave])
