@@ -78,15 +78,16 @@ def run(rows, group, executor=None, progress=False):
             for row, of_row in zip(rows, wanted)]
 
 
-def lives(row, executor=None, progress=False):
-    """What a row's reading lived in all groups: {key of the condition: `Result`}."""
-    wanted = {key: each for group in GROUPS for key, each in conditions(row, group).items()}
+def lives(row, groups=tuple(GROUPS), executor=None, progress=False):
+    """What a row's reading lived in groups: {key of the condition: `Result`}."""
+    wanted = {key: each for group in groups for key, each in conditions(row, group).items()}
     return dict(zip(wanted, sweep(list(wanted.values()), executor, progress)))
 
 
 def measured(row, life):
-    """The row with the statistics of all groups, of what `lives` gave."""
-    return replace(row, statistics={name: each for group in GROUPS for name, each in measure(group, life).items()})
+    """The row with the statistics of what `lives` gave, of all groups that it has every condition of."""
+    groups = [name for name, group in GROUPS.items() if all(key in life for key in group.keys)]
+    return replace(row, statistics={name: each for group in groups for name, each in measure(group, life).items()})
 
 
 def rerun(table, n, seed=0, groups=tuple(GROUPS), executor=None):
