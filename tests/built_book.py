@@ -9,7 +9,7 @@ from playwright.sync_api import expect
 from neorl.statements import CLAIMS, DEMONSTRATIONS
 
 HTML = Path(__file__).parent.parent / "_build" / "html"
-PAGES = {"index.html": "Figure 5: PC + OVC", "chapters/paper_a.html": "Figure 7: all, by N",
+PAGES = {"index.html": "Figure 5: PC + OVC", "chapters/paper_a.html": "Figure 7: all",
          "chapters/paper_b.html": "Figure 5: PC + OVC", "chapters/paper_c.html": "Figure 4e: D"}
 pytestmark = pytest.mark.skipif(not HTML.exists(), reason="no book: run make book first")
 
