@@ -33,7 +33,7 @@ class Learning:
 
     learning_rate: α in [0, 1]. discount: γ in [0, 1] for each update.
     driver: what makes an update. "cell": a change of cell, inference inversion (eq. 4.7, 4.8); "step": every step,
-        temporal difference (eq. 4.6), to which no field below but `terminal` applies.
+        temporal difference (eq. 4.6), to which no field below but `terminal` applies: see `AT_EVERY_STEP`.
     credit: ψ of an event in the cell just left. "share": the share of the steps there on which it occurred;
         "happened": 1 if it occurred at all; "count": the number of steps on which it occurred, α ψ being 1 at most;
         "activity": how active it was at the end, see `activity`; "last": 1 for the last event only.
@@ -94,13 +94,16 @@ class Learning:
         checks.one_of("causes", self.causes, CAUSES)
         checks.one_of("capture", self.capture, CAPTURES)
         checks.one_of("attention", self.attention, ATTENTIONS)
-        if self.driver == "step" and any(getattr(self, name) != value for name, value in AT_EVERY_STEP.items()):
-            raise ValueError(f"driver is 'step', allowed with it are the defaults of {', '.join(AT_EVERY_STEP)}")
+        if self.driver == "step":
+            for name, value in AT_EVERY_STEP.items():
+                if getattr(self, name) not in (value, getattr(Learning, name)):
+                    raise ValueError(f"{name} is {getattr(self, name)!r}, allowed with driver 'step' is {value!r}")
+                object.__setattr__(self, name, value)
         if self.memory > 0 and self.trace > 1:
             raise ValueError(f"trace is {self.trace}, allowed with memory, here {self.memory}, is 1")
 
 
-# What temporal difference leaves no choice of.
+# What temporal difference leaves no choice of, and what stands in place of the defaults with it.
 AT_EVERY_STEP = {"credit": "share", "absence": 0.0, "trace": 1, "memory": 0.0, "bootstrap": True, "causes": "any",
                  "capture": "contact", "attention": "each"}
 

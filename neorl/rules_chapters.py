@@ -12,7 +12,7 @@ FAILS = 0.1  # of what the agent that learns by persistence has gained
 
 
 def judge_changes(revalued, moved=None):
-    """Claim T1: revaluing, and on its page also moving, against what the same agents do later.
+    """Claim T1 about revaluing, and on its page also moving, against what the same agents do later.
 
     revalued: the `Result` of agents that want red creeps too, from half-time on.
     moved: mean distances, in board widths, to a place that is wanted, in the time after each of its moves between two
@@ -38,7 +38,7 @@ def judge_changes(revalued, moved=None):
 
 
 def judge_cost(together, alone, none):
-    """Claim T2: what an agent's maps cost together and each alone; each (repetitions,), in the same unit a step.
+    """Claim T2, from what an agent's maps cost together and each alone; each (repetitions,), in the same unit a step.
 
     together: with all maps. alone: a sequence, with each map alone. none: without any.
     """
@@ -48,7 +48,7 @@ def judge_cost(together, alone, none):
 
 
 def judge_temporality(whole, short):
-    """Claim T3: what agents lose that remember a step less than the process does (`neorl.classics.temporality`).
+    """Claim T3, from what agents lose that remember a step less than the process does (`neorl.classics.temporality`).
 
     whole, short: {name of a process: what agents earn above chance, (runs,)}, of agents that remember all L steps, and
     of agents that remember one step less.
@@ -79,7 +79,7 @@ def judge_tables(states, values, entries, filled):
 
 
 def judge_real_time(load, delay):
-    """Claim T5: the load of each window of a run in real time, in cores, and when each step was done.
+    """Claim T5, from the load of each window of a run in real time, in cores, and when each step was done.
 
     load: (windows,). delay: (windows, steps), the time from when a step was due until it was done, in steps.
     """
@@ -90,7 +90,7 @@ def judge_real_time(load, delay):
 
 
 def judge_more_maps(additions):
-    """Claim T6: agents with more maps against agents with some of these.
+    """Claim T6, from agents with more maps against agents with some of these.
 
     additions: {what is added: (more, fewer, brownian)}. more: the `Result` of the agent with more maps. fewer: a
     sequence, of the agents with fewer, in runs of the same length. brownian: Brownian motion on the same board.
@@ -131,7 +131,7 @@ def judge_persistence(persistent, per_step, brownian):
 
 
 def judge_time_scale(resolutions, stays):
-    """Claim T8: how long agents stay in the cells of maps of several resolutions.
+    """Claim T8, from how long agents stay in the cells of maps of several resolutions.
 
     resolutions: N of each map, (maps,). stays: the mean time from one change of cell to the next, (runs, maps).
     """

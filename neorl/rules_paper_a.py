@@ -56,7 +56,7 @@ def judge_single_layer(by_resolution, brownian):
 
 
 def _judge_saturation(by_resolution, runs, some_learned):
-    """Claim A3: coarse maps are ahead early and fine ones finally, and the rate of the coarse ones has levelled off."""
+    """Claim A3, that coarse maps lead early and fine ones finally, where the rate of the coarse ones levels off."""
     order = sorted(by_resolution)
     early, middle, final = ({n: by_resolution[n].rate(*share) for n in order} for share in (EARLY, MIDDLE, FINAL))
     first, last = (estimate(rank_correlation, *rates.values()) for rates in (early, final))

@@ -17,13 +17,20 @@ from neorl import (Agent, Desire, Learning, Node, Place, Policy, Run, WaterWorld
 RECORD = Path(__file__).parent / "golden.json"
 SHORT, LONG = 200, 6_000
 PLAIN = {"learning_rate": 0.03, "discount": 0.8, "driver": "cell", "credit": "share", "absence": 0.0, "terminal": True,
-         "trace": 1, "bootstrap": True}
+         "trace": 1, "bootstrap": True, "memory": 0.0, "memory_unit": "cells", "memory_value": "reached",
+         "activity": 0.5, "absence_form": "decay", "causes": "any", "capture": "contact", "attention": "each"}
 PRIMES = (2, 3, 5, 7, 11, 13)
-CHOICES = {"policy": Policy(0.02, "random"), "own_cell": "silent", "coverage": 0.5, "weighting": "resolution"}
+CHOICES = {"policy": Policy(0.02, "random"), "own_cell": "silent", "coverage": 0.5, "object_coverage": 0.5,
+           "weighting": "resolution"}
+
+
+def plain_rule(**changes):
+    """The plain rule but for some choices."""
+    return Learning(**PLAIN | changes)
 
 
 def learning(**changes):
-    return CHOICES | {"learning": Learning(**PLAIN | changes)}
+    return CHOICES | {"learning": plain_rule(**changes)}
 
 
 def every_modality():
@@ -48,19 +55,19 @@ RUNS = {
        for by in ("equal", "resolution", "cells")},
     "objects": (object_vector_cells(PRIMES, **learning()), 3),
     "objects N5": (object_vector_cells([5], **learning()), 3),
-    "both": (multimodal(PRIMES, **learning()), 3),
+    "both": (multimodal(PRIMES, place_gain=1.0, **learning()), 3),
     "both, gain of place": (multimodal(PRIMES, place_gain=5.0, **learning()), 3),
-    "whole board": (multimodal([3, 7], **learning() | {"coverage": 1.0}), 3),
-    "own cell counts": (multimodal([3, 7], **learning() | {"own_cell": "counts"}), 3),
-    "greedy": (multimodal([3, 7], **learning() | {"policy": Policy(0.0, "random")}), 3),
-    "no-op": (multimodal([3, 7], **learning() | {"policy": Policy(0.1, "no-op")}), 3),
-    **{f"network {name}": (make(PRIMES, scale=2.0, **learning()), 3) for name, make in NETWORKS.items()},
+    "whole board": (multimodal([3, 7], place_gain=1.0, **learning() | {"coverage": 1.0, "object_coverage": 1.0}), 3),
+    "own cell counts": (multimodal([3, 7], place_gain=1.0, **learning() | {"own_cell": "counts"}), 3),
+    "greedy": (multimodal([3, 7], place_gain=1.0, **learning() | {"policy": Policy(0.0, "random")}), 3),
+    "no-op": (multimodal([3, 7], place_gain=1.0, **learning() | {"policy": Policy(0.1, "no-op")}), 3),
+    **{f"network {name}": (make(PRIMES, scale=2.0, signed=False, **learning()), 3) for name, make in NETWORKS.items()},
     **{f"network {name}, signed": (make([3, 7], scale=1.0, signed=True, **learning()), 3)
        for name, make in NETWORKS.items()},
-    "recursion": (network_d([3, 7], recursion=0.5, scale=1.3, **learning()), 3),
+    "recursion": (network_d([3, 7], recursion=0.5, scale=1.3, signed=False, **learning()), 3),
     "every modality": (every_modality(), 4),
-    **{f"place, {name}": (place_cells([4, 9], **learning(**rule)), 8) for name, rule in RULES.items()},
-    **{f"both, {name}": (multimodal([4, 7], **learning(**rule)), 3) for name, rule in RULES.items()},
+    **{f"place, {name}": (place_cells([4, 9], **learning(**rules)), 8) for name, rules in RULES.items()},
+    **{f"both, {name}": (multimodal([4, 7], place_gain=1.0, **learning(**rules)), 3) for name, rules in RULES.items()},
 }
 CHANGES = {
     "joined by objects": ((LONG // 3, "both"),),

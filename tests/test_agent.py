@@ -60,8 +60,17 @@ PAPERS = (place_cells, brownian, object_vector_cells, multimodal, network_a, net
     (lambda: Learning(trace=0), "trace is 0"),
     (lambda: Learning(terminal=1.5), "terminal is 1.5"),
     (lambda: Learning(bootstrap=None), "bootstrap is None"),
-    *((lambda choice=choice: Learning(driver="step", **choice), "driver is 'step', allowed with it")
-      for choice in ({"trace": 5}, {"bootstrap": False}, {"credit": "last"}, {"absence": 0.1})),
+    *((lambda choice=choice: Learning(driver="step", **choice), f"{[*choice][0]} is .*, allowed with driver 'step' is")
+      for choice in ({"trace": 5}, {"memory": 7.5}, {"credit": "last"}, {"absence": 0.15})),
+    (lambda: Learning(memory=-1), "memory is -1"),
+    (lambda: Learning(memory=2.0, trace=3), "trace is 3, allowed with memory, here 2.0, is 1"),
+    (lambda: Learning(memory_unit="minutes"), "memory_unit is 'minutes', allowed are 'cells', 'seconds'"),
+    (lambda: Learning(memory_value=1), "memory_value is 1"),
+    (lambda: Learning(absence_form="up"), "absence_form is 'up'"),
+    (lambda: Learning(activity=-0.1), "activity is -0.1"),
+    (lambda: Learning(causes="other"), "causes is 'other'"),
+    (lambda: Learning(capture="hit"), "capture is 'hit'"),
+    (lambda: Learning(attention="all"), "attention is 'all'"),
     (lambda: Policy(exploration=1.1), "exploration is 1.1"),
     (lambda: Policy(idle="sleep"), "idle is 'sleep'"),
 ])

@@ -8,9 +8,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from golden import learning, plain_rule
 
 import neorl
-from neorl import (Agent, Desire, Learning, Node, Place, Policy, Run, WaterWorld, multimodal, network_a, network_b,
+from neorl import (Agent, Desire, Node, Place, Policy, Run, WaterWorld, multimodal, network_a, network_b,
                    network_c, network_d, object_vector_cells, place_cells, simulate)
 from neorl.horde import as_vectors
 from neorl.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
@@ -34,27 +35,27 @@ A_THAT_RECURS = replace(network_a([3, 5]), desires=(
 READINGS = {
     "default": place_cells([3, 7]),
     "several": place_cells([2, 5, 9], weighting="cells", policy=Policy(exploration=0.3, idle="no-op")),
-    "happened": place_cells([5], learning=Learning(credit="happened", absence=0.1)),
-    "last": place_cells([5], learning=Learning(credit="last", terminal=False), own_cell="counts"),
-    "step": multimodal([5], learning=Learning(driver="step")),
-    "trace": multimodal([4, 7], learning=Learning(trace=7)),
-    "leaky": place_cells([6], coverage=0.5, learning=Learning(trace=5, bootstrap=False)),
+    "happened": place_cells([5], learning=plain_rule(credit="happened", absence=0.1)),
+    "last": place_cells([5], learning=plain_rule(credit="last", terminal=False), own_cell="counts"),
+    "step": multimodal([5], learning=plain_rule(driver="step")),
+    "trace": multimodal([4, 7], learning=plain_rule(trace=7)),
+    "leaky": place_cells([6], coverage=0.5, learning=plain_rule(trace=5, bootstrap=False)),
     "objects": object_vector_cells([3, 4], weighting="resolution"),
-    "memory": multimodal([3, 6], learning=Learning(memory=4.0)),
-    "memory alone": multimodal([2, 5], learning=Learning(memory=30.0, bootstrap=False, absence=0.3, learning_rate=0.3)),
-    "memory of seconds": multimodal([4], learning=Learning(memory=0.2, memory_unit="seconds", memory_value="discounted",
+    "memory": multimodal([3, 6], learning=plain_rule(memory=4.0)),
+    "memory alone": multimodal([2, 5], learning=plain_rule(memory=30.0, bootstrap=False, absence=0.3, learning_rate=0.3)),
+    "memory of seconds": multimodal([4], learning=plain_rule(memory=0.2, memory_unit="seconds", memory_value="discounted",
                                                            bootstrap=False, credit="happened")),
-    "away": multimodal([5], learning=Learning(absence=0.2, absence_form="away", terminal=False)),
-    "away alone": multimodal([5], learning=Learning(absence=0.2, absence_form="away", bootstrap=False, trace=4)),
-    "away with memory": multimodal([5], learning=Learning(absence=0.4, absence_form="away", memory=6.0, bootstrap=False,
+    "away": multimodal([5], learning=plain_rule(absence=0.2, absence_form="away", terminal=False)),
+    "away alone": multimodal([5], learning=plain_rule(absence=0.2, absence_form="away", bootstrap=False, trace=4)),
+    "away with memory": multimodal([5], learning=plain_rule(absence=0.4, absence_form="away", memory=6.0, bootstrap=False,
                                                           memory_value="discounted")),
-    "count": place_cells([4], learning=Learning(credit="count", learning_rate=0.4)),
-    "activity": multimodal([4], learning=Learning(credit="activity", activity=0.1, absence=0.1, memory=2.0)),
-    "own causes": multimodal([7], learning=Learning(causes="own", memory=5.0)),
-    "leap": multimodal([4], learning=Learning(capture="leap", causes="own", memory=3.0, bootstrap=False)),
-    "silent": object_vector_cells([4], learning=Learning(capture="silent")),
-    "nearest": multimodal([5], learning=Learning(attention="nearest", memory=5.0)),
-    "wanted": multimodal([5], learning=Learning(attention="wanted", causes="own")),
+    "count": place_cells([4], learning=plain_rule(credit="count", learning_rate=0.4)),
+    "activity": multimodal([4], learning=plain_rule(credit="activity", activity=0.1, absence=0.1, memory=2.0)),
+    "own causes": multimodal([7], learning=plain_rule(causes="own", memory=5.0)),
+    "leap": multimodal([4], learning=plain_rule(capture="leap", causes="own", memory=3.0, bootstrap=False)),
+    "silent": object_vector_cells([4], learning=plain_rule(capture="silent")),
+    "nearest": multimodal([5], learning=plain_rule(attention="nearest", memory=5.0)),
+    "wanted": multimodal([5], learning=plain_rule(attention="wanted", causes="own")),
     "A": network_a([2, 3]),
     "B": network_b([3, 5], signed=True),
     "C": network_c([3], object_gain=0.5),
@@ -475,15 +476,15 @@ def test_a_bad_stretch_is_refused(begin, end, message):
 
 def test_an_agent_whose_values_overflow_still_chooses():
     with np.errstate(all="ignore"):
-        rule = Learning(terminal=False, discount=1.0)
-        agent = place_cells([3], valence_green=1e308, valence_red=-1e308, learning=rule)
+        rules = plain_rule(terminal=False, discount=1.0)
+        agent = place_cells([3], valence_green=1e308, valence_red=-1e308, learning=rules)
         assert simulate(agent, TANK, steps=50_000, runs=1, progress=False).hits.sum() > 0
 
 
 def test_learning_pays():
     """N7 after an hour beats Brownian motion clearly, which is claim A2 in small."""
     learner, control = (simulate(agent, TANK, steps=60_000, runs=4, progress=False).rate(0.5).mean()
-                        for agent in (place_cells([7]), neorl.brownian()))
+                        for agent in (place_cells([7], **learning()), neorl.brownian()))
     assert learner > control + 0.2
 
 
@@ -544,7 +545,7 @@ def test_recursion_takes_vectors_and_valences_of_the_step_before():
     np.testing.assert_allclose(run.memory.landing[3:, :2], [expected, expected])
 
 
-@pytest.mark.parametrize("agent", [multimodal([3, 12]), place_cells([14], learning=Learning(trace=5, absence=0.2))])
+@pytest.mark.parametrize("agent", [multimodal([3, 12]), place_cells([14], learning=plain_rule(trace=5, absence=0.2))])
 def test_a_run_in_the_room_of_another_begins_with_nothing_and_is_the_same(agent):
     before = Run(agent, WaterWorld(), seed=0, run=3)
     before.advance(20_000)
