@@ -119,6 +119,11 @@ def standing(record, names):
     return "\n".join(lines)
 
 
+def extract(record, names):
+    """Some claims of a record, as `read` has it, as a Markdown table."""
+    return "\n".join([HEADER, *(_row(record, name) for name in names)])
+
+
 def page(record):
     """The tables of all claims and demonstrations for the book, and what each verdict rests on, in MyST Markdown."""
     names = [*CLAIMS, *DEMONSTRATIONS]

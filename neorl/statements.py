@@ -180,7 +180,7 @@ STATEMENTS = {
         "The states that a Markov process needs grow exponentially with the steps that matter: none of them can be "
         "spared",
         "Share of its reward above chance that an agent loses by remembering one step less, where it is least",
-        "> 0", "fig-3-memory", "judge_temporality", (0.1,)),
+        "> 0", "fig-3-window", "judge_temporality", (0.1,)),
     "T4": Statement(
         "section 3.1",
         "Learning the full transition model increases the task according to |S|²·|A|, while Q-learning only requires "

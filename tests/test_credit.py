@@ -1,14 +1,15 @@
 """The chamber with two levers: what is learned there, against closed forms and the rules told anew."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from neorl import Learning
 from neorl.classics import credit
-from neorl.classics.credit import Chamber, by_role, learn_in
+from neorl.classics.credit import DIFFERENCE, INVERSION, Chamber, by_role, learn_in
 from neorl.stream import below, new_stream, uniform
 
-TD = Learning(driver="step")
+QUICK = replace(INVERSION, learning_rate=0.3)
 
 
 def told_anew(chamber, learning, visits, seed=0, run=0):
@@ -43,8 +44,8 @@ def told_anew(chamber, learning, visits, seed=0, run=0):
 
 
 @pytest.mark.parametrize("chamber", [Chamber(), Chamber(effort=3, hold=2.0, light=0.9), Chamber(delay=7, hold=4.0)])
-@pytest.mark.parametrize("learning", [Learning(0.3), Learning(0.3, credit="happened"), Learning(0.3, credit="last"),
-                                      Learning(0.3, absence=0.5), Learning(0.3, 0.9, driver="step")])
+@pytest.mark.parametrize("learning", [QUICK, replace(QUICK, credit="happened"), replace(QUICK, credit="last"),
+                                      replace(QUICK, absence=0.5), replace(QUICK, discount=0.9, driver="step")])
 @pytest.mark.filterwarnings("ignore:overflow encountered")
 def test_the_kernel_does_what_the_rules_say(chamber, learning):
     values = learn_in(chamber, learning, visits=20, runs=2, seed=5)
@@ -53,14 +54,14 @@ def test_the_kernel_does_what_the_rules_say(chamber, learning):
 
 def test_with_one_step_a_visit_both_rules_are_the_same():
     chamber = Chamber(effort=1, hold=3.0)
-    np.testing.assert_array_equal(learn_in(chamber, Learning(), 50, 3), learn_in(chamber, TD, 50, 3))
+    np.testing.assert_array_equal(learn_in(chamber, INVERSION, 50, 3), learn_in(chamber, DIFFERENCE, 50, 3))
 
 
 def test_inversion_learns_the_share_of_visits_that_each_exit_ends_and_difference_what_is_left_of_it():
     """A lever held for good over a visit of T steps is worth 1 to inversion, and to temporal difference the solution
     of q = 1 / T + (1 − 1 / T) γ q."""
     chamber, steps = Chamber(effort=8, hold=10_000.0, light=0.0, bell=0.0), 8
-    rules = Learning(0.1), Learning(0.01, driver="step")
+    rules = replace(INVERSION, learning_rate=0.1), replace(DIFFERENCE, learning_rate=0.01)
     (inverted,), (stepwise,) = (learn_in(chamber, rule, 600, 1) for rule in rules)
     lever = int(inverted[-1, 1].sum() > inverted[-1, 0].sum())
     assert inverted[-1, lever, lever] == pytest.approx(1.0, abs=1e-3)
@@ -69,16 +70,16 @@ def test_inversion_learns_the_share_of_visits_that_each_exit_ends_and_difference
 
 
 def test_what_always_occurs_is_worth_to_inversion_how_often_each_exit_follows():
-    values = learn_in(Chamber(light=1.0, hold=5.0), Learning(0.02), 400, 40)
+    values = learn_in(Chamber(light=1.0, hold=5.0), replace(INVERSION, learning_rate=0.02), 400, 40)
     np.testing.assert_allclose(values[:, -1, 2].mean(axis=0), 0.5, atol=0.02)
 
 
 def test_the_stream_is_the_same_for_any_number_of_runs_and_any_rule():
-    few, many = (learn_in(Chamber(), Learning(), 30, runs) for runs in (2, 4))
+    few, many = (learn_in(Chamber(), INVERSION, 30, runs) for runs in (2, 4))
     np.testing.assert_array_equal(few, many[:2])
     assert (many[0] != many[1]).any()
     exits = [np.diff(np.pad(learn_in(Chamber(), rule, 30, 1)[0, :, :2].max(axis=1), ((1, 0), (0, 0))), axis=0) > 0
-             for rule in (Learning(), Learning(credit="last"))]
+             for rule in (INVERSION, replace(INVERSION, credit="last"))]
     np.testing.assert_array_equal(*exits)
 
 
@@ -99,9 +100,12 @@ def test_a_chamber_refuses_what_is_none(change, message):
 
 
 @pytest.mark.parametrize("change, message", [
-    ({"chamber": None}, "chamber is None"), ({"learning": Learning(trace=2)}, "trace is 2, allowed is 1"),
+    ({"chamber": None}, "chamber is None"), ({"learning": replace(INVERSION, trace=2)}, "trace is 2, allowed are 1"),
+    ({"learning": replace(INVERSION, memory=3.0)}, "memory is 3.0, allowed are 0.0"),
+    ({"learning": replace(INVERSION, credit="count")}, "credit is 'count', allowed are 'share', 'happened', 'last'"),
+    ({"learning": replace(INVERSION, absence_form="away")}, "absence_form is 'away'"),
     ({"visits": 0}, "visits is 0"), ({"runs": 0}, "runs is 0"), ({"seed": -1}, "seed is -1"),
 ])
 def test_learning_in_a_chamber_refuses_what_it_cannot_do(change, message):
     with pytest.raises(ValueError, match=message):
-        learn_in(**{"chamber": Chamber(), "learning": Learning(), "visits": 1, "runs": 1, "seed": 0, **change})
+        learn_in(**{"chamber": Chamber(), "learning": INVERSION, "visits": 1, "runs": 1, "seed": 0, **change})

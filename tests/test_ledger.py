@@ -128,6 +128,12 @@ def test_claims_are_listed_by_what_became_of_them(record):
         f"- *Not computed in this build*: {STATEMENTS['H1'].text} (H1).")
 
 
+def test_some_claims_of_a_record_make_a_table(record):
+    header, _, *rows = ledger.extract(record, ["A6", "C2", "C5"]).splitlines()
+    assert header.startswith("| Claim | Thesis | To the letter |") and len(rows) == 3
+    assert rows == [row(ledger.in_short(record), name) for name in ("A6", "C2", "C5")]
+
+
 def test_verdicts_are_counted_without_demonstrations(record):
     ledger.store("chapter_2", [claims.Claim("H1", networks()[0].here, "", 20, "reproduced", False)])
     counts = ledger.tally(ledger.read())

@@ -11,7 +11,7 @@
 5. The stream does not depend on what is learned. Nothing is learned about the way back.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -24,6 +24,11 @@ from neorl.stream import below, new_stream, uniform
 
 ROLES = ("cause", "other lever", "light", "bell")
 CELLS = 3  # the chamber, and behind each exit one
+POSSIBLE = {"trace": (1,), "memory": (0.0,), "credit": ("share", "happened", "last"), "absence_form": ("decay",)}
+INVERSION = Learning(learning_rate=0.03, discount=0.8, driver="cell", credit="share", absence=0.0, absence_form="decay",
+                     terminal=True, trace=1, memory=0.0, bootstrap=True, causes="any", capture="contact",
+                     attention="each")  # the plainest rule of its kind, whatever rule the agents of the book have
+DIFFERENCE = replace(INVERSION, driver="step")
 
 
 @dataclass(frozen=True)
@@ -54,13 +59,15 @@ def learn_in(chamber, learning, visits, runs, seed=0):
     """What the events of a chamber come to be worth for either exit: float32 (runs, visits, 4, 2), after each visit.
 
     The four events are the levers of the two exits, light and bell.
-    learning: a `Learning` without a longer trace. visits, runs: integers ≥ 1. seed: integer ≥ 0; run k is the same for
-    any number of runs, and meets the same stream of events whatever ``learning`` is.
+    learning: a `Learning` without a longer trace or memory, whose credit is "share", "happened" or "last", and whose
+    absence is a decay. visits, runs: integers ≥ 1. seed: integer ≥ 0; run k is the same for any number of runs, and
+    meets the same stream of events whatever ``learning`` is.
     Raises ValueError for anything else.
     """
     checks.instance("chamber", chamber, Chamber)
-    if checks.instance("learning", learning, Learning).trace != 1:
-        raise ValueError(f"trace is {learning.trace}, allowed is 1")
+    checks.instance("learning", learning, Learning)
+    for name, allowed in POSSIBLE.items():
+        checks.one_of(name, getattr(learning, name), allowed)
     checks.integer("visits", visits, at_least=1)
     values = np.zeros((checks.integer("runs", runs, at_least=1), visits, N_EVENTS, 2), np.float32)
     by_step, credit = learning.driver == "step", CREDITS.index(learning.credit)
