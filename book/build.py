@@ -26,6 +26,8 @@ from neorl import ledger, store
 ROOT = Path(__file__).resolve().parent.parent
 CHAPTERS = ROOT / "book" / "chapters"
 HTML = ROOT / "_build" / "html" / "index.html"
+CONCLUSION = "chapter_5"  # reads what all others have found
+LAST = ("calibration", CONCLUSION)  # computed after all others, in this order
 WIDGET_STATE = "application/vnd.jupyter.widget-state+json"
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 
@@ -33,7 +35,7 @@ WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 def main():
     chosen = parse_arguments()
     parameters = {name: value for name, value in vars(chosen).items() if value is not None}
-    notebooks = {path: parameters for path in sorted(sorted((ROOT / "notebooks").glob("*.ipynb")), key=concludes)}
+    notebooks = dict.fromkeys(sorted(sorted((ROOT / "notebooks").glob("*.ipynb")), key=turn), parameters)
     notebooks[ROOT / "notebooks" / "assumptions.ipynb"] = parameters | {"points": points(chosen.runs)}
     for notebook, its_parameters in notebooks.items():
         check_parameters(notebook, its_parameters)
@@ -65,16 +67,22 @@ def points(runs):
     return 2 ** max(2, int(math.log2(2.56 * runs)))
 
 
-def concludes(notebook):
-    """Whether a notebook reads what all others have found, so that it comes after them."""
-    return notebook.stem == "chapter_5"
+def turn(notebook):
+    """When a notebook is computed: after all of lower numbers, and by name among equals."""
+    return LAST.index(notebook.stem) + 1 if notebook.stem in LAST else 0
+
+
+def records(notebook):
+    """The records of claims that a notebook reads: all others', or that of the shares of readings alone."""
+    read = "*" if notebook.stem == CONCLUSION else "assumptions"
+    return sorted(set(CHAPTERS.glob(f"{read}.claims.json")) - {CHAPTERS / f"{notebook.stem}.claims.json"})
 
 
 def compute(notebook, parameters):
     """Run a notebook into the chapters, unless it is there already with the same parameters and sources."""
     target, record = CHAPTERS / notebook.name, CHAPTERS / f"{notebook.stem}.inputs.json"
-    found = sorted(CHAPTERS.glob("*.claims.json")) if concludes(notebook) else []
-    wanted = {"parameters": parameters, "inputs": digest([notebook, ROOT / "environment.txt", *sources(), *found])}
+    inputs = [notebook, ROOT / "environment.txt", *sources(), *records(notebook)]
+    wanted = {"parameters": parameters, "inputs": digest(inputs)}
     if target.exists() and record.exists() and json.loads(record.read_text()) == wanted:
         print(f"{notebook.name}: nothing has changed")
         return

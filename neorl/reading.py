@@ -197,15 +197,18 @@ def judge(results):
     if complete("revaluing"):
         judged += [claims.judge_changes(results["revalued"])]
     if complete("layers", "modal", "resolutions"):
-        judged += [claims.judge_more_maps(_additions(results, by))]
+        judged += [claims.judge_more_maps(additions(results))]
     return {claim.name: claim for claim in judged}
 
 
-def _additions(results, by):
-    """What `judge_more_maps` compares: {name: (with more maps, each with fewer, Brownian motion on that board)}."""
-    eight, three = by["brownian"][8], by["brownian"][3]
-    place, objects = by["place"], by["objects"]
-    return {"resolutions of place, paper A": (results["layers"], [by["layer"][n] for n in LAYERS], eight),
-            "resolutions of place": (place["all"], [place[n] for n in PRIMES], three),
-            "resolutions of object vectors": (objects["all"], [objects[n] for n in PRIMES], three),
-            "a modality": (results["both"], [place["all"], objects["all"]], three)}
+def additions(results):
+    """What `judge_more_maps` compares: {what is added: (with more maps, each with fewer, Brownian motion there)}.
+
+    results: {key: `Result`}, of the groups "layers", "modal" and "resolutions" or more.
+    """
+    eight, three = results["brownian", 8], results["brownian", 3]
+    place, objects = results["place", "all"], results["objects", "all"]
+    return {"resolutions of place, paper A": (results["layers"], [results["layer", n] for n in LAYERS], eight),
+            "resolutions of place": (place, [results["place", n] for n in PRIMES], three),
+            "resolutions of object vectors": (objects, [results["objects", n] for n in PRIMES], three),
+            "a modality": (results["both"], [place, objects], three)}

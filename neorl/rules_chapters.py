@@ -97,8 +97,7 @@ def judge_more_maps(additions):
     """
     sooner, room, testable = {}, {}, []
     for name, (more, fewer, brownian) in additions.items():
-        level = 0.5 * max(result.rate(*FINAL).mean() for result in fewer)
-        sooner[name] = min((minutes_sooner(more, result, level) for result in fewer), key=lambda lead: lead.value)
+        sooner[name] = sooner_with_more(more, fewer)
         room[name] = RECENT * more.seconds / 60
         if any(learned(result, brownian) for result in fewer):
             testable.append(name)
@@ -111,6 +110,15 @@ def judge_more_maps(additions):
                   min(fewest_runs(more, *fewer) for more, fewer, _ in additions.values()),
                   reproduced=all(as_soon), partly=any(as_soon),
                   possible=all(sooner[name].high >= -room[name] for name in counted), testable=bool(testable))
+
+
+def sooner_with_more(more, fewer):
+    """By how many minutes agents with more maps earn half the final level of the best with fewer sooner than all these.
+
+    more: a `Result`. fewer: a sequence. Returns an `Estimate`.
+    """
+    level = 0.5 * max(result.rate(*FINAL).mean() for result in fewer)
+    return min((minutes_sooner(more, result, level) for result in fewer), key=lambda lead: lead.value)
 
 
 def judge_persistence(persistent, per_step, brownian):

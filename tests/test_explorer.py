@@ -13,6 +13,8 @@ import neorl
 from neorl import (Agent, Desire, Explorer, Learning, Node, Policy, WaterWorld, modality, multimodal, network_d,
                    object_vector_cells, place_cells, simulate)
 from neorl.explorer import AGENTS, CURVE_BINS
+from neorl.priors import TO_THE_LETTER as LETTER
+from neorl.reading import Reading, networks
 
 TANK = WaterWorld(n_creeps=8, win_reward=5.0)
 SIZE = {"steps": 12_345, "runs": 12, "seed": 5, "progress": False}
@@ -27,8 +29,25 @@ def conditions():
 @pytest.mark.parametrize("name", AGENTS)
 def test_the_traits_of_a_preset_describe_its_agent(name):
     explorer = Explorer(preset=name)
-    assert explorer.agent == AGENTS[name]()
+    assert explorer.agent == AGENTS[name]
     assert explorer.world == WaterWorld()
+
+
+def test_the_menu_has_the_agents_of_both_readings():
+    calibrated, letter = network_d(), networks(LETTER)["D"]
+    assert AGENTS["Network D"] == calibrated == networks(Reading())["D"]
+    assert AGENTS["Network D, to the letter"] == letter != calibrated
+    groups = [(each["group"], name) for name, each in Explorer()._presets.items()]
+    assert [group for group, _ in groups] == 7 * ["Calibrated"] + 4 * ["To the letter"]
+    assert all(name.endswith(", to the letter") == (group == "To the letter") for group, name in groups)
+
+
+def test_agents_to_the_letter_live_at_its_pace_in_the_tank_of_the_page():
+    slow = simulate(place_cells([3]), WaterWorld(n_creeps=2, fps=25), steps=10, runs=1, progress=False)
+    explorer = Explorer({"slow": slow}, preset="Network D, to the letter")
+    assert explorer.world == WaterWorld(n_creeps=2, fps=LETTER.fps, contact=LETTER.contact)
+    explorer.preset = "Network D"
+    assert explorer.world == slow.world
 
 
 def test_conditions_come_first_and_set_tank_seed_and_traits(conditions):
@@ -42,8 +61,9 @@ def test_conditions_come_first_and_set_tank_seed_and_traits(conditions):
 
 def test_each_trait_changes_its_field_of_the_agent():
     explorer = Explorer(preset="Network D", learning_rate=0.2, discount=0.5, recursion=0.5, valence_red=-2.0,
-                        gains=[0.5, 2.0], n_creeps=4, resolutions=[3, 6])
-    agent = network_d([3, 6], recursion=0.5, place_gain=0.5, object_gain=2.0, learning=Learning(0.2, 0.5))
+                        gains=[0.5, 2.0], n_creeps=4, resolutions=[3, 6], memory=20.0)
+    agent = network_d([3, 6], recursion=0.5, place_gain=0.5, object_gain=2.0,
+                      learning=Learning(0.2, 0.5, memory=20.0))
     desires = [replace(each, valence=-2.0) if each.source == "red" else each for each in agent.desires]
     assert explorer.agent == replace(agent, desires=desires)
     assert explorer.world == WaterWorld(n_creeps=4)
@@ -78,6 +98,7 @@ def test_the_state_is_json_and_a_second_widget_brings_its_own(conditions):
     ("valence_red", float("nan"), "valence_red is nan, allowed are finite numbers"),
     ("recursion", float("inf"), "recursion is inf, allowed are finite numbers"),
     ("resolutions", [], "resolutions"), ("resolutions", [91], "91"), ("n_creeps", 0, "n_creeps"), ("seed", -1, "seed"),
+    ("memory", -1, "memory"), ("memory", float("inf"), "memory is inf, allowed are finite numbers"),
     ("discount", 1.5, "discount"), ("learning_rate", -0.1, "learning_rate"), ("speed", -1, "speed"),
 ])
 def test_a_bad_trait_is_refused_and_the_old_one_stays(trait, value, allowed):
@@ -123,6 +144,18 @@ def test_an_agent_of_other_ways_keeps_them():
     explorer.modality = "border cell"
     explorer.modality = "place cell"
     assert explorer.agent == agent
+
+
+@pytest.mark.parametrize("rule", [Learning(trace=3, memory=0.0), Learning(driver="step")])
+def test_an_agent_with_a_trace_or_that_learns_at_every_step_takes_no_memory(rule):
+    result = simulate(place_cells([3], learning=rule), TANK, steps=10, runs=1, progress=False)
+    explorer = Explorer({"X": result})
+    assert explorer.agent.learning == rule
+    with pytest.raises(TraitError, match="memory is 3.0, allowed is 0 for an agent with a trace or one that learns"):
+        explorer.memory = 3.0
+    explorer.preset = "Place cells"
+    explorer.memory = 3.0
+    assert explorer.agent.learning.memory == 3.0
 
 
 def test_a_modality_of_ones_own_has_no_name_in_the_menu():

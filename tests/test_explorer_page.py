@@ -7,20 +7,22 @@ import pytest
 from explorer_page import write_page
 from playwright.sync_api import expect
 
-from neorl import Desire, Explorer, Place, Run, WaterWorld, multimodal, network_d, place_cells, simulate
+from neorl import Desire, Explorer, Learning, Place, Run, WaterWorld, multimodal, network_d, place_cells, simulate
 from neorl.modality import OBJECT_VECTOR_CELL
 
 SIZE = {"steps": 30_000, "runs": 12, "seed": 3, "progress": False}
 TANK = WaterWorld()
 BOTH, PLACES = multimodal([2, 3, 5]), place_cells([5, 3])
+NETWORK = network_d([3, 4], learning=Learning(discount=0.8, memory=0.0))
+TURNED = network_d([3, 4], recursion=0.5, learning=NETWORK.learning)
 
 
 @pytest.fixture(scope="module")
 def conditions():
     return {"both": simulate(BOTH, TANK, **SIZE), "places": simulate(PLACES, TANK, **SIZE),
             "joins": simulate(PLACES, TANK, changes=[(10_000, multimodal([5, 3]))], **SIZE),
-            "D": simulate(network_d([3, 4]), TANK, **SIZE),
-            "turned": simulate(network_d([3, 4]), TANK, changes=[(10_000, network_d([3, 4], recursion=0.5))], **SIZE)}
+            "D": simulate(NETWORK, TANK, **SIZE),
+            "turned": simulate(NETWORK, TANK, changes=[(10_000, TURNED)], **SIZE)}
 
 
 @pytest.fixture
@@ -98,15 +100,35 @@ def test_a_run_opened_by_its_number_ends_with_the_score_that_python_has(open_pag
     ("recursion", 0.7, lambda agent: replace(agent, desires=[
         replace(each, valence=0.7) if each.source == each.target else each for each in agent.desires])),
     ("gain-1", 3.0, lambda agent: replace(agent, nodes=[agent.nodes[0], replace(agent.nodes[1], gain=3.0)])),
-    ("discount", 0.5, lambda agent: replace(agent, learning=replace(agent.learning, discount=0.5))),
+    ("horizon", 0.3, lambda agent: replace(agent, learning=replace(agent.learning, discount=0.5))),
+    ("memory", 1.48, lambda agent: replace(agent, learning=replace(agent.learning, memory=30.0))),
 ])
 def test_a_slider_changes_the_run_as_python_changes_the_agent(open_page, site, conditions, name, value, change):
     page = open_page(*site("D"))
     explorer_of(page)
     set_slider(page, name, value)
     score = play_to_the_end(page)
-    assert score == lived(change(network_d([3, 4])))
+    assert score == lived(change(NETWORK))
     assert score != conditions["D"].totals[0]
+
+
+def test_no_memory_stands_at_the_left_end_of_its_slider(open_page, site, conditions):
+    page = open_page(*site("D", memory=1000.0))
+    explorer_of(page)
+    assert page.locator('[name="memory"]').input_value() == "3"
+    set_slider(page, "memory", -1)
+    assert play_to_the_end(page) == conditions["D"].totals[0]
+    assert explorer_of(page).get_attribute("data-condition") == "D"
+
+
+def test_the_horizon_of_a_preset_stands_on_its_slider(open_page, site):
+    page = open_page(*site("D", discount=0.8))
+    explorer_of(page)
+    horizon = page.locator('[name="horizon"]')
+    assert (horizon.input_value(), horizon.locator("+ output").text_content()) == ("0.7", "5")
+    set_slider(page, "horizon", 1)
+    set_slider(page, "horizon", 0.7)
+    assert explorer_of(page).get_attribute("data-condition") == "D"
 
 
 def test_creeps_resolutions_modality_and_seed_begin_the_run_that_python_begins(open_page, site):
@@ -135,7 +157,7 @@ def test_the_modality_of_a_preset_stands_in_the_menu_and_comes_back_with_its_ran
     assert explorer_of(page).get_attribute("data-condition") == "places"
 
 
-@pytest.mark.parametrize("name, agent", [("both", BOTH), ("D", network_d([3, 4]))])
+@pytest.mark.parametrize("name, agent", [("both", BOTH), ("D", NETWORK)])
 def test_what_is_dropped_is_an_element_of_interest_for_the_nodes_that_count(open_page, site, name, agent):
     page = open_page(*site(name))
     explorer_of(page)
@@ -263,6 +285,17 @@ def test_every_control_has_a_name_for_those_who_hear_the_page(open_page, site):
         .filter((each) => !each.labels?.[0]?.textContent.trim() && !each.ariaLabel && !each.textContent.trim())
         .map((each) => each.outerHTML)""")
     assert unnamed == []
+
+
+def test_every_number_of_a_slider_has_room_on_a_phone(open_page, site):
+    phone = {"viewport": {"width": 400, "height": 900}}
+    page = open_page(*site("Network D, to the letter", memory=0.123, discount=0.99), **phone)
+    explorer_of(page)
+    page.evaluate("document.body.style.width = 'auto'")
+    page.locator("summary").click()
+    crowded = page.evaluate("""[...document.querySelectorAll(".neorl-explorer output")].filter(
+        (each) => each.scrollWidth > each.clientWidth).map((each) => each.textContent)""")
+    assert crowded == [] and page.evaluate("document.documentElement.scrollWidth") == 400
 
 
 def spoilt(**changes):

@@ -9,6 +9,7 @@ import nbformat
 import pytest
 
 from neorl import notebook
+from neorl.statements import STATEMENTS
 
 ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT / "book"))
@@ -52,6 +53,25 @@ def test_every_figure_has_alt_text_and_a_caption(cells):
         if cell.cell_type == "code" and re.search(r"figures\.(draw|new)_", cell.source):
             assert len(cell.metadata["mystnb"]["image"]["alt"]) > 40
             assert len(cell.metadata["mystnb"]["figure"]["caption"]) > 40
+
+
+def labels(page):
+    """The labels of a notebook's figures."""
+    return [cell.metadata["mystnb"]["figure"]["name"] for cell in page.cells
+            if "figure" in cell.metadata.get("mystnb", {})]
+
+
+def test_every_claim_that_a_rule_judges_has_its_figure_on_one_page():
+    found = [label for page in NOTEBOOKS.values() for label in labels(page)]
+    assert len(found) == len(set(found))
+    assert {statement.figure for statement in STATEMENTS.values() if statement.figure} <= set(found)
+
+
+def test_each_specification_curve_has_the_label_of_its_claim():
+    page = NOTEBOOKS["assumptions"]
+    drawn = re.findall(r'draw_specification\(.*"(\w+)"\)', "\n".join(cell.source for cell in page.cells))
+    assert [f"fig-spec-{name.lower()}" for name in drawn] == [each for each in labels(page) if "spec" in each]
+    assert drawn == [name for name in STATEMENTS if name in drawn] and len(drawn) == 19
 
 
 def test_links_lead_somewhere(cells):

@@ -20,13 +20,22 @@ from neorl import checks, papers, wasm
 from neorl.agent import Agent, Node
 from neorl.modality import MODALITIES
 from neorl.plan import RED, chosen
+from neorl.priors import TO_THE_LETTER as LETTER
+from neorl.reading import networks
 from neorl.simulation import Result, bin_steps
 from neorl.statistics import tolerance_band
 from neorl.waterworld import WaterWorld
 
-AGENTS = {"Place cells": papers.place_cells, "Object-vector cells": papers.object_vector_cells,
-          "Place and object-vector cells": papers.multimodal, "Network A": papers.network_a,
-          "Network B": papers.network_b, "Network C": papers.network_c, "Network D": papers.network_d}
+CALIBRATED = {  # the defaults of the package
+    "Place cells": papers.place_cells(), "Object-vector cells": papers.object_vector_cells(),
+    "Place and object-vector cells": papers.multimodal(), "Network A": papers.network_a(),
+    "Network B": papers.network_b(), "Network C": papers.network_c(), "Network D": papers.network_d()}
+TO_THE_LETTER = {
+    "Place cells, to the letter": papers.place_cells(**LETTER.place_agents),
+    "Object-vector cells, to the letter": papers.object_vector_cells(**LETTER.agents),
+    "Place and object-vector cells, to the letter": papers.multimodal(place_gain=LETTER.place_gain, **LETTER.agents),
+    "Network D, to the letter": networks(LETTER)["D"]}
+AGENTS = CALIBRATED | TO_THE_LETTER
 STEPS = 300_000  # of a run, where the page has no condition
 CURVE_BINS = 50
 MODALITY_FIELDS = ("vector", "tuning", "low", "high", "first_landmark", "landmark")  # of a plan
@@ -47,10 +56,12 @@ class Explorer(AnyWidget):
 
     Traits: resolutions (1 … 90 each), modality (the name of one, with the ranges of the preset if it is that of the
     preset; "" if the preset has more than one node or a modality of its own), recursion (None if there is none),
-    valence_red, gains (one a node), learning_rate and discount (0 … 1), n_creeps (1 … 20), seed (below 2³²), run, speed
-    (times real time, 0 for as fast as it goes), playing.
+    valence_red, gains (one a node), learning_rate and discount (0 … 1), memory (≥ 0, in the unit of the preset; 0 if it
+    has a trace or learns at every step), n_creeps (1 … 20), seed (below 2³²), run, speed (times real time, 0 for as
+    fast as it goes), playing.
     Choosing a preset sets those that it determines. An agent that is no condition lives in the tank of the first
-    condition, or else in one of 3 creeps. seconds and score follow the run, about once a second.
+    condition, or else in one of 3 creeps; one to the letter at the letter's steps a second, and with its contacts.
+    seconds and score follow the run, about once a second.
 
     Raises ValueError for a condition that cannot be shown, TraitError for a bad trait, RuntimeError if the WebAssembly
     module cannot be built.
@@ -72,6 +83,7 @@ class Explorer(AnyWidget):
     gains = traitlets.List(traitlets.Float()).tag(sync=True)
     learning_rate = traitlets.Float(min=0, max=1).tag(sync=True)
     discount = traitlets.Float(min=0, max=1).tag(sync=True)
+    memory = traitlets.Float(min=0).tag(sync=True)
     n_creeps = traitlets.Int(min=1, max=20).tag(sync=True)
     seed = traitlets.Int(min=0, max=2**32 - 1).tag(sync=True)
     run = traitlets.Int(min=0, max=2**32 - 1).tag(sync=True)
@@ -86,8 +98,10 @@ class Explorer(AnyWidget):
             _check_condition(name, result)
         first = next(iter(conditions.values()), None)
         tank = first.world if first else WaterWorld()
-        self._lives = {name: (result.agent, result.world) for name, result in conditions.items()}
-        self._lives |= {name: (make(), tank) for name, make in AGENTS.items() if name not in conditions}
+        as_printed = replace(tank, fps=LETTER.fps, contact=LETTER.contact)
+        agents = {name: (agent, as_printed if name in TO_THE_LETTER else tank) for name, agent in AGENTS.items()}
+        own = {name: (result.agent, result.world) for name, result in conditions.items()}
+        self._lives = own | agents | own  # a condition stands before an agent, and for one of its name
         presets = {name: _preset(name, agent, world, conditions.get(name)) | {"place": place}
                    for place, (name, (agent, world)) in enumerate(self._lives.items())}
         preset = checks.one_of("preset", preset or next(iter(presets)), tuple(presets))
@@ -108,7 +122,8 @@ class Explorer(AnyWidget):
         desires = [replace(each, valence=self.valence_red) if each.source == "red" else
                    replace(each, valence=self.recursion) if each.source == each.target else each
                    for each in preset.desires]
-        learning = replace(preset.learning, learning_rate=self.learning_rate, discount=self.discount)
+        learning = replace(preset.learning, learning_rate=self.learning_rate, discount=self.discount,
+                           memory=self.memory)
         return replace(preset, nodes=nodes, desires=desires, learning=learning)
 
     @property
@@ -117,7 +132,7 @@ class Explorer(AnyWidget):
         _, tank = self._lives[self.preset]
         return replace(tank, n_creeps=self.n_creeps)
 
-    @traitlets.validate("preset", "modality", "recursion", "valence_red", "gains")
+    @traitlets.validate("preset", "modality", "recursion", "valence_red", "gains", "memory")
     def _check(self, proposal):
         name, value = proposal["trait"].name, proposal["value"]
         try:
@@ -128,6 +143,9 @@ class Explorer(AnyWidget):
             nodes = len(self._lives[self.preset][0].nodes)
             if name == "gains" and len(value) != nodes:
                 raise ValueError(f"gains is {value!r}, allowed is one for each of the {nodes} nodes")
+            if name == "memory" and value and not self._presets[self.preset]["can_remember"]:
+                raise ValueError(f"memory is {value!r}, allowed is 0 for an agent with a trace or one that learns at "
+                                 "every step")
             for number in value if name == "gains" else () if value is None else (value,):
                 checks.real(name, number)
             return value
@@ -156,7 +174,7 @@ def _check_condition(name, result):
 def _settings(preset):
     """The traits that a preset determines."""
     return {name: preset[name] for name in ("resolutions", "modality", "recursion", "valence_red", "gains",
-                                            "learning_rate", "discount", "n_creeps")}
+                                            "learning_rate", "discount", "memory", "n_creeps")}
 
 
 def _preset(name, agent, world, result):
@@ -167,12 +185,16 @@ def _preset(name, agent, world, result):
     names = [node.name for node in agent.nodes]
     steps = result.steps if result else STEPS
     modality = agent.nodes[0].modality
+    learning = agent.learning
     return {
-        "label": name, "group": "On this page" if result else "Agents", "nodes": names,
+        "label": name, "nodes": names,
+        "group": "On this page" if result else "To the letter" if name in TO_THE_LETTER else "Calibrated",
         "resolutions": list(agent.nodes[0].resolutions),
         "modality": _named(modality) if len(names) == 1 else "",
-        "gains": [node.gain for node in agent.nodes], "learning_rate": agent.learning.learning_rate,
-        "discount": agent.learning.discount, "valence_red": plan["valence"][red[0]] if red else 0.0,
+        "gains": [node.gain for node in agent.nodes], "learning_rate": learning.learning_rate,
+        "discount": learning.discount, "memory": learning.memory,
+        "can_remember": learning.driver == "cell" and learning.trace == 1,
+        "valence_red": plan["valence"][red[0]] if red else 0.0,
         "recursion": plan["valence"][recurring[0]] if recurring else None, "n_creeps": world.n_creeps,
         "world": {"fps": world.fps, "rules": world.rules._asdict()}, "steps": steps, "red": red, "recurring": recurring,
         "seed": result.seed if result else 0, "runs": result.runs if result else 0,

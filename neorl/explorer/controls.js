@@ -35,8 +35,10 @@ class Controls {
     const act = { resolutions: () => this.writeResolutions(target), "open-preset": () => this.limitRun(),
       preset: () => this.write(initialSettings(this.presets, value)),
       modality: () => this.write({ modality: value }), speed: () => this.write({ speed: SPEEDS[value] }),
-      learning_rate: () => this.write({ learning_rate: Number((10 ** value).toPrecision(2)) }), "open-run": () => null,
-      map: () => this.look({ map: Number(value), goal: null }), field: () => this.look({}),
+      learning_rate: () => this.write({ learning_rate: power(value) }), "open-run": () => null,
+      horizon: () => this.write({ discount: 1 - 1 / power(value) }),
+      memory: () => this.write({ memory: Number(value) === NO_MEMORY ? 0 : power(value) }),
+      map: () => this.look({ map: value, goal: null }), field: () => this.look({ field: this.fieldTiles() }),
       "element-valence": () => this.changeElement(this.selected, { valence: Number(value) }) }[name];
     if (act) return act();
     const [, node] = name.match(/^gain-(\d+)$/) ?? [];
@@ -47,23 +49,31 @@ class Controls {
     if (resolution) return this.toggleResolution(Number(resolution));
     const acts = { play: () => this.togglePlay(), step: () => this.step(), reset: () => this.reset(),
       open: () => this.openRun(), drop: () => this.dropElement({ x: 0.5, y: 0.5 }), delete: () => this.deleteElement(),
-      game: () => (this.game ? this.leaveGame() : this.joinGame()) };
+      game: () => (this.life.game ? this.leaveGame() : this.joinGame()) };
     return acts[action]?.();
   }
 
   togglePlay() {
-    const again = this.frame?.ended;
+    const again = this.life.frame?.ended;
     if (again) this.reset();
     this.write({ playing: again || !this.model.get("playing") });
   }
 
   step() {
     this.write({ playing: false });
-    return this.advancing ? null : this.advance(1, TIMED_BUDGET);
+    return this.life.advancing ? null : this.advance(1, TIMED_BUDGET);
   }
 
+  /** Begin again; after a failure, with the preset's own settings, as those of now may be what has failed. */
   reset() {
+    if (!this.life.frame) this.abandon();
+    if (this.failed) {
+      const keys = [this.model.get("preset"), ...orderedKeys(this.presets)];
+      const key = keys.find((each) => Object.hasOwn(this.presets, each));
+      this.write({ ...initialSettings(this.presets, key), seed: this.presets[key].seed, run: 0, speed: SPEEDS[4] });
+    }
     this.elements = [];
+    this.life.held = null;
     this.select(null);
     this.note("run");
   }
@@ -104,19 +114,20 @@ class Controls {
   }
 
   refresh() {
-    const { frame, root, model } = this;
+    const { life, life: { frame, game }, root, model } = this;
     const [running, before] = [this.running(), root.dataset.state];
-    const idle = this.failed ? "failed" : this.beginning || !frame ? "loading" : frame.ended ? "ended" : "paused";
+    const idle = this.failed ? "failed" : !frame ? "loading" : frame.ended ? "ended" : "paused";
     Object.assign(root.dataset, { state: running ? "running" : idle, condition: this.condition ?? "" });
-    if (running && before !== "running") Object.assign(this, { since: performance.now(), counted: 0 });
-    if (!running && before === "running" && frame) this.rate = 0, this.report();
+    if (running && before !== "running") Object.assign(life, { since: performance.now(), counted: 0 });
+    if (!running && before === "running" && frame) life.rate = 0, this.report();
     this.action("play").textContent = frame?.ended ? "Play again" : model.get("playing") ? "Pause" : "Play";
-    this.action("game").textContent = this.game ? "Leave the game" : "Play against it";
-    this.action("game").ariaPressed = Boolean(this.game);
-    this.action("drop").disabled = this.elements.length >= MOST_ELEMENTS;
+    this.action("game").textContent = game ? "Leave the game" : "Play against it";
+    this.action("game").ariaPressed = Boolean(game);
+    this.action("drop").disabled = !frame || this.elements.length >= MOST_ELEMENTS;
     for (const name of ["step", "game"]) this.action(name).disabled = !frame || frame.ended;
-    this.part(".pad").hidden = !this.game;
-    this.control("speed").disabled = Boolean(this.game);
+    for (const name of ["map", "field"]) this.control(name).disabled = !frame;
+    this.part(".pad").hidden = !game;
+    this.showSpeed();
     this.part(".element").hidden = this.selected === null;
     this.showLegend();
     this.wake();
@@ -125,13 +136,13 @@ class Controls {
   showLegend() {
     const { label, runs, band } = this.presets[this.condition] ?? {};
     const swatch = (kind) => Object.assign(document.createElement("span"), { className: `swatch ${kind}` });
-    this.part(".legend").replaceChildren(swatch("own"), this.changed ? "this run, changed on the way" : "this run",
+    this.part(".legend").replaceChildren(swatch("own"), this.life.changed ? "this run, changed on the way" : "this run",
       ...(band ? [swatch("band"), `tolerance band of ${label}, from ${runs} runs`] : []));
   }
 
   showControls() {
     const { model } = this;
-    const { nodes, recursion } = this.presets[model.get("preset")];
+    const { nodes, recursion, can_remember, plan } = this.presets[model.get("preset")];
     for (const name of ["modality", "seed", "run"]) this.control(name).value = model.get(name);
     this.control("modality").disabled = this.control("modality").parentElement.hidden = nodes.length > 1;
     this.control("recursion").disabled = this.control("recursion").parentElement.hidden = recursion === null;
@@ -140,17 +151,26 @@ class Controls {
     for (const chip of this.part(".chips").children) {
       chip.ariaPressed = model.get("resolutions").includes(Number(chip.dataset.chip));
     }
-    const sliders = ["recursion", "valence_red", "discount", "n_creeps"];
+    this.control("memory").disabled = this.control("memory").parentElement.hidden = !can_remember;
+    this.control("memory").previousElementSibling.textContent = `Memory, ${plan.memory_by_time ? "seconds" : "cells"}`;
+    const sliders = ["recursion", "valence_red", "n_creeps"];
     for (const name of sliders) this.showSlider(name, model.get(name) ?? 0);
-    const [rate, speed] = [model.get("learning_rate"), model.get("speed")];
+    const [rate, horizon, memory] = [model.get("learning_rate"), 1 / (1 - model.get("discount")), model.get("memory")];
     this.showSlider("learning_rate", Math.log10(rate || 0.001), shown(rate));
-    const notch = speed ? SPEEDS.findLastIndex((each) => each && each <= Math.max(1, speed)) : SPEEDS.length - 1;
-    this.showSlider("speed", notch, speed ? `${shown(speed)}× real time` : "as fast as it goes");
+    this.showSlider("horizon", Math.log10(horizon), horizon === Infinity ? "∞" : shown(horizon));
+    this.showSlider("memory", memory ? Math.log10(memory) : NO_MEMORY, shown(memory));
     grow(this.part(".gains"), nodes.length, (index) => slide(`gain-${index}`, "", 0, 5, 0.1));
     nodes.forEach((node, index) => {
       this.control(`gain-${index}`).parentElement.firstChild.textContent = `Gain of ${node}`;
       this.showSlider(`gain-${index}`, model.get("gains")[index]);
     });
+  }
+
+  showSpeed() {
+    const speed = this.speed();
+    const notch = speed ? SPEEDS.findLastIndex((each) => each && each <= Math.max(1, speed)) : SPEEDS.length - 1;
+    this.showSlider("speed", notch, speed ? `${shown(speed)}× real time` : "as fast as it goes");
+    this.control("speed").disabled = Boolean(this.life.game);
   }
 
   showSlider(name, value, text = shown(value)) {
@@ -160,40 +180,41 @@ class Controls {
   }
 
   draw(now = performance.now()) {
-    const { frame, seen, cursor, colours, condition, length = { steps: 1, bin: 1 }, world = { fps: 1 } } = this;
+    const { life: { frame, cursor, length, world, rate }, colours, condition } = this;
+    const isLoading = !frame && !this.failed;
+    if (!this.arena.clientWidth || (isLoading && this.drawn)) return; // the last picture stays for that long
     Object.assign(this, { drawn: now, stale: false });
-    if (!this.arena.clientWidth) return;
-    drawArena(this.arena, colours, { frame, map: this.maps[seen.map], goal: seen.goal, cursor });
+    drawArena(this.arena, colours, frame, cursor);
     drawCurve(this.curve, colours, { seconds: length.steps / world.fps, binSeconds: length.bin / world.fps,
       rewards: frame?.rewards, bins: frame?.ended ? frame.rewards.length : Math.floor((frame?.step ?? 0) / length.bin),
       band: this.presets[condition]?.band });
-    if (!frame) return;
     this.placeHandles();
-    const speed = `${grouped(this.rate)} steps a second, ${grouped(this.rate / world.fps)} × real time`;
-    this.part(".lived").textContent = this.livedText() + (this.running() && this.rate ? ` · ${speed}` : "");
+    const speed = `${grouped(rate)} steps a second, ${grouped(rate / world.fps)} × real time`;
+    this.part(".lived").textContent = this.livedText() + (this.running() && rate ? ` · ${speed}` : "");
     this.part(".said").textContent = this.sentences().join(" ") || HINT;
   }
 
   livedText() {
-    return `${(this.frame.step / this.world.fps / 60).toFixed(1)} minutes lived · score ${shown(this.frame.reward)}`;
+    const { frame, world } = this.life;
+    return frame ? `${(frame.step / world.fps / 60).toFixed(1)} minutes lived · score ${shown(frame.reward)}` : "";
   }
 
   sentences() {
-    const { frame, seen, maps, game, presets, condition, model } = this;
-    const [said, run, score] = [[], model.get("run"), shown(frame.reward)];
+    const { life: { frame, game, changed }, presets, condition, model } = this;
+    if (!frame) return [];
+    const [said, run, score, { seen }] = [[], model.get("run"), shown(frame.reward), frame];
     const { totals = [], seed, steps } = presets[condition] ?? {};
     if (frame.ended) said.push(`Run ${run} is over: its score is ${score}.`);
-    if (frame.ended && run < totals.length && seed === model.get("seed") && steps === frame.step && !this.changed) {
+    if (frame.ended && run < totals.length && seed === model.get("seed") && steps === frame.step && !changed) {
       const same = Math.abs(totals[run] - frame.reward) < 1e-6 ? "the same" : "not the same";
       said.push(`The notebook computed ${shown(totals[run])} for this run: ${same}.`);
     }
     if (game) said.push(`You: ${shown(frame.player?.reward ?? 0)}. neoRL: ${shown(frame.reward - game.score)}.`,
       "Steer with the arrows; Escape leaves.");
     if (seen.goal !== null) {
-      const { vector } = maps[seen.map];
       const ways = { position: "how to get there", velocity: "how to come to move so" };
-      const what = ways[vector] ?? "how to get a thing there";
-      said.push(`Cell ${seen.goal} of ${nameOf(maps[seen.map])}: ${what}. Nobody asked for it.`);
+      const what = ways[seen.vector] ?? "how to get a thing there";
+      said.push(`Cell ${seen.goal} of ${seen.name}: ${what}. Nobody asked for it.`);
     }
     return said;
   }

@@ -34,8 +34,8 @@ function fittedContext(canvas) {
   return context;
 }
 
-/** The arena. scene: {frame, map, goal (cell), cursor}; each may be null. */
-function drawArena(canvas, colours, { frame, map, goal, cursor }) {
+/** The arena. frame: as the engine has it, or null; cursor: a place, or none. */
+function drawArena(canvas, colours, frame, cursor) {
   const context = fittedContext(canvas);
   const unit = canvas.clientWidth / (1 + 2 * BOARD_MARGIN);
   context.translate(BOARD_MARGIN * unit, BOARD_MARGIN * unit);
@@ -44,7 +44,7 @@ function drawArena(canvas, colours, { frame, map, goal, cursor }) {
   tank.rect(0, 0, unit, unit);
   context.save();
   context.clip(tank);
-  if (frame && map) drawMap(board, cellsOf(map, frame.agent), frame, goal);
+  if (frame?.seen) drawMap(board, cellsOf(frame.seen, frame.agent), frame);
   if (frame?.field) drawField(board, frame.field);
   context.restore();
   stroke(board, colours.ink, 1.4, 0.75, (path) => path.addPath(tank));
@@ -52,15 +52,15 @@ function drawArena(canvas, colours, { frame, map, goal, cursor }) {
   if (cursor) drawCursor(board, cursor);
 }
 
-function drawMap(board, cells, frame, goal) {
+function drawMap(board, cells, { active, seen: { goal, ways } }) {
   const { unit, colours } = board;
-  for (const cell of frame.active) fillPath(board, colours.agent, 0.24, (path) => cells.addRegion(path, cell, unit));
+  for (const cell of active) fillPath(board, colours.agent, 0.24, (path) => cells.addRegion(path, cell, unit));
   stroke(board, colours.ink, 0.8, cells.count > 16 ? 0.3 : 0.5, (path) => cells.addBorders(path, unit));
   if (goal === null) return;
   const addGoal = (path) => cells.addRegion(path, goal, unit);
   fillPath(board, colours.goal, 0.25, addGoal);
   stroke(board, colours.goal, 2.4, 1, addGoal);
-  if (frame.goal) drawVectors(board, colours.goal, 1.5, 0.95, frame.goal, (cell) => cells.middle(cell));
+  drawVectors(board, colours.goal, 1.5, 0.95, ways, (cell) => cells.middle(cell));
 }
 
 /** The receptive fields of a map in the arena: their borders, the region of a cell, and its middle with its size. */

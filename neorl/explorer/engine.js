@@ -20,17 +20,24 @@ const TUNINGS = ["cartesian", "proximal", "polar", "angle", "length"];
 let compiled = null;
 let layout = null;
 let run = null;
-let look = { map: 0, goal: null, field: 0 };
+let look = { map: "", goal: null, field: 0 }; // the name of a map, a cell of it, and tiles a side
+
+/** An error that the reader can mend, as a sentence. The words of all others are kept from the page. */
+class Refusal extends Error {}
 
 /** Arrays in a WebAssembly memory, and the kernels that work on them. */
 class Machine {
   constructor(bytes) {
     const gigabytes = bytes / 2 ** 30;
     if (gigabytes > MOST_GIGABYTES) {
-      throw new Error(`These maps need ${gigabytes.toFixed(1)} GB of memory, and a page can have ${MOST_GIGABYTES}.`
+      throw new Refusal(`These maps need ${gigabytes.toFixed(1)} GB of memory, and a page can have ${MOST_GIGABYTES}.`
         + " Choose coarser ones.");
     }
-    this.memory = new WebAssembly.Memory({ initial: Math.ceil(bytes / PAGE) });
+    try {
+      this.memory = new WebAssembly.Memory({ initial: Math.ceil(bytes / PAGE) });
+    } catch {
+      throw new Refusal("This device has not enough memory for these maps. Choose coarser ones.");
+    }
     this.exports = new WebAssembly.Instance(compiled, { env: { memory: this.memory } }).exports;
     this.end = this.exports.__heap_base.value;
     this.result = this.put("float64", [1]);
@@ -132,21 +139,35 @@ function begin(request) {
   call("reset_board");
   call("know_nothing");
   call("settle");
-  look = { ...look, map: Math.min(look.map, run.sizes.maps - 1), goal: null };
-  return { ...frame(), type: "begun", maps: maps() };
+  lookAt({ map: request.map, goal: null, field: request.field });
+  return frame();
 }
 
-function maps() {
+/** Look at a map, or, if there is none of its name, at one whose cells are large enough to click. */
+function lookAt(choice) {
+  const [{ resolution, first_map }, names] = [run.choices, mapNames(run.choices)];
+  look = { ...look, ...choice };
+  if (names.includes(look.map)) return;
+  const large = resolution.findLastIndex((each, m) => m < first_map[1] && each <= 7);
+  Object.assign(look, { map: names[Math.max(0, large)], goal: null });
+}
+
+const nodeOf = (firstMaps, m) => firstMaps.findLastIndex((first) => first <= m);
+
+function mapNames({ nodes, resolution, first_map }) {
+  return resolution.map((each, m) => `${nodes[nodeOf(first_map, m)]} N${each}`);
+}
+
+/** The map that is looked at, as it is drawn, and the way to the goal that is chosen in it. */
+function seen(m) {
   const { plan, choices } = run;
-  return Array.from(plan.resolution, (resolution, m) => {
-    const n = plan.first_map.findLastIndex((first) => first <= m);
-    const [columns, rows, cells] = ["columns", "rows", "cells"].map((name) => Number(plan[name][m]));
-    return {
-      node: choices.nodes[n], resolution: Number(resolution), vector: VECTORS[plan.vector[n]], columns, rows, cells,
-      tuning: TUNINGS[plan.tuning[n]], low_u: plan.low_u[m], scale_u: plan.scale_u[m], low_v: plan.low_v[m],
-      scale_v: plan.scale_v[m], reach: [plan.high[2 * n], plan.high[2 * n + 1]],
-    };
-  });
+  const n = nodeOf(choices.first_map, m);
+  return {
+    name: look.map, vector: VECTORS[plan.vector[n]], tuning: TUNINGS[plan.tuning[n]], columns: Number(plan.columns[m]),
+    rows: Number(plan.rows[m]), low_u: plan.low_u[m], scale_u: plan.scale_u[m], low_v: plan.low_v[m],
+    scale_v: plan.scale_v[m], reach: [plan.high[2 * n], plan.high[2 * n + 1]],
+    goal: look.goal, ways: look.goal === null ? null : valueFunction(m, look.goal),
+  };
 }
 
 /** Go on as another agent, as `Run.change` does: a map that both have stays as it is, the desires of before do not. */
@@ -173,14 +194,14 @@ function become(choices) {
     call("settle");
     const oldKeys = mapKeys(old.choices);
     keys.forEach((key, m) => oldKeys.includes(key) && keepMap(old, oldKeys.indexOf(key), m));
+    const isKept = keys.includes(oldKeys[mapNames(old.choices).indexOf(look.map)]);
+    lookAt({ goal: isKept ? look.goal : null });
   }
-  look = { ...look, map: Math.min(look.map, run.sizes.maps - 1) };
-  run.newMaps = true;
 }
 
 function mapKeys({ first_map, first_landmark, resolution, nodes, trace, memory_fade, ...choices }) {
   return resolution.map((each, m) => {
-    const n = first_map.findLastIndex((first) => first <= m);
+    const n = nodeOf(first_map, m);
     const space = ["vector", "tuning", "low", "high"].map((name) => choices[name][n]);
     const landmarks = choices.landmark.slice(first_landmark[n], first_landmark[n + 1]);
     return JSON.stringify([nodes[n], each, trace, memory_fade > 0, space, landmarks]);
@@ -237,13 +258,8 @@ function drag({ creep, x, y }) {
   return frame();
 }
 
-function find({ map, x, y }) {
-  return { type: "found", map, cell: call("cell_seen_at", { m: map, x, y }) };
-}
-
 function frame(steps = 0) {
-  const { state, second, player, rules, plan, memory, choices, newMaps } = run;
-  run.newMaps = false;
+  const { state, second, player, rules, plan, memory, choices } = run;
   const body = ({ agent_position: at, agent_velocity: moving }) =>
     ({ x: at[0] / rules.width, y: at[1] / rules.width, vx: moving[0] / rules.width, vy: moving[1] / rules.width });
   const { creep_position: at, creep_direction: direction } = state;
@@ -252,10 +268,12 @@ function frame(steps = 0) {
     vx: (speed * direction[2 * i]) / rules.width, vy: (speed * direction[2 * i + 1]) / rules.width,
   }));
   const agent = body(state);
-  const [from, to] = [plan.first_track[look.map], plan.first_track[look.map + 1]].map(Number);
+  const maps = mapNames(choices);
+  const m = maps.indexOf(look.map);
+  const [from, to] = [plan.first_track[m], plan.first_track[m + 1]].map(Number);
   return {
     type: "frame", step: run.step, ended: run.step >= run.steps, reward: run.reward, rewards: run.rewards.slice(),
-    maps: newMaps && maps(), steps, agent, radius: rules.radius / rules.width, creeps,
+    maps, seen: seen(m), steps, agent, radius: rules.radius / rules.width, creeps,
     player: player && { ...body(second), reward: player.reward },
     active: Array.from(memory.cell.subarray(from, to), Number),
     nodes: choices.nodes.map((name, n) => ({ name, ...desire(n) })),
@@ -264,7 +282,6 @@ function frame(steps = 0) {
       x: agent.x + memory.landing[3 * e], y: agent.y + memory.landing[3 * e + 1],
     }])),
     field: look.field ? field(look.field) : null,
-    goal: look.goal === null ? null : valueFunction(look.map, look.goal),
   };
 }
 
@@ -311,14 +328,16 @@ const REQUESTS = {
     become(plan);
     return frame();
   },
-  look({ map, goal, field: side }) {
-    look = { map, goal, field: side };
+  /** `at`: a place, whose cell becomes the goal, or is no longer if it was. */
+  look({ type, at, ...choice }) {
+    lookAt(choice);
+    const cell = at && call("cell_seen_at", { m: mapNames(run.choices).indexOf(look.map), ...at });
+    if (at) look.goal = cell === look.goal ? null : cell;
     return frame();
   },
   advance,
   play,
   drag,
-  find,
 };
 
 let last = Promise.resolve(); // so that answers keep the order of requests while the module is being compiled
@@ -328,8 +347,7 @@ onmessage = ({ data: request }) => {
       if (!run && !["load", "begin"].includes(request.type)) throw new Error("No run has begun.");
       postMessage(await REQUESTS[request.type](request));
     } catch (error) {
-      const short = error instanceof RangeError ? "This device has not enough memory for these maps." : error.message;
-      postMessage({ type: "failed", message: short });
+      postMessage({ type: "failed", message: error instanceof Refusal ? error.message : undefined });
     }
   });
 };

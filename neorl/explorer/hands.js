@@ -2,7 +2,8 @@
 
 class Hands extends Controls {
   placeHandles() {
-    const { frame: { creeps }, elements, selected } = this;
+    const { elements, selected, life: { frame } } = this;
+    const creeps = frame?.creeps ?? [];
     const [grips, marks] = [this.part(".grips"), this.part(".marks")];
     grow(grips, creeps.length, () => "<span class='grip'></span>");
     grow(marks, elements.length, () => "<button type='button' class='interest'></button>");
@@ -27,67 +28,63 @@ class Hands extends Controls {
   grasp(event) {
     const { target, clientX, clientY, pointerId } = event;
     const thing = target.closest(".grip, .interest");
-    this.slid = false;
+    this.life.slid = false;
     if (target.dataset.key) event.preventDefault(), this.hold(KEYS[target.dataset.key][0]);
-    if (!thing) return;
+    if (!thing || !this.life.frame) return;
     thing.setPointerCapture(pointerId);
-    this.held = { index: indexOf(thing), isCreep: thing.matches(".grip"), clientX, clientY };
+    this.life.held = { index: indexOf(thing), isCreep: thing.matches(".grip"), clientX, clientY };
   }
 
   pull(event) {
-    const { held } = this;
-    this.slid ||= held && Math.hypot(event.clientX - held.clientX, event.clientY - held.clientY) > 3;
-    if (!held || !this.slid) return;
+    const { life, life: { held } } = this;
+    life.slid ||= held && Math.hypot(event.clientX - held.clientX, event.clientY - held.clientY) > 3;
+    if (!held || !life.slid) return;
     if (!held.isCreep) return this.changeElement(held.index, this.placeOf(event));
-    this.dragged = { creep: held.index, ...this.placeOf(event) }; // sent once a picture
+    life.dragged = { creep: held.index, ...this.placeOf(event) }; // sent once a picture
     this.wake();
   }
 
   async sendDragged() {
-    const { dragged } = this;
-    Object.assign(this, { dragged: null, changed: true });
-    this.take(await this.engine.ask({ type: "drag", ...dragged }));
+    const { life, life: { dragged } } = this;
+    Object.assign(life, { dragged: null, changed: true });
+    this.take(await this.ask({ type: "drag", ...dragged }));
   }
 
   /** A tap chooses a cell; a second one at the same place takes that back and drops an element. */
   async tap(event) {
-    if (this.slid || this.game || !this.frame || !event.target.matches("canvas, .grip")) return;
-    const [before, place] = [this.tapped, this.placeOf(event)];
-    this.tapped = { ...place, at: event.timeStamp, goal: this.wanted.goal };
+    const { life, life: { frame, tapped: before } } = this;
+    if (life.slid || life.game || !frame || !event.target.matches("canvas, .grip")) return;
+    const place = this.placeOf(event);
+    life.tapped = { ...place, at: event.timeStamp, goal: frame.seen.goal };
     this.select(null);
     this.arena.focus({ preventScroll: true });
     const [late, far] = [event.timeStamp - before?.at, Math.hypot(place.x - before?.x, place.y - before?.y)];
-    if (!(late < DOUBLE_TAP && far < NEARBY)) return this.choose(place);
-    this.tapped = null;
+    if (!(late < DOUBLE_TAP && far < NEARBY)) return this.look({ at: place });
+    life.tapped = null;
     this.dropElement(place);
     await this.look({ goal: before.goal });
   }
 
-  async choose(place) {
-    const { tapped } = this;
-    const { cell } = await this.engine.ask({ type: "find", map: this.wanted.map, ...place });
-    if (tapped === this.tapped) await this.look({ goal: cell === this.wanted.goal ? null : cell });
-  }
-
   pressed(event) {
+    const { life, life: { game } } = this;
     const { target, key } = event;
     const [action, dx, dy] = KEYS[key] ?? [];
     const [onMark, onTank] = [target.matches(".interest"), target === this.arena];
-    if (key === "Escape" && this.game) return this.leaveGame();
+    if (key === "Escape" && game) return this.leaveGame();
     if (!onMark && !onTank || (action === undefined && !["Enter", " ", "Escape", "Delete"].includes(key))) return null;
     if (onMark && ["Enter", " "].includes(key)) return null;
     event.preventDefault();
-    if (key === "Escape") return this.arena.focus(), this.select(null), this.cursor = null, this.look({ goal: null });
+    if (key === "Escape") return this.arena.focus(), this.select(null), life.cursor = null, this.look({ goal: null });
     if (onMark && key === "Delete") return this.deleteElement();
     if (onMark) return this.changeElement(indexOf(target), shifted(this.elements[indexOf(target)], dx, dy, 0.02));
-    if (this.game) return this.hold(action);
-    this.cursor = shifted(this.cursor ?? { x: 0.5, y: 0.5 }, dx ?? 0, dy ?? 0, 0.025);
+    if (game) return this.hold(action);
+    life.cursor = shifted(life.cursor ?? { x: 0.5, y: 0.5 }, dx ?? 0, dy ?? 0, 0.025);
     this.wake();
-    return action === undefined && this.frame ? this.choose(this.cursor) : null;
+    return action === undefined ? this.look({ at: life.cursor }) : null;
   }
 
   dropElement(place) {
-    if (this.elements.length >= MOST_ELEMENTS || !this.frame) return;
+    if (this.elements.length >= MOST_ELEMENTS || !this.life.frame) return;
     this.elements.push({ ...place, valence: 1 });
     this.placeHandles();
     this.part(".marks").lastChild.focus();
@@ -102,6 +99,7 @@ class Hands extends Controls {
 
   deleteElement() {
     this.elements.splice(this.selected, 1);
+    this.life.held = null;
     this.select(null);
     this.action("drop").focus();
     this.note("elements");
@@ -117,35 +115,31 @@ class Hands extends Controls {
   // Play against it
 
   async joinGame() {
-    this.game = { held: NO_ACTION, next: null, sent: NO_ACTION, pushed: 0, score: this.frame.reward };
-    Object.assign(this, { speedBefore: this.model.get("speed"), changed: true });
-    this.write({ speed: 1, playing: true });
+    const { life } = this;
+    life.game = { held: NO_ACTION, next: null, sent: NO_ACTION, pushed: 0, score: life.frame.reward };
+    life.changed = true;
+    this.write({ playing: true });
     this.arena.focus();
     this.refresh();
-    this.take(await this.engine.ask({ type: "play", action: NO_ACTION }));
+    this.take(await this.ask({ type: "play", action: NO_ACTION }));
   }
 
   async leaveGame() {
-    this.forgetGame();
-    this.take(await this.engine.ask({ type: "play", action: null }));
-  }
-
-  forgetGame() {
-    if (!this.game) return;
-    this.game = null;
-    this.write({ speed: this.speedBefore });
+    this.life.game = null;
     this.refresh();
+    this.take(await this.ask({ type: "play", action: null }));
   }
 
   hold(action) {
-    if (!this.game || action === undefined || action === this.game.held) return;
-    Object.assign(this.game, { held: action, next: action });
+    const { game } = this.life;
+    if (!game || action === undefined || action === game.held) return;
+    Object.assign(game, { held: action, next: action });
   }
 
   steer(now) {
-    const { game } = this;
+    const { game } = this.life;
     const action = game.next ?? (now - game.pushed >= THRUST_EVERY ? game.held : NO_ACTION);
-    if (action !== game.sent) this.engine.ask({ type: "play", action });
+    if (action !== game.sent) this.ask({ type: "play", action });
     Object.assign(game, { sent: action, next: null, pushed: action === NO_ACTION ? game.pushed : now });
   }
 }

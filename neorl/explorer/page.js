@@ -4,11 +4,13 @@ const SPEEDS = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 0]; // times real time
 const [TIMED_BUDGET, FREE_BUDGET, STEPS_WITHOUT_END] = [12, 32, 1e9]; // milliseconds, milliseconds, steps
 const [MOST_ELEMENTS, MOST_SEED, NO_ACTION] = [5, 2 ** 32 - 1, 4];
 const [DOUBLE_TAP, NEARBY] = [350, 0.06]; // milliseconds and board widths between the two taps
+const NO_MEMORY = -1; // the place on its slider, which has logarithms to the base of ten
 const THRUST_EVERY = 90; // milliseconds; a held key pushes one step at a time, or nobody could steer
 // The action of the game, and the direction in the tank
 const KEYS = { ArrowUp: [0, 0, -1], ArrowDown: [1, 0, 1], ArrowRight: [2, 1, 0], ArrowLeft: [3, -1, 0] };
-const NEW_RUN = ["preset", "resolutions", "modality", "n_creeps", "seed", "run"];
+const NEW_RUN = ["preset", "memory", "resolutions", "modality", "n_creeps", "seed", "run"];
 const ALLOWED = "Resolutions are whole numbers from 1 to 90, such as 3, 5, 7.";
+const STOPPED = "The simulation has stopped. Reset begins it again.";
 const HINT = "Click a cell: how to get there. Double-click: drop an element of interest. Drag the creeps.";
 
 const slide = (name, label, least, most, step) => `<label class="slide"><span>${label}</span><input type="range"
@@ -41,9 +43,11 @@ const PAGE = `<p role="alert" hidden></p>
     ${slide("recursion", "Recursion", -3, 1, 0.1)}${slide("valence_red", "Valence of red", -2, 2, 0.1)}</div></div>
   <div class="open">${number("open-run", "Open run")}${choice("open-preset", "of")}${press("open", "Open")}</div>
   <details><summary>More</summary><div class="more">${slide("learning_rate", "Learning rate α", -3, 0, 0.01)}
-    ${slide("discount", "Discount γ", 0, 0.99, 0.01)}${slide("n_creeps", "Creeps", 1, 12, 1)}<div class="gains"></div>
+    ${slide("horizon", "Horizon, cells", 0, 3, 0.01)}${slide("memory", "Memory", NO_MEMORY, 3, 0.01)}
+    ${slide("n_creeps", "Creeps", 1, 12, 1)}<div class="gains"></div>
     ${number("seed", "Seed")}${number("run", "Run")}</div></details><p class="unseen" aria-live="polite"></p>`;
 
+const power = (exponent) => Number((10 ** exponent).toPrecision(2)); // as the sliders of logarithms have it
 const shown = (value) => String(Number(Number(value).toPrecision(value >= 1000 ? 9 : 3))).replace("-", "−");
 const signed = (value) => (value > 0 ? "+" : "") + shown(value);
 const grouped = (value) => Math.round(value).toLocaleString("en-GB");
@@ -52,7 +56,14 @@ const isList = (value, test) => Array.isArray(value) && value.length > 0 && valu
 const inOrder = (numbers) => [...new Set(numbers)].sort((a, b) => a - b);
 const shifted = ({ x, y }, dx, dy, by) => ({ x: clampedToBoard(x + by * dx), y: clampedToBoard(y + by * dy) });
 const indexOf = (element) => [...element.parentElement.children].indexOf(element);
-const nameOf = ({ node, resolution }) => `${node} N${resolution}`;
+
+/** An error that the reader can mend, as a sentence. The words of all others are kept from the page. */
+class Refusal extends Error {}
+
+/** All that the page holds of one run: another run has another of these, and nothing of it. */
+const newLife = (given = {}) => ({ frame: null, world: { fps: 1 }, length: { steps: 1, bin: 1 }, changed: false,
+  advancing: false, owed: 0, counted: 0, rate: 0, cursor: null, game: null, held: null, slid: false, dragged: null,
+  tapped: null, ...given });
 
 /** Makes or removes children until there are as many as wanted. */
 function grow(parent, count, markupOf) {

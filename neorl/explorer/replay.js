@@ -15,7 +15,7 @@ function frameOf({ agent, creeps, green, radius, fineness }, at) {
     return { x, y, vx, vy };
   };
   return { agent: mover(agent[at]), creeps: creeps[at].map((each, index) => ({ ...mover(each), green: green[at][index] })),
-    radius, player: null, nodes: [], landings: [], active: [] };
+    radius, player: null, nodes: [], landings: [] };
 }
 
 class Replay {
@@ -98,7 +98,7 @@ class Replay {
     const boards = this.root.querySelectorAll(".board");
     this.recordings.forEach((recording, index) => {
       const [green, red] = recording.hits[this.at];
-      drawArena(boards[index].querySelector("canvas"), colours, { frame: frameOf(recording, this.at), map: null });
+      drawArena(boards[index].querySelector("canvas"), colours, frameOf(recording, this.at));
       boards[index].querySelector(".legend").textContent = `${green} green, ${red} red`;
     });
     this.button.textContent = this.playing ? "Pause" : this.isOver() ? "Play again" : "Play";

@@ -1,7 +1,7 @@
 // From the controls to the plan that the engine runs: a preset's plan, with what the reader has set put in its place.
 
 const GOES_ON = ["recursion", "valence_red", "gains", "learning_rate", "discount"]; // may change while a run lives
-const OF_PRESET = [...GOES_ON, "resolutions", "modality", "n_creeps"]; // what a preset has defaults of
+const OF_PRESET = [...GOES_ON, "memory", "resolutions", "modality", "n_creeps"]; // what a preset has defaults of
 const PLACE = 4; // the source of a desire that is a place in the arena, in `plan.source`
 
 /** The keys of the presets as Python had them; what is stored may come in another order. */
@@ -25,6 +25,8 @@ function chosenPlan(presets, modalities, settings, elements = []) {
   plan.gain = [...settings.gains];
   plan.learning_rate = Math.fround(settings.learning_rate);
   plan.discount = Math.fround(settings.discount);
+  const memory = settings.memory * (plan.memory_by_time ? preset.world.fps : 1); // in changes of cell, or in steps
+  plan.memory_fade = Math.fround(memory / (1 + memory));
   for (const e of preset.red) plan.valence[e] = settings.valence_red;
   for (const e of preset.recurring) plan.valence[e] = settings.recursion;
   for (const element of elements) {

@@ -5,12 +5,15 @@
 - Another body, map or tank begins a new run; another wish, or way of learning, goes on with what was learned.
 - The simulation lives in a worker, which answers every request once and in order. It moves only when asked, and has
   one request for steps at a time: a widget that is out of sight asks for none.
-- Whatever goes wrong ends in a sentence, and the next change of a control tries again. */
+- What the page holds of a run is one object, `life`, which the next run replaces whole. A frame says all that is drawn
+  of it, so nothing of one run meets anything of another; what was asked for a run that has gone is not answered.
+- Whatever goes wrong ends in a sentence and takes the run with it. The next change of a control tries again; Reset does
+  so with the settings of the preset. */
 
 /** The worker. Each request resolves to its answer; a failure goes to onFailure, and nothing is answered after it. */
 function startEngine(source, onFailure) {
   if (typeof WebAssembly !== "object" || typeof Worker !== "function") {
-    throw new Error("This browser cannot run the simulation: it needs WebAssembly and web workers.");
+    throw new Refusal("This browser cannot run the simulation: it needs WebAssembly and web workers.");
   }
   const address = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
   const [worker, waiting] = [new Worker(address), []];
@@ -19,12 +22,10 @@ function startEngine(source, onFailure) {
     worker.terminate();
     URL.revokeObjectURL(address);
   };
-  const fail = (message = "its program cannot be read") => // a sentence, or what a machine says
-    onFailure(message.endsWith(".") ? message : `The simulation has stopped: ${message}.`);
-  worker.onmessage = ({ data }) => (data.type === "failed" ? fail(data.message) : waiting.shift()?.(data));
+  worker.onmessage = ({ data }) => (data.type === "failed" ? onFailure(data.message) : waiting.shift()?.(data));
   worker.onerror = (event) => {
     event.preventDefault();
-    fail(event.message);
+    onFailure();
   };
   const ask = (message, transfer) => {
     worker.postMessage(message, transfer);
@@ -37,8 +38,7 @@ class Explorer extends Hands {
   constructor(model, place) {
     super();
     Object.assign(this, { model, presets: model.get("_presets"), modalities: model.get("_modalities"),
-      frame: null, maps: [], wanted: { map: 0, goal: null }, seen: { map: 0, goal: null }, elements: [], selected: null,
-      noted: new Set(), undo: [], owed: 0, counted: 0, rate: 0, drawn: 0, told: 0, failed: false });
+      life: newLife(), elements: [], selected: null, noted: new Set(), undo: [], drawn: 0, told: 0, failed: false });
     this.calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.root = Object.assign(document.createElement("div"), { className: "neorl-explorer", innerHTML: PAGE });
     [this.arena, this.curve] = this.root.querySelectorAll("canvas");
@@ -67,8 +67,8 @@ class Explorer extends Hands {
     const tank = this.part(".arena");
     on(tank, "pointerdown", (event) => this.grasp(event));
     on(tank, "pointermove", (event) => this.pull(event));
-    on(tank, "pointerup pointercancel keyup focusout", () => this.game && (this.game.held = NO_ACTION));
-    on(tank, "lostpointercapture", () => { this.held = null; });
+    on(tank, "pointerup pointercancel keyup focusout", () => this.life.game && (this.life.game.held = NO_ACTION));
+    on(tank, "lostpointercapture", () => { this.life.held = null; });
     on(tank, "click", (event) => this.tap(event));
     on(document, "visibilitychange", () => this.refresh());
     on(window, "resize", () => this.wake()); // also when the page gets to a screen with other dots
@@ -104,13 +104,13 @@ class Explorer extends Hands {
   note(name) {
     this.noted.add(name);
     if (this.following) return;
-    this.following = true;
-    queueMicrotask(this.safely(() => this.follow()));
+    const turn = this.following = {};
+    queueMicrotask(this.safely(() => this.follow(turn)));
   }
 
-  async follow() {
+  async follow(turn) {
     const { model, noted, presets, modalities } = this;
-    while (noted.size) {
+    while (turn === this.following && noted.size) {
       this.control("preset").value = model.get("preset");
       if (noted.has("preset") && presets[model.get("preset")] && !OF_PRESET.some((name) => noted.has(name))) {
         this.write(initialSettings(presets, model.get("preset"))); // as if chosen from the menu
@@ -126,7 +126,7 @@ class Explorer extends Hands {
       else if (names.some((name) => name === "elements" || GOES_ON.includes(name))) await this.change();
       this.refresh();
     }
-    this.following = false;
+    if (turn === this.following) this.following = null;
   }
 
   settings() {
@@ -140,99 +140,96 @@ class Explorer extends Hands {
   async begin() {
     const { presets, model } = this;
     const [{ steps, band }, seed, run] = [presets[model.get("preset")], model.get("seed"), model.get("run")];
-    this.beginning = true;
-    this.forgetGame();
+    const [world, bin] = [worldOf(presets, this.settings()), band?.steps_per_bin ?? Math.ceil(steps / 50)];
+    this.life = newLife({ world, length: { steps, bin }, changed: this.elements.length > 0 });
     this.refresh();
-    this.world = worldOf(presets, this.settings());
-    this.length = { steps, bin: band?.steps_per_bin ?? Math.ceil(steps / 50) };
     if (!this.engine) await this.load();
     const changes = this.condition === model.get("preset") ? presets[this.condition].changes : [];
-    const { maps } = await this.engine.ask({ type: "begin", plan: this.plan(), world: this.world, seed, run, steps,
-      bin_steps: this.length.bin, changes });
-    Object.assign(this, { changed: this.elements.length > 0, cursor: null, owed: 0, beginning: false });
-    await this.look({ map: this.likeBefore(maps), goal: null }, maps);
+    this.take(await this.ask({ type: "begin", plan: this.plan(), world, seed, run, steps, bin_steps: bin, changes,
+      map: this.control("map").value, field: this.fieldTiles() }));
   }
 
   async load() {
     const { buffer, byteOffset, byteLength } = this.model.get("_wasm");
     this.engine = startEngine(this.model.get("_engine"), (message) => this.fail(message));
     const wasm = buffer.slice(byteOffset, byteOffset + byteLength);
-    await this.engine.ask({ type: "load", wasm, layout: this.model.get("_layout") }, [wasm]);
+    await this.ask({ type: "load", wasm, layout: this.model.get("_layout") }, [wasm]);
   }
 
-  /** Which map to show: the one of the same name as before, or else one with cells that are large enough to click. */
-  likeBefore(maps) {
-    const menu = this.control("map");
-    const [before, names] = [menu.selectedOptions[0]?.label, maps.map(nameOf)];
-    const large = maps.findLastIndex(({ node, resolution }) => node === maps[0].node && resolution <= 7);
-    menu.replaceChildren(...names.map((name, index) => new Option(name, index)));
-    menu.value = names.includes(before) ? names.indexOf(before) : Math.max(0, large);
-    return Number(menu.value);
+  /** What the engine answers, unless the run for which it was asked has gone: then nothing ever follows. */
+  ask(message, transfer) {
+    const { life } = this;
+    return new Promise((resolve) =>
+      this.engine.ask(message, transfer).then((answer) => life === this.life && resolve(answer)));
   }
 
   async change() {
-    this.changed ||= this.frame?.step > 0 || this.elements.length > 0;
-    this.take(await this.engine.ask({ type: "change", plan: this.plan() }));
+    const { life } = this;
+    life.changed ||= life.frame.step > 0 || this.elements.length > 0;
+    this.take(await this.ask({ type: "change", plan: this.plan() }));
   }
 
-  async look(choice, maps = this.maps) {
-    Object.assign(this.wanted, choice);
-    if (!this.engine || this.beginning) return;
-    const [seen, field] = [{ ...this.wanted }, this.control("field").checked ? FIELD_TILES : 0];
-    const frame = await this.engine.ask({ type: "look", ...seen, field });
-    Object.assign(this, { seen, maps });
-    this.take(frame);
+  /** Look at another map, goal or place, with the field or without. While a run loads there is nothing to look at. */
+  async look(choice) {
+    if (this.life.frame) this.take(await this.ask({ type: "look", ...choice }));
+  }
+
+  fieldTiles() {
+    return this.control("field").checked ? FIELD_TILES : 0;
   }
 
   // The run
 
   running() {
-    const lives = this.frame && !this.frame.ended && !this.beginning && !this.failed;
+    const { frame } = this.life;
+    const lives = frame && !frame.ended && !this.failed;
     return Boolean(lives && this.model.get("playing") && this.inSight && !document.hidden);
   }
 
   async advance(steps, budget) {
-    this.advancing = true;
-    const frame = await this.engine.ask({ type: "advance", steps, budget });
-    this.advancing = false;
+    const { life } = this;
+    life.advancing = true;
+    const frame = await this.ask({ type: "advance", steps, budget });
+    life.advancing = false;
     this.take(frame);
     this.count(frame.steps);
     if (this.running() && this.speed() === 0) this.safely(() => this.advance(STEPS_WITHOUT_END, FREE_BUDGET))();
   }
 
   speed() {
-    return this.game ? 1 : this.model.get("speed");
+    return this.life.game ? 1 : this.model.get("speed");
   }
 
   take(frame) {
-    if (this.beginning) return; // it is of the run before
-    this.frame = frame;
-    if (frame.maps && frame.maps.map(nameOf).join() !== this.maps.map(nameOf).join()) this.takeMaps(frame.maps);
-    Object.assign(this.root.dataset, { step: frame.step, score: frame.reward, goal: this.seen.goal ?? "" });
-    if (frame.ended && this.game) this.safely(() => this.leaveGame())();
+    this.life.frame = frame;
+    this.showMaps(frame);
+    Object.assign(this.root.dataset, { step: frame.step, score: frame.reward, goal: frame.seen.goal ?? "" });
+    if (frame.ended && this.life.game) this.safely(() => this.leaveGame())();
     if (frame.ended) this.refresh();
     this.wake();
   }
 
-  /** The agent has become another, as some conditions do on the way. */
-  takeMaps(maps) {
-    const map = this.likeBefore(maps);
-    this.maps = maps;
-    if (map !== this.seen.map) this.safely(() => this.look({ map, goal: null }))();
+  /** The menu of maps, which change with the agent, as it does on the way in some conditions. */
+  showMaps({ maps, seen }) {
+    const menu = this.control("map");
+    if (maps.join() === Array.from(menu.options, (option) => option.value).join()) return;
+    menu.replaceChildren(...maps.map((name) => new Option(name, name)));
+    menu.value = seen.name;
   }
 
   count(steps) {
-    this.counted += steps;
+    const { life } = this;
+    life.counted += steps;
     const now = performance.now();
-    if (!this.running() || now - this.since < 1000) return;
-    Object.assign(this, { rate: Math.round((1000 * this.counted) / (now - this.since)), counted: 0, since: now });
+    if (!this.running() || now - life.since < 1000) return;
+    Object.assign(life, { rate: Math.round((1000 * life.counted) / (now - life.since)), counted: 0, since: now });
     this.report();
   }
 
   /** Tells Python, and now and then those who hear the page and do not see it. */
   report() {
-    const { model, frame, world, root } = this;
-    root.dataset.rate = this.rate;
+    const { model, root, life: { frame, world, rate } } = this;
+    root.dataset.rate = rate;
     model.set("seconds", frame.step / world.fps);
     model.set("score", frame.reward);
     model.save_changes();
@@ -251,17 +248,18 @@ class Explorer extends Hands {
   }
 
   tick(now) {
+    const { life } = this;
     this.scheduled = null;
     const elapsed = Math.min(now - (this.ticked ?? now), 100) / 1000;
     this.ticked = now;
-    if (this.dragged) this.sendDragged();
+    if (life.dragged) this.safely(() => this.sendDragged())();
     if (this.running()) {
-      const [free, most] = [this.speed() === 0, this.speed() * this.world.fps];
-      this.owed = Math.min(this.owed + elapsed * most, Math.max(1, most / 10));
-      const steps = free ? STEPS_WITHOUT_END : Math.floor(this.owed);
-      if (!this.advancing && steps > 0) {
-        if (this.game) this.steer(now);
-        this.owed -= free ? 0 : steps;
+      const [free, most] = [this.speed() === 0, this.speed() * life.world.fps];
+      life.owed = Math.min(life.owed + elapsed * most, Math.max(1, most / 10));
+      const steps = free ? STEPS_WITHOUT_END : Math.floor(life.owed);
+      if (!life.advancing && steps > 0) {
+        if (life.game) this.steer(now);
+        life.owed -= free ? 0 : steps;
         this.safely(() => this.advance(steps, free ? FREE_BUDGET : TIMED_BUDGET))();
       }
       this.schedule();
@@ -276,7 +274,7 @@ class Explorer extends Hands {
       try {
         await act(...given);
       } catch (error) {
-        this.fail(`The Explorer has stopped: ${error.message}`);
+        this.fail(error instanceof Refusal ? error.message : STOPPED);
       }
     };
   }
@@ -287,10 +285,15 @@ class Explorer extends Hands {
     this.refresh();
   }
 
-  fail(message) {
-    this.engine?.stop();
-    Object.assign(this, { engine: null, following: false, beginning: false, advancing: false });
+  fail(message = STOPPED) {
+    this.abandon();
     this.complain(message);
+  }
+
+  abandon() {
+    this.engine?.stop();
+    const { world, length } = this.life; // of the axes
+    Object.assign(this, { engine: null, life: newLife({ world, length }), following: null });
   }
 
   stop() {
@@ -310,6 +313,7 @@ function problemOf(presets, modalities, model) {
   const allowed = {
     resolutions: (value) => isList(value, isWhole(1, 90)), valence_red: isNumber, learning_rate: isNumber,
     modality: (value) => nodes.length > 1 || value === "" || Object.hasOwn(modalities, value), discount: isNumber,
+    memory: (value) => value === 0 || (value > 0 && preset.can_remember),
     gains: (value) => isList(value, isNumber) && value.length === nodes.length, n_creeps: isWhole(1, 20), seed: isPlace,
     recursion: (value) => preset.recursion === null || isNumber(value), speed: (value) => value >= 0, run: isPlace };
   const wrong = Object.keys(allowed).find((name) => !allowed[name](model.get(name)));
@@ -328,12 +332,13 @@ function damageOf(model) {
 function render({ model, el }) {
   try {
     const damage = damageOf(model);
-    if (damage) throw new Error(damage);
+    if (damage) throw new Refusal(damage);
     const explorer = new Explorer(model, el);
     return () => explorer.stop();
   } catch (error) {
     el.innerHTML = `<div class="neorl-explorer" data-state="failed"><p role="alert"></p></div>`;
-    el.querySelector("[role=alert]").textContent = error.message;
+    const message = error instanceof Refusal ? error.message : "The Explorer cannot start in this page.";
+    el.querySelector("[role=alert]").textContent = message;
   }
 }
 

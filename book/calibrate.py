@@ -1,0 +1,57 @@
+"""Make the table of calibrated readings, or add to it: ``python book/calibrate.py --minutes 45``, from the root.
+
+It goes on from the table as it stands; ``--anew`` begins one. It can be stopped at any moment: the file is written
+whenever readings are finished, and what they lived is kept in the folder that ``NEORL_CACHE`` names.
+"""
+
+import argparse
+import time
+from pathlib import Path
+
+from neorl import calibration
+from neorl.calibration_results import progress
+from neorl.calibration_table import read_table, write_table
+from neorl.calibration_targets import GROUPS
+
+ROOT = Path(__file__).resolve().parent.parent
+TABLE = ROOT / "neorl" / "data" / "calibration.csv"
+
+
+def main():
+    chosen = parse_arguments()
+    table = [] if chosen.anew or not chosen.table.exists() else read_table(chosen.table)
+    chosen.table.parent.mkdir(parents=True, exist_ok=True)
+    begin = time.monotonic()
+
+    def keep(rows):
+        write_table(rows, chosen.table)
+        print(f"{(time.monotonic() - begin) / 60:.1f} minutes: {summary(rows)}", flush=True)
+
+    table = calibration.calibrate(chosen.minutes, table, seed=chosen.seed, runs=chosen.runs, steps=chosen.steps,
+                                  keep=keep)
+    if chosen.confirm:
+        keep(calibration.confirm(table, chosen.confirm, chosen.fresh_runs, seed=chosen.seed))
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--minutes", type=float, default=45, help="how long (default 45)")
+    parser.add_argument("--runs", type=int, default=calibration.RUNS, help=f"runs a condition ({calibration.RUNS})")
+    parser.add_argument("--steps", type=int, default=calibration.STEPS, help=f"steps a run ({calibration.STEPS})")
+    parser.add_argument("--confirm", type=int, default=12, help="readings run again at the end, the nearest (12)")
+    parser.add_argument("--fresh-runs", type=int, default=20, help="runs a condition of these (20)")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--table", type=Path, default=TABLE, help="the file (by default that of the package)")
+    parser.add_argument("--anew", action="store_true", help="begin a new table in place of the one that is there")
+    return parser.parse_args()
+
+
+def summary(rows):
+    """How many readings there are, in each group, and how near they have come."""
+    groups = ", ".join(f"{sum(group in row.groups for row in rows)} {group}" for group in GROUPS)
+    last = max(row.wave for row in rows)
+    return f"wave {last}, {len(rows)} readings ({groups}), nearest {progress(rows)[last]:.2f}"
+
+
+if __name__ == "__main__":
+    main()
