@@ -1,8 +1,8 @@
 """What the page of paper B computes and reports: its experiments, and those of other claims, under any reading.
 
 1. Figures 4 and 5 of the paper, and agents that change while they live, are conditions: runs whose rewards are enough.
-2. What rewards do not show is measured while agents live: how near they come to a desired place that moves, how large
-   their values are, and how long a step takes to compute.
+2. What rewards do not show is measured while agents live: how near they come to a desired place that moves, how long
+   they stay in the cells of a map, how large their values are, and how long a step takes to compute.
 3. Single resolutions, and what the paper does not plot, have a fifth of the runs, but 10 where there are as many.
 """
 
@@ -87,11 +87,11 @@ def live(made, executor=None):
     return {name: {key: results[each] for key, each in of_reading.items()} for name, of_reading in made.items()}
 
 
-def judged(results, moved, cost):
+def judged(results, moved, stays, cost):
     """All claims of the page, in their order: [`Claim`, …].
 
-    results: {key: `Result`}, of `experiments`. moved: {name: distances (runs, moves, samples)}, of `distances`. cost:
-    a `Costs`.
+    results: {key: `Result`}, of `experiments`. moved: {name: distances (runs, moves, samples)}, of `distances`. stays:
+    (runs, maps), of `mean_stays`. cost: a `Costs`.
     """
     brownian = results["brownian", 3]
     found = {name: claim for name, claim in judge(results).items() if name[0] != "A"}
@@ -99,7 +99,8 @@ def judged(results, moved, cost):
     for claim in (claims.judge_points(results["points", "PC + OVC"]),
                   claims.judge_joining(results["joined"], results["place", "all"], brownian),
                   claims.judge_changes(results["revalued"], near),
-                  claims.judge_cost(cost.first[-1], cost.alone, cost.none)):
+                  claims.judge_cost(cost.first[-1], cost.alone, cost.none),
+                  claims.judge_time_scale(PRIMES, stays)):
         found[claim.name] = claim
     return [found[name] for name in STATEMENTS if name in found]
 
@@ -178,6 +179,31 @@ def distances(reading, steps, runs, seed=0):
     lived = {"experienced": round(LIVED * steps), "ignorant": 0}
     moved = {name: _of_runs(lambda k: near(before, k), agent, runs) for name, before in lived.items()}
     return moved, (np.arange(samples) + 1) * interval / world.fps
+
+
+def mean_stays(reading, steps, runs, seed=0, watched=15_000):
+    """How long agents stay in a cell, in mean seconds, for each of the maps of place cells: (runs, maps).
+
+    They have lived a quarter of `steps` before and are watched for as long, `watched` steps at most. A board's reset,
+    which puts an agent elsewhere, is no change of cell; without any change a stay is as long as it was watched.
+    """
+    world = WaterWorld(fps=reading.fps, contact=reading.contact)
+    agent = papers.place_cells(PRIMES, **reading.place_agents)
+    lived = round(LIVED * steps)
+    path_steps = max(2, min(lived, watched))
+
+    def of_run(k):
+        run = Run(agent, world, seed, k)
+        run.advance(lived)
+        path, moved = np.empty((path_steps, 2)), np.empty(path_steps, bool)
+        for step in range(path_steps):
+            run.advance(1)
+            path[step] = run.state.agent_position / world.width
+            moved[step] = run.state.agent_velocity.any() or (path[step] != 0.5).any()  # it is not as after a reset
+        changes = [((np.diff(each.encode(path)) != 0) & moved[1:]).sum() for each in agent.maps]
+        return path_steps / world.fps / np.maximum(changes, 1)
+
+    return _of_runs(of_run, agent, runs)
 
 
 def mean_values(reading, steps, runs, seed=0):

@@ -58,6 +58,22 @@ def test_neighbours_differ_in_one_choice():
     assert wanted.learning == replace(READING.learning, attention="wanted")
 
 
+def test_a_stay_is_the_time_from_one_change_of_cell_to_the_next_but_for_resets():
+    (found,) = page_b.mean_stays(READING, 8_000, 1)
+    agent = papers.place_cells(PRIMES, **READING.place_agents)
+    run, changes = neorl.Run(agent, neorl.WaterWorld(win_reward=100.0), 0), np.zeros(2)
+    run.advance(2_000)
+    run.advance(1)
+    resets = 0
+    for _ in range(1_999):
+        before = run.memory.cell.copy()
+        reset = run.advance(1) > 50
+        resets += reset
+        changes += (run.memory.cell != before) & (not reset)
+    assert resets > 0
+    np.testing.assert_allclose(found, 40 / changes)
+
+
 def test_the_desired_place_moves_and_experience_is_worth_something():
     moved, seconds = page_b.distances(READING, 40_000, 2)
     assert moved["ignorant"].shape == moved["experienced"].shape == (2, 6, 150) and seconds[-1] == 30
