@@ -73,7 +73,7 @@ def test_a_row_runs_again_as_it_was(cache):
 @pytest.mark.skipif(not calibration_table.SHIPPED.is_file(), reason="there is no table yet")
 def test_a_sample_of_the_table_of_this_package_runs_again_as_it_was(cache):
     table = read_table()
-    assert len(table) >= 1_000 and sum(row.complete for row in table) >= 150
+    assert len(table) >= 1_000 and sum(row.complete for row in table) >= 70
     assert all(row.reading.within_the_text for row in table)
     for old, new in calibration_table.rerun(table, SAMPLE, groups=("layers",)):
         assert old == new
