@@ -117,10 +117,16 @@ class Together(NamedTuple):
     sets: list  # of (claims that hold together, rows in which they do), the largest first; complete rows alone
 
     @property
+    def unseen(self):
+        """Pairs that hold in no row together: [(name, name, rows expected), …], the most expected first."""
+        pairs = [(self.claims[i], self.claims[j], float(self.expected[i, j]))
+                 for i, j in combinations(range(len(self.claims)), 2) if self.both[i, j] == 0]
+        return sorted(pairs, key=lambda pair: -pair[2])
+
+    @property
     def never(self):
-        """Pairs that hold in no row together though three rows or more would be expected: a list of (name, name)."""
-        return [(self.claims[i], self.claims[j]) for i, j in combinations(range(len(self.claims)), 2)
-                if self.both[i, j] == 0 and self.expected[i, j] >= LEAST_EXPECTED]
+        """Those of the unseen pairs of which three rows or more would be expected: a list of (name, name)."""
+        return [(a, b) for a, b, expected in self.unseen if expected >= LEAST_EXPECTED]
 
 
 def claims_together(table):

@@ -109,6 +109,7 @@ def test_claims_that_exclude_each_other_are_found():
     assert found.both[at("A6"), at("A7")] == 12 and found.rows[at("A6"), at("A7")] == 32
     assert found.both[at("A6"), at("B1")] == 0 and found.expected[at("A6"), at("B1")] == pytest.approx(4.5)
     assert found.never == [("A6", "B1")]  # B3 is too rare to say
+    assert found.unseen[0] == ("A6", "B1", pytest.approx(4.5)) and ("A6", "B3") in [pair[:2] for pair in found.unseen]
     assert found.sets == [(("A6", "A7"), 12), (("A7", "B1"), 12), (("B3",), 2)]
     assert found.both[at("C4"), at("C4")] == 32 and found.rows[at("C4"), at("C4")] == 64
 
