@@ -19,8 +19,8 @@ def judge_networks(a, b, c, d, brownian):
     rise = estimate(np.mean, final["A"] - a.rate(*EARLY))
     level = estimate(np.mean, final["A"])
     short = estimate(difference, 0.5 * final["C"], final["A"])
-    c1 = judged("C1", rise, f"Finally it earns {level}, and network C {final['C'].mean():.2f}. Weak is read as less "
-                "than half of that.", runs,
+    c1 = judged("C1", rise, f"Finally it earns {level}, and network C {estimate(np.mean, final['C'])}. Weak is read "
+                "as less than half of that.", runs,
                 reproduced=rise.low > 0 and short.low > 0, partly=rise.low > 0 or short.low > 0,
                 possible=rise.high > 0 and short.high > 0, testable=knows["C"])
 
