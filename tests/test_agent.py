@@ -117,17 +117,16 @@ def test_an_agent_is_a_value(make):
 def test_the_agent_of_paper_a_is_one_node_and_two_desires():
     desires = (Desire("green", "PC", 1.0), Desire("red", "PC", -1.0))
     middle = replace(PLACE_CELL, ranges=((0.25, 0.75), (0.25, 0.75)))
-    assert place_cells([3, 7]) == Agent((Node("PC", middle, (3, 7)),), desires)
-    assert place_cells([3, 7]) == Agent([Node("PC", middle, np.array([3, 7]))], list(desires))
+    assert place_cells([3, 7], coverage=0.5) == Agent((Node("PC", middle, (3, 7)),), desires)
+    assert place_cells([3, 7], coverage=0.5) == Agent([Node("PC", middle, np.array([3, 7]))], list(desires))
     assert place_cells([3, 7], coverage=1) == Agent((Node("PC", PLACE_CELL, (3, 7)),), desires)
-    assert place_cells([3]) != place_cells([3], own_cell="counts")
+    assert place_cells([3], own_cell="silent") != place_cells([3], own_cell="counts")
     assert place_cells([3], object_coverage=0.1) == place_cells([3])
 
 
 def test_object_vectors_may_have_a_range_of_their_own():
     places, objects = multimodal([3], coverage=1, object_coverage=0.25).nodes
     assert places.modality == PLACE_CELL and objects.modality.ranges == ((-0.25, 0.25), (-0.25, 0.25))
-    assert network_d([3], coverage=0.3, object_coverage=0.3) == network_d([3], coverage=0.3)
     assert object_vector_cells([3], coverage=0.2, object_coverage=1).nodes[0].modality == CARTESIAN_OBJECT_VECTOR_CELL
     for name in ("coverage", "object_coverage"):
         with pytest.raises(ValueError, match=f"{name} is 0, allowed are numbers above 0"):

@@ -49,7 +49,7 @@ def test_the_letter_takes_what_is_pinned_and_the_plainest_of_what_is_open():
     found = conditions(letter, 600_000, 2)
     assert found["network", "D"].agent == network_d(
         [3, 7, 23], scale=1, signed=True, learning=letter.learning, policy=Policy(exploration=0), own_cell="counts",
-        coverage=1)
+        coverage=1, object_coverage=1, weighting="resolution", place_gain=1)
 
 
 PAPERS = {"brownian": "A", "single": "A", "layer": "A", "layers": "A", "place": "B", "objects": "B", "both": "B",
@@ -136,7 +136,7 @@ def test_what_things_are_makes_no_difference_to_place_cells():
 def test_a_desire_that_recurs_may_come_from_other_nodes_alone():
     made = networks(replace(TO_THE_LETTER, vectors="incoming"))
     *others, recurring = made["D"].desires
-    assert recurring.of == ("PC",) and recurring.signed and not any(desire.signed for desire in others)
+    assert recurring.of == ("PC",) and recurring.signed and not any(desire.signed for desire in others if desire.between_nodes)
     assert networks(TO_THE_LETTER)["D"].desires[-1].of == ()
 
 

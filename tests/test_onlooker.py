@@ -31,7 +31,7 @@ def test_a_survey_is_the_superposition_at_every_place():
         valences = np.where(run.state.creep_is_green, 1.0, -1.0)
         for tile in range(9):
             cell = int(nres_map.encode([(tile % 3 + 0.5) / 3, (tile // 3 + 0.5) / 3]))
-            expected[tile] += 0.5 * superpose(run.q(m), cell, goals, valences)
+            expected[tile] += 0.5 * superpose(run.q(m), cell, goals, valences, run.agent.own_cell)
     assert expected.any() and surveyed(run, 3) == pytest.approx(expected)
 
 
