@@ -3,7 +3,8 @@
 A *node* holds the maps of one modality at several resolutions (paper C, section 1 and figure 3). *Desires* are the
 edges of the network. Each makes an element of interest of something for one node: of the green or the red creeps, of a
 point of the node's own space, or of what another node wants, or the node itself wanted a step ago. Whatever the thesis
-leaves open is a field, whose default is the book's reading (see `neorl.multiverse`); nothing here runs.
+leaves open is a field. Its default is that of the calibrated reading, which of all readings within the text that were
+run came nearest to the thesis's numbers (see `neorl.calibration`). Nothing here runs.
 """
 
 from dataclasses import dataclass, field
@@ -31,7 +32,8 @@ COLOURS = ("green", "red")
 class Learning:
     """How the Horde learns (thesis section 4.1.3).
 
-    learning_rate: α in [0, 1]. discount: γ in [0, 1] for each update.
+    learning_rate: α in [0, 1]. discount: γ in [0, 1] for each update. It has no effect unless something discounts:
+        bootstrapping, a trace of several cells, or a memory with `memory_value` "discounted".
     driver: what makes an update. "cell": a change of cell, inference inversion (eq. 4.7, 4.8); "step": every step,
         temporal difference (eq. 4.6), to which no field below but `terminal` applies: see `AT_EVERY_STEP`.
     credit: ψ of an event in the cell just left. "share": the share of the steps there on which it occurred;
@@ -60,22 +62,22 @@ class Learning:
     Raises ValueError for anything else.
     """
 
-    learning_rate: float = 0.03
-    discount: float = 0.8
+    learning_rate: float = 0.0157
+    discount: float = 0.9045
     driver: str = "cell"
-    credit: str = "share"
-    activity: float = 0.5
-    absence: float = 0.0
-    absence_form: str = "decay"
+    credit: str = "happened"
+    activity: float = 3.331
+    absence: float = 0.1101
+    absence_form: str = "away"
     terminal: bool = True
     trace: int = 1
-    memory: float = 0.0
-    memory_unit: str = "cells"
+    memory: float = 4.396
+    memory_unit: str = "seconds"
     memory_value: str = "reached"
-    bootstrap: bool = True
-    causes: str = "any"
-    capture: str = "contact"
-    attention: str = "each"
+    bootstrap: bool = False
+    causes: str = "own"
+    capture: str = "leap"
+    attention: str = "wanted"
 
     def __post_init__(self):
         checks.real("learning_rate", self.learning_rate, 0, 1)
@@ -116,7 +118,7 @@ class Policy:
     idle: what to do while every action is worth exactly 0: "random" or "no-op".
     """
 
-    exploration: float = 0.02
+    exploration: float = 0.0
     idle: str = "random"
 
     def __post_init__(self):
@@ -138,7 +140,7 @@ class Node:
     name: str
     modality: Modality
     resolutions: tuple[int, ...]
-    weighting: str = "resolution"
+    weighting: str = "cells"
     gain: float = 1.0
 
     def __post_init__(self):
@@ -193,8 +195,8 @@ class Desire:
     target: str
     valence: float | None = None
     of: tuple[str, ...] = ()
-    scale: float = 2.0
-    signed: bool = False
+    scale: float = 1.0
+    signed: bool = True
 
     def __post_init__(self):
         if not isinstance(self.source, str | Place):
@@ -236,7 +238,7 @@ class Agent:
     desires: tuple[Desire, ...] = ()
     learning: Learning = field(default_factory=Learning)
     policy: Policy = field(default_factory=Policy)
-    own_cell: str = "silent"
+    own_cell: str = "counts"
 
     def __post_init__(self):
         for name, kind, fewest in (("nodes", Node, 1), ("desires", Desire, 0)):

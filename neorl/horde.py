@@ -44,7 +44,7 @@ def learn(q, cell_tm1, cell_t, credit, learning_rate=0.03, discount=0.8, termina
                     discount, checks.flag("terminal", terminal), np.empty(cells, np.float32))
 
 
-def superpose(q, cell, goals, valences, own_cell="silent"):
+def superpose(q, cell, goals, valences, own_cell="counts"):
     """The value of each action in a cell: float64 (4,) (thesis eq. 4.3 and 4.4).
 
     q: float32 (cells, 4, cells). cell: where the agent is. goals: the cells of the elements of interest; valences:

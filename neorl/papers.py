@@ -11,8 +11,9 @@ from neorl import checks
 from neorl.agent import Agent, Desire, Node, Policy
 from neorl.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL
 
+LAYERS = (3, 7, 23)  # the resolutions of paper A's last experiment, and of paper C as its figures have them
 PRIMES = (2, 3, 5, 7, 11, 13)  # the resolutions of paper B
-COVERAGE = 0.5
+COVERAGE = 1.0
 
 
 def place_cells(resolutions=PRIMES, valence_green=1.0, valence_red=-1.0, **choices):
@@ -31,29 +32,31 @@ def object_vector_cells(resolutions=PRIMES, valence_green=1.0, valence_red=-1.0,
     return _network([("OVC", CARTESIAN_OBJECT_VECTOR_CELL, 1.0)], resolutions, desires, choices)
 
 
-def multimodal(resolutions=PRIMES, place_gain=1.0, object_gain=1.0, **choices):
+def multimodal(resolutions=PRIMES, place_gain=5.0, object_gain=1.0, **choices):
     """PC + OVC of paper B (fig. 5): both nodes see the creeps, and their values add."""
     return _network(_both(place_gain, object_gain), resolutions, _creeps("PC") + _creeps("OVC"), choices)
 
 
-def network_a(resolutions=PRIMES, scale=2.0, signed=False, **choices):
+def network_a(resolutions=LAYERS, scale=Desire.scale, signed=Desire.signed, **choices):
     """Agent A of paper C (fig. 4a): place cells make one desire of all creeps, object-vector cells act on it."""
     desires = (Desire("PC", "OVC", scale=scale, signed=signed),)
     return _network(_both(0.0, 1.0), resolutions, _creeps("PC") + desires, choices)
 
 
-def network_b(resolutions=PRIMES, scale=2.0, signed=False, **choices):
+def network_b(resolutions=LAYERS, scale=Desire.scale, signed=Desire.signed, **choices):
     """Agent B of paper C (fig. 4b): a desire of the green creeps, and one of the red."""
     return network_c(resolutions, scale, signed, place_gain=0.0, **choices)
 
 
-def network_c(resolutions=PRIMES, scale=2.0, signed=False, place_gain=1.0, object_gain=1.0, **choices):
+def network_c(resolutions=LAYERS, scale=Desire.scale, signed=Desire.signed, place_gain=1.0, object_gain=1.0,
+              **choices):
     """Agent C of paper C (fig. 4c): as B, and the values of both nodes add."""
     desires = tuple(Desire("PC", "OVC", of=(colour,), scale=scale, signed=signed) for colour in ("green", "red"))
     return _network(_both(place_gain, object_gain), resolutions, _creeps("PC") + desires, choices)
 
 
-def network_d(resolutions=PRIMES, recursion=-1.0, scale=2.0, signed=False, place_gain=1.0, object_gain=1.0, **choices):
+def network_d(resolutions=LAYERS, recursion=-1.0, scale=Desire.scale, signed=Desire.signed, place_gain=1.0,
+              object_gain=1.0, **choices):
     """Agent D of paper C (fig. 4d): as C, and the object-vector cells desire what they desired, with valence r."""
     without = network_c(resolutions, scale, signed, place_gain, object_gain, **choices)
     recurring = Desire("OVC", "OVC", valence=recursion, scale=scale, signed=signed)

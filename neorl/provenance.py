@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from neorl import waterworld
 from neorl.figures import CUTOFF_PERIODS, FILTER_ORDER
-from neorl.priors import BEYOND
+from neorl.priors import BEYOND, WITHIN
 from neorl.reading import LAYERS, LENGTHS, PRIMES, SINGLE, Reading, conditions
 from neorl.simulation import BIN_SECONDS
 from neorl.text import PINS
@@ -16,6 +16,7 @@ from neorl.text import PINS
 PLE = "WaterWorld of the PyGame Learning Environment, rules confirmed against recordings of it"
 AUTHOR = "the author's later public code"
 OURS = "this book's choice"
+CALIBRATED = "value by calibration"
 
 
 class Constant(NamedTuple):
@@ -60,12 +61,10 @@ def source(name):
     """Where the default of a field of `Reading` comes from, in words."""
     places = []
     for pin in PINS:
-        if pin.fields[:1] == (name,):
-            if pin.status == "open":
-                places.append(f"{OURS}; open in {pin.place}" if pin.place else OURS)
-            else:
-                places.append(pin.place if pin.allows(Reading()) else f"{OURS}, against {pin.place}")
-    return "; ".join(dict.fromkeys(places))
+        if pin.fields[:1] == (name,) and pin.place:
+            agrees = pin.status == "open" or pin.allows(Reading())
+            places.append(f"{'open in ' * (pin.status == 'open')}{pin.place}" if agrees else f"against {pin.place}")
+    return "; ".join(dict.fromkeys([*places, CALIBRATED] if name in WITHIN else places))
 
 
 def table():

@@ -13,7 +13,7 @@ from neorl.store import Condition
 from neorl.text import agreement
 from neorl.waterworld import WaterWorld
 
-SINGLE, LAYERS, PRIMES = (10, 30, 50, 70, 90), (3, 7, 23), papers.PRIMES
+SINGLE, LAYERS, PRIMES = (10, 30, 50, 70, 90), papers.LAYERS, papers.PRIMES
 VECTORS = ("signed", "by size", "incoming")
 CELLS_A_SECOND = 10  # between which memory in cells and in seconds is converted: about a cell of N23 in 0.1 s
 PAPER_FPS = 50  # at which lengths are given
@@ -53,7 +53,7 @@ class Reading:
     credit: str = Learning.credit
     absence: float = Learning.absence
     absence_form: str = Learning.absence_form
-    memory: float = Learning.memory
+    memory: float = Learning.memory * CELLS_A_SECOND
     memory_unit: str = Learning.memory_unit
     memory_value: str = Learning.memory_value
     activity: float = Learning.activity
@@ -68,12 +68,12 @@ class Reading:
     weighting: str = Node.weighting
     exploration: float = Policy.exploration
     idle: str = Policy.idle
-    place_gain: float = 1.0
+    place_gain: float = 5.0
     network_gain: float = 1.0
-    vectors: str = "by size"
+    vectors: str = "signed"
     scale: float = Desire.scale
     recursion: float = -1.0
-    network_resolutions: tuple[int, ...] = PRIMES
+    network_resolutions: tuple[int, ...] = LAYERS
     fps: int = WaterWorld.fps
     contact: str = WaterWorld.contact
 

@@ -7,12 +7,13 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from neorl import calibration_figures, calibration_results, calibration_table
+from neorl import Learning, calibration_figures, calibration_results, calibration_table
 from neorl.calibration import design
 from neorl.calibration_results import Posterior, Together
 from neorl.calibration_table import Row, read_table, write_table
 from neorl.calibration_targets import CLAIMS, GROUPS, TARGETS, Measure
 from neorl.priors import WITHIN
+from neorl.reading import Reading
 
 SAMPLE = 3  # rows of the table that run again in its cheapest group
 
@@ -70,7 +71,12 @@ def test_a_row_runs_again_as_it_was(cache):
         calibration_table.rerun(table, 3)
 
 
-@pytest.mark.skipif(not calibration_table.SHIPPED.is_file(), reason="there is no table yet")
+def test_the_default_is_the_best_confirmed_reading_of_the_table_of_this_package():
+    best = calibration_results.best(read_table())
+    assert best.reading == Reading() and best.reading.within_the_text
+    assert best.reading.learning == Learning()
+
+
 def test_a_sample_of_the_table_of_this_package_runs_again_as_it_was(cache):
     table = read_table()
     assert len(table) >= 1_000 and sum(row.complete for row in table) >= 70

@@ -13,7 +13,7 @@ from neorl.modality import OBJECT_VECTOR_CELL
 SIZE = {"steps": 30_000, "runs": 12, "seed": 3, "progress": False}
 TANK = WaterWorld()
 BOTH, PLACES = multimodal([2, 3, 5]), place_cells([5, 3])
-NETWORK = network_d([3, 4], learning=Learning(discount=0.8, memory=0.0))
+NETWORK = network_d([3, 4], learning=Learning(discount=0.8, memory=0.0, memory_unit="cells", bootstrap=True))
 TURNED = network_d([3, 4], recursion=0.5, learning=NETWORK.learning)
 
 
@@ -119,6 +119,22 @@ def test_no_memory_stands_at_the_left_end_of_its_slider(open_page, site, conditi
     set_slider(page, "memory", -1)
     assert play_to_the_end(page) == conditions["D"].totals[0]
     assert explorer_of(page).get_attribute("data-condition") == "D"
+
+
+@pytest.mark.parametrize("rule, counts", [
+    ({"bootstrap": True}, True), ({"bootstrap": False}, False), ({"bootstrap": False, "memory": 0.0, "trace": 2}, True),
+    ({"bootstrap": False, "memory_value": "discounted"}, True)])
+def test_a_horizon_without_effect_is_not_offered(open_page, tmp_path, rule, counts):
+    learning, short = Learning(**rule), {"steps": 5_000, "runs": 1, "progress": False}
+    result = simulate(place_cells([5], learning=learning), TANK, **short)
+    other = simulate(place_cells([5], learning=replace(learning, discount=0.5)), TANK, **short)
+    assert (result.rewards != other.rewards).any() == counts
+    write_page(tmp_path, [Explorer({"PC": result}, playing=False)])
+    page = open_page(tmp_path, "page.html")
+    explorer_of(page)
+    horizon = page.locator('[name="horizon"]')
+    assert horizon.is_enabled() == counts
+    assert (horizon.locator("+ output").text_content() == "no effect") == (not counts)
 
 
 def test_the_horizon_of_a_preset_stands_on_its_slider(open_page, site):

@@ -180,12 +180,12 @@ def test_cells_of_a_map_with_ranges_of_its_own():
 
 def test_the_outermost_cells_of_a_map_reach_as_far_as_things_can_be():
     axes = figures.new_board(low=-1)
-    for nres_map in (place_cells([2]).maps[0], object_vector_cells([2]).maps[0]):
+    for nres_map in (place_cells([2], coverage=0.5).maps[0], object_vector_cells([2], coverage=0.5).maps[0]):
         figures.draw_cells(axes, nres_map)
     boxes = [patch.get_bbox().extents.tolist() for patch in axes.patches]
     assert boxes[:4] == [[0, 0, 0.5, 0.5], [0.5, 0, 1, 0.5], [0, 0.5, 0.5, 1], [0.5, 0.5, 1, 1]]
     assert boxes[4:] == [[-1, -1, 0, 0], [0, -1, 1, 0], [-1, 0, 0, 1], [0, 0, 1, 1]]
-    figures.draw_cells(axes, place_cells([5]).maps[0])
+    figures.draw_cells(axes, place_cells([5], coverage=0.5).maps[0])
     assert sorted({round(patch.get_width(), 9) for patch in axes.patches[8:]}) == [0.1, 0.35]
 
 

@@ -61,10 +61,10 @@ def test_superposition_is_the_weighted_sum_over_elements():
     np.testing.assert_allclose(superpose(q, 4, goals, valences), q[4][:, goals] @ valences, rtol=1e-6)
 
 
-def test_an_element_in_the_own_cell_is_silent_unless_it_counts():
+def test_an_element_in_the_own_cell_counts_unless_it_is_silent():
     q = np.ones((4, 4, 4), np.float32)
-    assert superpose(q, 1, [1, 2], [1.0, 1.0]).tolist() == [1.0] * 4
-    assert superpose(q, 1, [1, 2], [1.0, 1.0], own_cell="counts").tolist() == [2.0] * 4
+    assert superpose(q, 1, [1, 2], [1.0, 1.0]).tolist() == [2.0] * 4
+    assert superpose(q, 1, [1, 2], [1.0, 1.0], own_cell="silent").tolist() == [1.0] * 4
 
 
 @pytest.mark.parametrize("change, message", [

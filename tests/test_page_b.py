@@ -10,7 +10,7 @@ from neorl import page_b
 from neorl import papers
 from neorl.reading import Reading
 
-READING = Reading()
+READING = Reading(causes="any", capture="contact", attention="each", place_gain=1.0, weighting="resolution")
 PRIMES = (2, 3)
 
 

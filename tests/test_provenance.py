@@ -26,6 +26,6 @@ def test_the_source_of_a_choice_is_the_sentence_that_pins_it_unless_the_default_
     reading = replace(TO_THE_LETTER, coverage=0.5)
     monkeypatch.setattr(provenance, "Reading", lambda: reading)
     assert provenance.source("recursion") == "paper C, section 3"
-    assert provenance.source("coverage") == "this book's choice, against paper B, figure 3"
-    assert provenance.source("capture") == "this book's choice; open in paper B, section 3"
-    assert provenance.source("contact") == "this book's choice"
+    assert provenance.source("coverage") == "against paper B, figure 3"
+    assert provenance.source("capture") == "open in paper B, section 3; value by calibration"
+    assert provenance.source("contact") == "value by calibration"

@@ -9,7 +9,7 @@ from neorl import Run, WaterWorld, place_cells
 from neorl.classics.recording import record
 from neorl.explorer.replay import Replay
 
-AGENT, TANK = place_cells([3]), WaterWorld(n_creeps=6)
+AGENT, TANK = place_cells([3]), WaterWorld(n_creeps=12)
 
 
 @pytest.fixture(scope="module")

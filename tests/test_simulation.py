@@ -31,7 +31,8 @@ WISHES = (Desire("green", "polar", 1.0), Desire("red", "polar", -0.5), Desire("p
           Desire(Place(0.9, 0.9), "HD", 0.3),
           Desire("PC", "landmark", signed=True), Desire("polar", "polar", -0.5, of=("green", "polar")))
 A_THAT_RECURS = replace(network_a([3, 5]), desires=(
-    *network_a().desires, Desire("OVC", "OVC", valence=0.5), Desire("OVC", "OVC", valence=-0.7, of=("PC", "OVC"))))
+    *network_a().desires, Desire("OVC", "OVC", valence=0.5, scale=2.0, signed=False),
+    Desire("OVC", "OVC", valence=-0.7, of=("PC", "OVC"), scale=2.0, signed=False)))
 READINGS = {
     "default": place_cells([3, 7]),
     "several": place_cells([2, 5, 9], weighting="cells", policy=Policy(exploration=0.3, idle="no-op")),
@@ -389,7 +390,7 @@ def test_bad_changes_are_refused(changes, message):
 
 
 def test_the_output_of_a_node():
-    run = Run(network_c([2, 5], object_gain=0.5), TANK, seed=0)
+    run = Run(network_c([2, 5], object_gain=0.5, scale=2.0, signed=False), TANK, seed=0)
     run.advance(20_000)
     place, relative = run.output("PC"), run.output("OVC")
     assert place.q.any() and relative.q.any()
@@ -417,7 +418,8 @@ def test_a_node_by_itself_wants_what_its_agent_does():
     (LANDMARK_VECTOR_CELL, 8, (0.4, np.pi), (0.1, np.pi), "W"), (HEAD_DIRECTION_CELL, 8, (0.0,), (1.5 * np.pi,), "N"),
 ])
 def test_an_agent_of_any_modality_learns_which_way_to_go(modality, resolution, here, goal, action):
-    run = Run(Agent((Node("X", modality, [resolution]),), policy=Policy(exploration=1.0)), TANK, seed=1)
+    node = Node("X", modality, [resolution])
+    run = Run(Agent((node,), learning=plain_rule(), policy=Policy(exploration=1.0)), TANK, seed=1)
     run.advance(200_000)
     nres_map = run.agent.maps[0]
     values = run.q()[nres_map.encode(here), :, nres_map.encode(goal)]

@@ -157,7 +157,10 @@ class Controls {
     for (const name of sliders) this.showSlider(name, model.get(name) ?? 0);
     const [rate, horizon, memory] = [model.get("learning_rate"), 1 / (1 - model.get("discount")), model.get("memory")];
     this.showSlider("learning_rate", Math.log10(rate || 0.001), shown(rate));
-    this.showSlider("horizon", Math.log10(horizon), horizon === Infinity ? "∞" : shown(horizon));
+    const discounts = plan.bootstrap || plan.trace > 1 || (plan.memory_discounts && memory > 0);
+    this.control("horizon").disabled = !discounts;
+    const cells = horizon === Infinity ? "∞" : shown(horizon);
+    this.showSlider("horizon", Math.log10(horizon), discounts ? cells : "no effect");
     this.showSlider("memory", memory ? Math.log10(memory) : NO_MEMORY, shown(memory));
     grow(this.part(".gains"), nodes.length, (index) => slide(`gain-${index}`, "", 0, 5, 0.1));
     nodes.forEach((node, index) => {
