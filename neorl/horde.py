@@ -132,7 +132,8 @@ def learn_one_goal(q, first, cells, known, cell_tm1, goal, rates, decay, away, f
 def sunk(value, rate, target, away, highest):
     """The value of an event that did not occur: nearer to zero, or away from its target but within 0 … `highest`."""
     if away:
-        value = min(value - rate * (target - value), highest)
+        value -= rate * (target - value)
+        value = value if value < highest else highest
     else:
         value -= rate * value
     return value if value > SMALLEST else ZERO

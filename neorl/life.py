@@ -19,7 +19,7 @@ from neorl.modality import OBJECTS
 from neorl.network import cell_of, contact_cell, evaluate, place_coordinates, point_coordinates, without_direction
 from neorl.plan import Memory, Plan
 from neorl.stream import below, uniform
-from neorl.traces import CUT, fade, join, learn_remembered
+from neorl.traces import CUT, N_ROWS, fade, forget_all, join, learn_remembered
 from neorl.waterworld import NO_OP, Rules, WaterWorldState, reset_board, step_board
 
 DRIVER_STEP = DRIVERS.index("step")
@@ -92,7 +92,9 @@ def appear(plan, memory, m, point, cell):
     enter(memory, track, cell)
     memory.trace_count[track] = 0
     if plan.memory_fade > ZERO:
-        fade_memory(plan, memory, m, point, ZERO)
+        begin, end = traces_of(plan, m, point)
+        memory.remembered_count[track] = forget_all(memory.remembered[begin:end], memory.remembered_at[begin:end],
+                                                    memory.remembered_count[track])
 
 
 @inlined_kernel
@@ -107,16 +109,6 @@ def traces_of(plan, m, point):
     """Where what the track of a point remembers begins and ends."""
     begin = plan.first_trace[m] + point * plan.cells[m]
     return begin, begin + plan.cells[m]
-
-
-@inlined_kernel
-def fade_memory(plan, memory, m, point, factor):
-    track = plan.first_track[m] + point
-    begin, end = traces_of(plan, m, point)
-    memory.remembered_count[track] = fade(
-        memory.remembered[begin:end], memory.remembered_count[track], memory.strength[begin:end],
-        memory.trace_weight[begin:end], memory.trace_worth[begin:end], factor,
-        plan.discount if plan.memory_discounts else UNIT)
 
 
 @inlined_kernel
@@ -197,7 +189,11 @@ def learn_transition(plan, memory, m, point, cell_tm1, cell_t, caused):
     decay = plan.learning_rate * plan.absence
     begin, end = traces_of(plan, m, point)
     if plan.memory_fade > ZERO:
-        fade_memory(plan, memory, m, point, faded(plan, memory, track))
+        memory.remembered_count[track] = fade(
+            memory.remembered[begin:end], memory.remembered_at[begin:end], memory.remembered_count[track],
+            memory.strength[begin:end], memory.trace_weight[N_ROWS * begin : N_ROWS * end],
+            memory.trace_worth[N_ROWS * begin : N_ROWS * end], faded(plan, memory, track),
+            plan.discount if plan.memory_discounts else UNIT)
     if not caused:
         return
     slot = memory.trace_count[track] % plan.trace
@@ -208,14 +204,17 @@ def learn_transition(plan, memory, m, point, cell_tm1, cell_t, caused):
         learn_all_goals(memory.q, plan.first[m], cells, known, cell_tm1, cell_t, memory.trace_rates[track, slot],
                         decay, plan.away, plan.discount, plan.terminal, memory.target)
     if plan.memory_fade > ZERO:
-        if plan.bootstrap:  # the cell just left has learned already
-            learn_from_memory(plan, memory, m, track, begin, end, cell_t)
-        memory.remembered_count[track] = join(
-            memory.remembered[begin:end], memory.remembered_count[track], memory.strength[begin:end],
-            memory.trace_weight[begin:end], memory.trace_worth[begin:end], cell_tm1, memory.trace_rates[track, slot],
-            decay)
-        if not plan.bootstrap:
-            learn_from_memory(plan, memory, m, track, begin, end, cell_t)
+        for turn in range(2):
+            if turn == plan.bootstrap:  # the cell just left joins late if it has learned already, by bootstrapping
+                memory.remembered_count[track] = join(
+                    memory.remembered[begin:end], memory.remembered_at[begin:end], memory.remembered_count[track],
+                    memory.strength[begin:end], memory.trace_weight[N_ROWS * begin : N_ROWS * end],
+                    memory.trace_worth[N_ROWS * begin : N_ROWS * end], cell_tm1, memory.trace_rates[track, slot], decay)
+            else:
+                learn_remembered(
+                    memory.q, plan.first[m], known, memory.remembered[begin:end], memory.remembered_count[track],
+                    memory.trace_weight[N_ROWS * begin : N_ROWS * end],
+                    memory.trace_worth[N_ROWS * begin : N_ROWS * end], cell_t, plan.away, memory.target)
         return
     fading = UNIT
     for back in range(min(memory.trace_count[track], plan.trace)):
@@ -224,13 +223,6 @@ def learn_transition(plan, memory, m, point, cell_tm1, cell_t, caused):
             learn_one_goal(memory.q, plan.first[m], cells, known, memory.trace_cell[track, slot], cell_t,
                            memory.trace_rates[track, slot], decay, plan.away, fading)
         fading *= plan.discount
-
-
-@inlined_kernel
-def learn_from_memory(plan, memory, m, track, begin, end, goal):
-    learn_remembered(memory.q, plan.first[m], plan.cells[m], memory.known[plan.first_cell[m] : plan.first_cell[m + 1]],
-                     memory.remembered[begin:end], memory.remembered_count[track], memory.trace_weight[begin:end],
-                     memory.trace_worth[begin:end], goal, plan.away)
 
 
 @inlined_kernel

@@ -14,6 +14,7 @@ from neorl.horde import N_EVENTS
 from neorl.kernel import array, kernel, zeros
 from neorl.modality import BOUNDARIES, LANDMARKS, OBJECTS, Vector
 from neorl.nres import cell_at, tiling
+from neorl.traces import N_ROWS
 
 GREEN, RED, NODE, POINT, PLACE = range(5)  # where a desire comes from; one thing from NODE on
 
@@ -96,10 +97,11 @@ class Memory(NamedTuple):
     trace_rates: array("float32", "tracks", "trace", 4)  # the rates of their events
     trace_count: array("int64", "tracks")  # cells left since the point appeared
     remembered: array("int64", "traces")  # the cells that a track remembers, see `neorl.traces`
+    remembered_at: array("int64", "traces")
     remembered_count: array("int64", "tracks")
     strength: array("float32", "traces")
-    trace_weight: array("float32", "traces", 8)
-    trace_worth: array("float32", "traces", 8)
+    trace_weight: array("float32", "trace_rows")
+    trace_worth: array("float32", "trace_rows")
     activity: array("float32", 4)  # of each event
     seen: array("float64", "creeps", 2)  # where the things were after the last step, in pixels
     attended: array("int64", 1)  # which of them is learned about
@@ -221,9 +223,10 @@ def new_memory(plan, stream, n_creeps, old=None):
     old: a memory of the same plan that nobody needs any more, whose room for values is used again: to get a gigabyte
     from the system, page by page, takes longer than to live in it.
     """
+    traces = plan.first_trace[-1] if plan.memory_fade > 0 else 0
     sizes = {"values": 0 if old else plan.first[-1], "cells": plan.first_cell[-1], "tracks": plan.first_track[-1],
-             "trace": plan.trace, "traces": plan.first_trace[-1] if plan.memory_fade > 0 else 0,
-             "desires": len(plan.source), "creeps": n_creeps}
+             "trace": plan.trace, "traces": traces, "trace_rows": N_ROWS * traces, "desires": len(plan.source),
+             "creeps": n_creeps}
     memory = Memory(**zeros(Memory, sizes) | {"stream": stream})
     if old:
         forget(plan, old)

@@ -29,7 +29,7 @@ SLICE = 10_000  # steps between two looks at the progress bar and at the keyboar
 # What `Memory` has of each map, by the array of a plan that says where it begins.
 OF_A_MAP = {"first": ("q",), "first_cell": ("known",),
             "first_track": ("cell", "events", "trace_cell", "trace_rates", "trace_count", "remembered_count"),
-            "first_trace": ("remembered", "strength", "trace_weight", "trace_worth")}
+            "first_trace": ("remembered", "remembered_at", "strength", "trace_weight", "trace_worth")}
 
 
 class Output(NamedTuple):
@@ -101,7 +101,9 @@ class Run:
                     begin, end = getattr(plan, firsts)[m : m + 2]
                     begin_old, end_old = getattr(self.plan, firsts)[old[key] : old[key] + 2]
                     for name in names:
-                        getattr(memory, name)[begin:end] = getattr(self.memory, name)[begin_old:end_old]
+                        new, kept = getattr(memory, name), getattr(self.memory, name)
+                        width = len(new) // getattr(plan, firsts)[-1]
+                        new[width * begin : width * end] = kept[width * begin_old : width * end_old]
         for name in ("last_event", "activity", "attended"):
             getattr(memory, name)[:] = getattr(self.memory, name)
         self.agent, self.plan, self.memory = agent, plan, memory

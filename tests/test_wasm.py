@@ -46,7 +46,7 @@ def sizes_of(run):
     return {"maps": len(plan.cells), "nodes": len(plan.vector), "landmarks": len(plan.landmark),
             "desires": len(plan.source), "values": plan.first[-1], "cells": plan.first_cell[-1],
             "tracks": plan.first_track[-1], "trace": plan.trace, "creeps": run.world.n_creeps, "words": 0, "bins": 1,
-            "traces": len(run.memory.strength)}
+            "traces": len(run.memory.strength), "trace_rows": len(run.memory.trace_weight)}
 
 
 def copied(run):

@@ -102,6 +102,7 @@ function newRun({ plan: choices, world, steps, bin_steps }) {
   const last = (name) => Number(laidOut[name].at(-1));
   Object.assign(sizes, { values: last("first"), cells: last("first_cell"), tracks: last("first_track") });
   sizes.traces = choices.memory_fade > 0 ? last("first_trace") : 0;
+  sizes.trace_rows = 8 * sizes.traces;
 
   const bytes = 2 ** 20 + 8 * sizes.bins + bytesOf("Plan", sizes) + bytesOf("Memory", sizes)
     + bytesOf("Memory", { ...sizes, values: 0 }) + 3 * bytesOf("WaterWorldState", sizes);
@@ -212,7 +213,7 @@ function mapKeys({ first_map, first_landmark, resolution, nodes, trace, memory_f
 function keepMap(old, from, to) {
   const parts = [["first", ["q"]], ["first_cell", ["known"]],
     ["first_track", ["cell", "events", "trace_cell", "trace_rates", "trace_count", "remembered_count"]],
-    ["first_trace", ["remembered", "strength", "trace_weight", "trace_worth"]]];
+    ["first_trace", ["remembered", "remembered_at", "strength", "trace_weight", "trace_worth"]]];
   for (const [firsts, names] of parts) {
     const [begin, end] = [old.plan[firsts][from], old.plan[firsts][from + 1]].map(Number);
     for (const name of names) {
