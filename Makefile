@@ -1,11 +1,11 @@
-# make book   compute every notebook and build the book   RUNS=20 runs a condition; 4 is a look, 100 the papers' scale
+# make book   compute every notebook and build the book   RUNS=10 runs a condition; 4 is a look, 100 the papers' scale
 # make test   run the tests
 # make lab    open the notebooks in JupyterLab
 # make readme write the claims of the last build into the README
 # make bench  measure the speed of the kernels
 # make clean  remove all that these made, and nothing else
 PYTHON ?= python3
-RUNS ?= 20
+RUNS ?= 10
 STEPS ?=
 BIN := .venv/bin
 export NEORL_CACHE := $(CURDIR)/.cache

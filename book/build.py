@@ -51,7 +51,7 @@ def main():
 
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--runs", type=whole_number, default=20, help="runs a condition (default 20)")
+    parser.add_argument("--runs", type=whole_number, default=10, help="runs a condition (default 10)")
     parser.add_argument("--steps", type=whole_number, help="steps a run (by default the paper's)")
     return parser.parse_args()
 
@@ -63,8 +63,8 @@ def whole_number(text):
 
 
 def points(runs):
-    """How many readings the assumptions are varied in: a power of two, 256 with 100 runs and 32 with 20."""
-    return 2 ** max(2, int(math.log2(2.56 * runs)))
+    """How many readings the assumptions are varied in: a power of two, 128 with 100 runs and 16 with 10."""
+    return 2 ** max(2, int(math.log2(1.6 * runs)))
 
 
 def turn(notebook):
