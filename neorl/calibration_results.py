@@ -12,7 +12,7 @@ import numpy as np
 from scipy import stats
 
 from neorl import checks
-from neorl.calibration import Emulator, reading_at
+from neorl.calibration import IN_FULL, Emulator, reading_at
 from neorl.calibration_table import nearest
 from neorl.calibration_targets import CLAIMS, TARGETS, distance
 from neorl.priors import WITHIN
@@ -144,6 +144,21 @@ def claims_together(table):
     sets = [(tuple(sorted(each)), sum(each <= other for other in found)) for each in largest]
     sets.sort(key=lambda entry: (-len(entry[0]), -entry[1], entry[0]))
     return Together(CLAIMS, rows.astype(int), both.astype(int), expected, sets)
+
+
+def evenly(table):
+    """How often the numbers agree with the thesis among readings that were drawn evenly from the priors.
+
+    Returns {claim: {"agrees", "measured"}}, counts of rows of the design, of those alone that were not chosen by what
+    came out.
+    """
+    design = [row for row in table if row.wave == 0]
+    found = {}
+    for claim in CLAIMS:
+        rows = design if all(claim in row.tested for row in design) else design[:IN_FULL]
+        measured = [row for row in rows if claim in row.tested]
+        found[claim] = {"agrees": sum(claim in row.held for row in measured), "measured": len(measured)}
+    return found
 
 
 def best(table):

@@ -75,8 +75,8 @@ def store(page, claims=(), shares=None, letter=()):
     """Keep what a page has found as JSON, with the digest of the source that it was computed with.
 
     claims, letter: of `Claim`, under the book's reading and under the reading to the letter. shares: {name of a claim:
-    {"holds", "undecided", "readings"}}, counts of readings within the text. A bound that does not exist, as with a
-    single run, is null.
+    {"holds", "undecided", "readings"}}, counts of readings within the text in short runs, with "agrees" and "measured"
+    where there are counts at the papers' lengths too. A bound that does not exist, as with a single run, is null.
     """
     content = {"page": page, "source": source_digest(), "claims": _kept(claims), "letter": _kept(letter),
                "shares": shares or {}}
@@ -171,7 +171,10 @@ def _share(share):
     if not share:
         return ""
     holds, undecided = (f"{100 * share[kind] / share['readings']:.0f}\u00a0%" for kind in ("holds", "undecided"))
-    return f"{holds} of {share['readings']} readings" + (f", {undecided} undecided" if share["undecided"] else "")
+    short = f"{holds} of {share['readings']}" + (f", {undecided} undecided" if share["undecided"] else "")
+    if not share.get("measured"):
+        return f"short runs: {short}"
+    return f"{100 * share['agrees'] / share['measured']:.0f}\u00a0% of {share['measured']}; short runs: {short}"
 
 
 def _evidence(record, names):

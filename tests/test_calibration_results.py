@@ -107,6 +107,13 @@ def test_the_best_is_a_confirmed_row_and_a_reading_counts_as_it_was_confirmed():
                                                                            key=lambda row: row.distance)
 
 
+def test_shares_at_the_papers_lengths_are_of_readings_that_nothing_has_chosen():
+    table = rows(*[{"A6"}] * 8, *[set()] * 8)
+    table += [replace(row, wave=1) for row in rows(*[{"A6"}] * 4)]
+    found = calibration_results.evenly(table)
+    assert found["A6"] == {"agrees": 8, "measured": 16} and found["C4"] == {"agrees": 0, "measured": 16}
+
+
 def test_claims_that_exclude_each_other_are_found():
     table = rows(*[{"A6", "A7"}] * 12, *[{"B1", "A7"}] * 12, *[{"B3"}] * 2, *[set()] * 6)
     table += [replace(row, statistics=statistics({"C4"}, GROUPS["networks"].targets)) for row in table]  # not complete

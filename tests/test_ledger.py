@@ -47,7 +47,7 @@ def test_a_table_of_a_page_has_both_readings_and_what_the_verdicts_rest_on():
     assert table.splitlines()[0] == "| Claim | Thesis | To the letter | Calibrated | Verdict | Share within the text |"
     assert row(table, "C2") == ("| **C2** A desire for each colour (B) beats one for all (A) | > 0 | "
                                 "○\u00a0−0.30 [−0.31, −0.29] | ●\u00a00.10 [0.09, 0.11] | reproduced | "
-                                "25\u00a0% of 4 readings |")
+                                "short runs: 25\u00a0% of 4 |")
     (line,) = [line for line in table.splitlines() if line.startswith("- **C2**")]
     assert "“Experiment b demonstrates the effect of separating desires" in line and "(paper C, section 3)" in line
     assert "Here: 0.10 [0.09, 0.11], 20 runs. A run of B" in line and "To the letter: −0.30" in line
@@ -78,7 +78,8 @@ def test_a_summary_names_where_claims_hold_and_what_comes_closest():
 def record(cache):
     ledger.store("paper_c", networks(), letter=networks(*paper_c()[::-1]))
     ledger.store("look", layers(runs=1))
-    ledger.store("assumptions", shares={"C2": {"holds": 64, "undecided": 26, "untestable": 3, "readings": 256}})
+    ledger.store("assumptions", shares={"C2": {"holds": 64, "undecided": 26, "untestable": 3, "readings": 256, "agrees": 2,
+                                             "measured": 40}})
     return ledger.read((cache / "claims").iterdir())
 
 
@@ -97,7 +98,7 @@ def test_the_page_has_every_claim_of_the_thesis_and_says_which_were_not_computed
     assert row(page, "C2").replace("\u00a0", " ") == (
         "| **C2** A desire for each colour (B) beats one for all (A) | > 0 | ○ −0.30 [−0.31, −0.29] | "
         "● 0.10 [0.09, 0.11] | reproduced ({ref}`figure <fig-proficiency-networks>`, {ref}`rule "
-        "<rule-judge-networks>`) | 25 % of 256 readings, 10 % undecided |")
+        "<rule-judge-networks>`) | 5 % of 40; short runs: 25 % of 256, 10 % undecided |")
 
 
 def test_a_claim_that_no_rule_can_judge_is_open(record):
@@ -114,7 +115,7 @@ def test_a_claim_of_a_single_run_has_no_interval_and_no_verdict(record):
 
 def test_the_short_table_says_the_same(record):
     table = ledger.in_short(record)
-    assert row(table, "C2").endswith("| ●\u00a00.10 [0.09, 0.11] | reproduced | 25\u00a0% of 256 readings, 10\u00a0% "
+    assert row(table, "C2").endswith("| ●\u00a00.10 [0.09, 0.11] | reproduced | 5\u00a0% of 40; short runs: 25\u00a0% of 256, 10\u00a0% "
                                      "undecided |")
     assert row(table, "H1").endswith("| fewer |  |  | not computed in this build |  |")
     assert "{ref}" not in table
