@@ -48,9 +48,9 @@ class Learning:
     trace: how many of the cells left most recently learn that the cell now entered is where they led to, the k-th
         before the last at γ^k times its rate. 1 is the cell just left alone.
     memory: a leaky integrator over all cells left, ≥ 0. They all learn that the cell now entered is where they led to,
-        at rates that fade by memory / (1 + memory) at each change of cell, so that it is the mean number of earlier
-        cells remembered. 0 is none. It takes the place of a trace.
-    memory_unit: "cells", or "seconds": `memory` is a time constant, and rates fade with each step.
+        at rates that fade with time or with each cell left since. 0 is none. It takes the place of a trace.
+    memory_unit: "seconds", a time constant: rates fade at each step. "cells": they fade by memory / (1 + memory) at
+        each change of cell, so that `memory` is the mean number of earlier cells remembered.
     memory_value: what the goal is worth to a cell left k cells ago: 1, "reached", or γ^k, "discounted".
     bootstrap: the cell just left also learns about all other goals from the cell entered (the γ max Q of eq. 4.8).
     causes: of changes of cell that things as seen from the agent learn from. "any", or "own": those that would have
