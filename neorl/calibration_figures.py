@@ -150,7 +150,7 @@ def draw_modalities(lives):
     seconds = lives[0]["both"].seconds
     axes = _draw_curves(_smooth(lives, MODALITIES), seconds)
     for level, minutes, colour in zip(LEVELS, MINUTES, (CURVES[0], CURVES[2])):
-        _mark_level(axes, level, f"{level:.2f}", colour)
+        _mark_level(axes, level, f"{level:.2f}", colour, at=0.45)
         if minutes <= seconds / 60:
             axes.axvline(minutes, color=colour, linewidth=0.9, linestyle=":")
             axes.annotate(f"{minutes} min", (minutes, 0.99), xycoords=("data", "axes fraction"), color=colour,
@@ -185,9 +185,9 @@ def _draw_curves(curves, seconds, colours=CURVES):
     return axes
 
 
-def _mark_level(axes, level, words, colour):
-    """What the thesis prints, as a dashed line with its words; the axes reach as far as it."""
+def _mark_level(axes, level, words, colour, at=0.01):
+    """What the thesis prints, as a dashed line with its words, `at` a share of its length; the axes reach as far."""
     low, high = axes.get_ylim()
     axes.set_ylim(low, max(high, 1.05 * level))
     axes.axhline(level, color=colour, linewidth=0.9, linestyle="--")
-    axes.annotate(words, (0.01, level), xycoords=("axes fraction", "data"), color=colour, fontsize=8, va="bottom")
+    axes.annotate(words, (at, level), xycoords=("axes fraction", "data"), color=colour, fontsize=8, va="bottom")

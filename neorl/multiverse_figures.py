@@ -6,6 +6,7 @@ from textwrap import fill
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
 from neorl.figures import AGENT, INK, RED
@@ -70,7 +71,8 @@ def _limits(values, borders):
 def draw_standing(record, names):
     """The verdicts of claims, and the share of readings that they hold under: record as `neorl.ledger.read` has it.
 
-    names: of the claims, from the top. What is undecided comes after what holds, in another colour.
+    names: of the claims, from the top. Bars are short runs: what is undecided comes after what holds, in another
+    colour. Points are runs as long as the papers', where there are any.
     """
     width, _ = plt.rcParams["figure.figsize"]
     axes = plt.figure(figsize=(width, 1.3 * ROW * len(names) + 0.7)).add_subplot()
@@ -80,6 +82,8 @@ def draw_standing(record, names):
             holds, undecided = (100 * share[kind] / share["readings"] for kind in ("holds", "undecided"))
             axes.barh(row, holds, 0.55, color=COLOURS["holds"])
             axes.barh(row, undecided, 0.55, left=holds, color=COLOURS["undecided"], alpha=0.45)
+            if share.get("measured"):
+                axes.plot(100 * share["agrees"] / share["measured"], row, "D", color=INK, markersize=5, clip_on=False)
         else:
             axes.text(1, row, "not varied over readings", fontsize=9, va="center")
     verdicts = {name: record["claims"].get(name, {"verdict": "not computed"})["verdict"] for name in names}
@@ -89,8 +93,9 @@ def draw_standing(record, names):
     axes.spines["left"].set_visible(False)
     handles = [Rectangle((0, 0), 1, 1, color=COLOURS[kind], alpha=alpha)
                for kind, alpha in (("holds", 1.0), ("undecided", 0.45))]
-    axes.legend(handles, ["holds", "undecided"], frameon=False, fontsize=9, ncols=2, labelcolor=INK, loc="lower left",
-                bbox_to_anchor=(0, 1.0), borderpad=0)
+    handles.append(Line2D([], [], color=INK, marker="D", markersize=5, linestyle="none"))
+    axes.legend(handles, ["holds", "undecided", "agrees, in long runs"], frameon=False, fontsize=9, ncols=3,
+                labelcolor=INK, loc="lower left", bbox_to_anchor=(0, 1.0), borderpad=0)
 
 
 def draw_importance(importance, choices=WITHIN):

@@ -168,5 +168,6 @@ def test_readings_are_drawn_beside_the_verdicts(record):
     assert [tick.get_text() for tick in axes.get_yticklabels()] == [
         "C2  reproduced", "A6  no verdict", "T5  not computed"]
     assert [(bar.get_x(), bar.get_width()) for bar in axes.patches] == [(0, 25), (25, pytest.approx(100 * 26 / 256))]
+    assert [line.get_xydata().tolist() for line in axes.lines] == [[[5, 0]]]
     assert [text.get_text() for text in axes.texts] == ["not varied over readings"] * 2
     plt.close()
