@@ -52,7 +52,12 @@ def test_the_page_of_claims_has_all_of_them_and_its_links_lead_somewhere(open_pa
 def test_the_chapter_on_assumptions_has_a_curve_for_every_claim_that_readings_matter_for(open_page):
     page = open_page(HTML, "chapters/assumptions.html")
     assert page.locator("figure[id^=fig-spec] img").count() == 19
-    expect(page.locator("body")).to_contain_text("the same as from this process, to the last bit")
+
+
+def test_the_sample_of_calibrated_readings_came_out_as_it_stands_in_the_table(open_page):
+    page = open_page(HTML, "chapters/calibration.html")
+    equal, of = re.search(r"(\d+) of (\d+) rows, drawn at random", page.locator("body").inner_text()).groups()
+    assert equal == of != "0"
 
 
 def test_the_first_chapter_plays_two_lives_side_by_side(open_page):
