@@ -14,6 +14,9 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
+from concurrent.futures import ProcessPoolExecutor
+from itertools import groupby
 from pathlib import Path
 
 import nbformat
@@ -27,7 +30,10 @@ ROOT = Path(__file__).resolve().parent.parent
 CHAPTERS = ROOT / "book" / "chapters"
 HTML = ROOT / "_build" / "html" / "index.html"
 CONCLUSION = "chapter_5"  # reads what all others have found
-LAST = ("calibration", CONCLUSION)  # computed after all others, in this order
+# Notebooks of one round are computed two at a time, as much of each keeps one core busy alone: compiling, drawing. Those
+# of later rounds read the shares of readings; those that measure times, chapter 4 and paper B, have the machine alone.
+ROUNDS = (("assumptions", "chapter_1", "chapter_2", "chapter_3"), ("calibration", "paper_a", "paper_c"),
+          ("chapter_4",), ("paper_b",), (CONCLUSION,))
 WIDGET_STATE = "application/vnd.jupyter.widget-state+json"
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 
@@ -35,15 +41,15 @@ WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 def main():
     chosen = parse_arguments()
     parameters = {name: value for name, value in vars(chosen).items() if value is not None}
-    notebooks = dict.fromkeys(sorted(sorted((ROOT / "notebooks").glob("*.ipynb")), key=turn), parameters)
+    notebooks = dict.fromkeys(sorted((ROOT / "notebooks").glob("*.ipynb"), key=turn), parameters)
     notebooks[ROOT / "notebooks" / "assumptions.ipynb"] = parameters | {"points": points(chosen.runs)}
     for notebook, its_parameters in notebooks.items():
         check_parameters(notebook, its_parameters)
-    try:
-        for notebook, its_parameters in notebooks.items():
-            compute(notebook, its_parameters)
-    except PapermillExecutionError as error:
-        sys.exit(f"\n{error}")
+    for _, some in groupby(notebooks, key=lambda notebook: turn(notebook)[0]):
+        with ProcessPoolExecutor(2) as pool:
+            errors = [each for each in pool.map(attempt, *zip(*((each, notebooks[each]) for each in some))) if each]
+        if errors:
+            sys.exit("\n" + "\n".join(errors))
     write_claims()
     build()
     print(f"the book is at {HTML.as_uri()}")
@@ -68,14 +74,24 @@ def points(runs):
 
 
 def turn(notebook):
-    """When a notebook is computed: after all of lower numbers, and by name among equals."""
-    return LAST.index(notebook.stem) + 1 if notebook.stem in LAST else 0
+    """When a notebook is computed: (its round, its name). One that no round has is in the first."""
+    return next((place for place, names in enumerate(ROUNDS) if notebook.stem in names), 0), notebook.stem
 
 
 def records(notebook):
-    """The records of claims that a notebook reads: all others', or that of the shares of readings alone."""
+    """The records of claims that a notebook reads: none in the first round, then that of shares, and last all others'."""
+    if turn(notebook)[0] == 0:
+        return []
     read = "*" if notebook.stem == CONCLUSION else "assumptions"
     return sorted(set(CHAPTERS.glob(f"{read}.claims.json")) - {CHAPTERS / f"{notebook.stem}.claims.json"})
+
+
+def attempt(notebook, parameters):
+    """`compute`, for a process of a pool: what went wrong, as text, or None."""
+    try:
+        compute(notebook, parameters)
+    except PapermillExecutionError as error:
+        return str(error)
 
 
 def compute(notebook, parameters):
@@ -87,6 +103,7 @@ def compute(notebook, parameters):
         print(f"{notebook.name}: nothing has changed")
         return
     print(f"{notebook.name}: {', '.join(f'{name} {value}' for name, value in parameters.items())}")
+    began = time.monotonic()
     CHAPTERS.mkdir(parents=True, exist_ok=True)
     record.unlink(missing_ok=True)
     work = CHAPTERS / f".{notebook.stem}"  # at a place of its own, so that what a killed process left is cleared
@@ -95,7 +112,7 @@ def compute(notebook, parameters):
     with tempfile.TemporaryDirectory() as sockets:  # over TCP the kernel warns that it is not encrypted
         papermill.execute_notebook(
             notebook, work / notebook.name, parameters, cwd=ROOT / "notebooks", request_save_on_cell_execute=False,
-            stderr_file=sys.stderr if sys.stderr.isatty() else None,  # the bars of conditions, but not into a log
+            progress_bar=False,  # two of them would write over each other
             config=Config(KernelManager={"transport": "ipc", "ip": f"{sockets}/kernel"}))
     executed = nbformat.read(work / notebook.name, nbformat.NO_CONVERT)
     for cell in executed.cells:  # links are written for notebooks/, and the page lies in book/chapters/
@@ -109,6 +126,7 @@ def compute(notebook, parameters):
     os.replace(work / notebook.name, target)
     work.rmdir()
     record.write_text(json.dumps(wanted))
+    print(f"{notebook.name}: {time.monotonic() - began:.0f} s")
 
 
 def check_parameters(notebook, parameters):

@@ -193,12 +193,18 @@ def test_links_into_the_glossary_become_references_to_its_terms():
     assert build.link_terms("[lost](../book/glossary.md#lost)") == "{term}`lost <lost>`"  # which Sphinx complains about
 
 
-def test_the_calibration_comes_after_the_papers_and_the_conclusion_last():
-    names = ["assumptions", "calibration", "chapter_1", "chapter_5", "paper_a", "paper_c"]
+def test_papers_come_after_the_shares_that_they_read_and_the_conclusion_last():
+    names = ["assumptions", "another", "chapter_1", "chapter_5", "paper_a", "paper_b"]
     order = [path.stem for path in sorted(map(Path, names), key=build.turn)]
-    assert order == ["assumptions", "chapter_1", "paper_a", "paper_c", "calibration", "chapter_5"]
+    assert order == ["another", "assumptions", "chapter_1", "paper_a", "paper_b", "chapter_5"]
     found = {path.stem for path in (ROOT / "notebooks").glob("*.ipynb")}
-    assert build.CONCLUSION in found and "assumptions" in found
+    assert found == {name for names in build.ROUNDS for name in names}
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_what_went_wrong_in_a_process_is_told_as_text(notebook):
+    assert build.attempt(notebook, {"runs": 3}) is None
+    assert "Exception encountered" in build.attempt(notebook, {"runs": 13})
 
 
 def test_the_conclusion_reads_all_other_records_and_every_other_page_the_shares(chapters):
