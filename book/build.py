@@ -30,10 +30,10 @@ ROOT = Path(__file__).resolve().parent.parent
 CHAPTERS = ROOT / "book" / "chapters"
 HTML = ROOT / "_build" / "html" / "index.html"
 CONCLUSION = "chapter_5"  # reads what all others have found
-# Notebooks of one round are computed two at a time, as much of each keeps one core busy alone: compiling, drawing. Those
-# of later rounds read the shares of readings; those that measure times, chapter 4 and paper B, have the machine alone.
-ROUNDS = (("assumptions", "chapter_1", "chapter_2", "chapter_3"), ("calibration", "paper_a", "paper_c"),
-          ("chapter_4",), ("paper_b",), (CONCLUSION,))
+# Notebooks of one round are computed two at a time, since much of each keeps one core busy alone: compiling, drawing.
+# All but the first read the shares of readings. The papers keep all cores busy, and paper B measures times.
+ROUNDS = (("assumptions", "chapter_1", "chapter_2", "chapter_3"), ("calibration", "chapter_4"), ("paper_a",),
+          ("paper_b",), ("paper_c",), (CONCLUSION,))
 WIDGET_STATE = "application/vnd.jupyter.widget-state+json"
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 
@@ -100,9 +100,9 @@ def compute(notebook, parameters):
     inputs = [notebook, ROOT / "environment.txt", *sources(), *records(notebook)]
     wanted = {"parameters": parameters, "inputs": digest(inputs)}
     if target.exists() and record.exists() and json.loads(record.read_text()) == wanted:
-        print(f"{notebook.name}: nothing has changed")
+        say(f"{notebook.name}: nothing has changed")
         return
-    print(f"{notebook.name}: {', '.join(f'{name} {value}' for name, value in parameters.items())}")
+    say(f"{notebook.name}: {', '.join(f'{name} {value}' for name, value in parameters.items())}")
     began = time.monotonic()
     CHAPTERS.mkdir(parents=True, exist_ok=True)
     record.unlink(missing_ok=True)
@@ -126,7 +126,13 @@ def compute(notebook, parameters):
     os.replace(work / notebook.name, target)
     work.rmdir()
     record.write_text(json.dumps(wanted))
-    print(f"{notebook.name}: {time.monotonic() - began:.0f} s")
+    say(f"{notebook.name}: {time.monotonic() - began:.0f} s")
+
+
+def say(line):
+    """Print a line at once, so that those of two processes do not mix."""
+    sys.stdout.write(f"{line}\n")
+    sys.stdout.flush()
 
 
 def check_parameters(notebook, parameters):
