@@ -41,13 +41,13 @@ WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 def main():
     chosen = parse_arguments()
     parameters = {name: value for name, value in vars(chosen).items() if value is not None}
-    notebooks = dict.fromkeys(sorted((ROOT / "notebooks").glob("*.ipynb"), key=turn), parameters)
+    notebooks = dict.fromkeys(sorted(sorted((ROOT / "notebooks").glob("*.ipynb")), key=turn), parameters)
     notebooks[ROOT / "notebooks" / "assumptions.ipynb"] = parameters | {"points": points(chosen.runs)}
     for notebook, its_parameters in notebooks.items():
         check_parameters(notebook, its_parameters)
-    for _, some in groupby(notebooks, key=lambda notebook: turn(notebook)[0]):
+    for _, some in groupby(notebooks.items(), key=lambda item: turn(item[0])):
         with ProcessPoolExecutor(2) as pool:
-            errors = [each for each in pool.map(attempt, *zip(*((each, notebooks[each]) for each in some))) if each]
+            errors = [error for error in pool.map(attempt, *zip(*some)) if error]
         if errors:
             sys.exit("\n" + "\n".join(errors))
     write_claims()
@@ -74,13 +74,13 @@ def points(runs):
 
 
 def turn(notebook):
-    """When a notebook is computed: (its round, its name). One that no round has is in the first."""
-    return next((place for place, names in enumerate(ROUNDS) if notebook.stem in names), 0), notebook.stem
+    """In which round a notebook is computed. One that no round names is in the first."""
+    return next((place for place, names in enumerate(ROUNDS) if notebook.stem in names), 0)
 
 
 def records(notebook):
-    """The records of claims that a notebook reads: none in the first round, then that of shares, and last all others'."""
-    if turn(notebook)[0] == 0:
+    """The records of claims that a notebook reads: none in the first round, then that of shares, at last all others'."""
+    if turn(notebook) == 0:
         return []
     read = "*" if notebook.stem == CONCLUSION else "assumptions"
     return sorted(set(CHAPTERS.glob(f"{read}.claims.json")) - {CHAPTERS / f"{notebook.stem}.claims.json"})
@@ -131,8 +131,7 @@ def compute(notebook, parameters):
 
 def say(line):
     """Print a line at once, so that those of two processes do not mix."""
-    sys.stdout.write(f"{line}\n")
-    sys.stdout.flush()
+    print(f"{line}\n", end="", flush=True)
 
 
 def check_parameters(notebook, parameters):

@@ -170,11 +170,17 @@ def _marked(found):
 def _share(share):
     if not share:
         return ""
-    holds, undecided = (f"{100 * share[kind] / share['readings']:.0f}\u00a0%" for kind in ("holds", "undecided"))
-    short = f"{holds} of {share['readings']}" + (f", {undecided} undecided" if share["undecided"] else "")
+    total = share["readings"]
+    short = f"short runs: {_percent(share['holds'], total)} of {total}"
+    if share["undecided"]:
+        short += f", {_percent(share['undecided'], total)} undecided"
     if not share.get("measured"):
-        return f"short runs: {short}"
-    return f"{100 * share['agrees'] / share['measured']:.0f}\u00a0% of {share['measured']}; short runs: {short}"
+        return short
+    return f"{_percent(share['agrees'], share['measured'])} of {share['measured']}; {short}"
+
+
+def _percent(count, total):
+    return f"{100 * count / total:.0f}\u00a0%"
 
 
 def _evidence(record, names):

@@ -62,8 +62,10 @@ def source(name):
     places = []
     for pin in PINS:
         if pin.fields[:1] == (name,) and pin.place:
-            agrees = pin.status == "open" or pin.allows(Reading())
-            places.append(f"{'open in ' * (pin.status == 'open')}{pin.place}" if agrees else f"against {pin.place}")
+            if pin.status == "open":
+                places.append(f"open in {pin.place}")
+            else:
+                places.append(pin.place if pin.allows(Reading()) else f"against {pin.place}")
     return "; ".join(dict.fromkeys([*places, CALIBRATED] if name in WITHIN else places))
 
 

@@ -57,10 +57,9 @@ def forget(cells, places, i, last, strength, weight, worth):
 
 @kernel
 def forget_all(cells, places, count):
-    """Remember nothing any more, and return how many cells that is."""
+    """Take all cells off the list."""
     for i in range(count):
         places[cells[i]] = 0
-    return 0
 
 
 @kernel

@@ -5,7 +5,7 @@ import json
 
 import numpy as np
 import pytest
-from golden import plain_rule
+from golden import learning
 
 from neorl import Explorer, Learning, NresMap, Run, WaterWorld, network_d, onlooker, place_cells, simulate
 from neorl.explorer import _plan
@@ -99,10 +99,10 @@ def test_a_frame_tells_what_the_run_holds(ask):
 
 
 RULES = [
-    plain_rule(memory=30.0),
-    plain_rule(memory=2.0, memory_unit="seconds", memory_value="discounted", bootstrap=False),
-    plain_rule(memory=0.5, absence=0.1, absence_form="away", credit="activity"),
-    plain_rule(memory=5.0, causes="own", capture="leap", attention="wanted", credit="count"),
+    learning(memory=30.0),
+    learning(memory=2.0, memory_unit="seconds", memory_value="discounted", bootstrap=False),
+    learning(memory=0.5, absence=0.1, absence_form="away", credit="activity"),
+    learning(memory=5.0, causes="own", capture="leap", attention="wanted", credit="count"),
 ]
 
 
@@ -113,12 +113,12 @@ def learned(run, m, goal):
 
 @pytest.mark.parametrize("rule", RULES, ids=str)
 def test_what_is_learned_with_a_memory_is_what_python_learns_to_the_last_bit(ask, rule):
-    agent, goal = network_d([4, 5], learning=rule, coverage=0.5), 9
+    agent, goal = network_d([4, 5], scale=2.0, signed=False, **rule), 9
     frame = ask(advance(STEPS), {"type": "look", "map": "OVC N5", "goal": goal}, plan=_plan(agent, TANK))[-1]
     run = Run(agent, TANK, SEED, K)
     assert frame["reward"] == run.advance(STEPS)
     assert np.reshape(frame["seen"]["ways"], (-1, 2)).tolist() == learned(run, 3, goal)
-    assert np.count_nonzero(frame["seen"]["ways"]) > 10
+    assert np.count_nonzero(frame["seen"]["ways"]) > 20
 
 
 @pytest.mark.parametrize("later", [

@@ -78,8 +78,8 @@ def test_a_summary_names_where_claims_hold_and_what_comes_closest():
 def record(cache):
     ledger.store("paper_c", networks(), letter=networks(*paper_c()[::-1]))
     ledger.store("look", layers(runs=1))
-    ledger.store("assumptions", shares={"C2": {"holds": 64, "undecided": 26, "untestable": 3, "readings": 256, "agrees": 2,
-                                             "measured": 40}})
+    ledger.store("assumptions", shares={"C2": {"holds": 64, "undecided": 26, "untestable": 3, "readings": 256,
+                                               "agrees": 2, "measured": 40}})
     return ledger.read((cache / "claims").iterdir())
 
 
@@ -115,8 +115,8 @@ def test_a_claim_of_a_single_run_has_no_interval_and_no_verdict(record):
 
 def test_the_short_table_says_the_same(record):
     table = ledger.in_short(record)
-    assert row(table, "C2").endswith("| ●\u00a00.10 [0.09, 0.11] | reproduced | 5\u00a0% of 40; short runs: 25\u00a0% of 256, 10\u00a0% "
-                                     "undecided |")
+    assert row(table, "C2").endswith("| ●\u00a00.10 [0.09, 0.11] | reproduced | 5\u00a0% of 40; short runs: 25\u00a0% "
+                                     "of 256, 10\u00a0% undecided |")
     assert row(table, "H1").endswith("| fewer |  |  | not computed in this build |  |")
     assert "{ref}" not in table
 
