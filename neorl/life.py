@@ -188,13 +188,11 @@ def learn_transition(plan, memory, m, point, cell_tm1, cell_t, caused):
     known = memory.known[plan.first_cell[m] : plan.first_cell[m] + cells]
     decay = plan.learning_rate * plan.absence
     begin, end = traces_of(plan, m, point)
-    remembered, places = memory.remembered[begin:end], memory.remembered_at[begin:end]
-    strength = memory.strength[begin:end]
-    weight = memory.trace_weight[N_ROWS * begin : N_ROWS * end]
-    worth = memory.trace_worth[N_ROWS * begin : N_ROWS * end]
     if plan.memory_fade > ZERO:
         memory.remembered_count[track] = fade(
-            remembered, places, memory.remembered_count[track], strength, weight, worth, faded(plan, memory, track),
+            memory.remembered[begin:end], memory.remembered_at[begin:end], memory.remembered_count[track],
+            memory.strength[begin:end], memory.trace_weight[N_ROWS * begin : N_ROWS * end],
+            memory.trace_worth[N_ROWS * begin : N_ROWS * end], faded(plan, memory, track),
             plan.discount if plan.memory_discounts else UNIT)
     if not caused:
         return
@@ -209,11 +207,14 @@ def learn_transition(plan, memory, m, point, cell_tm1, cell_t, caused):
         for turn in range(2):
             if turn == plan.bootstrap:  # the cell just left joins late if it has learned already, by bootstrapping
                 memory.remembered_count[track] = join(
-                    remembered, places, memory.remembered_count[track], strength, weight, worth, cell_tm1,
-                    memory.trace_rates[track, slot], decay)
+                    memory.remembered[begin:end], memory.remembered_at[begin:end], memory.remembered_count[track],
+                    memory.strength[begin:end], memory.trace_weight[N_ROWS * begin : N_ROWS * end],
+                    memory.trace_worth[N_ROWS * begin : N_ROWS * end], cell_tm1, memory.trace_rates[track, slot], decay)
             else:
-                learn_remembered(memory.q, plan.first[m], known, remembered, memory.remembered_count[track], weight,
-                                 worth, cell_t, plan.away, memory.target)
+                learn_remembered(
+                    memory.q, plan.first[m], known, memory.remembered[begin:end], memory.remembered_count[track],
+                    memory.trace_weight[N_ROWS * begin : N_ROWS * end],
+                    memory.trace_worth[N_ROWS * begin : N_ROWS * end], cell_t, plan.away, memory.target)
         return
     fading = UNIT
     for back in range(min(memory.trace_count[track], plan.trace)):

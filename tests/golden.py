@@ -16,6 +16,7 @@ from neorl import (Agent, Desire, Learning, Node, Place, Policy, Run, WaterWorld
 
 RECORD = Path(__file__).parent / "golden.json"
 SHORT, LONG = 200, 6_000
+RUN = 3
 PLAIN = {"learning_rate": 0.03, "discount": 0.8, "driver": "cell", "credit": "share", "absence": 0.0, "terminal": True,
          "trace": 1, "bootstrap": True, "memory": 0.0, "memory_unit": "cells", "memory_value": "reached",
          "activity": 0.5, "absence_form": "decay", "causes": "any", "capture": "contact", "attention": "each"}
@@ -47,6 +48,19 @@ RULES = {
     "long trace alone": {"trace": 60, "bootstrap": False, "discount": 0.95}, "step": {"driver": "step"},
     "step, not terminal": {"driver": "step", "terminal": False},
 }
+# What the calibration found: a memory of its own for each way to fade, to credit and to be captured.
+CALIBRATED = {"learning_rate": 0.0157, "discount": 0.9045, "credit": "happened", "activity": 3.331, "absence": 0.1101,
+              "absence_form": "away", "memory": 4.396, "memory_unit": "seconds", "bootstrap": False, "causes": "own",
+              "capture": "leap", "attention": "wanted"}
+MEMORIES = {
+    "memory of cells": {"memory": 30.0},
+    "memory, discounted": {"memory": 40.0, "memory_value": "discounted", "discount": 0.95, "bootstrap": False},
+    "memory of seconds": {"memory": 0.5, "memory_unit": "seconds", "credit": "activity", "activity": 0.1,
+                          "absence": 0.2, "absence_form": "away"},
+    "silent captures": {"memory": 5.0, "capture": "silent", "attention": "nearest", "credit": "count"},
+    "calibrated": CALIBRATED,
+}
+BOOK = {"policy": Policy(0.0, "random"), "own_cell": "counts", "weighting": "cells"}
 NETWORKS = {"A": network_a, "B": network_b, "C": network_c, "D": network_d}
 RUNS = {
     "Brownian": (brownian(), 8),
@@ -68,31 +82,46 @@ RUNS = {
     "every modality": (every_modality(), 4),
     **{f"place, {name}": (place_cells([4, 9], **learning(**rules)), 8) for name, rules in RULES.items()},
     **{f"both, {name}": (multimodal([4, 7], place_gain=1.0, **learning(**rules)), 3) for name, rules in RULES.items()},
+    **{f"both, {name}": (multimodal([4, 7], place_gain=1.0, **learning(**rules)), 3)
+       for name, rules in MEMORIES.items()},
+    **{f"place N{n}, calibrated": (place_cells([n], **learning(**CALIBRATED) | BOOK), 8) for n in (10, 40)},
+    **{f"network {name}, calibrated": (make([3, 7, 23], scale=1.0, signed=True, **learning(**CALIBRATED) | BOOK), 3)
+       for name, make in NETWORKS.items()},
 }
 CHANGES = {
     "joined by objects": ((LONG // 3, "both"),),
+    "with a memory, moved": ((LONG // 3, "both, calibrated"), (LONG // 2, "network D, calibrated")),
     "revalued and back": ((LONG // 4, "network C"), (LONG // 2, "network D"), (3 * LONG // 4, "objects")),
 }
+BEFORE = {"joined by objects": "place N7", "with a memory, moved": "network C, calibrated",
+          "revalued and back": "network D"}
 
 
-def lived(name, steps):
-    """A run of that name, and the reward that it brought."""
-    agent, creeps = RUNS["place N7" if name == "joined by objects" else "network D" if name in CHANGES else name]
-    run = Run(agent, WaterWorld(width=250, n_creeps=creeps, fps=50, win_reward=5.0 if creeps == 8 else 0.0,
-                                contact="rounded"), seed=7, run=3)
+def born(name):
+    """A run of that name, before its first step."""
+    agent, creeps = RUNS[BEFORE.get(name, name)]
+    return Run(agent, tank(creeps), seed=7, run=RUN)
+
+
+def tank(creeps):
+    return WaterWorld(width=250, n_creeps=creeps, fps=50, win_reward=5.0 if creeps == 8 else 0.0, contact="rounded")
+
+
+def digest(name, steps):
+    """Reward and a digest of every value and of the tank: what is on record."""
+    run = born(name)
     reward = 0.0
     for step, later in CHANGES.get(name, ()):
         reward += run.advance(min(step, steps) - run.step)
         if step < steps:
             run.change(RUNS[later][0])
-    return run, reward + run.advance(steps - run.step)
+    reward += run.advance(steps - run.step)
+    return recorded(reward, run.memory.q, run.state)
 
 
-def digest(name, steps):
-    """Reward and a digest of every value and of the tank: what is on record."""
-    run, reward = lived(name, steps)
-    content = [run.memory.q, *run.state]
-    return f"{float(reward)} {hashlib.sha256(b''.join(np.ascontiguousarray(each).tobytes() for each in content)).hexdigest()}"
+def recorded(reward, q, state):
+    content = b"".join(np.ascontiguousarray(each).tobytes() for each in (q, *state))
+    return f"{float(reward)} {hashlib.sha256(content).hexdigest()}"
 
 
 if __name__ == "__main__":

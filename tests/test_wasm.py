@@ -6,7 +6,7 @@ import sys
 
 import numpy as np
 import pytest
-from webassembly import Machine, compiled
+from webassembly import Machine, compiled, copied, sizes_of
 
 import neorl
 from neorl import (Agent, Desire, Learning, Node, Place, Run, WaterWorld, modality, multimodal, network_a, network_b, network_c,
@@ -39,22 +39,6 @@ PAPERS = {
                               Desire(Place(0.2, 0.9), "object-vector cell", -1.0),
                               Desire((0.3, 0.3), "place cell", 0.4)]), 4),
 }
-
-
-def sizes_of(run):
-    plan = run.plan
-    return {"maps": len(plan.cells), "nodes": len(plan.vector), "landmarks": len(plan.landmark),
-            "desires": len(plan.source), "values": plan.first[-1], "cells": plan.first_cell[-1],
-            "tracks": plan.first_track[-1], "trace": plan.trace, "creeps": run.world.n_creeps, "words": 0, "bins": 1,
-            "traces": len(run.memory.strength), "trace_rows": len(run.memory.trace_weight)}
-
-
-def copied(run):
-    """A machine with copies of a run's arrays, and the arguments of its exports."""
-    machine = Machine(megabytes=32 + run.memory.q.nbytes // 2**20)
-    return machine, sizes_of(run), {
-        "plan": machine.put_tuple(run.plan), "memory": machine.put_tuple(run.memory), "rules": run.world.rules,
-        "state": machine.put_tuple(run.state), "contacts": machine.put(np.zeros(run.world.n_creeps, np.int8))}
 
 
 def assert_equal_to(run, arguments):

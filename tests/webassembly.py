@@ -64,3 +64,19 @@ class Machine:
         result, view = self.put(np.zeros(1, export["result"] or "int64"))
         assert self.exports[name](self.store, result, 0, *values) == 0
         return view[0]
+
+
+def sizes_of(run):
+    plan = run.plan
+    return {"maps": len(plan.cells), "nodes": len(plan.vector), "landmarks": len(plan.landmark),
+            "desires": len(plan.source), "values": plan.first[-1], "cells": plan.first_cell[-1],
+            "tracks": plan.first_track[-1], "trace": plan.trace, "creeps": run.world.n_creeps, "words": 0, "bins": 1,
+            "traces": len(run.memory.strength), "trace_rows": len(run.memory.trace_weight)}
+
+
+def copied(run):
+    """A machine with copies of a run's arrays, and the arguments of its exports."""
+    machine = Machine(megabytes=32 + run.memory.q.nbytes // 2**20)
+    return machine, sizes_of(run), {
+        "plan": machine.put_tuple(run.plan), "memory": machine.put_tuple(run.memory), "rules": run.world.rules,
+        "state": machine.put_tuple(run.state), "contacts": machine.put(np.zeros(run.world.n_creeps, np.int8))}
