@@ -24,7 +24,8 @@ import papermill
 from papermill.exceptions import PapermillExecutionError
 from traitlets.config import Config
 
-from neorl import ledger, store
+from neorl.evidence import report
+from neorl.experiments import cache
 
 ROOT = Path(__file__).resolve().parent.parent
 CHAPTERS = ROOT / "book" / "chapters"
@@ -79,7 +80,7 @@ def turn(notebook):
 
 
 def records(notebook):
-    """The records of claims that a notebook reads: none in the first round, then that of shares, at last all others'."""
+    """The records of claims that a notebook reads: first none, in the second round that of shares, at last all others'."""
     if turn(notebook) == 0:
         return []
     read = "*" if notebook.stem == CONCLUSION else "assumptions"
@@ -119,7 +120,7 @@ def compute(notebook, parameters):
         cell.source = link_terms(cell.source).replace("](../book/", "](../")
     save_figures(executed)
     save_widgets(executed)
-    claims = store.folder() / "claims" / f"{notebook.stem}.json"
+    claims = cache.folder() / "claims" / f"{notebook.stem}.json"
     if claims.exists():
         shutil.copy(claims, CHAPTERS / f"{notebook.stem}.claims.json")
     nbformat.write(executed, work / notebook.name)
@@ -203,7 +204,7 @@ def script(kind, content):
 
 def write_claims():
     """The table of all claims, from what the notebooks have found, for the page that includes it."""
-    table = ledger.page(ledger.read(sorted(CHAPTERS.glob("*.claims.json"))))
+    table = report.page(report.read(sorted(CHAPTERS.glob("*.claims.json"))))
     target = CHAPTERS / "claims-table.md"
     if not target.exists() or target.read_text(encoding="utf-8") != table:
         target.write_text(table, encoding="utf-8")

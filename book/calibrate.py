@@ -8,10 +8,10 @@ import argparse
 import time
 from pathlib import Path
 
-from neorl import calibration
-from neorl.calibration_results import progress
-from neorl.calibration_table import read_table, write_table
-from neorl.calibration_targets import GROUPS
+from neorl.evidence import calibration
+from neorl.evidence.calibration_results import progress
+from neorl.evidence.calibration_table import read_table, write_table
+from neorl.evidence.calibration_targets import GROUPS
 
 ROOT = Path(__file__).resolve().parent.parent
 TABLE = ROOT / "neorl" / "data" / "calibration.csv"

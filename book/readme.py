@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-from neorl import ledger
+from neorl.evidence import report
 
 ROOT = Path(__file__).resolve().parent.parent
 BETWEEN = re.compile(r"(?<=<!-- claims: make readme -->\n).*(?=<!-- end of claims -->)", re.S)
@@ -11,7 +11,7 @@ BETWEEN = re.compile(r"(?<=<!-- claims: make readme -->\n).*(?=<!-- end of claim
 
 def main():
     readme = ROOT / "README.md"
-    table = ledger.in_short(ledger.read(sorted((ROOT / "book" / "chapters").glob("*.claims.json"))))
+    table = report.in_short(report.read(sorted((ROOT / "book" / "chapters").glob("*.claims.json"))))
     readme.write_text(BETWEEN.sub(lambda _: table, readme.read_text(encoding="utf-8")), encoding="utf-8")
 
 

@@ -1,22 +1,30 @@
 """neorl: agents that navigate by neural representations of Euclidean space, and the experiments of their thesis.
 
 An `Agent` is a network of `Node`s and `Desire`s, a node tiles the space of a `Modality`, and `simulate` lets agents
-live in `WaterWorld`; `sweep` does many `Condition`s at a time. The agents of the papers are values of these types;
-`neorl.modality` holds the modalities by name. `neorl.statistics`, `neorl.claims`, `neorl.ledger`, `neorl.figures` and
-`neorl.multiverse` serve the book's pages, and `neorl.classics` holds the small experiments of its chapters;
-`neorl.wasm` takes the kernels into a page, where an `Explorer` runs them.
+live in `WaterWorld`; `sweep` does many `Condition`s at a time. The agents of the papers are values of these types.
+
+The package is built in rooms, and a module imports only from its own room and from those below:
+
+- `neorl.chapters`: what the notebooks of the book run and draw;
+- `neorl.browser`: the kernels in a page, and the Explorer that runs them there;
+- `neorl.drawing`: figures;
+- `neorl.evidence`: statistics, claims and their rules, readings of the thesis and their calibration;
+- `neorl.experiments`: runs, sweeps, and what is finished kept on disk;
+- `neorl.agents`: agents as data;
+- `neorl.worlds`: WaterWorld, and an agent's rollout in it;
+- `neorl.core`: the kernels, modalities and maps.
 """
 
-from neorl.agent import Agent, Desire, Learning, Node, Place, Policy
-from neorl.horde import learn, superpose
-from neorl.modality import Modality
-from neorl.nres import NresMap
-from neorl.papers import (brownian, multimodal, network_a, network_b, network_c, network_d, object_vector_cells,
-                          place_cells)
-from neorl.simulation import Result, Run, simulate
-from neorl.store import Condition, simulate_once
-from neorl.sweep import sweep
-from neorl.waterworld import WaterWorld
+from neorl.agents.agent import Agent, Desire, Learning, Node, Place, Policy
+from neorl.agents.papers import (brownian, multimodal, network_a, network_b, network_c, network_d, object_vector_cells,
+                                 place_cells)
+from neorl.core.horde import learn, superpose
+from neorl.core.maps import NresMap
+from neorl.core.modality import Modality
+from neorl.experiments.cache import Condition, simulate_once
+from neorl.experiments.simulation import Result, Run, simulate
+from neorl.experiments.sweep import sweep
+from neorl.worlds.waterworld import WaterWorld
 
 __all__ = ["Agent", "Condition", "Desire", "Learning", "Modality", "Node", "NresMap", "Place", "Policy", "Result",
            "Run", "WaterWorld", "learn", "simulate", "simulate_once", "superpose", "sweep",
@@ -27,7 +35,7 @@ __all__ = ["Agent", "Condition", "Desire", "Learning", "Modality", "Node", "Nres
 def __getattr__(name):
     if name == "Explorer":  # imported when asked for, since the rest of the package does without anywidget
         try:
-            from neorl.explorer import Explorer
+            from neorl.browser.explorer import Explorer
         except ModuleNotFoundError as error:
             raise ImportError(f"neorl.Explorer needs {error.name}: pip install {error.name}") from error
         return Explorer

@@ -9,10 +9,10 @@ from explorer_page import write_page
 
 from neorl import (Explorer, Run, WaterWorld, multimodal, network_a, network_b, network_c, network_d,
                    object_vector_cells, place_cells, simulate)
-from neorl.horde import ZERO, learn_all_goals
-from neorl.kernel import kernel
-from neorl.stream import below, new_stream
-from neorl.waterworld import reset_board, step_board
+from neorl.core.horde import ZERO, learn_all_goals
+from neorl.core.kernel import kernel
+from neorl.core.stream import below, new_stream
+from neorl.worlds.waterworld import reset_board, step_board
 
 STEPS = 1_000_000
 RATES = np.float32(0.03) * np.array([0.4, 0.3, 0.2, 0.1], np.float32)

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import expect
 
-from neorl.statements import CLAIMS, DEMONSTRATIONS
+from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS
 
 HTML = Path(__file__).parent.parent / "_build" / "html"
 PAGES = {"index.html": "Figure 5: PC + OVC", "chapters/paper_a.html": "Figure 7: all",

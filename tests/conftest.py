@@ -29,7 +29,7 @@ def closed():
 
 
 @pytest.fixture
-def cache(tmp_path, monkeypatch):
+def cache_folder(tmp_path, monkeypatch):
     """An empty folder for what is kept, in place of the user's."""
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
     return tmp_path

@@ -11,17 +11,18 @@ from pathlib import Path
 
 import numpy as np
 
-from neorl import (Agent, Desire, Learning, Node, Place, Policy, Run, WaterWorld, brownian, modality, multimodal,
-                   network_a, network_b, network_c, network_d, object_vector_cells, place_cells)
+from neorl import (Agent, Desire, Learning, Node, Place, Policy, Run, WaterWorld, brownian, multimodal, network_a,
+                   network_b, network_c, network_d, object_vector_cells, place_cells)
+from neorl.core import modality
 
 RECORD = Path(__file__).parent / "golden.json"
 SHORT, LONG = 200, 6_000
 RUN = 3
-PLAIN = {"learning_rate": 0.03, "discount": 0.8, "driver": "cell", "credit": "share", "absence": 0.0, "terminal": True,
+PLAIN = {"learning_rate": 0.03, "discount": 0.8, "update_on": "cell", "credit": "share", "absent_decay": 0.0, "terminal": True,
          "trace": 1, "bootstrap": True, "memory": 0.0, "memory_unit": "cells", "memory_value": "reached",
-         "activity": 0.5, "absence_form": "decay", "causes": "any", "capture": "contact", "attention": "each"}
+         "activity": 0.5, "absent_form": "decay", "causes": "any", "capture": "contact", "attention": "each"}
 PRIMES = (2, 3, 5, 7, 11, 13)
-CHOICES = {"policy": Policy(0.02, "random"), "own_cell": "silent", "coverage": 0.5, "object_coverage": 0.5,
+CHOICES = {"policy": Policy(0.02, "random"), "own_cell": "silent", "tiled_fraction": 0.5, "object_tiled_fraction": 0.5,
            "weighting": "resolution"}
 
 
@@ -43,20 +44,20 @@ def every_modality():
 
 
 RULES = {
-    "happened": {"credit": "happened"}, "last": {"credit": "last"}, "absence": {"absence": 0.1},
+    "happened": {"credit": "happened"}, "last": {"credit": "last"}, "absence": {"absent_decay": 0.1},
     "not terminal": {"terminal": False}, "trace": {"trace": 12}, "no bootstrapping": {"bootstrap": False},
-    "long trace alone": {"trace": 60, "bootstrap": False, "discount": 0.95}, "step": {"driver": "step"},
-    "step, not terminal": {"driver": "step", "terminal": False},
+    "long trace alone": {"trace": 60, "bootstrap": False, "discount": 0.95}, "step": {"update_on": "step"},
+    "step, not terminal": {"update_on": "step", "terminal": False},
 }
 # What the calibration found: a memory of its own for each way to fade, to credit and to be captured.
-CALIBRATED = {"learning_rate": 0.0157, "discount": 0.9045, "credit": "happened", "activity": 3.331, "absence": 0.1101,
-              "absence_form": "away", "memory": 4.396, "memory_unit": "seconds", "bootstrap": False, "causes": "own",
+CALIBRATED = {"learning_rate": 0.0157, "discount": 0.9045, "credit": "happened", "activity": 3.331, "absent_decay": 0.1101,
+              "absent_form": "away", "memory": 4.396, "memory_unit": "seconds", "bootstrap": False, "causes": "own",
               "capture": "leap", "attention": "wanted"}
 MEMORIES = {
     "memory of cells": {"memory": 30.0},
     "memory, discounted": {"memory": 40.0, "memory_value": "discounted", "discount": 0.95, "bootstrap": False},
     "memory of seconds": {"memory": 0.5, "memory_unit": "seconds", "credit": "activity", "activity": 0.1,
-                          "absence": 0.2, "absence_form": "away"},
+                          "absent_decay": 0.2, "absent_form": "away"},
     "silent captures": {"memory": 5.0, "capture": "silent", "attention": "nearest", "credit": "count"},
     "calibrated": CALIBRATED,
 }
@@ -71,7 +72,7 @@ RUNS = {
     "objects N5": (object_vector_cells([5], **learning()), 3),
     "both": (multimodal(PRIMES, place_gain=1.0, **learning()), 3),
     "both, gain of place": (multimodal(PRIMES, place_gain=5.0, **learning()), 3),
-    "whole board": (multimodal([3, 7], place_gain=1.0, **learning() | {"coverage": 1.0, "object_coverage": 1.0}), 3),
+    "whole board": (multimodal([3, 7], place_gain=1.0, **learning() | {"tiled_fraction": 1.0, "object_tiled_fraction": 1.0}), 3),
     "own cell counts": (multimodal([3, 7], place_gain=1.0, **learning() | {"own_cell": "counts"}), 3),
     "greedy": (multimodal([3, 7], place_gain=1.0, **learning() | {"policy": Policy(0.0, "random")}), 3),
     "no-op": (multimodal([3, 7], place_gain=1.0, **learning() | {"policy": Policy(0.1, "no-op")}), 3),

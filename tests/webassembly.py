@@ -6,8 +6,8 @@ from functools import cache
 import numpy as np
 import wasmtime
 
-from neorl import wasm
-from neorl.kernel import length
+from neorl.browser import wasm
+from neorl.core.kernel import length
 
 PAGE = 2**16
 

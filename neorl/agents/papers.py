@@ -1,0 +1,94 @@
+"""The agents of the thesis's papers, as values of `Agent`.
+
+`choices` are other fields of `Agent` (learning, policy, own_cell) or, for all nodes, `weighting` of `Node` and
+`tiled_fraction`: the share of either axis's range, about its middle, that the maps cut into equal cells. What lies
+beyond belongs to the outermost ones. `object_tiled_fraction` is that of object-vector cells, if they have another.
+"""
+
+from dataclasses import replace
+
+from neorl import checks
+from neorl.agents.agent import Agent, Desire, Node, Policy
+from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL
+
+LAYERS = (3, 7, 23)  # the resolutions of paper A's last experiment, and of paper C as its figures have them
+PRIMES = (2, 3, 5, 7, 11, 13)  # the resolutions of paper B
+TILED_FRACTION = 1.0
+
+
+def place_cells(resolutions=PRIMES, valence_green=1.0, valence_red=-1.0, **choices):
+    """The agent of paper A, and PC of paper B: one node of place cells that desires green creeps and fears red ones."""
+    return _network([("PC", PLACE_CELL, 1.0)], resolutions, _creeps("PC", valence_green, valence_red), choices)
+
+
+def brownian():
+    """The control: every action drawn (ε = 1), so the agent moves as in Brownian motion (paper A, fig. 6)."""
+    return place_cells([1], policy=Policy(exploration=1.0))
+
+
+def object_vector_cells(resolutions=PRIMES, valence_green=1.0, valence_red=-1.0, **choices):
+    """OVC of paper B (fig. 4B): one node of object-vector cells in the Cartesian emulation."""
+    desires = _creeps("OVC", valence_green, valence_red)
+    return _network([("OVC", CARTESIAN_OBJECT_VECTOR_CELL, 1.0)], resolutions, desires, choices)
+
+
+def multimodal(resolutions=PRIMES, place_gain=5.0, object_gain=1.0, **choices):
+    """PC + OVC of paper B (fig. 5): both nodes see the creeps, and their values add."""
+    return _network(_both(place_gain, object_gain), resolutions, _creeps("PC") + _creeps("OVC"), choices)
+
+
+def network_a(resolutions=LAYERS, scale=Desire.scale, signed=Desire.signed, **choices):
+    """Agent A of paper C (fig. 4a): place cells make one desire of all creeps, object-vector cells act on it."""
+    desires = (Desire("PC", "OVC", scale=scale, signed=signed),)
+    return _network(_both(0.0, 1.0), resolutions, _creeps("PC") + desires, choices)
+
+
+def network_b(resolutions=LAYERS, scale=Desire.scale, signed=Desire.signed, **choices):
+    """Agent B of paper C (fig. 4b): a desire of the green creeps, and one of the red."""
+    return network_c(resolutions, scale, signed, place_gain=0.0, **choices)
+
+
+def network_c(resolutions=LAYERS, scale=Desire.scale, signed=Desire.signed, place_gain=1.0, object_gain=1.0,
+              **choices):
+    """Agent C of paper C (fig. 4c): as B, and the values of both nodes add."""
+    desires = tuple(Desire("PC", "OVC", of=(colour,), scale=scale, signed=signed) for colour in ("green", "red"))
+    return _network(_both(place_gain, object_gain), resolutions, _creeps("PC") + desires, choices)
+
+
+def network_d(resolutions=LAYERS, recursion=-1.0, scale=Desire.scale, signed=Desire.signed, place_gain=1.0,
+              object_gain=1.0, **choices):
+    """Agent D of paper C (fig. 4d): as C, and the object-vector cells desire what they desired, with valence r."""
+    without = network_c(resolutions, scale, signed, place_gain, object_gain, **choices)
+    recurring = Desire("OVC", "OVC", valence=recursion, scale=scale, signed=signed)
+    return replace(without, desires=(*without.desires, recurring))
+
+
+def _both(place_gain, object_gain):
+    return [("PC", PLACE_CELL, place_gain), ("OVC", CARTESIAN_OBJECT_VECTOR_CELL, object_gain)]
+
+
+def _creeps(node, valence_green=1.0, valence_red=-1.0):
+    return Desire("green", node, valence_green), Desire("red", node, valence_red)
+
+
+def _network(nodes, resolutions, desires, choices):
+    weighting = choices.pop("weighting", Node.weighting)
+    tiled_fraction = _share("tiled_fraction", choices.pop("tiled_fraction", TILED_FRACTION))
+    of_objects = _share("object_tiled_fraction", choices.pop("object_tiled_fraction", tiled_fraction))
+    nodes = tuple(Node(name, _covering(tiled_fraction if modality is PLACE_CELL else of_objects, modality), resolutions,
+                       weighting, gain) for name, modality, gain in nodes)
+    return Agent(nodes, desires, **choices)
+
+
+def _share(name, value):
+    share = checks.real(name, value)
+    if share <= 0:
+        raise ValueError(f"{name} is {value!r}, allowed are numbers above 0")
+    return share
+
+
+def _covering(share, modality):
+    """The modality with the ranges of its axes cut down to a share about their middle."""
+    ranges = tuple((low + (1 - share) * (high - low) / 2, high - (1 - share) * (high - low) / 2)
+                   for low, high in modality.ranges)
+    return replace(modality, ranges=ranges)

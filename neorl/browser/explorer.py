@@ -1,0 +1,243 @@
+"""The Explorer: a widget that runs the book's own kernels in the reader's browser.
+
+What it needs is in its state, so it works in a page without Python: the kernels in WebAssembly (`neorl.browser.wasm`),
+its *presets* (agents as plans, with the band of the runs that a page has of them), and its traits, which are the
+controls.
+
+- `settings.js` makes a plan of a preset and of the traits, `engine.js` runs it in a worker, and nothing else decides
+  a run: run k of a seed is the run that `neorl.Run` makes of it.
+- `drawing.js` draws; `page.js`, `controls.js`, `hands.js` and `widget.js` are what the reader sees and turns.
+"""
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import traitlets
+from anywidget import AnyWidget
+
+from neorl import checks
+from neorl.agents import papers
+from neorl.agents.agent import Agent, Node
+from neorl.agents.compile import chosen
+from neorl.browser import wasm
+from neorl.core.choices import Source
+from neorl.core.modality import MODALITIES
+from neorl.evidence.priors import TO_THE_LETTER as LETTER
+from neorl.evidence.reading import networks
+from neorl.evidence.statistics import tolerance_band
+from neorl.experiments.simulation import Result, bin_steps
+from neorl.worlds.waterworld import WaterWorld
+
+CALIBRATED = {  # the defaults of the package
+    "Place cells": papers.place_cells(), "Object-vector cells": papers.object_vector_cells(),
+    "Place and object-vector cells": papers.multimodal(), "Network A": papers.network_a(),
+    "Network B": papers.network_b(), "Network C": papers.network_c(), "Network D": papers.network_d()}
+TO_THE_LETTER = {
+    "Place cells, to the letter": papers.place_cells(**LETTER.place_agents),
+    "Object-vector cells, to the letter": papers.object_vector_cells(**LETTER.agents),
+    "Place and object-vector cells, to the letter": papers.multimodal(place_gain=LETTER.place_gain, **LETTER.agents),
+    "Network D, to the letter": networks(LETTER)["D"]}
+AGENTS = CALIBRATED | TO_THE_LETTER
+STEPS = 300_000  # of a run, where the page has no condition
+CURVE_BINS = 50
+MODALITY_FIELDS = ("vector", "tuning", "low", "high", "first_landmark", "landmark")  # of a plan
+SCRIPTS = ("settings.js", "drawing.js", "page.js", "controls.js", "hands.js", "widget.js")
+
+
+def _text(*names):
+    return "\n".join((Path(__file__).parent / name).read_text(encoding="utf-8") for name in names)
+
+
+class Explorer(AnyWidget):
+    """A neoRL agent to watch, change and play against; in JupyterLab and, from its stored state, in a static page.
+
+    conditions: {name: `Result`}, the conditions of the page, whose bands and runs it shows. Each of their agents has
+        the same resolutions in every node, one valence of red and one of recursion.
+    preset: the name of a condition or of one of `neorl.browser.explorer.AGENTS`; by default the first condition or
+        agent.
+    traits: any of those below, to begin with.
+
+    Traits: resolutions (1 … 90 each), modality (the name of one, with the ranges of the preset if it is that of the
+    preset; "" if the preset has more than one node or a modality of its own), recursion (None if there is none),
+    valence_red, gains (one a node), learning_rate and discount (0 … 1), memory (≥ 0, in the unit of the preset; 0 if it
+    has a trace or learns at every step), n_creeps (1 … 20), seed (below 2³²), run, speed (times real time, 0 for as
+    fast as it goes), playing.
+    Choosing a preset sets those that it determines. An agent that is no condition lives in the tank of the first
+    condition, or else in one of 3 creeps; one to the letter at the letter's steps a second, and with its contacts.
+    seconds and score follow the run, about once a second.
+
+    Raises ValueError for a condition that cannot be shown, TraitError for a bad trait, RuntimeError if the WebAssembly
+    module cannot be built.
+    """
+
+    _esm = _text(*SCRIPTS)
+    _css = _text("widget.css")
+    _engine = traitlets.Unicode(_text("engine.js")).tag(sync=True)
+    _wasm = traitlets.Bytes().tag(sync=True)
+    _layout = traitlets.Dict().tag(sync=True)
+    _presets = traitlets.Dict().tag(sync=True)
+    _modalities = traitlets.Dict().tag(sync=True)
+
+    preset = traitlets.Unicode().tag(sync=True)
+    resolutions = traitlets.List(traitlets.Int(min=1, max=90), minlen=1).tag(sync=True)
+    modality = traitlets.Unicode().tag(sync=True)
+    recursion = traitlets.Float(allow_none=True).tag(sync=True)
+    valence_red = traitlets.Float().tag(sync=True)
+    gains = traitlets.List(traitlets.Float()).tag(sync=True)
+    learning_rate = traitlets.Float(min=0, max=1).tag(sync=True)
+    discount = traitlets.Float(min=0, max=1).tag(sync=True)
+    memory = traitlets.Float(min=0).tag(sync=True)
+    n_creeps = traitlets.Int(min=1, max=20).tag(sync=True)
+    seed = traitlets.Int(min=0, max=2**32 - 1).tag(sync=True)
+    run = traitlets.Int(min=0, max=2**32 - 1).tag(sync=True)
+    speed = traitlets.Float(20.0, min=0).tag(sync=True)
+    playing = traitlets.Bool(True).tag(sync=True)
+    seconds = traitlets.Float().tag(sync=True)
+    score = traitlets.Float().tag(sync=True)
+
+    def __init__(self, conditions=None, preset=None, **traits):
+        conditions = conditions or {}
+        for name, result in conditions.items():
+            _check_condition(name, result)
+        first = next(iter(conditions.values()), None)
+        tank = first.world if first else WaterWorld()
+        as_printed = replace(tank, fps=LETTER.fps, contact=LETTER.contact)
+        agents = {name: (agent, as_printed if name in TO_THE_LETTER else tank) for name, agent in AGENTS.items()}
+        own = {name: (result.agent, result.world) for name, result in conditions.items()}
+        self._lives = own | agents | own  # a condition stands before an agent, and for one of its name
+        presets = {name: _preset(name, agent, world, conditions.get(name)) | {"place": place}
+                   for place, (name, (agent, world)) in enumerate(self._lives.items())}
+        preset = checks.one_of("preset", preset or next(iter(presets)), tuple(presets))
+        for name in traits:
+            checks.one_of("trait", name, tuple(each for each in self.traits(sync=True) if not each.startswith("_")))
+        begin = {"preset": preset, "seed": first.seed if first else 0, **_settings(presets[preset]), **traits}
+        super().__init__(_wasm=wasm.module(), _layout=wasm.layout(), _presets=presets, _modalities=_modalities(),
+                         **begin)
+
+    @property
+    def agent(self):
+        """The `Agent` that the traits describe, but for elements that somebody has dropped in the page."""
+        preset, _ = self._lives[self.preset]
+        named = {each.name: each for each in MODALITIES}
+        nodes = [replace(node, resolutions=self.resolutions, gain=gain) for node, gain in zip(preset.nodes, self.gains)]
+        if self.modality not in ("", self._presets[self.preset]["modality"]) and len(nodes) == 1:
+            nodes = [replace(nodes[0], modality=named[self.modality])]
+        desires = [replace(each, valence=self.valence_red) if each.source == "red" else
+                   replace(each, valence=self.recursion) if each.source == each.target else each
+                   for each in preset.desires]
+        learning = replace(preset.learning, learning_rate=self.learning_rate, discount=self.discount,
+                           memory=self.memory)
+        return replace(preset, nodes=nodes, desires=desires, learning=learning)
+
+    @property
+    def world(self):
+        """The `WaterWorld` that it lives in."""
+        _, tank = self._lives[self.preset]
+        return replace(tank, n_creeps=self.n_creeps)
+
+    @traitlets.validate("preset", "modality", "recursion", "valence_red", "gains", "memory")
+    def _check(self, proposal):
+        name, value = proposal["trait"].name, proposal["value"]
+        try:
+            if name == "preset":
+                return checks.one_of(name, value, tuple(self._presets))
+            if name == "modality":
+                return checks.one_of(name, value, ("", *self._modalities))
+            nodes = len(self._lives[self.preset][0].nodes)
+            if name == "gains" and len(value) != nodes:
+                raise ValueError(f"gains is {value!r}, allowed is one for each of the {nodes} nodes")
+            if name == "memory" and value and not self._presets[self.preset]["can_remember"]:
+                raise ValueError(f"memory is {value!r}, allowed is 0 for an agent with a trace or one that learns at "
+                                 "every step")
+            for number in value if name == "gains" else () if value is None else (value,):
+                checks.real(name, number)
+            return value
+        except ValueError as error:
+            raise traitlets.TraitError(str(error)) from None
+
+    @traitlets.observe("preset")
+    def _take_settings(self, change):
+        if change["old"]:
+            with self.hold_sync():
+                for name, value in _settings(self._presets[change["new"]]).items():
+                    setattr(self, name, value)
+
+
+def _check_condition(name, result):
+    checks.instance(f"condition {name}", result, Result)
+    agent = result.agent
+    for what, values in (("resolutions", {node.resolutions for node in agent.nodes}),
+                         ("valences of red", {each.valence for each in agent.desires if each.source == "red"}),
+                         ("recursions", {each.valence for each in agent.desires if each.source == each.target})):
+        if len(values) > 1:
+            raise ValueError(f"condition {name} has different {what}, {values}, allowed are the same throughout")
+    checks.integer(f"seed of condition {name}", result.seed, at_least=0, at_most=2**32 - 1)
+
+
+def _settings(preset):
+    """The traits that a preset determines."""
+    return {name: preset[name] for name in ("resolutions", "modality", "recursion", "valence_red", "gains",
+                                            "learning_rate", "discount", "memory", "n_creeps")}
+
+
+def _preset(name, agent, world, result):
+    """A preset as the page takes it: its settings, its plan before it is laid out, and what its runs brought."""
+    plan = _plan(agent, world)
+    red = [e for e, source in enumerate(plan["source"]) if source == Source.red]
+    recurring = [e for e, desire in enumerate(agent.desires) if desire.source == desire.target]
+    names = [node.name for node in agent.nodes]
+    steps = result.steps if result else STEPS
+    modality = agent.nodes[0].modality
+    learning = agent.learning
+    return {
+        "label": name, "nodes": names,
+        "group": "On this page" if result else "To the letter" if name in TO_THE_LETTER else "Calibrated",
+        "resolutions": list(agent.nodes[0].resolutions),
+        "modality": _named(modality) if len(names) == 1 else "",
+        "gains": [node.gain for node in agent.nodes], "learning_rate": learning.learning_rate,
+        "discount": learning.discount, "memory": learning.memory,
+        "can_remember": learning.update_on == "cell" and learning.trace == 1,
+        "valence_red": plan["valence"][red[0]] if red else 0.0,
+        "recursion": plan["valence"][recurring[0]] if recurring else None, "n_creeps": world.n_creeps,
+        "world": {"fps": world.fps, "rules": world.rules._asdict()}, "steps": steps, "red": red, "recurring": recurring,
+        "seed": result.seed if result else 0, "runs": result.runs if result else 0,
+        "band": _band(result) if result else None, "totals": result.totals.tolist() if result else [],
+        "changes": [{"step": step, "plan": _plan(later, world)} for step, later in (result.changes if result else ())],
+        "plan": plan}
+
+
+def _named(modality):
+    """The name of a modality, if it is one of `MODALITIES` but for its ranges, or else ""."""
+    known = [(each.name, each.vector, each.tuning, each.landmarks) for each in MODALITIES]
+    return modality.name if (modality.name, modality.vector, modality.tuning, modality.landmarks) in known else ""
+
+
+def _plan(agent, world):
+    """The chosen fields of a plan, ready for JSON, and the names that the page shows."""
+    choices, _ = chosen(agent, world)
+    plan = {name: value.tolist() if isinstance(value, np.ndarray | np.generic) else value
+            for name, value in choices.items()}
+    desires = [{"source": each.source if each.between_nodes else "", "target": each.target, "of": list(each.of)}
+               for each in agent.desires]
+    return plan | {"nodes": [node.name for node in agent.nodes], "desires": desires}
+
+
+def _band(result):
+    """Reward per second in bins of the run: the tolerance band of the runs, and their mean."""
+    each = math.ceil(result.rewards.shape[1] / CURVE_BINS)
+    begins = np.arange(0, result.rewards.shape[1], each)
+    edges = result.edges[[*begins, -1]]
+    rates = np.add.reduceat(result.rewards, begins, axis=1, dtype=float) / np.diff(edges)
+    low, high = tolerance_band(rates)
+    curves = {"edges": edges, "low": low, "middle": rates.mean(axis=0), "high": high}
+    return {**{name: curve.round(4).tolist() for name, curve in curves.items()},
+            "steps_per_bin": each * bin_steps(result.world)}
+
+
+def _modalities():
+    """For each modality the fields of the plan of a node that has it."""
+    plans = {each.name: chosen(Agent((Node("", each, (1,)),)), WaterWorld())[0]
+             for each in MODALITIES if each.takes_places}
+    return {name: {field: plan[field].tolist() for field in MODALITY_FIELDS} for name, plan in plans.items()}

@@ -1,0 +1,49 @@
+"""The Replay: a widget that plays recorded runs again, side by side and in step, in JupyterLab and in a static page.
+
+It computes nothing: what it shows is in its state, and `replay.js` draws it as the Explorer draws.
+"""
+
+import numpy as np
+import traitlets
+from anywidget import AnyWidget
+
+from neorl import checks
+from neorl.browser.explorer import _text
+from neorl.experiments.recording import Recording
+
+FRAMES_A_SECOND = 25
+FINENESS = 1_000  # places are kept as integers, in so many parts of a board
+
+
+class Replay(AnyWidget):
+    """Recorded runs side by side.
+
+    recordings: one or more of `Recording`, of as many steps each.
+    playing: whether it begins to play when it comes into sight. Readers who ask for less motion press a button.
+
+    Raises ValueError for anything else.
+    """
+
+    _esm = _text("drawing.js", "replay.js")
+    _css = _text("widget.css")
+    _recordings = traitlets.List().tag(sync=True)
+
+    playing = traitlets.Bool(True).tag(sync=True)
+
+    def __init__(self, recordings, playing=True):
+        recordings = [checks.instance("recordings", each, Recording)
+                      for each in checks.several("recordings", recordings)]
+        if len({(len(each.agent), each.fps) for each in recordings}) != 1:
+            raise ValueError(f"recordings are of {[len(each.agent) - 1 for each in recordings]} steps, allowed are one "
+                             "or more of the same length and steps a second")
+        super().__init__(_recordings=[_thinned(each) for each in recordings], playing=playing)
+
+
+def _thinned(recording):
+    """A recording as the page takes it: a number of frames, the fields of each flat and in integers."""
+    frames = np.arange(0, len(recording.agent), max(1, recording.fps // FRAMES_A_SECOND))
+    return {"name": recording.name, "radius": recording.radius, "fineness": FINENESS,
+            "seconds": (frames / recording.fps).tolist(), "hits": recording.hits[frames].tolist(),
+            "green": recording.green[frames].astype(int).tolist(),
+            "agent": (FINENESS * recording.agent[frames]).round().astype(int).tolist(),
+            "creeps": (FINENESS * recording.creeps[frames]).round().astype(int).tolist()}

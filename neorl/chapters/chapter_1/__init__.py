@@ -1,0 +1,1 @@
+"""What the notebook of chapter 1 runs and draws."""

@@ -1,0 +1,42 @@
+"""The same agent before it has learned anything and after, on the same boards: what a life in the tank has taught it.
+
+A *newborn* knows nothing. A *veteran* is a newborn with the values that a run of its own has left it. Both go on
+learning. Trials begin on fresh boards, the same for both, which the veteran has never seen.
+"""
+
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+
+from neorl import checks
+from neorl.experiments.simulation import Run
+
+
+def newborn(agent, world, seed=0, run=0):
+    """A `neorl.experiments.simulation.Run` at its beginning."""
+    return Run(agent, world, seed, run)
+
+
+def veteran(agent, world, steps, seed=0, run=0):
+    """A run at its beginning whose agent knows what run `run` of seed + 1 has taught it in so many steps.
+
+    Raises ValueError for a bad argument.
+    """
+    teacher = Run(agent, world, seed + 1, run)
+    teacher.advance(steps)
+    learner = newborn(agent, world, seed, run)
+    learner.memory.q[:] = teacher.memory.q
+    learner.memory.known[:] = teacher.memory.known
+    return learner
+
+
+def trials(agent, world, *, lessons, steps, runs, seed=0):
+    """The reward of newborns and of veterans in their first steps on the same boards: float64 (2, runs).
+
+    lessons: steps that a veteran has lived before. steps: of a trial. Raises ValueError for a bad argument.
+    """
+    def pair(k):
+        return newborn(agent, world, seed, k).advance(steps), veteran(agent, world, lessons, seed, k).advance(steps)
+
+    with ThreadPoolExecutor() as pool:
+        return np.array(list(pool.map(pair, range(checks.integer("runs", runs, at_least=1))))).T

@@ -1,0 +1,50 @@
+"""Drawings of ways through the tank: by a plan, and by what an agent knows."""
+
+import numpy as np
+from matplotlib.collections import LineCollection
+from matplotlib.patches import Circle
+
+from neorl.drawing.figures import AGENT, GREEN, INK, RED
+
+
+def draw_walls(axes):
+    """The border of the tank."""
+    axes.plot([0, 1, 1, 0, 0], [0, 0, 1, 1, 0], color=INK, linewidth=1.2)
+
+
+def draw_route(axes, path, waypoints):
+    """A path (steps + 1, 2) and the way-points (points, 2) that it follows, numbered; in board widths."""
+    draw_walls(axes)
+    _draw_path(axes, path, np.ones(len(path) - 1, bool))
+    axes.plot(*path[0], "o", color=AGENT, markersize=9)
+    for number, (x, y) in enumerate(waypoints, start=1):
+        _draw_disc(axes, (x, y), 0.045, INK, str(number))
+
+
+def draw_recording(axes, recording):
+    """The path of the agent of a `Recording`, fainter the longer ago, and where it took creeps, with their signs.
+
+    The path breaks off where taking the last green creep has put the agent back into the middle.
+    """
+    draw_walls(axes)
+    places = recording.agent[:, :2]
+    put_back = np.all(recording.agent[1:] == (0.5, 0.5, 0, 0), axis=1)
+    _draw_path(axes, places, ~put_back)
+    taken = np.diff(recording.hits, axis=0) > 0
+    met_at = np.where(put_back[:, None], places[:-1], places[1:])
+    for kind, (colour, sign) in enumerate([(GREEN, "+"), (RED, "−")]):
+        for place in met_at[taken[:, kind]]:
+            _draw_disc(axes, place, recording.radius, colour, sign)
+    _draw_disc(axes, places[-1], recording.radius, AGENT, "")
+    axes.set_title(f"{recording.name}: {recording.hits[-1][0]} green, {recording.hits[-1][1]} red", fontsize=11)
+
+
+def _draw_path(axes, path, shown):
+    pieces = np.stack([path[:-1], path[1:]], axis=1)
+    opacity = np.linspace(0.3, 1, len(pieces))
+    axes.add_collection(LineCollection(pieces[shown], colors=AGENT, linewidths=1.6, alpha=opacity[shown]))
+
+
+def _draw_disc(axes, place, radius, colour, sign):
+    axes.add_patch(Circle(place, radius, facecolor=colour, edgecolor="none", zorder=3))
+    axes.text(*place, sign, color="white", ha="center", va="center_baseline", weight="bold", zorder=4)

@@ -1,0 +1,94 @@
+"""Navigation by rule: a helmsman who steers to where he is told, and a captain who tells him (thesis chapter 1).
+
+1. *Category 1*: carry out a plan. The helmsman wants to be under way to a place with so much of its distance a second,
+   and takes the action that brings the velocity closest to that.
+2. *Category 2*: make the plan. This captain follows a rule, too: on to the nearest green creep.
+
+Nothing here learns, so that it is automatic and not autonomous (definition 1). It knows the laws of motion.
+"""
+
+import numpy as np
+
+from neorl import checks
+from neorl.core.kernel import kernel
+from neorl.worlds.waterworld import NO_OP, reset_board, step_board
+
+HASTE = 4.0  # what share of the way to go the helmsman wants to cover in a second; higher earns more, up to about 10
+CLOSE = 0.05  # of the width: a way-point is reached
+
+
+def follow_route(world, waypoints, seconds, seed=0):
+    """Steer by a list of way-points, one after the other, from the middle of a tank: category 1 navigation.
+
+    waypoints: float (points, 2), in board widths, in [0, 1]. seconds: simulated, positive. seed: of the creeps, which
+    nobody minds here.
+    Returns float64 (steps + 1, 2), where the vessel was, in board widths.
+    Raises ValueError for anything else.
+    """
+    waypoints = checks.points("waypoints", waypoints, ("x", "y"))
+    if waypoints.ndim != 2 or not np.all((0 <= waypoints) & (waypoints <= 1)):
+        raise ValueError(f"waypoints is {waypoints!r}, allowed are places (points, 2) in [0, 1]")
+    path = np.zeros((int(checks.real("seconds", seconds, 0, 86_400) * world.fps) + 1, 2))
+    state = world.reset(seed)
+    with np.errstate(over="ignore"):
+        sail(state, world.rules, waypoints * world.width, CLOSE * world.width, np.zeros(world.n_creeps, np.int8), path)
+    return path / world.width
+
+
+def chase(world, steps, runs, seed=0):
+    """The reward that helmsman and captain make together: float64 (runs,).
+
+    Run k begins on the board of run k of `neorl.experiments.simulation.Run` with that seed. Raises ValueError for a bad
+    argument.
+    """
+    checks.integer("steps", steps, at_least=1)
+    rewards = np.zeros(checks.integer("runs", runs, at_least=1))
+    for k in range(runs):
+        state = world.reset(np.random.SeedSequence(checks.integer("seed", seed, at_least=0), spawn_key=(k,)))
+        with np.errstate(over="ignore"):
+            rewards[k] = hunt(state, world.rules, steps, np.zeros(world.n_creeps, np.int8))
+    return rewards
+
+
+@kernel
+def steer(state, rules, x, y):
+    """The action after which the velocity is closest to the one that leads to (x, y)."""
+    want_x, want_y = HASTE * (x - state.agent_position[0]), HASTE * (y - state.agent_position[1])
+    miss_x, miss_y = want_x - state.agent_velocity[0], want_y - state.agent_velocity[1]
+    vertical = abs(miss_y) > abs(miss_x)
+    if max(abs(miss_x), abs(miss_y)) < 0.125 * rules.width:  # half of what an action changes
+        return NO_OP
+    if vertical:
+        return 0 if miss_y < 0.0 else 1
+    return 2 if miss_x > 0.0 else 3
+
+
+@kernel
+def sail(state, rules, waypoints, close, contacts, path):
+    """Write to `path` where the vessel is before each step and after the last, on its way from point to point."""
+    target = 0
+    for step in range(path.shape[0]):
+        path[step, 0], path[step, 1] = state.agent_position[0], state.agent_position[1]
+        dx, dy = waypoints[target, 0] - path[step, 0], waypoints[target, 1] - path[step, 1]
+        if dx * dx + dy * dy < close * close and target < waypoints.shape[0] - 1:
+            target += 1
+        step_board(state, rules, steer(state, rules, waypoints[target, 0], waypoints[target, 1]), contacts)
+
+
+@kernel
+def hunt(state, rules, steps, contacts):
+    """The reward of so many steps, each towards the nearest green creep."""
+    total = 0.0
+    for _ in range(steps):
+        nearest, least = 0, -1.0
+        for creep in range(contacts.shape[0]):
+            dx = state.creep_position[creep, 0] - state.agent_position[0]
+            dy = state.creep_position[creep, 1] - state.agent_position[1]
+            if state.creep_is_green[creep] and (least < 0.0 or dx * dx + dy * dy < least):
+                nearest, least = creep, dx * dx + dy * dy
+        action = steer(state, rules, state.creep_position[nearest, 0], state.creep_position[nearest, 1])
+        reward, done = step_board(state, rules, action, contacts)
+        total += reward
+        if done:
+            reset_board(state, rules)
+    return total

@@ -1,0 +1,154 @@
+"""How one finds out what a cell is tuned to: an animal roams a box, and the cell's spikes are set against what it did.
+
+1. *Trajectory*: the velocity is an Ornstein-Uhlenbeck process on either axis, and walls reflect it, so that the animal
+   comes everywhere alike. The box is a unit square, 1 m a side if one likes; y points south as everywhere in neorl.
+2. *Spikes*: Poisson, at one rate while the animal is in the cell's receptive field and at another outside. The field is
+   that of a cell of an `NresMap`: mutually exclusive and with sharp borders.
+3. *Tuning*: spikes in each bin of a variable over the time spent there, both smoothed by a Gaussian. Over the position
+   this is a rate map, over a direction or a speed a tuning curve (thesis section 2.2.1).
+4. *Information*: bits a spike about the variable (Skaggs et al. 1993), against that of spikes shifted in time.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d
+from scipy.signal import lfilter
+
+from neorl import checks
+from neorl.core.maps import NresMap
+from neorl.core.modality import TAU, boundary_vector
+
+WALLS = 4
+
+
+class Trajectory(NamedTuple):
+    """Where an animal was, and how it moved."""
+
+    position: np.ndarray  # float64 (steps, 2), box widths from the upper left
+    velocity: np.ndarray  # float64 (steps, 2), box widths a second
+    step: float  # seconds between two rows
+
+    @property
+    def direction(self):
+        """Where it was heading, 0 … 2π from east by way of south: float64 (steps,)."""
+        return np.arctan2(self.velocity[:, 1], self.velocity[:, 0]) % TAU
+
+    @property
+    def speed(self):
+        """Box widths a second: float64 (steps,)."""
+        return np.linalg.norm(self.velocity, axis=1)
+
+
+def roam(steps, seed=0, step=0.02, speed=0.2, persistence=0.7):
+    """An animal that roams the box: a `Trajectory`.
+
+    steps: integer ≥ 1. seed: of ``numpy.random.default_rng``. step: seconds, above 0.
+    speed: its mean, box widths a second. persistence: seconds after which its velocity is correlated by 1/e, above 0.
+    Raises ValueError for anything else.
+    """
+    checks.integer("steps", steps, at_least=1)
+    kept = np.exp(-checks.real("step", step, 1e-9) / checks.real("persistence", persistence, 1e-9))
+    rng = np.random.default_rng(seed)
+    deviation = checks.real("speed", speed, 0) / np.sqrt(np.pi / 2)  # of either component: the speed is Rayleigh
+    noise = rng.normal(0, deviation, (steps, 2))
+    noise[1:] *= np.sqrt(1 - kept**2)
+    velocity = lfilter([1.0], [1.0, -kept], noise, axis=0)
+    # A walk among mirror images of the box is one in the box itself that the walls reflect.
+    path = (rng.random(2) + step * np.cumsum(velocity, axis=0)) % 2
+    mirrored = path > 1
+    return Trajectory(np.where(mirrored, 2 - path, path), np.where(mirrored, -velocity, velocity), step)
+
+
+def in_field(nres_map, cell, trajectory, objects=()):
+    """Whether a cell of a map is active, at each step of a trajectory: bool (steps,).
+
+    A cell of a modality that is about several things is active if any of them is in its field.
+    cell: 0 … cells − 1. objects: (x, y) of each in the box; only a modality of objects takes notice.
+    Raises ValueError for anything else.
+    """
+    modality = checks.instance("nres_map", nres_map, NresMap).modality
+    checks.integer("cell", cell, at_least=0, at_most=nres_map.cells - 1)
+    if modality.vector == "boundaries":
+        vectors = [[boundary_vector(wall, *place) for place in trajectory.position] for wall in range(WALLS)]
+    elif modality.vector in ("objects", "landmarks"):
+        places = objects if modality.vector == "objects" else modality.landmarks
+        vectors = [checks.points("objects", place, "xy") - trajectory.position for place in places]
+    else:
+        vectors = [getattr(trajectory, modality.vector)]
+    active = [nres_map.encode(modality.tune(each)) == cell for each in vectors]
+    return np.any(np.reshape(active, (-1, len(trajectory.position))), axis=0)
+
+
+def spikes(active, step, seed=0, inside=20.0, outside=0.2):
+    """How many spikes a cell fires at each step: int16 (steps,), drawn from a Poisson distribution.
+
+    active: bool (steps,), see `in_field`. step: seconds. inside, outside: spikes a second while active, and else, ≥ 0.
+    Raises ValueError for anything else.
+    """
+    rates = np.where(active, checks.real("inside", inside, 0), checks.real("outside", outside, 0))
+    return np.random.default_rng(seed).poisson(rates * checks.real("step", step, 1e-9)).astype(np.int16)
+
+
+class Tuning(NamedTuple):
+    """How a cell fires in each bin of a variable; first the axis that the variable's values name first."""
+
+    rate: np.ndarray  # float64 (…, bins) or (…, bins, bins), spikes a second; NaN where the animal never was
+    seconds: np.ndarray  # float64 (bins,) or (bins, bins), time spent there, smoothed as the spikes are
+
+
+def tuning(counts, values, step, high, bins, smoothing=1.0, closed=False):
+    """The tuning of a cell to a variable: a `Tuning`.
+
+    counts: spikes at each step, (steps,), or several trains (…, steps). values: of the variable, (steps,) or
+    (steps, 2). step: seconds. high: each axis is cut into ``bins`` from 0 to ``high``; what lies beyond it is left out.
+    smoothing: of spikes and of time, the standard deviation in bins, ≥ 0. closed: the axis closes on itself.
+    Raises ValueError for anything else.
+    """
+    checks.integer("bins", bins, at_least=1)
+    checks.real("smoothing", smoothing, 0)
+    counts = np.asarray(counts)
+    values = checks.finite("values", np.asarray(values, float)).reshape(counts.shape[-1], -1)
+    at = np.floor(values / checks.real("high", high, 1e-9) * bins).astype(int)
+    at[values == high] = bins - 1
+    inside = np.all((0 <= at) & (at < bins), axis=1)
+    shape = (bins,) * at.shape[1]
+    index = np.ravel_multi_index(tuple(at[inside].T), shape)
+    times = step * np.bincount(index, minlength=bins ** len(shape)).reshape(shape)
+    trains = counts.reshape(-1, counts.shape[-1])[:, inside]
+    fired = np.array([np.bincount(index, train, minlength=bins ** len(shape)).reshape(shape) for train in trains])
+    mode = "wrap" if closed else "constant"
+    seconds, fired = times, fired.reshape(*counts.shape[:-1], *shape)
+    for axis in range(-len(shape), 0) if smoothing else ():
+        seconds = gaussian_filter1d(seconds, smoothing, axis, mode=mode)
+        fired = gaussian_filter1d(fired, smoothing, axis, mode=mode)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return Tuning(np.where(times > 0, fired / seconds, np.nan), seconds)
+
+
+def information(tuned):
+    """Bits that a spike carries about the variable of a `Tuning`: float64 (…), 0 for a cell that never fires.
+
+    The sum over bins of p (λ/λ̄) log₂ (λ/λ̄), with the share p of the time spent in a bin, the rate λ there and the
+    mean rate λ̄ (Skaggs et al. 1993). Spikes that are few make it come out too large.
+    """
+    axes = tuple(range(-tuned.seconds.ndim, 0))
+    visited = ~np.isnan(tuned.rate)
+    rate = np.where(visited, tuned.rate, 0.0)
+    share = np.where(visited, tuned.seconds, 0.0)
+    share = share / share.sum(axis=axes, keepdims=True)
+    mean = np.sum(share * rate, axis=axes, keepdims=True)
+    ratio = np.divide(rate, mean, out=np.zeros_like(rate), where=mean > 0)
+    return np.sum(share * ratio * np.log2(ratio, out=np.zeros_like(ratio), where=ratio > 0), axis=axes)
+
+
+def egocentric(vectors, heading):
+    """Vectors of North and East as the animal has them, Forward and Starboard: float64 (…, 2).
+
+    vectors: (…, 2), north first. heading: radians from north by way of east, one for all or one for each vector.
+    Raises ValueError unless all are finite (thesis figure 2.4).
+    """
+    north, east = np.moveaxis(checks.points("vectors", vectors, ("north", "east")), -1, 0)
+    heading = checks.finite("heading", np.asarray(heading, float))
+    cosine, sine = np.cos(heading), np.sin(heading)
+    return np.stack([cosine * north + sine * east, cosine * east - sine * north], axis=-1)

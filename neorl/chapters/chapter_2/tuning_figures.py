@@ -1,0 +1,122 @@
+"""Drawings of reference frames, and of what cells are tuned to."""
+
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.patches import Arc, Rectangle
+
+from neorl.chapters.chapter_2.tuning import egocentric
+from neorl.drawing import figures
+from neorl.drawing.figures import AGENT, CURVES, GREEN, INK, LOW_PANEL, RED
+
+
+def draw_frames(point, heading, distance, bearing):
+    """A point in Cartesian coordinates of two frames, and one in polar coordinates (compare thesis figure 2.4).
+
+    point: (north, east) from the animal. heading: radians from north by way of east. distance, bearing: of the other
+    point, the bearing in radians from the axis to the right, counter-clockwise.
+    """
+    width, _ = plt.rcParams["figure.figsize"]
+    _, (left, right) = plt.subplots(1, 2, figsize=(width, 0.62 * width))
+    reach = 1.15 * max(np.linalg.norm(point), distance)
+    for axes in (left, right):
+        axes.set(xlim=(-0.25 * reach, 1.1 * reach), ylim=(-0.35 * reach, 1.1 * reach), aspect="equal")
+        axes.axis("off")
+    north, east = point
+    for tip, name, sides in (((0, reach), "North", ("center", "bottom")), ((reach, 0), "East", ("center", "top"))):
+        _arrow(left, (0, 0), tip, INK)
+        left.annotate(name, tip, (0, 3 if tip[1] else -5), textcoords="offset points", ha=sides[0], va=sides[1])
+    left.plot([0, east, east], [north, north, 0], color=INK, linestyle=":", linewidth=1.2)
+    forward, starboard = egocentric(np.array(point, float), heading)
+    ahead, aside = (np.array([np.sin(heading + turn), np.cos(heading + turn)]) for turn in (0, np.pi / 2))
+    for axis, name in ((ahead, "Forward"), (aside, "Starboard")):
+        _arrow(left, (0, 0), 0.8 * reach * axis, AGENT)
+        left.text(*(0.82 * reach * axis), name, color=AGENT, ha="left" if axis[0] < 0.9 else "right",
+                  va="bottom" if axis[1] > 0 else "top")
+    for part in (forward * ahead, starboard * aside):
+        left.plot(*np.transpose([part, (east, north)]), color=AGENT, linestyle=":", linewidth=1.2)
+    left.plot(east, north, marker="o", color=RED)
+    tip = distance * np.array([np.cos(bearing), np.sin(bearing)])
+    _arrow(right, (0, 0), (reach, 0), INK)
+    right.plot(*np.transpose([(0, 0), tip]), color=AGENT)
+    right.plot(*tip, marker="o", color=RED)
+    right.add_patch(Arc((0, 0), 0.5 * reach, 0.5 * reach, theta1=0, theta2=np.degrees(bearing), color=INK))
+    right.text(0.28 * reach * np.cos(bearing / 2), 0.28 * reach * np.sin(bearing / 2), f"{np.degrees(bearing):.0f}°")
+    right.text(*(tip / 2), f"{distance:g} ", color=AGENT, ha="right", va="bottom")
+
+
+def _arrow(axes, start, end, colour):
+    axes.annotate("", end, start, arrowprops={"arrowstyle": "->", "color": colour, "linewidth": 1.4,
+                                              "shrinkA": 0, "shrinkB": 0})
+
+
+def draw_landmark(seconds, places, heading, landmark, allocentric, seen):
+    """An animal's way past a landmark, and the components of the landmark's vector in both frames over time.
+
+    seconds: (steps,). places: (steps, 2), north first. heading: (steps,), radians from north by way of east.
+    landmark: its place. allocentric: (steps, 2), north and east. seen: (steps, 2), forward and starboard.
+    """
+    width, _ = plt.rcParams["figure.figsize"]
+    figure = plt.figure(figsize=(width, 1.25 * width))
+    scene, outer, inner = figure.subplots(3, height_ratios=(4, 3, 3))
+    every = max(1, len(seconds) // 16)
+    scene.plot(places[:, 1], places[:, 0], color=INK, linewidth=1.0)
+    scene.quiver(places[::every, 1], places[::every, 0], np.sin(heading[::every]), np.cos(heading[::every]),
+                 color=AGENT, scale=14, width=0.008)
+    scene.plot(landmark[1], landmark[0], marker="s", markersize=9, color=RED)
+    scene.annotate("landmark", (landmark[1], landmark[0]), (8, 0), textcoords="offset points", color=RED, va="center")
+    scene.set(aspect="equal", xlabel="east", ylabel="north")
+    scene.margins(0.25)
+    for axes, vectors, names, title in ((outer, allocentric, ("north", "east"), "allocentric"),
+                                        (inner, seen, ("forward", "starboard"), "egocentric")):
+        for component, colour in zip(vectors.T, CURVES):
+            axes.plot(seconds, component, color=colour)
+        axes.set_title(title, fontsize=11, loc="left")
+        axes.set_xlim(0, seconds[-1])
+        ends = [(component[-1], name, colour) for component, name, colour in zip(vectors.T, names, CURVES)]
+        figures.name_ends(axes, ends, line=LOW_PANEL)
+    outer.tick_params(labelbottom=False)
+    inner.set_xlabel("seconds")
+
+
+def draw_rate_maps(trajectory, spikes, maps, objects):
+    """An animal's path with the spikes of one cell, and rate maps of several {name: rate (bins, bins)}, x first.
+
+    spikes: at each step of the trajectory. objects: their places in the box, drawn as squares.
+    """
+    path, *panels = figures.new_boards(2, (len(maps) + 2) // 2)
+    path.plot(*trajectory.position.T, color=INK, linewidth=0.4, alpha=0.6)
+    path.plot(*trajectory.position[spikes > 0].T, color=RED, linestyle="none", marker=".", markersize=3)
+    path.set_title(f"path, spikes of {next(iter(maps))}", fontsize=11)
+    for axes, (name, rate) in zip(panels, maps.items()):
+        axes.imshow(rate.T, extent=(0, 1, 1, 0), cmap="viridis", vmin=0)
+        axes.set_title(f"{name}, {np.nanmax(rate):.0f} Hz", fontsize=11)
+    for axes in (path, *panels):
+        axes.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
+        for x, y in objects:
+            axes.plot(x, y, marker="s", markersize=7, markerfacecolor="white", markeredgecolor=RED, markeredgewidth=2)
+
+
+def draw_tuning_curves(direction, speed, fastest):
+    """Rates over the direction, as a polar plot, and over the speed: {name: (bins,)} each; speeds up to ``fastest``."""
+    width, _ = plt.rcParams["figure.figsize"]
+    figure = plt.figure(figsize=(width, 1.3 * width))
+    around, along = figure.add_subplot(211, projection="polar"), figure.add_subplot(212)
+    for (name, rate), colour in zip(direction.items(), (AGENT, INK)):
+        angles = 2 * np.pi * (np.arange(len(rate) + 1) + 0.5) / len(rate)
+        around.plot(angles, np.append(rate, rate[:1]), color=colour)
+        peak = np.nanargmax(rate)
+        around.annotate(name, (angles[peak], rate[peak]), (10, 8), textcoords="offset points", color=colour)
+    # As on a map: y points south, so that angles run clockwise from east.
+    around.set_theta_direction(-1)
+    around.set_xticks(np.pi / 2 * np.arange(4), ["E", "S", "W", "N"])
+    around.set_rlabel_position(-100)
+    around.set_rmax(1.2 * np.nanmax([*direction.values()]))
+    around.grid(color=INK, alpha=0.4)
+    around.spines["polar"].set_color(INK)
+    ends = []
+    for (name, rate), colour in zip(speed.items(), (GREEN, INK)):
+        middles = fastest * (np.arange(len(rate)) + 0.5) / len(rate)
+        along.plot(middles, rate, color=colour)
+        ends.append((rate[~np.isnan(rate)][-1], name, colour))
+    along.set(xlabel="speed, box widths a second", ylabel="spikes a second", ylim=(0, None), xlim=(0, fastest))
+    figures.name_ends(along, ends)

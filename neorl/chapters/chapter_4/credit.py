@@ -1,0 +1,146 @@
+"""Two levers, a light and a bell: what inference inversion and temporal difference learn from one stream of events.
+
+1. An agent in a chamber always presses one of two levers. The lever that is the first to have been pressed for
+   ``effort`` steps in all opens its exit, ``delay`` steps later. The agent leaves by it and is put back: one visit.
+2. Light and bell come on by chance. They do nothing.
+3. Lever, light and bell last for a *bout*, then all are drawn anew. A bout ends after each step with probability
+   1 / ``hold``, also in the middle of a visit, and may go on into the next.
+4. By *inference inversion* (thesis eq. 4.7, 4.8) the agent learns once a visit, when its cell changes from the chamber
+   to an exit. By *temporal difference* (eq. 4.6) it learns after every step, most of which lead from the chamber to the
+   chamber; all that occurs on a step is an action of that step.
+5. The stream does not depend on what is learned. Nothing is learned about the way back.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from neorl import checks
+from neorl.agents.agent import Learning
+from neorl.core.choices import Credit
+from neorl.core.horde import N_EVENTS, UNIT, ZERO, learn_all_goals
+from neorl.core.kernel import kernel
+from neorl.core.stream import below, new_stream, uniform
+
+ROLES = ("cause", "other lever", "light", "bell")
+CELLS = 3  # the chamber, and behind each exit one
+POSSIBLE = {"trace": (1,), "memory": (0.0,), "credit": ("share", "happened", "last"), "absent_form": ("decay",)}
+INVERSION = Learning(learning_rate=0.03, discount=0.8, update_on="cell", credit="share", absent_decay=0.0, absent_form="decay",
+                     terminal=True, trace=1, memory=0.0, bootstrap=True, causes="any", capture="contact",
+                     attention="each")  # the plainest rule of its kind, whatever rule the agents of the book have
+DIFFERENCE = replace(INVERSION, update_on="step")
+
+
+@dataclass(frozen=True)
+class Chamber:
+    """A chamber with two levers.
+
+    effort: steps that a lever has to be pressed for, ≥ 1. delay: steps from then until the exit opens, ≥ 0.
+    hold: mean steps of a bout, ≥ 1. light, bell: how probably either is on during a bout, from 0 to 1.
+
+    Raises ValueError for anything else.
+    """
+
+    effort: int = 10
+    delay: int = 0
+    hold: float = 20.0
+    light: float = 0.5
+    bell: float = 0.1
+
+    def __post_init__(self):
+        checks.integer("effort", self.effort, at_least=1)
+        checks.integer("delay", self.delay, at_least=0)
+        checks.real("hold", self.hold, at_least=1)
+        checks.real("light", self.light, 0, 1)
+        checks.real("bell", self.bell, 0, 1)
+
+
+def learn_in(chamber, learning, visits, runs, seed=0):
+    """What the events of a chamber come to be worth for either exit: float32 (runs, visits, 4, 2), after each visit.
+
+    The four events are the levers of the two exits, light and bell.
+    learning: a `Learning` without a longer trace or memory, whose credit is "share", "happened" or "last", and whose
+    absence is a decay. visits, runs: integers ≥ 1. seed: integer ≥ 0; run k is the same for any number of runs, and
+    meets the same stream of events whatever ``learning`` is.
+    Raises ValueError for anything else.
+    """
+    checks.instance("chamber", chamber, Chamber)
+    checks.instance("learning", learning, Learning)
+    for name, allowed in POSSIBLE.items():
+        checks.one_of(name, getattr(learning, name), allowed)
+    checks.integer("visits", visits, at_least=1)
+    values = np.zeros((checks.integer("runs", runs, at_least=1), visits, N_EVENTS, 2), np.float32)
+    by_step, credit = learning.update_on == "step", int(Credit[learning.credit])
+    rule = [np.float32(each) for each in (learning.learning_rate, learning.absent_decay, learning.discount)]
+    for run in range(runs):
+        sequence = np.random.SeedSequence(checks.integer("seed", seed, at_least=0), spawn_key=(run,))
+        with np.errstate(over="ignore"):
+            live_in(chamber.effort, chamber.delay, chamber.hold, chamber.light, chamber.bell, new_stream(sequence),
+                    by_step, credit, *rule, learning.terminal, np.zeros(CELLS * N_EVENTS * CELLS, np.float32),
+                    np.tile([0, CELLS], (CELLS, 1)), np.zeros(CELLS, np.float32), np.zeros(N_EVENTS, np.int64),
+                    np.zeros(N_EVENTS, np.bool_), np.zeros(N_EVENTS, np.float32), values[run])
+    return values
+
+
+def by_role(values):
+    """The same by what part an event plays for an exit, see ``ROLES``, the mean of both exits: float32 (…, 4).
+
+    values: (…, 4, 2), as `learn_in` returns them.
+    """
+    cause = values[..., 0, 0] + values[..., 1, 1]
+    other = values[..., 1, 0] + values[..., 0, 1]
+    return np.stack([cause, other, values[..., 2, :].sum(axis=-1), values[..., 3, :].sum(axis=-1)], axis=-1) / 2
+
+
+def lead_of_cause(values):
+    """How much more an exit's cause is worth than the best of the other events, the mean of both exits: float32 (…).
+
+    values: (…, 4, 2), as `learn_in` returns them. It is positive where a choice by value would be the right one.
+    """
+    roles = by_role(values)
+    return roles[..., 0] - roles[..., 1:].max(axis=-1)
+
+
+@kernel
+def live_in(effort, delay, hold, light, bell, stream, by_step, credit, learning_rate, absence, discount, terminal, q,
+            known, target, counts, occurs, rates, values):
+    """Live as many visits as there are `values`, which hold those of the chamber after each."""
+    over = True
+    lever = 0
+    for visit in range(values.shape[0]):
+        cell, opening, wait = 0, 0, delay
+        for event in range(N_EVENTS):
+            counts[event] = 0
+        while cell == 0:
+            if over:
+                lever = below(stream, 2)
+                occurs[0], occurs[1] = lever == 0, lever == 1
+                occurs[2], occurs[3] = uniform(stream) < light, uniform(stream) < bell
+            for event in range(N_EVENTS):
+                counts[event] += occurs[event]
+            if opening > 0:
+                wait -= 1
+            elif counts[lever] >= effort:
+                opening = 1 + lever
+            if opening > 0 and wait == 0:
+                cell = opening
+            if by_step:
+                for event in range(N_EVENTS):
+                    rates[event] = learning_rate if occurs[event] else ZERO
+                learn_all_goals(q, 0, CELLS, known, 0, cell, rates, ZERO, False, discount, terminal,
+                                target)
+            over = uniform(stream) * hold < 1.0
+        if not by_step:
+            steps = counts[0] + counts[1]  # one of the levers is pressed on every step
+            for event in range(N_EVENTS):
+                share = np.float32(counts[event]) / np.float32(steps)
+                if credit == Credit.happened:
+                    share = UNIT if counts[event] > 0 else ZERO
+                elif credit == Credit.last:
+                    share = UNIT if occurs[event] else ZERO
+                rates[event] = learning_rate * share
+            learn_all_goals(q, 0, CELLS, known, 0, cell, rates, learning_rate * absence, False, discount,
+                            terminal, target)
+        for event in range(N_EVENTS):
+            values[visit, event, 0] = q[event * CELLS + 1]
+            values[visit, event, 1] = q[event * CELLS + 2]

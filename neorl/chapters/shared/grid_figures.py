@@ -1,0 +1,42 @@
+"""Drawings of grid worlds."""
+
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.patches import Rectangle
+
+from neorl.chapters.shared.grid import MOVES, WALL
+from neorl.drawing.figures import AGENT, INK
+
+
+def new_grids(grid, columns=1, rows=1, size=None):
+    """Axes for that many drawings of a grid, row by row: a list, each y downward with a unit a state.
+
+    size: the width of one drawing in inches; by default they fill the usual width of a figure.
+    """
+    wide, high = len(grid.rows[0]), len(grid.rows)
+    width = columns * size if size else plt.rcParams["figure.figsize"][0]
+    figure, axes = plt.subplots(rows, columns, figsize=(width, width / columns * high / wide * rows + 0.3 * rows),
+                                squeeze=False)
+    for each in axes.flat:
+        each.set(xlim=(-0.55, wide - 0.45), ylim=(high - 0.45, -0.55), aspect="equal")
+        each.axis("off")
+    return list(axes.flat)
+
+
+def draw_grid(axes, grid, fills=None):
+    """The walls and states of a grid, some of them filled: fills {state: (colour, opacity)}."""
+    for y, row in enumerate(grid.rows):
+        for x, mark in enumerate(row):
+            wall = mark == WALL
+            axes.add_patch(Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=INK if wall else "none",
+                                     alpha=0.55 if wall else 0.5, edgecolor=INK, linewidth=0.6))
+    for state, (colour, opacity) in (fills or {}).items():
+        axes.add_patch(Rectangle(grid.places[state] - 0.5, 1, 1, facecolor=colour, alpha=opacity, edgecolor="none"))
+
+
+def draw_policy(axes, grid, q, colour=AGENT):
+    """An arrow for each best action of q (states, 4), all of them where several are; none where all are equal."""
+    best = np.isclose(q, q.max(axis=1, keepdims=True), rtol=1e-9, atol=1e-12)
+    state, action = np.nonzero(best & ~best.all(axis=1, keepdims=True))
+    start, step = grid.places[state], 0.38 * MOVES[action]
+    axes.quiver(*start.T, *step.T, color=colour, angles="xy", scale_units="xy", scale=1, width=0.008, headwidth=4)

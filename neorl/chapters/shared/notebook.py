@@ -1,0 +1,37 @@
+"""What every notebook of the book begins with: its parameters checked, its style set, its scale told."""
+
+import ast
+
+from IPython import get_ipython
+from IPython.display import HTML, display
+
+from neorl import checks
+from neorl.drawing import figures
+from neorl.evidence.claims import RUNS_FOR_A_VERDICT
+
+
+def begin(runs, steps, seed, fewest_steps=1, **others):
+    """Check the parameters of a notebook, set the style of its figures, and tell the reader if the runs are few.
+
+    runs: integer ≥ 1. steps: integer ≥ `fewest_steps`, so that there is something to draw. seed: integer ≥ 0.
+    others: further parameters of the notebook, which it checks itself.
+    Raises ValueError for anything else, and for a parameter that papermill has injected but the notebook does not have.
+    """
+    known = {"runs": checks.integer("runs", runs, at_least=1),
+             "steps": checks.integer("steps", steps, at_least=fewest_steps),
+             "seed": checks.integer("seed", seed, at_least=0), **others}
+    for name in injected_names():
+        if name not in known:
+            raise ValueError(f"parameter {name} is unknown, allowed are {', '.join(known)}")
+    figures.use_style()
+    if runs < RUNS_FOR_A_VERDICT:
+        display(HTML(f'<div class="admonition warning"><p class="admonition-title">{runs} runs: no verdicts</p>'
+                     f"<p>This page is a first look. Verdicts need {RUNS_FOR_A_VERDICT} runs or more.</p></div>"))
+
+
+def injected_names():
+    """The names that papermill's injected cell has assigned, if there is one."""
+    shell = get_ipython()
+    cells = shell.user_ns["In"] if shell else []
+    injected = [ast.parse(cell) for cell in cells if cell.startswith("# Parameters\n")]
+    return [target.id for tree in injected for statement in tree.body for target in statement.targets]

@@ -1,0 +1,42 @@
+"""Tables of action values q[state, action], float64, and the two things that every tabular learner does with them.
+
+A learner chooses, greedily or not, with ties drawn at random; and it moves a value towards what followed (Watkins 1989;
+thesis eq. 3.5 and 4.6).
+"""
+
+from neorl.core.kernel import kernel
+from neorl.core.stream import below, uniform
+
+
+@kernel
+def greedy_action(q, state, stream):
+    """An action with the largest value in a state, drawn where there are several."""
+    best, ties = 0, 0
+    for action in range(q.shape[1]):
+        if ties == 0 or q[state, action] > q[state, best]:
+            best, ties = action, 1
+        elif q[state, action] == q[state, best]:
+            ties += 1
+            if below(stream, ties) == 0:
+                best = action
+    return best
+
+
+@kernel
+def exploring_action(q, state, exploration, stream):
+    """A greedy action, or with probability `exploration` (ε) any."""
+    if uniform(stream) < exploration:
+        return below(stream, q.shape[1])
+    return greedy_action(q, state, stream)
+
+
+@kernel
+def learn_q(q, state_tm1, action_tm1, reward_t, state_t, terminal, learning_rate, discount):
+    """One update of Q-learning after a step; what follows a terminal state is worth nothing."""
+    following = 0.0
+    if not terminal:
+        following = q[state_t, 0]
+        for action in range(1, q.shape[1]):
+            following = max(following, q[state_t, action])
+    target = reward_t + discount * following
+    q[state_tm1, action_tm1] += learning_rate * (target - q[state_tm1, action_tm1])

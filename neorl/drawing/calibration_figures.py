@@ -1,0 +1,194 @@
+"""The figures of the calibration: what remains of each choice and of pairs, which claims go together, how the search
+came nearer, and the thesis's figures as the readings that remain predict them."""
+
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.patches import Patch
+
+from neorl.drawing.figures import AGENT, CURVES, INK, RED, name_ends
+from neorl.drawing.multiverse_figures import SHADES
+from neorl.evidence.calibration_results import binned, marginal, progress
+from neorl.evidence.claims import FINAL
+from neorl.evidence.curves import binned_rate, low_passed
+from neorl.evidence.priors import WITHIN
+
+ROW = 0.15  # inches, of a bar with its name
+POINTS = 100  # of a predicted curve
+LEVELS, MINUTES = (0.29, 0.55), (160, 15)  # of place cells and of both: what paper B prints
+SINGLE = {f"N{n}": ("single", n) for n in (10, 30, 50)}
+LAYERS = {"N3": ("layer", 3), "N7": ("layer", 7), "N23": ("layer", 23), "all three": "layers"}
+MODALITIES = {"place": ("place", "all"), "objects": ("objects", "all"), "both": "both"}
+NETWORKS = {name: ("network", name) for name in "ABCD"}
+
+
+def draw_marginals(remaining, nearest=None, names=tuple(WITHIN), columns=2):
+    """Each choice before (outlines) and after (bars): the shares of its levels.
+
+    remaining: a `Posterior`, the bars. nearest: another, whose shares are drawn as points.
+    """
+    each = [marginal(name, remaining) for name in names]
+    rows = [each[i : i + columns] for i in range(0, len(each), columns)]
+    heights = [max(len(found.levels) for found in row) for row in rows]
+    width, _ = plt.rcParams["figure.figsize"]
+    figure, grid = plt.subplots(len(rows), columns, figsize=(width, sum(ROW * high + 0.42 for high in heights)),
+                                height_ratios=heights, squeeze=False)
+    for axes, name, found in zip(grid.flat, names, each):
+        at = np.arange(len(found.levels))
+        axes.barh(at, found.posterior, 0.8, color=AGENT, alpha=0.75)
+        axes.barh(at, found.prior, 0.8, fill=False, edgecolor=INK, linewidth=0.8)
+        if nearest:
+            axes.plot(marginal(name, nearest).posterior, at, linestyle="none", marker="o", markersize=2.5, color=RED)
+        axes.set_yticks(at, [level.replace(" … ", "…") for level in found.levels], fontsize=7)
+        axes.set_title(WITHIN[name].label, size=8, color=INK, pad=2)
+        axes.set(ylim=(len(at) - 0.4, -0.6), xlim=(0, None), xticks=[])
+        axes.tick_params(length=0)
+        axes.spines["bottom"].set_visible(False)
+    for axes in grid.flat[len(each):]:
+        axes.set_visible(False)
+    handles = [Patch(facecolor="none", edgecolor=INK), Patch(color=AGENT, alpha=0.75)]
+    words = ["before", "after"]
+    if nearest:
+        handles.append(plt.Line2D([], [], linestyle="none", marker="o", markersize=3, color=RED))
+        words.append("nearest readings")
+    figure.legend(handles, words, loc="outside upper center", ncols=3, frameon=False, fontsize=8)
+
+
+def draw_pairs(remaining, names):
+    """Pairs of choices: how the posterior is shared out among the levels of two, and on the diagonal of one.
+
+    remaining: a `Posterior`. names: of the choices, at least two.
+    """
+    width, _ = plt.rcParams["figure.figsize"]
+    figure, grid = plt.subplots(len(names), len(names), figsize=(1.15 * width, 1.15 * width))
+    cut = [binned(name, remaining.readings) for name in names]
+    for i, (below, _, down) in enumerate(cut):
+        for j, (beside, _, across) in enumerate(cut):
+            axes = grid[i, j]
+            if j > i:
+                axes.set_visible(False)
+                continue
+            shares = np.zeros((len(below), len(beside)))
+            np.add.at(shares, (down, across), remaining.weights)
+            if i == j:
+                axes.bar(np.arange(len(below)), np.diag(shares), 0.8, color=AGENT, alpha=0.75)
+                axes.spines["left"].set_visible(False)
+            else:
+                axes.imshow(shares, aspect="auto", cmap=SHADES, vmin=0, interpolation="nearest")
+            axes.set(xticks=[], yticks=[])
+            if j == 0 and i > 0:
+                axes.set_yticks(range(len(below)), [level.split(" … ")[0] for level in below], fontsize=6)
+                axes.set_ylabel(WITHIN[names[i]].label, fontsize=7)
+            if i == len(names) - 1:
+                axes.set_xticks(range(len(beside)), [level.split(" … ")[0] for level in beside], fontsize=6,
+                                rotation=90)
+                axes.set_xlabel(WITHIN[names[j]].label, fontsize=7)
+            axes.tick_params(length=0)
+
+
+def draw_together(together):
+    """Which claims hold together: % of the readings with both measured in which both hold, on the diagonal each alone.
+
+    together: a `Together`. A cross marks pairs that never do, although some would be expected by chance.
+    """
+    width, _ = plt.rcParams["figure.figsize"]
+    axes = plt.figure(figsize=(width, width)).add_subplot()
+    share = np.divide(together.both, together.rows, out=np.zeros(together.both.shape), where=together.rows > 0)
+    never = set(together.never)
+    lower = np.where(np.tri(len(share), dtype=bool), share, np.nan)
+    axes.imshow(lower, cmap=SHADES, vmin=0, vmax=max(float(np.nanmax(lower)), 1e-9), interpolation="nearest")
+    for i, below in enumerate(together.claims):
+        for j, beside in enumerate(together.claims[: i + 1]):
+            crossed = (beside, below) in never
+            colour = RED if crossed else "white" if share[i, j] > np.nanmax(lower) / 2 else INK
+            axes.text(j, i, "×" if crossed else f"{100 * share[i, j]:.0f}", ha="center", va="center", fontsize=8,
+                      color=colour, weight="bold" if crossed or i == j else "normal")
+    axes.set_xticks(range(len(share)), together.claims, fontsize=8)
+    axes.set_yticks(range(len(share)), together.claims, fontsize=8)
+    axes.tick_params(length=0)
+    axes.spines[:].set_visible(False)
+
+
+def draw_distances(table):
+    """How near readings come to all targets, wave by wave: those with all groups measured, and the nearest so far."""
+    axes = plt.figure().add_subplot()
+    complete = [row for row in table if row.complete]
+    shift = np.random.default_rng(0).uniform(-0.3, 0.3, len(complete))  # apart, to be seen
+    axes.plot([row.wave for row in complete] + shift, [row.distance for row in complete], linestyle="none", marker="o",
+              markersize=3, alpha=0.5, color=AGENT)
+    nearest = {wave: least for wave, least in progress(table).items() if np.isfinite(least)}
+    axes.step(list(nearest), list(nearest.values()), where="mid", color=RED)
+    axes.set(xlabel="wave", ylabel="distance to all targets", ylim=(0, None))
+    axes.xaxis.get_major_locator().set_params(integer=True)
+    name_ends(axes, [(list(nearest.values())[-1], "nearest", RED)])
+
+
+def draw_single(lives):
+    """Figure 4.4, top: accumulated reward of single maps. lives: see `draw_modalities`."""
+    def accumulated(result):
+        edges = np.linspace(0, result.rewards.shape[1] - 1, POINTS).astype(int)
+        return result.rewards.mean(axis=0).cumsum(dtype=float)[edges]
+
+    curves = {name: [accumulated(life[key]) for life in lives] for name, key in SINGLE.items()}
+    _draw_curves(curves, lives[0]["single", 10].seconds).set_ylabel("accumulated reward")
+
+
+def draw_layers(lives):
+    """Figure 4.4, bottom: three maps, each of them alone, and their sum. lives: see `draw_modalities`.
+
+    A dashed line marks 3.5 times what N7 earns finally under the first reading.
+    """
+    curves = _smooth(lives, LAYERS)
+    curves["sum"] = [sum(alone) for alone in zip(*(curves[name] for name in ("N3", "N7", "N23")))]
+    axes = _draw_curves(curves, lives[0]["layers"].seconds, [*CURVES[:len(LAYERS)], INK])
+    _mark_level(axes, 3.5 * lives[0]["layer", 7].rate(*FINAL).mean(), "3.5 × N7", INK)
+
+
+def draw_modalities(lives):
+    """Figure 4.5: place cells, object-vector cells, both; the thesis's levels and minutes are dashed and dotted.
+
+    lives: {key of the condition: `Result`} of each reading, the first of which is drawn thick.
+    """
+    seconds = lives[0]["both"].seconds
+    axes = _draw_curves(_smooth(lives, MODALITIES), seconds)
+    for level, minutes, colour in zip(LEVELS, MINUTES, (CURVES[0], CURVES[2])):
+        _mark_level(axes, level, f"{level:.2f}", colour, at=0.45)
+        if minutes <= seconds / 60:
+            axes.axvline(minutes, color=colour, linewidth=0.9, linestyle=":")
+            axes.annotate(f"{minutes} min", (minutes, 0.99), xycoords=("data", "axes fraction"), color=colour,
+                          fontsize=8, va="top")
+
+
+def draw_networks(lives):
+    """Figure 4.7e: networks A to D. lives: see `draw_modalities`. A dashed line marks 1.5 times C's final level."""
+    axes = _draw_curves(_smooth(lives, NETWORKS), lives[0]["network", "C"].seconds)
+    _mark_level(axes, 1.5 * lives[0]["network", "C"].rate(*FINAL).mean(), "1.5 × C", INK)
+
+
+def _smooth(lives, keys):
+    """The mean reward per second of each condition for each reading, low-passed: {name: [(POINTS,), …]}."""
+    return {name: [low_passed(binned_rate(life[key], POINTS).mean(axis=0, keepdims=True))[0] for life in lives]
+            for name, key in keys.items()}
+
+
+def _draw_curves(curves, seconds, colours=CURVES):
+    """Axes with curves {name: [(POINTS,) of each reading]}, the first of each thick."""
+    axes = plt.figure().add_subplot()
+    minutes = (np.arange(POINTS) + 0.5) / POINTS * seconds / 60
+    ends = []
+    for (name, (first, *others)), colour in zip(curves.items(), colours):
+        for other in others:
+            axes.plot(minutes, other, color=colour, linewidth=0.6, alpha=0.45, zorder=2)
+        axes.plot(minutes, first, color=colour, linewidth=2.0, zorder=3)
+        ends.append((first[-POINTS // 10:].mean(), name, colour))
+    axes.axhline(0, color=INK, linewidth=0.7, zorder=1)
+    axes.set(xlabel="simulated minutes", ylabel="reward per second", xlim=(0, seconds / 60), ylim=axes.get_ylim())
+    name_ends(axes, ends)
+    return axes
+
+
+def _mark_level(axes, level, words, colour, at=0.01):
+    """What the thesis prints, as a dashed line with its words, `at` a share of its length; the axes reach as far."""
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, max(high, 1.05 * level))
+    axes.axhline(level, color=colour, linewidth=0.9, linestyle="--")
+    axes.annotate(words, (at, level), xycoords=("axes fraction", "data"), color=colour, fontsize=8, va="bottom")

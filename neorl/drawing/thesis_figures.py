@@ -1,0 +1,76 @@
+"""What was found beside what the thesis reports: figures in which the thesis's own numbers are drawn in.
+
+The thesis's numbers are in grey and carry their value; what was found has a colour and a marker for each reading.
+"""
+
+import numpy as np
+from matplotlib import pyplot as plt
+
+from neorl import checks
+from neorl.drawing.figures import CURVES, INK, name_ends
+
+MARKERS = "osD^vP*"  # of readings, one for each colour
+ROW = 0.62  # inches
+ROOM = 0.06  # of the height of a panel, beyond the levels that are marked
+REACH = 0.5  # of the range of the numbers, beyond which intervals are cut off
+SMALL = 9  # points
+
+
+def draw_against_thesis(thesis, readings, xlabel=""):
+    """Numbers of the thesis, each with what was found instead: a row for each, with dots and 95 % intervals.
+
+    thesis: {label: number}, all in one unit, that of `xlabel`. readings: {name: {label: Estimate}}, with the same
+    labels, at most 7; an estimate without bounds (NaN) is a dot alone. An interval that reaches far beyond all numbers
+    leaves the picture. Returns the axes.
+    Raises ValueError for no labels, for labels that differ, and for more readings.
+    """
+    if not thesis:
+        raise ValueError("thesis is {}, allowed are one or more numbers by label")
+    if len(readings) > len(CURVES):
+        raise ValueError(f"readings has {len(readings)}, allowed are at most {len(CURVES)}")
+    for name, found in readings.items():
+        if set(found) != set(thesis):
+            raise ValueError(f"readings[{name!r}] has {', '.join(found)}, allowed are the labels of thesis: "
+                             f"{', '.join(thesis)}")
+    rows = np.arange(len(thesis))
+    width, _ = plt.rcParams["figure.figsize"]
+    axes = plt.figure(figsize=(width, 1.1 + ROW * len(rows))).add_subplot()
+    numbers = [*thesis.values()]
+    axes.vlines(numbers, rows - 0.36, rows + 0.36, color=INK, linewidth=2.2)
+    for row, number in zip(rows, numbers):
+        axes.annotate(f"thesis {number:g}".replace("-", "−"), (number, row - 0.38), fontsize=SMALL, ha="center",
+                      va="bottom")
+    shifts = 0.5 * (np.arange(len(readings)) - (len(readings) - 1) / 2) / max(len(readings), 1)
+    for (name, found), shift, colour, marker in zip(readings.items(), shifts, CURVES, MARKERS):
+        value, low, high = np.array([found[label] for label in thesis]).T
+        axes.plot(value, rows + shift, color=colour, linestyle="none", marker=marker, markersize=6, label=name)
+        axes.hlines(rows + shift, low, high, color=colour)
+    axes.set(yticks=rows, yticklabels=thesis, ylim=(len(rows) - 0.5, -0.75), xlabel=xlabel)
+    values = [*numbers, *(estimate.value for found in readings.values() for estimate in found.values())]
+    low, high = sorted(axes.get_xlim())
+    reach = REACH * (max(values) - min(values)) or np.inf
+    axes.set_xlim(max(low, min(values) - reach), min(high, max(values) + reach))
+    if readings:
+        axes.legend(frameon=False, ncols=len(readings), loc="lower center", bbox_to_anchor=(0.5, 1), borderpad=0.2)
+    return axes
+
+
+def mark_levels(axes, levels):
+    """Draw levels of the thesis into a figure of curves, as dashed lines with their names: levels {name: height}.
+
+    The axes reach as far as the levels, and names at the ends of curves move apart again.
+    Raises ValueError for a height that is not finite.
+    """
+    heights = [checks.real(f"levels[{name!r}]", height) for name, height in levels.items()]
+    bottom, top = axes.get_ylim()
+    room = ROOM * (max([top, *heights]) - min([bottom, *heights]))
+    axes.set_ylim(min([bottom, *(height - room for height in heights)]),
+                  max([top, *(height + room for height in heights)]))
+    for name, height in zip(levels, heights):
+        axes.axhline(height, color=INK, linewidth=1.1, linestyle=(0, (5, 3)), zorder=1)
+        axes.annotate(name, (0.015, height), xycoords=("axes fraction", "data"), xytext=(0, 2),
+                      textcoords="offset points", fontsize=SMALL, va="bottom")
+    names = [text for text in axes.texts if text.xy[0] > 1]
+    for text in names:
+        text.remove()
+    name_ends(axes, [(text.xy[1], text.get_text(), text.get_color()) for text in names])

@@ -1,0 +1,237 @@
+"""Calibration: which of the choices that the thesis leaves open make all the numbers that it prints come out at once?
+
+The method is history matching (Craig et al. 1997; Vernon et al. 2010), a search that discards what cannot be right
+rather than one that climbs to what fits best:
+
+1. *Design.* Readings are drawn evenly through the priors within the text, a scrambled Sobol sequence. All are run in
+   the cheapest group of conditions, and the first of them in every group, so that the dear ones are not known of
+   favourites alone.
+2. *Emulator.* Random forests learn from the readings that have been run to predict each statistic from the choices.
+   The prediction has an uncertainty: how far the trees disagree, and the noise of a few runs.
+3. *Candidates.* Thousands of readings that have not been run are drawn: half from the priors, half as children of the
+   readings that are nearest to the targets, each choice of which comes from one of two parents or anew from its prior.
+   The *implausibility* of a candidate is how far the prediction lies outside the target's interval, in units of the
+   target's scale and the prediction's uncertainty together; its largest over all targets must be below 3. Of these, the
+   most promising are run, and as many others at random, since the emulator is wrong where it has seen little.
+4. *Waves.* What was run teaches the next emulator, and so on until time is up. Each wave runs its candidates in the
+   cheapest group, and of all readings so far those that look best in the next one, fewer from group to group.
+
+5. *Confirmation.* A search that looks at thousands of noisy numbers finds lucky ones. So the nearest readings are run
+   again, with fresh seeds and more runs, and what they come to then is what counts.
+
+Every row has a seed of its own, so no luck of one tank is shared by all.
+"""
+
+import time
+from dataclasses import replace
+
+import numpy as np
+from scipy.stats import qmc
+from sklearn.ensemble import RandomForestRegressor
+
+from neorl import checks
+from neorl.evidence import calibration_table
+from neorl.evidence.calibration_table import Row
+from neorl.evidence.calibration_targets import GROUPS, TARGETS
+from neorl.evidence.priors import TO_THE_LETTER, WITHIN
+
+RUNS, STEPS = 2, 600_000  # of a reading: the papers' own lengths
+DESIGN, IN_FULL = 512, 48  # readings in wave 0, a power of two, and how many of them are run in every group
+CHUNK = 16  # readings that are run between two looks at the clock
+WAVE = {"layers": 192, "modalities": 64, "networks": 40, "single": 12}  # readings a wave, in each group
+POOL = 4_000  # candidates a wave
+PARENTS, RENEWED, MOVED = 30, 0.1, 0.05  # of children: best rows, share of choices drawn anew, move of numbers
+IMPLAUSIBLE = 3.0
+TREES, LEAF, FEWEST = 100, 3, 24  # of a forest: trees, rows in a leaf at least, rows to learn from at least
+FAR = 8.0  # scales outside an interval, beyond which all values are the same to the emulator
+DIGITS = 4  # of a number that is chosen
+
+
+def calibrate(minutes, table=(), executor=None, seed=0, runs=RUNS, steps=STEPS, keep=None):
+    """Run readings for so many minutes, and return the table with them: a list of `Row`.
+
+    table: rows to go on from. executor: see `neorl.sweep`. seed: of the design and of the candidates; the row at place
+    i of the table lives with the seed 1000 · seed + i. runs, steps: of each reading, see `reading.conditions`.
+    keep: is called with the table whenever it has grown, to write it down for instance.
+    The time is looked at between chunks of 16 readings, so it takes up to a chunk longer.
+    Raises ValueError for a bad argument.
+    """
+    end = time.monotonic() + 60 * checks.real("minutes", minutes, 0)
+    checks.integer("seed", seed, at_least=0)
+    checks.integer("runs", runs, at_least=2)
+    table = list(table)
+    work = _work(table, seed, runs, steps)
+    while time.monotonic() < end:
+        group, chosen = next(work)
+        for place, row in zip(chosen, calibration_table.run([table[i] for i in chosen], group, executor)):
+            table[place] = row
+        if keep:
+            keep([row for row in table if row.statistics])
+    return [row for row in table if row.statistics]
+
+
+def confirm(table, n, runs, executor=None, seed=0):
+    """The table with the n nearest of its complete readings run again, with fresh seeds and so many runs.
+
+    seed: as in `calibrate`. Raises ValueError for a bad argument, and if no row is complete.
+    """
+    begin, wave = len(table), 1 + max((row.wave for row in table), default=0)
+    nearest = calibration_table.nearest(table)[: checks.integer("n", n, at_least=1)]
+    again = [Row(wave, 1_000 * seed + begin + i, checks.integer("runs", runs, at_least=2), row.steps, row.reading)
+             for i, row in enumerate(nearest)]
+    for group in GROUPS:
+        again = calibration_table.run(again, group, executor)
+    return [*table, *again]
+
+
+def _work(table, seed, runs, steps):
+    """What is to be run next, for ever: (group, places in the table). New rows are added to the table when drawn."""
+    first, *others = GROUPS
+
+    def add(wave, readings):
+        begin = len(table)
+        table.extend(Row(wave, 1_000 * seed + begin + i, runs, steps, reading) for i, reading in enumerate(readings))
+        return range(begin, len(table))
+
+    if len(table) < DESIGN:
+        add(0, design(DESIGN, seed)[len(table):])
+    yield from _chunks(first, _lacking(table, first, range(DESIGN)))
+    for group in others:
+        yield from _chunks(group, _lacking(table, group, range(IN_FULL)))
+    while True:
+        wave = 1 + max(row.wave for row in table)
+        rng = np.random.default_rng([seed, wave])
+        emulator = Emulator(table, seed=wave)
+        yield from _chunks(first, add(wave, candidates(table, emulator, WAVE[first], rng)))
+        for before, group in zip(GROUPS, others):
+            emulator = Emulator(table, seed=wave)
+            ready = [i for i in _lacking(table, group, range(len(table))) if before in table[i].groups]
+            order = np.argsort(prospects([table[i] for i in ready], emulator), kind="stable")
+            yield from _chunks(group, [ready[i] for i in order[: WAVE[group]]])
+
+
+def _lacking(table, group, places):
+    return [i for i in places if group not in table[i].groups]
+
+
+def _chunks(group, places):
+    for begin in range(0, len(places), CHUNK):
+        yield group, list(places[begin : begin + CHUNK])
+
+
+def design(points, seed=0):
+    """So many readings evenly through the priors within the text, a list of `Reading`: see `reading_at`."""
+    return [reading_at(row) for row in qmc.Sobol(len(WITHIN), rng=np.random.default_rng(seed)).random(points)]
+
+
+def reading_at(shares):
+    """The reading with each choice where a share in [0, 1) of its prior lies below; numbers with 4 digits.
+
+    What the text fixes is as in `TO_THE_LETTER`.
+    """
+    chosen = {name: _short(choice.at(share)) for (name, choice), share in zip(WITHIN.items(), shares)}
+    return replace(TO_THE_LETTER, **chosen)
+
+
+def _short(value):
+    return float(f"{value:.{DIGITS}g}") if isinstance(value, float) else value
+
+
+class Emulator:
+    """Random forests that predict the statistics of a reading from its choices, one forest for each group.
+
+    table: rows. A group that fewer than 24 of them have been run in is not predicted.
+    """
+
+    def __init__(self, table, seed=0):
+        self.forests, self.noise = {}, {}
+        for group, members in GROUPS.items():
+            rows = [row for row in table if group in row.groups]
+            if len(rows) >= FEWEST:
+                found = np.array([[row.statistics[name] for name in members.targets] for row in rows])
+                scaled = [_clipped(TARGETS[name], found[:, i, 0]) / TARGETS[name].scale
+                          for i, name in enumerate(members.targets)]
+                forest = RandomForestRegressor(TREES, min_samples_leaf=LEAF, max_features=0.5, random_state=seed)
+                self.forests[group] = forest.fit(features([row.reading for row in rows]), np.transpose(scaled))
+                self.noise[group] = np.median(found[:, :, 1], axis=0)
+
+    def predict(self, readings):
+        """The mean and the standard deviation of each predicted target: {name: (mean, deviation)}, (readings,) each."""
+        at = features(readings)
+        found = {}
+        for group, forest in self.forests.items():
+            trees = np.stack([tree.predict(at) for tree in forest.estimators_])
+            for i, name in enumerate(GROUPS[group].targets):
+                scale = TARGETS[name].scale
+                spread = np.hypot(scale * trees[..., i].std(axis=0), self.noise[group][i])
+                found[name] = scale * trees[..., i].mean(axis=0), spread
+        return found
+
+    def implausibility(self, readings):
+        """How far the predictions are from each predicted target: {name: (readings,)}."""
+        return {name: TARGETS[name].distance(*found) for name, found in self.predict(readings).items()}
+
+
+def _clipped(target, values):
+    ends = [end for end in (target.low, target.high) if np.isfinite(end)]
+    return np.clip(values, min(ends) - FAR * target.scale, max(ends) + FAR * target.scale)
+
+
+def features(readings):
+    """Readings as the emulator sees them: float64 (readings, features).
+
+    A number is where it lies in its prior, from 0 to 1; words are a feature each, 0 or 1.
+    """
+    columns = []
+    for name, choice in WITHIN.items():
+        values = [getattr(reading, name) for reading in readings]
+        if isinstance(values[0], str):
+            columns += [[value == level for value in values] for level in dict.fromkeys(choice.prior)]
+        else:
+            columns.append([choice.place(value) for value in values])
+    return np.array(columns, float).T
+
+
+def prospects(rows, emulator):
+    """How far rows are from all targets: float64 (rows,), of what was measured, and else of what is predicted.
+
+    It is the root mean square over targets, each counting as 4 at most.
+    """
+    if not rows:
+        return np.zeros(0)
+    each = emulator.implausibility([row.reading for row in rows])
+    for name, target in TARGETS.items():
+        each.setdefault(name, np.zeros(len(rows)))
+        for i, row in enumerate(rows):
+            if name in row.statistics:
+                each[name][i] = target.distance(*row.statistics[name])
+    return np.sqrt(np.mean(np.minimum(list(each.values()), 4.0) ** 2, axis=0))
+
+
+def candidates(table, emulator, n, rng):
+    """Readings to run next, a list of n `Reading`: the most promising and as many others that are not implausible."""
+    drawn = [reading_at(shares) for shares in rng.random((POOL // 2, len(WITHIN)))]
+    best = [table[i].reading for i in np.argsort(prospects(table, emulator), kind="stable")[:PARENTS]]
+    drawn += [_child(*(best[i] for i in rng.integers(len(best), size=2)), rng) for _ in range(POOL - len(drawn))]
+    worst = np.max(list(emulator.implausibility(drawn).values()), axis=0)
+    mean = prospects([Row(0, 0, 0, 0, reading) for reading in drawn], emulator)
+    order = np.lexsort([mean, worst >= IMPLAUSIBLE])
+    promising = list(order[: n // 2])
+    rest = [i for i in order[n // 2 :] if worst[i] < IMPLAUSIBLE]
+    others = list(rng.permutation(rest)[: n - len(promising)])
+    short = n - len(promising) - len(others)
+    beyond = [i for i in order[n // 2 :] if worst[i] >= IMPLAUSIBLE]
+    return [drawn[i] for i in promising + others + beyond[:short]]
+
+
+def _child(mother, father, rng):
+    """A reading each of whose choices is one of two parents', or drawn anew; numbers have moved a little."""
+    chosen = {}
+    for name, choice in WITHIN.items():
+        value = getattr(mother if rng.random() < 0.5 else father, name)
+        if rng.random() < RENEWED:
+            value = choice.at(rng.random())
+        elif not isinstance(choice.prior, tuple):
+            value = choice.at(np.clip(choice.place(value) + MOVED * rng.standard_normal(), 0.0, 1.0 - 1e-9))
+        chosen[name] = _short(value)
+    return replace(TO_THE_LETTER, **chosen)

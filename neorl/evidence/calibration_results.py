@@ -1,0 +1,191 @@
+"""What a table of calibrated readings says: which choices remain, which claims go together, which reading is nearest.
+
+A claim holds in a row where all its targets lie in their intervals, by the mean over the few runs of that row. So a row
+may hold by luck; that no row does is the stronger finding. A row is *complete* if it was run in all groups.
+"""
+
+import math
+from itertools import combinations
+from typing import NamedTuple
+
+import numpy as np
+from scipy import stats
+
+from neorl import checks
+from neorl.evidence.calibration import IN_FULL, Emulator, reading_at
+from neorl.evidence.calibration_table import nearest
+from neorl.evidence.calibration_targets import CLAIMS, TARGETS, distance
+from neorl.evidence.priors import WITHIN
+
+NEAREST = 25  # rows that stand for the posterior where none agrees with all targets
+DRAWS = 10_000
+INTERVALS = 6  # that the prior of a number is cut into, each as likely as the others
+LEAST_EXPECTED = 3.0  # rows: if two claims that are independent hold together in as many, none is rare (5 %)
+
+
+class Posterior(NamedTuple):
+    """Readings that remain, with weights that add up to 1, and the rule by which."""
+
+    readings: list
+    weights: np.ndarray  # (readings,)
+    rule: str
+
+    @property
+    def effective(self):
+        """How many readings of equal weight would say as much (Kish 1965)."""
+        return float(1 / np.sum(self.weights**2))
+
+
+def accepted(table):
+    """The complete rows that agree with all targets; if none does, the 25 nearest: ([Row, …], rule).
+
+    Raises ValueError if no row is complete.
+    """
+    complete = nearest(table)
+    agreeing = [row for row in complete if row.distance == 0]
+    if agreeing:
+        return agreeing, f"the {len(agreeing)} readings that agree with all targets"
+    near = complete[:NEAREST]
+    return near, f"the {len(near)} readings nearest to the targets; none of {len(complete)} agrees with all"
+
+
+def posterior(table, draws=DRAWS, seed=0):
+    """Fresh draws from the priors, weighted by how well the emulator expects them to agree with all targets.
+
+    Its weights are exp(−½ Σ distance²) over targets, with the emulator's own uncertainty. The rows of the table that
+    are nearest share parents, so a choice that does not matter may look decided among them; here it does not.
+    """
+    rng = np.random.default_rng(seed)
+    readings = [reading_at(shares) for shares in rng.random((checks.integer("draws", draws, 1), len(WITHIN)))]
+    each = np.array(list(Emulator(table, seed).implausibility(readings).values()))
+    logs = -0.5 * np.sum(each**2, axis=0)
+    weights = np.exp(logs - logs.max())
+    return Posterior(readings, weights / weights.sum(), f"{draws:,} draws from the priors, weighted by the emulator")
+
+
+def equally(rows):
+    """A `Posterior` of the readings of rows, all of the same weight."""
+    return Posterior([row.reading for row in rows], np.full(len(rows), 1 / len(rows)), f"{len(rows)} rows")
+
+
+class Marginal(NamedTuple):
+    """One choice: its levels, or intervals of its numbers, with the share of each before and after."""
+
+    levels: tuple[str, ...]
+    prior: np.ndarray  # (levels,)
+    posterior: np.ndarray  # (levels,)
+
+    @property
+    def information(self):
+        """What the posterior says more than the prior, in bits (Kullback and Leibler 1951)."""
+        return float(stats.entropy(self.posterior, self.prior, base=2))
+
+
+def marginal(name, remaining):
+    """The `Marginal` of a choice of `priors.WITHIN` in a `Posterior`."""
+    levels, prior, places = binned(name, remaining.readings)
+    return Marginal(levels, prior, np.bincount(places, remaining.weights, len(levels)))
+
+
+def binned(name, readings):
+    """A choice in levels: (levels, their share of the prior (levels,), the level of each reading (readings,))."""
+    choice = WITHIN[checks.one_of("name", name, tuple(WITHIN))]
+    values = [getattr(reading, name) for reading in readings]
+    if isinstance(choice.prior, tuple):
+        levels = list(dict.fromkeys(choice.prior))
+        prior = np.array([choice.prior.count(level) for level in levels]) / len(choice.prior)
+        return tuple(map(choice.words, levels)), prior, np.array([levels.index(value) for value in values])
+    ends = [choice.words(choice.at(min(i / INTERVALS, 1 - 1e-9))) for i in range(INTERVALS + 1)]
+    levels = tuple(" … ".join(pair) for pair in zip(ends, ends[1:]))
+    places = [min(int(choice.place(value) * INTERVALS), INTERVALS - 1) for value in values]
+    return levels, np.full(INTERVALS, 1 / INTERVALS), np.array(places)
+
+
+def most_informative(remaining, n):
+    """The n choices of which the posterior says most more than the prior, from the most on: a list of names."""
+    said = {name: marginal(name, remaining).information for name in WITHIN}
+    return sorted(said, key=said.get, reverse=True)[:n]
+
+
+class Together(NamedTuple):
+    """Which claims hold together. Arrays are (claims, claims); on the diagonal stands each claim alone."""
+
+    claims: tuple[str, ...]
+    rows: np.ndarray  # in which both were measured
+    both: np.ndarray  # in which both hold
+    expected: np.ndarray  # in which both would hold if neither depended on the other
+    sets: list  # of (claims that hold together, rows in which they do), the largest first; complete rows alone
+
+    @property
+    def unseen(self):
+        """Pairs that hold in no row together: [(name, name, rows expected), …], the most expected first."""
+        pairs = [(self.claims[i], self.claims[j], float(self.expected[i, j]))
+                 for i, j in combinations(range(len(self.claims)), 2) if self.both[i, j] == 0]
+        return sorted(pairs, key=lambda pair: -pair[2])
+
+    @property
+    def never(self):
+        """Those of the unseen pairs of which three rows or more would be expected: a list of (name, name)."""
+        return [(a, b) for a, b, expected in self.unseen if expected >= LEAST_EXPECTED]
+
+
+def claims_together(table):
+    """Which claims hold together, a `Together`: pairs in all rows with both measured, sets in complete rows.
+
+    A set is listed unless it is part of another.
+    """
+    tested = np.array([[name in row.tested for name in CLAIMS] for row in table], float)
+    held = np.array([[name in row.held for name in CLAIMS] for row in table], float)
+    rows, both = tested.T @ tested, held.T @ held
+    alone = held.T @ tested  # rows with both measured in which the first holds
+    expected = np.divide(alone * alone.T, rows, out=np.zeros(rows.shape), where=rows > 0)
+    found = [row.held for row in nearest(table)]
+    largest = [each for each in set(found) if not any(each < other for other in found)]
+    sets = [(tuple(sorted(each)), sum(each <= other for other in found)) for each in largest]
+    sets.sort(key=lambda entry: (-len(entry[0]), -entry[1], entry[0]))
+    return Together(CLAIMS, rows.astype(int), both.astype(int), expected, sets)
+
+
+def evenly(table):
+    """How often the numbers agree with the thesis among readings that were drawn evenly from the priors.
+
+    Returns {claim: {"agrees", "measured"}}, counts of rows of the design, of those alone that were not chosen by what
+    came out.
+    """
+    design = [row for row in table if row.wave == 0]
+    found = {}
+    for claim in CLAIMS:
+        rows = design if all(claim in row.tested for row in design) else design[:IN_FULL]
+        measured = [row for row in rows if claim in row.tested]
+        found[claim] = {"agrees": sum(claim in row.held for row in measured), "measured": len(measured)}
+    return found
+
+
+def best(table):
+    """The row nearest to all targets, of those that were run most often, which are the confirmed ones.
+
+    Raises ValueError if no row is complete.
+    """
+    complete = nearest(table)
+    most = max(row.runs for row in complete)
+    return next(row for row in complete if row.runs == most)
+
+
+def giving(table):
+    """What it would help to give a claim up: {claim: (smallest distance to the targets of the others, its Row)}."""
+    complete, found = nearest(table), {}
+    for claim in CLAIMS:
+        def without(row, claim=claim):
+            return distance({name: each for name, each in row.statistics.items() if TARGETS[name].claim != claim})
+        near = min(complete, key=without)
+        found[claim] = without(near), near
+    return found
+
+
+def progress(table):
+    """The smallest distance of a complete row up to each wave: {wave: distance}, infinite while there is none."""
+    least, found = math.inf, {}
+    for wave in sorted({row.wave for row in table}):
+        least = min([least, *(row.distance for row in table if row.wave == wave and row.complete)])
+        found[wave] = least
+    return found

@@ -1,0 +1,243 @@
+"""What the thesis prints, as numbers with tolerances: the targets of the calibration, stated before any run of it.
+
+1. A *target* is a statistic of one reading and the interval that agrees with the thesis. A number that is printed gets
+   a tolerance; an order ("better than", "quicker") is an interval with one end, a lead of 0.01 per second or more, so
+   that two agents that both stand still are in no order.
+2. *Final* is the last fifth of a run and *early* its first tenth, as in `neorl.evidence.claims`; rewards are per
+   simulated second, of the mean over runs, which is what the thesis plots.
+3. An agent that earns no more than Brownian motion has learned nothing. So where a statistic divides by what an agent
+   earns, that counts as Brownian motion's at least: a ratio of two failures is no success.
+4. The *error* of a statistic is its standard error over runs, by the jackknife: each run in turn is left out of every
+   condition. The *distance* to a target is how far the value lies outside its interval, in units of the target's
+   scale and the error together; it is 0 inside.
+5. Targets belong to *groups* of conditions that are computed together, the cheap ones first.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from neorl import checks
+from neorl.evidence.claims import EARLY, FINAL
+from neorl.evidence.statistics import time_to_final_level
+
+BROWNIAN_A, BROWNIAN_B = 0.03, 0.1  # what Brownian motion earns per second with 8 creeps and with 3
+NOISE = 0.03  # reward per second: how far the mean of a few runs strays, in trials before the targets were stated
+LEAD = 0.01  # reward per second: the least lead that a reader sees in a figure
+DIGITS = 5  # that a statistic is kept with
+
+
+class Measure(NamedTuple):
+    """The value of a statistic over a few runs, and its standard error."""
+
+    value: float
+    error: float
+
+
+@dataclass(frozen=True)
+class Target:
+    """A statistic, and the interval in which it agrees with the thesis.
+
+    claim: a name of `neorl.evidence.statements`. statistic: from {key of the condition: `Result`} to a number. low,
+    high: the interval; a bound may be infinite. scale: how far outside counts as a distance of 1. thesis: what is
+        printed.
+    reason: why the interval is as wide as it is.
+    """
+
+    claim: str
+    label: str
+    statistic: Callable
+    low: float
+    high: float
+    scale: float
+    thesis: str
+    reason: str
+
+    def holds(self, value):
+        """Whether a value agrees with the thesis."""
+        return self.low <= value <= self.high
+
+    def distance(self, value, error=0.0):
+        """How far a value lies outside the interval: ≥ 0, see rule 4. Takes numbers and arrays."""
+        outside = np.maximum(np.maximum(self.low - value, value - self.high), 0.0)
+        return outside / np.hypot(self.scale, error)
+
+
+def _final(result):
+    return result.rate(*FINAL).mean()
+
+
+def _early(result):
+    return result.rate(*EARLY).mean()
+
+
+def _whole(result):
+    return result.rate().mean()
+
+
+def _ratio(above, below, least):
+    return above / max(below, least)
+
+
+def _minutes(result):
+    """Simulated minutes until the mean over runs reaches nine tenths of its final level."""
+    mean = replace(result, runs=1, rewards=result.rewards.mean(axis=0, keepdims=True))
+    return float(time_to_final_level(mean)[0]) / 60
+
+
+def _surplus(results, rate):
+    return rate(results["layers"]) - sum(rate(results["layer", n]) for n in (3, 7, 23))
+
+
+def _extremes(results):
+    """What the worst and the best of the single maps earn over the whole run."""
+    each = [_whole(results["single", n]) for n in (10, 30, 50)]
+    return min(each), max(each)
+
+
+def _minutes_of_place(results):
+    """0 where place cells have not learned: then there is no level that takes long to reach."""
+    place = results["place", "all"]
+    return _minutes(place) if _final(place) > BROWNIAN_B else 0.0
+
+
+ORDER = "an order, without a number: any lead agrees that a reader would see in a figure"
+TARGETS = {
+    # paper A, figure 7: {3, 7, 23} and each alone
+    "A7 ratio": Target(
+        "A7", "three maps / N7", lambda of: _ratio(_final(of["layers"]), _final(of["layer", 7]), BROWNIAN_A),
+        2.5, 5.0, 0.5, "3.5", "2.5 to 5, as in the rule: the thesis does not say of which stretch it is"),
+    "A7 pace": Target(
+        "A7", "three maps − N7, early", lambda of: _early(of["layers"]) - _early(of["layer", 7]),
+        0.0, math.inf, NOISE, "as fast or a little faster",
+        "no loss, without a number"),
+    "A6 surplus": Target(
+        "A6", "three maps − sum, final", lambda of: _surplus(of, _final), LEAD, math.inf, NOISE, "higher than the sum",
+        ORDER),
+    "A6 pace": Target(
+        "A6", "three maps − sum, whole run", lambda of: _surplus(of, _whole), LEAD, math.inf, NOISE,
+        "quicker than the sum", ORDER),
+    # paper B, figures 4 and 5
+    "B3 place": Target(
+        "B3", "place cells, final", lambda of: _final(of["place", "all"]), 0.23, 0.36, NOISE, "0.29",
+        "a quarter more or a fifth less, as in the rule: read off a smoothed curve, whose filter is not given"),
+    "B3 both": Target(
+        "B3", "both, final", lambda of: _final(of["both"]), 0.44, 0.69, NOISE, "0.55",
+        "a quarter more or a fifth less, as in the rule"),
+    "B1 level": Target(
+        "B1", "object-vector / place", lambda of: _ratio(_final(of["objects", "all"]), _final(of["place", "all"]),
+                                                         BROWNIAN_B),
+        0.8, 1.25, 0.1, "comparable", "a quarter more or a fifth less, as in the rule"),
+    "B4 both": Target(
+        "B4", "minutes of both", lambda of: _minutes(of["both"]), 0.0, 30.0, 10.0, "15",
+        "twice the thesis's time, as in the rule"),
+    "B4 place": Target(
+        "B4", "minutes of place cells", _minutes_of_place, 80.0, math.inf, 20.0, "more than 160",
+        "half the thesis's time, as in the rule: what counts here is nine tenths of the level"),
+    # paper C, figure 4e
+    "C1 rise": Target(
+        "C1", "A, final − early", lambda of: _final(of["network", "A"]) - _early(of["network", "A"]),
+        LEAD, math.inf, NOISE, "improves over time", ORDER),
+    "C1 weak": Target(
+        "C1", "A / C", lambda of: _ratio(_final(of["network", "A"]), _final(of["network", "C"]), BROWNIAN_B),
+        -math.inf, 0.5, 0.1, "too simple for proficient navigation", "half of C, as in the rule"),
+    "C2": Target(
+        "C2", "B − A, final", lambda of: _final(of["network", "B"]) - _final(of["network", "A"]),
+        LEAD, math.inf, NOISE, "increased performance", ORDER),
+    "C3": Target(
+        "C3", "C − better of A, B", lambda of: (_final(of["network", "C"])
+                                               - max(_final(of["network", name]) for name in "AB")),
+        LEAD, math.inf, NOISE, "better navigators", ORDER),
+    "C4": Target(
+        "C4", "D / C", lambda of: _ratio(_final(of["network", "D"]), _final(of["network", "C"]), BROWNIAN_B),
+        1.5, math.inf, 0.2, "drastically", "half as much again, as in the rule"),
+    # paper A, figure 6
+    "A2": Target(
+        "A2", "worst of N10, N30, N50", lambda of: _extremes(of)[0],
+        BROWNIAN_A, math.inf, NOISE, "better than control", "what Brownian motion earns"),
+    "A3 early": Target(
+        "A3", "N10 − N50, early", lambda of: _early(of["single", 10]) - _early(of["single", 50]),
+        LEAD, math.inf, NOISE, "coarse maps learn quicker initially", ORDER),
+    "A3 final": Target(
+        "A3", "N50 − N10, final", lambda of: _final(of["single", 50]) - _final(of["single", 10]),
+        LEAD, math.inf, NOISE, "coarse maps saturate lower", ORDER),
+    "A4": Target(
+        "A4", "N50 − best of N10, N30", lambda of: (_whole(of["single", 50])
+                                                   - max(_whole(of["single", n]) for n in (10, 30))),
+        LEAD, math.inf, NOISE, "N50 achieves the highest score", ORDER),
+    "A5": Target(
+        "A5", "worst / best of N10, N30, N50", lambda of: _ratio(*_extremes(of), BROWNIAN_A),
+        0.5, math.inf, 0.1, "comparable in learning speed", "a half, as in the rule"),
+}
+
+
+@dataclass(frozen=True)
+class Group:
+    """Conditions that are computed together: keys of `reading.conditions`, and the targets that they suffice for."""
+
+    keys: tuple
+    targets: tuple[str, ...]
+
+
+def _group(keys, *claims):
+    return Group(keys, tuple(name for name, target in TARGETS.items() if target.claim in claims))
+
+
+GROUPS = {
+    "layers": _group((("layer", 3), ("layer", 7), ("layer", 23), "layers"), "A6", "A7"),
+    "modalities": _group((("place", "all"), ("objects", "all"), "both"), "B1", "B3", "B4"),
+    "networks": _group(tuple(("network", name) for name in "ABCD"), "C1", "C2", "C3", "C4"),
+    "single": _group((("single", 10), ("single", 30), ("single", 50)), "A2", "A3", "A4", "A5"),
+}
+CLAIMS = tuple(sorted({target.claim for target in TARGETS.values()}))
+
+
+def measure(group, results):
+    """The statistics of a group: {name of the target: `Measure`}, rounded to 5 significant digits.
+
+    group: a name in `GROUPS`. results: {key of the condition: `Result`}, of the same number of runs, at least two.
+    """
+    chosen = GROUPS[checks.one_of("group", group, tuple(GROUPS))]
+    results = {key: results[key] for key in chosen.keys}
+    runs = checks.integer("runs", min(result.runs for result in results.values()), at_least=2)
+    without = [{key: _without(result, run) for key, result in results.items()} for run in range(runs)]
+    found = {}
+    for name in chosen.targets:
+        statistic = TARGETS[name].statistic
+        error = np.sqrt(runs - 1) * np.std([statistic(each) for each in without])
+        found[name] = Measure(_rounded(statistic(results)), _rounded(error))
+    return found
+
+
+def _without(result, run):
+    return replace(result, runs=result.runs - 1, rewards=np.delete(result.rewards, run, axis=0))
+
+
+def _rounded(value):
+    return float(f"{value:.{DIGITS}g}")
+
+
+def distance(statistics):
+    """How far a reading is from all targets measured: {name: `Measure`} to the root mean square of their distances.
+
+    A distance counts as 4 at most: off is off. 0 means that all agree with the thesis; infinite, that none is measured.
+    """
+    if not statistics:
+        return math.inf
+    each = [min(TARGETS[name].distance(*found), 4.0) for name, found in statistics.items()]
+    return float(np.sqrt(np.mean(np.square(each))))
+
+
+def held(statistics):
+    """The claims of which every target is measured and agrees with the thesis: a frozenset of names."""
+    return frozenset(claim for claim in tested(statistics)
+                     if all(TARGETS[name].holds(found.value) for name, found in statistics.items()
+                            if TARGETS[name].claim == claim))
+
+
+def tested(statistics):
+    """The claims of which every target is measured: a frozenset of names."""
+    return frozenset(CLAIMS) - {target.claim for name, target in TARGETS.items() if name not in statistics}

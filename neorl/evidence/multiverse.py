@@ -1,0 +1,129 @@
+"""The multiverse of readings: every choice that the thesis leaves open, varied together, and what it makes of claims.
+
+1. A *reading* chooses everything that is open (`neorl.evidence.reading`). What is plausible is stated beforehand, as a
+   prior for each choice (`neorl.evidence.priors`), and choices are independent. There are two multiverses: within the
+   text of the thesis, and beyond it.
+2. A design is a scrambled Sobol sequence through the priors, so that any power of two readings fills their space.
+3. Every reading lives the conditions of all three papers and is judged by the rules of `neorl.evidence.claims`: a claim
+   *holds* where its verdict is "reproduced", is *undecided* while its intervals leave room for it, and *fails*
+   otherwise, also where agents have learned nothing to test it by.
+"""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from scipy import stats
+from scipy.stats import qmc
+from sklearn.ensemble import RandomForestRegressor
+from sklearn.inspection import permutation_importance
+from sklearn.model_selection import KFold
+
+from neorl import checks
+from neorl.evidence.priors import TO_THE_LETTER, WITHIN
+from neorl.evidence.statistics import Estimate, difference, estimate
+
+PARTS = 5  # into which a prior without levels is cut; the middle one holds the reading to the letter
+
+
+def design(points, seed=0, choices=WITHIN):
+    """So many plausible readings, a list of `Reading`.
+
+    choices: what is varied, {field of `Reading`: `Choice`}: `WITHIN`, `BEYOND`, or any other. Where nothing is varied,
+    all are the reading to the letter.
+    Raises ValueError unless points is a power of two, of which any is a part of the next.
+    """
+    checks.integer("points", points, at_least=2)
+    if points & (points - 1):
+        raise ValueError(f"points is {points}, allowed are powers of two")
+    shares = qmc.Sobol(len(choices), rng=np.random.default_rng(seed)).random(points)
+    return [replace(TO_THE_LETTER, **{name: choice.at(share) for (name, choice), share in zip(choices.items(), row)})
+            for row in shares]
+
+
+def outcome(claim):
+    """Whether a claim "holds", is "undecided" or "fails"."""
+    return "holds" if claim.outcome == "reproduced" else "undecided" if claim.undecided else "fails"
+
+
+def shares(judged):
+    """How often each claim holds: {name: {"holds", "undecided", "untestable", "readings"}}, counts of readings.
+
+    judged: {name: `Claim`} for each reading.
+    """
+    found = {}
+    for name in judged[0]:
+        outcomes = [outcome(claims[name]) for claims in judged]
+        found[name] = {"holds": outcomes.count("holds"), "undecided": outcomes.count("undecided"),
+                       "untestable": sum(claims[name].outcome == "not testable" for claims in judged),
+                       "readings": len(judged)}
+    return found
+
+
+def held(claims):
+    """The names of those of the claims {name: `Claim`} that hold."""
+    return [name for name, claim in claims.items() if outcome(claim) == "holds"]
+
+
+class Support(NamedTuple):
+    """How many claims hold at one level of a choice, and by how much that leads the level of the reading to the letter.
+    """
+
+    choice: str
+    level: str
+    value: object
+    is_to_the_letter: bool
+    held: float
+    lead: Estimate
+
+
+def support(readings, judged, choices=WITHIN):
+    """A `Support` for each level of each of the choices, the mean over all readings that have it.
+
+    A choice without levels is cut into fifths of its prior, the value of each being its median. There is no support
+    for a level that no reading has.
+    """
+    counts = np.array([len(held(claims)) for claims in judged])
+    found = []
+    for name, choice in choices.items():
+        if isinstance(choice.prior, tuple):
+            values = choice.prior
+            levels = list(map(choice.words, values))
+            letter, *at = [values.index(getattr(reading, name)) for reading in [TO_THE_LETTER, *readings]]
+        else:
+            values = [choice.at((part + 0.5) / PARTS) for part in range(PARTS)]
+            ends = [choice.words(choice.prior.ppf(part / PARTS)) for part in range(PARTS + 1)]
+            levels = [" … ".join(pair) for pair in zip(ends, ends[1:])]
+            letter, *at = [min(int(PARTS * choice.place(getattr(reading, name))), PARTS - 1)
+                           for reading in [TO_THE_LETTER, *readings]]
+        at = np.array(at)
+        for level, (value, words) in enumerate(zip(values, levels)):
+            if np.any(at == level) and np.any(at == letter):
+                lead = estimate(difference, counts[at == level], counts[at == letter])
+                found.append(Support(name, words, value, level == letter, counts[at == level].mean(), lead))
+    return found
+
+
+def leading(supports):
+    """The reading to the letter but for each choice's level, the nearest to it in the prior, that clearly leads it."""
+    levels = {each.choice: each.value for each in reversed(supports) if each.lead.low > 0}
+    return replace(TO_THE_LETTER, **levels)
+
+
+def importance(readings, judged, name, choices=WITHIN, seed=0):
+    """How much each of the choices matters for the number of a claim: ({name of the choice: importance}, R²).
+
+    A random forest predicts the rank that the number has among all readings. Its importance is what the R² of the
+    forest at readings that it has not seen loses when the values of one choice are shuffled (Breiman 2001), the mean
+    over four folds of the readings (fewer if there are not two in each); R² is what there is to lose.
+    """
+    chosen = [key for key, choice in choices.items() if name[0] in choice.papers]
+    places = np.array([[choices[key].place(getattr(reading, key)) for key in chosen] for reading in readings])
+    ranks = stats.rankdata([claims[name].here.value for claims in judged]) / len(judged)
+    lost, explained = [], []
+    for learned, unseen in KFold(min(4, len(readings) // 2), shuffle=True, random_state=seed).split(places):
+        forest = RandomForestRegressor(50, random_state=seed).fit(places[learned], ranks[learned])
+        found = permutation_importance(forest, places[unseen], ranks[unseen], n_repeats=3, random_state=seed)
+        lost.append(found.importances_mean)
+        explained.append(forest.score(places[unseen], ranks[unseen]))
+    return dict(zip(chosen, np.mean(lost, axis=0))), float(np.mean(explained))

@@ -1,0 +1,79 @@
+"""Where every constant comes from: the thesis, the environment it used, the author's public code, or this book.
+
+The values are read from the code that uses them, and the sources of a reading's choices from `neorl.evidence.pins`, so
+the table cannot say anything else.
+"""
+
+from typing import NamedTuple
+
+from neorl.evidence.curves import CUTOFF_PERIODS, FILTER_ORDER
+from neorl.evidence.pins import PINS
+from neorl.evidence.priors import BEYOND, WITHIN
+from neorl.evidence.reading import LAYERS, LENGTHS, PRIMES, SINGLE, Reading, conditions
+from neorl.experiments.simulation import BIN_SECONDS
+from neorl.worlds import waterworld
+
+PLE = "WaterWorld of the PyGame Learning Environment, rules confirmed against recordings of it"
+AUTHOR = "the author's later public code"
+OURS = "this book's choice"
+CALIBRATED = "value by calibration"
+
+
+class Constant(NamedTuple):
+    """One constant: its value in words, and its source."""
+
+    name: str
+    value: str
+    source: str
+
+
+def constants():
+    """Every `Constant` that a result of the book rests on."""
+    default = conditions(Reading(), max(LENGTHS.values()), 1)
+    eight, three = default["layers"].world, default["both"].world
+    fixed = [
+        Constant("side of the tank", f"{three.width} pixels", AUTHOR),
+        Constant("radius of agent and creeps", f"{three.radius} pixels", PLE),
+        Constant("acceleration of an action", "a quarter of the width a second, each step", PLE),
+        Constant("drag", f"{waterworld.DRAG} a step", PLE),
+        Constant("speed of creeps", "up to a quarter of the width a second", PLE),
+        Constant("creeps, paper A", f"{eight.n_creeps}", "paper A, WaterWorld (and the author's later public code)"),
+        Constant("creeps, papers B and C", f"{three.n_creeps}", "paper C, section 2; for paper B " + AUTHOR),
+        Constant("reward for the last green creep, paper A", f"{eight.win_reward:g}", "paper A, WaterWorld"),
+        Constant("the same reward, papers B and C", f"{three.win_reward:g}", "paper B, section 3; " + AUTHOR),
+        Constant("valence of creeps", "+1 and −1", "paper B, section 3, and paper C, section 2"),
+        Constant("resolutions of single maps, paper A", _listed(SINGLE), "paper A, figure 6"),
+        Constant("resolutions together, paper A", _listed(LAYERS), "paper A, Experiments"),
+        Constant("resolutions, paper B", _listed(PRIMES), "paper B, section 3"),
+        Constant("steps of a run, paper A", f"{LENGTHS['A']:,}", "paper A, Experiments"),
+        Constant("steps of a run, papers B and C", f"{LENGTHS['B']:,} and {LENGTHS['C']:,}",
+                 OURS + ": paper B speaks of more than 160 minutes"),
+        Constant("exploration of the control", "1", "paper A, Experiments"),
+        Constant("bins of reward", f"{BIN_SECONDS} s", "paper B, section 3, and " + AUTHOR),
+        Constant("filter of paper B's curves", f"Butterworth, order {FILTER_ORDER}, {CUTOFF_PERIODS} periods a run",
+                 "paper B, section 3; order and cutoff are " + OURS),
+    ]
+    return fixed + [Constant(choice.label, choice.words(getattr(Reading(), name)), source(name))
+                    for name, choice in BEYOND.items()]
+
+
+def source(name):
+    """Where the default of a field of `Reading` comes from, in words."""
+    places = []
+    for pin in PINS:
+        if pin.fields[:1] == (name,) and pin.place:
+            if pin.status == "open":
+                places.append(f"open in {pin.place}")
+            else:
+                places.append(pin.place if pin.allows(Reading()) else f"against {pin.place}")
+    return "; ".join(dict.fromkeys([*places, CALIBRATED] if name in WITHIN else places))
+
+
+def table():
+    """The constants as a Markdown table."""
+    rows = ["| Constant | Value | From |", "|---|---|---|"]
+    return "\n".join(rows + [f"| {each.name} | {each.value} | {each.source} |" for each in constants()])
+
+
+def _listed(resolutions):
+    return ", ".join(f"N{n}" for n in resolutions)

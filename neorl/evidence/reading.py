@@ -1,0 +1,216 @@
+"""A reading of the thesis: one value for everything that its agents need, the agents, and what judges them.
+
+1. A `Reading` makes every choice of `neorl.evidence.pins`, pinned or open, and can say whether it obeys the text.
+2. Its *conditions* are the experiments of the papers under it, in groups, cheap ones first.
+3. It is judged by the rules of `neorl.evidence.claims`, on every claim that the conditions at hand suffice for.
+"""
+
+from dataclasses import dataclass, replace
+
+from neorl import checks
+from neorl.agents import papers
+from neorl.agents.agent import Agent, Desire, Learning, Node, Policy
+from neorl.evidence import claims
+from neorl.evidence.pins import agreement
+from neorl.experiments.cache import Condition
+from neorl.worlds.waterworld import WaterWorld
+
+SINGLE, LAYERS, PRIMES = (10, 30, 50, 70, 90), papers.LAYERS, papers.PRIMES
+VECTORS = ("signed", "by size", "incoming")
+CELLS_A_SECOND = 10  # between which memory in cells and in seconds is converted: about a cell of N23 in 0.1 s
+PAPER_FPS = 50  # at which lengths are given
+LENGTHS = {"A": 150_000, "B": 600_000, "C": 300_000}  # of the papers' runs, in steps
+LONGER = 16  # times as long do agents live whose time to their final level is taken
+CONTROLS = 8  # times as many runs of Brownian motion, which most readings share
+
+# What each group of conditions consists of.
+GROUPS = {
+    "layers": (("brownian", 8), *(("layer", n) for n in LAYERS), "layers"),
+    "single": (("brownian", 8), *(("single", n) for n in SINGLE)),
+    "modal": (("brownian", 3), ("place", "all"), ("objects", "all"), "both"),
+    "networks": (("brownian", 3), *(("network", name) for name in "ABCD")),
+    "revaluing": ("revalued",),
+    "resolutions": (("brownian", 3), *((modality, n) for modality in ("place", "objects") for n in PRIMES)),
+    "pace": (("brownian", 3), ("pace", "place"), ("pace", "objects"), ("pace", "both")),
+}
+
+
+@dataclass(frozen=True)
+class Reading:
+    """One reading of all that the agents need; the defaults are those of the book.
+
+    credit: one of `agent.CREDITS`, or "step" for temporal difference, to which `terminal` alone of the other fields of
+        `Learning` applies. memory: in cells or, if it fades with seconds, in tenths of a second: 0 … 1,000 for both.
+    tiled_fraction, object_tiled_fraction: shares of their range that maps of places and of object vectors cover.
+    when_indifferent: always "random" where `exploration` is 0 and the agent would never move otherwise.
+    place_gain, network_gain: of place cells where object-vector cells have 1, in papers B and C.
+    vectors: what a desire vector adds up. "signed", "by size" (see `Desire`), or "incoming": by size, but for the one
+        that recurs, which is signed and of what came in from other nodes alone.
+    network_resolutions: of the maps of paper C.
+    The other fields are those of `Learning`, `Policy`, `Node`, `Desire`, `Agent` and `WaterWorld` of the same names.
+    """
+
+    learning_rate: float = Learning.learning_rate
+    discount: float = Learning.discount
+    credit: str = Learning.credit
+    absent_decay: float = Learning.absent_decay
+    absent_form: str = Learning.absent_form
+    memory: float = Learning.memory * CELLS_A_SECOND
+    memory_unit: str = Learning.memory_unit
+    memory_value: str = Learning.memory_value
+    activity: float = Learning.activity
+    bootstrap: bool = Learning.bootstrap
+    terminal: bool = Learning.terminal
+    causes: str = Learning.causes
+    capture: str = Learning.capture
+    attention: str = Learning.attention
+    own_cell: str = Agent.own_cell
+    tiled_fraction: float = papers.TILED_FRACTION
+    object_tiled_fraction: float = papers.TILED_FRACTION
+    weighting: str = Node.weighting
+    exploration: float = Policy.exploration
+    when_indifferent: str = Policy.when_indifferent
+    place_gain: float = 5.0
+    network_gain: float = 1.0
+    vectors: str = "signed"
+    scale: float = Desire.scale
+    recursion: float = -1.0
+    network_resolutions: tuple[int, ...] = LAYERS
+    fps: int = WaterWorld.fps
+    contact: str = WaterWorld.contact
+
+    def __post_init__(self):
+        checks.one_of("vectors", self.vectors, VECTORS)
+        resolutions = checks.several("network_resolutions", self.network_resolutions)
+        object.__setattr__(self, "network_resolutions", resolutions)
+
+    @property
+    def within_the_text(self):
+        """Whether it obeys every sentence of the thesis that pins a choice: a `neorl.evidence.pins.Agreement`."""
+        return agreement(self)
+
+    @property
+    def learning(self):
+        """Its `Learning`."""
+        if self.credit == "step":
+            return Learning(self.learning_rate, self.discount, update_on="step", terminal=self.terminal)
+        memory = self.memory / CELLS_A_SECOND if self.memory_unit == "seconds" else self.memory
+        return Learning(self.learning_rate, self.discount, credit=self.credit, absent_decay=self.absent_decay,
+                        absent_form=self.absent_form, terminal=self.terminal, memory=memory,
+                        memory_unit=self.memory_unit, memory_value=self.memory_value, activity=self.activity,
+                        bootstrap=self.bootstrap, causes=self.causes, capture=self.capture, attention=self.attention)
+
+    @property
+    def agents(self):
+        """The makers' arguments that all its agents share."""
+        policy = Policy(self.exploration, self.when_indifferent if self.exploration else "random")
+        return {"learning": self.learning, "policy": policy, "own_cell": self.own_cell, "tiled_fraction": self.tiled_fraction,
+                "object_tiled_fraction": self.object_tiled_fraction, "weighting": self.weighting}
+
+    @property
+    def place_agents(self):
+        """The same for agents of place cells alone, whatever the reading makes of things."""
+        learning = replace(self.learning, causes=Learning.causes, capture=Learning.capture,
+                           attention=Learning.attention)
+        return {**self.agents, "learning": learning, "object_tiled_fraction": papers.TILED_FRACTION}
+
+
+def conditions(reading, steps, runs, seed=0, groups=tuple(GROUPS)):
+    """The conditions of the papers under a reading: {key: `Condition`}.
+
+    steps: of a run at 50 steps a second, but no more than the paper's; papers B and C live the same simulated time at
+    any rate. For B4 agents live 16 times as long, half as many runs and at least two, unless paper B's are as long.
+    Brownian motion with 8 creeps always lives as long as in paper A, where it meets with no reset.
+    groups: names in `GROUPS`, which holds the keys of each.
+    Raises ValueError for anything else.
+    """
+    wanted = [key for group in checks.several("groups", groups)
+              for key in GROUPS[checks.one_of("groups", group, tuple(GROUPS))]]
+    made = _all_conditions(reading, steps, runs, seed)
+    return {key: made[key] for key in wanted}
+
+
+def _all_conditions(reading, steps, runs, seed):
+    eight, three = (WaterWorld(n_creeps=n, win_reward=win, fps=reading.fps, contact=reading.contact)
+                    for n, win in ((8, 5.0), (3, 0.0)))
+    each, of_places = reading.agents, reading.place_agents
+
+    def living(agent, paper, length=steps, runs=runs):
+        world, length = (eight if paper == "A" else three), min(length, LENGTHS[paper])
+        length = length if paper == "A" else max(1, round(length * reading.fps / PAPER_FPS))
+        return Condition(agent, world, length, runs, seed)
+
+    made = {("brownian", 8): living(papers.brownian(), "A", LENGTHS["A"], CONTROLS * runs),
+            ("brownian", 3): living(papers.brownian(), "B", runs=CONTROLS * runs)}
+    made |= {("layer", n): living(papers.place_cells([n], **of_places), "A") for n in LAYERS}
+    made["layers"] = living(papers.place_cells(LAYERS, **of_places), "A")
+    made |= {("single", n): living(papers.place_cells([n], **of_places), "A") for n in SINGLE}
+    for name, chosen in {**{n: [n] for n in PRIMES}, "all": PRIMES}.items():
+        made["place", name] = living(papers.place_cells(chosen, **of_places), "B")
+        made["objects", name] = living(papers.object_vector_cells(chosen, **each), "B")
+    both = papers.multimodal(PRIMES, place_gain=reading.place_gain, **each)
+    made["both"] = living(both, "B")
+    longer = {"length": LONGER * steps, "runs": max(2, runs // 2)} if steps < LENGTHS["B"] else {}
+    made |= {("pace", name): living(agent, "B", **longer) for name, agent in
+             (("place", made["place", "all"].agent), ("objects", made["objects", "all"].agent), ("both", both))}
+    made |= {("network", name): living(agent, "C") for name, agent in networks(reading).items()}
+    wanting = replace(both, desires=[replace(desire, valence=1.0) for desire in both.desires])
+    made["revalued"] = replace(made["both"], changes=((made["both"].steps // 2, wanting),))
+    return made
+
+
+def networks(reading):
+    """Networks A to D of paper C under a reading: {name: `Agent`}."""
+    shared = {"resolutions": reading.network_resolutions, "scale": reading.scale,
+              "signed": reading.vectors == "signed", **reading.agents}
+    adding = {"place_gain": reading.network_gain, **shared}
+    made = {"A": papers.network_a(**shared), "B": papers.network_b(**shared), "C": papers.network_c(**adding),
+            "D": papers.network_d(recursion=reading.recursion, **adding)}
+    if reading.vectors == "incoming":
+        *others, recurring = made["D"].desires
+        made["D"] = replace(made["D"], desires=[*others, replace(recurring, of=("PC",), signed=True)])
+    return made
+
+
+def judge(results):
+    """The claims that results of a reading's conditions suffice for: {name of the claim: `Claim`}.
+
+    results: {key: `Result`}, of all groups or of some.
+    """
+    by = {name: {key[1]: result for key, result in results.items() if key[0] == name}
+          for name in ("brownian", "layer", "single", "place", "objects", "pace", "network")}
+
+    def complete(*groups):
+        return all(key in results for group in groups for key in GROUPS[group])
+
+    judged = []
+    if complete("single"):
+        judged += claims.judge_single_layer(by["single"], by["brownian"][8])
+    if complete("layers"):
+        judged += claims.judge_multiple_layers(by["layer"], results["layers"], by["brownian"][8])
+    if complete("modal"):
+        judged += claims.judge_modalities(by["place"]["all"], by["objects"]["all"], results["both"], by["brownian"][3])
+    if complete("modal", "resolutions"):
+        judged += [claims.judge_resolutions(by["place"], by["objects"], by["brownian"][3])]
+    if complete("pace"):
+        judged += [claims.judge_pace(**by["pace"], brownian=by["brownian"][3])]
+    if complete("networks"):
+        judged += claims.judge_networks(*(by["network"][name] for name in "ABCD"), by["brownian"][3])
+    if complete("revaluing"):
+        judged += [claims.judge_changes(results["revalued"])]
+    if complete("layers", "modal", "resolutions"):
+        judged += [claims.judge_more_maps(additions(results))]
+    return {claim.name: claim for claim in judged}
+
+
+def additions(results):
+    """What `judge_more_maps` compares: {what is added: (with more maps, each with fewer, Brownian motion there)}.
+
+    results: {key: `Result`}, of the groups "layers", "modal" and "resolutions" or more.
+    """
+    eight, three = results["brownian", 8], results["brownian", 3]
+    place, objects = results["place", "all"], results["objects", "all"]
+    return {"resolutions of place, paper A": (results["layers"], [results["layer", n] for n in LAYERS], eight),
+            "resolutions of place": (place, [results["place", n] for n in PRIMES], three),
+            "resolutions of object vectors": (objects, [results["objects", n] for n in PRIMES], three),
+            "a modality": (results["both"], [place, objects], three)}

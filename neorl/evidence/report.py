@@ -1,0 +1,197 @@
+"""What was found about the claims, as pages report it: tables in Markdown, and the record that a page leaves on disk.
+
+A record is JSON, one file a page, in the folder ``claims`` of the store. It has the claims that the page has judged
+under the book's reading ("claims") and under the reading to the letter ("letter"), or, from the chapter on assumptions,
+the shares of readings within the text under which claims hold ("shares"). The page of all claims is made of records.
+"""
+
+import json
+
+import numpy as np
+
+from neorl.evidence.errata import ERRATA
+from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
+from neorl.evidence.statistics import Estimate
+from neorl.evidence.verdict import VERDICTS
+from neorl.experiments.cache import folder, source_digest, write_whole
+
+SIGNS = dict(zip(VERDICTS, "●◐○––"))
+OPEN, NOT_COMPUTED = "open", "not computed in this build"
+LETTER, CALIBRATED = "to the letter", "calibrated"  # names of readings
+HEADER = "| Claim | Thesis | To the letter | Calibrated | Verdict | Share within the text |\n|---|---|---|---|---|---|"
+PARTS = ("claims", "letter", "shares")  # of a record
+
+
+def table(claims, letter=(), shares=None):
+    """Claims as a Markdown table, and below it what each verdict rests on.
+
+    claims: of `Claim`, under the book's reading. letter: the same, under that to the letter. shares: as in `store`.
+    """
+    record = {"claims": _kept(claims), "letter": _kept(letter), "shares": shares or {}}
+    names = [claim.name for claim in claims]
+    return "\n".join([HEADER, *(_row(record, name) for name in names), "", *_evidence(record, names)])
+
+
+def comparison(judged):
+    """Verdicts under several readings as a Markdown table, `LETTER` first: judged {reading: [Claim, …]}."""
+    names = sorted({claim.name for claims in judged.values() for claim in claims})
+    rows = ["| Reading | " + " | ".join(names) + " |", "|---" * (len(names) + 1) + "|"]
+    for reading in _in_order(judged):
+        cells = {claim.name: f"{SIGNS[claim.verdict]}\u00a0{claim.here.value:z.2f}" for claim in judged[reading]}
+        rows.append(f"| {reading} | " + " | ".join(cells.get(name, "") for name in names).replace("-", "−") + " |")
+    return "\n".join(rows)
+
+
+def summary(judged):
+    """Where each claim is reproduced, and which readings come closest, in Markdown: judged {reading: [Claim, …]}.
+
+    Demonstrations are not counted.
+    """
+    by_reading = {reading: {claim.name: claim.verdict for claim in judged[reading] if claim.name in CLAIMS}
+                  for reading in _in_order(judged)}
+    if any("no verdict" in verdicts.values() for verdicts in by_reading.values()):
+        return "With so few runs there is nothing to sum up."
+    lines = ["Each claim, and where it is reproduced:", ""]
+    for name in dict.fromkeys(name for verdicts in by_reading.values() for name in verdicts):
+        where = [reading for reading, verdicts in by_reading.items() if verdicts.get(name) == "reproduced"]
+        lines.append(f"- **{name}** {STATEMENTS[name].text}: *{'; '.join(where) or 'none of these readings'}*.")
+    score = {reading: tuple([*verdicts.values()].count(kind) for kind in ("reproduced", "partly"))
+             for reading, verdicts in by_reading.items()}
+    closest = [reading for reading in score if score[reading] == max(score.values())]
+    told = "Closest to the thesis comes *{}*: {} of its claims are reproduced and {} partly.".format(
+        "*, *".join(closest), *max(score.values()))
+    told += "".join(f" In the reading *{reading}* they are {score[reading][0]} and {score[reading][1]}."
+                    for reading in (LETTER, CALIBRATED) if reading in score and reading not in closest)
+    return "\n".join([*lines, "", told])
+
+
+def errata():
+    """The errata of the source as a Markdown table."""
+    rows = ["| Where | The thesis says | Right is |", "|---|---|---|"]
+    return "\n".join([*rows, *(f"| {each.place} | {each.says} | {each.right} |" for each in ERRATA)])
+
+
+def store(page, claims=(), shares=None, letter=()):
+    """Keep what a page has found as JSON, with the digest of the source that it was computed with.
+
+    claims, letter: of `Claim`, under the book's reading and under the reading to the letter. shares: {name of a claim:
+    {"holds", "undecided", "readings"}}, counts of readings within the text in short runs, with "agrees" and "measured"
+    where there are counts at the papers' lengths too. A bound that does not exist, as with a single run, is null.
+    """
+    content = {"page": page, "source": source_digest(), "claims": _kept(claims), "letter": _kept(letter),
+               "shares": shares or {}}
+    write_whole(folder() / "claims" / f"{page}.json", json.dumps(content, indent=1, allow_nan=False).encode())
+
+
+def read(paths=None):
+    """The records in JSON files, as one: {"claims": {name: …}, "letter": …, "shares": …}. By default all kept."""
+    paths = sorted((folder() / "claims").glob("*.json")) if paths is None else paths
+    records = [json.loads(path.read_text(encoding="utf-8")) for path in paths]
+    return {part: {name: found for record in records for name, found in record.get(part, {}).items()}
+            for part in PARTS}
+
+
+def number(found):
+    """Our number for a claim, with its interval, as text. found: a claim of a record."""
+    return str(Estimate(*(np.nan if each is None else each for each in found["here"])))
+
+
+def verdict(record, name):
+    """What became of a claim under the book's reading: a verdict, or that it is open, or not computed."""
+    if not STATEMENTS[name].rule:
+        return OPEN
+    return record["claims"].get(name, {"verdict": NOT_COMPUTED})["verdict"]
+
+
+def tally(record):
+    """How many claims have each verdict, {verdict: count}, the open ones and those not computed among them."""
+    found = [verdict(record, name) for name in CLAIMS]
+    return {each: found.count(each) for each in (*VERDICTS, OPEN, NOT_COMPUTED) if each in found}
+
+
+def standing(record, names):
+    """What became of some claims, in Markdown: a line for each verdict. record: as `read` has it."""
+    lines = []
+    for each in (*VERDICTS, OPEN, NOT_COMPUTED):
+        found = [f"{STATEMENTS[name].text} ({name})" for name in names if verdict(record, name) == each]
+        if found:
+            lines.append(f"- *{each.capitalize()}*: {'; '.join(found)}.")
+    return "\n".join(lines)
+
+
+def extract(record, names):
+    """Some claims of a record, as `read` has it, as a Markdown table."""
+    return "\n".join([HEADER, *(_row(record, name) for name in names)])
+
+
+def page(record):
+    """The tables of all claims and demonstrations for the book, and what each verdict rests on, in MyST Markdown."""
+    names = [*CLAIMS, *DEMONSTRATIONS]
+    claims, demonstrations = ([_row(record, name, links=True) for name in some] for some in (CLAIMS, DEMONSTRATIONS))
+    return "\n".join([HEADER, *claims, "", "## Beside the claims: a demonstration", "", HEADER, *demonstrations, "",
+                      "## What each verdict rests on", "", *_evidence(record, names)]) + "\n"
+
+
+def in_short(record):
+    """The same tables, in plain Markdown and without what verdicts rest on."""
+    claims, demonstrations = ([_row(record, name) for name in some] for some in (CLAIMS, DEMONSTRATIONS))
+    beside = ["", "Beside the claims stands a demonstration:", "", HEADER, *demonstrations]
+    return "\n".join([HEADER, *claims, *beside]) + "\n"
+
+
+def label(rule):
+    """The label under which the book shows the code of a rule."""
+    return f"rule-{rule.replace('_', '-')}"
+
+
+def _in_order(judged):
+    return [reading for reading in dict.fromkeys([LETTER, CALIBRATED, *judged]) if reading in judged]
+
+
+def _kept(claims):
+    return {claim.name: {"here": [float(each) if np.isfinite(each) else None for each in claim.here],
+                         "runs": claim.runs, "verdict": claim.verdict, "detail": claim.detail} for claim in claims}
+
+
+def _row(record, name, links=False):
+    statement, found = STATEMENTS[name], record["claims"].get(name)
+    cells = [f"**{name}** {statement.text}", statement.thesis, *(_marked(record[part].get(name))
+                                                                 for part in ("letter", "claims")),
+             verdict(record, name), _share(record["shares"].get(name))]
+    if links and found:
+        cells[4] += f" ({{ref}}`figure <{statement.figure}>`, {{ref}}`rule <{label(statement.rule)}>`)"
+    return f"| {' | '.join(cells)} |"
+
+
+def _marked(found):
+    return f"{SIGNS[found['verdict']]}\u00a0{number(found)}" if found else ""
+
+
+def _share(share):
+    if not share:
+        return ""
+    total = share["readings"]
+    short = f"short runs: {_percent(share['holds'], total)} of {total}"
+    if share["undecided"]:
+        short += f", {_percent(share['undecided'], total)} undecided"
+    if not share.get("measured"):
+        return short
+    return f"{_percent(share['agrees'], share['measured'])} of {share['measured']}; {short}"
+
+
+def _percent(count, total):
+    return f"{100 * count / total:.0f}\u00a0%"
+
+
+def _evidence(record, names):
+    """A line of a list for each claim: the sentence that is judged, what was measured, and what was found."""
+    lines = []
+    for name in names:
+        statement = STATEMENTS[name]
+        line = f"- **{name}** “{statement.quotation}” ({statement.place}) *{statement.statistic}*."
+        for part, reading in (("claims", "Here"), ("letter", "To the letter")):
+            found = record[part].get(name)
+            if found:
+                line += f" {reading}: {number(found)}, {found['runs']} runs. {found['detail']}"
+        lines.append(line if statement.rule else f"{line} Open: there is no rule yet that could judge it.")
+    return lines

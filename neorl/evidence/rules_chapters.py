@@ -1,0 +1,200 @@
+"""The rules by which the claims of the chapters, and the demonstration beside them, are decided.
+
+`neorl.evidence.verdict` says what a verdict is.
+"""
+
+import numpy as np
+
+from neorl.evidence.statistics import RECENT, difference, estimate, minutes_sooner, quotient, ratio
+from neorl.evidence.verdict import AFTER_TURN, BEFORE_TURN, FINAL, fewest_runs, judged, lead_over_brownian, learned
+
+FAILS = 0.1  # of what the agent that learns by persistence has gained
+
+
+def judge_changes(revalued, moved=None):
+    """Claim T1 about revaluing, and on its page also moving, against what the same agents do later.
+
+    revalued: the `Result` of agents that want red creeps too, from half-time on.
+    moved: mean distances, in board widths, to a place that is wanted, in the time after each of its moves between two
+        points: {"experienced": (runs, moves), "ignorant": (runs, moves)}, an even number of moves, 4 or more, of agents
+        that have lived among creeps and of agents that have not. Readings are judged without, by revaluing alone.
+    """
+    before, after, later = (_red_a_minute(revalued, *share) for share in (BEFORE_TURN, AFTER_TURN, FINAL))
+    kept, turn = estimate(ratio, after, later), estimate(difference, after, before)
+    settled = estimate(difference, later, before)
+    whole, room = [turn.low > 0 and kept.low >= 0.8], [turn.high > 0 and kept.high >= 0.8]
+    detail = (f"A minute, {estimate(np.mean, before)} before the turn, {estimate(np.mean, after)} after it and "
+              f"{estimate(np.mean, later)} finally. At once is read as four fifths of the later level.")
+    if moved:
+        first, others = moved["experienced"][:, :2].mean(axis=1), moved["experienced"][:, 2:].mean(axis=1)
+        near = estimate(ratio, others, first)
+        known = estimate(difference, moved["ignorant"][:, :2].mean(axis=1), first)
+        whole.append(near.low >= 0.8 and known.low > 0)
+        room.append(near.high >= 0.8 and known.high > 0)
+        detail += (f" After later moves of a place the distance is {near} times that after the first two, and after "
+                   f"these it is {known} smaller than for agents that have learned nothing.")
+    return judged("T1", kept, detail, revalued.runs, reproduced=all(whole), partly=turn.low > 0 or any(whole),
+                  possible=all(room), testable=settled.low > 0)
+
+
+def judge_cost(together, alone, none):
+    """Claim T2, from what an agent's maps cost together and each alone; each (repetitions,), in the same unit a step.
+
+    together: with all maps. alone: a sequence, with each map alone. none: without any.
+    """
+    cost = estimate(_cost_ratio, together, none, *alone)
+    return judged("T2", cost, "The rule allows a tenth more.", len(together), reproduced=cost.high <= 1.1,
+                  partly=False, possible=cost.low <= 1.1)
+
+
+def judge_temporality(whole, short):
+    """Claim T3, from what agents lose that remember a step less than the process does
+    (`neorl.chapters.chapter_3.temporality`).
+
+    whole, short: {name of a process: what agents earn above chance, (runs,)}, of agents that remember all L steps, and
+    of agents that remember one step less.
+    """
+    loss = {name: estimate(_loss, whole[name], short[name]) for name in whole}
+    least = min(loss, key=lambda name: loss[name].value)
+    found = "; ".join(f"{lost} with “{name}”" for name, lost in loss.items())
+    needed = [lost.low >= 0.1 for lost in loss.values()]
+    return judged("T3", loss[least], f"It is {found}. All L steps are needed if a tenth or more is lost "
+                  "in every process.",
+                  min(map(len, (*whole.values(), *short.values()))), reproduced=all(needed), partly=any(needed),
+                  possible=all(lost.high >= 0.1 for lost in loss.values()),
+                  testable=all(estimate(np.mean, each).low > 0 for each in whole.values()))
+
+
+def judge_tables(states, values, entries, filled):
+    """Claim T4, from the tables of learners in processes of many sizes.
+
+    states: S of each process, (sizes,). values, entries, filled: how many action values each learner has, how many
+    entries its model of the transitions has, and how many of these are not 0; each (runs, sizes).
+    """
+    value, entry, full = (estimate(np.mean, _powers(np.log(states), np.log(table)))
+                          for table in (values, entries, filled))
+    fits = [abs(value.value - 1) <= 0.1, abs(entry.value - 2) <= 0.1]
+    return judged("T4", entry, f"The values of Q-learning grow by the power {value}, and the entries of the model "
+                  f"that differ from 0 by {full}. The rule allows 0.1 more or less.", len(values),
+                  reproduced=all(fits), partly=any(fits), possible=False)
+
+
+def judge_real_time(load, delay):
+    """Claim T5, from the load of each window of a run in real time, in cores, and when each step was done.
+
+    load: (windows,). delay: (windows, steps), the time from when a step was due until it was done, in steps.
+    """
+    share, latest = estimate(np.mean, load), delay.max()
+    return judged("T5", share, f"Of {delay.size} steps, {(delay > 1).sum()} were not done when the next one was due; "
+                  f"the latest was done {latest:.2f} steps after it was due. The rule allows 2.", len(load),
+                  reproduced=share.high < 1 and latest <= 2, partly=share.high < 1, possible=share.low < 1)
+
+
+def judge_more_maps(additions):
+    """Claim T6, from agents with more maps against agents with some of these.
+
+    additions: {what is added: (more, fewer, brownian)}. more: the `Result` of the agent with more maps. fewer: a
+    sequence, of the agents with fewer, in runs of the same length. brownian: Brownian motion on the same board.
+    """
+    sooner, room, testable = {}, {}, []
+    for name, (more, fewer, brownian) in additions.items():
+        sooner[name] = sooner_with_more(more, fewer)
+        room[name] = RECENT * more.seconds / 60
+        if any(learned(result, brownian) for result in fewer):
+            testable.append(name)
+    counted = testable or list(additions)
+    least = min(counted, key=lambda name: sooner[name].value)
+    as_soon = [sooner[name].low >= -room[name] for name in counted]
+    found = "; ".join(f"{sooner[name]} by {name}" for name in counted)
+    return judged("T6", sooner[least], f"It is {found}, to half the final level of the best agent with fewer maps, "
+                  "over the quickest. As soon is read as at most a fortieth of the run later.",
+                  min(fewest_runs(more, *fewer) for more, fewer, _ in additions.values()),
+                  reproduced=all(as_soon), partly=any(as_soon),
+                  possible=all(sooner[name].high >= -room[name] for name in counted), testable=bool(testable))
+
+
+def sooner_with_more(more, fewer):
+    """By how many minutes agents with more maps earn half the final level of the best with fewer sooner than all these.
+
+    more: a `Result`. fewer: a sequence. Returns an `Estimate`.
+    """
+    level = 0.5 * max(result.rate(*FINAL).mean() for result in fewer)
+    return min((minutes_sooner(more, result, level) for result in fewer), key=lambda lead: lead.value)
+
+
+def judge_persistence(persistent, per_step, brownian):
+    """Claim T7, from `Result`s on one board.
+
+    persistent: agents that learn by changes of cell. per_step: {discount: agents that learn at every step}, otherwise
+    the same; the best one counts. brownian: Brownian motion.
+    """
+    best = max(per_step, key=lambda name: per_step[name].rate(*FINAL).mean())
+    step, cell, chance = per_step[best].rate(*FINAL), persistent.rate(*FINAL), brownian.rate()
+    share = estimate(_share_of_lead, step, cell, chance)
+    lead = estimate(difference, cell, step)
+    return judged("T7", share, f"Learning at every step does best with {best}, and leads Brownian motion by "
+                  f"{lead_over_brownian(per_step[best], brownian)}; by changes of cell agents earn {lead} more than "
+                  "that. Learning fails if it gains less than a tenth.", fewest_runs(persistent, *per_step.values()),
+                  reproduced=share.high < FAILS, partly=lead.low > 0, possible=share.low < FAILS,
+                  testable=learned(persistent, brownian))
+
+
+def judge_time_scale(resolutions, stays):
+    """Claim T8, from how long agents stay in the cells of maps of several resolutions.
+
+    resolutions: N of each map, (maps,). stays: the mean time from one change of cell to the next, (runs, maps).
+    """
+    order = np.argsort(resolutions)[::-1]
+    width, time = -np.log(np.asarray(resolutions, float)[order]), np.log(stays)[:, order]
+    power = estimate(np.mean, _powers(width, time))
+    longer = [estimate(np.mean, each) for each in np.diff(time, axis=1).T]
+    return judged("T8", power, "1 is in proportion, and the rule asks for more than 0.5, and for a longer stay in "
+                  "every coarser map.", len(stays),
+                  reproduced=power.low > 0.5 and all(each.low > 0 for each in longer), partly=power.low > 0,
+                  possible=power.high > 0.5 and all(each.high > 0 for each in longer))
+
+
+def judge_latent_learning(agent, rivals, first_reward=11):
+    """Demonstration H1, from what {group: record} of animals did, each record with ``errors`` (animals, days).
+
+    agent: of neoRL, for the groups "throughout", "never" and "delayed", which is rewarded from day ``first_reward`` on.
+    rivals: {name: the same} of others, which are reported and not judged.
+    """
+    runs = min(len(record.errors) for record in agent.values())
+    after, next_day = slice(first_reward, None), slice(first_reward, first_reward + 1)
+    lead = _more_errors(agent, "delayed", "throughout", after)
+    at_once = _more_errors(agent, "delayed", "throughout", next_day)
+    worth = _more_errors(agent, "never", "throughout", after)
+    others = "; ".join(f"{name} {_more_errors(groups, 'delayed', 'throughout', after)}"
+                       for name, groups in rivals.items())
+    return judged("H1", lead, f"On the day after the first reward it is {at_once}. Level is read as within a tenth of "
+                  f"what reward makes of a difference, {worth.value:.2f}. With other learners it is: {others}.", runs,
+                  reproduced=lead.high < 0, partly=max(lead.high, at_once.high) <= 0.1 * worth.value,
+                  possible=lead.low < 0, testable=worth.low > 0)
+
+
+def _red_a_minute(result, begin, end):
+    return 60 * result.hit_rate(begin, end)[:, 1]
+
+
+def _powers(xs, ys):
+    """The slope of each row of ys over xs."""
+    return np.polyfit(xs, np.asarray(ys).T, 1)[0]
+
+
+def _loss(whole, short, axis):
+    return 1 - ratio(short, whole, axis)
+
+
+def _share_of_lead(step, cell, chance, axis):
+    base = chance.mean(axis)
+    return quotient(step.mean(axis) - base, cell.mean(axis) - base)
+
+
+def _more_errors(groups, more, less, days):
+    return estimate(difference, *(groups[group].errors[:, days].mean(axis=1) for group in (more, less)))
+
+
+def _cost_ratio(together, none, *alone, axis):
+    base = np.median(none, axis)
+    return (np.median(together, axis) - base) / sum(np.median(each, axis) - base for each in alone)

@@ -1,0 +1,228 @@
+"""What the thesis claims: each claim, where it stands, the sentence that is judged, and the thesis's own number.
+
+Nothing here is computed. `neorl.evidence.claims` judges the claims, `neorl.evidence.report` reports what was found, and
+`neorl.evidence.errata` lists what the source gets wrong. Quotations are of the thesis (Leikanger 2022), shortened where
+it says "…".
+"""
+
+from typing import NamedTuple
+
+
+class Statement(NamedTuple):
+    """One claim, as it is put before any result."""
+
+    place: str  # in the thesis, of the quotation
+    quotation: str  # the words that the rule judges
+    text: str  # the claim in our words
+    statistic: str
+    thesis: str  # its number
+    figure: str = ""  # the label of the figure of this book that shows it
+    rule: str = ""  # the function of `neorl.evidence.claims` that judges it; a claim without one is open
+    borders: tuple[float, ...] = (0.0,)  # where the rule divides our number
+    demonstration: bool = False  # shown beside the claims, and not counted among them
+
+
+ONE_MAP, MAPS = "paper A, Results, Single layer", "paper A, Results, Multiple resolutions"
+GENERAL, BOTH = "paper B, section 3.1", "paper B, section 3.2"
+NETWORKS = "paper C, section 3"
+
+STATEMENTS = {
+    "A1": Statement(
+        ONE_MAP,
+        "Brownian motion seems incapable of achieving a single board reset since the accumulated score fluctuates "
+        "around 0 for the length of the experiment.",
+        "Brownian motion scores about 0 and never resets the board",
+        "Board resets of the control in 150,000 steps",
+        "0", "fig-accumulated", "judge_single_layer", (1.0,)),
+    "A2": Statement(
+        ONE_MAP,
+        "All neoRL agents perform better than control.",
+        "Every single resolution beats Brownian motion",
+        "Smallest lead over the control in reward per second",
+        "> 0", "fig-accumulated", "judge_single_layer"),
+    "A3": Statement(
+        ONE_MAP,
+        "Agents based on lower NRES resolution initially learn quicker … However, neoRL agents based on lower NRES "
+        "resolutions seem to saturate at a lower proficiency.",
+        "Coarse maps learn faster at first and saturate lower",
+        "Rank correlation of N with the final reward per second",
+        "> 0, and < 0 early", "fig-accumulated", "judge_single_layer"),
+    "A4": Statement(
+        ONE_MAP,
+        "For these particular runs, with 8 creeps and during a 150,000 time step interval, the N50 representation "
+        "appears to achieve the highest score.",
+        "N50 accumulates most in 150,000 steps",
+        "Lead of N50 over the best other in reward per second",
+        "> 0", "fig-accumulated", "judge_single_layer"),
+    "A5": Statement(
+        ONE_MAP,
+        "it is worth noting how all neoRL agents are comparable in learning speed.",
+        "All single resolutions learn about as fast, N70 with 49 times the states of N10",
+        "Least reward that a resolution accumulates, divided by the greatest",
+        "comparable", "fig-accumulated", "judge_single_layer", (0.5,)),
+    "A6": Statement(
+        MAPS,
+        "the multi-res neoRL agent learns quicker, to higher proficiency, than the sum of its parts.",
+        "3, 7 and 23 together learn quicker and earn more than the sum of the three alone",
+        "Final reward per second together, less the sum of the three alone",
+        "> 0", "fig-proficiency", "judge_multiple_layers"),
+    "A7": Statement(
+        MAPS,
+        "The almost 6-fold increase in the number of states … resulted in a 3.5-factor increase in received reward "
+        "without increasing training time.",
+        "Together they earn 3.5 times as much as N7, and learn at least as fast",
+        "Final reward per second together, divided by that of N7",
+        "3.5", "fig-proficiency", "judge_multiple_layers", (2.5, 5.0)),
+    "A8": Statement(
+        "section 4.3.1",
+        "The multi-resolution neoRL agent across multiple NRES sets performed better than single-resolution neoRL "
+        "agents on all accounts such that the agent learned quicker and attained higher proficiency",
+        "Several resolutions learn quicker, and earn more, than each of them alone",
+        "Smallest number of minutes by which 3, 7 and 23 together are sooner at half the final level of the best alone",
+        "> 0", "fig-proficiency", "judge_multiple_layers"),
+    "B1": Statement(
+        GENERAL,
+        "There is no loss in sample efficiency when utilizing the OVC modality compared to PC modality.",
+        "Object-vector agents match place-cell agents",
+        "Final reward per second of object-vector cells, divided by that of place cells",
+        "comparable", "fig-modal", "judge_modalities", (0.8, 1.25)),
+    "B2": Statement(
+        GENERAL,
+        "The multi-res neoRL agent performs better than mono-res neoRL agents for both the PC and the OVC modality.",
+        "Several resolutions beat each one, in both modalities",
+        "Lead of all maps over the best single one in final reward per second, in the modality where it is less",
+        "> 0", "fig-place", "judge_resolutions"),
+    "B3": Statement(
+        BOTH,
+        "The final proficiency of the multi-modal neoRL agent approaches 0.55 [R/s] while the PC neoRL agent barely "
+        "reaches 0.29 [R/s].",
+        "Both modalities earn 0.55 per second, place cells alone 0.29",
+        "Final reward per second of both modalities",
+        "0.55, and 0.29 of place cells", "fig-modal", "judge_modalities", (0.44, 0.69)),
+    "B4": Statement(
+        BOTH,
+        "The multi-modal neoRL agent reaches final proficiency after 15 min, whereas the PC neoRL agent uses more "
+        "than 160 min.",
+        "Both reach their final level after 15 minutes, place cells after more than 160",
+        "Simulated minutes that both take",
+        "15", "fig-modal", "judge_pace", (30.0,)),
+    "B5": Statement(
+        "paper B, section 3",
+        "the agent must catch the last green in a board full of red before the board can be reset and continue beyond "
+        "(on average) 1.5 points per reset.",
+        "A board of three brings 1.5 points until it is reset",
+        "Green creeps less red ones, taken from one reset to the next",
+        "1.5", "fig-points", "judge_points", (1.35, 1.65)),
+    "B6": Statement(
+        "paper B, section 4",
+        "neoRL navigation learns quicker, to higher proficiency, when more information is available to an agent.",
+        "Agents with both modalities learn quicker, and earn more, than with either",
+        "Smallest number of minutes by which both are sooner at half the final level of the better one alone",
+        "> 0", "fig-modal", "judge_modalities"),
+    "B7": Statement(
+        "chapter 5, on paper B",
+        "The neoRL framework is general across NRES modalities, compositional and incremental by additional neoRL "
+        "modules",
+        "A modality that joins half-way helps, and costs nothing that was learned",
+        "Final lead in reward per second over agents that it does not join",
+        "> 0", "fig-joining", "judge_joining"),
+    "C1": Statement(
+        NETWORKS,
+        "The neoRL network from illustration 4a improves navigational proficiency over time; however … a single "
+        "desire vector … becomes too simple for proficient navigation.",
+        "Network A improves over time but stays weak",
+        "Final reward per second of A, less its early one",
+        "> 0", "fig-proficiency-networks", "judge_networks"),
+    "C2": Statement(
+        NETWORKS,
+        "Experiment b demonstrates the effect of separating desires according to valence, resulting in the increased "
+        "performance by the neoRL navigational agent.",
+        "A desire for each colour (B) beats one for all (A)",
+        "Lead of B over A in final reward per second",
+        "> 0", "fig-proficiency-networks", "judge_networks"),
+    "C3": Statement(
+        NETWORKS,
+        "Agents extracting purpose from multiple depths of the neoRL network, as illustrated in 4c, becomes better "
+        "navigators than more superficial agents.",
+        "Values from both nodes (C) beat those of the last one (A, B)",
+        "Lead of C over the better of A and B in final reward per second",
+        "> 0", "fig-proficiency-networks", "judge_networks"),
+    "C4": Statement(
+        NETWORKS,
+        "recursive desires drastically improve the agent's navigational proficiency.",
+        "Recursion (D) improves on C drastically",
+        "Final reward per second of D, divided by that of C",
+        "≫ 1", "fig-proficiency-networks", "judge_networks", (1.5,)),
+    "C5": Statement(
+        NETWORKS,
+        "any attempt on finding RL or AI solutions capable of allocentric Euclidean navigation in real-time has "
+        "failed.",
+        "No other method of reinforcement learning or AI navigates this board in real time",
+        "Final reward per second of the best alternative, divided by that of the thesis's best agent",
+        "none succeeds"),
+    "T1": Statement(
+        "paper A, The Control Problem by Superposition",
+        "In the neoRL approach, moving rewards or changing agent priorities during an agent's life-time does not "
+        "require retraining the agent.",
+        "Moving or revaluing elements needs no retraining",
+        "Red creeps a minute in the fortieth of the run after they come to be wanted, divided by those that the same "
+        "agents take finally",
+        "1", "fig-revalued", "judge_changes", (0.8,)),
+    "T2": Statement(
+        "section 4.4",
+        "Assessing additional NRES maps in the same agent … only results in a linear increase in computation.",
+        "Cost grows linearly with maps",
+        "What all maps cost together, divided by the sum of what each costs alone",
+        "1", "fig-cost", "judge_cost", (1.1,)),
+    "T3": Statement(
+        "section 3.4.2, observation 1",
+        "Let a temporal mechanism require knowledge about system states at L separate time steps … The full set of "
+        "Markov states required to represent the temporal dynamics becomes O(Ψ^L)",
+        "The states that a Markov process needs grow exponentially with the steps that matter: none of them can be "
+        "spared",
+        "Share of its reward above chance that an agent loses by remembering one step less, where it is least",
+        "> 0", "fig-3-window", "judge_temporality", (0.1,)),
+    "T4": Statement(
+        "section 3.1",
+        "Learning the full transition model increases the task according to |S|²·|A|, while Q-learning only requires "
+        "the value for each state-action pairs, |S|·|A|.",
+        "Q-learning learns S·A values where a model of the transitions has S²·A",
+        "Power of S by which the entries of the model grow",
+        "2, and 1 for Q-learning", "fig-3-tables", "judge_tables", (1.9, 2.1)),
+    "T5": Statement(
+        "paper B, section 3",
+        "All execution runs smoothly on a single CPU core",
+        "One core keeps up with real time",
+        "Share of a core at 50 steps a second",
+        "< 1", "fig-4-realtime", "judge_real_time", (1.0,)),
+    "T6": Statement(
+        "section 4.4",
+        "Assessing additional NRES maps in the same agent improves navigational capabilities significantly, does not "
+        "degrade learning performance",
+        "More maps never slow learning",
+        "Smallest number of minutes by which agents with more maps are sooner at half the final level of the best "
+        "agent with fewer",
+        "≥ 0", "fig-more-maps", "judge_more_maps"),
+    "T7": Statement(
+        "chapter 4, introduction",
+        "following a school other than temporal-difference learning is required for neoRL.",
+        "Persistence is needed: learning at every step fails",
+        "What learning at every step gains over Brownian motion, divided by what learning at changes of cell gains",
+        "0", "fig-persistence", "judge_persistence", (0.1,)),
+    "T8": Statement(
+        "section 4.4",
+        "the direct relation between larger receptive fields and a slower time scale is prominent.",
+        "Larger receptive fields go with a slower time scale",
+        "Power of the width of a field by which the stay in it grows",
+        "direct relation", "fig-time-scale", "judge_time_scale", (0.5,)),
+    "H1": Statement(
+        "section 2.1.2, on figure 2.2",
+        "When later motivated by food, however, the rats in the initially unrewarded group started to perform better "
+        "than all other subjects.",
+        "Latent learning: animals rewarded from day 11 on overtake those rewarded throughout",
+        "Errors a day after the first reward, less those of animals rewarded throughout",
+        "fewer", "fig-2-errors", "judge_latent_learning", demonstration=True),
+}
+
+CLAIMS = tuple(name for name, statement in STATEMENTS.items() if not statement.demonstration)
+DEMONSTRATIONS = tuple(name for name, statement in STATEMENTS.items() if statement.demonstration)

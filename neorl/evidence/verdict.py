@@ -1,0 +1,65 @@
+"""What a verdict is: a claim of the thesis, our number for it, and what the rule of the claim makes of the number.
+
+1. A verdict is *reproduced*, *partly* or *not reproduced*, by a rule that stands in the code, was written down before
+   the results, and is the same for every reading of the thesis.
+2. *Reproduced* and *partly* need evidence: 95 % intervals that exclude the contrary, of the whole claim or of a part of
+   it that the rule names. An interval that merely leaves room for a claim proves nothing.
+3. An agent has *learned* if it finally earns more than Brownian motion does on the same board. A claim about what
+   agents have learned is *not testable* where they have learned nothing.
+4. With fewer than 10 runs a condition there is *no verdict*.
+
+Rewards are per simulated second and means over runs; early is the first tenth of a run, final the last fifth.
+"""
+
+from dataclasses import dataclass
+
+from neorl.evidence.statements import STATEMENTS
+from neorl.evidence.statistics import Estimate, difference, estimate
+
+RUNS_FOR_A_VERDICT = 10
+EARLY, MIDDLE, FINAL = (0.0, 0.1), (0.4, 0.6), (0.8, 1.0)
+BEFORE_TURN, AFTER_TURN = (0.475, 0.5), (0.5, 0.525)  # of runs that change at half-time
+VERDICTS = ("reproduced", "partly", "not reproduced", "not testable", "no verdict")
+
+
+@dataclass(frozen=True)
+class Claim:
+    """What was found about one claim of `STATEMENTS`: our number with its interval, and what the rule makes of it."""
+
+    name: str
+    here: Estimate
+    detail: str
+    runs: int
+    outcome: str  # one of VERDICTS but the last, whatever the number of runs
+    undecided: bool  # not reproduced, but the intervals leave room for it, so that more runs might show it
+
+    @property
+    def statement(self):
+        """What is claimed, a `Statement`."""
+        return STATEMENTS[self.name]
+
+    @property
+    def verdict(self):
+        """The outcome, if there are runs enough for a verdict."""
+        return self.outcome if self.runs >= RUNS_FOR_A_VERDICT else "no verdict"
+
+
+def judged(name, here, detail, runs, *, reproduced, partly, possible, testable=True):
+    """The `Claim` of that name. possible: whether the intervals leave room for it."""
+    outcome = "not testable" if not testable else VERDICTS[0 if reproduced else 1 if partly else 2]
+    return Claim(name, here, detail, runs, outcome, bool(testable and possible and not reproduced))
+
+
+def lead_over_brownian(result, brownian):
+    """By how much agents finally earn more than Brownian motion on the same board, as an `Estimate`."""
+    return estimate(difference, result.rate(*FINAL), brownian.rate())
+
+
+def learned(result, brownian):
+    """Whether agents finally earn more than Brownian motion on the same board."""
+    return lead_over_brownian(result, brownian).low > 0
+
+
+def fewest_runs(*results):
+    """The number of runs of the result that has fewest."""
+    return min(result.runs for result in results)

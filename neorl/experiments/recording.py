@@ -1,0 +1,40 @@
+"""Recordings of runs in WaterWorld, step by step, to be drawn or played again."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from neorl import checks
+from neorl.experiments.simulation import new_bins
+
+
+@dataclass(frozen=True)
+class Recording:
+    """What happened in a tank, step by step, in board widths and seconds."""
+
+    name: str
+    fps: int
+    radius: float
+    agent: np.ndarray  # float32 (steps + 1, 4): position and velocity
+    creeps: np.ndarray  # float32 (steps + 1, creeps, 4)
+    green: np.ndarray  # bool (steps + 1, creeps)
+    hits: np.ndarray  # int64 (steps + 1, 2): green and red creeps taken so far
+
+
+def record(name, run, steps):
+    """Let a run live so many steps more, and return the `Recording`. Raises ValueError for a bad number of steps."""
+    checks.integer("steps", steps, at_least=1)
+    scale, frames, taken = 1 / run.world.width, [], np.zeros(2, np.int64)
+    rewards, hits = new_bins(run.world, 1, run.step + steps)
+    for step in range(steps + 1):
+        if step:
+            hits[:] = 0
+            run.advance(1, rewards[0], hits[0])
+            taken = taken + hits[0].sum(axis=0)
+        state = run.state
+        velocity = state.creep_direction * state.creep_speed[:, None]
+        frames.append((np.concatenate([state.agent_position, state.agent_velocity]) * scale,
+                       np.hstack([state.creep_position, velocity]) * scale, state.creep_is_green.copy(), taken))
+    agent, creeps, green, hits = map(np.array, zip(*frames))
+    return Recording(name, run.world.fps, run.world.radius * scale, agent.astype(np.float32),
+                     creeps.astype(np.float32), green, hits)

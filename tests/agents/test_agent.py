@@ -1,0 +1,203 @@
+"""Agents as data: what is refused, what can be evaluated, and what an agent compiles to."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from neorl import (Agent, Desire, Learning, Node, NresMap, Place, Policy, Run, WaterWorld, brownian, multimodal,
+                   network_a, network_b, network_c, network_d, object_vector_cells, place_cells)
+from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
+                                 LANDMARK_VECTOR_CELL, MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL)
+from neorl.agents.compile import compiled
+from neorl.core.choices import Source
+
+PC, OVC = Node("PC", PLACE_CELL, (2, 3)), Node("OVC", CARTESIAN_OBJECT_VECTOR_CELL, (3,))
+HD, SPEED = Node("HD", HEAD_DIRECTION_CELL, (4,)), Node("speed", SPEED_CELL, (3,))
+PAPERS = (place_cells, brownian, object_vector_cells, multimodal, network_a, network_b, network_c, network_d)
+
+
+@pytest.mark.parametrize("make, message", [
+    (lambda: Node("green", PLACE_CELL, (3,)), r"name is 'green', allowed are strings other than \('green', 'red'\)"),
+    (lambda: Node("red", PLACE_CELL, (3,)), "name is 'red'"),
+    (lambda: Node(5, PLACE_CELL, (3,)), "name is 5"),
+    (lambda: Node("PC", "place cell", (3,)), "modality is 'place cell', allowed is a Modality"),
+    (lambda: Node("PC", PLACE_CELL, 5), "resolutions is 5, allowed are lists and tuples"),
+    (lambda: Node("PC", PLACE_CELL, ()), r"resolutions is \(\), allowed are one integer or more"),
+    (lambda: Node("PC", PLACE_CELL, (3, 0)), "resolution is 0, allowed are integers ≥ 1"),
+    (lambda: Node("PC", PLACE_CELL, (3,), "heavy"), "weighting is 'heavy', allowed are 'equal', 'resolution', 'cells'"),
+    (lambda: Node("PC", PLACE_CELL, (3,), gain=np.inf), "gain is inf, allowed are finite numbers"),
+    (lambda: Desire("green", "PC"), "valence of the desire 'green' → 'PC' is None"),
+    (lambda: Desire((0.1, 0.2), "PC"), r"valence of the desire \(0.1, 0.2\) → 'PC' is None"),
+    (lambda: Desire("PC", "PC"), "valence of the desire 'PC' → 'PC' is None, allowed are finite numbers"),
+    (lambda: Desire("red", "PC", np.nan), "valence is nan"),
+    (lambda: Desire("PC", "OVC", "much"), "valence is 'much'"),
+    (lambda: Place(0.5, float("nan")), "y is nan, allowed are finite numbers"),
+    (lambda: Desire(Place(0.5, 0.5), "PC"), "valence of the desire Place.* is None"),
+    (lambda: Desire(0.5, "PC", 1.0), "source is 0.5, allowed are lists and tuples"),
+    (lambda: Desire((0.5, np.nan), "PC", 1.0), "source is nan, allowed are finite numbers"),
+    (lambda: Desire("PC", "OVC", of="green"), "of is 'green', allowed are lists and tuples"),
+    (lambda: Desire("green", "OVC", 1.0, of=("green",)), r"of is .*'green' → 'OVC' is \(\): it comes from no node"),
+    (lambda: Desire((0.5, 0.5), "OVC", 1.0, of=("green",)), "of is .*: it comes from no node"),
+    (lambda: Desire("PC", "OVC", scale=-1), "scale is -1"),
+    (lambda: Desire("PC", "OVC", signed=2), "signed is 2, allowed are True, False"),
+    (lambda: Agent(()), r"nodes is \(\), allowed are one Node or more"),
+    (lambda: Agent(PC), "nodes is Node.*, allowed are lists and tuples"),
+    (lambda: Agent((NresMap(5),)), "nodes is NresMap.*, allowed is a Node"),
+    (lambda: Agent((PC,), ("green",)), "desires is 'green', allowed is a Desire"),
+    (lambda: Agent((PC,), Desire("green", "PC", 1.0)), "desires is Desire.*, allowed are lists and tuples"),
+    (lambda: Agent((PC, OVC, PC)), "nodes are 'PC', 'OVC', 'PC', allowed is each name once"),
+    (lambda: Agent((PC,), learning=Policy()), "learning is Policy.*, allowed is a Learning"),
+    (lambda: Agent((PC,), policy=Learning()), "policy is Learning.*, allowed is a Policy"),
+    (lambda: Agent((PC,), own_cell="loud"), "own_cell is 'loud'"),
+    (lambda: place_cells([3], valence_red=np.nan), "valence is nan"),
+    (lambda: Learning(learning_rate=1.01), "learning_rate is 1.01, allowed are numbers from 0 to 1"),
+    (lambda: Learning(learning_rate=-0.01), "learning_rate is -0.01"),
+    (lambda: Learning(discount=2), "discount is 2"),
+    (lambda: Learning(discount=np.nan), "discount is nan"),
+    (lambda: Learning(update_on="clock"), "update_on is 'clock', allowed are 'cell', 'step'"),
+    (lambda: Learning(credit="all"), "credit is 'all'"),
+    (lambda: Learning(absent_decay=-1), "absent_decay is -1"),
+    (lambda: Learning(trace=0), "trace is 0"),
+    (lambda: Learning(terminal=1.5), "terminal is 1.5"),
+    (lambda: Learning(bootstrap=None), "bootstrap is None"),
+    *((lambda choice=choice: Learning(update_on="step", **choice), f"{[*choice][0]} is .*, allowed with update_on 'step' is")
+      for choice in ({"trace": 5}, {"memory": 7.5}, {"credit": "last"}, {"absent_decay": 0.15})),
+    (lambda: Learning(memory=-1), "memory is -1"),
+    (lambda: Learning(memory=2.0, trace=3), "trace is 3, allowed with memory, here 2.0, is 1"),
+    (lambda: Learning(memory_unit="minutes"), "memory_unit is 'minutes', allowed are 'cells', 'seconds'"),
+    (lambda: Learning(memory_value=1), "memory_value is 1"),
+    (lambda: Learning(absent_form="up"), "absent_form is 'up'"),
+    (lambda: Learning(activity=-0.1), "activity is -0.1"),
+    (lambda: Learning(causes="other"), "causes is 'other'"),
+    (lambda: Learning(capture="hit"), "capture is 'hit'"),
+    (lambda: Learning(attention="all"), "attention is 'all'"),
+    (lambda: Policy(exploration=1.1), "exploration is 1.1"),
+    (lambda: Policy(when_indifferent="sleep"), "when_indifferent is 'sleep'"),
+])
+def test_a_bad_choice_is_refused(make, message):
+    with pytest.raises(ValueError, match=message):
+        make()
+
+
+@pytest.mark.parametrize("desires, message", [
+    ([Desire("blue", "PC")], "desire 'blue' → 'PC': there is no node 'blue', allowed are 'PC', 'OVC', 'HD', 'speed'"),
+    ([Desire("green", "CP", 1.0)], "desire 'green' → 'CP': there is no node 'CP'"),
+    ([Desire("PC", "red")], "desire 'PC' → 'red': there is no node 'red'"),
+    ([Desire("PC", "OVC"), Desire("OVC", "PC")], "desire ('PC' → 'OVC'|'OVC' → 'PC'): it closes the cycle .* itself"),
+    ([Desire("PC", "OVC"), Desire("OVC", "HD"), Desire("HD", "PC")],
+     "desire ('PC' → 'OVC': .* PC → OVC → HD → PC|'OVC' → 'HD': .* OVC → HD → PC → OVC|"
+     "'HD' → 'PC': .* HD → PC → OVC → HD), allowed is recursion"),
+    ([Desire("green", "speed", 1.0)], "desire 'green' → 'speed': what lies at a place has no point among speed cells"),
+    ([Desire(Place(0.5, 0.5), "speed", 1.0)], "desire Place.* → 'speed': what lies at a place"),
+    ([Desire("PC", "speed")], "desire 'PC' → 'speed': .* allowed are points of their own space"),
+    ([Desire("speed", "speed", 1.0)], "desire 'speed' → 'speed': what lies at a place"),
+    ([Desire((0.5,), "PC", 1.0)], r"desire \(0.5,\) → 'PC': allowed for place cells are points of 2 coordinates: x, y"),
+    ([Desire((0.5, 0.5), "HD", 1.0)], r"desire \(0.5, 0.5\) → 'HD': .* points of 1 coordinates: direction"),
+    ([Desire((), "OVC", 1.0)], r"desire \(\) → 'OVC': .* points of 2 coordinates"),
+    ([Desire("green", "PC", 1.0), Desire("PC", "OVC", of=("green", "red"))],
+     "desire 'PC' → 'OVC': 'red' is no element of the node 'PC'"),
+    ([Desire("red", "OVC", 1.0), Desire("PC", "OVC", of=("red",))], "'red' is no element of the node 'PC'"),
+])
+def test_a_network_that_cannot_be_evaluated_is_refused(desires, message):
+    with pytest.raises(ValueError, match=message):
+        Agent((PC, OVC, HD, SPEED), desires)
+
+
+def test_recursion_to_itself_and_points_of_a_nodes_own_space_are_allowed():
+    Agent((PC, SPEED), (Desire("green", "PC", 1.0), Desire("PC", "PC", -1.0, of=("PC", "green")),
+                        Desire((0.5,), "speed", 1.0), Desire((0.1, 0.2), "PC", 1.0)))
+
+
+@pytest.mark.parametrize("make", PAPERS)
+def test_an_agent_is_a_value(make):
+    assert make() == make() and hash(make()) == hash(make())
+    assert [make() == other() for other in PAPERS] == [make is other for other in PAPERS]
+
+
+def test_the_agent_of_paper_a_is_one_node_and_two_desires():
+    desires = (Desire("green", "PC", 1.0), Desire("red", "PC", -1.0))
+    middle = replace(PLACE_CELL, ranges=((0.25, 0.75), (0.25, 0.75)))
+    assert place_cells([3, 7], tiled_fraction=0.5) == Agent((Node("PC", middle, (3, 7)),), desires)
+    assert place_cells([3, 7], tiled_fraction=0.5) == Agent([Node("PC", middle, np.array([3, 7]))], list(desires))
+    assert place_cells([3, 7], tiled_fraction=1) == Agent((Node("PC", PLACE_CELL, (3, 7)),), desires)
+    assert place_cells([3], own_cell="silent") != place_cells([3], own_cell="counts")
+    assert place_cells([3], object_tiled_fraction=0.1) == place_cells([3])
+
+
+def test_object_vectors_may_have_a_range_of_their_own():
+    places, objects = multimodal([3], tiled_fraction=1, object_tiled_fraction=0.25).nodes
+    assert places.modality == PLACE_CELL and objects.modality.ranges == ((-0.25, 0.25), (-0.25, 0.25))
+    assert object_vector_cells([3], tiled_fraction=0.2, object_tiled_fraction=1).nodes[0].modality == CARTESIAN_OBJECT_VECTOR_CELL
+    for name in ("tiled_fraction", "object_tiled_fraction"):
+        with pytest.raises(ValueError, match=f"{name} is 0, allowed are numbers above 0"):
+            multimodal([3], **{name: 0})
+    assert brownian().policy == Policy(exploration=1.0)
+
+
+def test_a_node_is_evaluated_after_those_that_it_takes_desires_from():
+    chain = (Desire("OVC", "HD"), Desire("HD", "PC"), Desire("PC", "PC", 1.0))
+    assert Agent((PC, HD, OVC), chain).evaluation_order == ("OVC", "HD", "PC")
+    assert network_d([3]).evaluation_order == ("PC", "OVC")
+    assert sorted(multimodal([3]).evaluation_order) == ["OVC", "PC"]
+
+
+def test_n_values_counts_four_actions_for_each_pair_of_cells():
+    assert place_cells([3, 7, 23]).n_values == 4 * (3**4 + 7**4 + 23**4)
+    assert Agent((HD, SPEED)).n_values == 4 * (4**2 + 3**2)
+    assert Agent((PC, OVC)).maps == (NresMap(2), NresMap(3), NresMap(3, CARTESIAN_OBJECT_VECTOR_CELL))
+
+
+@pytest.mark.parametrize("weighting, weight", [
+    ("equal", [1 / 3] * 3), ("resolution", [3 / 33, 7 / 33, 23 / 33]), ("cells", [9 / 587, 49 / 587, 529 / 587])])
+def test_the_weights_of_the_maps_of_a_node_add_up_to_one(weighting, weight):
+    plan = compiled(multimodal([3, 7, 23], weighting=weighting), WaterWorld())
+    np.testing.assert_allclose(plan.weight, weight * 2)
+
+
+def test_maps_tracks_and_desires_lie_one_after_the_other():
+    desires = (Desire("green", "OVC", 1.0), Desire((0.9, 0.4), "PC", 1.0), Desire("red", "OVC", -1.0),
+               Desire("PC", "OVC"))
+    plan = compiled(Agent((PC, OVC, HD), desires), WaterWorld(n_creeps=5))
+    assert plan.first.tolist() == [0, 4 * 2**4, 4 * (2**4 + 3**4), 4 * (2**4 + 2 * 3**4), 4 * (2**4 + 2 * 3**4 + 4**2)]
+    assert plan.first_cell.tolist() == [0, 4, 13, 22, 26]
+    assert plan.first_map.tolist() == [0, 2, 3, 4] and plan.first_track.tolist() == [0, 1, 2, 7, 8]
+    assert plan.inputs.tolist() == [1, 0, 2, 3] and plan.first_input.tolist() == [0, 1, 4, 4]
+    assert plan.source.tolist() == [Source.green, Source.point, Source.red, Source.node]
+    assert plan.goal[1].tolist() == [1, 5, 0, 0]
+    assert plan.valence.tolist() == [1, 1, -1, 0] and plan.sums_valence.tolist() == [False, False, False, True]
+
+
+def test_a_node_follows_as_many_points_as_there_are_things():
+    nodes = [Node(str(n), modality, (2,)) for n, modality in enumerate(MODALITIES)]
+    plan = compiled(Agent(nodes), WaterWorld(n_creeps=7))
+    expected = {PLACE_CELL: 1, BORDER_CELL: 1, OBJECT_VECTOR_CELL: 7, CARTESIAN_OBJECT_VECTOR_CELL: 7,
+                BOUNDARY_VECTOR_CELL: 4, LANDMARK_VECTOR_CELL: 1, HEAD_DIRECTION_CELL: 1, SPEED_CELL: 1}
+    assert plan.points.tolist() == [expected[modality] for modality in MODALITIES]
+    assert plan.landmark.tolist() == [[0.5, 0.5]]
+
+
+@pytest.mark.parametrize("node, contact", [(Node("OVC", CARTESIAN_OBJECT_VECTOR_CELL, (3, 4)), [4, 10]),
+                                           (Node("OVC", OBJECT_VECTOR_CELL, (3, 4)), [0, 0])])
+def test_contact_is_the_cell_of_the_null_vector(node, contact):
+    assert compiled(Agent((node,)), WaterWorld()).contact.tolist() == contact
+
+
+def test_a_desire_comes_from_the_elements_that_it_names_or_from_all():
+    by_colour = [[0, 0, 0, 0], [0, 0, 0, 0], [1, 0, 0, 0], [0, 1, 0, 0]]
+    assert compiled(network_a([3]), WaterWorld()).elements.tolist() == [[0, 0, 0], [0, 0, 0], [1, 1, 0]]
+    assert compiled(network_b([3]), WaterWorld()).elements.tolist() == by_colour
+    recursive = compiled(network_d([3]), WaterWorld()).elements
+    assert recursive[:4, :4].tolist() == by_colour and not recursive[:4, 4].any()
+    assert recursive[4].tolist() == [0, 0, 1, 1, 1]
+
+
+def test_a_chain_of_three_nodes_runs_and_every_desire_gets_to_its_end():
+    desires = (Desire("green", "OVC", 1.0), Desire("OVC", "PC"), Desire("PC", "HD", valence=0.5))
+    run = Run(Agent((HD, PC, OVC), desires, own_cell="counts"), WaterWorld(), seed=0)
+    run.advance(500)
+    assert run.step == 500 and run.memory.q.any()
+    run.memory.q[:] = np.random.default_rng(0).random(len(run.memory.q))  # desires that do not happen to be met
+    run.advance(1)
+    assert run.memory.worth[0] == run.memory.worth[1] >= 1 and run.memory.worth[2] == 0.5
+    assert run.memory.landing[1:].all() and run.memory.pull.all()

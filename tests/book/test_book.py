@@ -1,0 +1,71 @@
+"""The book's own Sphinx extensions, on small books: buttons that lead to the repository, and the reference pages."""
+
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import nbformat
+import pytest
+import yaml
+
+ROOT = Path(__file__).parents[2]
+PUBLIC = sorted(".".join(path.relative_to(ROOT / "neorl").with_suffix("").parts).removesuffix(".__init__")
+                for path in (ROOT / "neorl").rglob("*.py"))
+
+
+@pytest.fixture
+def make_book(tmp_path):
+    """Build a book of two pages by the settings of ours, with another repository, and return its pages' HTML."""
+
+    def make(url="", modules=("neorl.chapters.shared.grid",)):
+        shutil.rmtree(tmp_path / "book", ignore_errors=True)
+        chapters = tmp_path / "book" / "chapters"
+        chapters.mkdir(parents=True)
+        for name in ("launch.py", "api_links.py", "references.bib", "vendor"):
+            (tmp_path / "book" / name).symlink_to(ROOT / "book" / name)
+        settings = yaml.safe_load((ROOT / "_config.yml").read_text())
+        settings["repository"]["url"] = url
+        (tmp_path / "_config.yml").write_text(yaml.safe_dump(settings))
+        toc = "format: jb-book\nroot: index\nchapters:\n  - file: chapters/page\n"
+        (tmp_path / "book" / "_toc.yml").write_text(toc)
+        reference = "\n\n".join(f".. automodule:: {module}" for module in modules)
+        (tmp_path / "book" / "index.md").write_text(f"# Reference\n\n```{{eval-rst}}\n{reference}\n```\n")
+        kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3"},
+                  "language_info": {"name": "python", "pygments_lexer": "ipython3"}}
+        cells = [nbformat.v4.new_markdown_cell("# Page"), nbformat.v4.new_code_cell("1")]
+        nbformat.write(nbformat.v4.new_notebook(cells=cells, metadata=kernel), chapters / "page.ipynb")
+        command = [Path(sys.executable).with_name("jupyter-book"), "build", "book", "--config", "_config.yml",
+                   "--path-output", ".", "--all", "--quiet", "--warningiserror", "--nitpick"]
+        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+        assert done.returncode == 0, done.stdout + done.stderr
+        html = tmp_path / "_build" / "html"
+        return [(html / name).read_text(encoding="utf-8") for name in ("chapters/page.html", "index.html")]
+
+    return make
+
+
+def test_a_notebook_opens_from_the_repository_that_is_set(make_book):
+    page, reference = make_book("https://github.com/somebody/neorl")
+    assert "https://mybinder.org/v2/gh/somebody/neorl/main?urlpath=lab/tree/notebooks/page.ipynb" in page
+    assert "https://colab.research.google.com/github/somebody/neorl/blob/main/notebooks/page.ipynb" in page
+    assert 'href="https://github.com/somebody/neorl"' in page
+    assert "mybinder" not in reference  # no notebook
+
+
+def test_without_a_repository_there_are_no_buttons_and_docstrings_become_lists_with_links(make_book):
+    page, reference = make_book(modules=["neorl.experiments.simulation", "neorl.experiments.cache"])
+    assert "mybinder" not in page and "colab" not in page and "fa-github" not in page
+    text = re.sub(r"<[^>]+>", "", reference)
+    assert "Raises" in text and "ValueError" in text
+    of_store = reference.split('id="neorl.experiments.cache.simulate_once"')[1].split("</article>")[0]
+    assert re.search(r'href="#neorl.experiments.simulation.Result"[^>]*><code[^>]*><span class="pre">Result', of_store)
+    assert "float64 (4,): the value of each action" in text  # a comment beside a field
+    assert "Alias for field number" not in text
+
+
+def test_the_reference_has_every_module():
+    pages = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "book").glob("api_*.md"))
+    listed = re.findall(r"automodule:: neorl\.([\w.]+)", pages)
+    assert sorted(listed) == [name for name in PUBLIC if name != "__init__"]

@@ -1,0 +1,129 @@
+"""The notebooks as they lie in git, and what they refuse. That they run is shown by running them."""
+
+import ast
+import re
+import sys
+from pathlib import Path
+
+import nbformat
+import pytest
+
+from neorl.chapters.shared import notebook
+from neorl.evidence.statements import STATEMENTS
+
+ROOT = Path(__file__).parents[2]
+sys.path.insert(0, str(ROOT / "book"))
+import build  # noqa: E402
+
+NOTEBOOKS = {path.stem: nbformat.read(path, 4) for path in sorted((ROOT / "notebooks").glob("*.ipynb"))}
+
+CHAPTERS = [f"chapter_{number}" for number in range(1, 6)]
+
+
+@pytest.fixture(params=NOTEBOOKS)
+def cells(request):
+    return NOTEBOOKS[request.param].cells
+
+
+def test_there_are_notebooks():
+    assert {"paper_a", "paper_b", "paper_c", *CHAPTERS} <= set(NOTEBOOKS)
+
+
+def test_a_notebook_is_without_outputs(cells):
+    assert all(not cell.outputs and cell.execution_count is None for cell in cells if cell.cell_type == "code")
+
+
+def test_a_notebook_defines_no_function_or_class(cells):
+    for cell in cells:
+        if cell.cell_type == "code":
+            nodes = ast.walk(ast.parse(cell.source))
+            assert not any(isinstance(node, ast.FunctionDef | ast.ClassDef | ast.Lambda) for node in nodes)
+
+
+def test_a_notebook_has_one_cell_of_typed_parameters(cells):
+    (tagged,) = [cell for cell in cells if "parameters" in cell.metadata.get("tags", [])]
+    statements = ast.parse(tagged.source).body
+    assert all(isinstance(statement, ast.AnnAssign) for statement in statements)
+    names = [statement.target.id for statement in statements]
+    assert [name for name in names if name != "points"] == ["runs", "steps", "seed"]
+
+
+def test_every_figure_has_alt_text_and_a_caption(cells):
+    for cell in cells:
+        if cell.cell_type == "code" and re.search(r"figures\.(draw|new)_", cell.source):
+            assert len(cell.metadata["mystnb"]["image"]["alt"]) > 40
+            assert len(cell.metadata["mystnb"]["figure"]["caption"]) > 40
+
+
+def labels(page):
+    """The labels of a notebook's figures."""
+    return [cell.metadata["mystnb"]["figure"]["name"] for cell in page.cells
+            if "figure" in cell.metadata.get("mystnb", {})]
+
+
+def test_every_claim_that_a_rule_judges_has_its_figure_on_one_page():
+    found = [label for page in NOTEBOOKS.values() for label in labels(page)]
+    assert len(found) == len(set(found))
+    assert {statement.figure for statement in STATEMENTS.values() if statement.figure} <= set(found)
+
+
+def test_each_specification_curve_has_the_label_of_its_claim():
+    page = NOTEBOOKS["assumptions"]
+    drawn = re.findall(r'draw_specification\(.*"(\w+)"\)', "\n".join(cell.source for cell in page.cells))
+    assert [f"fig-spec-{name.lower()}" for name in drawn] == [each for each in labels(page) if "spec" in each]
+    assert drawn == [name for name in STATEMENTS if name in drawn] and len(drawn) == 19
+
+
+def test_links_lead_somewhere(cells):
+    for cell in cells:
+        if cell.cell_type == "markdown":
+            for target, place in re.findall(r"\]\(([^)#:]+)(?:#([^)]*))?\)", cell.source):
+                assert (ROOT / "notebooks" / target).exists(), target
+                assert not place or target == "../book/glossary.md" and place in build.terms(), place
+        else:  # what a cell puts out lies in book/chapters/ as it is
+            assert "](../book/" not in cell.source
+
+
+@pytest.mark.parametrize("chapter", CHAPTERS)
+def test_a_chapter_tells_how_long_it_takes_shows_little_code_and_ends_with_exercises(chapter):
+    cells = NOTEBOOKS[chapter].cells
+    assert re.search(r"(seconds|minutes?)\b", cells[0].source)
+    shown = [cell for cell in cells
+             if cell.cell_type == "code" and "remove-input" not in cell.metadata.get("tags", [])]
+    assert sum(len(cell.source.splitlines()) for cell in shown) <= 300
+    prose = "\n".join(cell.source for cell in cells if cell.cell_type == "markdown")
+    assert "../book/glossary.md#" in prose
+    _, exercises = prose.split("\n## Exercises\n")
+    folded = [cell for cell in cells[-4:] if "hide-cell" in cell.metadata.get("tags", [])]
+    assert "<details><summary>Solution</summary>" in exercises or folded
+
+
+@pytest.mark.parametrize("change, message", [
+    ({"runs": 0}, "runs is 0, allowed are integers ≥ 1"), ({"runs": "4"}, "runs is '4'"),
+    ({"steps": -1}, "steps is -1"), ({"seed": 0.5}, "seed is 0.5"),
+])
+def test_a_bad_parameter_is_refused(change, message):
+    with pytest.raises(ValueError, match=message):
+        notebook.begin(**{"runs": 20, "steps": 1_000, "seed": 0, **change})
+
+
+def test_too_short_a_run_is_refused_where_there_would_be_nothing_to_draw():
+    with pytest.raises(ValueError, match="steps is 999, allowed are integers ≥ 1000"):
+        notebook.begin(runs=20, steps=999, seed=0, fewest_steps=1_000)
+
+
+def test_a_parameter_that_the_notebook_does_not_have_is_refused(monkeypatch):
+    class Shell:
+        user_ns = {"In": ["", "runs: int = 20", "# Parameters\nruns = 4\nrunz = 3\n", "notebook.begin(runs, 1, 0)"]}
+
+    monkeypatch.setattr(notebook, "get_ipython", Shell)
+    with pytest.raises(ValueError, match="parameter runz is unknown, allowed are runs, steps, seed"):
+        notebook.begin(runs=4, steps=1, seed=0)
+
+
+def test_few_runs_are_told_to_the_reader(capsys, monkeypatch):
+    shown = []
+    monkeypatch.setattr(notebook, "display", shown.append)
+    notebook.begin(runs=4, steps=1, seed=0)
+    notebook.begin(runs=20, steps=1, seed=0)
+    assert len(shown) == 1 and "4 runs: no verdicts" in shown[0].data

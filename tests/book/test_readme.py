@@ -1,0 +1,30 @@
+"""The README: its table of claims is the one that a build has written, and its other promises."""
+
+import re
+import sys
+from pathlib import Path
+
+from neorl.evidence.claims import VERDICTS
+from neorl.evidence.report import NOT_COMPUTED, OPEN, in_short
+from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
+
+ROOT = Path(__file__).parents[2]
+sys.path.insert(0, str(ROOT / "book"))
+import readme  # noqa: E402
+
+
+def test_the_tables_have_every_claim_as_it_is_stated_now_and_a_verdict_from_the_rules():
+    (written,) = readme.BETWEEN.findall((ROOT / "README.md").read_text(encoding="utf-8"))
+    rows = [row.split(" | ") for row in written.splitlines() if row.startswith("| **")]
+    assert [(row[0], row[1]) for row in rows] == [(f"| **{name}** {STATEMENTS[name].text}", STATEMENTS[name].thesis)
+                                                  for name in (*CLAIMS, *DEMONSTRATIONS)]
+    assert {row[4] for row in rows} <= {*VERDICTS[:4], OPEN, NOT_COMPUTED}
+    found = re.compile(r"[●◐○–]\u00a0−?\d+\.\d\d \[−?\d+\.\d\d, −?\d+\.\d\d\]|")
+    assert all(found.fullmatch(cell.strip()) for row in rows for cell in row[2:4])
+
+
+def test_the_table_is_written_between_its_marks_and_nothing_else_is_touched():
+    text = "before\n<!-- claims: make readme -->\nold\n<!-- end of claims -->\nafter | \\1\n"
+    table = in_short({"claims": {}, "letter": {}, "shares": {}})
+    assert readme.BETWEEN.sub(lambda _: table, text) == (
+        f"before\n<!-- claims: make readme -->\n{table}<!-- end of claims -->\nafter | \\1\n")

@@ -1,0 +1,200 @@
+"""The Explorer's engine, asked directly: what it reports of a run is what Python has of it."""
+
+import base64
+import json
+
+import numpy as np
+import pytest
+from golden import learning
+
+from neorl import Explorer, Learning, NresMap, Run, WaterWorld, network_d, place_cells, simulate
+from neorl.browser.explorer import _plan
+from neorl.core.horde import as_vectors
+from neorl.core.plan import Memory
+from neorl.worlds import probe
+
+ENGINE = """
+const ask = (worker, request) => new Promise((resolve, reject) => {
+  worker.onmessage = ({ data }) => resolve(data);
+  worker.onerror = ({ message }) => reject(new Error(message));
+  worker.postMessage(request);
+});
+async function answers(requests) {
+  const worker = new Worker(URL.createObjectURL(new Blob([state._engine])));
+  const wasm = Uint8Array.from(atob(state.wasm), (byte) => byte.charCodeAt(0)).buffer;
+  const all = [await ask(worker, { type: "load", wasm, layout: state._layout })];
+  for (const request of requests) all.push(await ask(worker, request));
+  worker.terminate();
+  return JSON.parse(JSON.stringify(all.slice(1), (_, value) => ArrayBuffer.isView(value) ? [...value] : value));
+}
+"""
+TANK = WaterWorld(n_creeps=4)
+AGENT = network_d([4, 5])
+STEPS, SEED, K = 3_000, 5, 2
+
+
+@pytest.fixture(scope="module")
+def state():
+    result = simulate(AGENT, TANK, steps=STEPS, runs=2, seed=SEED, progress=False)
+    large = simulate(place_cells([90]), TANK, steps=1, runs=1, progress=False)
+    state = Explorer({"D": result, "N90": large}).get_state()
+    return {name: state[name] for name in ("_engine", "_layout", "_presets")} | {
+        "wasm": base64.b64encode(state["_wasm"]).decode()}
+
+
+@pytest.fixture
+def ask(open_page, tmp_path, state):
+    """`ask(request, …)` gives what the engine of a run that has just begun answers to each."""
+    preset = state["_presets"]["D"]
+    world = preset["world"] | {"n_creeps": TANK.n_creeps}
+    begin = {"type": "begin", "plan": preset["plan"], "world": world, "seed": SEED, "run": K, "steps": 10 * STEPS,
+             "bin_steps": 100}
+    script = f"const state = {json.dumps(state)};{ENGINE}".replace("</", r"<\/")
+    (tmp_path / "page.html").write_text(f'<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">'
+                                        f'<script>{script}</script>')
+    page = open_page(tmp_path, "page.html")
+
+    def ask(*requests, **changes):
+        return page.evaluate("requests => answers(requests)", [begin | changes, *requests])
+    return ask
+
+
+def advance(steps):
+    return {"type": "advance", "steps": steps, "budget": 60_000}
+
+
+def test_a_frame_tells_what_the_run_holds(ask):
+    goal = 7
+    begun, _, frame = ask({"type": "look", "map": "OVC N5", "goal": goal, "field": 9}, advance(STEPS))
+    run = Run(AGENT, TANK, SEED, K)
+    rewards, hits = np.zeros(2 * STEPS, np.float32), np.zeros((2 * STEPS, 2), np.int16)
+    assert frame["reward"] == run.advance(STEPS, rewards, hits)
+    assert frame["step"] == STEPS and not frame["ended"]
+    assert np.array_equal(frame["rewards"][: STEPS // 100], rewards[: STEPS // 10].reshape(-1, 10).sum(axis=1))
+    assert begun["maps"] == ["PC N4", "PC N5", "OVC N4", "OVC N5"]
+    assert (frame["seen"]["name"], frame["seen"]["goal"]) == ("OVC N5", goal)
+
+    width, state = TANK.width, run.state
+    assert [frame["agent"][name] for name in "xy"] == pytest.approx(state.agent_position / width)
+    assert [frame["agent"][name] for name in ("vx", "vy")] == pytest.approx(state.agent_velocity / width)
+    creeps = frame["creeps"]
+    assert [creep["green"] for creep in creeps] == state.creep_is_green.tolist()
+    assert np.array([(creep["x"], creep["y"]) for creep in creeps]) == pytest.approx(state.creep_position / width)
+    velocity = state.creep_direction * state.creep_speed[:, None] / width
+    assert np.array([(creep["vx"], creep["vy"]) for creep in creeps]) == pytest.approx(velocity)
+    assert frame["active"] == run.memory.cell[run.plan.first_track[3] : run.plan.first_track[4]].tolist()
+
+    for node in frame["nodes"]:
+        output = run.output(node["name"])
+        assert (node["x"], node["y"], node["valence"]) == pytest.approx((*output.desire, output.valence))
+    landings = run.memory.landing[2:, :2] + state.agent_position / width
+    assert np.array([(each["x"], each["y"]) for each in frame["landings"]]) == pytest.approx(landings)
+    assert [each["valence"] for each in frame["landings"]] == run.memory.worth[2:].tolist()
+    assert [each["recurs"] for each in frame["landings"]] == [False, False, True]
+
+    assert np.array(frame["seen"]["ways"]).reshape(-1, 2) == pytest.approx(as_vectors(run.q(3)[:, :, goal]))
+    elsewhere = Memory(**{name: value.copy() for name, value in run.memory._asdict().items()})
+    values = np.zeros((81, 4))
+    probe.survey(run.plan, run.memory, elsewhere, state._replace(agent_position=np.zeros(2)), 9, values)
+    assert np.array(frame["field"]).reshape(-1, 2) == pytest.approx(as_vectors(values), rel=1e-6)
+
+
+RULES = [
+    learning(memory=30.0),
+    learning(memory=2.0, memory_unit="seconds", memory_value="discounted", bootstrap=False),
+    learning(memory=0.5, absent_decay=0.1, absent_form="away", credit="activity"),
+    learning(memory=5.0, causes="own", capture="leap", attention="wanted", credit="count"),
+]
+
+
+def learned(run, m, goal):
+    """As the engine gives it: east minus west and south minus north in each cell, in float32."""
+    return as_vectors(run.q(m)[:, :, goal].astype(float)).astype(np.float32).tolist()
+
+
+@pytest.mark.parametrize("rule", RULES, ids=str)
+def test_what_is_learned_with_a_memory_is_what_python_learns_to_the_last_bit(ask, rule):
+    agent, goal = network_d([4, 5], scale=2.0, signed=False, **rule), 9
+    frame = ask(advance(STEPS), {"type": "look", "map": "OVC N5", "goal": goal}, plan=_plan(agent, TANK))[-1]
+    run = Run(agent, TANK, SEED, K)
+    assert frame["reward"] == run.advance(STEPS)
+    assert np.reshape(frame["seen"]["ways"], (-1, 2)).tolist() == learned(run, 3, goal)
+    assert np.count_nonzero(frame["seen"]["ways"]) > 20
+
+
+@pytest.mark.parametrize("later", [
+    network_d([4, 5], learning=Learning(memory=100.0, discount=0.95)),
+    network_d([5, 7], learning=Learning(memory=3.0)),
+    network_d([4, 5], learning=Learning(memory=0.0)),
+])
+def test_a_memory_that_changes_on_the_way_goes_on_as_in_python(ask, later):
+    agent, goal = network_d([4, 5], learning=Learning(memory=30.0)), 9
+    frame = ask(advance(STEPS), {"type": "change", "plan": _plan(later, TANK)}, advance(STEPS),
+                {"type": "look", "map": "PC N5", "goal": goal}, plan=_plan(agent, TANK))[-1]
+    run = Run(agent, TANK, SEED, K)
+    reward = run.advance(STEPS)
+    run.change(later)
+    assert frame["reward"] == reward + run.advance(STEPS)
+    m = [f"{node.name} N{n}" for node in later.nodes for n in node.resolutions].index("PC N5")
+    assert np.reshape(frame["seen"]["ways"], (-1, 2)).tolist() == learned(run, m, goal)
+
+
+def test_a_second_agent_does_what_it_is_told_on_the_same_creeps(ask):
+    actions = np.random.default_rng(0).integers(0, 5, 1_500).tolist()
+    frame = ask(advance(STEPS), *(each for action in actions
+                                  for each in ({"type": "play", "action": action}, advance(1))))[-1]
+    run = Run(AGENT, TANK, SEED, K)
+    run.advance(STEPS)
+    second = run.state._replace(agent_position=np.full(2, 0.1 * TANK.width), agent_velocity=np.zeros(2))
+    contacts, paid, touched = np.zeros(TANK.n_creeps, np.int8), 0.0, 0
+    for action in actions:
+        run.advance(1)
+        paid += probe.step_second(run.plan, run.memory, TANK.rules, run.state, second, contacts, action)
+        touched += np.abs(contacts).sum()
+    assert touched > 2 and frame["player"]["reward"] == paid
+    assert [frame["player"][name] for name in "xy"] == pytest.approx(second.agent_position / TANK.width)
+    assert [frame["agent"][name] for name in "xy"] == pytest.approx(run.state.agent_position / TANK.width)
+
+
+def test_a_place_is_found_in_the_cell_that_it_lies_in(ask):
+    places = [(0.1, 0.9), (0.55, 0.3), (0.99, 0.01)]
+    found = ask(*({"type": "look", "map": name, "goal": None, "at": {"x": x, "y": y}}
+                  for name in ("PC N5", "OVC N4") for x, y in places))[1:]
+    agent = Run(AGENT, TANK, SEED, K).state.agent_position / TANK.width
+    place, objects = (node.modality for node in AGENT.nodes)
+    expected = [*NresMap(5, place).encode(places), *NresMap(4, objects).encode(places - agent)]
+    assert [each["seen"]["goal"] for each in found] == expected
+    twice = {"type": "look", "at": {"x": 0.5, "y": 0.5}}
+    assert [each["seen"]["goal"] is None for each in ask(twice, twice)[1:]] == [False, True]
+
+
+def test_the_map_that_is_looked_at_stays_and_its_goal_with_it_if_it_has_the_same_cells(ask, state):
+    plan = state["_presets"]["D"]["plan"]
+    finer = plan | {"resolution": [5, 6, 5, 6]}
+    other = finer | {"low": [[0.1, 0.1], *plan["low"][1:]]}
+    without = plan | {"resolution": [6, 9, 6, 9]}
+    frames = ask({"type": "look", "map": "PC N5", "goal": 24}, *({"type": "change", "plan": each} for each in (
+        finer, other, without)))[1:]
+    assert [(each["seen"]["name"], each["seen"]["goal"]) for each in frames] == [
+        ("PC N5", 24), ("PC N5", 24), ("PC N5", None), ("PC N6", None)]
+
+
+def test_a_creep_is_put_where_it_is_dragged_but_inside_the_tank(ask):
+    frames = ask({"type": "drag", "creep": 1, "x": 0.3, "y": 0.6}, {"type": "drag", "creep": 1, "x": -2, "y": 3})
+    at = [(frame["creeps"][1]["x"], frame["creeps"][1]["y"]) for frame in frames[1:]]
+    radius = TANK.radius / TANK.width
+    assert at[0] == pytest.approx((0.3, 0.6)) and at[1] == pytest.approx((radius, 1 - radius))
+
+
+def test_a_run_ends_at_its_length(ask):
+    frame = ask(advance(10**9), advance(10**9), steps=500)[-1]
+    assert frame["ended"] and frame["step"] == 500
+
+
+def test_what_cannot_be_done_is_a_sentence(ask, state):
+    plan = state["_presets"]["N90"]["plan"]
+    four = plan | {"resolution": [90] * 4, "first_map": [0, 4]}
+    refused, then = ask(advance(1), plan=four)
+    assert refused == {"type": "failed", "message": "These maps need 3.9 GB of memory, and a page can have 3. "
+                                                    "Choose coarser ones."}
+    assert then == {"type": "failed"}  # a fault of the page's, and no sentence for its reader

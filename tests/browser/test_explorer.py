@@ -1,0 +1,176 @@
+"""The Explorer from Python: what its state holds, what its traits take, and which agent they describe."""
+
+import json
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from traitlets import TraitError
+
+import neorl
+from neorl import (Agent, Desire, Explorer, Learning, Node, Policy, WaterWorld, multimodal, network_d,
+                   object_vector_cells, place_cells, simulate)
+from neorl.browser.explorer import AGENTS, CURVE_BINS
+from neorl.core import modality
+from neorl.evidence.priors import TO_THE_LETTER as LETTER
+from neorl.evidence.reading import Reading, networks
+
+TANK = WaterWorld(n_creeps=8, win_reward=5.0)
+SIZE = {"steps": 12_345, "runs": 12, "seed": 5, "progress": False}
+
+
+@pytest.fixture(scope="module")
+def conditions():
+    return {"N3": simulate(place_cells([3]), TANK, **SIZE),
+            "by N²": simulate(place_cells([3, 5], weighting="cells", learning=Learning(credit="last")), TANK, **SIZE)}
+
+
+@pytest.mark.parametrize("name", AGENTS)
+def test_the_traits_of_a_preset_describe_its_agent(name):
+    explorer = Explorer(preset=name)
+    assert explorer.agent == AGENTS[name]
+    assert explorer.world == WaterWorld()
+
+
+def test_the_menu_has_the_agents_of_both_readings():
+    calibrated, letter = network_d(), networks(LETTER)["D"]
+    assert AGENTS["Network D"] == calibrated == networks(Reading())["D"]
+    assert AGENTS["Network D, to the letter"] == letter != calibrated
+    groups = [(each["group"], name) for name, each in Explorer()._presets.items()]
+    assert [group for group, _ in groups] == 7 * ["Calibrated"] + 4 * ["To the letter"]
+    assert all(name.endswith(", to the letter") == (group == "To the letter") for group, name in groups)
+
+
+def test_agents_to_the_letter_live_at_its_pace_in_the_tank_of_the_page():
+    slow = simulate(place_cells([3]), WaterWorld(n_creeps=2, fps=25), steps=10, runs=1, progress=False)
+    explorer = Explorer({"slow": slow}, preset="Network D, to the letter")
+    assert explorer.world == WaterWorld(n_creeps=2, fps=LETTER.fps, contact=LETTER.contact)
+    explorer.preset = "Network D"
+    assert explorer.world == slow.world
+
+
+def test_conditions_come_first_and_set_tank_seed_and_traits(conditions):
+    explorer = Explorer(conditions)
+    assert (explorer.preset, explorer.seed, explorer.n_creeps) == ("N3", 5, 8)
+    explorer.preset = "by N²"
+    assert explorer.agent == conditions["by N²"].agent and explorer.world == TANK
+    assert list(explorer._presets)[:2] == ["N3", "by N²"]
+    assert Explorer(conditions, preset="Network D", resolutions=[4]).agent == network_d([4])
+
+
+def test_each_trait_changes_its_field_of_the_agent():
+    explorer = Explorer(preset="Network D", learning_rate=0.2, discount=0.5, recursion=0.5, valence_red=-2.0,
+                        gains=[0.5, 2.0], n_creeps=4, resolutions=[3, 6], memory=20.0)
+    agent = network_d([3, 6], recursion=0.5, place_gain=0.5, object_gain=2.0,
+                      learning=Learning(0.2, 0.5, memory=20.0))
+    desires = [replace(each, valence=-2.0) if each.source == "red" else each for each in agent.desires]
+    assert explorer.agent == replace(agent, desires=desires)
+    assert explorer.world == WaterWorld(n_creeps=4)
+    explorer.preset = "Object-vector cells"
+    assert explorer.agent == object_vector_cells()
+    explorer.modality = "border cell"
+    assert explorer.agent.nodes[0].modality == modality.BORDER_CELL
+
+
+def test_the_band_holds_the_runs_and_ends_with_them(conditions):
+    band = Explorer(conditions)._presets["N3"]["band"]
+    result = conditions["N3"]
+    assert band["edges"][0] == 0 and band["edges"][-1] == pytest.approx(result.seconds)
+    assert len(band["low"]) == len(band["edges"]) - 1 <= CURVE_BINS
+    assert band["edges"][1] == band["steps_per_bin"] / TANK.fps
+    assert np.sum(band["middle"] * np.diff(band["edges"])) == pytest.approx(result.totals.mean(), abs=0.1)
+    assert np.all(np.array(band["low"]) <= band["high"])
+
+
+def test_the_state_is_json_and_a_second_widget_brings_its_own(conditions):
+    state = Explorer(conditions).get_state()
+    json.dumps({name: value for name, value in state.items() if name != "_wasm"}, allow_nan=False)
+    assert bytes(state["_wasm"][:4]) == b"\0asm"
+    assert Explorer(seed=7).get_state()["seed"] == 7
+
+
+@pytest.mark.parametrize("trait, value, allowed", [
+    ("preset", "Network E", "preset is 'Network E', allowed are 'Place cells', "),
+    ("modality", "grid cell", "modality is 'grid cell', allowed are '', 'place cell', "),
+    ("gains", [1.0, 1.0], r"gains is \[1.0, 1.0\], allowed is one for each of the 1 nodes"),
+    ("gains", [float("inf")], "gains is inf, allowed are finite numbers"),
+    ("valence_red", float("nan"), "valence_red is nan, allowed are finite numbers"),
+    ("recursion", float("inf"), "recursion is inf, allowed are finite numbers"),
+    ("resolutions", [], "resolutions"), ("resolutions", [91], "91"), ("n_creeps", 0, "n_creeps"), ("seed", -1, "seed"),
+    ("memory", -1, "memory"), ("memory", float("inf"), "memory is inf, allowed are finite numbers"),
+    ("discount", 1.5, "discount"), ("learning_rate", -0.1, "learning_rate"), ("speed", -1, "speed"),
+])
+def test_a_bad_trait_is_refused_and_the_old_one_stays(trait, value, allowed):
+    explorer = Explorer()
+    before = getattr(explorer, trait)
+    with pytest.raises(TraitError, match=allowed):
+        setattr(explorer, trait, value)
+    assert getattr(explorer, trait) == before
+
+
+@pytest.mark.parametrize("result, allowed", [
+    (place_cells([3]), "condition X is Agent.*, allowed is a Result"),
+    (simulate(Agent([Node("PC", modality.PLACE_CELL, [3]), Node("HD", modality.HEAD_DIRECTION_CELL, [8])]), TANK,
+              steps=10, runs=1, progress=False), "condition X has different resolutions, "),
+    (simulate(replace(multimodal(), desires=[Desire("red", "PC", -1.0), Desire("red", "OVC", -0.5)]), TANK,
+              steps=10, runs=1, progress=False), "condition X has different valences of red, "),
+    (simulate(place_cells([3]), TANK, steps=10, runs=1, seed=2**32, progress=False), "seed of condition X is 429"),
+])
+def test_a_condition_that_cannot_be_shown_is_refused(result, allowed):
+    with pytest.raises(ValueError, match=allowed):
+        Explorer({"X": result})
+    with pytest.raises(ValueError, match="preset is 'X', allowed are"):
+        Explorer(preset="X")
+
+
+def test_an_unknown_trait_is_refused():
+    with pytest.raises(ValueError, match="trait is 'resolution', allowed are .*'resolutions'"):
+        Explorer(resolution=[3])
+
+
+def test_each_condition_keeps_its_tank(conditions):
+    other = simulate(place_cells([4]), WaterWorld(width=100, n_creeps=2, fps=30), steps=10, runs=1, progress=False)
+    explorer = Explorer(conditions | {"other": other}, preset="other")
+    assert explorer.world == other.world
+    explorer.preset = "Network D"
+    assert explorer.world == TANK
+
+
+def test_an_agent_of_other_ways_keeps_them():
+    agent = place_cells([4], tiled_fraction=0.7, policy=Policy(exploration=0.1), own_cell="counts")
+    explorer = Explorer({"narrow": simulate(agent, TANK, steps=10, runs=1, progress=False)})
+    assert explorer.agent == agent and explorer.modality == "place cell"
+    explorer.modality = "border cell"
+    explorer.modality = "place cell"
+    assert explorer.agent == agent
+
+
+@pytest.mark.parametrize("rule", [Learning(trace=3, memory=0.0), Learning(update_on="step")])
+def test_an_agent_with_a_trace_or_that_learns_at_every_step_takes_no_memory(rule):
+    result = simulate(place_cells([3], learning=rule), TANK, steps=10, runs=1, progress=False)
+    explorer = Explorer({"X": result})
+    assert explorer.agent.learning == rule
+    with pytest.raises(TraitError, match="memory is 3.0, allowed is 0 for an agent with a trace or one that learns"):
+        explorer.memory = 3.0
+    explorer.preset = "Place cells"
+    explorer.memory = 3.0
+    assert explorer.agent.learning.memory == 3.0
+
+
+def test_a_modality_of_ones_own_has_no_name_in_the_menu():
+    own = replace(modality.PLACE_CELL, name="my cell")
+    agent = Agent([Node("PC", own, [4])], [Desire("green", "PC", 1.0)])
+    explorer = Explorer({"own": simulate(agent, TANK, steps=10, runs=1, progress=False)})
+    assert explorer.agent == agent and explorer.modality == ""
+
+
+def test_the_rest_of_the_package_does_without_the_widget():
+    code = "import sys, neorl; print('anywidget' in sys.modules, 'ziglang' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout == "False False\n"
+    without = "import sys; sys.modules['anywidget'] = None; import neorl; neorl.simulate; neorl.Explorer"
+    refused = subprocess.run([sys.executable, "-c", without], capture_output=True, text=True)
+    assert "neorl.Explorer needs anywidget: pip install anywidget" in refused.stderr
+    with pytest.raises(AttributeError, match="'neorl' has no attribute 'Explorers'"):
+        neorl.Explorers

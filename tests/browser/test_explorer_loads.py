@@ -1,0 +1,154 @@
+"""The Explorer while it loads: what the reader does meanwhile, and what goes wrong, leaves no trace in the next run."""
+
+import re
+
+import pytest
+from explorer_page import write_page
+from playwright.sync_api import expect
+
+from neorl import Explorer
+from neorl.browser.explorer import AGENTS
+
+SEED, LOADS = 13, 200
+
+# Clicks wherever a reader can click, before an agent is chosen from the menu and until it has been loaded. Each of them
+# goes to what lies at that place, as a browser would have it.
+CLICKS = """async ({ loads, seed }) => {
+  const random = () => { // mulberry32
+    seed = (seed + 0x6d2b79f5) | 0;
+    let mixed = Math.imul(seed ^ (seed >>> 15), 1 | seed);
+    mixed = (mixed + Math.imul(mixed ^ (mixed >>> 7), 61 | mixed)) ^ mixed;
+    return ((mixed ^ (mixed >>> 14)) >>> 0) / 2 ** 32;
+  };
+  const one = (list) => list[Math.floor(random() * list.length)];
+  const pause = (longest) => new Promise((resolve) => setTimeout(resolve, random() * longest));
+  const root = document.querySelector(".neorl-explorer");
+  const control = (name) => root.querySelector(`[name="${name}"]`);
+  const turn = (target) => target.dispatchEvent(new Event("input", { bubbles: true }));
+  const clickTank = () => {
+    const { left, top, width } = root.querySelector(".arena").getBoundingClientRect();
+    const [clientX, clientY] = [left + random() * width, top + random() * width];
+    document.elementFromPoint(clientX, clientY).dispatchEvent(
+      new MouseEvent("click", { bubbles: true, clientX, clientY }));
+  };
+  const acts = [...Array(6).fill(clickTank), () => control("field").click(),
+    () => one([...root.querySelectorAll(".bar button, .board button")]).click(),
+    () => turn(Object.assign(control("map"), { value: one(control("map").options).value }))];
+  let clicks = 0;
+  for (let load = 1; load <= loads; load += 1) {
+    for (let i = Math.floor(random() * 3); i > 0; i -= 1, clicks += 1) one(acts)();
+    const menu = control("preset");
+    menu.value = one([...menu.options].filter((each) => !each.selected)).value;
+    turn(menu);
+    do {
+      one(acts)();
+      clicks += 1;
+      await pause(5);
+      const alert = root.querySelector("[role=alert]");
+      if (!alert.hidden) throw new Error(`Load ${load}, ${menu.value}, click ${clicks}: ${alert.textContent}`);
+    } while (root.dataset.state === "loading");
+  }
+  return clicks;
+}"""
+
+
+@pytest.fixture
+def explorer(open_page, tmp_path):
+    """A page of an Explorer that has begun its first run."""
+    write_page(tmp_path, [Explorer(playing=False, speed=0.0)])
+    page = open_page(tmp_path, "page.html", viewport={"width": 800, "height": 1200})
+    wait(page, "paused")
+    return page
+
+
+def wait(page, state):
+    page.wait_for_function("state => document.querySelector('.neorl-explorer')?.dataset.state === state", arg=state)
+
+
+def test_clicks_at_random_while_agents_are_loaded_do_no_harm(explorer):
+    assert explorer.evaluate(CLICKS, {"loads": LOADS, "seed": SEED}) > LOADS
+
+
+def test_what_was_asked_of_the_run_before_is_not_answered(explorer):
+    """Steps, a goal and a game of the run before, asked for just before and just after another agent is chosen."""
+    step, menu = '[data-action="step"]', '[name="preset"]'
+    for first, second in [("Place cells", "Network D"), ("Network D", "Object-vector cells")]:
+        explorer.locator(menu).select_option(first)
+        wait(explorer, "paused")
+        explorer.evaluate("""([step, menu, key]) => {
+            const tank = document.querySelector(".arena canvas");
+            const { left, top, width } = tank.getBoundingClientRect();
+            const act = (share) => {
+              document.querySelector(step).click();
+              const at = { clientX: left + share * width, clientY: top + share * width };
+              tank.dispatchEvent(new MouseEvent("click", { bubbles: true, ...at }));
+            };
+            act(0.3);
+            Object.assign(document.querySelector(menu), { value: key }).dispatchEvent(
+              new Event("input", { bubbles: true }));
+            return Promise.resolve().then(() => act(0.7));
+        }""", [step, menu, second])
+        wait(explorer, "paused")
+        explorer.wait_for_timeout(100)
+        root = explorer.locator(".neorl-explorer")
+        assert [root.get_attribute(f"data-{name}") for name in ("step", "score", "goal")] == ["0", "0", ""]
+        expect(explorer.locator('[name="map"] option').first).to_have_text(
+            re.compile("^" + AGENTS[second].nodes[0].name))
+
+
+def test_reset_revives_from_maps_that_are_too_large(explorer):
+    explorer.locator('[name="preset"]').select_option("Network D")
+    explorer.locator('[name="resolutions"]').fill("88, 89, 90")
+    explorer.locator('[name="resolutions"]').press("Enter")
+    alert = explorer.locator("[role=alert]")
+    expect(alert).to_have_text(re.compile(r"^These maps need \d\.\d GB of memory, and a page can have 3\."))
+    explorer.locator('[data-action="reset"]').click()
+    wait(explorer, "paused")
+    expect(alert).to_be_hidden()
+    preset = ", ".join(map(str, AGENTS["Network D"].nodes[0].resolutions))
+    assert explorer.locator('[name="resolutions"]').input_value() == preset
+
+
+@pytest.mark.parametrize("state", [{"preset": "Network E"}, {"resolutions": [0]}, {"speed": -1}, {"seed": 0.5}])
+def test_reset_revives_from_a_state_that_is_wrong(open_page, tmp_path, state):
+    write_page(tmp_path, [Explorer(playing=False)], lambda record: record["state"].update(state))
+    page = open_page(tmp_path, "page.html")
+    wait(page, "failed")
+    page.locator('[data-action="reset"]').click()
+    wait(page, "paused")
+    expect(page.locator("[role=alert]")).to_be_hidden()
+
+
+# A fault in the worker, one in a drawing and one in an answer, each until it is taken back.
+FAULTS = [
+    ("Worker.prototype.postMessage", "function () { this.onerror(new ErrorEvent('error', { message: 'Uncaught' })); }"),
+    ("Worker.prototype.postMessage", "function () { queueMicrotask(() => this.onmessage({ data: {} })); }"),
+    ("CanvasRenderingContext2D.prototype.clearRect", "() => undefined.there"),
+]
+
+
+@pytest.mark.parametrize("what, fault", FAULTS)
+def test_a_fault_is_a_sentence_and_reset_revives_from_it(explorer, what, fault):
+    explorer.evaluate(f"() => {{ window.sound = {what}; {what} = {fault}; }}")
+    explorer.locator('[data-action="step"]').click()
+    alert = explorer.locator("[role=alert]")
+    expect(alert).to_have_text("The simulation has stopped. Reset begins it again.")
+    explorer.evaluate(f"() => {{ {what} = window.sound; }}")
+    explorer.locator('[data-action="reset"]').click()
+    wait(explorer, "paused")
+    expect(alert).to_be_hidden()
+    explorer.locator('[data-action="step"]').click()
+    explorer.wait_for_function("document.querySelector('.neorl-explorer').dataset.step === '1'")
+
+
+def test_an_element_that_is_deleted_while_it_is_dragged_is_gone(explorer):
+    explorer.locator('[data-action="drop"]').click()
+    mark = explorer.locator(".interest")
+    mark.hover()
+    explorer.mouse.down()
+    explorer.mouse.move(300, 400, steps=3)
+    explorer.keyboard.press("Delete")
+    explorer.mouse.move(350, 450, steps=3)
+    explorer.mouse.up()
+    expect(mark).to_have_count(0)
+    expect(explorer.locator("[role=alert]")).to_be_hidden()

@@ -1,0 +1,352 @@
+"""The Explorer in a page without Python: it starts, lives the runs that Python lives, and does what the reader asks."""
+
+import re
+from dataclasses import replace
+
+import pytest
+from explorer_page import write_page
+from playwright.sync_api import expect
+
+from neorl import Desire, Explorer, Learning, Place, Run, WaterWorld, multimodal, network_d, place_cells, simulate
+from neorl.core.modality import OBJECT_VECTOR_CELL
+
+SIZE = {"steps": 30_000, "runs": 12, "seed": 3, "progress": False}
+TANK = WaterWorld()
+BOTH, PLACES = multimodal([2, 3, 5]), place_cells([5, 3])
+NETWORK = network_d([3, 4], learning=Learning(discount=0.8, memory=0.0, memory_unit="cells", bootstrap=True))
+TURNED = network_d([3, 4], recursion=0.5, learning=NETWORK.learning)
+
+
+@pytest.fixture(scope="module")
+def conditions():
+    return {"both": simulate(BOTH, TANK, **SIZE), "places": simulate(PLACES, TANK, **SIZE),
+            "joins": simulate(PLACES, TANK, changes=[(10_000, multimodal([5, 3]))], **SIZE),
+            "D": simulate(NETWORK, TANK, **SIZE),
+            "turned": simulate(NETWORK, TANK, changes=[(10_000, TURNED)], **SIZE)}
+
+
+@pytest.fixture
+def site(tmp_path, conditions):
+    """`site(preset, …, trait=value)` writes a page of an Explorer for each preset, and tells where it is."""
+    def write(*presets, change=None, **traits):
+        explorers = [Explorer(conditions, preset, **{"playing": False, "speed": 0.0} | traits) for preset in presets]
+        write_page(tmp_path, explorers, change)
+        return tmp_path, "page.html"
+    return write
+
+
+def explorer_of(page, state="paused|running|ended"):
+    explorer = page.locator(".neorl-explorer").first
+    wait(page, state)
+    return explorer
+
+
+def wait(page, state):
+    page.wait_for_function("""wanted => wanted.split("|").includes(
+        document.querySelector(".neorl-explorer")?.dataset.state)""", arg=state)
+
+
+def press(page, action):
+    page.locator(f'.neorl-explorer [data-action="{action}"]').first.click()
+
+
+def play_to_the_end(page):
+    press(page, "play")
+    wait(page, "ended")
+    return float(page.locator(".neorl-explorer").first.get_attribute("data-score"))
+
+
+def set_slider(page, name, value):
+    if not page.locator(f'[name="{name}"]').first.is_visible():
+        page.locator("summary").first.click()
+    page.locator(f'[name="{name}"]').first.fill(str(value))
+
+
+def lived(agent, world=TANK, seed=SIZE["seed"], run=0, steps=SIZE["steps"]):
+    return Run(agent, world, seed, run).advance(steps)
+
+
+@pytest.mark.parametrize("over", ["http", "file"])
+def test_it_starts_by_itself_and_the_reward_curve_grows(open_page, site, over):
+    page = open_page(*site("both", playing=True), over)
+    explorer = explorer_of(page, "running|ended")
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step > 5000")
+    wait(page, "ended")
+    assert explorer.get_attribute("data-step") == "30000"
+    assert float(explorer.get_attribute("data-score")) > 20
+
+
+@pytest.mark.parametrize("over", ["http", "file"])
+@pytest.mark.parametrize("name, run", [("both", 7), ("places", 11), ("joins", 4), ("turned", 2), ("D", 0)])
+def test_a_run_opened_by_its_number_ends_with_the_score_that_python_has(open_page, site, conditions, name, run, over):
+    page = open_page(*site("both", seed=99), over)
+    explorer = explorer_of(page)
+    page.locator('[name="open-preset"]').select_option(name)
+    page.locator('[name="open-run"]').fill(str(run))
+    press(page, "open")
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step > 0")
+    wait(page, "ended")
+    total = conditions[name].totals[run]
+    assert float(explorer.get_attribute("data-score")) == total
+    nodes = (conditions[name].changes or [(0, conditions[name].agent)])[-1][1].nodes
+    maps = [f"{node.name} N{n}" for node in nodes for n in node.resolutions]
+    expect(page.locator('[name="map"] option')).to_have_text(maps)
+    expect(explorer).to_contain_text(re.compile(r"The notebook computed .* for this run: the same\."))
+
+
+@pytest.mark.parametrize("name, value, change", [
+    ("valence_red", 0.5, lambda agent: replace(agent, desires=[
+        replace(each, valence=0.5) if each.source == "red" else each for each in agent.desires])),
+    ("recursion", 0.7, lambda agent: replace(agent, desires=[
+        replace(each, valence=0.7) if each.source == each.target else each for each in agent.desires])),
+    ("gain-1", 3.0, lambda agent: replace(agent, nodes=[agent.nodes[0], replace(agent.nodes[1], gain=3.0)])),
+    ("horizon", 0.3, lambda agent: replace(agent, learning=replace(agent.learning, discount=0.5))),
+    ("memory", 1.48, lambda agent: replace(agent, learning=replace(agent.learning, memory=30.0))),
+])
+def test_a_slider_changes_the_run_as_python_changes_the_agent(open_page, site, conditions, name, value, change):
+    page = open_page(*site("D"))
+    explorer_of(page)
+    set_slider(page, name, value)
+    score = play_to_the_end(page)
+    assert score == lived(change(NETWORK))
+    assert score != conditions["D"].totals[0]
+
+
+def test_no_memory_stands_at_the_left_end_of_its_slider(open_page, site, conditions):
+    page = open_page(*site("D", memory=1000.0))
+    explorer_of(page)
+    assert page.locator('[name="memory"]').input_value() == "3"
+    set_slider(page, "memory", -1)
+    assert play_to_the_end(page) == conditions["D"].totals[0]
+    assert explorer_of(page).get_attribute("data-condition") == "D"
+
+
+@pytest.mark.parametrize("rule, counts", [
+    ({"bootstrap": True}, True), ({"bootstrap": False}, False), ({"bootstrap": False, "memory": 0.0, "trace": 2}, True),
+    ({"bootstrap": False, "memory_value": "discounted"}, True)])
+def test_a_horizon_without_effect_is_not_offered(open_page, tmp_path, rule, counts):
+    learning, short = Learning(**rule), {"steps": 5_000, "runs": 1, "progress": False}
+    result = simulate(place_cells([5], learning=learning), TANK, **short)
+    other = simulate(place_cells([5], learning=replace(learning, discount=0.5)), TANK, **short)
+    assert (result.rewards != other.rewards).any() == counts
+    write_page(tmp_path, [Explorer({"PC": result}, playing=False)])
+    page = open_page(tmp_path, "page.html")
+    explorer_of(page)
+    horizon = page.locator('[name="horizon"]')
+    assert horizon.is_enabled() == counts
+    assert (horizon.locator("+ output").text_content() == "no effect") == (not counts)
+
+
+def test_the_horizon_of_a_preset_stands_on_its_slider(open_page, site):
+    page = open_page(*site("D", discount=0.8))
+    explorer_of(page)
+    horizon = page.locator('[name="horizon"]')
+    assert (horizon.input_value(), horizon.locator("+ output").text_content()) == ("0.7", "5")
+    set_slider(page, "horizon", 1)
+    set_slider(page, "horizon", 0.7)
+    assert explorer_of(page).get_attribute("data-condition") == "D"
+
+
+def test_creeps_resolutions_modality_and_seed_begin_the_run_that_python_begins(open_page, site):
+    page = open_page(*site("places"))
+    explorer = explorer_of(page)
+    page.locator('[name="resolutions"]').fill("4, 6")
+    page.locator('[name="resolutions"]').press("Enter")
+    page.locator('[name="modality"]').select_option("object-vector cell")
+    set_slider(page, "n_creeps", 5)
+    page.locator('[name="seed"]').fill("4294967295")
+    page.locator('[name="run"]').fill("17")
+    page.locator('[name="run"]').press("Enter")
+    node = replace(PLACES.nodes[0], modality=OBJECT_VECTOR_CELL, resolutions=[4, 6])
+    agent = replace(PLACES, nodes=[node])
+    assert play_to_the_end(page) == lived(agent, WaterWorld(n_creeps=5), seed=2**32 - 1, run=17)
+    assert explorer.get_attribute("data-condition") == ""
+
+
+def test_the_modality_of_a_preset_stands_in_the_menu_and_comes_back_with_its_ranges(open_page, site):
+    page = open_page(*site("places"))
+    menu = page.locator('[name="modality"]')
+    expect(menu).to_have_value("place cell")
+    menu.select_option("border cell")
+    menu.select_option("place cell")
+    assert play_to_the_end(page) == lived(PLACES)
+    assert explorer_of(page).get_attribute("data-condition") == "places"
+
+
+@pytest.mark.parametrize("name, agent", [("both", BOTH), ("D", NETWORK)])
+def test_what_is_dropped_is_an_element_of_interest_for_the_nodes_that_count(open_page, site, name, agent):
+    page = open_page(*site(name))
+    explorer_of(page)
+    press(page, "drop")
+    page.keyboard.press("ArrowLeft")
+    page.locator('[name="element-valence"]').fill("-1.5")
+    element = page.locator(".interest")
+    expect(element).to_have_text("−1.5")
+    dropped = [Desire(Place(0.48, 0.5), node, -1.5) for node in ("PC", "OVC")]
+    assert play_to_the_end(page) == lived(replace(agent, desires=(*agent.desires, *dropped)))
+    press(page, "reset")
+    expect(element).to_have_count(0)
+
+
+def test_elements_and_creeps_are_dragged_to_where_the_pointer_goes(open_page, site):
+    page = open_page(*site("both"))
+    explorer_of(page)
+    press(page, "drop")
+    box = page.locator(".arena").bounding_box()
+    for thing, x, y in ((".interest", 0.2, 0.8), (".grip", 0.7, 0.3)):
+        place = page.locator(thing).first
+        begin = place.bounding_box()
+        page.mouse.move(begin["x"] + begin["width"] / 2, begin["y"] + begin["height"] / 2)
+        page.mouse.down()
+        page.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
+        page.mouse.move(box["x"] + x * box["width"], box["y"] + y * box["height"], steps=3)
+        page.mouse.up()
+        expect(place).to_have_attribute("style", re.compile(rf"left: {100 * x:.0f}\b.*top: {100 * y:.0f}\b|"
+                                                            rf"left: {100 * x - 1:.0f}\.9.*top: {100 * y - 1:.0f}\.9"))
+    expect(page.locator(".legend")).to_contain_text("changed on the way")
+
+
+def test_a_change_on_the_way_keeps_what_was_learned(open_page, site):
+    page = open_page(*site("both", speed=1000.0, playing=True))
+    explorer = explorer_of(page, "running")
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step > 1000")
+    set_slider(page, "valence_red", 1)
+    page.wait_for_function("document.querySelector('.legend').textContent.includes('changed on the way')")
+    press(page, "play")
+    wait(page, "paused")
+    page.wait_for_timeout(100)
+    before = int(explorer.get_attribute("data-step"))
+    assert 1000 < before
+    press(page, "step")
+    page.wait_for_function(f"document.querySelector('.neorl-explorer').dataset.step == {before + 1}")
+
+
+@pytest.mark.parametrize("over", ["http", "file"])
+def test_a_click_on_a_cell_shows_how_to_get_there(open_page, site, over):
+    page = open_page(*site("places"), over)
+    explorer = explorer_of(page)
+    play_to_the_end(page)
+    arena = page.locator(".arena canvas")
+    page.locator('[name="field"]').uncheck()
+    page.locator('[name="map"]').select_option(label="PC N5")
+    arena.scroll_into_view_if_needed()
+    page.wait_for_timeout(300)
+    before = arena.screenshot()
+    box = arena.bounding_box()
+    arena.click(position={"x": 0.32 * box["width"], "y": 0.68 * box["height"]})
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal !== ''")
+    assert explorer.get_attribute("data-goal") == str(int(place_cells([5]).maps[0].encode([0.3, 0.7])))
+    expect(explorer).to_contain_text("Nobody asked for it")
+    page.wait_for_timeout(300)
+    assert arena.screenshot() != before
+    page.keyboard.press("Escape")
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal === ''")
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("Enter")
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal === '12'")
+
+
+def test_arrow_keys_play_against_the_agent_and_both_scores_are_shown(open_page, site):
+    page = open_page(*site("both"))
+    explorer = explorer_of(page)
+    press(page, "game")
+    wait(page, "running")
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step > 5")
+    scrolled = page.evaluate("scrollY")
+    page.keyboard.down("ArrowDown")
+    page.wait_for_timeout(400)
+    page.keyboard.up("ArrowDown")
+    expect(explorer).to_contain_text(re.compile(r"You: [−\d]+\. neoRL: [−\d]+\."))
+    assert page.evaluate("scrollY") == scrolled
+    page.keyboard.press("Escape")
+    expect(explorer).not_to_contain_text("You: ")
+
+
+def test_it_rests_out_of_sight_and_in_a_hidden_tab(open_page, site):
+    page = open_page(*site("both", speed=1.0, playing=True))
+    explorer = explorer_of(page, "running")
+    page.evaluate("document.body.style.paddingTop = '4000px'")
+    wait(page, "paused")
+    page.evaluate("document.body.style.paddingTop = 0")
+    wait(page, "running")
+    page.evaluate("""() => { Object.defineProperty(document, "hidden", { value: true, configurable: true });
+                             document.dispatchEvent(new Event("visibilitychange")); }""")
+    wait(page, "paused")
+    page.wait_for_timeout(100)
+    step = explorer.get_attribute("data-step")
+    page.wait_for_timeout(300)
+    assert explorer.get_attribute("data-step") == step
+
+
+def test_ten_on_a_page_all_live_when_they_are_in_sight(open_page, site):
+    page = open_page(*site(*["both", "places", "D", "Network B", "joins"] * 2, speed=100.0, playing=True))
+    for i in range(10):
+        explorer = page.locator(".neorl-explorer").nth(i)
+        explorer.scroll_into_view_if_needed()
+        page.wait_for_function(f"document.querySelectorAll('.neorl-explorer')[{i}].dataset.step > 100")
+    assert page.locator("[role=alert]:visible").count() == 0
+
+
+def test_less_motion_begins_paused(open_page, site):
+    page = open_page(*site("both", playing=True), reduced_motion="reduce")
+    assert explorer_of(page).get_attribute("data-state") == "paused"
+    play_to_the_end(page)
+
+
+def test_every_control_has_a_name_for_those_who_hear_the_page(open_page, site):
+    page = open_page(*site("D"))
+    explorer_of(page)
+    page.locator("summary").click()
+    unnamed = page.evaluate("""[...document.querySelectorAll(".neorl-explorer :is(input, select, button, canvas)")]
+        .filter((each) => !each.labels?.[0]?.textContent.trim() && !each.ariaLabel && !each.textContent.trim())
+        .map((each) => each.outerHTML)""")
+    assert unnamed == []
+
+
+def test_every_number_of_a_slider_has_room_on_a_phone(open_page, site):
+    phone = {"viewport": {"width": 400, "height": 900}}
+    page = open_page(*site("Network D, to the letter", memory=0.123, discount=0.99), **phone)
+    explorer_of(page)
+    page.evaluate("document.body.style.width = 'auto'")
+    page.locator("summary").click()
+    crowded = page.evaluate("""[...document.querySelectorAll(".neorl-explorer output")].filter(
+        (each) => each.scrollWidth > each.clientWidth).map((each) => each.textContent)""")
+    assert crowded == [] and page.evaluate("document.documentElement.scrollWidth") == 400
+
+
+def spoilt(**changes):
+    def change(record):
+        record["state"] |= changes
+    return change
+
+
+def without_buffers(record):
+    record["buffers"] = []
+
+
+def with_a_spoilt_module(record):
+    record["buffers"][0]["data"] = record["buffers"][0]["data"][:5000]
+
+
+@pytest.mark.parametrize("change, sentence", [
+    (spoilt(_presets={}), "this page does not hold its _presets"),
+    (spoilt(_layout=None), "this page does not hold its _layout"),
+    (spoilt(_engine="not a program ("), "The simulation has stopped"),
+    (spoilt(preset="nobody"), "There is no agent “nobody”"),
+    (spoilt(resolutions=[0]), r"cannot run with resolutions = \[0\]"),
+    (spoilt(gains=[1, 2, 3]), r"cannot run with gains"),
+    (without_buffers, "_wasm"),
+    (with_a_spoilt_module, "The simulation has stopped"),
+])
+def test_a_bad_state_is_a_sentence(open_page, site, change, sentence):
+    page = open_page(*site("both", change=change, playing=True))
+    expect(page.locator("[role=alert]:visible")).to_contain_text(re.compile(sentence))
+
+
+@pytest.mark.parametrize("missing", ["WebAssembly", "Worker"])
+def test_a_browser_without_what_it_needs_is_told_so(chromium, open_page, site, missing):
+    folder, name = site("both", playing=True)
+    page_path = folder / name
+    page_path.write_text(page_path.read_text().replace("<body", f"<script>delete window.{missing}</script><body", 1))
+    page = open_page(folder, name)
+    expect(page.locator("[role=alert]:visible")).to_contain_text("needs WebAssembly and web workers")

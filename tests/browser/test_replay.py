@@ -1,0 +1,96 @@
+"""Recordings are what runs are, and the Replay shows them in a page without Python."""
+
+import numpy as np
+import pytest
+from explorer_page import write_page
+from playwright.sync_api import expect
+
+from neorl import Run, WaterWorld, place_cells
+from neorl.browser.replay import Replay
+from neorl.experiments.recording import record
+
+AGENT, TANK = place_cells([3]), WaterWorld(n_creeps=12)
+
+
+@pytest.fixture(scope="module")
+def recordings():
+    return [record(name, Run(AGENT, TANK, seed=2, run=run), 100) for run, name in enumerate(["first", "second"])]
+
+
+def test_a_recording_holds_every_step_of_its_run(recordings):
+    run = Run(AGENT, TANK, seed=2, run=1)
+    hits = np.zeros((100, 2), np.int16)
+    for step in range(101):
+        if step:
+            run.advance(1, np.zeros(100, np.float32), hits)
+        agent, creeps = recordings[1].agent[step], recordings[1].creeps[step]
+        assert np.allclose(agent, np.concatenate([run.state.agent_position, run.state.agent_velocity]) / 250, atol=1e-6)
+        assert np.allclose(creeps[:, :2], run.state.creep_position / 250, atol=1e-6)
+        assert np.allclose(np.hypot(*creeps[:, 2:].T), run.state.creep_speed / 250, atol=1e-6)
+        assert recordings[1].green[step].tolist() == run.state.creep_is_green.tolist()
+        assert recordings[1].hits[step].tolist() == hits.sum(axis=0).tolist()
+    assert hits.sum() > 0
+
+
+def test_a_recording_goes_on_where_the_run_is():
+    run = Run(AGENT, TANK, seed=2)
+    run.advance(40)
+    assert np.array_equal(record("late", run, 10).agent, record("all", Run(AGENT, TANK, seed=2), 50).agent[40:])
+
+
+@pytest.mark.parametrize("steps", [0, -1, 2.5])
+def test_a_recording_of_no_steps_is_refused(steps):
+    with pytest.raises(ValueError, match=f"steps is {steps}, allowed are integers ≥ 1"):
+        record("none", Run(AGENT, TANK), steps)
+
+
+def test_recordings_that_do_not_go_together_are_refused(recordings):
+    longer = record("longer", Run(AGENT, TANK), 101)
+    for wrong in ([], [recordings[0], longer]):
+        with pytest.raises(ValueError, match="recordings are of .* steps, allowed are one or more of the same length"):
+            Replay(wrong)
+    with pytest.raises(ValueError, match="recordings is 'first', allowed is a Recording"):
+        Replay(["first"])
+
+
+def test_a_replay_plays_to_its_end_in_real_time_and_can_be_moved(open_page, tmp_path, recordings):
+    write_page(tmp_path, [Replay(recordings)])
+    page = open_page(tmp_path, "page.html")
+    replay = page.locator(".neorl-replay")
+    expect(replay).to_have_attribute("data-state", "paused", timeout=15_000)  # two seconds after it began
+    assert replay.get_attribute("data-frame") == "50"
+    for index, recording in enumerate(recordings):
+        green, red = recording.hits[-1]
+        expect(replay.locator(".legend").nth(index)).to_have_text(f"{green} green, {red} red")
+        expect(replay.locator(".title").nth(index)).to_have_text(recording.name)
+    replay.get_by_text("Play again").click()
+    expect(replay).to_have_attribute("data-state", "playing")
+    replay.locator("[name=time]").fill("10")
+    green, red = recordings[0].hits[20]
+    expect(replay.locator(".legend").first).to_have_text(f"{green} green, {red} red")
+    expect(replay.locator("output")).to_have_text("0.4 s")
+    replay.locator("button").click()
+    expect(replay).to_have_attribute("data-state", "playing")
+    expect(replay).to_have_attribute("data-frame", "50", timeout=15_000)
+
+
+def test_the_agents_are_drawn_where_they_were(open_page, tmp_path, recordings):
+    write_page(tmp_path, [Replay(recordings, playing=False)])
+    page = open_page(tmp_path, "page.html")
+    page.locator("[name=time]").fill("50")
+    for index, recording in enumerate(recordings):
+        x, y = recording.agent[100, :2]
+        red, green, blue = page.locator("canvas").nth(index).evaluate(
+            """(canvas, [x, y]) => [...canvas.getContext("2d").getImageData(
+                (x + 0.055) / 1.11 * canvas.width, (y + 0.055) / 1.11 * canvas.height, 1, 1).data.slice(0, 3)]""",
+            [float(x), float(y)])
+        assert blue > red and blue > 150  # the agent's colour
+
+
+def test_readers_who_ask_for_less_motion_press_play(open_page, tmp_path, recordings):
+    write_page(tmp_path, [Replay(recordings)])
+    page = open_page(tmp_path, "page.html", reduced_motion="reduce")
+    page.wait_for_timeout(300)
+    assert page.locator(".neorl-replay").get_attribute("data-frame") == "0"
+    page.locator(".neorl-replay button").click()
+    expect(page.locator(".neorl-replay")).to_have_attribute("data-state", "playing")

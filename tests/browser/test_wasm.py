@@ -1,0 +1,157 @@
+"""The WebAssembly module: what it needs, how large it is, and that it lives the same runs as native code."""
+
+import importlib.util
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from webassembly import Machine, compiled, copied, sizes_of
+
+import neorl
+from neorl import (Agent, Desire, Learning, Node, Place, Run, WaterWorld, multimodal, network_a, network_b, network_c,
+                   network_d, object_vector_cells, place_cells)
+from neorl.agents.compile import chosen
+from neorl.browser import wasm
+from neorl.core import modality
+from neorl.core.kernel import zeros
+from neorl.core.plan import Memory, Plan
+from neorl.experiments import cache
+from neorl.worlds import probe
+from neorl.worlds.waterworld import WaterWorldState
+
+STEPS = 50_000
+LAYERS = (10, 30, 50, 70, 90, 3, 7, 23)
+PRIMES = (2, 3, 5, 7, 11, 13)
+MEMORIES = {
+    "memory": Learning(memory=20.0, credit="happened", absent_decay=0.1, causes="own"),
+    "memory of seconds": Learning(memory=0.5, memory_unit="seconds", memory_value="discounted", bootstrap=False,
+                                  absent_decay=0.2, absent_form="away", credit="count", capture="leap"),
+    "activity": Learning(credit="activity", absent_decay=0.2, absent_form="away", terminal=False, attention="wanted",
+                         capture="silent"),
+}
+PAPERS = {
+    "Brownian": (neorl.brownian(), 8),
+    **{f"A, N{n}": (place_cells([n]), 8) for n in LAYERS},
+    **{f"A, {by}": (place_cells([3, 7, 23], weighting=by), 8) for by in ("equal", "resolution", "cells")},
+    **{f"B, {make.__name__} N{n}": (make([n]), 3) for n in PRIMES for make in (place_cells, object_vector_cells)},
+    **{f"B, {make.__name__}": (make(), 3) for make in (place_cells, object_vector_cells, multimodal)},
+    **{f"C, {make.__name__}": (make(), 3) for make in (network_a, network_b, network_c, network_d)},
+    **{f"C, signed {make.__name__}": (make(signed=True), 3) for make in (network_a, network_b, network_c, network_d)},
+    **{f"{name}": (multimodal([3, 7], learning=rule), 3) for name, rule in MEMORIES.items()},
+    "every modality": (Agent([Node(each.name, each, [1, 4]) for each in modality.MODALITIES],
+                             [*(Desire("green", each.name, 1.0) for each in modality.MODALITIES if each.takes_places),
+                              Desire(Place(0.2, 0.9), "object-vector cell", -1.0),
+                              Desire((0.3, 0.3), "place cell", 0.4)]), 4),
+}
+
+
+def assert_equal_to(run, arguments):
+    for name in ("memory", "state"):
+        for field, (_, view) in arguments[name]._asdict().items():
+            assert np.array_equal(view, getattr(getattr(run, name), field), equal_nan=True), (name, field)
+
+
+@pytest.mark.parametrize("name", PAPERS)
+def test_a_run_equals_a_native_run_to_the_last_bit(name):
+    agent, creeps = PAPERS[name]
+    run = Run(agent, WaterWorld(n_creeps=creeps, win_reward=5.0 if creeps == 8 else 0.0), seed=1, run=4)
+    machine, sizes, arguments = copied(run)
+    rewards, hits = np.zeros(1, np.float32), np.zeros((1, 2), np.int16)
+    bins = {"rewards": machine.put(rewards), "hits": machine.put(hits)}
+    brought = sum(machine.call("rollout", sizes, first_step=first, last_step=first + STEPS // 5, bin_steps=2 * STEPS,
+                               **arguments, **bins) for first in range(0, STEPS, STEPS // 5))
+    assert brought == run.advance(STEPS)
+    assert name == "Brownian" or run.memory.q.any()
+    assert_equal_to(run, arguments)
+
+
+@pytest.mark.parametrize("name", ["A, cells", "B, multimodal", "C, network_d", "every modality"])
+def test_a_run_begins_as_in_python_without_any_python(name):
+    agent, creeps = PAPERS[name]
+    run = Run(agent, WaterWorld(n_creeps=creeps), seed=2**32 - 1, run=17)
+    machine, sizes = Machine(), sizes_of(run)
+    choices, _ = chosen(agent, run.world)
+    plan = machine.put_tuple(Plan(**zeros(Plan, sizes) | choices))
+    machine.call("lay_out", sizes, plan=plan, n_creeps=creeps)
+    state = machine.put_tuple(WaterWorldState(**zeros(WaterWorldState, sizes)))
+    memory = machine.put_tuple(Memory(**zeros(Memory, sizes)))
+    for words, stream in (([2**32 - 1, 0, 0, 0, 17], state.stream), ([2**32 - 1, 0, 0, 0, 17, 0], memory.stream)):
+        machine.call("start_stream", sizes | {"words": len(words)}, words=machine.put(np.array(words, np.uint64)),
+                     stream=stream)
+    machine.call("reset_board", sizes, state=state, rules=run.world.rules)
+    machine.call("know_nothing", sizes, plan=plan, memory=memory)
+    machine.call("begin_tracks", sizes, plan=plan, memory=memory, state=state)
+    assert_equal_to(run, {"memory": memory, "state": state})
+    for field, value in run.plan._asdict().items():
+        laid_out = getattr(plan, field)
+        assert np.array_equal(laid_out[1] if isinstance(value, np.ndarray) else laid_out, value), field
+
+
+def test_looking_and_joining_in_equal_native_calls():
+    run = Run(multimodal([5, 7]), WaterWorld(n_creeps=6), seed=3)
+    run.advance(20_000)
+    machine, sizes, arguments = copied(run)
+    plan, memory, rules, state = run.plan, run.memory, run.world.rules, run.state
+    contacts = np.zeros(6, np.int8)
+
+    there = state._replace(agent_position=np.zeros(2))
+    elsewhere = Memory(**{name: value.copy() for name, value in memory._asdict().items()})
+    values = np.zeros((81, 4))
+    copies = {"there": arguments["state"]._replace(agent_position=machine.put(np.zeros(2))),
+              "elsewhere": machine.put_tuple(elsewhere), "values": machine.put(values)}
+    probe.survey(plan, memory, elsewhere, there, 9, values)
+    machine.call("survey", sizes | {"tiles": 81}, plan=arguments["plan"], memory=arguments["memory"], side=9, **copies)
+    assert values.any() and np.array_equal(copies["values"][1], values)
+
+    for m, x, y in ((0, 0.1, 0.9), (3, 0.6, 0.2)):
+        cell = machine.call("cell_seen_at", sizes, plan=arguments["plan"], state=arguments["state"], m=m, x=x, y=y)
+        assert cell == probe.cell_seen_at(plan, state, m, x, y)
+
+    second = state._replace(agent_position=np.array([10.0, 10.0]), agent_velocity=np.zeros(2))
+    second_copy = arguments["state"]._replace(agent_position=machine.put(second.agent_position),
+                                              agent_velocity=machine.put(second.agent_velocity))
+    bins = {"rewards": machine.put(np.zeros(1, np.float32)), "hits": machine.put(np.zeros((1, 2), np.int16))}
+    met = 0
+    for step, action in enumerate(np.random.default_rng(0).integers(0, 5, 1_000).tolist()):
+        run.advance(1)
+        machine.call("rollout", sizes, first_step=step, last_step=step + 1, bin_steps=10_000, **arguments, **bins)
+        paid = probe.step_second(plan, memory, rules, state, second, contacts, action)
+        assert machine.call("step_second", sizes, second=second_copy, action=action, **arguments) == paid
+        met += contacts.any()
+    assert met > 10
+    assert_equal_to(run, arguments)
+
+
+def test_the_module_is_small_and_asks_for_memory_alone():
+    _, module = compiled()
+    assert len(wasm.module()) < 82_000
+    assert [each.name for each in module.imports] == ["memory"]
+    assert {each.name for each in module.exports} == {"__heap_base", *wasm.layout()["exports"]}
+
+
+def test_a_module_on_disk_is_taken_and_a_damaged_one_is_not(tmp_path, monkeypatch):
+    content = wasm.module()
+    monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
+    path = tmp_path / "wasm" / wasm._digest()
+    cache.write_checked(path, content)
+    monkeypatch.setattr(subprocess, "run", lambda *_, **__: pytest.fail("it was built again"))
+    assert wasm.module() == content
+    path.write_bytes(path.read_bytes()[:-1])
+    with pytest.raises(pytest.fail.Exception, match="built again"):
+        wasm.module()
+
+
+def test_without_a_linker_the_error_says_what_to_install(tmp_path, monkeypatch):
+    monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
+    with pytest.raises(RuntimeError, match="pip install ziglang"):
+        wasm.module()
+    assert Run(place_cells([3]), WaterWorld()).advance(10) is not None
+
+
+def test_what_goes_wrong_in_a_build_is_told(tmp_path, monkeypatch):
+    monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
+    monkeypatch.setattr(sys, "executable", "/bin/false")
+    with pytest.raises(RuntimeError, match="was not built"):
+        wasm.module()

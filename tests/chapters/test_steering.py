@@ -1,0 +1,92 @@
+"""Navigation by rule, and the same agent before and after learning."""
+
+import numpy as np
+import pytest
+from matplotlib import pyplot as plt
+
+from neorl import Run, WaterWorld, multimodal, place_cells
+from neorl.chapters.chapter_1 import navigation_figures
+from neorl.chapters.chapter_1.before_and_after import newborn, trials, veteran
+from neorl.chapters.chapter_1.steering import CLOSE, HASTE, chase, follow_route, steer
+from neorl.experiments.recording import Recording
+
+TANK = WaterWorld()
+MOVES = 62.5 * np.array([(0, -1), (0, 1), (1, 0), (-1, 0), (0, 0)])
+
+
+def test_the_helmsman_takes_the_action_after_which_the_velocity_is_best():
+    rng = np.random.default_rng(0)
+    state = TANK.reset(0)
+    taken = set()
+    for _ in range(300):
+        state.agent_position, state.agent_velocity = rng.uniform(0, 250, 2), rng.uniform(-200, 200, 2)
+        target = state.agent_position + rng.uniform(-60, 60, 2)
+        miss = HASTE * (target - state.agent_position) - state.agent_velocity
+        action = steer(state, TANK.rules, *target)
+        assert np.linalg.norm(miss - MOVES, axis=1).argmin() == action
+        taken.add(action)
+    assert taken == set(range(5))
+
+
+def test_a_route_is_followed_point_by_point_and_the_vessel_stays_at_its_end():
+    waypoints = np.array([(0.2, 0.3), (0.7, 0.2), (0.6, 0.8)])
+    path = follow_route(TANK, waypoints, seconds=20)
+    assert path.shape == (1001, 2) and path[0].tolist() == [0.5, 0.5]
+    reached = [int((np.linalg.norm(path - point, axis=1) < CLOSE).argmax()) for point in waypoints]
+    assert 0 < reached[0] < reached[1] < reached[2]
+    assert np.linalg.norm(path[-100:] - waypoints[-1], axis=1).max() < CLOSE
+
+
+@pytest.mark.parametrize("waypoints", [[(0.2, 1.2)], [(0.2,)], (0.5, 0.5), [(0.1, np.nan)]])
+def test_a_route_that_leaves_the_tank_is_refused(waypoints):
+    with pytest.raises(ValueError, match="waypoints"):
+        follow_route(TANK, waypoints, seconds=1)
+
+
+def test_whoever_hunts_by_rule_takes_much_more_than_who_moves_at_random_and_a_run_is_the_same_alone():
+    rewards = chase(TANK, steps=3_000, runs=4, seed=1)
+    assert rewards.min() > 60  # one a second
+    assert chase(TANK, steps=3_000, runs=2, seed=1).tolist() == rewards[:2].tolist()
+    assert len(set(rewards)) > 1
+
+
+def test_a_newborn_and_a_veteran_begin_on_the_same_board_and_know_nothing_and_what_a_run_has_taught():
+    agent = place_cells([3])
+    first, second = newborn(agent, TANK, seed=4, run=2), veteran(agent, TANK, 5_000, seed=4, run=2)
+    assert all(np.array_equal(a, b) for a, b in zip(first.state, second.state))
+    teacher = Run(agent, TANK, seed=5, run=2)
+    teacher.advance(5_000)
+    assert not first.q().any() and np.array_equal(second.q(), teacher.q()) and teacher.q().any()
+    assert np.array_equal(second.memory.known, teacher.memory.known)
+    assert second.step == 0
+    second.advance(1_000)  # what it knows of goals is not forgotten while it goes on learning
+    assert second.q().sum() > 0.5 * teacher.q().sum()
+
+
+def test_trials_pair_newborns_with_veterans_and_do_not_hang_on_their_number():
+    choices = {"lessons": 20_000, "steps": 1_500, "seed": 3}
+    before, after = trials(multimodal([3, 5]), TANK, runs=6, **choices)
+    assert trials(multimodal([3, 5]), TANK, runs=2, **choices).tolist() == [before[:2].tolist(), after[:2].tolist()]
+    assert after.mean() > before.mean()
+
+
+@pytest.mark.parametrize("change, message", [({"steps": -1}, "steps is -1"), ({"runs": 0}, "runs is 0"),
+                                             ({"lessons": 0.5}, "steps is 0.5"), ({"seed": -1}, "seed is")])
+def test_a_bad_argument_of_trials_is_refused(change, message):
+    with pytest.raises(ValueError, match=message):
+        trials(place_cells([2]), TANK, **{"lessons": 10, "steps": 10, "runs": 1, "seed": 0, **change})
+
+
+def test_a_path_breaks_off_where_the_agent_is_put_back_and_a_creep_is_drawn_where_it_was_met():
+    agent = np.array([(0.5, 0.5, 0, 0), (0.52, 0.5, 1, 0), (0.5, 0.5, 0, 0), (0.5, 0.48, 0, -1)], np.float32)
+    hits = np.array([(0, 0), (0, 1), (1, 1), (1, 1)])
+    recording = Recording("made up", 50, 0.05, agent, np.zeros((4, 1, 4), np.float32), np.ones((4, 1), bool), hits)
+    axes = plt.figure().add_subplot()
+    navigation_figures.draw_recording(axes, recording)
+    (path,) = axes.collections
+    assert np.allclose(path.get_segments(), [agent[0:2, :2], agent[2:4, :2]])
+    assert [patch.center for patch in axes.patches] == [pytest.approx((0.52, 0.5)), pytest.approx((0.52, 0.5)),
+                                                        pytest.approx((0.5, 0.48))]
+    assert [text.get_text() for text in axes.texts] == ["+", "−", ""]
+    assert "1 green, 1 red" in axes.get_title()
+    plt.close("all")

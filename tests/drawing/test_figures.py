@@ -1,0 +1,269 @@
+"""Drawings: the numbers that they show."""
+
+import numpy as np
+import pytest
+from matplotlib import pyplot as plt
+
+from neorl import NresMap, Result, Run, WaterWorld, brownian, network_b, object_vector_cells, place_cells, simulate
+from neorl.core.modality import HEAD_DIRECTION_CELL, MODALITIES, PLACE_CELL, TAU, Modality
+from neorl.drawing import figures
+from neorl.drawing.figures import binned_rate, low_passed
+from neorl.evidence.statistics import Estimate
+
+
+@pytest.fixture(scope="module")
+def results():
+    return {f"N{n}": simulate(place_cells([n]), WaterWorld(n_creeps=8), steps=6_000, runs=3, progress=False)
+            for n in (3, 7)}
+
+
+def test_rates_over_stretches_add_up_to_the_total(results):
+    result = results["N7"]
+    rates = binned_rate(result, 7)
+    edges = np.linspace(0, 600, 8).astype(int)
+    np.testing.assert_allclose(rates @ np.diff(edges) * 0.2, result.totals, rtol=1e-5)
+
+
+def test_accumulated_curves_end_at_the_mean_total(results):
+    control = simulate(brownian(), WaterWorld(n_creeps=8), steps=6_000, runs=3, progress=False)
+    figures.draw_accumulated(results, {"Brownian": control})
+    lines = plt.gca().lines
+    assert [line.get_ydata()[-1] for line in lines] == pytest.approx(
+        [result.totals.mean() for result in [*results.values(), control]])
+    assert {text.get_text() for text in plt.gca().texts} == {"N3", "N7", "Brownian"}
+
+
+def test_proficiency_draws_the_sum_of_the_parts(results):
+    figures.draw_proficiency(results, total=("sum", list(results.values())), points=10)
+    n3, n7, total, _ = (line.get_ydata() for line in plt.gca().lines)
+    np.testing.assert_allclose(total, n3 + n7, rtol=1e-5)
+
+
+def test_the_control_is_drawn_in_ink(results):
+    figures.draw_accumulated(results, {"control": results["N3"]})
+    assert [line.get_color() for line in plt.gca().lines] == [*figures.CURVES[:2], figures.INK]
+
+
+def test_names_at_the_ends_keep_apart_and_near():
+    axes = plt.figure().add_subplot()
+    axes.set_ylim(0, 1)
+    figures.name_ends(axes, [(0.5, "b", "k"), (0.5, "c", "k"), (0.49, "a", "k"), (0.9, "d", "k")])
+    heights = [text.xy[1] for text in axes.texts]
+    assert np.all(np.diff(heights) >= 0.0749)
+    assert np.mean(heights[:3]) == pytest.approx(1.49 / 3) and heights[3] == pytest.approx(0.9)
+    assert [text.get_text() for text in axes.texts] == ["a", "b", "c", "d"]
+
+
+# What is left of linear red, green and blue without one kind of cone (Machado, Oliveira and Fernandes 2009).
+SEEN = {"by most": np.eye(3),
+        "without red": [[0.152, 1.053, -0.205], [0.115, 0.786, 0.099], [-0.004, -0.048, 1.052]],
+        "without green": [[0.367, 0.861, -0.228], [0.280, 0.673, 0.047], [-0.012, 0.043, 0.969]],
+        "without blue": [[1.256, -0.077, -0.179], [-0.078, 0.931, 0.148], [0.005, 0.691, 0.304]]}
+
+
+def linear(colours):
+    channels = np.array([[int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)] for colour in colours])
+    return np.where(channels <= 0.04045, channels / 12.92, ((channels + 0.055) / 1.055) ** 2.4)
+
+
+@pytest.mark.parametrize("eyes", SEEN)
+def test_colours_of_curves_keep_apart(eyes):
+    light = np.clip(linear([*figures.CURVES, figures.INK]) @ np.array(SEEN[eyes]).T, 0, 1)
+    to_cones = [[0.4122, 0.5363, 0.0514], [0.2119, 0.6807, 0.1074], [0.0883, 0.2817, 0.6300]]  # Ottosson's Oklab
+    to_lab = [[0.2105, 0.7936, -0.0041], [1.9780, -2.4286, 0.4506], [0.0259, 0.7828, -0.8087]]
+    lab = np.cbrt(light @ np.array(to_cones).T) @ np.array(to_lab).T
+    distance = np.linalg.norm(lab[:, None] - lab, axis=-1)
+    assert distance[np.triu_indices(len(lab), 1)].min() > 0.09
+
+
+@pytest.mark.parametrize("ground", ["#ffffff", "#121212"])
+def test_colours_of_curves_stand_out_from_the_page(ground):
+    luminance = linear([ground, *figures.CURVES]) @ [0.2126, 0.7152, 0.0722] + 0.05
+    assert len(set(figures.CURVES)) == 7
+    assert np.maximum(luminance[0] / luminance[1:], luminance[1:] / luminance[0]).min() > 2.85
+
+
+def made_up(rate, runs, steps, seed=0):
+    """A result in which every run earns `rate` a second, give or take some luck."""
+    rewards = np.random.default_rng(seed).normal(0.2 * rate, 0.3, (runs, -(-steps // 10))).astype(np.float32)
+    return Result(place_cells([2]), WaterWorld(), steps, runs, 0, rewards, np.zeros((*rewards.shape, 2), np.int16))
+
+
+def test_the_filter_keeps_what_is_slow():
+    time = np.linspace(0, 1, 400)
+    straight = np.stack([np.full(400, 0.3), 0.5 * time - 0.1])
+    np.testing.assert_allclose(low_passed(straight), straight, atol=1e-6)
+    slow = np.sin(TAU * 4 * time)[None]
+    np.testing.assert_allclose(low_passed(slow)[:, 30:-30], slow[:, 30:-30], atol=0.01)  # nor does it shift in time
+
+
+def test_the_filter_takes_out_what_is_fast():
+    time = np.linspace(0, 1, 400)
+    fast = low_passed(np.sin(TAU * 60 * time)[None])
+    assert np.abs(fast[:, 30:-30]).max() < 0.01
+
+
+def test_too_short_a_run_is_refused():
+    assert low_passed(np.ones((2, 41))).shape == (2, 41)
+    with pytest.raises(ValueError, match="Wn"):
+        low_passed(np.ones((2, 40)))
+
+
+def test_the_filter_keeps_the_mean_and_follows_no_single_point_at_the_end():
+    noise = np.random.default_rng(0).normal(0.5, 0.1, (50, 400))
+    smooth = low_passed(noise)
+    assert np.abs(smooth.mean(axis=1) - noise.mean(axis=1)).max() < 0.01
+    assert smooth[:, [0, -1]].std() < 0.6 * 0.1
+    assert smooth[:, 100:-100].std() < 0.4 * 0.1
+
+
+@pytest.mark.parametrize("runs, steps", [(3, 3_000), (1, 3_000), (4, 60_005)])
+def test_smoothed_curves(runs, steps):
+    results = {f"N{n}": made_up(n, runs, steps, seed=n) for n in range(7)}
+    figures.draw_smoothed(results)
+    plt.gcf().draw_without_rendering()
+    axes = plt.gca()
+    smooth, raw = axes.lines[:7], axes.lines[8:]
+    assert len(axes.lines) == 15 and len(axes.collections) == (7 if runs > 1 else 0)
+    assert {text.get_text() for text in axes.texts} == set(results)
+    assert [line.get_color() for line in smooth] == [line.get_color() for line in raw] == list(figures.CURVES)
+    for front, behind, result in zip(smooth, raw, results.values()):
+        assert len(front.get_ydata()) <= 400
+        assert front.get_ydata().mean() == pytest.approx(result.rate().mean(), abs=0.1)
+        assert np.diff(front.get_ydata()).std() < 0.3 * np.diff(behind.get_ydata()).std()
+        assert front.get_xdata()[-1] == pytest.approx(steps / 50 / 60, rel=0.01)
+    assert np.ptp(axes.get_ylim()) < 1.35 * np.ptp([line.get_ydata() for line in smooth])
+
+
+def test_a_last_bin_that_is_short_counts_as_short():
+    result = made_up(1.0, 1, 95)
+    result.rewards[:] = [0.2] * 9 + [0.1]
+    np.testing.assert_allclose(binned_rate(result, 5), 1.0, rtol=1e-6)
+
+
+def test_a_sweep_shows_values_and_intervals():
+    estimates = {"D": [Estimate(0.1, 0.0, 0.3), Estimate(0.4, 0.3, 0.5)],
+                 "single run": [Estimate(0.2, np.nan, np.nan)] * 2}
+    figures.draw_sweep([-1, 0.5], estimates, "r", "reward")
+    plt.gcf().draw_without_rendering()
+    axes = plt.gca()
+    np.testing.assert_array_equal(axes.lines[1].get_xydata(), [[-1, 0.1], [0.5, 0.4]])
+    np.testing.assert_array_equal(axes.collections[0].get_segments(), [[[-1, 0], [-1, 0.3]], [[0.5, 0.3], [0.5, 0.5]]])
+    assert {text.get_text() for text in axes.texts} == set(estimates)
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("r", "reward")
+
+
+def test_arrows_point_where_values_pull():
+    axes = figures.new_board()
+    values = np.zeros((4, 4))
+    values[1] = [0.0, 0.2, 0.0, 0.4]  # south, and more to the west
+    figures.draw_values(axes, NresMap(2), values)
+    (quiver,) = axes.collections
+    assert len(quiver.U) == 1 and quiver.U[0] < 0 < quiver.V[0]
+    assert quiver.U[0] == pytest.approx(-2 * quiver.V[0])
+
+
+def test_a_board_shows_every_cell_agent_and_creep():
+    world = WaterWorld(n_creeps=5)
+    axes = figures.new_board()
+    figures.draw_cells(axes, NresMap(3), fills={4: ("red", 0.5)})
+    figures.draw_tank(axes, world, world.reset(0))
+    assert len(axes.patches) == 9 + 1 + 6
+
+
+def test_cells_of_a_map_with_ranges_of_its_own():
+    axes = figures.new_board()
+    figures.draw_cells(axes, NresMap(2, Modality("", "position", "cartesian", ((0, 1), (-1, 3)))))
+    boxes = [(*patch.get_xy(), patch.get_width(), patch.get_height()) for patch in axes.patches]
+    assert boxes == [(0, -1, 0.5, 2), (0.5, -1, 0.5, 2), (0, 1, 0.5, 2), (0.5, 1, 0.5, 2)]
+
+
+def test_the_outermost_cells_of_a_map_reach_as_far_as_things_can_be():
+    axes = figures.new_board(low=-1)
+    for nres_map in (place_cells([2], tiled_fraction=0.5).maps[0], object_vector_cells([2], tiled_fraction=0.5).maps[0]):
+        figures.draw_cells(axes, nres_map)
+    boxes = [patch.get_bbox().extents.tolist() for patch in axes.patches]
+    assert boxes[:4] == [[0, 0, 0.5, 0.5], [0.5, 0, 1, 0.5], [0, 0.5, 0.5, 1], [0.5, 0.5, 1, 1]]
+    assert boxes[4:] == [[-1, -1, 0, 0], [0, -1, 1, 0], [-1, 0, 0, 1], [0, 0, 1, 1]]
+    figures.draw_cells(axes, place_cells([5], tiled_fraction=0.5).maps[0])
+    assert sorted({round(patch.get_width(), 9) for patch in axes.patches[8:]}) == [0.1, 0.35]
+
+
+def moving_tank():
+    world = WaterWorld(n_creeps=3)
+    state = world.reset(3)
+    state.agent_position = np.array([0.61, 0.43]) * world.width
+    state.agent_velocity = np.array([-0.3, 0.13]) * world.width
+    return world, state
+
+
+@pytest.mark.parametrize("resolution", [1, 2, 5])
+@pytest.mark.parametrize("modality", MODALITIES, ids=lambda modality: modality.name)
+def test_the_active_receptive_fields_are_filled(modality, resolution):
+    world, state = moving_tank()
+    nres_map, axes = NresMap(resolution, modality), figures.new_board()
+    figures.draw_receptive_fields(axes, nres_map, world, state)
+    axes.figure.draw_without_rendering()
+    active = set(nres_map.encode(modality.coordinates(world, state)))
+    fills = [fill for fill in axes.collections if fill.get_alpha()]
+    assert len(fills) == len(active)
+
+    places = np.random.default_rng(0).random((300, 2))
+    agent = state.agent_position / world.width
+    seen = {"position": places, "velocity": (places - agent) / 0.5}.get(modality.vector, places - agent)
+    filled = np.any([[fill.get_paths()[0].contains_point(place) for place in places] for fill in fills], axis=0)
+    expected = np.isin(nres_map.encode(modality.tune(seen)), list(active))
+    assert np.mean(filled == expected) > 0.98  # but for the rounding of corners
+
+
+def test_place_cells_have_square_fields():
+    world, state = moving_tank()
+    axes = figures.new_board()
+    figures.draw_receptive_fields(axes, NresMap(4, PLACE_CELL), world, state)
+    columns, rows, fill = axes.collections
+    for lines, coordinate in ((columns, 0), (rows, 1)):
+        at = np.concatenate([path.vertices[:, coordinate] for path in lines.get_paths()])
+        assert set(np.round(at, 6)) == {0.25, 0.5, 0.75}
+    extent = fill.get_paths()[0].get_extents()
+    np.testing.assert_allclose(extent.get_points(), [[0.5, 0.25], [0.75, 0.5]], atol=1e-6)
+
+
+def test_head_directions_are_sectors_within_the_arena():
+    world, state = moving_tank()
+    axes = figures.new_board()
+    figures.draw_receptive_fields(axes, NresMap(4, HEAD_DIRECTION_CELL), world, state)
+    rays, fill = axes.collections
+    steps = np.array(rays.get_segments())[:, 1] - rays.get_segments()[0][0]
+    np.testing.assert_allclose(np.abs(steps[:, 0]), np.abs(steps[:, 1]))  # diagonals: a cell is centred on east
+    arena = axes.transData.inverted().transform(rays.get_clip_box())
+    np.testing.assert_allclose(np.sort(arena, axis=0), [[0, 0], [1, 1]], atol=1e-9)
+    assert fill.get_paths()[0].contains_point((0.1, 0.5)) and not fill.get_paths()[0].contains_point((0.9, 0.5))
+
+
+def test_curves_end_where_they_are_named():
+    figures.draw_curves(np.arange(20.0), {"one": np.ones((3, 20)), "two": np.full((1, 20), 2.0)}, "x", "y")
+    assert {text.get_text(): text.xy[1] for text in plt.gca().texts} == pytest.approx({"one": 1.0, "two": 2.0})
+    assert len(plt.gca().collections) == 1  # a single run has no interval
+
+
+def test_costs_stand_beside_their_sum():
+    figures.draw_costs(["a", "b"], [1.0, 2.1], np.array([1.0, 2.0]))
+    predicted, measured = plt.gca().lines
+    assert (list(predicted.get_ydata()), list(measured.get_ydata())) == ([1.0, 2.0], [1.0, 2.1])
+
+
+def test_desires_are_drawn_where_they_land():
+    run = Run(network_b([3, 5]), WaterWorld(), seed=0)
+    run.advance(20_000)
+    axes = figures.new_board()
+    figures.draw_desires(axes, run)
+    landed = [line.get_xydata()[0] - run.state.agent_position / 250 for line in axes.lines]
+    np.testing.assert_allclose(landed, run.memory.landing[2:, :2])
+    assert [line.get_color() for line in axes.lines] == [figures.GREEN, figures.RED]
+
+
+def test_boards_side_by_side():
+    boards = figures.new_boards(2, 3)
+    assert len(boards) == 6 and all(axes.get_ylim()[0] > axes.get_ylim()[1] for axes in boards)
+    low, high = figures.new_board(low=-1).get_xlim()
+    assert low < -1 and high > 1

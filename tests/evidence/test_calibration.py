@@ -1,0 +1,223 @@
+"""The search for a reading: its targets, emulator and waves, on made-up statistics whose answer is known."""
+
+import math
+import time
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from neorl import WaterWorld, place_cells
+from neorl.evidence import calibration, calibration_table, calibration_targets
+from neorl.evidence.calibration import Emulator, candidates, design, features, prospects
+from neorl.evidence.calibration_table import Row
+from neorl.evidence.calibration_targets import CLAIMS, GROUPS, TARGETS, Measure, Target
+from neorl.evidence.priors import TO_THE_LETTER, WITHIN
+from neorl.evidence.statements import STATEMENTS
+from neorl.experiments.simulation import Result
+
+
+def lived(*rates, runs=4, steps=150_000, n_creeps=8):
+    """A `Result` that earns these rates one after the other, each over an equal stretch, the same in every run."""
+    world = WaterWorld(n_creeps=n_creeps)
+    bins = np.repeat(np.array(rates) * 0.2, steps // 10 // len(rates))
+    rewards = np.tile(bins.astype(np.float32), (runs, 1))
+    return Result(place_cells([3]), world, steps, runs, 0, rewards, np.zeros((*rewards.shape, 2), np.int16))
+
+
+def test_a_distance_is_zero_inside_and_counted_in_scale_and_error_outside():
+    target = Target("A7", "ratio", len, 2.0, 5.0, 0.3, "3.5", "so")
+    assert target.holds(2.0) and target.holds(5.0) and not target.holds(1.99)
+    assert target.distance(3.5) == target.distance(2.0) == 0
+    assert target.distance(1.7) == pytest.approx(1) and target.distance(5.6) == pytest.approx(2)
+    assert target.distance(1.0, error=0.4) == pytest.approx(2)
+    np.testing.assert_allclose(target.distance(np.array([1.7, 4.0, 5.3])), [1, 0, 1])
+    assert replace(target, high=math.inf).distance(1e9) == 0
+
+
+def test_targets_are_of_known_claims_and_each_belongs_to_one_group():
+    assert set(CLAIMS) <= set(STATEMENTS)
+    assert sorted(name for group in GROUPS.values() for name in group.targets) == sorted(TARGETS)
+    assert all(target.low < target.high and target.scale > 0 for target in TARGETS.values())
+
+
+def test_what_the_layers_earn_is_measured():
+    results = {("layer", 3): lived(0.0, 0.0), ("layer", 7): lived(0.1, 0.1), ("layer", 23): lived(0.0, 0.2),
+               "layers": lived(0.05, 0.35)}
+    found = {name: each.value for name, each in calibration_targets.measure("layers", results).items()}
+    assert found == pytest.approx({"A7 ratio": 3.5, "A7 pace": -0.05, "A6 surplus": 0.05, "A6 pace": 0.0}, abs=1e-4)
+
+
+def test_a_ratio_of_agents_that_have_not_learned_is_no_success():
+    poor = {("layer", n): lived(0.001) for n in (3, 7, 23)} | {"layers": lived(0.0035)}
+    assert calibration_targets.measure("layers", poor)["A7 ratio"].value == pytest.approx(0.0035 / 0.03, abs=1e-3)
+
+
+def test_agents_that_stand_still_are_in_no_order():
+    found = calibration_targets.measure("networks", {("network", name): lived(0.0) for name in "ABCD"})
+    assert [name for name, each in found.items() if TARGETS[name].holds(each.value)] == ["C1 weak"]
+
+
+def test_levels_and_minutes_of_the_modalities_are_measured():
+    world = {"steps": 600_000, "n_creeps": 3}
+    slow = lived(*[0.05] * 9, 0.15, *[0.29] * 2, **world)
+    quick = lived(0.3, *[0.55] * 11, **world)
+    results = {("place", "all"): slow, ("objects", "all"): lived(0.29, **world), "both": quick}
+    found = {name: each.value for name, each in calibration_targets.measure("modalities", results).items()}
+    assert found["B3 place"] == pytest.approx(0.25, abs=0.05) and found["B3 both"] == pytest.approx(0.55, abs=1e-4)
+    assert 160 < found["B4 place"] <= 175 and 15 < found["B4 both"] < 25
+    flat = results | {("place", "all"): lived(0.05, **world)}
+    assert calibration_targets.measure("modalities", flat)["B4 place"].value == 0
+
+
+def test_the_error_is_that_of_the_mean_over_runs():
+    result = lived(0.2, steps=600_000)
+    rates = np.array([0.1, 0.2, 0.25, 0.45])
+    varied = replace(result, rewards=(result.rewards / 0.2 * rates[:, None]).astype(np.float32))
+    results = {("place", "all"): varied, ("objects", "all"): varied, "both": varied}
+    found = calibration_targets.measure("modalities", results)
+    assert found["B3 both"].value == pytest.approx(0.25, rel=1e-4)
+    assert found["B3 both"].error == pytest.approx(rates.std(ddof=1) / 2, rel=1e-3)
+    assert found["B1 level"] == pytest.approx((1, 0), abs=1e-4)  # runs of one seed are compared side by side
+    with pytest.raises(ValueError, match="runs is 1, allowed are integers ≥ 2"):
+        calibration_targets.measure("modalities", {key: replace(each, runs=1, rewards=each.rewards[:1])
+                                                   for key, each in results.items()})
+
+
+def test_a_claim_holds_if_all_its_targets_do():
+    statistics = {"A6 surplus": Measure(0.1, 0), "A6 pace": Measure(-0.1, 0), "A7 ratio": Measure(3.5, 0)}
+    assert calibration_targets.tested(statistics) == {"A6"} and not calibration_targets.held(statistics)
+    statistics["A6 pace"] = Measure(0.02, 0)
+    assert calibration_targets.held(statistics) == {"A6"}
+    assert calibration_targets.distance(statistics) == 0 and calibration_targets.distance({}) == math.inf
+
+
+def truth(reading, name):
+    """Made-up statistics, which agree with all targets where the discount is high and contact is rounded."""
+    target = TARGETS[name]
+    ends = [end for end in (target.low, target.high) if math.isfinite(end)]
+    upward = 1 if math.isfinite(target.low) else -1
+    wanted = sum(ends) / 2 if len(ends) == 2 else ends[0] + 0.1 * upward * target.scale
+    off = max(0.8 - WITHIN["discount"].place(reading.discount), 0) + 0.5 * (reading.contact != "rounded")
+    return Measure(wanted - 20 * upward * target.scale * off, 0.1 * target.scale)
+
+
+def made_up(rows, group, executor=None, progress=False):
+    return [replace(row, statistics=row.statistics | {name: truth(row.reading, name) for name in GROUPS[group].targets})
+            for row in rows]
+
+
+@pytest.fixture
+def table():
+    """A made-up design: 64 rows, of which 32 have been run in all groups."""
+    rows = made_up([Row(0, i, 2, 3_000, reading) for i, reading in enumerate(design(64))], "layers")
+    for group in list(GROUPS)[1:]:
+        rows[:32] = made_up(rows[:32], group)
+    return rows
+
+
+def test_a_design_keeps_to_the_text_and_spans_the_priors():
+    readings = design(64)
+    assert readings == design(64)
+    assert design(64, seed=1) != readings
+    for name, choice in WITHIN.items():
+        places = [choice.place(getattr(reading, name)) for reading in readings]
+        assert min(places) < 0.1 and max(places) > 0.9
+    assert readings[0] == replace(TO_THE_LETTER, **{name: getattr(readings[0], name) for name in WITHIN})
+
+
+def test_features_are_numbers_from_0_to_1():
+    found = features(design(32))
+    assert found.shape[0] == 32 and found.min() >= 0 and found.max() <= 1
+    assert np.ptp(found, axis=0).min() > 0
+
+
+def test_the_emulator_predicts_what_it_has_learned_and_is_unsure_elsewhere(table):
+    emulator = Emulator(table)
+    fresh = design(64, seed=5)
+    found = emulator.predict(fresh)
+    assert set(found) == set(TARGETS)
+    mean, spread = found["C4"]
+    actual = np.clip([truth(reading, "C4").value for reading in fresh], 1.5 - 8 * 0.2, None)
+    assert np.corrcoef(mean, actual)[0, 1] > 0.8
+    assert np.mean(np.abs(mean - actual) < 3 * spread) > 0.9
+    assert np.all(spread >= 0.1 * 0.2)
+
+
+def test_a_group_that_few_have_been_run_in_is_not_predicted(table):
+    few = [row if i < 10 else replace(row, statistics={name: row.statistics[name] for name in GROUPS["layers"].targets})
+           for i, row in enumerate(table)]
+    assert set(Emulator(few).forests) == {"layers"}
+
+
+def test_prospects_take_what_was_measured_before_what_is_predicted(table):
+    emulator = Emulator(table)
+    known, unknown = table[0], replace(table[0], statistics={})
+    assert prospects([known], emulator)[0] == pytest.approx(known.distance)
+    each = np.array([found[0] for found in emulator.implausibility([unknown.reading]).values()])
+    assert prospects([unknown], emulator)[0] == pytest.approx(np.sqrt(np.mean(np.minimum(each, 4) ** 2)))
+
+
+def test_candidates_lie_where_the_targets_are(table):
+    rng = np.random.default_rng(0)
+    found = candidates(table, Emulator(table), 40, rng)
+    assert len(found) == 40 and len(set(found)) > 35
+    assert all(reading == replace(TO_THE_LETTER, **{name: getattr(reading, name) for name in WITHIN})
+               for reading in found)
+    off = [max(TARGETS[name].distance(*truth(reading, name)) for name in TARGETS) for reading in found[:20]]
+    all_off = [max(TARGETS[name].distance(*truth(reading, name)) for name in TARGETS) for reading in design(64, 3)]
+    assert np.median(off) < 0.3 * np.median(all_off)
+
+
+@pytest.fixture
+def small(monkeypatch):
+    """A small search over made-up statistics, which takes no time; the clock goes a second each time it is read."""
+    clock = iter(range(10**6))
+    monkeypatch.setattr(time, "monotonic", lambda: float(next(clock)))
+    monkeypatch.setattr(calibration_table, "run", made_up)
+    for name, value in {"DESIGN": 64, "CHUNK": 16, "POOL": 400, "TREES": 30,
+                        "WAVE": {"layers": 32, "modalities": 16, "networks": 16, "single": 16}}.items():
+        monkeypatch.setattr(calibration, name, value)
+
+
+def test_waves_close_in_on_the_readings_that_agree(small):
+    kept = []
+    table = calibration.calibrate(0.6, keep=kept.append)
+    assert len(kept) == 35 and kept[-1] == table  # one look at the clock before all, and one before each chunk
+    assert [row.seed for row in table] == list(range(len(table)))
+    waves = sorted({row.wave for row in table})
+    assert waves[0] == 0 and len(waves) >= 4
+    design_rows, last = ([row for row in table if row.wave == wave] for wave in (0, waves[-2]))
+    assert sum(row.distance == 0 for row in last) > 0.4 * len(last)
+    assert sum(row.distance == 0 for row in design_rows) < 0.2 * len(design_rows)
+    assert sum(row.complete for row in table if row.wave == 0) >= 16
+    assert sum(row.complete and row.distance == 0 for row in table) > 10
+
+
+def test_the_nearest_are_confirmed_with_fresh_seeds_and_more_runs(small):
+    table = calibration.calibrate(0.3)
+    confirmed = calibration.confirm(table, 5, 20)
+    assert confirmed[: len(table)] == table
+    near = calibration_table.nearest(table)[:5]
+    assert [row.reading for row in confirmed[-5:]] == [row.reading for row in near]
+    assert {row.runs for row in confirmed[-5:]} == {20} and all(row.complete for row in confirmed[-5:])
+    assert not {row.seed for row in confirmed[-5:]} & {row.seed for row in table}
+    assert {row.wave for row in confirmed[-5:]} == {1 + max(row.wave for row in table)}
+    with pytest.raises(ValueError, match="table has 0 rows"):
+        calibration.confirm([], 5, 20)
+
+
+def test_a_search_goes_on_from_a_table(small):
+    short = calibration.calibrate(0.05)
+    longer = calibration.calibrate(0.2, table=short)
+    assert len(short) < 64 and len(longer) > len(short)
+    assert [row.reading for row in longer[: len(short)]] == [row.reading for row in short]
+    assert [row.reading for row in longer[:64]] == design(64)
+
+
+def test_no_time_runs_nothing_and_bad_arguments_are_refused(small):
+    assert calibration.calibrate(0) == []
+    for arguments, words in [((-1,), "minutes is -1"), ((1, (), None, -1), "seed is -1"),
+                             ((1, (), None, 0, 1), "runs is 1")]:
+        with pytest.raises(ValueError, match=words):
+            calibration.calibrate(*arguments)

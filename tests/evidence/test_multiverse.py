@@ -1,0 +1,305 @@
+"""The multiverse: readings, their priors and conditions, and what is counted over them."""
+
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+from matplotlib import pyplot as plt
+
+from neorl import Learning, Policy, multimodal, network_a, network_b, network_c, network_d, place_cells, simulate
+from neorl.agents.agent import AT_EVERY_STEP
+from neorl.drawing.multiverse_figures import draw_importance, draw_specification
+from neorl.evidence import multiverse
+from neorl.evidence.claims import Claim
+from neorl.evidence.priors import BEYOND, PINNED, TO_THE_LETTER, WITHIN, Choice, LogUniform
+from neorl.evidence.reading import GROUPS, Reading, conditions, judge, networks
+from neorl.evidence.statistics import Estimate
+
+
+def test_the_default_reading_is_that_of_the_book():
+    found = conditions(Reading(), 600_000, 2)
+    assert found["layers"].agent == place_cells([3, 7, 23])
+    assert found["both"].agent == multimodal()
+    assert [found["network", name].agent for name in "ABCD"] == [network_a(), network_b(), network_c(), network_d()]
+    assert Reading().learning == Learning()
+    assert {key: condition.steps for key, condition in found.items()}["network", "A"] == 300_000
+    assert (found["single", 90].steps, found["both"].steps) == (150_000, 600_000)
+    assert (found["layers"].world.n_creeps, found["layers"].world.win_reward) == (8, 5.0)
+    assert (found["both"].world.n_creeps, found["both"].world.win_reward) == (3, 0.0)
+    assert found["pace", "both"] == found["both"]  # long enough
+
+
+def test_every_field_of_a_reading_is_pinned_or_varied_within_the_text_and_varied_beyond_it():
+    names = [field.name for field in fields(Reading)]
+    assert [name for name in names if name in WITHIN] == list(WITHIN) and list(BEYOND) == names
+    assert set(PINNED) == set(names) - set(WITHIN)
+    for name, choice in BEYOND.items():
+        assert 0 <= choice.place(getattr(TO_THE_LETTER, name)) <= 1
+        assert choice.levels and choice.stated.startswith(choice.levels)
+
+
+def test_the_letter_takes_what_is_pinned_and_the_plainest_of_what_is_open():
+    letter = TO_THE_LETTER
+    assert (letter.exploration, letter.tiled_fraction, letter.own_cell, letter.recursion) == (0, 1, "counts", -1)
+    assert (letter.credit, letter.absent_form, letter.bootstrap, letter.terminal) == ("happened", "away", True, False)
+    assert letter.learning_rate == pytest.approx(np.sqrt(3e-4 * 0.5))
+    assert 1 / (1 - letter.discount) == pytest.approx(np.sqrt(1.5 * 300))
+    assert 1 + letter.memory == pytest.approx(np.sqrt(1_001))
+    assert letter.absent_decay == pytest.approx(np.sqrt(1e-3)) and letter.activity == pytest.approx(0.5)
+    found = conditions(letter, 600_000, 2)
+    assert found["network", "D"].agent == network_d(
+        [3, 7, 23], scale=1, signed=True, learning=letter.learning, policy=Policy(exploration=0), own_cell="counts",
+        tiled_fraction=1, object_tiled_fraction=1, weighting="resolution", place_gain=1)
+
+
+PAPERS = {"brownian": "A", "single": "A", "layer": "A", "layers": "A", "place": "B", "objects": "B", "both": "B",
+          "pace": "B", "network": "C", "revalued": "T"}
+
+
+@pytest.mark.parametrize("change", [
+    {"learning_rate": 0.1}, {"discount": 0.5}, {"credit": "last"}, {"credit": "step"}, {"credit": "activity"},
+    {"absent_decay": 0.3}, {"absent_form": "decay"}, {"memory": 10}, {"memory_unit": "seconds"},
+    {"memory_value": "discounted"}, {"activity": 2.0}, {"bootstrap": False}, {"terminal": True}, {"causes": "own"},
+    {"capture": "leap"}, {"attention": "wanted"}, {"own_cell": "silent"}, {"tiled_fraction": 0.5}, {"object_tiled_fraction": 0.25},
+    {"weighting": "cells"}, {"exploration": 0.1}, {"place_gain": 5.0}, {"network_gain": 3.0}, {"vectors": "by size"},
+    {"vectors": "incoming"}, {"scale": 0.5}, {"recursion": 1.0}, {"network_resolutions": (2, 3)}, {"fps": 30},
+    {"contact": "truncated"}])
+def test_every_choice_changes_the_conditions_of_the_papers_that_it_belongs_to_and_no_others(change):
+    (name,) = change
+    letter, other = (conditions(replace(TO_THE_LETTER, **each), 3_000, 2) for each in ({}, change))
+    changed = {PAPERS[key if isinstance(key, str) else key[0]] for key in letter if letter[key] != other[key]}
+    assert changed == set(BEYOND[name].papers)
+
+
+def test_an_agent_that_would_never_move_draws_its_actions_instead():
+    assert replace(TO_THE_LETTER, when_indifferent="no-op").agents == TO_THE_LETTER.agents
+    assert Reading(when_indifferent="no-op", exploration=0.1).agents["policy"] == Policy(0.1, "no-op")
+
+
+def test_temporal_difference_leaves_the_other_choices_of_learning_no_say():
+    reading = replace(TO_THE_LETTER, credit="step", causes="own")
+    assert reading.learning == Learning(reading.learning_rate, reading.discount, update_on="step", terminal=False)
+    assert set(AT_EVERY_STEP) < {field.name for field in fields(Reading)} | {"trace"}
+
+
+def test_memory_in_seconds_is_a_tenth_of_that_in_cells():
+    seconds = replace(TO_THE_LETTER, memory=40, memory_unit="seconds").learning
+    assert (seconds.memory, seconds.memory_unit) == (4.0, "seconds")
+    assert replace(TO_THE_LETTER, memory=40).learning.memory == 40
+
+
+@pytest.mark.parametrize("choices", [WITHIN, BEYOND])
+def test_every_reading_of_a_design_has_valid_agents(choices):
+    for reading in multiverse.design(64, choices=choices):
+        assert conditions(reading, 1_000, 1)
+
+
+@pytest.mark.parametrize("change, message", [({"vectors": "long"}, "vectors is 'long', allowed are 'signed'"),
+                                             ({"network_resolutions": 5}, "network_resolutions is 5, allowed are")])
+def test_another_value_is_refused(change, message):
+    with pytest.raises(ValueError, match=message):
+        Reading(**change)
+
+
+def test_conditions_come_in_groups_that_hold_all_in_the_end():
+    whole = conditions(TO_THE_LETTER, 3_000, 2, seed=5)
+    assert set(whole) == {key for keys in GROUPS.values() for key in keys}
+    some = conditions(TO_THE_LETTER, 3_000, 2, seed=5, groups=("modal",))
+    assert list(some) == [("brownian", 3), ("place", "all"), ("objects", "all"), "both"]
+    assert all(whole[key] == condition for key, condition in some.items())
+    with pytest.raises(ValueError, match="groups is 'fast', allowed are 'layers', 'single'"):
+        conditions(TO_THE_LETTER, 3_000, 2, groups=["fast"])
+
+
+def test_papers_b_and_c_live_the_same_time_at_any_rate_and_paper_a_the_same_steps():
+    found = conditions(Reading(fps=30), 30_000, 4)
+    assert (found["single", 10].steps, found["both"].steps, found["network", "D"].steps) == (30_000, 18_000, 18_000)
+    assert (found["pace", "both"].steps, found["pace", "both"].runs) == (288_000, 2)
+    assert found["pace", "both"].steps / 30 == 160 * 60
+
+
+def test_brownian_motion_lives_as_long_as_in_paper_a_and_is_shared():
+    found = conditions(TO_THE_LETTER, 3_000, 4)
+    assert (found["brownian", 8].steps, found["brownian", 8].runs) == (150_000, 32)
+    assert (found["brownian", 3].steps, found["brownian", 3].world) == (3_000, found["both"].world)
+    other = conditions(Reading(), 3_000, 4)
+    assert all(found[key] == other[key] for key in (("brownian", 8), ("brownian", 3)))
+
+
+def test_what_things_are_makes_no_difference_to_place_cells():
+    other = replace(TO_THE_LETTER, causes="own", capture="silent", attention="nearest", object_tiled_fraction=0.5)
+    found, same = conditions(TO_THE_LETTER, 3_000, 2), conditions(other, 3_000, 2)
+    assert all((found[key] == same[key]) == (key[0] in ("brownian", "layer", "single", "place") or key == "layers" or
+                                             key == ("pace", "place")) for key in found)
+
+
+def test_a_desire_that_recurs_may_come_from_other_nodes_alone():
+    made = networks(replace(TO_THE_LETTER, vectors="incoming"))
+    *others, recurring = made["D"].desires
+    assert recurring.of == ("PC",) and recurring.signed and not any(desire.signed for desire in others if desire.between_nodes)
+    assert networks(TO_THE_LETTER)["D"].desires[-1].of == ()
+
+
+@pytest.mark.parametrize("prior, ends, middle", [
+    (LogUniform(3e-4, 0.5), (3e-4, 0.5), np.sqrt(1.5e-4)),
+    (LogUniform(1, 101, "1 + value"), (0, 100), np.sqrt(101) - 1),
+    (LogUniform(1.5, 300, "1 / (1 − value)"), (1 / 3, 299 / 300), 1 - 1 / np.sqrt(450)),
+    (LogUniform(1, 16, zero=0.2), (0, 16), 16 ** 0.375)])
+def test_a_prior_is_uniform_in_the_logarithm_of_its_measure(prior, ends, middle):
+    assert prior.support() == pytest.approx(ends) and prior.ppf(0.5) == pytest.approx(middle)
+    for share in (0.21, 0.5, 0.9, 1.0):
+        assert prior.cdf(prior.ppf(share)) == pytest.approx(share)
+    assert prior.ppf(0.0) == pytest.approx(ends[0]) and prior.cdf(ends[0]) == pytest.approx(0, abs=1e-9)
+
+
+def test_a_prior_says_what_it_is():
+    assert str(LogUniform(1, 101, "1 + value")) == "log-uniform in 1 + value"
+    assert str(LogUniform(1, 4, zero=0.2)) == "log-uniform, or 0 (20\u00a0%)"
+    assert Choice("r", (-1.0, 0.5, (3, 7)), "C").levels == "−1, 0.5, {3, 7}"
+    assert WITHIN["memory"].levels == "0 … 1,000"
+    assert WITHIN["discount"].stated == "0.333 … 0.997, log-uniform in 1 / (1 − value)"
+
+
+def test_a_design_fills_the_priors_evenly_and_any_power_of_two_is_part_of_the_next():
+    readings = multiverse.design(64)
+    assert readings[:16] == multiverse.design(16)
+    assert sum(reading.terminal for reading in readings) == 32
+    assert 20 <= sum(reading.fps == 30 for reading in readings) <= 23
+    rates = np.sort([reading.learning_rate for reading in readings])
+    np.testing.assert_allclose(np.log(rates / 3e-4) / np.log(0.5 / 3e-4), (np.arange(64) + 0.5) / 64, atol=1 / 64)
+    assert multiverse.design(16, seed=1) != readings[:16]
+    assert len(set(readings)) == 64
+
+
+def test_a_design_varies_what_is_chosen_and_nothing_else():
+    readings = multiverse.design(8, choices={"scale": BEYOND["scale"]})
+    assert len({reading.scale for reading in readings}) == 8
+    assert {replace(reading, scale=1.0) for reading in readings} == {TO_THE_LETTER}
+
+
+@pytest.mark.parametrize("points", [0, 1, 3, 100, 2.0])
+def test_a_design_of_another_size_is_refused(points):
+    with pytest.raises(ValueError, match=f"points is {points}, allowed are"):
+        multiverse.design(points)
+
+
+@pytest.fixture(scope="module")
+def results():
+    found = conditions(replace(TO_THE_LETTER, fps=30), 600, 2)
+    cheap = {key: replace(condition, steps=min(condition.steps, 9_600)) for key, condition in found.items()
+             if key not in [("single", 70), ("single", 90)]}
+    lived = {key: simulate(**condition.choices, progress=False) for key, condition in cheap.items()}
+    return lived | {("single", n): lived["single", 50] for n in (70, 90)}
+
+
+def test_a_reading_is_judged_on_all_claims_that_readings_matter_for(results):
+    judged = judge(results)
+    assert list(judged) == ["A1", "A2", "A3", "A4", "A5", "A6", "A7", "A8", "B1", "B3", "B6", "B2", "B4", "C1", "C2",
+                            "C3", "C4", "T1", "T6"]
+    assert judged["B4"].outcome == "not testable"  # in runs of minutes
+
+
+@pytest.mark.parametrize("groups, names", [
+    (["single"], {"A1", "A2", "A3", "A4", "A5"}), (["layers"], {"A6", "A7", "A8"}), (["modal"], {"B1", "B3", "B6"}), (["resolutions"], set()),
+    (["modal", "resolutions"], {"B1", "B2", "B3", "B6"}), (["networks", "revaluing"], {"C1", "C2", "C3", "C4", "T1"}),
+    (["pace"], {"B4"})])
+def test_some_groups_suffice_for_some_claims(results, groups, names):
+    assert set(judge({key: results[key] for group in groups for key in GROUPS[group]})) == names
+
+
+def judged(value, outcome="not reproduced", is_open=False):
+    return Claim("C2", Estimate(value, value - 0.1, value + 0.1), "", 4, outcome, is_open)
+
+
+def test_claims_are_counted():
+    claims = [{"C2": judged(0.3, "reproduced")}, {"C2": judged(0.05, "partly", True)}, {"C2": judged(-1)},
+              {"C2": judged(0, "not testable")}]
+    assert multiverse.shares(claims) == {"C2": {"holds": 1, "undecided": 1, "untestable": 1, "readings": 4}}
+    assert [multiverse.held(each) for each in claims] == [["C2"], [], [], []]
+
+
+@pytest.fixture
+def made_up():
+    """128 readings whose C2 follows from the discount and, less so, from the credit."""
+    readings = multiverse.design(128)
+    values = [WITHIN["discount"].place(reading.discount) + 0.5 * (reading.credit == "activity") for reading in readings]
+    return readings, [{"C2": judged(value, "reproduced" if value > 1 else "not reproduced")} for value in values]
+
+
+def test_support_counts_the_claims_that_hold_at_each_level(made_up):
+    found = {(each.choice, each.level): each for each in multiverse.support(*made_up)}
+    assert found["credit", "activity"].lead.low > 0 and found["contact", "truncated"].lead.low < 0.2
+    assert found["credit", "happened"].is_to_the_letter and found["credit", "happened"].lead.value == 0
+    assert found["credit", "activity"].value == "activity"
+    assert found["object_tiled_fraction", "1"].is_to_the_letter and not found["object_tiled_fraction", "0.5"].is_to_the_letter
+    parts = [each for (name, _), each in found.items() if name == "discount"]
+    assert len(parts) == 5 and [each.is_to_the_letter for each in parts] == [False, False, True, False, False]
+    assert parts[2].value == pytest.approx(TO_THE_LETTER.discount)
+    assert parts[4].held > parts[0].held == 0 and parts[0].level == "0.333 … 0.769"
+    assert "exploration" not in {name for name, _ in found}
+
+
+def test_support_beyond_the_text_is_of_all_choices():
+    readings = multiverse.design(128, choices=BEYOND)
+    claims = [{"C2": judged(0, "reproduced" if reading.exploration == 0.02 else "not reproduced")}
+              for reading in readings]
+    found = {(each.choice, each.level): each for each in multiverse.support(readings, claims, BEYOND)}
+    assert found["exploration", "0"].is_to_the_letter
+    assert found["exploration", "0.02"].held == 1 and found["exploration", "0.1"].held == 0
+    assert {name for name, _ in found} == set(BEYOND)
+    assert multiverse.leading(list(found.values())).exploration == 0.02
+
+
+def test_what_leads_is_the_reading_to_the_letter_but_for_what_clearly_leads_it():
+    nothing, half, more = Estimate(0.3, -0.1, 0.7), Estimate(0.5, 0.1, 0.9), Estimate(0.9, 0.5, 1.3)
+    supports = [multiverse.Support("tiled_fraction", "1", 1.0, True, 1.0, Estimate(0, -0.2, 0.2)),
+                multiverse.Support("tiled_fraction", "0.5", 0.5, False, 1.5, half),
+                multiverse.Support("exploration", "0.02", 0.02, False, 1.5, half),
+                multiverse.Support("exploration", "0.1", 0.1, False, 1.9, more),
+                multiverse.Support("credit", "last", "last", False, 1.3, nothing)]
+    assert multiverse.leading(supports) == replace(TO_THE_LETTER, tiled_fraction=0.5, exploration=0.02)
+
+
+def test_the_choices_that_matter_are_found(made_up):
+    shares, explained = multiverse.importance(*made_up, "C2")
+    assert set(shares) == {name for name, choice in WITHIN.items() if "C" in choice.papers}
+    first, second, third = sorted(shares, key=shares.get, reverse=True)[:3]
+    assert (first, second) == ("discount", "credit") and shares[third] < 0.05
+    assert explained > 0.8
+
+
+def test_a_specification_curve_is_in_order_and_shows_every_choice_below(made_up):
+    readings, claims = made_up
+    claims[7] = {"C2": judged(np.nan)}
+    draw_specification(readings, claims, "C2")
+    figure = plt.gcf()
+    curve, strips = figure.axes
+    points = {line.get_label(): line.get_xydata() for line in curve.lines if line.get_label()[0] != "_"}
+    assert [label.split()[0] for label in points] == ["holds", "undecided", "fails"]
+    at = np.concatenate(list(points.values()))
+    at = at[at[:, 0].argsort()]
+    assert len(at) == 128 and np.all(np.diff(at[:, 1]) >= 0)
+    (image,) = strips.images
+    order = np.argsort([-np.inf if np.isnan(each["C2"].here.value) else each["C2"].here.value for each in claims],
+                       kind="stable")
+    labels = [tick.get_text() for tick in strips.get_yticklabels()]
+    row = labels.index("discount, γ")
+    assert labels == [choice.label for choice in WITHIN.values() if "C" in choice.papers]
+    np.testing.assert_allclose(image.get_array()[row], [WITHIN["discount"].place(readings[i].discount) for i in order])
+    plt.close(figure)
+
+
+def test_a_curve_of_paper_a_leaves_out_what_does_not_concern_it(made_up):
+    readings, claims = made_up
+    draw_specification(readings, [{"A4": replace(each["C2"], name="A4")} for each in claims], "A4")
+    labels = [tick.get_text() for tick in plt.gcf().axes[1].get_yticklabels()]
+    assert "resolutions, C" not in labels and "map weights" in labels
+    plt.close()
+
+
+def test_importance_is_drawn_as_discs_of_that_area():
+    draw_importance({"A2": {"discount": 0.25, "credit": -0.1}, "C4": {"recursion": 1.0}}, BEYOND)
+    sizes = [line.get_markersize() for line in plt.gca().lines]
+    assert sizes[0] == pytest.approx(sizes[2] / 2) and sizes[1] == 0
+    assert [tick.get_text() for tick in plt.gca().get_xticklabels()] == ["A2", "C4"]
+    plt.close()

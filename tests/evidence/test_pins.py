@@ -1,0 +1,75 @@
+"""What the text fixes: every choice has its sentence, and a reading that breaks one is found out."""
+
+from dataclasses import fields, replace
+
+import pytest
+
+from neorl.evidence import multiverse, pins
+from neorl.evidence.priors import BEYOND, TO_THE_LETTER, WITHIN
+from neorl.evidence.reading import Reading
+
+PINNED = [pin for pin in pins.PINS if pin.status == "pinned"]
+
+
+def test_every_choice_of_a_reading_has_its_row_and_no_other_has():
+    assert {name for pin in pins.PINS for name in pin.fields} == {field.name for field in fields(Reading)}
+    assert len({pin.choice for pin in pins.PINS}) == len(pins.PINS)
+
+
+def test_what_is_pinned_is_quoted_and_located():
+    assert all(pin.quotation and pin.place and pin.follows for pin in PINNED)
+    assert all(bool(pin.quotation) == bool(pin.place) and pin.follows for pin in pins.PINS)
+    assert all(len(pin.quotation.split()) <= 30 for pin in pins.PINS)
+
+
+@pytest.mark.parametrize("change, broken", [
+    ({"exploration": 0.02}, ["policy"]), ({"when_indifferent": "no-op"}, ["action when idle"]),
+    ({"tiled_fraction": 0.5}, ["range of place cells"]), ({"weighting": "equal"}, ["weight of a map"]),
+    ({"own_cell": "silent"}, ["elements in the agent's own cell"]),
+    ({"credit": "step"}, ["driver of learning", "credit of events that occurred", "credit of events that did not occur",
+                          "memory"]),
+    ({"credit": "last"}, ["credit of events that occurred"]),
+    ({"absent_decay": 0.0}, ["credit of events that did not occur"]),
+    ({"memory": 0.0}, ["memory"]), ({"network_gain": 5.0}, ["gain of place cells, paper C"]),
+    ({"vectors": "by size"}, ["desire vector"]), ({"vectors": "incoming"}, ["desire vector"]),
+    ({"scale": 2.0}, ["where a desire lies"]), ({"recursion": -2.0}, ["recursion, r"]),
+    ({"recursion": 1.0, "scale": 0.5}, ["where a desire lies", "recursion, r"])])
+def test_a_reading_against_the_text_says_which_sentences_it_breaks(change, broken):
+    found = replace(TO_THE_LETTER, **change).within_the_text
+    assert not found and [pin.choice for pin in found.broken] == broken
+    assert all(f"“{pin.quotation}” ({pin.place})" in str(found) for pin in found.broken)
+
+
+@pytest.mark.parametrize("change", [
+    {"weighting": "cells"}, {"credit": "count"}, {"credit": "share"}, {"credit": "activity", "memory": 0.0},
+    {"absent_form": "decay"}, {"bootstrap": False}, {"terminal": True}, {"object_tiled_fraction": 0.25}, {"place_gain": 5.0},
+    {"network_resolutions": (2, 3)}, {"fps": 30}, {"learning_rate": 0.9}, {"memory_unit": "seconds"}])
+def test_what_is_open_breaks_nothing(change):
+    assert replace(TO_THE_LETTER, **change).within_the_text
+
+
+def test_the_reading_to_the_letter_is_within_the_text():
+    assert TO_THE_LETTER.within_the_text and str(TO_THE_LETTER.within_the_text) == "within the text"
+
+
+def test_designs_within_the_text_are_and_those_beyond_are_not():
+    assert all(reading.within_the_text for reading in multiverse.design(256))
+    assert not any(reading.within_the_text for reading in multiverse.design(256, choices=BEYOND))
+
+
+def test_every_sentence_that_pins_a_choice_is_broken_somewhere_beyond_and_nowhere_within():
+    for pin in PINNED:
+        for choices, breaks in ((WITHIN, False), (BEYOND, bool(pin.fields))):
+            of_pin = [name for name in pin.fields if name in choices]
+            values = [choices[name].at((k + 0.5) / 60) for name in of_pin for k in range(60)]
+            names = [name for name in of_pin for _ in range(60)]
+            assert any(not pin.allows(replace(TO_THE_LETTER, **{name: value}))
+                       for name, value in zip(names, values)) == breaks, pin.choice
+
+
+def test_the_table_has_a_row_for_each_choice_what_is_pinned_first():
+    lines = pins.table().splitlines()
+    assert len(lines) == 2 + len(pins.PINS) and all(line.count("|") == 6 for line in lines)
+    status = [line.split("|")[-2].strip() for line in lines[2:]]
+    assert status == ["pinned"] * len(PINNED) + ["open"] * (len(pins.PINS) - len(PINNED))
+    assert all(f"“{pin.quotation}” | {pin.place} |" in pins.table() for pin in pins.PINS if pin.quotation)

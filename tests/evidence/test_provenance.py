@@ -1,0 +1,32 @@
+"""Where constants come from: none is left out, and the values are those of the code."""
+
+from dataclasses import replace
+
+from neorl import Policy, WaterWorld
+from neorl.evidence import provenance
+from neorl.evidence.priors import BEYOND, TO_THE_LETTER
+
+
+def test_every_choice_and_every_rule_of_the_tank_has_a_source():
+    constants = {each.name: each for each in provenance.constants()}
+    assert {choice.label for choice in BEYOND.values()} <= set(constants)
+    assert all(each.value and each.source for each in constants.values())
+    assert len(constants) == len(provenance.constants())
+
+
+def test_the_values_are_those_of_the_code():
+    values = {each.name: each.value for each in provenance.constants()}
+    assert values["side of the tank"] == f"{WaterWorld().width} pixels"
+    assert values["exploration, ε"] == f"{Policy().exploration:g}"
+    assert values["resolutions, paper B"] == "N2, N3, N5, N7, N11, N13"
+    assert values["steps of a run, paper A"] == "150,000" and values["creeps, paper A"] == "8"
+    assert provenance.table().count("\n") == len(values) + 1
+
+
+def test_the_source_of_a_choice_is_the_sentence_that_pins_it_unless_the_default_breaks_that(monkeypatch):
+    reading = replace(TO_THE_LETTER, tiled_fraction=0.5)
+    monkeypatch.setattr(provenance, "Reading", lambda: reading)
+    assert provenance.source("recursion") == "paper C, section 3"
+    assert provenance.source("tiled_fraction") == "against paper B, figure 3"
+    assert provenance.source("capture") == "open in paper B, section 3; value by calibration"
+    assert provenance.source("contact") == "value by calibration"

@@ -1,0 +1,173 @@
+"""What was found, as the pages tell it: tables, records on disk, and what is not there."""
+
+import inspect
+import json
+import re
+from pathlib import Path
+
+import pytest
+from matplotlib import pyplot as plt
+from test_claims import brownian, made_up, paper_a, paper_c
+
+from neorl.drawing.multiverse_figures import draw_standing
+from neorl.evidence import claims, report
+from neorl.evidence.errata import ERRATA
+from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
+
+pytestmark = pytest.mark.usefixtures("cache_folder")
+
+
+def networks(*agents):
+    return claims.judge_networks(*(agents or paper_c()), brownian())
+
+
+def layers(runs=20):
+    _, control, *rest = paper_a(runs)
+    return claims.judge_multiple_layers(*rest, control)
+
+
+def test_claims_are_kept_as_data(cache_folder):
+    judged = networks()
+    report.store("paper_c", judged, letter=judged[:1])
+    kept = json.loads((cache_folder / "claims" / "paper_c.json").read_text())
+    assert list(kept["claims"]) == ["C1", "C2", "C3", "C4"] and list(kept["letter"]) == ["C1"]
+    assert kept["claims"]["C4"]["here"] == list(judged[3].here)
+    assert kept["claims"]["C4"]["runs"] == 20
+
+
+def test_a_bound_that_does_not_exist_is_kept_as_null(cache_folder):
+    report.store("look", layers(runs=1))
+    text = (cache_folder / "claims" / "look.json").read_text()
+    assert "NaN" not in text
+    assert json.loads(text)["claims"]["A6"]["here"][1:] == [None, None]
+
+
+def test_a_table_of_a_page_has_both_readings_and_what_the_verdicts_rest_on():
+    table = report.table(networks(), networks(*paper_c()[::-1]), {"C2": {"holds": 1, "undecided": 0, "readings": 4}})
+    assert table.splitlines()[0] == "| Claim | Thesis | To the letter | Calibrated | Verdict | Share within the text |"
+    assert row(table, "C2") == ("| **C2** A desire for each colour (B) beats one for all (A) | > 0 | "
+                                "○\u00a0−0.30 [−0.31, −0.29] | ●\u00a00.10 [0.09, 0.11] | reproduced | "
+                                "short runs: 25\u00a0% of 4 |")
+    (line,) = [line for line in table.splitlines() if line.startswith("- **C2**")]
+    assert "“Experiment b demonstrates the effect of separating desires" in line and "(paper C, section 3)" in line
+    assert "Here: 0.10 [0.09, 0.11], 20 runs. A run of B" in line and "To the letter: −0.30" in line
+
+
+def test_the_reading_to_the_letter_stands_first_in_a_comparison():
+    judged = {"other": layers(), "calibrated": networks(), "to the letter": networks() + layers()}
+    compared = report.comparison(judged).splitlines()
+    assert compared[0] == "| Reading | A6 | A7 | A8 | C1 | C2 | C3 | C4 |"
+    assert [line.split(" |")[0] for line in compared[2:]] == ["| to the letter", "| calibrated", "| other"]
+    assert compared[4].startswith("| other | ●\u00a00.21 | ●\u00a03.55 |") and compared[4].endswith("|  |  |  |  |")
+
+
+def test_a_summary_names_where_claims_hold_and_what_comes_closest():
+    good, bad = (networks(*(made_up(0.0, final) for final in finals))
+                 for finals in [(0.05, 0.15, 0.3, 0.6), (0.05, 0.02, 0.3, 0.1)])
+    text = report.summary({"calibrated": bad, "other": good, "to the letter": bad})
+    assert "- **C1** Network A improves over time but stays weak: *to the letter; calibrated; other*." in text
+    assert "- **C4** Recursion (D) improves on C drastically: *other*." in text
+    assert "Closest to the thesis comes *other*: 4 of its claims are reproduced and 0 partly." in text
+    assert text.endswith(" In the reading *to the letter* they are 2 and 0. In the reading *calibrated* they are 2 "
+                         "and 0.")
+    assert "none of these readings" in report.summary({"calibrated": bad})
+    assert report.summary({"calibrated": networks(*paper_c(runs=2))}) == "With so few runs there is nothing to sum up."
+
+
+@pytest.fixture
+def record(cache_folder):
+    report.store("paper_c", networks(), letter=networks(*paper_c()[::-1]))
+    report.store("look", layers(runs=1))
+    report.store("assumptions", shares={"C2": {"holds": 64, "undecided": 26, "untestable": 3, "readings": 256,
+                                               "agrees": 2, "measured": 40}})
+    return report.read((cache_folder / "claims").iterdir())
+
+
+def row(table, name):
+    (found,) = [line for line in table.splitlines() if line.lstrip("|* ").startswith(name) and line[0] == "|"]
+    return found
+
+
+def test_the_page_has_every_claim_of_the_thesis_and_says_which_were_not_computed(record):
+    page = report.page(record)
+    rows = [line.split("**")[1] for line in page.splitlines() if line.startswith("| **")]
+    lines = [line.split("**")[1] for line in page.splitlines() if line.startswith("- **")]
+    assert rows == lines == [*CLAIMS, *DEMONSTRATIONS]
+    assert "| not computed in this build |" in row(page, "H1") and "| not computed in this build |" in row(page, "A1")
+    assert page.index("Beside the claims: a demonstration") < page.index("| **H1**")
+    assert row(page, "C2").replace("\u00a0", " ") == (
+        "| **C2** A desire for each colour (B) beats one for all (A) | > 0 | ○ −0.30 [−0.31, −0.29] | "
+        "● 0.10 [0.09, 0.11] | reproduced ({ref}`figure <fig-proficiency-networks>`, {ref}`rule "
+        "<rule-judge-networks>`) | 5 % of 40; short runs: 25 % of 256, 10 % undecided |")
+
+
+def test_a_claim_that_no_rule_can_judge_is_open(record):
+    assert row(report.in_short(record), "C5").endswith("| none succeeds |  |  | open |  |")
+    assert "Open: there is no rule yet that could judge it." in report.page(record)
+    assert report.verdict(record, "C5") == "open"
+
+
+def test_a_claim_of_a_single_run_has_no_interval_and_no_verdict(record):
+    page = report.page(record)
+    assert "| –\u00a00.19 | no verdict (" in row(page, "A6")
+    assert "Here: 0.19, 1 runs. They reach half" in page
+
+
+def test_the_short_table_says_the_same(record):
+    table = report.in_short(record)
+    assert row(table, "C2").endswith("| ●\u00a00.10 [0.09, 0.11] | reproduced | 5\u00a0% of 40; short runs: 25\u00a0% "
+                                     "of 256, 10\u00a0% undecided |")
+    assert row(table, "H1").endswith("| fewer |  |  | not computed in this build |  |")
+    assert "{ref}" not in table
+
+
+def test_claims_are_listed_by_what_became_of_them(record):
+    assert report.standing(record, ["H1", "C3", "C2", "A6", "C5"]) == (
+        "- *Reproduced*: Values from both nodes (C) beat those of the last one (A, B) (C3); A desire for each colour "
+        f"(B) beats one for all (A) (C2).\n- *No verdict*: {STATEMENTS['A6'].text} (A6).\n"
+        f"- *Open*: {STATEMENTS['C5'].text} (C5).\n"
+        f"- *Not computed in this build*: {STATEMENTS['H1'].text} (H1).")
+
+
+def test_some_claims_of_a_record_make_a_table(record):
+    header, _, *rows = report.extract(record, ["A6", "C2", "C5"]).splitlines()
+    assert header.startswith("| Claim | Thesis | To the letter |") and len(rows) == 3
+    assert rows == [row(report.in_short(record), name) for name in ("A6", "C2", "C5")]
+
+
+def test_verdicts_are_counted_without_demonstrations(record):
+    report.store("chapter_2", [claims.Claim("H1", networks()[0].here, "", 20, "reproduced", False)])
+    counts = report.tally(report.read())
+    assert counts == {"reproduced": 4, "no verdict": 3, "open": 1, "not computed in this build": len(CLAIMS) - 8}
+
+
+def test_the_page_of_claims_shows_the_code_of_every_rule():
+    text = (Path(__file__).parents[2] / "book" / "claims.md").read_text(encoding="utf-8")
+    shown = re.findall(r"\((rule-[\w-]+)\)=\n### .+\n\n```{literalinclude} ../neorl/evidence/(\w+).py\n:pyobject: (\w+)\n", text)
+    rules = [getattr(claims, statement.rule) for statement in STATEMENTS.values() if statement.rule]
+    assert {label: (module, rule) for label, module, rule in shown} == {
+        report.label(rule.__name__): (inspect.getmodule(rule).__name__.removeprefix("neorl.evidence."), rule.__name__)
+        for rule in rules}
+
+
+def test_errata_are_a_table_and_their_arithmetic_is_right():
+    rows = report.errata().splitlines()[2:]
+    assert len(rows) == len(ERRATA) and all(line.count(" | ") == 2 for line in rows)
+    assert 3**2 + 7**2 + 23**2 == 587 and "587" in rows[0] and round(587 / 49) == 12 and "twelvefold" in rows[0]
+
+
+def test_all_that_is_kept_is_read_unless_files_are_named(record, cache_folder):
+    (cache_folder / "claims" / "notes.txt").touch()
+    assert report.read() == record
+    assert list(report.read([cache_folder / "claims" / "look.json"])["claims"]) == ["A6", "A7", "A8"]
+
+
+def test_readings_are_drawn_beside_the_verdicts(record):
+    draw_standing(record, ["C2", "A6", "T5"])
+    axes = plt.gca()
+    assert [tick.get_text() for tick in axes.get_yticklabels()] == [
+        "C2  reproduced", "A6  no verdict", "T5  not computed"]
+    assert [(bar.get_x(), bar.get_width()) for bar in axes.patches] == [(0, 25), (25, pytest.approx(100 * 26 / 256))]
+    assert [line.get_xydata().tolist() for line in axes.lines] == [[[5, 0]]]
+    assert [text.get_text() for text in axes.texts] == ["not varied over readings"] * 2
+    plt.close()

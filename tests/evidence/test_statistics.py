@@ -1,0 +1,179 @@
+"""Statistics against cases counted by hand and against simulated data."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from neorl import Result, WaterWorld, place_cells
+from neorl.evidence.statistics import (Estimate, estimate, lead_over_best, lead_over_sum, least_of_most, mean_band,
+                                       minutes_sooner, points, probability_of_improvement, rank_correlation, ratio,
+                                       resets, time_to_final_level, time_to_level, tolerance_band, tolerated_share)
+
+
+def test_the_probability_of_improvement_counts_pairs():
+    assert probability_of_improvement([3, 4], [1, 2]) == (1.0, 1.0, 1.0)
+    assert probability_of_improvement([1, 2], [3, 4]) == (0.0, 0.0, 0.0)
+    assert probability_of_improvement([1, 3], [2, 3]).value == pytest.approx(1.5 / 4)  # 3 > 2; 3 = 3 counts half
+
+
+def test_the_interval_of_a_constant_has_no_width():
+    assert estimate(np.mean, np.full(10, 2.5)) == (2.5, 2.5, 2.5)
+
+
+def test_a_single_run_has_no_interval():
+    single = estimate(np.mean, np.array([1.0]))
+    assert single.value == 1.0 and math.isnan(single.low) and math.isnan(single.high)
+
+
+def test_the_interval_is_the_same_each_time():
+    sample = np.random.default_rng(0).normal(size=20)
+    assert estimate(np.mean, sample) == estimate(np.mean, sample)
+
+
+def test_the_interval_of_a_difference_covers_the_truth_as_often_as_it_says():
+    rng, covered, trials = np.random.default_rng(1), 0, 150
+    for _ in range(trials):
+        a, b = rng.normal(1.0, 1.0, 30), rng.normal(0.3, 2.0, 30)
+        low, high = estimate(lambda x, y, axis: x.mean(axis) - y.mean(axis), a, b)[1:]
+        covered += low <= 0.7 <= high
+    assert 0.88 <= covered / trials <= 0.99
+
+
+def test_the_interval_of_a_probability_of_improvement_covers_the_truth_as_often_as_it_says():
+    """Normal samples a standard deviation apart: a draw of one beats one of the other with probability Φ(1/√2)."""
+    rng, truth, covered, trials = np.random.default_rng(3), 0.7602, 0, 150
+    for _ in range(trials):
+        low, high = probability_of_improvement(rng.normal(1, 1, 30), rng.normal(0, 1, 30))[1:]
+        covered += low <= truth <= high
+    assert 0.88 <= covered / trials <= 0.99
+
+
+def test_a_bootstrap_draws_from_the_generator_that_it_is_given():
+    sample = np.random.default_rng(0).normal(size=20)
+    generator = np.random.default_rng(7)
+    first, second = (estimate(np.mean, sample, rng=generator) for _ in range(2))
+    assert first != second
+    assert estimate(np.mean, sample, rng=7) == first
+
+
+def test_the_tolerated_share_is_wilks():
+    """The whole range of 59 runs less one at each end, and of 93: cases from tables of Wilks's formula."""
+    assert tolerated_share(93) == pytest.approx(0.95, abs=5e-4)  # two-sided 95 % / 95 %
+    assert tolerated_share(46) == pytest.approx(0.90, abs=2e-3)
+    n, p = 20, tolerated_share(20)  # fewer than 95 % hold p or more: 1 − n pⁿ⁻¹ + (n − 1) pⁿ = 0.95
+    assert 1 - n * p ** (n - 1) + (n - 1) * p**n == pytest.approx(0.95)
+    assert tolerated_share(1) == 0.0
+
+
+def test_a_tolerance_band_lies_between_order_statistics():
+    runs = np.random.default_rng(0).permutation(np.arange(1.0, 101.0))
+    low, high = tolerance_band(runs[:, None] * [1, 10])
+    beyond = int(low[0])
+    np.testing.assert_array_equal([low, high], [[beyond, 10 * beyond], [101 - beyond, 10 * (101 - beyond)]])
+    assert tolerated_share(100, beyond) >= 0.75 > tolerated_share(100, beyond + 1)
+
+
+@pytest.mark.parametrize("runs", [1, 2, 17])
+def test_with_few_runs_a_tolerance_band_is_their_range(runs):
+    assert tolerated_share(runs) < 0.75 <= tolerated_share(18)
+    curves = np.arange(float(runs))[:, None]
+    np.testing.assert_array_equal(tolerance_band(curves), [[0], [runs - 1]])
+
+
+@pytest.mark.parametrize("runs", [20, 100])
+@pytest.mark.parametrize("law", ["normal", "exponential", "cauchy"])
+def test_a_tolerance_band_holds_its_share_as_often_as_it_says_whatever_the_law(law, runs):
+    law = {"normal": stats.norm, "exponential": stats.expon, "cauchy": stats.cauchy}[law]
+    low, high = tolerance_band(law.rvs(size=(runs, 2_000), random_state=1))
+    enough = (law.cdf(high) - law.cdf(low) >= 0.75).mean()
+    assert 0.94 <= enough <= 1.0
+
+
+@pytest.mark.parametrize("change", [{"share": 1.5}, {"confidence": -0.1}])
+def test_a_tolerance_band_refuses_what_is_no_share(change):
+    with pytest.raises(ValueError, match=f"{[*change][0]} is {[*change.values()][0]}, allowed are numbers from 0 to 1"):
+        tolerance_band(np.ones((20, 1)), **change)
+
+
+def test_the_band_of_a_mean_narrows_with_the_root_of_the_runs():
+    curves = np.random.default_rng(2).normal(size=(400, 3))
+    low, high = mean_band(curves)
+    np.testing.assert_allclose(high - low, 2 * 1.96 / 20, rtol=0.15)
+    assert np.isnan(mean_band(curves[:1])).all()
+
+
+def test_an_estimate_is_written_with_its_interval():
+    assert str(Estimate(0.5, -0.001, 1.25)) == "0.50 [0.00, 1.25]"
+    assert str(Estimate(-0.5, -1.0, 0.1)) == "−0.50 [−1.00, 0.10]"
+    assert str(Estimate(0.5, math.nan, math.nan)) == "0.50"
+
+
+def test_the_time_to_the_final_level_is_that_of_each_run():
+    """400 bins of 0.2 s, so that the mean is over the 10 bins past: 2 s."""
+    rewards = np.zeros((4, 400), np.float32)
+    rewards[0] = 1  # from the start: as soon as there is a mean
+    rewards[1, 100:] = 1  # a step after 20 s is there to nine tenths 9 bins later
+    rewards[2] = np.arange(400) / 400  # the last fifth is at 359.5 / 400; nine tenths of it lie 5.5 before bin 330
+    rewards[3] = -1  # never
+    result = Result(place_cells([1]), WaterWorld(), 4_000, 4, 0, rewards, np.zeros((4, 400, 2), np.int16))
+    np.testing.assert_allclose(time_to_final_level(result), [2.0, 21.8, 66.0, 80.0])
+    np.testing.assert_allclose(time_to_level(result, 0.5), [2.0, 20.2, 9.2, 80.0])  # bin 101; bins 36 to 45
+    np.testing.assert_allclose(time_to_level(result, [9, 9, 9, -9]), [80.0, 80.0, 80.0, 2.0])
+
+
+def steps_up(bins, at, runs=10, height=1.0, before=0.0):
+    """Runs of 80 s that earn `before`, and `height` a second from a bin on."""
+    rewards = np.full((runs, bins), before, np.float32)
+    rewards[:, at:] = height * 0.2
+    hits = np.zeros((runs, bins, 2), np.int16)
+    return Result(place_cells([1]), WaterWorld(), 10 * bins, runs, 0, rewards, hits)
+
+
+def test_a_lead_in_time_is_that_of_the_mean_over_runs():
+    early, late = steps_up(400, 100), steps_up(400, 250)
+    assert minutes_sooner(early, late, 0.5) == pytest.approx([0.5] * 3)  # 150 bins of 0.2 s
+    assert minutes_sooner(late, early, 0.5) == pytest.approx([-0.5] * 3)
+    assert minutes_sooner(early, late, 2.0) == (0, 0, 0)  # neither ever
+    assert minutes_sooner(early, steps_up(400, 250, height=0.4), 0.5).value == pytest.approx((80 - 21) / 60, abs=0.01)
+    assert np.isnan(minutes_sooner(steps_up(400, 1, runs=1), late, 0.5).low)
+
+
+def test_a_lead_in_time_over_a_sum_is_that_over_what_the_parts_earn_together():
+    whole, parts = steps_up(400, 100), [steps_up(400, 200, height=0.6), steps_up(400, 300, 7, height=0.6)]
+    assert minutes_sooner(whole, parts, 0.5).value == pytest.approx(100 * 0.2 / 60, abs=0.02)  # the first is enough
+    assert minutes_sooner(whole, parts, 1.0).value == pytest.approx(200 * 0.2 / 60, abs=0.02)  # it takes both
+
+
+def test_a_lead_in_time_is_not_made_by_the_noise_of_single_runs():
+    """A run in ten is at a level by itself; the mean over runs comes to it at the time of the step."""
+    noisy = steps_up(400, 200, runs=100)
+    noisy.rewards[::10, 20:40] = 0.2
+    assert np.sum(time_to_level(noisy, 0.5) < 10) == 10
+    assert minutes_sooner(noisy, steps_up(400, 200, runs=100), 0.5).value == 0
+
+
+def test_resets_and_points_follow_from_rewards_and_creeps():
+    hits = np.zeros((2, 3, 2), np.int16)
+    hits[0], hits[1] = [[3, 1], [2, 0], [0, 4]], [[1, 0], [0, 0], [0, 0]]
+    rewards = np.array([[2 + 5, 2 + 5, -4], [1, 0, 0]], np.float32)
+    result = Result(place_cells([1]), WaterWorld(win_reward=5.0), 30, 2, 0, rewards, hits)
+    assert list(points(result)) == [0, 1] and list(resets(result)) == [2, 0]
+    with pytest.raises(ValueError, match="win_reward of the world is 0.0, allowed are worlds"):
+        resets(Result(place_cells([1]), WaterWorld(), 30, 2, 0, rewards, hits))
+
+
+def test_leads_and_ratios_are_those_of_means():
+    a, b, c = np.array([4.0, 6.0]), np.array([1.0, 3.0]), np.array([2.0, 2.0, 2.0])
+    assert (ratio(a, b, axis=-1), ratio(a, 0 * b, axis=-1)) == (2.5, 0)
+    assert (lead_over_best(a, b, c, axis=-1), lead_over_sum(a, b, c, axis=-1)) == (3, 1)
+    assert least_of_most(a, b, c, axis=-1) == 0.4
+    assert least_of_most(0 * a, 0 * b, axis=-1) == 0
+
+
+def test_a_rank_correlation_is_spearmans():
+    samples = [np.random.default_rng(n).normal(n / 2, 1, 8) for n in range(4)]
+    expected = stats.spearmanr(np.repeat(np.arange(4), 8), np.concatenate(samples)).statistic
+    assert rank_correlation(*samples, axis=-1) == pytest.approx(expected)
+    assert rank_correlation(*[np.zeros(3)] * 2, axis=-1) == 0

@@ -1,0 +1,107 @@
+"""Conditions on disk: found again, keyed by all that determines them, and never half there."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+
+import grimp
+import numpy as np
+import pytest
+
+from neorl import Condition, Learning, WaterWorld, place_cells, simulate_once
+from neorl.experiments import cache
+
+AGENT, WORLD = place_cells([3]), WaterWorld()
+SIZE = {"steps": 500, "runs": 2, "progress": False}
+pytestmark = pytest.mark.usefixtures("cache_folder")
+
+
+@pytest.fixture
+def computed(monkeypatch):
+    """Counts how often a condition is computed."""
+    calls = []
+    original = cache.simulate
+    monkeypatch.setattr(cache, "simulate", lambda *args, **kwargs: calls.append(args) or original(*args, **kwargs))
+    return calls
+
+
+def test_a_condition_is_computed_once(computed):
+    first, second = (simulate_once(AGENT, WORLD, **SIZE) for _ in range(2))
+    assert len(computed) == 1
+    np.testing.assert_array_equal(first.rewards, second.rewards)
+    np.testing.assert_array_equal(first.hits, second.hits)
+    assert (second.agent, second.world, second.steps) == (AGENT, WORLD, 500)
+
+
+def test_the_key_tells_all_that_determines_a_result_apart(monkeypatch):
+    condition = Condition(AGENT, WORLD, 500, 2, 0)
+    keys = [condition.key]
+    keys.append(replace(condition, agent=place_cells([3], learning=Learning(discount=0.81))).key)
+    keys += [replace(condition, world=world).key for world in (WaterWorld(fps=30), WaterWorld(contact="truncated"))]
+    keys += [replace(condition, **size).key for size in ({"steps": 501}, {"runs": 3}, {"seed": 1})]
+    keys.append(replace(condition, changes=[(100, AGENT)]).key)
+    monkeypatch.setattr(cache, "source_digest", lambda: "another source")
+    keys.append(condition.key)
+    assert len(set(keys)) == len(keys)
+
+
+def test_the_source_digest_covers_every_module_that_a_run_imports():
+    imported = grimp.build_graph("neorl", cache_dir=None).find_upstream_modules("neorl.experiments.cache")
+    assert {"neorl.core.horde", "neorl.worlds.waterworld"} < imported
+    assert {name.split(".")[1] for name in imported} == {"checks", *cache.ROOMS}
+
+
+@pytest.mark.parametrize("damage", [
+    lambda content: content[:-1], lambda content: b"", lambda content: content[:40], lambda content: b"x" * 100,
+    lambda content: content[:200] + bytes([content[200] ^ 1]) + content[201:],
+])
+def test_a_damaged_file_is_noticed_and_computed_again(cache_folder, computed, damage):
+    whole = simulate_once(AGENT, WORLD, **SIZE)
+    (path,) = (cache_folder / "conditions").iterdir()
+    path.write_bytes(damage(path.read_bytes()))
+    again = simulate_once(AGENT, WORLD, **SIZE)
+    assert len(computed) == 2
+    np.testing.assert_array_equal(whole.rewards, again.rewards)
+    simulate_once(AGENT, WORLD, **SIZE)
+    assert len(computed) == 2
+
+
+def test_a_killed_process_leaves_whole_conditions_behind(cache_folder):
+    """Killed at any moment, a process leaves files that the next one can use, and the next one ends the work."""
+    work = ("from neorl import *\nfor seed in range(12):\n    simulate_once(place_cells([3]), WaterWorld(), "
+            "steps=20_000, runs=2, seed=seed, progress=False)\n")
+    process = subprocess.Popen([sys.executable, "-c", work])
+    deadline = time.monotonic() + 120
+    while len(finished(cache_folder)) < 3 and time.monotonic() < deadline:
+        time.sleep(0.002)
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    left = finished(cache_folder)
+    assert len(left) >= 3
+    assert all(cache.read_checked(path) is not None for path in left)
+    written = {path: path.stat().st_mtime_ns for path in left}
+    subprocess.run([sys.executable, "-c", work], check=True)
+    assert len(finished(cache_folder)) == 12
+    assert all(path.stat().st_mtime_ns == written[path] for path in left)
+
+
+def finished(cache_folder):
+    return [path for path in cache_folder.glob("conditions/*") if not path.name.startswith(".")]
+
+
+def test_without_the_variable_the_cache_is_the_users(monkeypatch):
+    monkeypatch.delenv("NEORL_CACHE")
+    assert cache.folder().name == "neorl-companion"
+    assert os.fspath(cache.folder()).startswith(os.path.expanduser("~"))
+
+
+@pytest.mark.parametrize("change, message", [
+    ({"agent": "PC"}, "agent is 'PC'"), ({"world": 3}, "world is 3"), ({"steps": 0}, "steps is 0"),
+    ({"runs": -1}, "runs is -1"), ({"seed": 0.5}, "seed is 0.5"), ({"changes": [(600, AGENT)]}, "step of a change"),
+])
+def test_a_condition_that_could_not_run_is_refused(change, message):
+    with pytest.raises(ValueError, match=message):
+        Condition(**{"agent": AGENT, "world": WORLD, "steps": 500, "runs": 2, **change})

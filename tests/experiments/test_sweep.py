@@ -1,0 +1,188 @@
+"""Sweeps: the same results on threads, on processes and on a cluster, with workers that fail, die and come too late."""
+
+import os
+import signal
+import sys
+import threading
+import time
+from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
+from multiprocessing import get_context
+
+import numpy as np
+import pytest
+from distributed import Client, LocalCluster
+
+from neorl import Condition, WaterWorld, multimodal, place_cells, sweep
+from neorl.experiments import cache
+from neorl.experiments.simulation import simulate
+
+sweep_module = sys.modules["neorl.experiments.sweep"]  # `neorl.sweep` is the function
+WORLD = WaterWorld()
+CONDITIONS = [Condition(place_cells([n]), WORLD, 2_000, 2, seed) for n in (2, 3) for seed in (0, 1)]
+CONDITIONS.append(Condition(place_cells([3]), WORLD, 2_000, 2, changes=[(1_000, multimodal([3]))]))
+pytestmark = pytest.mark.usefixtures("cache_folder")
+
+
+@pytest.fixture
+def lived(monkeypatch):
+    """The conditions that workers in this process have computed."""
+    conditions = []
+    original = sweep_module.simulate
+    monkeypatch.setattr(sweep_module, "simulate",
+                        lambda **choices: conditions.append(Condition(**trimmed(choices))) or original(**choices))
+    return conditions
+
+
+def trimmed(choices):
+    return {name: value for name, value in choices.items() if name not in ("threads", "progress")}
+
+
+def assert_the_same(results, conditions=CONDITIONS):
+    results = list(results)
+    assert len(results) == len(conditions)
+    for result, condition in zip(results, conditions):
+        alone = simulate(**condition.choices, progress=False)
+        np.testing.assert_array_equal(result.rewards, alone.rewards)
+        np.testing.assert_array_equal(result.hits, alone.hits)
+        assert (result.agent, result.seed, result.changes) == (alone.agent, alone.seed, alone.changes)
+    assert any(result.rewards.any() for result in results)
+
+
+def test_a_sweep_brings_what_its_conditions_bring_alone_and_in_order(lived):
+    assert_the_same(sweep(CONDITIONS, progress=False))
+    assert sorted(map(repr, lived)) == sorted(map(repr, CONDITIONS))
+
+
+def test_what_is_on_disk_or_asked_for_twice_is_computed_once(lived):
+    list(sweep(CONDITIONS[:2], progress=False))
+    assert_the_same(sweep([*CONDITIONS, CONDITIONS[0]], progress=False), [*CONDITIONS, CONDITIONS[0]])
+    assert len(lived) == len(CONDITIONS)
+
+
+def test_nothing_is_a_sweep():
+    assert list(sweep([], progress=False)) == []
+
+
+@pytest.mark.parametrize("conditions, message", [
+    ("all", "conditions is 'all'"), ([CONDITIONS[0], 3], "condition is 3, allowed is a Condition")])
+def test_what_is_no_list_of_conditions_is_refused(conditions, message):
+    with pytest.raises(ValueError, match=message):
+        sweep(conditions)
+
+
+def test_a_condition_that_fails_is_run_again_after_the_others(lived, monkeypatch):
+    failing = {CONDITIONS[1]: 2}
+    original = sweep_module.simulate
+
+    def simulate_with_failures(**choices):
+        condition = Condition(**trimmed(choices))
+        result = original(**choices)
+        if failing.get(condition, 0):
+            failing[condition] -= 1
+            raise MemoryError("for now")
+        return result
+
+    monkeypatch.setattr(sweep_module, "simulate", simulate_with_failures)
+    assert_the_same(sweep(CONDITIONS, progress=False))
+    assert lived[-1] == CONDITIONS[1] and len(lived) == len(CONDITIONS) + 2
+
+
+def test_a_condition_that_fails_always_is_told_after_the_others_are_kept(monkeypatch):
+    original = sweep_module.simulate
+
+    def simulate_with_failures(**choices):
+        if choices["seed"] == 1:
+            raise MemoryError("never")
+        return original(**choices)
+
+    monkeypatch.setattr(sweep_module, "simulate", simulate_with_failures)
+    with pytest.raises(RuntimeError, match="2 of 5 conditions have failed 3 times, such as Condition.*MemoryError"):
+        sweep(CONDITIONS, progress=False)
+    assert [cache.read(condition) is not None for condition in CONDITIONS] == [True, False, True, False, True]
+
+
+def test_a_worker_with_other_sources_is_refused(monkeypatch):
+    monkeypatch.setattr(sweep_module, "ATTEMPTS", 1)
+    calls = iter(["the sweep's"] + ["the worker's"] * 100)
+    monkeypatch.setattr(sweep_module, "source_digest", lambda: next(calls))
+    with pytest.raises(RuntimeError, match="has other sources of neorl than the sweep"):
+        sweep(CONDITIONS[:1], ThreadPoolExecutor(1), progress=False)
+    assert cache.read(CONDITIONS[0]) is None
+
+
+def test_an_interrupted_sweep_keeps_what_is_finished_and_gives_up_the_rest(monkeypatch, cache_folder):
+    original, finished = sweep_module.keep, []
+
+    def keep_one(condition, result):
+        if finished:
+            raise KeyboardInterrupt
+        finished.append(condition)
+        original(condition, result)
+
+    monkeypatch.setattr(sweep_module, "keep", keep_one)
+    with pytest.raises(KeyboardInterrupt):
+        sweep(CONDITIONS * 1, progress=False)
+    assert cache.read(finished[0]) is not None and len(list((cache_folder / "conditions").iterdir())) == 1
+
+
+def test_progress_tells_the_time_that_is_left(capsys):
+    sweep(CONDITIONS[:1])
+    assert "sweep:" in capsys.readouterr().err
+
+
+def test_any_executor_will_do(lived):
+    class Slow(ThreadPoolExecutor):
+        def submit(self, *task):
+            submitted.append(task)
+            return super().submit(*task)
+
+    submitted = []
+    with Slow(2) as executor:
+        assert_the_same(sweep(CONDITIONS, executor, progress=False))
+        assert isinstance(executor.submit(time.sleep, 0), Future)  # it is left open
+    assert len(submitted) == len(CONDITIONS) + 1
+
+
+def test_a_process_pool_that_breaks_is_replaced_by_the_cores_of_this_machine():
+    """A killed worker breaks a pool of processes as a whole: all that it had not finished is lost to it."""
+    conditions = [Condition(place_cells([3]), WORLD, 3_000_000, 1, seed) for seed in range(4)]
+    with ProcessPoolExecutor(2, get_context("spawn")) as pool:
+        pool.submit(os.getpid).result()
+        killer = threading.Timer(1.0, lambda: os.kill(next(iter(pool._processes)), signal.SIGKILL))
+        killer.start()
+        with pytest.warns(RuntimeWarning, match="is broken; this machine's cores do the rest"):
+            results = sweep(conditions, pool, progress=False)
+    assert_the_same(results, conditions)
+
+
+@pytest.fixture(scope="module")
+def cluster():
+    with LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster:
+        yield cluster
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_cluster_of_worker_processes_brings_the_same(cluster, lived):
+    with Client(cluster) as client:
+        assert_the_same(sweep(CONDITIONS, client.get_executor(), progress=False))
+        assert len(client.run(os.getpid)) == 2 and os.getpid() not in client.run(os.getpid).values()
+    assert lived == []  # in this process
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_killed_worker_of_a_cluster_loses_no_more_than_what_it_was_at(cluster, monkeypatch):
+    """One of two workers is killed as soon as the first condition is kept; the others are lived again or elsewhere."""
+    conditions = [Condition(place_cells([3]), WORLD, 200_000, 1, seed) for seed in range(20, 28)]
+    original, kept_after = sweep_module.keep, []
+
+    def keep_and_kill(condition, result):
+        original(condition, result)
+        if not kept_after:
+            os.kill(next(iter(client.run(os.getpid).values())), signal.SIGKILL)
+        kept_after.append(condition)
+
+    monkeypatch.setattr(sweep_module, "keep", keep_and_kill)
+    with Client(cluster) as client:
+        results = sweep(conditions, client.get_executor(), progress=False)
+    assert len(kept_after) == len(conditions)  # each once
+    assert_the_same(results, conditions)
