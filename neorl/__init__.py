@@ -22,7 +22,8 @@ from neorl.core.horde import learn, superpose
 from neorl.core.maps import NresMap
 from neorl.core.modality import Modality
 from neorl.experiments.cache import Condition, simulate_once
-from neorl.experiments.simulation import Result, Run, simulate
+from neorl.experiments.run import Run
+from neorl.experiments.simulation import Result, simulate
 from neorl.experiments.sweep import sweep
 from neorl.worlds.waterworld import WaterWorld
 

@@ -2,33 +2,40 @@
 
 import math
 import numbers
+import operator
 
 import numpy as np
 
 
 def integer(name, value, at_least, at_most=None):
-    """`value`, if it is an integer in the range (True and False are not integers here)."""
-    if isinstance(value, numbers.Integral) and not isinstance(value, bool):
-        if value >= at_least and (at_most is None or value <= at_most):
-            return int(value)
+    """`value` as an int, if it is an integer in the range (True and False are not integers here)."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        number = None
+    if number is not None and not isinstance(value, bool):
+        if number >= at_least and (at_most is None or number <= at_most):
+            return number
     allowed = f"integers ≥ {at_least}" if at_most is None else f"integers from {at_least} to {at_most}"
     raise ValueError(f"{name} is {value!r}, allowed are {allowed}")
 
 
 def real(name, value, at_least=-math.inf, at_most=math.inf):
-    """`value`, if it is a finite number in the range."""
-    if isinstance(value, numbers.Real) and not isinstance(value, bool):
-        if math.isfinite(value) and at_least <= value <= at_most:
-            return float(value)
+    """`value` as a float, if it is a finite number in the range."""
+    number = value[()] if isinstance(value, np.ndarray) and value.ndim == 0 else value
+    if isinstance(number, numbers.Real) and not isinstance(number, bool):
+        if math.isfinite(number) and at_least <= number <= at_most:
+            return float(number)
     bounds = f"numbers from {at_least:g} to {at_most:g}" if math.isfinite(at_most) else "finite numbers"
     bounds += f" ≥ {at_least:g}" if math.isinf(at_most) and math.isfinite(at_least) else ""
     raise ValueError(f"{name} is {value!r}, allowed are {bounds}")
 
 
 def one_of(name, value, allowed):
-    """`value`, if it is one of `allowed`."""
-    if value in allowed:
-        return value
+    """The one of `allowed` that `value` is."""
+    for each in allowed:
+        if isinstance(value, type(each)) and value == each:
+            return each
     raise ValueError(f"{name} is {value!r}, allowed are {', '.join(map(repr, allowed))}")
 
 
@@ -40,8 +47,8 @@ def several(name, values):
 
 
 def flag(name, value):
-    """`value`, if it is True or False."""
-    return one_of(name, value, (True, False))
+    """`value` as a bool, if it is True or False."""
+    return one_of(name, bool(value) if isinstance(value, np.bool) else value, (True, False))
 
 
 def finite(name, array):
@@ -64,3 +71,9 @@ def instance(name, value, kind):
     if isinstance(value, kind):
         return value
     raise ValueError(f"{name} is {value!r}, allowed is a {kind.__name__}")
+
+
+def store(instance, **values):
+    """Put checked values into the fields of a frozen dataclass, so that equal values are the same in every way."""
+    for name, value in values.items():
+        object.__setattr__(instance, name, value)

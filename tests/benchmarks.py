@@ -9,9 +9,9 @@ from explorer_page import write_page
 
 from neorl import (Explorer, Run, WaterWorld, multimodal, network_a, network_b, network_c, network_d,
                    object_vector_cells, place_cells, simulate)
-from neorl.core.horde import ZERO, learn_all_goals
-from neorl.core.kernel import kernel
-from neorl.core.stream import below, new_stream
+from neorl.core.kernel import execute, kernel
+from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
+from neorl.core.stream import new_stream, randint
 from neorl.worlds.waterworld import reset_board, step_board
 
 STEPS = 1_000_000
@@ -23,7 +23,7 @@ DISCOUNT = np.float32(0.8)
 def random_steps(state, rules, contacts, stream, steps):
     total = 0.0
     for _ in range(steps):
-        reward, done = step_board(state, rules, below(stream, 4), contacts)
+        reward, done = step_board(state, rules, randint(stream, 4), contacts)
         total += reward
         if done:
             reset_board(state, rules)
@@ -31,9 +31,9 @@ def random_steps(state, rules, contacts, stream, steps):
 
 
 @kernel
-def random_changes(q, cells, known, path, rates, discount, target):
+def random_changes(values, rule, path, rates):
     for change in range(path.shape[0] - 1):
-        learn_all_goals(q, 0, cells, known, path[change], path[change + 1], rates, ZERO, False, discount, True, target)
+        learn_all_goals(values, rule, path[change], path[change + 1], rates)
 
 
 def updates_by_numpy(q, path):
@@ -49,7 +49,7 @@ def test_steps(benchmark, n_creeps):
     world = WaterWorld(n_creeps=n_creeps)
     state, stream = world.reset(0), new_stream(np.random.SeedSequence(1))
     contacts = np.zeros(n_creeps, np.int8)
-    benchmark.pedantic(random_steps, (state, world.rules, contacts, stream, STEPS), warmup_rounds=1, rounds=10)
+    benchmark.pedantic(execute, (random_steps, state, world.rules, contacts, stream, STEPS), warmup_rounds=1, rounds=10)
 
 
 @pytest.mark.parametrize("by", ["kernel", "numpy"])
@@ -63,8 +63,9 @@ def test_thousand_updates_of_four_actions_and_every_goal(benchmark, resolution, 
     q = np.zeros((cells, 4, cells), np.float32)
     if by == "kernel":
         everything = np.tile([0, cells], (cells, 1))
-        arguments = (q.reshape(-1), cells, everything, path, RATES, DISCOUNT, np.empty(cells, np.float32))
-        benchmark.pedantic(random_changes, arguments, warmup_rounds=3, rounds=30)
+        values = MapValues(q.reshape(-1), 0, cells, everything, np.empty(cells, np.float32))
+        arguments = (random_changes, values, Rule(DISCOUNT, True, ZERO, False), path, RATES)
+        benchmark.pedantic(execute, arguments, warmup_rounds=3, rounds=30)
     else:
         benchmark.pedantic(updates_by_numpy, (q, path), warmup_rounds=3, rounds=30)
 

@@ -117,7 +117,7 @@ def digest(name, steps):
         if step < steps:
             run.change(RUNS[later][0])
     reward += run.advance(steps - run.step)
-    return recorded(reward, run.memory.q, run.state)
+    return recorded(reward, run.state.values.q, run.world_state)
 
 
 def recorded(reward, q, state):

@@ -7,7 +7,7 @@ import numpy as np
 import wasmtime
 
 from neorl.browser import wasm
-from neorl.core.kernel import length
+from neorl.core.kernel import length, mapped
 
 PAGE = 2**16
 
@@ -42,41 +42,48 @@ class Machine:
         view[...] = array
         return address, view
 
-    def put_tuple(self, fields):
-        """A named tuple whose arrays are (address, view) pairs."""
-        return type(fields)(*(self.put(value) if isinstance(value, np.ndarray) else value for value in fields))
+    def put_tuple(self, values):
+        """A named tuple whose arrays, and those of the tuples within, are (address, view) pairs."""
+        return mapped(self.put, values)
 
     def call(self, name, sizes, **arguments):
         """Call an export as its layout says; arrays are given as (address, view) pairs."""
-        layout = layout_of_the_module()
-        export = layout["exports"][name]
+        export = layout_of_the_module()["exports"][name]
         values = [int(sizes[each]) for each in export["sizes"]]
         for argument, kind in export["arguments"]:
-            given = arguments[argument]
-            for field, (dtype, shape) in layout["tuples"][kind] if isinstance(kind, str) else [(None, kind)]:
-                value = given if field is None else getattr(given, field)
-                if shape is not None:
-                    address, view = value
-                    assert view.dtype == dtype, (argument, field)
-                    assert view.shape == tuple(length(each, sizes) for each in shape), (argument, field)
-                    value = address
-                values.append(float(value) if shape is None and dtype.startswith("float") else int(value))
+            values += self.passed(arguments[argument], kind, sizes, argument)
         result, view = self.put(np.zeros(1, export["result"] or "int64"))
         assert self.exports[name](self.store, result, 0, *values) == 0
         return view[0]
 
+    def passed(self, value, kind, sizes, name):
+        """An argument as the numbers that the module takes."""
+        if isinstance(kind, str):
+            return [number for field, inner in layout_of_the_module()["tuples"][kind]
+                    for number in self.passed(getattr(value, field), inner, sizes, f"{name}.{field}")]
+        dtype, shape = kind
+        if shape is None:
+            return [float(value) if dtype.startswith("float") else int(value)]
+        address, view = value
+        assert view.dtype == dtype and view.shape == tuple(length(each, sizes) for each in shape), name
+        return [address]
+
 
 def sizes_of(run):
-    plan = run.plan
-    return {"maps": len(plan.cells), "nodes": len(plan.vector), "landmarks": len(plan.landmark),
-            "desires": len(plan.source), "values": plan.first[-1], "cells": plan.first_cell[-1],
-            "tracks": plan.first_track[-1], "trace": plan.trace, "creeps": run.world.n_creeps, "words": 0, "bins": 1,
-            "traces": len(run.memory.strength), "trace_rows": len(run.memory.trace_weight)}
+    maps, nodes, tracks = run.parameters.maps, run.parameters.nodes, run.state.tracks
+    return {"maps": len(maps.cells), "nodes": len(nodes.vector), "landmarks": len(nodes.landmark),
+            "desires": len(run.parameters.desires.source), "values": maps.first_value[-1],
+            "cells": maps.first_cell[-1], "tracks": maps.first_track[-1], "trace": run.parameters.learning.trace,
+            "things": run.world.n_creeps, "words": 0, "bins": 1, "traces": len(tracks.strength),
+            "trace_rows": len(tracks.trace_weight)}
 
 
 def copied(run):
     """A machine with copies of a run's arrays, and the arguments of its exports."""
-    machine = Machine(megabytes=32 + run.memory.q.nbytes // 2**20)
+    machine = Machine(megabytes=32 + run.state.values.q.nbytes // 2**20)
     return machine, sizes_of(run), {
-        "plan": machine.put_tuple(run.plan), "memory": machine.put_tuple(run.memory), "rules": run.world.rules,
-        "state": machine.put_tuple(run.state), "contacts": machine.put(np.zeros(run.world.n_creeps, np.int8))}
+        "parameters": machine.put_tuple(run.parameters), "state": machine.put_tuple(run.state),
+        "rules": run.world.rules, "board": machine.put_tuple(run.world_state),
+        "contacts": machine.put(np.zeros(run.world.n_creeps, np.int8)), "total": 0.0,
+        "clock": machine.put(np.zeros(1, np.int64)), "rewards": machine.put(np.zeros(1, np.float32)),
+        "hits": machine.put(np.zeros((1, 2), np.int16))}

@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from graphlib import CycleError, TopologicalSorter
 
 from neorl import checks
-from neorl.core.choices import Attention, Capture, Credit, UpdateOn, Weighting
-from neorl.core.horde import N_EVENTS, OWN_CELL
+from neorl.core.choices import N_EVENTS, Attention, Capture, Credit, UpdateOn, Weighting
+from neorl.core.horde import OWN_CELL
 from neorl.core.maps import NresMap
 from neorl.core.modality import Modality
 
@@ -78,27 +78,29 @@ class Learning:
     attention: str = "wanted"
 
     def __post_init__(self):
-        checks.real("learning_rate", self.learning_rate, 0, 1)
-        checks.real("discount", self.discount, 0, 1)
-        checks.one_of("update_on", self.update_on, UPDATES_ON)
-        checks.one_of("credit", self.credit, CREDITS)
-        checks.real("activity", self.activity, 0)
-        checks.real("absent_decay", self.absent_decay, 0, 1)
-        checks.one_of("absent_form", self.absent_form, ABSENT_FORMS)
-        checks.flag("terminal", self.terminal)
-        checks.integer("trace", self.trace, at_least=1)
-        checks.real("memory", self.memory, 0)
-        checks.one_of("memory_unit", self.memory_unit, MEMORY_UNITS)
-        checks.one_of("memory_value", self.memory_value, MEMORY_VALUES)
-        checks.flag("bootstrap", self.bootstrap)
-        checks.one_of("causes", self.causes, CAUSES)
-        checks.one_of("capture", self.capture, CAPTURES)
-        checks.one_of("attention", self.attention, ATTENTIONS)
+        checks.store(
+            self,
+            learning_rate=checks.real("learning_rate", self.learning_rate, 0, 1),
+            discount=checks.real("discount", self.discount, 0, 1),
+            update_on=checks.one_of("update_on", self.update_on, UPDATES_ON),
+            credit=checks.one_of("credit", self.credit, CREDITS),
+            activity=checks.real("activity", self.activity, 0),
+            absent_decay=checks.real("absent_decay", self.absent_decay, 0, 1),
+            absent_form=checks.one_of("absent_form", self.absent_form, ABSENT_FORMS),
+            terminal=checks.flag("terminal", self.terminal),
+            trace=checks.integer("trace", self.trace, at_least=1),
+            memory=checks.real("memory", self.memory, 0),
+            memory_unit=checks.one_of("memory_unit", self.memory_unit, MEMORY_UNITS),
+            memory_value=checks.one_of("memory_value", self.memory_value, MEMORY_VALUES),
+            bootstrap=checks.flag("bootstrap", self.bootstrap),
+            causes=checks.one_of("causes", self.causes, CAUSES),
+            capture=checks.one_of("capture", self.capture, CAPTURES),
+            attention=checks.one_of("attention", self.attention, ATTENTIONS))
         if self.update_on == "step":
             for name, value in AT_EVERY_STEP.items():
                 if getattr(self, name) not in (value, getattr(Learning, name)):
                     raise ValueError(f"{name} is {getattr(self, name)!r}, allowed with update_on 'step' is {value!r}")
-                object.__setattr__(self, name, value)
+                checks.store(self, **{name: value})
         if self.memory > 0 and self.trace > 1:
             raise ValueError(f"trace is {self.trace}, allowed with memory, here {self.memory}, is 1")
 
@@ -120,8 +122,8 @@ class Policy:
     when_indifferent: str = "random"
 
     def __post_init__(self):
-        checks.real("exploration", self.exploration, 0, 1)
-        checks.one_of("when_indifferent", self.when_indifferent, WHEN_INDIFFERENT)
+        checks.store(self, exploration=checks.real("exploration", self.exploration, 0, 1),
+                     when_indifferent=checks.one_of("when_indifferent", self.when_indifferent, WHEN_INDIFFERENT))
 
 
 @dataclass(frozen=True)
@@ -144,12 +146,13 @@ class Node:
     def __post_init__(self):
         if not isinstance(self.name, str) or self.name in COLOURS:
             raise ValueError(f"name is {self.name!r}, allowed are strings other than {COLOURS}")
-        object.__setattr__(self, "resolutions", checks.several("resolutions", self.resolutions))
+        checks.instance("modality", self.modality, Modality)
+        checks.store(self, resolutions=checks.several("resolutions", self.resolutions))
         if not self.resolutions:
             raise ValueError("resolutions is (), allowed are one integer or more")
-        object.__setattr__(self, "resolutions", tuple(each.resolution for each in self.maps))
-        checks.one_of("weighting", self.weighting, WEIGHTINGS)
-        checks.real("gain", self.gain)
+        checks.store(self, resolutions=tuple(each.resolution for each in self.maps),
+                     weighting=checks.one_of("weighting", self.weighting, WEIGHTINGS),
+                     gain=checks.real("gain", self.gain))
 
     @property
     def maps(self):
@@ -168,8 +171,7 @@ class Place:
     y: float
 
     def __post_init__(self):
-        checks.real("x", self.x)
-        checks.real("y", self.y)
+        checks.store(self, x=checks.real("x", self.x), y=checks.real("y", self.y))
 
 
 @dataclass(frozen=True)
@@ -199,18 +201,16 @@ class Desire:
     def __post_init__(self):
         if not isinstance(self.source, str | Place):
             point = checks.several("source", self.source)
-            object.__setattr__(self, "source", tuple(checks.real("source", value) for value in point))
+            checks.store(self, source=tuple(checks.real("source", value) for value in point))
         checks.instance("target", self.target, str)
         if not self.between_nodes or self.source == self.target or self.valence is not None:
             if self.valence is None:
                 raise ValueError(f"valence of the desire {self} is None, allowed are finite numbers")
-            checks.real("valence", self.valence)
-        of = tuple(checks.instance("of", each, str) for each in checks.several("of", self.of))
-        object.__setattr__(self, "of", of)
+            checks.store(self, valence=checks.real("valence", self.valence))
+        checks.store(self, of=tuple(checks.instance("of", each, str) for each in checks.several("of", self.of)),
+                     scale=checks.real("scale", self.scale, 0), signed=checks.flag("signed", self.signed))
         if self.of and not self.between_nodes:
             raise ValueError(f"of is {self.of!r}, allowed for the desire {self} is (): it comes from no node")
-        checks.real("scale", self.scale, 0)
-        checks.flag("signed", self.signed)
 
     def __str__(self):
         return f"{self.source!r} → {self.target!r}"
@@ -240,7 +240,7 @@ class Agent:
 
     def __post_init__(self):
         for name, kind, fewest in (("nodes", Node, 1), ("desires", Desire, 0)):
-            object.__setattr__(self, name, checks.several(name, getattr(self, name)))
+            checks.store(self, **{name: checks.several(name, getattr(self, name))})
             for each in getattr(self, name):
                 checks.instance(name, each, kind)
             if len(getattr(self, name)) < fewest:
@@ -250,7 +250,7 @@ class Agent:
             raise ValueError(f"nodes are {', '.join(map(repr, names))}, allowed is each name once")
         checks.instance("learning", self.learning, Learning)
         checks.instance("policy", self.policy, Policy)
-        checks.one_of("own_cell", self.own_cell, OWN_CELL)
+        checks.store(self, own_cell=checks.one_of("own_cell", self.own_cell, OWN_CELL))
         for desire in self.desires:
             self._check_desire(desire)
         self.evaluation_order  # which raises ValueError for a cycle

@@ -142,7 +142,7 @@ class Controls {
 
   showControls() {
     const { model } = this;
-    const { nodes, recursion, can_remember, plan } = this.presets[model.get("preset")];
+    const { nodes, recursion, can_remember, parameters: { learning } } = this.presets[model.get("preset")];
     for (const name of ["modality", "seed", "run"]) this.control(name).value = model.get(name);
     this.control("modality").disabled = this.control("modality").parentElement.hidden = nodes.length > 1;
     this.control("recursion").disabled = this.control("recursion").parentElement.hidden = recursion === null;
@@ -152,12 +152,12 @@ class Controls {
       chip.ariaPressed = model.get("resolutions").includes(Number(chip.dataset.chip));
     }
     this.control("memory").disabled = this.control("memory").parentElement.hidden = !can_remember;
-    this.control("memory").previousElementSibling.textContent = `Memory, ${plan.memory_by_time ? "seconds" : "cells"}`;
+    this.control("memory").previousElementSibling.textContent = `Memory, ${learning.memory_by_time ? "seconds" : "cells"}`;
     const sliders = ["recursion", "valence_red", "n_creeps"];
     for (const name of sliders) this.showSlider(name, model.get(name) ?? 0);
     const [rate, horizon, memory] = [model.get("learning_rate"), 1 / (1 - model.get("discount")), model.get("memory")];
     this.showSlider("learning_rate", Math.log10(rate || 0.001), shown(rate));
-    const discounts = plan.bootstrap || plan.trace > 1 || (plan.memory_discounts && memory > 0);
+    const discounts = learning.bootstrap || learning.trace > 1 || (learning.memory_discounts && memory > 0);
     this.control("horizon").disabled = !discounts;
     const cells = horizon === Infinity ? "∞" : shown(horizon);
     this.showSlider("horizon", Math.log10(horizon), discounts ? cells : "no effect");

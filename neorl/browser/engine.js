@@ -1,6 +1,6 @@
 // The worker that runs an agent: the book's own kernels, in WebAssembly, and nothing else that decides a run.
 //
-// 1. `layout` (from Python) says what each kernel takes, and of which fields a plan, a memory and a state consist.
+// 1. `layout` (from Python) says what each kernel takes, of which fields its tuples consist, and what its numbers mean.
 // 2. A run has a WebAssembly memory of its own, into which its arrays are laid one after the other.
 // 3. Every request gets one answer, in order: `REQUESTS` at the end has them all.
 // Places and velocities go out in board widths, y downward; inside they are pixels.
@@ -12,10 +12,14 @@ const ARRAYS = {
 const PAGE = 65536;
 const MOST_GIGABYTES = 3;
 const SLICE_MS = 4; // between two looks at the clock
-const NODE = 2; // the source of a desire that comes from a node, in `plan.source`
 const OWN = ["agent_position", "agent_velocity"]; // of a second body in the same tank; it shares all else
-const VECTORS = ["position", "velocity", "objects", "boundaries", "landmarks"];
-const TUNINGS = ["cartesian", "proximal", "polar", "angle", "length"];
+// What an agent has of each map, by the parameter that says where it begins.
+const OF_A_MAP = {
+  first_value: [["values", "q"]],
+  first_cell: [["values", "goal_range"]],
+  first_track: ["cell", "events", "trace_cell", "trace_rates", "trace_count", "remembered_count"].map((name) => ["tracks", name]),
+  first_trace: ["remembered", "remembered_at", "strength", "trace_weight", "trace_worth"].map((name) => ["tracks", name]),
+};
 
 let compiled = null;
 let layout = null;
@@ -54,7 +58,9 @@ class Machine {
 
   /** A named tuple: its scalars are given, and so may arrays be, in another tuple or in JSON; all else is 0. */
   tuple(kind, sizes, given = {}) {
-    return Object.fromEntries(layout.tuples[kind].map(([name, [dtype, shape]]) => {
+    return Object.fromEntries(layout.tuples[kind].map(([name, field]) => {
+      if (typeof field === "string") return [name, this.tuple(field, sizes, given[name])];
+      const [dtype, shape] = field;
       if (shape === null || ArrayBuffer.isView(given[name])) return [name, given[name]];
       return [name, this.put(dtype, shape.map((each) => lengthOf(each, sizes)), given[name])];
     }));
@@ -63,15 +69,17 @@ class Machine {
   call(name, sizes, given) {
     const { sizes: wanted, arguments: kinds, result } = layout.exports[name];
     const passed = wanted.map((each) => sizes[each]);
-    for (const [argument, kind] of kinds) {
-      const values = typeof kind === "string"
-        ? layout.tuples[kind].map(([field]) => given[argument][field]) : [given[argument]];
-      passed.push(...values.map((value) => (ArrayBuffer.isView(value) ? value.byteOffset : Number(value))));
-    }
+    for (const [argument, kind] of kinds) passed.push(...flat(kind, given[argument]));
     if (this.exports[name](this.result.byteOffset, 0, ...passed) !== 0) throw new Error(`The kernel ${name} failed.`);
     const { buffer, byteOffset } = this.result;
     return result === "int64" ? Number(new BigInt64Array(buffer, byteOffset, 1)[0]) : this.result[0];
   }
+}
+
+/** An argument as the numbers that the module takes: those of a tuple field by field, an array's address. */
+function flat(kind, value) {
+  if (typeof kind === "string") return layout.tuples[kind].flatMap(([name, field]) => flat(field, value[name]));
+  return [ArrayBuffer.isView(value) ? value.byteOffset : Number(value)];
 }
 
 function lengthOf(dimension, sizes) {
@@ -86,42 +94,49 @@ function fill(array, values) {
 }
 
 function bytesOf(kind, sizes) {
-  return layout.tuples[kind].filter(([, [, shape]]) => shape !== null).reduce((sum, [, [dtype, shape]]) =>
-    sum + 64 + shape.reduce((product, each) => product * lengthOf(each, sizes), ARRAYS[dtype].BYTES_PER_ELEMENT), 0);
+  return layout.tuples[kind].reduce((sum, [, field]) => {
+    if (typeof field === "string") return sum + bytesOf(field, sizes);
+    const [dtype, shape] = field;
+    if (shape === null) return sum;
+    return sum + 64 + shape.reduce((product, each) => product * lengthOf(each, sizes), ARRAYS[dtype].BYTES_PER_ELEMENT);
+  }, 0);
 }
 
-/** A run in a machine of its own: its plan laid out, all else at 0. */
-function newRun({ plan: choices, world, steps, bin_steps }) {
+/** A run in a machine of its own: its parameters derived, all else at 0. */
+function newRun({ parameters: choices, world, steps, bin_steps }) {
+  const { maps, nodes, desires, learning } = choices;
   const sizes = {
-    maps: choices.resolution.length, nodes: choices.vector.length, landmarks: choices.landmark.length,
-    desires: choices.source.length, trace: choices.trace, creeps: world.n_creeps, bins: Math.ceil(steps / bin_steps),
+    maps: maps.resolution.length, nodes: nodes.vector.length, landmarks: nodes.landmark.length,
+    desires: desires.source.length, trace: learning.trace, things: world.n_creeps, bins: Math.ceil(steps / bin_steps),
   };
-  const draft = new Machine(2 ** 20 + bytesOf("Plan", sizes)); // how much memory a run needs follows from its plan
-  const laidOut = draft.tuple("Plan", sizes, choices);
-  draft.call("lay_out", sizes, { plan: laidOut, n_creeps: world.n_creeps });
-  const last = (name) => Number(laidOut[name].at(-1));
-  Object.assign(sizes, { values: last("first"), cells: last("first_cell"), tracks: last("first_track") });
-  sizes.traces = choices.memory_fade > 0 ? last("first_trace") : 0;
+  const draft = new Machine(2 ** 20 + bytesOf("Parameters", sizes)); // what a run needs follows from its parameters
+  const derived = draft.tuple("Parameters", sizes, choices);
+  draft.call("derive", sizes, { parameters: derived, n_things: world.n_creeps });
+  const last = (name) => Number(derived.maps[name].at(-1));
+  Object.assign(sizes, { values: last("first_value"), cells: last("first_cell"), tracks: last("first_track") });
+  sizes.traces = learning.memory_retained > 0 ? last("first_trace") : 0;
   sizes.trace_rows = 8 * sizes.traces;
 
-  const bytes = 2 ** 20 + 8 * sizes.bins + bytesOf("Plan", sizes) + bytesOf("Memory", sizes)
-    + bytesOf("Memory", { ...sizes, values: 0 }) + 3 * bytesOf("WaterWorldState", sizes);
+  const bytes = 2 ** 20 + 8 * sizes.bins + bytesOf("Parameters", sizes) + bytesOf("State", sizes)
+    + bytesOf("State", { ...sizes, values: 0 }) + 3 * bytesOf("WaterWorldState", sizes);
   const machine = new Machine(bytes);
-  const memory = machine.tuple("Memory", sizes);
-  const state = machine.tuple("WaterWorldState", sizes);
-  const shared = Object.fromEntries(Object.entries(state).filter(([name]) => !OWN.includes(name)));
+  const state = machine.tuple("State", sizes);
+  const board = machine.tuple("WaterWorldState", sizes);
+  const shared = Object.fromEntries(Object.entries(board).filter(([name]) => !OWN.includes(name)));
+  const { q, goal_range } = state.values;
   const made = {
-    machine, sizes, world, steps, bin_steps, choices, memory, state, rules: world.rules, step: 0, reward: 0,
-    plan: machine.tuple("Plan", sizes, choices),
+    machine, sizes, world, steps, bin_steps, choices, state, board, rules: world.rules, step: 0, reward: 0,
+    parameters: machine.tuple("Parameters", sizes, choices),
     contacts: machine.put("int8", [world.n_creeps]),
+    clock: machine.put("int64", [1]),
     rewards: machine.put("float32", [sizes.bins]),
     hits: machine.put("int16", [sizes.bins, 2]),
-    elsewhere: machine.tuple("Memory", sizes, { q: memory.q, known: memory.known }),
-    there: machine.tuple("WaterWorldState", sizes, { ...shared, agent_velocity: state.agent_velocity }),
+    elsewhere: machine.tuple("State", sizes, { values: { q, goal_range } }),
+    there: machine.tuple("WaterWorldState", sizes, { ...shared, agent_velocity: board.agent_velocity }),
     second: machine.tuple("WaterWorldState", sizes, shared),
     player: null, slice: 16,
   };
-  machine.call("lay_out", sizes, { plan: made.plan, n_creeps: world.n_creeps });
+  machine.call("derive", sizes, { parameters: made.parameters, n_things: world.n_creeps });
   return made;
 }
 
@@ -132,13 +147,13 @@ function begin(request) {
   run = newRun(request);
   run.changes = [...(request.changes ?? [])];
   const { seed, run: index } = request;
-  for (const [key, stream] of [[[index], run.state.stream], [[index, 0], run.memory.stream]]) {
+  for (const [key, stream] of [[[index], run.board.stream], [[index, 0], run.state.stream]]) {
     const words = run.machine.put("uint64", [4 + key.length]);
     words.set([seed, 0, 0, 0, ...key].map(BigInt));
     run.machine.call("start_stream", { words: words.length }, { words, stream });
   }
   call("reset_board");
-  call("know_nothing");
+  call("clear_goal_ranges");
   call("begin_tracks");
   lookAt({ map: request.map, goal: null, field: request.field });
   return frame();
@@ -146,7 +161,8 @@ function begin(request) {
 
 /** Look at a map, or, if there is none of its name, at one whose cells are large enough to click. */
 function lookAt(choice) {
-  const [{ resolution, first_map }, names] = [run.choices, mapNames(run.choices)];
+  const { maps: { resolution }, nodes: { first_map } } = run.choices;
+  const names = mapNames(run.choices);
   look = { ...look, ...choice };
   if (names.includes(look.map)) return;
   const large = resolution.findLastIndex((each, m) => m < first_map[1] && each <= 7);
@@ -155,18 +171,22 @@ function lookAt(choice) {
 
 const nodeOf = (firstMaps, m) => firstMaps.findLastIndex((first) => first <= m);
 
-function mapNames({ nodes, resolution, first_map }) {
-  return resolution.map((each, m) => `${nodes[nodeOf(first_map, m)]} N${each}`);
+function mapNames({ names, maps, nodes }) {
+  return maps.resolution.map((each, m) => `${names[nodeOf(nodes.first_map, m)]} N${each}`);
 }
+
+/** The name of a number of an enumeration. */
+const nameOf = (enumeration, number) =>
+  Object.entries(layout.enumerations[enumeration]).find(([, each]) => each === Number(number))[0];
 
 /** The map that is looked at, as it is drawn, and the way to the goal that is chosen in it. */
 function seen(m) {
-  const { plan, choices } = run;
-  const n = nodeOf(choices.first_map, m);
+  const { parameters: { maps, nodes } } = run;
+  const n = nodeOf(run.choices.nodes.first_map, m);
   return {
-    name: look.map, vector: VECTORS[plan.vector[n]], tuning: TUNINGS[plan.tuning[n]], columns: Number(plan.columns[m]),
-    rows: Number(plan.rows[m]), low_u: plan.low_u[m], scale_u: plan.scale_u[m], low_v: plan.low_v[m],
-    scale_v: plan.scale_v[m], reach: [plan.high[2 * n], plan.high[2 * n + 1]],
+    name: look.map, vector: nameOf("Vector", nodes.vector[n]), tuning: nameOf("Tuning", nodes.tuning[n]),
+    columns: Number(maps.columns[m]), rows: Number(maps.rows[m]), low_u: maps.low_u[m], scale_u: maps.scale_u[m],
+    low_v: maps.low_v[m], scale_v: maps.scale_v[m], reach: [nodes.high[2 * n], nodes.high[2 * n + 1]],
     goal: look.goal, ways: look.goal === null ? null : valueFunction(m, look.goal),
   };
 }
@@ -175,23 +195,21 @@ function seen(m) {
 function become(choices) {
   const old = run;
   const keys = mapKeys(choices);
-  if (choices.source.length === old.sizes.desires && keys.join() === mapKeys(old.choices).join()) {
-    for (const [name, value] of Object.entries(run.plan)) {
-      if (ArrayBuffer.isView(value) && choices[name]) fill(value, choices[name]);
-      else if (name in choices) run.plan[name] = choices[name];
-    }
+  if (choices.desires.source.length === old.sizes.desires && keys.join() === mapKeys(old.choices).join()) {
+    take(run.parameters, choices);
     run.choices = choices;
-    call("lay_out", { n_creeps: run.sizes.creeps });
-    for (const each of [run.memory.pull, run.memory.landing, run.memory.worth]) each.fill(0);
+    call("derive", { n_things: run.sizes.things });
+    for (const each of Object.values(run.state.desires)) each.fill(0);
   } else {
-    run = newRun({ ...old, plan: choices });
-    for (const name of Object.keys(old.state)) run.state[name].set(old.state[name]);
+    run = newRun({ ...old, parameters: choices });
+    for (const name of Object.keys(old.board)) run.board[name].set(old.board[name]);
     for (const name of OWN) run.second[name].set(old.second[name]);
-    for (const name of ["stream", "last_event", "activity", "attended"]) run.memory[name].set(old.memory[name]);
+    for (const name of ["stream", "last_event", "activity", "attended"]) run.state[name].set(old.state[name]);
     run.rewards.set(old.rewards);
+    run.clock.set(old.clock);
     const { step, reward, player, changes } = old;
     Object.assign(run, { step, reward, player, changes });
-    call("know_nothing");
+    call("clear_goal_ranges");
     call("begin_tracks");
     const oldKeys = mapKeys(old.choices);
     keys.forEach((key, m) => oldKeys.includes(key) && keepMap(old, oldKeys.indexOf(key), m));
@@ -200,25 +218,34 @@ function become(choices) {
   }
 }
 
-function mapKeys({ first_map, first_landmark, resolution, nodes, trace, memory_fade, ...choices }) {
-  return resolution.map((each, m) => {
-    const n = nodeOf(first_map, m);
-    const space = ["vector", "tuning", "low", "high"].map((name) => choices[name][n]);
-    const landmarks = choices.landmark.slice(first_landmark[n], first_landmark[n + 1]);
-    return JSON.stringify([nodes[n], each, trace, memory_fade > 0, space, landmarks]);
+/** Put what is chosen into parameters; a field that is not chosen is derived. */
+function take(parameters, choices) {
+  for (const [name, value] of Object.entries(parameters)) {
+    if (!(name in choices)) continue;
+    if (ArrayBuffer.isView(value)) fill(value, choices[name]);
+    else if (typeof value === "object") take(value, choices[name]);
+    else parameters[name] = choices[name];
+  }
+}
+
+function mapKeys({ names, maps, nodes, learning }) {
+  return maps.resolution.map((each, m) => {
+    const n = nodeOf(nodes.first_map, m);
+    const space = ["vector", "tuning", "low", "high"].map((name) => nodes[name][n]);
+    const landmarks = nodes.landmark.slice(nodes.first_landmark[n], nodes.first_landmark[n + 1]);
+    return JSON.stringify([names[n], each, learning.trace, learning.memory_retained > 0, space, landmarks]);
   });
 }
 
 /** Take over all that an old run knows of a map, and what led to its active cells. */
 function keepMap(old, from, to) {
-  const parts = [["first", ["q"]], ["first_cell", ["known"]],
-    ["first_track", ["cell", "events", "trace_cell", "trace_rates", "trace_count", "remembered_count"]],
-    ["first_trace", ["remembered", "remembered_at", "strength", "trace_weight", "trace_worth"]]];
-  for (const [firsts, names] of parts) {
-    const [begin, end] = [old.plan[firsts][from], old.plan[firsts][from + 1]].map(Number);
-    for (const name of names) {
-      const width = old.memory[name].length / Number(old.plan[firsts].at(-1));
-      run.memory[name].set(old.memory[name].subarray(begin * width, end * width), Number(run.plan[firsts][to]) * width);
+  for (const [firsts, fields] of Object.entries(OF_A_MAP)) {
+    const [ofOld, ofNew] = [old.parameters.maps[firsts], run.parameters.maps[firsts]];
+    const [begin, end] = [ofOld[from], ofOld[from + 1]].map(Number);
+    for (const [part, name] of fields) {
+      const kept = old.state[part][name];
+      const width = kept.length / Number(ofOld.at(-1));
+      run.state[part][name].set(kept.subarray(begin * width, end * width), Number(ofNew[to]) * width);
     }
   }
 }
@@ -228,10 +255,10 @@ function advance({ steps, budget }) {
   const first = run.step;
   const end = Math.min(run.steps, first + steps);
   while (run.step < end && performance.now() - began < budget) {
-    if (run.changes[0]?.step === run.step) become(run.changes.shift().plan);
+    if (run.changes[0]?.step === run.step) become(run.changes.shift().parameters);
     const next = Math.min(end, run.step + (run.player ? 1 : run.slice), run.changes[0]?.step ?? end);
     const before = performance.now();
-    run.reward += call("rollout", { first_step: run.step, last_step: next });
+    run.reward = call("rollout", { last_step: next, total: run.reward });
     run.step = next;
     if (run.player) run.player.reward += call("step_second", { action: run.player.action });
     else if (performance.now() - before < SLICE_MS / 2) run.slice *= 2;
@@ -254,33 +281,33 @@ function play({ action }) {
 function drag({ creep, x, y }) {
   const { width, radius } = run.rules;
   const inside = [x, y].map((each) => Math.min(width - radius, Math.max(radius, each * width)));
-  run.state.creep_position.set(inside, 2 * creep);
+  run.board.creep_position.set(inside, 2 * creep);
   call("begin_tracks"); // a leap by another's hand is nothing to learn from
   return frame();
 }
 
 function frame(steps = 0) {
-  const { state, second, player, rules, plan, memory, choices } = run;
+  const { state, board, second, player, rules, parameters, choices } = run;
   const body = ({ agent_position: at, agent_velocity: moving }) =>
     ({ x: at[0] / rules.width, y: at[1] / rules.width, vx: moving[0] / rules.width, vy: moving[1] / rules.width });
-  const { creep_position: at, creep_direction: direction } = state;
-  const creeps = Array.from(state.creep_speed, (speed, i) => ({
-    x: at[2 * i] / rules.width, y: at[2 * i + 1] / rules.width, green: Boolean(state.creep_is_green[i]),
+  const { creep_position: at, creep_direction: direction } = board;
+  const creeps = Array.from(board.creep_speed, (speed, i) => ({
+    x: at[2 * i] / rules.width, y: at[2 * i + 1] / rules.width, green: Boolean(board.creep_is_green[i]),
     vx: (speed * direction[2 * i]) / rules.width, vy: (speed * direction[2 * i + 1]) / rules.width,
   }));
-  const agent = body(state);
+  const agent = body(board);
   const maps = mapNames(choices);
   const m = maps.indexOf(look.map);
-  const [from, to] = [plan.first_track[m], plan.first_track[m + 1]].map(Number);
+  const [from, to] = [parameters.maps.first_track[m], parameters.maps.first_track[m + 1]].map(Number);
   return {
     type: "frame", step: run.step, ended: run.step >= run.steps, reward: run.reward, rewards: run.rewards.slice(),
     maps, seen: seen(m), steps, agent, radius: rules.radius / rules.width, creeps,
     player: player && { ...body(second), reward: player.reward },
-    active: Array.from(memory.cell.subarray(from, to), Number),
-    nodes: choices.nodes.map((name, n) => ({ name, ...desire(n) })),
-    landings: choices.desires.flatMap(({ source, target }, e) => (Number(plan.source[e]) !== NODE ? [] : [{
-      source, target, recurs: source === target, valence: memory.worth[e],
-      x: agent.x + memory.landing[3 * e], y: agent.y + memory.landing[3 * e + 1],
+    active: Array.from(state.tracks.cell.subarray(from, to), Number),
+    nodes: choices.names.map((name, n) => ({ name, ...desire(n) })),
+    landings: choices.edges.flatMap(({ source, target }, e) => (source === "" ? [] : [{
+      source, target, recurs: source === target, valence: state.desires.valence[e],
+      x: agent.x + state.desires.target[3 * e], y: agent.y + state.desires.target[3 * e + 1],
     }])),
     field: look.field ? field(look.field) : null,
   };
@@ -288,22 +315,29 @@ function frame(steps = 0) {
 
 /** The desire vector of a node and its valence, as `Run.output` has it. */
 function desire(node) {
-  const { plan, memory: { pull, worth } } = run;
+  const { q, valence } = run.state.desires;
   const total = { x: 0, y: 0, valence: 0 };
-  plan.target.forEach((target, e) => {
+  run.parameters.desires.target.forEach((target, e) => {
     if (Number(target) !== node) return;
-    const [north, south, east, west] = pull.subarray(4 * e, 4 * e + 4);
-    total.x += Math.sign(worth[e]) * (east - west);
-    total.y += Math.sign(worth[e]) * (south - north);
-    total.valence += worth[e];
+    const [x, y] = asVector((action) => q[4 * e + action]);
+    total.x += Math.sign(valence[e]) * x;
+    total.y += Math.sign(valence[e]) * y;
+    total.valence += valence[e];
   });
   return total;
 }
 
-const vectors = (count, valueOf) => Float32Array.from({ length: 2 * count }, (_, i) => {
-  const place = i >> 1;
-  return i % 2 ? valueOf(place, 1) - valueOf(place, 0) : valueOf(place, 2) - valueOf(place, 3);
-});
+/** Values of actions as a vector in the arena. */
+function asVector(valueOf) {
+  const { N, S, E, W } = layout.enumerations.Action;
+  return [valueOf(E) - valueOf(W), valueOf(S) - valueOf(N)];
+}
+
+function vectors(count, valueOf) {
+  const found = new Float32Array(2 * count);
+  for (let place = 0; place < count; place += 1) found.set(asVector((action) => valueOf(place, action)), 2 * place);
+  return found;
+}
 
 function field(side) {
   const tiles = side * side;
@@ -314,8 +348,9 @@ function field(side) {
 
 /** What the agent knows of the way to one goal, in every cell of a map. */
 function valueFunction(map, goal) {
-  const [first, cells] = [Number(run.plan.first[map]), Number(run.plan.cells[map])];
-  return vectors(cells, (cell, action) => run.memory.q[first + (4 * cell + action) * cells + goal]);
+  const { first_value, cells: counts } = run.parameters.maps;
+  const [first, cells] = [Number(first_value[map]), Number(counts[map])];
+  return vectors(cells, (cell, action) => run.state.values.q[first + (4 * cell + action) * cells + goal]);
 }
 
 const REQUESTS = {
@@ -325,8 +360,8 @@ const REQUESTS = {
     return { type: "ready" };
   },
   begin,
-  change({ plan }) {
-    become(plan);
+  change({ parameters }) {
+    become(parameters);
     return frame();
   },
   /** `at`: a place, whose cell becomes the goal, or is no longer if it was. */

@@ -1,10 +1,10 @@
 """The Explorer: a widget that runs the book's own kernels in the reader's browser.
 
 What it needs is in its state, so it works in a page without Python: the kernels in WebAssembly (`neorl.browser.wasm`),
-its *presets* (agents as plans, with the band of the runs that a page has of them), and its traits, which are the
+its *presets* (agents as parameters, with the band of the runs that a page has of them), and its traits, which are the
 controls.
 
-- `settings.js` makes a plan of a preset and of the traits, `engine.js` runs it in a worker, and nothing else decides
+- `settings.js` makes parameters of a preset and of the traits, `engine.js` runs it in a worker, and nothing else decides
   a run: run k of a seed is the run that `neorl.Run` makes of it.
 - `drawing.js` draws; `page.js`, `controls.js`, `hands.js` and `widget.js` are what the reader sees and turns.
 """
@@ -22,12 +22,12 @@ from neorl.agents import papers
 from neorl.agents.agent import Agent, Node
 from neorl.agents.compile import chosen
 from neorl.browser import wasm
-from neorl.core.choices import Source
 from neorl.core.modality import MODALITIES
 from neorl.evidence.priors import TO_THE_LETTER as LETTER
 from neorl.evidence.reading import networks
 from neorl.evidence.statistics import tolerance_band
-from neorl.experiments.simulation import Result, bin_steps
+from neorl.experiments.run import bin_steps
+from neorl.experiments.simulation import Result
 from neorl.worlds.waterworld import WaterWorld
 
 CALIBRATED = {  # the defaults of the package
@@ -42,7 +42,7 @@ TO_THE_LETTER = {
 AGENTS = CALIBRATED | TO_THE_LETTER
 STEPS = 300_000  # of a run, where the page has no condition
 CURVE_BINS = 50
-MODALITY_FIELDS = ("vector", "tuning", "low", "high", "first_landmark", "landmark")  # of a plan
+MODALITY_FIELDS = ("vector", "tuning", "low", "high", "first_landmark", "landmark")  # of a node's parameters
 SCRIPTS = ("settings.js", "drawing.js", "page.js", "controls.js", "hands.js", "widget.js")
 
 
@@ -183,9 +183,8 @@ def _settings(preset):
 
 
 def _preset(name, agent, world, result):
-    """A preset as the page takes it: its settings, its plan before it is laid out, and what its runs brought."""
-    plan = _plan(agent, world)
-    red = [e for e, source in enumerate(plan["source"]) if source == Source.red]
+    """A preset as the page takes it: its settings, the chosen parameters, and what its runs brought."""
+    red = [e for e, desire in enumerate(agent.desires) if desire.source == "red"]
     recurring = [e for e, desire in enumerate(agent.desires) if desire.source == desire.target]
     names = [node.name for node in agent.nodes]
     steps = result.steps if result else STEPS
@@ -199,13 +198,14 @@ def _preset(name, agent, world, result):
         "gains": [node.gain for node in agent.nodes], "learning_rate": learning.learning_rate,
         "discount": learning.discount, "memory": learning.memory,
         "can_remember": learning.update_on == "cell" and learning.trace == 1,
-        "valence_red": plan["valence"][red[0]] if red else 0.0,
-        "recursion": plan["valence"][recurring[0]] if recurring else None, "n_creeps": world.n_creeps,
+        "valence_red": agent.desires[red[0]].valence if red else 0.0,
+        "recursion": agent.desires[recurring[0]].valence if recurring else None, "n_creeps": world.n_creeps,
         "world": {"fps": world.fps, "rules": world.rules._asdict()}, "steps": steps, "red": red, "recurring": recurring,
         "seed": result.seed if result else 0, "runs": result.runs if result else 0,
         "band": _band(result) if result else None, "totals": result.totals.tolist() if result else [],
-        "changes": [{"step": step, "plan": _plan(later, world)} for step, later in (result.changes if result else ())],
-        "plan": plan}
+        "changes": [{"step": step, "parameters": _parameters(later, world)}
+                    for step, later in (result.changes if result else ())],
+        "parameters": _parameters(agent, world)}
 
 
 def _named(modality):
@@ -214,14 +214,18 @@ def _named(modality):
     return modality.name if (modality.name, modality.vector, modality.tuning, modality.landmarks) in known else ""
 
 
-def _plan(agent, world):
-    """The chosen fields of a plan, ready for JSON, and the names that the page shows."""
+def _parameters(agent, world):
+    """The chosen parameters, ready for JSON, and the names that the page shows."""
     choices, _ = chosen(agent, world)
-    plan = {name: value.tolist() if isinstance(value, np.ndarray | np.generic) else value
-            for name, value in choices.items()}
-    desires = [{"source": each.source if each.between_nodes else "", "target": each.target, "of": list(each.of)}
-               for each in agent.desires]
-    return plan | {"nodes": [node.name for node in agent.nodes], "desires": desires}
+    edges = [{"source": each.source if each.between_nodes else "", "target": each.target, "of": list(each.of)}
+             for each in agent.desires]
+    return _as_json(choices) | {"names": [node.name for node in agent.nodes], "edges": edges}
+
+
+def _as_json(values):
+    if isinstance(values, dict):
+        return {name: _as_json(value) for name, value in values.items()}
+    return values.tolist() if isinstance(values, np.ndarray | np.generic) else values
 
 
 def _band(result):
@@ -237,7 +241,7 @@ def _band(result):
 
 
 def _modalities():
-    """For each modality the fields of the plan of a node that has it."""
-    plans = {each.name: chosen(Agent((Node("", each, (1,)),)), WaterWorld())[0]
+    """For each modality the parameters of a node that has it."""
+    nodes = {each.name: chosen(Agent((Node("", each, (1,)),)), WaterWorld())[0]["nodes"]
              for each in MODALITIES if each.takes_places}
-    return {name: {field: plan[field].tolist() for field in MODALITY_FIELDS} for name, plan in plans.items()}
+    return {name: {field: of[field].tolist() for field in MODALITY_FIELDS} for name, of in nodes.items()}

@@ -4,7 +4,7 @@ Numba's LLVM code of each kernel is compiled again for WebAssembly by llvmlite a
 twice: the arguments of an exported function follow from the annotations of its kernel, in their order,
 
 1. the sizes of its arrays, by name, as int32;
-2. each argument, a named tuple field by field: a pointer for an array, int32 for integers and flags, else a number;
+2. each argument, a named tuple field by field, and so the tuples within it: a pointer for an array, int32 for integers and flags, else a number;
 
 before them a pointer to the result, and 0. Its own result is 0. Memory is the only import; the caller's part of it
 begins at the exported global __heap_base.
@@ -28,17 +28,20 @@ import numba
 import numpy as np
 from numba import carray, cfunc, types
 
-from neorl.core.kernel import fields
-from neorl.core.plan import Memory, Plan, know_nothing, lay_out
+from neorl.core.choices import Action, Source, Tuning, Vector
+from neorl.core.kernel import fields, is_tuple
+from neorl.core.parameters import Parameters, derive
+from neorl.core.state import State, clear_goal_ranges
 from neorl.core.stream import start_stream
 from neorl.experiments import cache
 from neorl.worlds import probe
 from neorl.worlds.rollout import begin_tracks, rollout
 from neorl.worlds.waterworld import Rules, WaterWorldState, reset_board
 
-EXPORTS = (start_stream, lay_out, know_nothing, reset_board, begin_tracks, rollout, probe.survey, probe.cell_seen_at,
+EXPORTS = (start_stream, derive, clear_goal_ranges, reset_board, begin_tracks, rollout, probe.survey, probe.cell_seen_at,
            probe.step_second)
-TUPLES = {kind.__name__: kind for kind in (Plan, Memory, Rules, WaterWorldState)}
+TUPLES = (Parameters, State, Rules, WaterWorldState)
+ENUMERATIONS = (Action, Source, Tuning, Vector)
 SCALARS = {bool: "bool", int: "int64", float: "float64", np.float32: "float32"}
 TRIPLE = "wasm32-unknown-unknown"
 LAYOUT = "e-m:e-p:32:32-p10:8:8-p20:8:8-i64:64-i128:128-n32:64-S128-ni:1:10:20"
@@ -69,47 +72,48 @@ def module():
 def layout():
     """What a caller of the module has to know, ready for JSON; lists where the order matters.
 
-    "tuples": for each named tuple its fields, [name, [dtype, shape]], the shape of a scalar being None. "exports": for
-    each function its "sizes", its "arguments", [name, tuple's name or [dtype, shape]], and the dtype of its "result".
+    "tuples": for each named tuple its fields, [name, kind], a kind being [dtype, shape], the shape of a scalar None, or
+    the name of a tuple within. "exports": for each function its "sizes", its "arguments", [name, kind], and the dtype of
+    its "result". "enumerations": {name: {member: number}}.
     """
-    return {"tuples": {name: [[field, _described(each)] for field, each in fields(kind).items()]
-                       for name, kind in TUPLES.items()},
-            "exports": {each.__name__: {"sizes": _sizes(each), "arguments": list(map(list, _arguments(each).items())),
-                                        "result": _result(each)} for each in EXPORTS}}
+    return {"tuples": {kind.__name__: [[name, _described(each)] for name, each in fields(kind).items()]
+                       for each in TUPLES for kind in _with_those_within(each)},
+            "exports": {each.__name__: {"sizes": _sizes(each), "arguments": [[name, _described(field)] for name, field
+                                                                            in _arguments(each).items()],
+                                        "result": SCALARS.get(fields(each)["return"])} for each in EXPORTS},
+            "enumerations": {kind.__name__: {each.name: int(each) for each in kind} for kind in ENUMERATIONS}}
+
+
+def _with_those_within(kind):
+    return [kind, *(inner for each in fields(kind).values() if is_tuple(each) for inner in _with_those_within(each))]
 
 
 def _described(field):
+    if is_tuple(field):
+        return field.__name__
     return [field[0], list(field[1])] if isinstance(field, tuple) else [SCALARS[field], None]
 
 
 def _arguments(kernel):
-    return {name: field.__name__ if field in TUPLES.values() else _described(field)
-            for name, field in fields(kernel).items() if name != "return"}
+    return {name: field for name, field in fields(kernel).items() if name != "return"}
 
 
-def _result(kernel):
-    return SCALARS.get(fields(kernel)["return"])
-
-
-def _flat(kernel):
-    """The arguments of a kernel one by one: [(argument, field or "", dtype, shape or None), …]."""
-    flat = []
-    for name, kind in _arguments(kernel).items():
-        of = fields(TUPLES[kind]) if isinstance(kind, str) else {"": None}
-        flat += [(name, field, *(_described(each) if field else kind)) for field, each in of.items()]
-    return flat
+def _flat(name, field):
+    """An argument of a kernel as those of the exported function: [(name, dtype, shape or None), …]."""
+    if is_tuple(field):
+        return [flat for inner, each in fields(field).items() for flat in _flat(f"{name}_{inner}", each)]
+    return [(name, *_described(field))]
 
 
 def _sizes(kernel):
-    names = {dimension.partition(" ")[0] for *_, shape in _flat(kernel) for dimension in shape or ()
-             if isinstance(dimension, str)}
+    names = {dimension.partition(" ")[0] for each in _arguments(kernel).items() for *_, shape in _flat(*each)
+             for dimension in shape or () if isinstance(dimension, str)}
     return sorted(names)
 
 
 def _digest():
-    sources = [Path(__file__), Path(probe.__file__)]
     versions = f"{cache.source_digest()} {numba.__version__} {llvmlite.__version__}"
-    return hashlib.sha256(versions.encode() + b"".join(path.read_bytes() for path in sources)).hexdigest()
+    return hashlib.sha256(versions.encode() + Path(__file__).read_bytes()).hexdigest()
 
 
 def _build():
@@ -161,18 +165,17 @@ def _without(code, symbol):
 
 def _entry(kernel):
     """A function that takes pointers and sizes, and calls a kernel with arrays."""
-    sizes, flat = _sizes(kernel), _flat(kernel)
-    calls = []
-    for name, kind in _arguments(kernel).items():
-        parts = ", ".join(_taken(*each) for each in flat if each[0] == name)
-        calls.append(f"{kind}({parts})" if isinstance(kind, str) else parts)
-    parameters = [f"size_{name}" for name in sizes] + [f"{name}_{field}" for name, field, *_ in flat]
-    source = f"def entry({', '.join(parameters)}):\n    return kernel({', '.join(calls)})"
-    scope = {"kernel": kernel, "carray": carray, "np": np, **TUPLES}
+    sizes, arguments = _sizes(kernel), _arguments(kernel).items()
+    flat = [each for argument in arguments for each in _flat(*argument)]
+    parameters = [f"size_{name}" for name in sizes] + [name for name, *_ in flat]
+    taken = ", ".join(_taken(*argument) for argument in arguments)
+    source = f"def entry({', '.join(parameters)}):\n    return kernel({taken})"
+    tuples = {kind.__name__: kind for each in TUPLES for kind in _with_those_within(each)}
+    scope = {"kernel": kernel, "carray": carray, "np": np, **tuples}
     exec(source, scope)
-    arguments = [types.int32] * len(sizes) + [_passed(dtype, shape) for *_, dtype, shape in flat]
-    result = getattr(types, _result(kernel) or "void")
-    return cfunc(result(*arguments), error_model="numpy", nogil=True)(scope["entry"])
+    kinds = [types.int32] * len(sizes) + [_passed(dtype, shape) for _, dtype, shape in flat]
+    result = getattr(types, SCALARS.get(fields(kernel)["return"], "void"))
+    return cfunc(result(*kinds), error_model="numpy", nogil=True)(scope["entry"])
 
 
 def _passed(dtype, shape):
@@ -182,13 +185,16 @@ def _passed(dtype, shape):
     return types.int32 if dtype in ("bool", "int64") else getattr(types, dtype)
 
 
-def _taken(name, field, dtype, shape):
-    """The expression that makes a value of a parameter."""
-    parameter = f"{name}_{field}"
+def _taken(name, field):
+    """The expression that makes an argument of a kernel."""
+    if is_tuple(field):
+        inner = ", ".join(_taken(f"{name}_{each}", kind) for each, kind in fields(field).items())
+        return f"{field.__name__}({inner})"
+    dtype, shape = _described(field)
     if shape is None:
-        return {"bool": f"{parameter} != 0", "int64": f"np.int64({parameter})"}.get(dtype, parameter)
+        return {"bool": f"{name} != 0", "int64": f"np.int64({name})"}.get(dtype, name)
     lengths = [f"np.int64({f'size_{each}' if isinstance(each, str) else each})" for each in shape]
-    return f"carray({parameter}, ({', '.join(lengths)},))"
+    return f"carray({name}, ({', '.join(lengths)},))"
 
 
 if __name__ == "__main__":

@@ -120,7 +120,7 @@ class Explorer extends Hands {
       if (problem || !this.near) break;
       const names = [...noted];
       noted.clear();
-      this.condition = conditionOf(presets, modalities, this.settings());
+      this.condition = conditionOf(model.get("_layout"), presets, modalities, this.settings());
       this.showControls();
       if (!this.engine || names.some((name) => NEW_RUN.includes(name))) await this.begin();
       else if (names.some((name) => name === "elements" || GOES_ON.includes(name))) await this.change();
@@ -133,8 +133,9 @@ class Explorer extends Hands {
     return Object.fromEntries(["preset", ...OF_PRESET].map((name) => [name, this.model.get(name)]));
   }
 
-  plan() {
-    return chosenPlan(this.presets, this.modalities, this.settings(), this.elements);
+  parameters() {
+    const layout = this.model.get("_layout");
+    return chosenParameters(layout, this.presets, this.modalities, this.settings(), this.elements);
   }
 
   async begin() {
@@ -145,8 +146,8 @@ class Explorer extends Hands {
     this.refresh();
     if (!this.engine) await this.load();
     const changes = this.condition === model.get("preset") ? presets[this.condition].changes : [];
-    this.take(await this.ask({ type: "begin", plan: this.plan(), world, seed, run, steps, bin_steps: bin, changes,
-      map: this.control("map").value, field: this.fieldTiles() }));
+    this.take(await this.ask({ type: "begin", parameters: this.parameters(), world, seed, run, steps, bin_steps: bin,
+      changes, map: this.control("map").value, field: this.fieldTiles() }));
   }
 
   async load() {
@@ -166,7 +167,7 @@ class Explorer extends Hands {
   async change() {
     const { life } = this;
     life.changed ||= life.frame.step > 0 || this.elements.length > 0;
-    this.take(await this.ask({ type: "change", plan: this.plan() }));
+    this.take(await this.ask({ type: "change", parameters: this.parameters() }));
   }
 
   /** Look at another map, goal or place, with the field or without. While a run loads there is nothing to look at. */

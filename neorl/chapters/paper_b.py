@@ -24,7 +24,8 @@ from neorl.evidence.rules_chapters import sooner_with_more
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.statistics import estimate, points, ratio, resets, time_to_final_level
 from neorl.experiments.cache import Condition
-from neorl.experiments.simulation import Run, bin_steps, usable_threads
+from neorl.experiments.run import Run, bin_steps
+from neorl.experiments.simulation import usable_threads
 from neorl.experiments.sweep import sweep
 from neorl.worlds.waterworld import WaterWorld
 
@@ -174,7 +175,7 @@ def distances(reading, steps, runs, seed=0):
             run.change(desires[move % len(PLACES)])
             for sample in range(samples):
                 run.advance(interval)
-                found[move, sample] = np.linalg.norm(run.state.agent_position / world.width - (at.x, at.y))
+                found[move, sample] = np.linalg.norm(run.world_state.agent_position / world.width - (at.x, at.y))
         return found
 
     lived = {"experienced": round(LIVED * steps), "ignorant": 0}
@@ -199,8 +200,8 @@ def mean_stays(reading, steps, runs, seed=0, watched=15_000):
         path, moved = np.empty((path_steps, 2)), np.empty(path_steps, bool)
         for step in range(path_steps):
             run.advance(1)
-            path[step] = run.state.agent_position / world.width
-            moved[step] = run.state.agent_velocity.any() or (path[step] != 0.5).any()  # it is not as after a reset
+            path[step] = run.world_state.agent_position / world.width
+            moved[step] = run.world_state.agent_velocity.any() or (path[step] != 0.5).any()  # it is not as after a reset
         changes = [((np.diff(each.encode(path)) != 0) & moved[1:]).sum() for each in agent.maps]
         return path_steps / world.fps / np.maximum(changes, 1)
 
@@ -226,9 +227,9 @@ def mean_values(reading, steps, runs, seed=0):
             if each.modality.vector == "position":
                 means.append(best[~np.eye(each.cells, dtype=bool)].mean())
             else:
-                means.append(np.delete(best[:, run.plan.contact[m]], run.plan.contact[m]).mean())
-        return [np.dot(run.plan.weight[begin:end], means[begin:end])
-                for begin, end in zip(run.plan.first_map[:-1], run.plan.first_map[1:])]
+                means.append(np.delete(best[:, run.parameters.maps.contact[m]], run.parameters.maps.contact[m]).mean())
+        return [np.dot(run.parameters.maps.weight[begin:end], means[begin:end])
+                for begin, end in zip(run.parameters.nodes.first_map[:-1], run.parameters.nodes.first_map[1:])]
 
     return dict(zip((node.name for node in agent.nodes), _of_runs(of_nodes, agent, runs).T))
 

@@ -1,4 +1,4 @@
-"""The choices of an agent that the kernels know by number; everywhere else they go by these names."""
+"""What the kernels know by number; everywhere else it goes by these names."""
 
 from enum import IntEnum
 
@@ -8,3 +8,7 @@ UpdateOn = IntEnum("UpdateOn", "cell step", start=0)
 Credit = IntEnum("Credit", "share happened last count activity", start=0)
 Capture = IntEnum("Capture", "contact leap silent", start=0)
 Attention = IntEnum("Attention", "each nearest wanted", start=0)
+Vector = IntEnum("Vector", "position velocity objects boundaries landmarks", start=0)  # what a modality starts from
+Tuning = IntEnum("Tuning", "cartesian proximal polar angle length", start=0)  # what its cells keep of that
+Action = IntEnum("Action", "N S E W no_op", start=0)
+N_EVENTS = 4  # the no-op is no event

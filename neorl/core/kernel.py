@@ -9,6 +9,9 @@ the same to the last bit on any machine, on any number of threads, and with the 
 - it draws random numbers from a stream that it is handed (`neorl.core.stream`), never from ``np.random``;
 - it writes ``np.float32(...)`` where single precision is meant: a literal is double for numba, but weak for NumPy.
 
+A kernel trusts what it is handed: an index out of range or a shape that does not fit would end the interpreter. So it
+refuses to be called from Python, and a public function that has checked every argument hands them over by `execute`.
+
 Annotations say what the arrays of a named tuple hold, and what a kernel takes that is called from outside Python
 (`neorl.browser.wasm`); numba does not read them.
 
@@ -20,12 +23,50 @@ from typing import Annotated, get_args, get_type_hints
 
 import numba
 import numpy as np
+from numba.core.registry import CPUDispatcher
 
 # Without numba's memory runtime (_nrt) a kernel cannot allocate, and counts no references to the arrays it is handed.
 OPTIONS = {"error_model": "numpy", "nogil": True, "_nrt": False}
-kernel = numba.njit(**OPTIONS)
-# A plan has so many arrays that handing it over costs more than most kernels that take it; inlined, it costs nothing.
-inlined_kernel = numba.njit(**OPTIONS, forceinline=True, no_cpython_wrapper=True, no_cfunc_wrapper=True)
+INLINED = {"forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+
+
+class Kernel(CPUDispatcher):
+    """A compiled function that only other kernels and `execute` can call."""
+
+    def __call__(self, *arguments):
+        raise TypeError(f"{self.__module__}.{self.__name__} is a kernel, which checks nothing: call it by "
+                        "neorl.core.kernel.execute, with arrays that fit")
+
+
+def kernel(function):
+    """Compile a kernel."""
+    return _compiled(function, OPTIONS)
+
+
+def inlined_kernel(function):
+    """Compile a kernel for other kernels alone, into each of which it is inlined.
+
+    An agent's parameters are so many arrays that handing them over costs more than most kernels that take them; inlined,
+    it costs nothing.
+    """
+    return _compiled(function, OPTIONS | INLINED)
+
+
+def _compiled(function, options):
+    compiled = numba.njit(**options)(function)
+    if isinstance(compiled, CPUDispatcher):  # and not the function itself, as with NUMBA_DISABLE_JIT
+        compiled.__class__ = Kernel
+    return compiled
+
+
+def execute(kernel, *arguments):
+    """Call a kernel from Python. Raises TypeError for one that is only inlined into others."""
+    if not isinstance(kernel, Kernel):
+        with np.errstate(over="ignore"):  # as in the compiled code, where streams of random numbers overflow
+            return kernel(*arguments)
+    if "no_cpython_wrapper" in kernel.targetoptions:
+        raise TypeError(f"{kernel.__module__}.{kernel.__name__} is only inlined into other kernels")
+    return CPUDispatcher.__call__(kernel, *arguments)
 
 
 def array(dtype, *shape):
@@ -38,10 +79,40 @@ def fields(kind):
     return {name: get_args(hint)[1:] or hint for name, hint in get_type_hints(kind, include_extras=True).items()}
 
 
-def zeros(kind, sizes):
-    """The arrays of a named tuple, all 0, by name."""
-    return {name: np.zeros([length(each, sizes) for each in field[1]], field[0])
-            for name, field in fields(kind).items() if isinstance(field, tuple)}
+def new_tuple(kind, sizes, given):
+    """A named tuple of what is given, {name: value, or a dict of them for a tuple within}; its other arrays are all 0."""
+    values = {}
+    for name, field in fields(kind).items():
+        if is_tuple(field):
+            values[name] = new_tuple(field, sizes, given.get(name, {}))
+        elif name in given:
+            values[name] = given[name]
+        else:
+            dtype, shape = field
+            values[name] = np.zeros([length(each, sizes) for each in shape], dtype)
+    return kind(**values)
+
+
+def is_tuple(value):
+    """Whether a value, or a type, is a named tuple."""
+    return hasattr(value, "_fields")
+
+
+def mapped(function, values):
+    """The same named tuple with a function applied to every array in it, and to those of the tuples within."""
+    return type(values)(*(mapped(function, value) if is_tuple(value) else
+                          function(value) if isinstance(value, np.ndarray) else value for value in values))
+
+
+def arrays(values):
+    """The arrays of a named tuple and of those within, by name, {"maps.cells": array, …}."""
+    found = {}
+    for name, value in values._asdict().items():
+        if is_tuple(value):
+            found |= {f"{name}.{inner}": array for inner, array in arrays(value).items()}
+        elif isinstance(value, np.ndarray):
+            found[name] = value
+    return found
 
 
 def length(dimension, sizes):

@@ -11,15 +11,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from neorl import checks
-from neorl.core.kernel import kernel
-from neorl.core.modality import ANGLE, LENGTH, PLACE_CELL, POLAR, Modality
+from neorl.core.geometry import cell_at, tiling
+from neorl.core.kernel import execute
+from neorl.core.modality import PLACE_CELL, Modality
+
+
+MOST_CELLS = 2**31 - 1
 
 
 @dataclass(frozen=True)
 class NresMap:
     """A map of one modality.
 
-    resolution: N, intervals an axis, at least 1.
+    resolution: N, intervals an axis, at least 1; there can be `MOST_CELLS` cells.
 
     Raises ValueError for anything else.
     """
@@ -28,8 +32,10 @@ class NresMap:
     modality: Modality = PLACE_CELL
 
     def __post_init__(self):
-        object.__setattr__(self, "resolution", checks.integer("resolution", self.resolution, at_least=1))
+        checks.store(self, resolution=checks.integer("resolution", self.resolution, at_least=1))
         checks.instance("modality", self.modality, Modality)
+        if self.cells > MOST_CELLS:
+            raise ValueError(f"resolution is {self.resolution}, allowed are maps of at most {MOST_CELLS} cells")
 
     @property
     def cells(self):
@@ -43,8 +49,8 @@ class NresMap:
         Raises ValueError if a point is not finite or has another number of coordinates.
         """
         points = checks.points("points", points, self.modality.axes)
-        tiles = tiling(self.resolution, *self.modality.space)
-        cells = [cell_at(*pair, *tiles) for pair in self.modality.as_pairs(points)]
+        tiles = execute(tiling, self.resolution, *self.modality.space)
+        cells = [execute(cell_at, u, v, tiles) for u, v in self.modality.as_pairs(points)]
         return np.array(cells, np.int64).reshape(points.shape[:-1])
 
     def covers(self, points):
@@ -52,33 +58,3 @@ class NresMap:
         points = checks.points("points", points, self.modality.axes)[..., : len(self.modality.ranges)]
         low, high = np.array(self.modality.ranges).reshape(-1, 2).T
         return np.all((low <= points) & (points <= high), axis=-1)
-
-
-@kernel
-def tiling(resolution, tuning, low_0, high_0, low_1, high_1):
-    """How `cell_at` cuts the two axes: (columns, rows, low_u, scale_u, low_v, scale_v, closed)."""
-    columns = 1 if tuning == ANGLE else resolution
-    rows = 1 if tuning == LENGTH else resolution
-    closed = tuning == ANGLE or tuning == POLAR
-    if closed:  # in turns, the first interval centred on east
-        low_1 = -0.5 / resolution
-        high_1 = 1.0 + low_1
-    return columns, rows, low_0, columns / (high_0 - low_0), low_1, rows / (high_1 - low_1), closed
-
-
-@kernel
-def cell_at(u, v, columns, rows, low_u, scale_u, low_v, scale_v, closed):
-    """The cell of a point (u, v); `closed` if v is a direction, in turns."""
-    column = np.floor((u - low_u) * scale_u)
-    row = np.floor((v - low_v) * scale_v)
-    if closed and row >= rows:
-        row -= rows
-    return within(row, rows) * columns + within(column, columns)
-
-
-@kernel
-def within(interval, count):
-    """The nearest of the intervals 0 … count − 1; compared before it becomes an integer, which may not hold it."""
-    if not interval > 0.0:
-        return 0
-    return count - 1 if interval > count - 1 else int(interval)

@@ -13,24 +13,15 @@ A direction runs from east (0) by way of south, since y points down. A vector of
 taken to be east, and in the life of an agent it keeps the direction that it had (see `neorl.core.life`).
 """
 
-import math
 from dataclasses import dataclass
-from enum import IntEnum
 
 import numpy as np
 
 from neorl import checks
-from neorl.core.kernel import kernel
+from neorl.core.choices import Tuning
+from neorl.core.geometry import TAU, boundary_vector, tuned
+from neorl.core.kernel import execute
 
-TAU = 2.0 * math.pi
-SQRT_3 = math.sqrt(3.0)
-TAN_15_DEGREES = 2.0 - SQRT_3
-TERMS = 14  # of the series of the arctangent, so that it is exact to the last few bits
-
-Vector = IntEnum("Vector", "position velocity objects boundaries landmarks", start=0)
-Tuning = IntEnum("Tuning", "cartesian proximal polar angle length", start=0)
-POSITION, VELOCITY, OBJECTS, BOUNDARIES, LANDMARKS = map(int, Vector)
-CARTESIAN, PROXIMAL, POLAR, ANGLE, LENGTH = map(int, Tuning)
 
 TUNED = {"position": ("cartesian", "proximal"), "velocity": ("cartesian", "polar", "angle", "length")}
 TUNED |= dict.fromkeys(("objects", "boundaries", "landmarks"), ("cartesian", "polar"))
@@ -61,9 +52,9 @@ class Modality:
     landmarks: tuple[tuple[float, float], ...] = ()
 
     def __post_init__(self):
-        checks.one_of("vector", self.vector, tuple(TUNED))
-        checks.one_of("tuning", self.tuning, TUNED[self.vector])
         checks.instance("name", self.name, str)
+        checks.store(self, vector=checks.one_of("vector", self.vector, tuple(TUNED)))
+        checks.store(self, tuning=checks.one_of("tuning", self.tuning, TUNED[self.vector]))
         axes = len(AXES[self.tuning]) - self.has_direction
         self._set_pairs("ranges", axes, axes)
         self._set_pairs("landmarks", *((1, np.inf) if self.vector == "landmarks" else (0, 0)))
@@ -78,7 +69,7 @@ class Modality:
         if not fewest <= len(pairs) <= most or any(len(pair) != 2 for pair in pairs):
             allowed = f"{fewest}" if fewest == most else f"{fewest} or more"
             raise ValueError(f"{name} is {getattr(self, name)!r}, allowed are {allowed} pairs of numbers")
-        object.__setattr__(self, name, tuple(tuple(checks.real(name, value) for value in pair) for pair in pairs))
+        checks.store(self, **{name: tuple(tuple(checks.real(name, value) for value in pair) for pair in pairs)})
 
     @property
     def axes(self):
@@ -117,7 +108,7 @@ class Modality:
         x, y = state.agent_position / world.width
         vectors = {"position": [(x, y)], "velocity": [velocity],
                    "objects": state.creep_position / world.width - (x, y),
-                   "boundaries": [boundary_vector(wall, x, y) for wall in range(4)],
+                   "boundaries": [execute(boundary_vector, wall, x, y) for wall in range(4)],
                    "landmarks": np.array(self.landmarks).reshape(-1, 2) - (x, y)}[self.vector]
         return self.tune(vectors)
 
@@ -128,7 +119,7 @@ class Modality:
         """
         vectors = checks.points("vectors", vectors, ("x", "y"))
         tuning, _, reach_x, _, reach_y = self.space
-        pairs = np.array([tuned(tuning, x, y, reach_x, reach_y) for x, y in vectors.reshape(-1, 2)]).reshape(-1, 2)
+        pairs = np.array([execute(tuned, tuning, x, y, reach_x, reach_y) for x, y in vectors.reshape(-1, 2)]).reshape(-1, 2)
         pairs[:, 1] *= TAU if self.has_direction else 1.0
         return pairs[:, self.in_pair].reshape(*vectors.shape[:-1], len(self.axes))
 
@@ -140,60 +131,6 @@ class Modality:
         if self.has_direction:
             pairs[:, 1] = pairs[:, 1] / TAU % 1.0
         return pairs
-
-
-@kernel
-def boundary_vector(wall, x, y):
-    """From a place to the nearest point of the western, northern, eastern or southern wall (0 … 3): (x, y)."""
-    if wall == 0:
-        return -x, 0.0
-    if wall == 1:
-        return 0.0, -y
-    if wall == 2:
-        return 1.0 - x, 0.0
-    return 0.0, 1.0 - y
-
-
-@kernel
-def tuned(tuning, x, y, reach_x, reach_y):
-    """The two coordinates of a vector: length, and direction in turns, also if the cells are tuned to one of them."""
-    if tuning == PROXIMAL:
-        return into_margin(x, reach_x), into_margin(y, reach_y)
-    if tuning == CARTESIAN:
-        return x, y
-    return math.sqrt(x * x + y * y), turn(x, y)
-
-
-@kernel
-def into_margin(x, reach):
-    """How far a component in 0 … 1 reaches into the margin along either wall, negative along the first."""
-    if x < 0.5:
-        return min(x - reach, 0.0)
-    return max(x - (1.0 - reach), 0.0)
-
-
-@kernel
-def turn(x, y):
-    """The direction of a vector in turns, 0 ≤ turn < 1: 0 along +x, a quarter along +y."""
-    wide, high = abs(x), abs(y)
-    longer = max(wide, high)
-    if longer == 0.0:
-        return 0.0
-    # The arctangent of a slope in 0 … 1 by its series, which converges fast below tan 15°.
-    slope, turned = min(wide, high) / longer, 0.0
-    if slope > TAN_15_DEGREES:
-        slope, turned = (slope * SQRT_3 - 1.0) / (slope + SQRT_3), 1.0 / 12.0
-    series = 0.0
-    for n in range(TERMS - 1, -1, -1):
-        series = 1.0 / (2 * n + 1) - slope * slope * series
-    turned += slope * series / TAU
-    if high > wide:
-        turned = 0.25 - turned
-    if x < 0.0:
-        turned = 0.5 - turned
-    if y < 0.0:
-        turned = 1.0 - turned
-    return turned if turned < 1.0 else 0.0
 
 
 # O'Keefe and Dostrovsky 1971; Solstad et al. 2008; Høydal et al. 2019 and, in its Cartesian emulation, paper B,

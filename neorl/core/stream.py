@@ -6,7 +6,7 @@ A stream is four unsigned 64-bit integers, seeded as NumPy's `SeedSequence` does
 
 import numpy as np
 
-from neorl.core.kernel import array, kernel
+from neorl.core.kernel import array, execute, kernel
 
 NOTHING, ONE, U3, U11, U16, U24, U32, U40 = (np.uint64(value) for value in (0, 1, 3, 11, 16, 24, 32, 40))
 TO_UNIT = 2.0**-53
@@ -23,8 +23,7 @@ WARM_UP = 12  # draws that a fresh stream leaves out
 def new_stream(seed_sequence):
     """The stream at its start: uint64 (4,), the words of ``np.random.SFC64(seed_sequence)``."""
     stream = np.zeros(4, np.uint64)
-    with np.errstate(over="ignore"):
-        start_stream(np.array(_entropy(seed_sequence), np.uint64), stream)
+    execute(start_stream, np.array(_entropy(seed_sequence), np.uint64), stream)
     return stream
 
 
@@ -94,6 +93,6 @@ def uniform(stream):
 
 
 @kernel
-def below(stream, count):
+def randint(stream, count):
     """The next number of the stream as an integer in 0 … count − 1, each equally likely."""
     return int(uniform(stream) * count)

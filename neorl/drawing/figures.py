@@ -10,8 +10,8 @@ from matplotlib.patches import Circle, Rectangle
 from matplotlib_inline.backend_inline import set_matplotlib_formats
 from scipy.optimize import isotonic_regression
 
+from neorl.core.geometry import TAU
 from neorl.core.horde import as_vectors
-from neorl.core.modality import TAU
 from neorl.evidence.curves import binned_rate, low_passed
 from neorl.evidence.statistics import mean_band, tolerance_band
 from neorl.worlds.probe import HALF_SECOND
@@ -152,8 +152,8 @@ def draw_tank(axes, world, state):
 
 def draw_desires(axes, run):
     """Where the desires between the nodes of a run's agent land, as seen from its agent."""
-    start = run.state.agent_position / run.world.width
-    for desire, landing in zip(run.agent.desires, run.memory.landing[:, :2]):
+    start = run.world_state.agent_position / run.world.width
+    for desire, landing in zip(run.agent.desires, run.state.desires.target[:, :2]):
         if desire.between_nodes:
             colour = desire_colour(desire)
             axes.annotate("", start + landing, start, annotation_clip=False, arrowprops={

@@ -10,7 +10,7 @@ from neorl.evidence.curves import CUTOFF_PERIODS, FILTER_ORDER
 from neorl.evidence.pins import PINS
 from neorl.evidence.priors import BEYOND, WITHIN
 from neorl.evidence.reading import LAYERS, LENGTHS, PRIMES, SINGLE, Reading, conditions
-from neorl.experiments.simulation import BIN_SECONDS
+from neorl.experiments.run import BIN_SECONDS
 from neorl.worlds import waterworld
 
 PLE = "WaterWorld of the PyGame Learning Environment, rules confirmed against recordings of it"

@@ -55,10 +55,9 @@ class Condition:
     def __post_init__(self):
         checks.instance("agent", self.agent, Agent)
         checks.instance("world", self.world, WaterWorld)
-        checks.integer("steps", self.steps, at_least=1)
-        checks.integer("runs", self.runs, at_least=1)
-        checks.integer("seed", self.seed, at_least=0)
-        object.__setattr__(self, "changes", checked_changes(self.changes, self.steps))
+        steps = checks.integer("steps", self.steps, at_least=1)
+        checks.store(self, steps=steps, runs=checks.integer("runs", self.runs, at_least=1),
+                     seed=checks.integer("seed", self.seed, at_least=0), changes=checked_changes(self.changes, steps))
 
     @property
     def choices(self):

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from neorl import checks
-from neorl.experiments.simulation import new_bins
+from neorl.experiments.run import new_bins
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ def record(name, run, steps):
             hits[:] = 0
             run.advance(1, rewards[0], hits[0])
             taken = taken + hits[0].sum(axis=0)
-        state = run.state
+        state = run.world_state
         velocity = state.creep_direction * state.creep_speed[:, None]
         frames.append((np.concatenate([state.agent_position, state.agent_velocity]) * scale,
                        np.hstack([state.creep_position, velocity]) * scale, state.creep_is_green.copy(), taken))

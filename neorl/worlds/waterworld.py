@@ -21,11 +21,11 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl import checks
-from neorl.core.kernel import array, kernel, zeros
-from neorl.core.stream import below, new_stream, uniform
+from neorl.core.choices import Action
+from neorl.core.kernel import array, execute, fields, kernel, length, new_tuple
+from neorl.core.stream import new_stream, randint, uniform
 
 ACTIONS = ("N", "S", "E", "W", "no-op")
-NO_OP = 4
 CONTACTS = ("rounded", "truncated")
 DRAG = 0.975
 DIAGONAL = 1.0 / math.sqrt(2.0)
@@ -39,11 +39,11 @@ class WaterWorldState(NamedTuple):
 
     agent_position: array("float64", 2)  # x, y
     agent_velocity: array("float64", 2)
-    creep_position: array("float64", "creeps", 2)
-    creep_direction: array("float64", "creeps", 2)  # of length 1
-    creep_speed: array("float64", "creeps")
-    creep_is_green: array("bool", "creeps")
-    creep_jitter: array("float64", "creeps")  # in [0, 1]
+    creep_position: array("float64", "things", 2)
+    creep_direction: array("float64", "things", 2)  # of length 1
+    creep_speed: array("float64", "things")
+    creep_is_green: array("bool", "things")
+    creep_jitter: array("float64", "things")  # in [0, 1]
     stream: array("uint64", 4)  # the random numbers of fresh creeps
 
     def __setattr__(self, name, value):
@@ -64,9 +64,9 @@ class Rules(NamedTuple):
 class WaterWorld:
     """The rules of one tank.
 
-    width: pixels a side, at least 11, so that the radius of 4.7 % rounds to a pixel or more.
-    n_creeps: creeps in the tank at any time, at least 1.
-    fps: steps in a simulated second, at least 1. An action works per step, so this changes the task.
+    width: pixels a side, 11 … 2³¹, so that the radius of 4.7 % rounds to a pixel or more.
+    n_creeps: creeps in the tank at any time, 1 … 2²⁰.
+    fps: steps in a simulated second, 1 … 2³¹. An action works per step, so this changes the task.
     win_reward: paid on top when the last green creep is taken: 5 in the original and in paper A, 0 in papers B and C.
     contact: whether positions are "rounded" to whole pixels before they are compared, as in pygame 2, or "truncated",
         as in pygame 1.9.
@@ -81,13 +81,13 @@ class WaterWorld:
     contact: str = "rounded"
 
     def __post_init__(self):
-        checks.integer("width", self.width, at_least=1)
+        checks.store(self, width=checks.integer("width", self.width, at_least=1, at_most=2**31))
         if self.radius < 1:
             raise ValueError(f"width is {self.width}, allowed are 11 pixels or more: a creep's radius is 4.7 % of it")
-        checks.integer("n_creeps", self.n_creeps, at_least=1)
-        checks.integer("fps", self.fps, at_least=1)
-        checks.real("win_reward", self.win_reward)
-        checks.one_of("contact", self.contact, CONTACTS)
+        checks.store(self, n_creeps=checks.integer("n_creeps", self.n_creeps, at_least=1, at_most=2**20),
+                     fps=checks.integer("fps", self.fps, at_least=1, at_most=2**31),
+                     win_reward=checks.real("win_reward", self.win_reward),
+                     contact=checks.one_of("contact", self.contact, CONTACTS))
 
     @property
     def radius(self):
@@ -107,9 +107,8 @@ class WaterWorld:
         """
         if not isinstance(seed, np.random.SeedSequence):
             seed = np.random.SeedSequence(checks.integer("seed", seed, at_least=0))
-        state = WaterWorldState(**zeros(WaterWorldState, {"creeps": self.n_creeps}) | {"stream": new_stream(seed)})
-        with np.errstate(over="ignore"):
-            reset_board(state, self.rules)
+        state = new_tuple(WaterWorldState, {"things": self.n_creeps}, {"stream": new_stream(seed)})
+        execute(reset_board, state, self.rules)
         return state
 
     def step(self, state, action):
@@ -121,20 +120,25 @@ class WaterWorld:
         Raises ValueError for an unknown action, a state of another number of creeps, or one that is not finite.
         """
         action = ACTIONS.index(checks.one_of("action", action, ACTIONS)) if isinstance(action, str) else action
-        checks.integer("action", action, at_least=0, at_most=NO_OP)
+        action = checks.integer("action", action, at_least=0, at_most=Action.no_op)
         check_state(state, self)
         contacts = np.zeros(self.n_creeps, np.int8)
-        with np.errstate(over="ignore"):
-            reward, done = step_board(state, self.rules, int(action), contacts)
+        reward, done = execute(step_board, state, self.rules, action, contacts)
         return float(reward), contacts != 0, bool(done)
 
 
 def check_state(state, world):
-    """Raise ValueError unless the state is finite and has the creeps of the world."""
-    for name, value in state._asdict().items():
+    """Raise ValueError unless a state has the creeps of the world, and is finite."""
+    checks.instance("state", state, WaterWorldState)
+    for name, (dtype, shape) in fields(WaterWorldState).items():
+        value = getattr(state, name)
+        expected = tuple(length(each, {"things": world.n_creeps}) for each in shape)
+        if not isinstance(value, np.ndarray) or (value.dtype, value.shape) != (np.dtype(dtype), expected):
+            found = f"{value.dtype} {value.shape}" if isinstance(value, np.ndarray) else repr(value)
+            raise ValueError(f"state.{name} is {found}, allowed with n_creeps = {world.n_creeps} is {dtype} {expected}")
         checks.finite(f"state.{name}", value)
-    if len(state.creep_speed) != world.n_creeps:
-        raise ValueError(f"state has {len(state.creep_speed)} creeps, allowed are n_creeps = {world.n_creeps}")
+    if not np.any(state.creep_direction, axis=1).all():
+        raise ValueError(f"state.creep_direction is {state.creep_direction!r}, allowed are vectors of length 1")
 
 
 @kernel
@@ -150,8 +154,8 @@ def draw_creep(state, rules, creep):
         distance_squared = dx * dx + dy * dy
     state.creep_position[creep, 0] = x
     state.creep_position[creep, 1] = y
-    state.creep_direction[creep, 0] = DIAGONAL if below(state.stream, 2) == 1 else -DIAGONAL
-    state.creep_direction[creep, 1] = DIAGONAL if below(state.stream, 2) == 1 else -DIAGONAL
+    state.creep_direction[creep, 0] = DIAGONAL if randint(state.stream, 2) == 1 else -DIAGONAL
+    state.creep_direction[creep, 1] = DIAGONAL if randint(state.stream, 2) == 1 else -DIAGONAL
     state.creep_speed[creep] = uniform(state.stream) * 0.25 * rules.width
     state.creep_jitter[creep] = uniform(state.stream)
 
@@ -181,9 +185,9 @@ def step_board(state, rules, action, contacts):
 
 @kernel
 def move_agent(state, rules, action):
-    if action != NO_OP:
-        axis = 1 if action < 2 else 0
-        sign = -1.0 if action == 0 or action == 3 else 1.0
+    if action != Action.no_op:
+        axis = 1 if action == Action.N or action == Action.S else 0
+        sign = -1.0 if action == Action.N or action == Action.W else 1.0
         state.agent_velocity[axis] += sign * 0.25 * rules.width
     highest = rules.width - 2.0 * rules.radius
     for axis in range(2):

@@ -151,43 +151,44 @@ def test_n_values_counts_four_actions_for_each_pair_of_cells():
 @pytest.mark.parametrize("weighting, weight", [
     ("equal", [1 / 3] * 3), ("resolution", [3 / 33, 7 / 33, 23 / 33]), ("cells", [9 / 587, 49 / 587, 529 / 587])])
 def test_the_weights_of_the_maps_of_a_node_add_up_to_one(weighting, weight):
-    plan = compiled(multimodal([3, 7, 23], weighting=weighting), WaterWorld())
-    np.testing.assert_allclose(plan.weight, weight * 2)
+    parameters = compiled(multimodal([3, 7, 23], weighting=weighting), WaterWorld())
+    np.testing.assert_allclose(parameters.maps.weight, weight * 2)
 
 
 def test_maps_tracks_and_desires_lie_one_after_the_other():
     desires = (Desire("green", "OVC", 1.0), Desire((0.9, 0.4), "PC", 1.0), Desire("red", "OVC", -1.0),
                Desire("PC", "OVC"))
-    plan = compiled(Agent((PC, OVC, HD), desires), WaterWorld(n_creeps=5))
-    assert plan.first.tolist() == [0, 4 * 2**4, 4 * (2**4 + 3**4), 4 * (2**4 + 2 * 3**4), 4 * (2**4 + 2 * 3**4 + 4**2)]
-    assert plan.first_cell.tolist() == [0, 4, 13, 22, 26]
-    assert plan.first_map.tolist() == [0, 2, 3, 4] and plan.first_track.tolist() == [0, 1, 2, 7, 8]
-    assert plan.inputs.tolist() == [1, 0, 2, 3] and plan.first_input.tolist() == [0, 1, 4, 4]
-    assert plan.source.tolist() == [Source.green, Source.point, Source.red, Source.node]
-    assert plan.goal[1].tolist() == [1, 5, 0, 0]
-    assert plan.valence.tolist() == [1, 1, -1, 0] and plan.sums_valence.tolist() == [False, False, False, True]
+    parameters = compiled(Agent((PC, OVC, HD), desires), WaterWorld(n_creeps=5))
+    maps, nodes, chosen = parameters.maps, parameters.nodes, parameters.desires
+    assert maps.first_value.tolist() == [0, 4 * 2**4, 4 * (2**4 + 3**4), 4 * (2**4 + 2 * 3**4), 4 * (2**4 + 2 * 3**4 + 4**2)]
+    assert maps.first_cell.tolist() == [0, 4, 13, 22, 26]
+    assert nodes.first_map.tolist() == [0, 2, 3, 4] and maps.first_track.tolist() == [0, 1, 2, 7, 8]
+    assert nodes.inputs.tolist() == [1, 0, 2, 3] and nodes.first_input.tolist() == [0, 1, 4, 4]
+    assert chosen.source.tolist() == [Source.green, Source.point, Source.red, Source.node]
+    assert chosen.goal[1].tolist() == [1, 5, 0, 0]
+    assert chosen.valence.tolist() == [1, 1, -1, 0] and chosen.sums_valence.tolist() == [False, False, False, True]
 
 
 def test_a_node_follows_as_many_points_as_there_are_things():
     nodes = [Node(str(n), modality, (2,)) for n, modality in enumerate(MODALITIES)]
-    plan = compiled(Agent(nodes), WaterWorld(n_creeps=7))
+    parameters = compiled(Agent(nodes), WaterWorld(n_creeps=7))
     expected = {PLACE_CELL: 1, BORDER_CELL: 1, OBJECT_VECTOR_CELL: 7, CARTESIAN_OBJECT_VECTOR_CELL: 7,
                 BOUNDARY_VECTOR_CELL: 4, LANDMARK_VECTOR_CELL: 1, HEAD_DIRECTION_CELL: 1, SPEED_CELL: 1}
-    assert plan.points.tolist() == [expected[modality] for modality in MODALITIES]
-    assert plan.landmark.tolist() == [[0.5, 0.5]]
+    assert parameters.nodes.points.tolist() == [expected[modality] for modality in MODALITIES]
+    assert parameters.nodes.landmark.tolist() == [[0.5, 0.5]]
 
 
 @pytest.mark.parametrize("node, contact", [(Node("OVC", CARTESIAN_OBJECT_VECTOR_CELL, (3, 4)), [4, 10]),
                                            (Node("OVC", OBJECT_VECTOR_CELL, (3, 4)), [0, 0])])
 def test_contact_is_the_cell_of_the_null_vector(node, contact):
-    assert compiled(Agent((node,)), WaterWorld()).contact.tolist() == contact
+    assert compiled(Agent((node,)), WaterWorld()).maps.contact.tolist() == contact
 
 
 def test_a_desire_comes_from_the_elements_that_it_names_or_from_all():
     by_colour = [[0, 0, 0, 0], [0, 0, 0, 0], [1, 0, 0, 0], [0, 1, 0, 0]]
-    assert compiled(network_a([3]), WaterWorld()).elements.tolist() == [[0, 0, 0], [0, 0, 0], [1, 1, 0]]
-    assert compiled(network_b([3]), WaterWorld()).elements.tolist() == by_colour
-    recursive = compiled(network_d([3]), WaterWorld()).elements
+    assert compiled(network_a([3]), WaterWorld()).desires.elements.tolist() == [[0, 0, 0], [0, 0, 0], [1, 1, 0]]
+    assert compiled(network_b([3]), WaterWorld()).desires.elements.tolist() == by_colour
+    recursive = compiled(network_d([3]), WaterWorld()).desires.elements
     assert recursive[:4, :4].tolist() == by_colour and not recursive[:4, 4].any()
     assert recursive[4].tolist() == [0, 0, 1, 1, 1]
 
@@ -196,8 +197,8 @@ def test_a_chain_of_three_nodes_runs_and_every_desire_gets_to_its_end():
     desires = (Desire("green", "OVC", 1.0), Desire("OVC", "PC"), Desire("PC", "HD", valence=0.5))
     run = Run(Agent((HD, PC, OVC), desires, own_cell="counts"), WaterWorld(), seed=0)
     run.advance(500)
-    assert run.step == 500 and run.memory.q.any()
-    run.memory.q[:] = np.random.default_rng(0).random(len(run.memory.q))  # desires that do not happen to be met
+    assert run.step == 500 and run.state.values.q.any()
+    run._state.values.q[:] = np.random.default_rng(0).random(run.state.values.q.size)  # desires that do not happen to be met
     run.advance(1)
-    assert run.memory.worth[0] == run.memory.worth[1] >= 1 and run.memory.worth[2] == 0.5
-    assert run.memory.landing[1:].all() and run.memory.pull.all()
+    assert run.state.desires.valence[0] == run.state.desires.valence[1] >= 1 and run.state.desires.valence[2] == 0.5
+    assert run.state.desires.target[1:].all() and run.state.desires.q.all()

@@ -8,9 +8,9 @@ import pytest
 from golden import learning
 
 from neorl import Explorer, Learning, NresMap, Run, WaterWorld, network_d, place_cells, simulate
-from neorl.browser.explorer import _plan
+from neorl.browser.explorer import _parameters
 from neorl.core.horde import as_vectors
-from neorl.core.plan import Memory
+from neorl.core.kernel import execute, mapped
 from neorl.worlds import probe
 
 ENGINE = """
@@ -47,7 +47,7 @@ def ask(open_page, tmp_path, state):
     """`ask(request, …)` gives what the engine of a run that has just begun answers to each."""
     preset = state["_presets"]["D"]
     world = preset["world"] | {"n_creeps": TANK.n_creeps}
-    begin = {"type": "begin", "plan": preset["plan"], "world": world, "seed": SEED, "run": K, "steps": 10 * STEPS,
+    begin = {"type": "begin", "parameters": preset["parameters"], "world": world, "seed": SEED, "run": K, "steps": 10 * STEPS,
              "bin_steps": 100}
     script = f"const state = {json.dumps(state)};{ENGINE}".replace("</", r"<\/")
     (tmp_path / "page.html").write_text(f'<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">'
@@ -74,7 +74,7 @@ def test_a_frame_tells_what_the_run_holds(ask):
     assert begun["maps"] == ["PC N4", "PC N5", "OVC N4", "OVC N5"]
     assert (frame["seen"]["name"], frame["seen"]["goal"]) == ("OVC N5", goal)
 
-    width, state = TANK.width, run.state
+    width, state = TANK.width, run.world_state
     assert [frame["agent"][name] for name in "xy"] == pytest.approx(state.agent_position / width)
     assert [frame["agent"][name] for name in ("vx", "vy")] == pytest.approx(state.agent_velocity / width)
     creeps = frame["creeps"]
@@ -82,20 +82,21 @@ def test_a_frame_tells_what_the_run_holds(ask):
     assert np.array([(creep["x"], creep["y"]) for creep in creeps]) == pytest.approx(state.creep_position / width)
     velocity = state.creep_direction * state.creep_speed[:, None] / width
     assert np.array([(creep["vx"], creep["vy"]) for creep in creeps]) == pytest.approx(velocity)
-    assert frame["active"] == run.memory.cell[run.plan.first_track[3] : run.plan.first_track[4]].tolist()
+    begin, end = run.parameters.maps.first_track[3:5]
+    assert frame["active"] == run.state.tracks.cell[begin:end].tolist()
 
     for node in frame["nodes"]:
         output = run.output(node["name"])
         assert (node["x"], node["y"], node["valence"]) == pytest.approx((*output.desire, output.valence))
-    landings = run.memory.landing[2:, :2] + state.agent_position / width
+    landings = run.state.desires.target[2:, :2] + state.agent_position / width
     assert np.array([(each["x"], each["y"]) for each in frame["landings"]]) == pytest.approx(landings)
-    assert [each["valence"] for each in frame["landings"]] == run.memory.worth[2:].tolist()
+    assert [each["valence"] for each in frame["landings"]] == run.state.desires.valence[2:].tolist()
     assert [each["recurs"] for each in frame["landings"]] == [False, False, True]
 
     assert np.array(frame["seen"]["ways"]).reshape(-1, 2) == pytest.approx(as_vectors(run.q(3)[:, :, goal]))
-    elsewhere = Memory(**{name: value.copy() for name, value in run.memory._asdict().items()})
     values = np.zeros((81, 4))
-    probe.survey(run.plan, run.memory, elsewhere, state._replace(agent_position=np.zeros(2)), 9, values)
+    execute(probe.survey, run._parameters, run._state, mapped(np.copy, run._state),
+            state._replace(agent_position=np.zeros(2)), 9, values)
     assert np.array(frame["field"]).reshape(-1, 2) == pytest.approx(as_vectors(values), rel=1e-6)
 
 
@@ -115,7 +116,7 @@ def learned(run, m, goal):
 @pytest.mark.parametrize("rule", RULES, ids=str)
 def test_what_is_learned_with_a_memory_is_what_python_learns_to_the_last_bit(ask, rule):
     agent, goal = network_d([4, 5], scale=2.0, signed=False, **rule), 9
-    frame = ask(advance(STEPS), {"type": "look", "map": "OVC N5", "goal": goal}, plan=_plan(agent, TANK))[-1]
+    frame = ask(advance(STEPS), {"type": "look", "map": "OVC N5", "goal": goal}, parameters=_parameters(agent, TANK))[-1]
     run = Run(agent, TANK, SEED, K)
     assert frame["reward"] == run.advance(STEPS)
     assert np.reshape(frame["seen"]["ways"], (-1, 2)).tolist() == learned(run, 3, goal)
@@ -129,8 +130,8 @@ def test_what_is_learned_with_a_memory_is_what_python_learns_to_the_last_bit(ask
 ])
 def test_a_memory_that_changes_on_the_way_goes_on_as_in_python(ask, later):
     agent, goal = network_d([4, 5], learning=Learning(memory=30.0)), 9
-    frame = ask(advance(STEPS), {"type": "change", "plan": _plan(later, TANK)}, advance(STEPS),
-                {"type": "look", "map": "PC N5", "goal": goal}, plan=_plan(agent, TANK))[-1]
+    frame = ask(advance(STEPS), {"type": "change", "parameters": _parameters(later, TANK)}, advance(STEPS),
+                {"type": "look", "map": "PC N5", "goal": goal}, parameters=_parameters(agent, TANK))[-1]
     run = Run(agent, TANK, SEED, K)
     reward = run.advance(STEPS)
     run.change(later)
@@ -145,15 +146,15 @@ def test_a_second_agent_does_what_it_is_told_on_the_same_creeps(ask):
                                   for each in ({"type": "play", "action": action}, advance(1))))[-1]
     run = Run(AGENT, TANK, SEED, K)
     run.advance(STEPS)
-    second = run.state._replace(agent_position=np.full(2, 0.1 * TANK.width), agent_velocity=np.zeros(2))
+    second = run.world_state._replace(agent_position=np.full(2, 0.1 * TANK.width), agent_velocity=np.zeros(2))
     contacts, paid, touched = np.zeros(TANK.n_creeps, np.int8), 0.0, 0
     for action in actions:
         run.advance(1)
-        paid += probe.step_second(run.plan, run.memory, TANK.rules, run.state, second, contacts, action)
+        paid += execute(probe.step_second, run._parameters, run._state, TANK.rules, run.world_state, second, contacts, action)
         touched += np.abs(contacts).sum()
     assert touched > 2 and frame["player"]["reward"] == paid
     assert [frame["player"][name] for name in "xy"] == pytest.approx(second.agent_position / TANK.width)
-    assert [frame["agent"][name] for name in "xy"] == pytest.approx(run.state.agent_position / TANK.width)
+    assert [frame["agent"][name] for name in "xy"] == pytest.approx(run.world_state.agent_position / TANK.width)
 
 
 def test_a_place_is_found_in_the_cell_that_it_lies_in(ask):
@@ -169,11 +170,12 @@ def test_a_place_is_found_in_the_cell_that_it_lies_in(ask):
 
 
 def test_the_map_that_is_looked_at_stays_and_its_goal_with_it_if_it_has_the_same_cells(ask, state):
-    plan = state["_presets"]["D"]["plan"]
-    finer = plan | {"resolution": [5, 6, 5, 6]}
-    other = finer | {"low": [[0.1, 0.1], *plan["low"][1:]]}
-    without = plan | {"resolution": [6, 9, 6, 9]}
-    frames = ask({"type": "look", "map": "PC N5", "goal": 24}, *({"type": "change", "plan": each} for each in (
+    parameters = state["_presets"]["D"]["parameters"]
+    nodes = parameters["nodes"]
+    finer = parameters | {"maps": {"resolution": [5, 6, 5, 6]}}
+    other = finer | {"nodes": nodes | {"low": [[0.1, 0.1], *nodes["low"][1:]]}}
+    without = parameters | {"maps": {"resolution": [6, 9, 6, 9]}}
+    frames = ask({"type": "look", "map": "PC N5", "goal": 24}, *({"type": "change", "parameters": each} for each in (
         finer, other, without)))[1:]
     assert [(each["seen"]["name"], each["seen"]["goal"]) for each in frames] == [
         ("PC N5", 24), ("PC N5", 24), ("PC N5", None), ("PC N6", None)]
@@ -192,9 +194,9 @@ def test_a_run_ends_at_its_length(ask):
 
 
 def test_what_cannot_be_done_is_a_sentence(ask, state):
-    plan = state["_presets"]["N90"]["plan"]
-    four = plan | {"resolution": [90] * 4, "first_map": [0, 4]}
-    refused, then = ask(advance(1), plan=four)
+    parameters = state["_presets"]["N90"]["parameters"]
+    nodes = parameters["nodes"] | {"first_map": [0, 4]}
+    refused, then = ask(advance(1), parameters=parameters | {"maps": {"resolution": [90] * 4}, "nodes": nodes})
     assert refused == {"type": "failed", "message": "These maps need 3.9 GB of memory, and a page can have 3. "
                                                     "Choose coarser ones."}
     assert then == {"type": "failed"}  # a fault of the page's, and no sentence for its reader

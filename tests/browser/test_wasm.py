@@ -14,8 +14,9 @@ from neorl import (Agent, Desire, Learning, Node, Place, Run, WaterWorld, multim
 from neorl.agents.compile import chosen
 from neorl.browser import wasm
 from neorl.core import modality
-from neorl.core.kernel import zeros
-from neorl.core.plan import Memory, Plan
+from neorl.core.kernel import arrays, execute, mapped, new_tuple
+from neorl.core.parameters import Parameters
+from neorl.core.state import State
 from neorl.experiments import cache
 from neorl.worlds import probe
 from neorl.worlds.waterworld import WaterWorldState
@@ -47,9 +48,16 @@ PAPERS = {
 
 
 def assert_equal_to(run, arguments):
-    for name in ("memory", "state"):
-        for field, (_, view) in arguments[name]._asdict().items():
-            assert np.array_equal(view, getattr(getattr(run, name), field), equal_nan=True), (name, field)
+    for own, name in ((run.state, "state"), (run.world_state, "board")):
+        views = arrays(viewed(arguments[name]))
+        for field, array in arrays(own).items():
+            assert np.array_equal(views[field], array, equal_nan=True), (name, field)
+
+
+def viewed(values):
+    """A named tuple of (address, view) pairs as one of views."""
+    return type(values)(*(viewed(value) if hasattr(value, "_fields") else value[1] if isinstance(value, tuple) else
+                          value for value in values))
 
 
 @pytest.mark.parametrize("name", PAPERS)
@@ -57,12 +65,10 @@ def test_a_run_equals_a_native_run_to_the_last_bit(name):
     agent, creeps = PAPERS[name]
     run = Run(agent, WaterWorld(n_creeps=creeps, win_reward=5.0 if creeps == 8 else 0.0), seed=1, run=4)
     machine, sizes, arguments = copied(run)
-    rewards, hits = np.zeros(1, np.float32), np.zeros((1, 2), np.int16)
-    bins = {"rewards": machine.put(rewards), "hits": machine.put(hits)}
-    brought = sum(machine.call("rollout", sizes, first_step=first, last_step=first + STEPS // 5, bin_steps=2 * STEPS,
-                               **arguments, **bins) for first in range(0, STEPS, STEPS // 5))
-    assert brought == run.advance(STEPS)
-    assert name == "Brownian" or run.memory.q.any()
+    for last_step in range(STEPS // 5, STEPS + 1, STEPS // 5):
+        arguments["total"] = machine.call("rollout", sizes, last_step=last_step, bin_steps=2 * STEPS, **arguments)
+    assert arguments["total"] == run.advance(STEPS)
+    assert name == "Brownian" or run.state.values.q.any()
     assert_equal_to(run, arguments)
 
 
@@ -72,51 +78,49 @@ def test_a_run_begins_as_in_python_without_any_python(name):
     run = Run(agent, WaterWorld(n_creeps=creeps), seed=2**32 - 1, run=17)
     machine, sizes = Machine(), sizes_of(run)
     choices, _ = chosen(agent, run.world)
-    plan = machine.put_tuple(Plan(**zeros(Plan, sizes) | choices))
-    machine.call("lay_out", sizes, plan=plan, n_creeps=creeps)
-    state = machine.put_tuple(WaterWorldState(**zeros(WaterWorldState, sizes)))
-    memory = machine.put_tuple(Memory(**zeros(Memory, sizes)))
-    for words, stream in (([2**32 - 1, 0, 0, 0, 17], state.stream), ([2**32 - 1, 0, 0, 0, 17, 0], memory.stream)):
+    parameters = machine.put_tuple(new_tuple(Parameters, sizes, choices))
+    machine.call("derive", sizes, parameters=parameters, n_things=creeps)
+    board = machine.put_tuple(new_tuple(WaterWorldState, sizes, {}))
+    state = machine.put_tuple(new_tuple(State, sizes, {}))
+    for words, stream in (([2**32 - 1, 0, 0, 0, 17], board.stream), ([2**32 - 1, 0, 0, 0, 17, 0], state.stream)):
         machine.call("start_stream", sizes | {"words": len(words)}, words=machine.put(np.array(words, np.uint64)),
                      stream=stream)
-    machine.call("reset_board", sizes, state=state, rules=run.world.rules)
-    machine.call("know_nothing", sizes, plan=plan, memory=memory)
-    machine.call("begin_tracks", sizes, plan=plan, memory=memory, state=state)
-    assert_equal_to(run, {"memory": memory, "state": state})
-    for field, value in run.plan._asdict().items():
-        laid_out = getattr(plan, field)
-        assert np.array_equal(laid_out[1] if isinstance(value, np.ndarray) else laid_out, value), field
+    machine.call("reset_board", sizes, state=board, rules=run.world.rules)
+    machine.call("clear_goal_ranges", sizes, parameters=parameters, state=state)
+    machine.call("begin_tracks", sizes, parameters=parameters, state=state, board=board)
+    assert_equal_to(run, {"state": state, "board": board})
+    derived = arrays(viewed(parameters))
+    for field, array in arrays(run.parameters).items():
+        assert np.array_equal(derived[field], array), field
 
 
 def test_looking_and_joining_in_equal_native_calls():
     run = Run(multimodal([5, 7]), WaterWorld(n_creeps=6), seed=3)
     run.advance(20_000)
     machine, sizes, arguments = copied(run)
-    plan, memory, rules, state = run.plan, run.memory, run.world.rules, run.state
+    agent, rules, board = (run._parameters, run._state), run.world.rules, run.world_state
     contacts = np.zeros(6, np.int8)
 
-    there = state._replace(agent_position=np.zeros(2))
-    elsewhere = Memory(**{name: value.copy() for name, value in memory._asdict().items()})
+    there, elsewhere = board._replace(agent_position=np.zeros(2)), mapped(np.copy, run._state)
     values = np.zeros((81, 4))
-    copies = {"there": arguments["state"]._replace(agent_position=machine.put(np.zeros(2))),
+    copies = {"there": arguments["board"]._replace(agent_position=machine.put(np.zeros(2))),
               "elsewhere": machine.put_tuple(elsewhere), "values": machine.put(values)}
-    probe.survey(plan, memory, elsewhere, there, 9, values)
-    machine.call("survey", sizes | {"tiles": 81}, plan=arguments["plan"], memory=arguments["memory"], side=9, **copies)
+    execute(probe.survey, *agent, elsewhere, there, 9, values)
+    machine.call("survey", sizes | {"tiles": 81}, side=9, **arguments, **copies)
     assert values.any() and np.array_equal(copies["values"][1], values)
 
     for m, x, y in ((0, 0.1, 0.9), (3, 0.6, 0.2)):
-        cell = machine.call("cell_seen_at", sizes, plan=arguments["plan"], state=arguments["state"], m=m, x=x, y=y)
-        assert cell == probe.cell_seen_at(plan, state, m, x, y)
+        cell = machine.call("cell_seen_at", sizes, m=m, x=x, y=y, **arguments)
+        assert cell == execute(probe.cell_seen_at, run._parameters, board, m, x, y)
 
-    second = state._replace(agent_position=np.array([10.0, 10.0]), agent_velocity=np.zeros(2))
-    second_copy = arguments["state"]._replace(agent_position=machine.put(second.agent_position),
+    second = board._replace(agent_position=np.array([10.0, 10.0]), agent_velocity=np.zeros(2))
+    second_copy = arguments["board"]._replace(agent_position=machine.put(second.agent_position),
                                               agent_velocity=machine.put(second.agent_velocity))
-    bins = {"rewards": machine.put(np.zeros(1, np.float32)), "hits": machine.put(np.zeros((1, 2), np.int16))}
     met = 0
     for step, action in enumerate(np.random.default_rng(0).integers(0, 5, 1_000).tolist()):
         run.advance(1)
-        machine.call("rollout", sizes, first_step=step, last_step=step + 1, bin_steps=10_000, **arguments, **bins)
-        paid = probe.step_second(plan, memory, rules, state, second, contacts, action)
+        machine.call("rollout", sizes, last_step=step + 1, bin_steps=10_000, **arguments)
+        paid = execute(probe.step_second, *agent, rules, board, second, contacts, action)
         assert machine.call("step_second", sizes, second=second_copy, action=action, **arguments) == paid
         met += contacts.any()
     assert met > 10
@@ -125,7 +129,7 @@ def test_looking_and_joining_in_equal_native_calls():
 
 def test_the_module_is_small_and_asks_for_memory_alone():
     _, module = compiled()
-    assert len(wasm.module()) < 82_000
+    assert len(wasm.module()) < 84_000
     assert [each.name for each in module.imports] == ["memory"]
     assert {each.name for each in module.exports} == {"__heap_base", *wasm.layout()["exports"]}
 

@@ -7,7 +7,8 @@ import pytest
 
 from neorl.chapters.chapter_4 import credit
 from neorl.chapters.chapter_4.credit import DIFFERENCE, INVERSION, Chamber, by_role, learn_in
-from neorl.core.stream import below, new_stream, uniform
+from neorl.core.kernel import execute
+from neorl.core.stream import new_stream, randint, uniform
 
 QUICK = replace(INVERSION, learning_rate=0.3)
 
@@ -21,10 +22,10 @@ def told_anew(chamber, learning, visits, seed=0, run=0):
         seen, opened = [], None
         while opened is None or len(seen) <= opened[1] + chamber.delay:
             if over:
-                lever = below(stream, 2)
-                on = [lever == 0, lever == 1, uniform(stream) < chamber.light, uniform(stream) < chamber.bell]
+                lever = execute(randint, stream, 2)
+                on = [lever == 0, lever == 1, execute(uniform, stream) < chamber.light, execute(uniform, stream) < chamber.bell]
             seen.append(np.array(on, float))
-            over = uniform(stream) < 1 / chamber.hold
+            over = execute(uniform, stream) < 1 / chamber.hold
             if opened is None and sum(seen)[lever] >= chamber.effort:
                 opened = lever, len(seen) - 1
         goal = np.eye(2)[opened[0]]

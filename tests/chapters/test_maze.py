@@ -6,9 +6,10 @@ from matplotlib import pyplot as plt
 
 from neorl.chapters.chapter_2 import maze_figures
 from neorl.chapters.chapter_2.latent_learning import (DAYS, GROUPS, LEARNERS, Animal, Record, _learn_by_traces, _live,
-                                                      findings, new_memory, simulate_groups)
+                                                      findings, new_state, simulate_groups)
 from neorl.chapters.chapter_2.maze import Maze, random_maze
 from neorl.chapters.shared.grid import MOVES
+from neorl.core.kernel import execute
 from neorl.core.stream import new_stream
 from neorl.evidence.statistics import Estimate
 
@@ -128,24 +129,24 @@ def test_sarsa_without_a_trace_learns_one_unit_a_meal():
 
 @pytest.mark.parametrize("ended", [False, True])
 def test_sarsa_learns_along_traces_of_which_the_newest_replaces_those_of_its_place(ended):
-    memory, rng = new_memory(3), np.random.default_rng(0)
-    memory.q[:], memory.traces[:] = rng.random((2, 3, 4))
-    target = 2.0 + (0 if ended else 0.9 * memory.q[2, 3])
-    traces = memory.traces.copy()
+    animal, rng = new_state(3), np.random.default_rng(0)
+    animal.q[:], animal.traces[:] = rng.random((2, 3, 4))
+    target = 2.0 + (0 if ended else 0.9 * animal.q[2, 3])
+    traces = animal.traces.copy()
     traces[1] = [0, 1, 0, 0]
-    expected = memory.q + 0.1 * (target - memory.q[1, 1]) * traces
-    _learn_by_traces(memory, 1, 1, 2.0, 2, 3, ended, 0.1, 0.9, 0.5)
-    np.testing.assert_allclose(memory.q, expected)
-    np.testing.assert_allclose(memory.traces, 0.45 * traces)
+    expected = animal.q + 0.1 * (target - animal.q[1, 1]) * traces
+    execute(_learn_by_traces, animal, 1, 1, 2.0, 2, 3, ended, 0.1, 0.9, 0.5)
+    np.testing.assert_allclose(animal.q, expected)
+    np.testing.assert_allclose(animal.traces, 0.45 * traces)
 
 
 def test_sarsa_leaves_no_trace_of_yesterday():
-    maze, memory = Maze(), new_memory(30)
+    maze, animal = Maze(), new_state(30)
     errors = np.zeros(3, np.int64)
-    _live(LEARNERS.index("Sarsa(λ)"), 0.1, 1.0, 0.0, 1.0, maze.next_state, maze.goal, maze.choice_points, 1, memory,
+    execute(_live, LEARNERS.index("Sarsa(λ)"), 0.1, 1.0, 0.0, 1.0, maze.next_state, maze.goal, maze.choice_points, 1, animal,
           new_stream(np.random.SeedSequence(0)), errors, errors.copy())
     assert errors[0] > 0 and errors[2] == 0  # it went into blinds on the first day, and straight on the last
-    assert memory.q[maze.blinds].any() and not memory.traces[maze.blinds].any()
+    assert animal.q[maze.blinds].any() and not animal.traces[maze.blinds].any()
 
 
 def test_sarsa_tries_what_it_has_tried_least():
@@ -171,12 +172,12 @@ def test_exploration_is_the_share_of_drawn_actions():
 
 @pytest.mark.parametrize("learner", ["neoRL", "Q-learning"])
 def test_what_is_learned_are_the_values_of_bellman(learner):
-    maze, memory = Maze(), new_memory(30)
+    maze, animal = Maze(), new_state(30)
     counts = np.zeros(DAYS, np.int64)
-    _live(LEARNERS.index(learner), 1.0, 0.9, 0.1, 0.0, maze.next_state, maze.goal, maze.choice_points, 1, memory,
+    execute(_live, LEARNERS.index(learner), 1.0, 0.9, 0.1, 0.0, maze.next_state, maze.goal, maze.choice_points, 1, animal,
           new_stream(np.random.SeedSequence(0)), counts, counts.copy())
-    horde = memory.horde.reshape(30, 4, 30)
-    q = horde[:, :, maze.goal] if learner == "neoRL" else memory.q
+    horde = animal.horde.q.reshape(30, 4, 30)
+    q = horde[:, :, maze.goal] if learner == "neoRL" else animal.q
     steps_left = maze.goal - np.arange(maze.goal)
     np.testing.assert_allclose(q[: maze.goal].max(axis=1), 0.9 ** (steps_left - 1.0), rtol=1e-5)
     if learner == "neoRL":  # and not for the goal box alone

@@ -53,11 +53,11 @@ def test_whoever_hunts_by_rule_takes_much_more_than_who_moves_at_random_and_a_ru
 def test_a_newborn_and_a_veteran_begin_on_the_same_board_and_know_nothing_and_what_a_run_has_taught():
     agent = place_cells([3])
     first, second = newborn(agent, TANK, seed=4, run=2), veteran(agent, TANK, 5_000, seed=4, run=2)
-    assert all(np.array_equal(a, b) for a, b in zip(first.state, second.state))
+    assert all(np.array_equal(a, b) for a, b in zip(first.world_state, second.world_state))
     teacher = Run(agent, TANK, seed=5, run=2)
     teacher.advance(5_000)
     assert not first.q().any() and np.array_equal(second.q(), teacher.q()) and teacher.q().any()
-    assert np.array_equal(second.memory.known, teacher.memory.known)
+    assert np.array_equal(second.state.values.goal_range, teacher.state.values.goal_range)
     assert second.step == 0
     second.advance(1_000)  # what it knows of goals is not forgotten while it goes on learning
     assert second.q().sum() > 0.5 * teacher.q().sum()

@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 
 from neorl import Agent, Node, Run, WaterWorld, network_d, place_cells
-from neorl.core import horde, life, maps, modality, network, plan, stream, traces
-from neorl.core.kernel import inlined_kernel, kernel
+from neorl.core import geometry, learning, life, network, parameters, state, stream
+from neorl.core.kernel import execute, inlined_kernel, kernel
 from neorl.core.modality import HEAD_DIRECTION_CELL
 from neorl.worlds import probe, rollout, waterworld
 
-MODULES = (horde, life, modality, network, maps, probe, plan, rollout, stream, traces, waterworld)
+MODULES = (geometry, learning, life, network, parameters, probe, rollout, state, stream, waterworld)
 KERNELS = {value.__name__: value for module in MODULES
            for value in vars(module).values() if isinstance(value, numba.core.dispatcher.Dispatcher)}
 
@@ -42,11 +42,11 @@ def test_a_kernel_that_allocates_does_not_compile():
         return np.zeros(n)
 
     with pytest.raises(numba.core.errors.TypingError):
-        allocate(3)
+        execute(allocate, 3)
 
 
 def test_the_goal_loop_compiles_to_vector_instructions():
-    code = "".join(horde.learn_all_goals.inspect_llvm().values())
+    code = "".join(learning.learn_all_goals.inspect_llvm().values())
     assert "x float> " in code and "fmul <" in code
 
 
@@ -54,3 +54,15 @@ def test_agents_of_any_network_share_one_compilation():
     for agent in (place_cells([3]), network_d([2, 5]), Agent((Node("HD", HEAD_DIRECTION_CELL, [8]),))):
         Run(agent, WaterWorld(), seed=0).advance(10)
     assert len(rollout.rollout.signatures) == 1
+
+
+@pytest.mark.parametrize("name", KERNELS)
+def test_a_kernel_called_from_python_refuses_instead_of_ending_the_interpreter(name):
+    with pytest.raises(TypeError, match=f"{name} is a kernel, which checks nothing"):
+        KERNELS[name](1, 2, 3)
+
+
+@pytest.mark.parametrize("name", [name for name in KERNELS if "no_cpython_wrapper" in KERNELS[name].targetoptions])
+def test_a_kernel_that_is_inlined_cannot_even_be_executed(name):
+    with pytest.raises(TypeError, match=f"{name} is only inlined into other kernels"):
+        execute(KERNELS[name], 1, 2, 3)

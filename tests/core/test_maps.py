@@ -116,9 +116,9 @@ def test_the_cells_of_a_run_are_those_of_the_public_encoding(modality):
     agent = Agent((Node("X", modality, (2, 5)),))
     run = Run(agent, world, seed=1)
     run.advance(777)
-    expected = [nres_map.encode(modality.coordinates(world, run.state)).tolist() for nres_map in agent.maps]
-    first = run.plan.first_track
-    assert [run.memory.cell[first[m] : first[m + 1]].tolist() for m in range(2)] == expected
+    expected = [nres_map.encode(modality.coordinates(world, run.world_state)).tolist() for nres_map in agent.maps]
+    first = run.parameters.maps.first_track
+    assert [run.state.tracks.cell[first[m] : first[m + 1]].tolist() for m in range(2)] == expected
 
 
 @pytest.mark.parametrize("arguments, message", [

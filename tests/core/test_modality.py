@@ -8,9 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from neorl import Modality, WaterWorld
+from neorl.core.choices import Tuning
+from neorl.core.geometry import TAU, into_margin, tuned, turn
+from neorl.core.kernel import execute
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
-                                 LANDMARK_VECTOR_CELL, MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL, TAU,
-                                 Tuning, into_margin, tuned, turn)
+                                 LANDMARK_VECTOR_CELL, MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL)
 
 EAST, SOUTH, WEST, NORTH = 0.0, 0.5 * math.pi, math.pi, 1.5 * math.pi
 WORLD = WaterWorld(width=200, n_creeps=2)
@@ -27,27 +29,28 @@ def turns_apart(a, b):
 @pytest.mark.parametrize("scale", [1.0, 1e-300, 1e300])
 def test_a_turn_equals_the_arctangent_of_numpy(scale):
     x, y = scale * np.random.default_rng(0).normal(size=(2, 20_000))
-    turns = np.array([turn(*pair) for pair in zip(x, y)])
+    turns = np.array([execute(turn, *pair) for pair in zip(x, y)])
     assert turns_apart(turns, np.arctan2(y, x) / TAU).max() < 1e-15
     assert np.all((0 <= turns) & (turns < 1))
 
 
 @given(finite, finite)
 def test_any_finite_vector_has_a_turn_from_0_to_1(x, y):
-    assert 0 <= turn(x, y) < 1
-    assert turns_apart(turn(x, y), np.arctan2(y, x) / TAU if x or y else 0.0) < 1e-15
+    assert 0 <= execute(turn, x, y) < 1
+    assert turns_apart(execute(turn, x, y), np.arctan2(y, x) / TAU if x or y else 0.0) < 1e-15
 
 
 @pytest.mark.parametrize("length", [5e-324, 0.3, 1.0, 1.7e308])
 @pytest.mark.parametrize("zero", [0.0, -0.0])
 def test_the_axes_are_exact_quarters_of_a_turn(length, zero):
-    assert [turn(length, zero), turn(zero, length), turn(-length, zero), turn(zero, -length)] == [0, 0.25, 0.5, 0.75]
-    assert turn(zero, zero) == turn(-zero, zero) == 0
+    axes = [(length, zero), (zero, length), (-length, zero), (zero, -length)]
+    assert [execute(turn, *vector) for vector in axes] == [0, 0.25, 0.5, 0.75]
+    assert execute(turn, zero, zero) == execute(turn, -zero, zero) == 0
 
 
 def test_a_turn_just_north_of_east_does_not_reach_1():
-    assert turn(1.0, -1e-300) == 0
-    assert turn(1.0, -1e-15) == pytest.approx(1.0)
+    assert execute(turn, 1.0, -1e-300) == 0
+    assert execute(turn, 1.0, -1e-15) == pytest.approx(1.0)
 
 
 @given(components, components, reaches, reaches)
@@ -59,17 +62,17 @@ def test_each_tuning_equals_numpy(x, y, reach_x, reach_y):
                 "length": (length, direction)}
     assert set(expected) == set(Tuning.__members__)
     for name, (u, v) in expected.items():
-        got_u, got_v = tuned(int(Tuning[name]), x, y, reach_x, reach_y)
+        got_u, got_v = execute(tuned, int(Tuning[name]), x, y, reach_x, reach_y)
         assert got_u == pytest.approx(u, rel=1e-14, abs=1e-150)
         assert (turns_apart(got_v, v) if name in ("polar", "angle", "length") else abs(got_v - v)) < 1e-14
 
 
 @given(reaches, shares, shares)
 def test_a_margin_reaches_from_either_wall_to_0_without_a_leap(reach, a, b):
-    assert (into_margin(0.0, reach), into_margin(0.5, reach)) == (-reach, 0.0)
-    assert into_margin(1.0, reach) == pytest.approx(reach)
-    assert into_margin(a, reach) == 0.0 or not reach <= a <= 1 - reach
-    assert abs(into_margin(a, reach) - into_margin(b, reach)) <= abs(a - b) + 1e-15
+    assert (execute(into_margin, 0.0, reach), execute(into_margin, 0.5, reach)) == (-reach, 0.0)
+    assert execute(into_margin, 1.0, reach) == pytest.approx(reach)
+    assert execute(into_margin, a, reach) == 0.0 or not reach <= a <= 1 - reach
+    assert abs(execute(into_margin, a, reach) - execute(into_margin, b, reach)) <= abs(a - b) + 1e-15
 
 
 def state_of(agent, velocity, creeps):

@@ -5,7 +5,8 @@ import pytest
 from matplotlib import pyplot as plt
 
 from neorl import NresMap, Result, Run, WaterWorld, brownian, network_b, object_vector_cells, place_cells, simulate
-from neorl.core.modality import HEAD_DIRECTION_CELL, MODALITIES, PLACE_CELL, TAU, Modality
+from neorl.core.geometry import TAU
+from neorl.core.modality import HEAD_DIRECTION_CELL, MODALITIES, PLACE_CELL, Modality
 from neorl.drawing import figures
 from neorl.drawing.figures import binned_rate, low_passed
 from neorl.evidence.statistics import Estimate
@@ -257,8 +258,8 @@ def test_desires_are_drawn_where_they_land():
     run.advance(20_000)
     axes = figures.new_board()
     figures.draw_desires(axes, run)
-    landed = [line.get_xydata()[0] - run.state.agent_position / 250 for line in axes.lines]
-    np.testing.assert_allclose(landed, run.memory.landing[2:, :2])
+    landed = [line.get_xydata()[0] - run.world_state.agent_position / 250 for line in axes.lines]
+    np.testing.assert_allclose(landed, run.state.desires.target[2:, :2])
     assert [line.get_color() for line in axes.lines] == [figures.GREEN, figures.RED]
 
 

@@ -7,7 +7,6 @@ import sys
 from pathlib import Path
 
 import golden
-import numpy as np
 import pytest
 from webassembly import copied
 
@@ -41,10 +40,9 @@ def test_a_run_among_others_is_as_on_record(name, threads):
 @pytest.mark.parametrize("name", IN_WEBASSEMBLY)
 def test_a_run_in_webassembly_is_as_on_record(name):
     machine, sizes, arguments = copied(golden.born(name))
-    bins = {"rewards": machine.put(np.zeros(1, np.float32)), "hits": machine.put(np.zeros((1, 2), np.int16))}
-    reward = machine.call("rollout", sizes, first_step=0, last_step=golden.LONG, bin_steps=golden.LONG, **arguments, **bins)
-    state = [view for _, view in arguments["state"]]
-    assert golden.recorded(reward, arguments["memory"].q[1], state) == RECORD[name][str(golden.LONG)]
+    reward = machine.call("rollout", sizes, last_step=golden.LONG, bin_steps=golden.LONG, **arguments)
+    board = [view for _, view in arguments["board"]]
+    assert golden.recorded(reward, arguments["state"].values.q[1], board) == RECORD[name][str(golden.LONG)]
 
 
 def test_interpreted_runs_are_as_on_record():

@@ -14,6 +14,7 @@ import neorl
 from neorl import (Agent, Desire, Node, Place, Policy, Run, WaterWorld, multimodal, network_a, network_b, network_c,
                    network_d, object_vector_cells, place_cells, simulate)
 from neorl.core.horde import as_vectors
+from neorl.core.kernel import arrays, execute
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
                                  LANDMARK_VECTOR_CELL, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL)
 from neorl.core.stream import new_stream, uniform
@@ -81,21 +82,20 @@ def told_again(agent, world, steps, seed, run):
     stream = new_stream(sequence.spawn(1)[0])
     state = world.reset(sequence)
     policy, maps = agent.policy, agent.maps
-    owner = [node for node in agent.nodes for _ in node.resolutions]
     q = [np.zeros((each.cells, 4, each.cells), np.float32) for each in maps]
     tracks, pull, worth = fresh_tracks(agent, world, state), np.zeros((len(agent.desires), 4)), np.zeros(20)
     rule, rewards, activity = agent.learning, [], np.zeros(4, np.float32)
     keep = np.float32(rule.activity * world.fps / (1 + rule.activity * world.fps))
     for _ in range(steps):
-        if policy.exploration > 0 and uniform(stream) < policy.exploration:
-            action = int(uniform(stream) * 4)
+        if policy.exploration > 0 and execute(uniform, stream) < policy.exploration:
+            action = int(execute(uniform, stream) * 4)
         else:
             value = values_told_again(agent, world, state, q, tracks, pull, worth)
             best = np.flatnonzero(value == value.max())
             if policy.when_indifferent == "no-op" and not value.any():
                 action = 4
             else:
-                action = int(best[int(uniform(stream) * len(best))] if len(best) > 1 else best[0])
+                action = int(best[int(execute(uniform, stream) * len(best))] if len(best) > 1 else best[0])
         activity = keep * activity + (np.float32(1) - keep) * (np.arange(4) == action).astype(np.float32)
         before, attended = state.creep_position.copy(), attended_told_again(rule, state)
         reward, hits, done = world.step(state, action)
@@ -123,7 +123,7 @@ def told_again(agent, world, steps, seed, run):
                 if ends:
                     tracks[m][point] = Track(cells[m][point])
         if done:
-            reset_board(state, world.rules)
+            execute(reset_board, state, world.rules)
             tracks = fresh_tracks(agent, world, state)
             pull[:], worth[:], activity = 0, 0, np.zeros(4, np.float32)
     return rewards, q
@@ -310,7 +310,7 @@ def fingerprint(names, steps, **how):
         result = simulate(READINGS[name], TANK, steps=steps, runs=3, seed=1, progress=False, **how)
         run = Run(READINGS[name], TANK, seed=1, run=1)
         run.advance(steps)
-        parts += [result.rewards, result.hits, run.memory.q, *run.state]
+        parts += [result.rewards, result.hits, run.state.values.q, *run.world_state]
     return b"".join(part.tobytes() for part in parts)
 
 
@@ -318,7 +318,8 @@ def test_runs_are_the_same_with_the_compiler_switched_off():
     """The other process is this file run as a program, with NUMBA_DISABLE_JIT."""
     names, steps = ["several", "last", "trace", "step", "D", "all senses"], 250
     interpreted = subprocess.run([sys.executable, __file__, str(steps), *names], capture_output=True, check=True,
-                                 env={**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": os.pathsep.join(sys.path)}).stdout
+                                 env={**os.environ, "NUMBA_DISABLE_JIT": "1",
+                                      "PYTHONPATH": os.pathsep.join(sys.path)}).stdout
     assert interpreted == fingerprint(names, steps)
 
 
@@ -340,8 +341,8 @@ def test_a_run_is_the_same_in_slices():
     whole.advance(3_000)
     for steps in (1, 9, 990, 2_000):
         sliced.advance(steps)
-    np.testing.assert_array_equal(whole.memory.q, sliced.memory.q)
-    for one, other in zip(whole.state, sliced.state):
+    np.testing.assert_array_equal(whole.state.values.q, sliced.state.values.q)
+    for one, other in zip(whole.world_state, sliced.world_state):
         np.testing.assert_array_equal(one, other)
 
 
@@ -351,21 +352,27 @@ def test_becoming_the_same_agent_changes_nothing():
     changed.advance(1_234)
     changed.change(READINGS["trace"])
     changed.advance(1_766)
-    for one, other in zip([*whole.memory, *whole.state], [*changed.memory, *changed.state]):
-        np.testing.assert_array_equal(one, other)
+    assert_equal(whole, changed)
+
+
+def assert_equal(run, other):
+    for name in ("state", "world_state"):
+        one, other_one = arrays(getattr(run, name)), arrays(getattr(other, name))
+        for field in one:
+            np.testing.assert_array_equal(one[field], other_one[field], field)
 
 
 def test_an_agent_that_gets_a_second_modality_keeps_what_it_knows():
     run = Run(place_cells([3, 7]), TANK, seed=2)
     run.advance(5_000)
-    knows = run.memory.q.copy()
+    knows = run.state.values.q.copy()
     run.change(multimodal([3, 5, 7]))
     np.testing.assert_array_equal(np.concatenate([run.q(0).ravel(), run.q(2).ravel()]), knows)
     assert knows.any() and not run.q(1).any() and not run.q(4).any()
     run.advance(5_000)
     assert run.q(1).any() and run.q(4).any()
     run.change(place_cells([7]))
-    assert run.memory.q.size == 4 * 7**4 and run.q().any()
+    assert run.state.values.q.size == 4 * 7**4 and run.q().any()
 
 
 def test_a_change_can_be_planned():
@@ -394,11 +401,11 @@ def test_the_output_of_a_node():
     run.advance(20_000)
     place, relative = run.output("PC"), run.output("OVC")
     assert place.q.any() and relative.q.any()
-    np.testing.assert_allclose(run.memory.value, place.q + 0.5 * relative.q, atol=1e-15)
-    greens, reds = (sum(run.agent.desires[e].source == colour and run.memory.worth[e] for e in range(2))
+    np.testing.assert_allclose(run.state.action_value, place.q + 0.5 * relative.q, atol=1e-15)
+    greens, reds = (sum(run.agent.desires[e].source == colour and run.state.desires.valence[e] for e in range(2))
                     for colour in ("green", "red"))
     assert place.valence == greens + reds == relative.valence
-    landing = run.memory.landing[2:4, :2] / 2.0
+    landing = run.state.desires.target[2:4, :2] / 2.0
     np.testing.assert_allclose(landing.sum(axis=0), place.desire)
     with pytest.raises(ValueError, match="name is 'HD', allowed are 'PC', 'OVC'"):
         run.output("HD")
@@ -407,7 +414,7 @@ def test_the_output_of_a_node():
 def test_a_node_by_itself_wants_what_its_agent_does():
     run = Run(place_cells([5]), TANK, seed=0)
     run.advance(20_000)
-    np.testing.assert_array_equal(run.output("PC").q, run.memory.value)
+    np.testing.assert_array_equal(run.output("PC").q, run.state.action_value)
 
 
 @pytest.mark.parametrize("modality, resolution, here, goal, action", [
@@ -434,14 +441,15 @@ def test_an_agent_learns_to_keep_a_speed():
         speeds[wish] = np.empty(2_000)
         for step in range(2_000):
             run.advance(1)
-            speeds[wish][step] = np.linalg.norm(run.state.agent_velocity) / TANK.width
+            speeds[wish][step] = np.linalg.norm(run.world_state.agent_velocity) / TANK.width
     assert np.median(speeds[1.9]) > 1.2 * np.median(speeds[0.1])
 
 
 def test_runs_write_to_no_common_cache_line():
     runs = [Run(place_cells([3]), TANK, run=run) for run in range(20)]
-    written = [(array.ctypes.data, array.ctypes.data + array.nbytes, run.memory) for run in runs
-               for array in (*run.memory, *run.state, run._contacts) if array.nbytes < 4_096]
+    written = [(array.ctypes.data, array.ctypes.data + array.nbytes, run) for run in runs
+               for array in (*arrays(run._state).values(), *run.world_state, run._contacts, run._step)
+               if array.nbytes < 4_096]
     for (_, end, one), (begin, _, other) in itertools.pairwise(sorted(written, key=lambda each: each[:2])):
         assert begin - end >= 64 or one is other
 
@@ -510,10 +518,10 @@ def test_a_bad_advance_is_refused_and_changes_nothing():
                                   (100, (hits, hits), "rewards is int16")]:
         with pytest.raises(ValueError, match=message):
             run.advance(steps, *given)
-    run.state.agent_position = np.nan
+    run.world_state.agent_position = np.nan
     with pytest.raises(ValueError, match="state.agent_position is"):
         run.advance(1)
-    assert run.step == 0 and not run.memory.q.any()
+    assert run.step == 0 and not run.state.values.q.any()
 
 
 def test_an_agent_that_does_not_fit_into_memory_is_refused():
@@ -525,7 +533,7 @@ def test_a_run_that_fails_ends_the_others(monkeypatch):
     def fail(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("neorl.experiments.simulation.Run.advance", fail)
+    monkeypatch.setattr("neorl.experiments.run.Run.advance", fail)
     with pytest.raises(KeyboardInterrupt):
         simulate(place_cells([3]), TANK, steps=10**9, runs=4, progress=False)
 
@@ -537,30 +545,30 @@ if __name__ == "__main__":
 def test_recursion_takes_vectors_and_valences_of_the_step_before():
     run = Run(A_THAT_RECURS, WaterWorld(), seed=0)
     run.advance(2_000)
-    while not run.memory.pull[2:].any(axis=1).all():
+    while not run.state.desires.q[2:].any(axis=1).all():
         run.advance(1)
-    run.memory.worth[2:] *= -1  # what was wanted a step ago had the other sign
-    pull, worth = run.memory.pull[2:].copy(), run.memory.worth[2:].copy()
+    run._state.desires.valence[2:] *= -1  # what was wanted a step ago had the other sign
+    pull, worth = run.state.desires.q[2:].copy(), run.state.desires.valence[2:].copy()
     run.advance(1)
     expected = 2.0 * np.where(worth > 0, 1.0, -1.0) @ as_vectors(pull)
     assert expected.all()
-    np.testing.assert_allclose(run.memory.landing[3:, :2], [expected, expected])
+    np.testing.assert_allclose(run.state.desires.target[3:, :2], [expected, expected])
 
 
 @pytest.mark.parametrize("agent", [multimodal([3, 12]), place_cells([14], learning=plain_rule(trace=5, absent_decay=0.2))])
 def test_a_run_in_the_room_of_another_begins_with_nothing_and_is_the_same(agent):
     before = Run(agent, WaterWorld(), seed=0, run=3)
     before.advance(20_000)
-    room = before.memory.q
+    room = before.state.values.q
     after, fresh = Run(agent, WaterWorld(), seed=0, run=4, after=before), Run(agent, WaterWorld(), seed=0, run=4)
-    assert np.shares_memory(after.memory.q, room) and not after.memory.q.any()
+    assert np.shares_memory(after.state.values.q, room) and not after.state.values.q.any()
     assert after.advance(20_000) == fresh.advance(20_000)
-    assert all(map(np.array_equal, [*after.memory, *after.state], [*fresh.memory, *fresh.state]))
+    assert_equal(after, fresh)
 
 
 def test_a_run_after_that_of_another_agent_has_room_of_its_own():
     before = Run(place_cells([14]), WaterWorld())
     before.advance(5_000)
-    knew = before.memory.q.copy()
-    assert not np.shares_memory(Run(place_cells([13]), WaterWorld(), after=before).memory.q, before.memory.q)
-    np.testing.assert_array_equal(before.memory.q, knew)
+    knew = before.state.values.q.copy()
+    assert not np.shares_memory(Run(place_cells([13]), WaterWorld(), after=before).state.values.q, before.state.values.q)
+    np.testing.assert_array_equal(before.state.values.q, knew)

@@ -9,11 +9,11 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from neorl import checks
-from neorl.experiments.simulation import Run
+from neorl.experiments.run import Run
 
 
 def newborn(agent, world, seed=0, run=0):
-    """A `neorl.experiments.simulation.Run` at its beginning."""
+    """A `neorl.experiments.run.Run` at its beginning."""
     return Run(agent, world, seed, run)
 
 
@@ -25,8 +25,7 @@ def veteran(agent, world, steps, seed=0, run=0):
     teacher = Run(agent, world, seed + 1, run)
     teacher.advance(steps)
     learner = newborn(agent, world, seed, run)
-    learner.memory.q[:] = teacher.memory.q
-    learner.memory.known[:] = teacher.memory.known
+    learner.transfer(teacher)
     return learner
 
 

@@ -10,8 +10,9 @@ Nothing here learns, so that it is automatic and not autonomous (definition 1). 
 import numpy as np
 
 from neorl import checks
-from neorl.core.kernel import kernel
-from neorl.worlds.waterworld import NO_OP, reset_board, step_board
+from neorl.core.choices import Action
+from neorl.core.kernel import execute, kernel
+from neorl.worlds.waterworld import reset_board, step_board
 
 HASTE = 4.0  # what share of the way to go the helmsman wants to cover in a second; higher earns more, up to about 10
 CLOSE = 0.05  # of the width: a way-point is reached
@@ -30,23 +31,22 @@ def follow_route(world, waypoints, seconds, seed=0):
         raise ValueError(f"waypoints is {waypoints!r}, allowed are places (points, 2) in [0, 1]")
     path = np.zeros((int(checks.real("seconds", seconds, 0, 86_400) * world.fps) + 1, 2))
     state = world.reset(seed)
-    with np.errstate(over="ignore"):
-        sail(state, world.rules, waypoints * world.width, CLOSE * world.width, np.zeros(world.n_creeps, np.int8), path)
+    execute(sail, state, world.rules, waypoints * world.width, CLOSE * world.width, np.zeros(world.n_creeps, np.int8),
+            path)
     return path / world.width
 
 
 def chase(world, steps, runs, seed=0):
     """The reward that helmsman and captain make together: float64 (runs,).
 
-    Run k begins on the board of run k of `neorl.experiments.simulation.Run` with that seed. Raises ValueError for a bad
+    Run k begins on the board of run k of `neorl.experiments.run.Run` with that seed. Raises ValueError for a bad
     argument.
     """
     checks.integer("steps", steps, at_least=1)
     rewards = np.zeros(checks.integer("runs", runs, at_least=1))
     for k in range(runs):
         state = world.reset(np.random.SeedSequence(checks.integer("seed", seed, at_least=0), spawn_key=(k,)))
-        with np.errstate(over="ignore"):
-            rewards[k] = hunt(state, world.rules, steps, np.zeros(world.n_creeps, np.int8))
+        rewards[k] = execute(hunt, state, world.rules, steps, np.zeros(world.n_creeps, np.int8))
     return rewards
 
 
@@ -57,10 +57,10 @@ def steer(state, rules, x, y):
     miss_x, miss_y = want_x - state.agent_velocity[0], want_y - state.agent_velocity[1]
     vertical = abs(miss_y) > abs(miss_x)
     if max(abs(miss_x), abs(miss_y)) < 0.125 * rules.width:  # half of what an action changes
-        return NO_OP
+        return Action.no_op.value
     if vertical:
-        return 0 if miss_y < 0.0 else 1
-    return 2 if miss_x > 0.0 else 3
+        return Action.N.value if miss_y < 0.0 else Action.S.value
+    return Action.E.value if miss_x > 0.0 else Action.W.value
 
 
 @kernel

@@ -22,8 +22,8 @@ import numpy as np
 from neorl import checks
 from neorl.chapters.chapter_2.maze import Maze
 from neorl.chapters.shared.tabular import exploring_action, learn_q
-from neorl.core.horde import add_goal, learn_all_goals
-from neorl.core.kernel import kernel
+from neorl.core.kernel import execute, kernel
+from neorl.core.learning import MapValues, Rule, learn_all_goals
 from neorl.core.stream import new_stream
 from neorl.evidence.statistics import Estimate, difference, estimate
 
@@ -87,8 +87,8 @@ def _simulate(animal, maze, runs, seed, group, first_reward):
     errors, known = np.zeros((runs, DAYS), np.int64), np.zeros((runs, DAYS), np.int64)
     for run in range(runs):
         stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run, group)))
-        _live(LEARNERS.index(animal.learner), animal.learning_rate, animal.discount, animal.exploration, animal.trace,
-              maze.next_state, maze.goal, maze.choice_points, first_reward, new_memory(maze.states), stream,
+        execute(_live, LEARNERS.index(animal.learner), animal.learning_rate, animal.discount, animal.exploration, animal.trace,
+              maze.next_state, maze.goal, maze.choice_points, first_reward, new_state(maze.states), stream,
               errors[run], known[run])
     return Record(errors, known / len(maze.turns))
 
@@ -136,37 +136,35 @@ def findings(groups, first_reward=FIRST_REWARD):
     }
 
 
-class Memory(NamedTuple):
+class AnimalState(NamedTuple):
     """What changes while an animal lives."""
 
-    horde: np.ndarray  # float32 (states · 4 · states,), of neoRL
-    reach: np.ndarray  # int64 (states, 2), the goals of which a cell may know anything: all
+    horde: MapValues  # of neoRL
     rates: np.ndarray  # float32 (4,), α for the event that occurred
-    target: np.ndarray  # float32 (states,)
     q: np.ndarray  # float64 (states, 4), of the others
     traces: np.ndarray  # float64 (states, 4)
     tried: np.ndarray  # int64 (states, 4)
     value: np.ndarray  # float64 (1, 4), what the actions are worth now
 
 
-def new_memory(states):
-    """The `Memory` of an animal that has never been in a maze of so many states."""
-    each = (states, 4)
-    return Memory(np.zeros(states * 4 * states, np.float32), np.tile([0, states], (states, 1)), np.zeros(4, np.float32),
-                  np.zeros(states, np.float32), np.zeros(each), np.zeros(each), np.zeros(each, np.int64),
-                  np.zeros((1, 4)))
+def new_state(states):
+    """The `AnimalState` of an animal that has never been in a maze of so many states."""
+    each, every_goal = (states, 4), np.tile([0, states], (states, 1))
+    horde = MapValues(np.zeros(states * 4 * states, np.float32), 0, states, every_goal, np.zeros(states, np.float32))
+    return AnimalState(horde, np.zeros(4, np.float32), np.zeros(each), np.zeros(each), np.zeros(each, np.int64),
+                       np.zeros((1, 4)))
 
 
 @kernel
-def _live(learner, learning_rate, discount, exploration, trace, next_state, goal, choice_points, first_reward, memory,
+def _live(learner, learning_rate, discount, exploration, trace, next_state, goal, choice_points, first_reward, animal,
           stream, errors, known):
     """Run the maze once a day, and count errors and what is known in `errors` and `known`, a number a day."""
     wants_food = False
     for day in range(errors.shape[0]):
         state, ended = 0, False
-        for each in range(memory.traces.size):
-            memory.traces.flat[each] = 0.0
-        action = _choose(learner, wants_food, state, goal, exploration, memory, stream)
+        for each in range(animal.traces.size):
+            animal.traces.flat[each] = 0.0
+        action = _choose(learner, wants_food, state, goal, exploration, animal, stream)
         for _ in range(LONGEST_TRIAL):
             state_tm1, action_tm1 = state, action
             state = next_state[state_tm1, action_tm1]
@@ -174,75 +172,75 @@ def _live(learner, learning_rate, discount, exploration, trace, next_state, goal
             errors[day] += state > goal and state != state_tm1
             reward = 1.0 if ended and day + 1 >= first_reward else 0.0
             if learner == SARSA:
-                action = _choose(learner, wants_food, state, goal, exploration, memory, stream)
-                _learn_by_traces(memory, state_tm1, action_tm1, reward, state, action, ended, learning_rate, discount,
+                action = _choose(learner, wants_food, state, goal, exploration, animal, stream)
+                _learn_by_traces(animal, state_tm1, action_tm1, reward, state, action, ended, learning_rate, discount,
                                  trace)
             elif learner == Q_LEARNING:
-                learn_q(memory.q, state_tm1, action_tm1, reward, state, ended, learning_rate, discount)
+                learn_q(animal.q, state_tm1, action_tm1, reward, state, ended, learning_rate, discount)
             elif state != state_tm1:
                 for each in range(4):
-                    memory.rates[each] = np.float32(learning_rate if each == action_tm1 else 0.0)
-                learn_all_goals(memory.horde, 0, next_state.shape[0], memory.reach, state_tm1, state, memory.rates,
-                                np.float32(0.0), False, np.float32(discount), True, memory.target)
+                    animal.rates[each] = np.float32(learning_rate if each == action_tm1 else 0.0)
+                rule = Rule(np.float32(discount), True, np.float32(0.0), False)
+                learn_all_goals(animal.horde, rule, state_tm1, state, animal.rates)
             if ended:
                 break
             if learner != SARSA:
-                action = _choose(learner, wants_food, state, goal, exploration, memory, stream)
+                action = _choose(learner, wants_food, state, goal, exploration, animal, stream)
         wants_food = wants_food or ended and day + 1 >= first_reward
         for choice in choice_points:
-            known[day] += _knows(learner, choice, next_state, goal, memory)
+            known[day] += _knows(learner, choice, next_state, goal, animal)
 
 
 @kernel
-def _choose(learner, wants_food, state, goal, exploration, memory, stream):
+def _choose(learner, wants_food, state, goal, exploration, animal, stream):
     """An action of the animal's behaviour policy."""
     if learner != NEORL or wants_food:
-        _evaluate(learner, state, goal, memory)
+        _evaluate(learner, state, goal, animal)
     else:
         for action in range(4):
-            memory.value[0, action] = 0.0
+            animal.value[0, action] = 0.0
     if learner == SARSA:
-        best = max(max(memory.value[0, 0], memory.value[0, 1]), max(memory.value[0, 2], memory.value[0, 3]))
+        best = max(max(animal.value[0, 0], animal.value[0, 1]), max(animal.value[0, 2], animal.value[0, 3]))
         for action in range(4):
-            novelty = -float(memory.tried[state, action])
-            memory.value[0, action] = novelty if memory.value[0, action] == best else LEAST
-    action = exploring_action(memory.value, 0, exploration, stream)
-    memory.tried[state, action] += 1
+            novelty = -float(animal.tried[state, action])
+            animal.value[0, action] = novelty if animal.value[0, action] == best else LEAST
+    action = exploring_action(animal.value, 0, exploration, stream)
+    animal.tried[state, action] += 1
     return action
 
 
 @kernel
-def _evaluate(learner, state, goal, memory):
+def _evaluate(learner, state, goal, animal):
     """What each action is worth to an animal that wants to be in the goal box, put into `value`."""
+    horde = animal.horde
     for action in range(4):
-        memory.value[0, action] = 0.0 if learner == NEORL else memory.q[state, action]
-    if learner == NEORL:
-        add_goal(memory.horde, 0, memory.q.shape[0], state, goal, 1.0, memory.value[0])
+        of_goal = horde.q[(4 * state + action) * horde.cells + goal]
+        animal.value[0, action] = of_goal if learner == NEORL else animal.q[state, action]
 
 
 @kernel
-def _knows(learner, choice, next_state, goal, memory):
+def _knows(learner, choice, next_state, goal, animal):
     """Whether the one best action at a choice point is the true one."""
-    _evaluate(learner, choice, goal, memory)
+    _evaluate(learner, choice, goal, animal)
     best = 0
     for action in range(4):
-        if memory.value[0, action] > memory.value[0, best]:
+        if animal.value[0, action] > animal.value[0, best]:
             best = action
     for action in range(4):
-        if action != best and memory.value[0, action] == memory.value[0, best]:
+        if action != best and animal.value[0, action] == animal.value[0, best]:
             return False
     return next_state[choice, best] == choice + 1
 
 
 @kernel
-def _learn_by_traces(memory, state_tm1, action_tm1, reward_t, state_t, action_t, terminal, learning_rate, discount,
+def _learn_by_traces(animal, state_tm1, action_tm1, reward_t, state_t, action_t, terminal, learning_rate, discount,
                      trace):
     """One update of Sarsa(λ): a trace replaces all those of its state."""
-    target = reward_t if terminal else reward_t + discount * memory.q[state_t, action_t]
-    error = target - memory.q[state_tm1, action_tm1]
+    target = reward_t if terminal else reward_t + discount * animal.q[state_t, action_t]
+    error = target - animal.q[state_tm1, action_tm1]
     for action in range(4):
-        memory.traces[state_tm1, action] = 1.0 if action == action_tm1 else 0.0
-    for state in range(memory.q.shape[0]):
+        animal.traces[state_tm1, action] = 1.0 if action == action_tm1 else 0.0
+    for state in range(animal.q.shape[0]):
         for action in range(4):
-            memory.q[state, action] += learning_rate * error * memory.traces[state, action]
-            memory.traces[state, action] *= discount * trace
+            animal.q[state, action] += learning_rate * error * animal.traces[state, action]
+            animal.traces[state, action] *= discount * trace

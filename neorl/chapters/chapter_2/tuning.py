@@ -16,8 +16,9 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.signal import lfilter
 
 from neorl import checks
+from neorl.core.geometry import TAU, boundary_vector
+from neorl.core.kernel import execute
 from neorl.core.maps import NresMap
-from neorl.core.modality import TAU, boundary_vector
 
 WALLS = 4
 
@@ -70,7 +71,7 @@ def in_field(nres_map, cell, trajectory, objects=()):
     modality = checks.instance("nres_map", nres_map, NresMap).modality
     checks.integer("cell", cell, at_least=0, at_most=nres_map.cells - 1)
     if modality.vector == "boundaries":
-        vectors = [[boundary_vector(wall, *place) for place in trajectory.position] for wall in range(WALLS)]
+        vectors = [[execute(boundary_vector, wall, *place) for place in trajectory.position] for wall in range(WALLS)]
     elif modality.vector in ("objects", "landmarks"):
         places = objects if modality.vector == "objects" else modality.landmarks
         vectors = [checks.points("objects", place, "xy") - trajectory.position for place in places]

@@ -15,8 +15,8 @@ import numpy as np
 
 from neorl import checks
 from neorl.chapters.shared.tabular import exploring_action, learn_q
-from neorl.core.kernel import kernel
-from neorl.core.stream import below, new_stream, uniform
+from neorl.core.kernel import execute, kernel
+from neorl.core.stream import randint, new_stream, uniform
 
 
 @dataclass(frozen=True, eq=False)
@@ -208,9 +208,9 @@ def live(process, checkpoints, runs, seed, seen=None, learning_rate=0.0, discoun
     for run in range(runs):
         stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run,)))
         q, visits = np.zeros(lives.q.shape[2:]), np.zeros(lives.q.shape[2:])
-        state = process.starts[below(stream, len(process.starts))]
+        state = process.starts[execute(randint, stream, len(process.starts))]
         for checkpoint, (begin, end) in enumerate(zip(steps, steps[1:])):
-            state = _live_on(process.successors, limits, process.rewards, process.ends, process.starts, seen, state, q,
+            state = execute(_live_on, process.successors, limits, process.rewards, process.ends, process.starts, seen, state, q,
                              visits, *rates, stream, *(path[run, begin:end] for path in lives[:4]))
             lives.q[run, checkpoint] = q
     return lives
@@ -231,7 +231,7 @@ def _live_on(successors, limits, rewards, ends, starts, seen, state, q, visits, 
         learn_q(q, seen[state], action, reward, seen[next_state], ends[next_state], rate, discount)
         states_tm1[step], actions[step], paid[step] = seen[state], action, reward
         states_t[step] = seen[next_state]
-        state = starts[below(stream, starts.shape[0])] if ends[next_state] else next_state
+        state = starts[randint(stream, starts.shape[0])] if ends[next_state] else next_state
     return state
 
 

@@ -26,8 +26,8 @@ import numpy as np
 from neorl import checks
 from neorl.chapters.shared.grid import Grid
 from neorl.chapters.shared.tabular import greedy_action, learn_q
-from neorl.core.kernel import kernel
-from neorl.core.stream import below, new_stream, uniform
+from neorl.core.kernel import execute, kernel
+from neorl.core.stream import randint, new_stream, uniform
 
 LEARNERS = ("Q-learning", "Sarsa", "actor–critic", "QV-learning", "ACLA")
 RULES = ("majority voting", "rank voting", "Boltzmann multiplication", "Boltzmann addition")
@@ -133,7 +133,7 @@ def walk(maze, chooser, *, steps, runs, seed=0, doublings=0):
         preferences = np.zeros((len(LEARNERS), states, 4))
         preferences[-1] = 1 / 4
         stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run,)))
-        _walk(maze.grid.next_state, maze.start, maze.goal, CHOOSERS.index(chooser), doublings, edges, stream,
+        execute(_walk, maze.grid.next_state, maze.start, maze.goal, CHOOSERS.index(chooser), doublings, edges, stream,
               preferences, np.zeros((len(LEARNERS), states)), np.zeros(4), np.zeros(4), rewards[run])
 
     with ThreadPoolExecutor(2) as pool:
@@ -148,7 +148,7 @@ def _walk(next_state, start, goal, chooser, doublings, edges, stream, preference
     action_tm1 = _choice(preferences, state_tm1, chooser, doublings, stream, weight, policy)
     for part in range(rewards.shape[0]):
         for _ in range(edges[part], edges[part + 1]):
-            direction = below(stream, 4) if uniform(stream) < SLIP else action_tm1
+            direction = randint(stream, 4) if uniform(stream) < SLIP else action_tm1
             state_t, age = next_state[state_tm1, direction], age + 1
             arrived = state_t == goal
             reward = GOAL if arrived else BUMP if state_t == state_tm1 else STEP

@@ -25,8 +25,8 @@ from scipy.sparse import csgraph
 from neorl import checks
 from neorl.chapters.shared.grid import Grid
 from neorl.chapters.shared.tabular import exploring_action, learn_q
-from neorl.core.kernel import kernel
-from neorl.core.stream import below, new_stream, uniform
+from neorl.core.kernel import execute, kernel
+from neorl.core.stream import randint, new_stream, uniform
 
 KINDS = ("one learner", "heads", "latent heads")
 ENDS = ("all eaten", "caught", "out of time")
@@ -142,7 +142,7 @@ def play(game, learner, *, steps, runs, seed=0):
     def play_one(run):
         q = np.zeros((game.states(learner.kind), 4))
         stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run,)))
-        _play(board, learner.kind == "one learner", learner.kind == "latent heads", learner.exploration,
+        execute(_play, board, learner.kind == "one learner", learner.kind == "latent heads", learner.exploration,
               learner.learning_rate, learner.discount, edges, stream, q, np.zeros((1, 4)), rewards[run], ends[run])
         known[run] = np.any(q, axis=1).sum()
 
@@ -216,7 +216,7 @@ def _play(board, joint, latent, exploration, learning_rate, discount, edges, str
                 if uniform(stream) < board.chase:
                     ghost_t = board.toward[ghost_tm1, agent_t]
                 else:
-                    ghost_t = board.next_state[ghost_tm1, below(stream, 4)]
+                    ghost_t = board.next_state[ghost_tm1, randint(stream, 4)]
             caught = agent_t == ghost_t
             penalty = CAUGHT if caught else 0.0
             rewards[part] += fruit + penalty
@@ -244,7 +244,7 @@ def _laid_out(board, stream):
     """As many places as there are fruits, each set of them equally likely, as bits."""
     left, needed = 0, board.fruits
     for place in range(board.places.shape[0]):
-        if below(stream, board.places.shape[0] - place) < needed:
+        if randint(stream, board.places.shape[0] - place) < needed:
             left += 1 << place
             needed -= 1
     return left

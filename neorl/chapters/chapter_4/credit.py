@@ -11,16 +11,17 @@
 5. The stream does not depend on what is learned. Nothing is learned about the way back.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from neorl import checks
 from neorl.agents.agent import Learning
-from neorl.core.choices import Credit
-from neorl.core.horde import N_EVENTS, UNIT, ZERO, learn_all_goals
-from neorl.core.kernel import kernel
-from neorl.core.stream import below, new_stream, uniform
+from neorl.core.choices import N_EVENTS, Credit
+from neorl.core.kernel import execute, kernel
+from neorl.core.learning import UNIT, ZERO, MapValues, Rule, learn_all_goals
+from neorl.core.stream import randint, new_stream, uniform
 
 ROLES = ("cause", "other lever", "light", "bell")
 CELLS = 3  # the chamber, and behind each exit one
@@ -48,11 +49,20 @@ class Chamber:
     bell: float = 0.1
 
     def __post_init__(self):
-        checks.integer("effort", self.effort, at_least=1)
-        checks.integer("delay", self.delay, at_least=0)
-        checks.real("hold", self.hold, at_least=1)
-        checks.real("light", self.light, 0, 1)
-        checks.real("bell", self.bell, 0, 1)
+        checks.store(self, effort=checks.integer("effort", self.effort, at_least=1),
+                     delay=checks.integer("delay", self.delay, at_least=0),
+                     hold=checks.real("hold", self.hold, at_least=1), light=checks.real("light", self.light, 0, 1),
+                     bell=checks.real("bell", self.bell, 0, 1))
+
+
+class ChamberRules(NamedTuple):
+    """A chamber as the kernel takes it."""
+
+    effort: int
+    delay: int
+    hold: float
+    light: float
+    bell: float
 
 
 def learn_in(chamber, learning, visits, runs, seed=0):
@@ -71,14 +81,15 @@ def learn_in(chamber, learning, visits, runs, seed=0):
     checks.integer("visits", visits, at_least=1)
     values = np.zeros((checks.integer("runs", runs, at_least=1), visits, N_EVENTS, 2), np.float32)
     by_step, credit = learning.update_on == "step", int(Credit[learning.credit])
-    rule = [np.float32(each) for each in (learning.learning_rate, learning.absent_decay, learning.discount)]
+    rate = np.float32(learning.learning_rate)
+    absent_rate = ZERO if by_step else rate * np.float32(learning.absent_decay)
+    rule = Rule(np.float32(learning.discount), learning.terminal, absent_rate, False)
     for run in range(runs):
         sequence = np.random.SeedSequence(checks.integer("seed", seed, at_least=0), spawn_key=(run,))
-        with np.errstate(over="ignore"):
-            live_in(chamber.effort, chamber.delay, chamber.hold, chamber.light, chamber.bell, new_stream(sequence),
-                    by_step, credit, *rule, learning.terminal, np.zeros(CELLS * N_EVENTS * CELLS, np.float32),
-                    np.tile([0, CELLS], (CELLS, 1)), np.zeros(CELLS, np.float32), np.zeros(N_EVENTS, np.int64),
-                    np.zeros(N_EVENTS, np.bool_), np.zeros(N_EVENTS, np.float32), values[run])
+        learned = MapValues(np.zeros(CELLS * N_EVENTS * CELLS, np.float32), 0, CELLS,
+                            np.tile([0, CELLS], (CELLS, 1)), np.zeros(CELLS, np.float32))
+        execute(_live_in, ChamberRules(*astuple(chamber)), new_stream(sequence), by_step, credit, rate, rule, learned,
+                np.zeros(N_EVENTS, np.int64), np.zeros(N_EVENTS, np.bool_), np.zeros(N_EVENTS, np.float32), values[run])
     return values
 
 
@@ -102,34 +113,32 @@ def lead_of_cause(values):
 
 
 @kernel
-def live_in(effort, delay, hold, light, bell, stream, by_step, credit, learning_rate, absence, discount, terminal, q,
-            known, target, counts, occurs, rates, values):
+def _live_in(chamber, stream, by_step, credit, learning_rate, rule, learned, counts, occurs, rates, values):
     """Live as many visits as there are `values`, which hold those of the chamber after each."""
     over = True
     lever = 0
     for visit in range(values.shape[0]):
-        cell, opening, wait = 0, 0, delay
+        cell, opening, wait = 0, 0, chamber.delay
         for event in range(N_EVENTS):
             counts[event] = 0
         while cell == 0:
             if over:
-                lever = below(stream, 2)
+                lever = randint(stream, 2)
                 occurs[0], occurs[1] = lever == 0, lever == 1
-                occurs[2], occurs[3] = uniform(stream) < light, uniform(stream) < bell
+                occurs[2], occurs[3] = uniform(stream) < chamber.light, uniform(stream) < chamber.bell
             for event in range(N_EVENTS):
                 counts[event] += occurs[event]
             if opening > 0:
                 wait -= 1
-            elif counts[lever] >= effort:
+            elif counts[lever] >= chamber.effort:
                 opening = 1 + lever
             if opening > 0 and wait == 0:
                 cell = opening
             if by_step:
                 for event in range(N_EVENTS):
                     rates[event] = learning_rate if occurs[event] else ZERO
-                learn_all_goals(q, 0, CELLS, known, 0, cell, rates, ZERO, False, discount, terminal,
-                                target)
-            over = uniform(stream) * hold < 1.0
+                learn_all_goals(learned, rule, 0, cell, rates)
+            over = uniform(stream) * chamber.hold < 1.0
         if not by_step:
             steps = counts[0] + counts[1]  # one of the levers is pressed on every step
             for event in range(N_EVENTS):
@@ -139,8 +148,7 @@ def live_in(effort, delay, hold, light, bell, stream, by_step, credit, learning_
                 elif credit == Credit.last:
                     share = UNIT if occurs[event] else ZERO
                 rates[event] = learning_rate * share
-            learn_all_goals(q, 0, CELLS, known, 0, cell, rates, learning_rate * absence, False, discount,
-                            terminal, target)
+            learn_all_goals(learned, rule, 0, cell, rates)
         for event in range(N_EVENTS):
-            values[visit, event, 0] = q[event * CELLS + 1]
-            values[visit, event, 1] = q[event * CELLS + 2]
+            values[visit, event, 0] = learned.q[event * CELLS + 1]
+            values[visit, event, 1] = learned.q[event * CELLS + 2]

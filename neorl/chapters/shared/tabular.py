@@ -5,7 +5,7 @@ thesis eq. 3.5 and 4.6).
 """
 
 from neorl.core.kernel import kernel
-from neorl.core.stream import below, uniform
+from neorl.core.stream import randint, uniform
 
 
 @kernel
@@ -17,7 +17,7 @@ def greedy_action(q, state, stream):
             best, ties = action, 1
         elif q[state, action] == q[state, best]:
             ties += 1
-            if below(stream, ties) == 0:
+            if randint(stream, ties) == 0:
                 best = action
     return best
 
@@ -26,7 +26,7 @@ def greedy_action(q, state, stream):
 def exploring_action(q, state, exploration, stream):
     """A greedy action, or with probability `exploration` (ε) any."""
     if uniform(stream) < exploration:
-        return below(stream, q.shape[1])
+        return randint(stream, q.shape[1])
     return greedy_action(q, state, stream)
 
 

@@ -1,0 +1,336 @@
+"""How the values of a map learn from the tracks that change cells (thesis 4.1.3 and 4.4).
+
+All goals learn off policy at every update, whether they are wanted or not. A goal pays 1 when its cell is entered, and
+nothing else is ever paid.
+
+1. A track's change of cell drives the update (*inference inversion*, eq. 4.7 and 4.8): each event that occurred in the
+   cell just left moves its value of every goal towards γ max q of the cell entered, at the rate ψ(a) α. Updated after
+   every step, with the action taken as its only event, it is *temporal difference* (eq. 4.6).
+2. What a track remembers, by a leaky integrator or by a trace of the cells left last, learns that the cell entered is
+   where it led to. With a leaky integrator, a cell that is left joins what is remembered: each event adds its rate to a
+   weight of its own, one for having happened there and one, by ψ(0), for having been absent. At every change of cell
+   the weights fade by one factor, and what a goal is worth to them by another (1, or γ). Each remembered event moves its
+   value for the cell entered towards what that is worth to it, at its weight or at 1, whichever is less. A cell is
+   forgotten when its strength, 1 more each time it is left, has faded below 1e-4.
+3. The value of an event that did not occur sinks, towards zero or away from the target.
+
+A value below 1e-30 counts as zero, because arithmetic on subnormal numbers is slow.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from neorl.core.choices import N_EVENTS, Credit
+from neorl.core.kernel import array, inlined_kernel, kernel
+
+ZERO, UNIT, SMALLEST = np.float32(0.0), np.float32(1.0), np.float32(1e-30)
+UNBOUNDED = np.float32(np.inf)
+CUT = np.float32(1e-4)
+INACTIVE = np.float32(0.01)
+N_ROWS = 2 * N_EVENTS
+
+
+class MapValues(NamedTuple):
+    """The values of one map, and what it takes to learn them."""
+
+    q: array("float32", "values")  # q[state, action, goal], of this map and maybe of others
+    first: int  # where in q the map begins
+    cells: int
+    goal_range: array("int64", "cells", 2)  # the goals, from and to, of which a cell may know anything: others are 0
+    scratch: array("float32", "cells")  # working memory, a number a goal
+
+
+class Rule(NamedTuple):
+    """How values move towards what they are learned from."""
+
+    discount: np.float32
+    terminal: bool
+    absent_rate: np.float32  # −α ψ(0), at which the values of an event that did not occur sink
+    away: bool  # away from the target instead of towards zero
+
+
+class Trace(NamedTuple):
+    """What one track remembers.
+
+    The list `cells` is in no order. Rows are contiguous, so that the processor can work on several places at a time.
+    """
+
+    cells: array("int64", "cells")  # a list of those remembered
+    places: array("int64", "cells")  # where in the list each cell of the map stands, plus one; 0 is nowhere
+    strength: array("float32", "cells")  # by place in the list, and so are the rows below
+    weight: array("float32", "trace_rows")  # a row for each event's having happened, then for its having been absent
+    goal_worth: array("float32", "trace_rows")  # weight times what a goal is worth
+
+
+@inlined_kernel
+def learn_transition(parameters, state, m, point, cell_t, caused):
+    """Learn from a track's change of cell; one that the agent has not caused only lets what is remembered fade."""
+    learning, tracks = parameters.learning, state.tracks
+    track = parameters.maps.first_track[m] + point
+    cell_tm1 = tracks.cell[track]
+    rule = Rule(learning.discount, learning.terminal, learning.learning_rate * learning.absent_decay, learning.away)
+    remembers = learning.memory_retained > ZERO
+    if remembers:
+        tracks.remembered_count[track] = fade(
+            trace_of(parameters.maps, tracks, m, point), tracks.remembered_count[track],
+            retained_since(learning, tracks, track), learning.discount if learning.memory_discounts else UNIT)
+    if not caused:
+        return
+    values = values_of(parameters.maps, state, m)
+    slot = tracks.trace_count[track] % learning.trace
+    tracks.trace_cell[track, slot] = cell_tm1
+    rates = tracks.trace_rates[track, slot]
+    rate_events(learning, state, track, rates)
+    tracks.trace_count[track] += 1
+    if learning.bootstrap:
+        learn_all_goals(values, rule, cell_tm1, cell_t, rates)
+    if remembers:
+        trace = trace_of(parameters.maps, tracks, m, point)
+        for turn in range(2):
+            if turn == learning.bootstrap:  # the cell just left joins late if it has learned by bootstrapping already
+                tracks.remembered_count[track] = join(trace, tracks.remembered_count[track], cell_tm1, rates,
+                                                      rule.absent_rate)
+            else:
+                learn_remembered(values, rule, trace, tracks.remembered_count[track], cell_t)
+        return
+    fading = UNIT
+    for back in range(min(tracks.trace_count[track], learning.trace)):
+        if back > 0 or not learning.bootstrap:
+            slot = (tracks.trace_count[track] - 1 - back) % learning.trace
+            learn_one_goal(values, rule, tracks.trace_cell[track, slot], cell_t, tracks.trace_rates[track, slot], fading)
+        fading *= learning.discount
+
+
+@inlined_kernel
+def steps_in_cell(tracks, track):
+    """How many steps a track has spent in its active cell."""
+    steps = 0
+    for event in range(N_EVENTS + 1):
+        steps += tracks.events[track, event]
+    return steps
+
+
+@inlined_kernel
+def retained_since(learning, tracks, track):
+    """The share of what is remembered that is left when a track leaves its cell."""
+    retained = learning.memory_retained
+    if learning.memory_by_time:
+        for _ in range(steps_in_cell(tracks, track) - 1):
+            retained = retained * learning.memory_retained if retained > CUT else ZERO
+    return retained
+
+
+@inlined_kernel
+def rate_events(learning, state, track, rates):
+    """The rates α ψ of the events in the cell that a track leaves (thesis eq. 4.7)."""
+    steps = steps_in_cell(state.tracks, track)
+    for event in range(N_EVENTS):
+        count = state.tracks.events[track, event]
+        credit = np.float32(count) / np.float32(steps)
+        if learning.credit == Credit.happened:
+            credit = UNIT if count > 0 else ZERO
+        elif learning.credit == Credit.last:
+            credit = UNIT if event == state.last_event[0] else ZERO
+        elif learning.credit == Credit.count:
+            credit = np.float32(count)
+        elif learning.credit == Credit.activity:
+            credit = state.activity[event] if state.activity[event] >= INACTIVE else ZERO
+        rates[event] = min(learning.learning_rate * credit, UNIT)
+
+
+@inlined_kernel
+def values_of(maps, state, m):
+    """The `MapValues` of a map."""
+    begin, end = maps.first_cell[m], maps.first_cell[m + 1]
+    return MapValues(state.values.q, maps.first_value[m], maps.cells[m], state.values.goal_range[begin:end],
+                     state.values.scratch)
+
+
+@inlined_kernel
+def trace_of(maps, tracks, m, point):
+    """The `Trace` of a track."""
+    begin = maps.first_trace[m] + point * maps.cells[m]
+    end = begin + maps.cells[m]
+    return Trace(tracks.remembered[begin:end], tracks.remembered_at[begin:end], tracks.strength[begin:end],
+                 tracks.trace_weight[N_ROWS * begin : N_ROWS * end], tracks.trace_worth[N_ROWS * begin : N_ROWS * end])
+
+
+@inlined_kernel
+def start_track(parameters, tracks, m, point, cell):
+    """Start the track of a point in a cell."""
+    track = parameters.maps.first_track[m] + point
+    enter(tracks, track, cell)
+    tracks.trace_count[track] = 0
+    if parameters.learning.memory_retained > ZERO:
+        forget_all(trace_of(parameters.maps, tracks, m, point), tracks.remembered_count[track])
+        tracks.remembered_count[track] = 0
+
+
+@inlined_kernel
+def enter(tracks, track, cell):
+    tracks.cell[track] = cell
+    for event in range(N_EVENTS + 1):
+        tracks.events[track, event] = 0
+
+
+@kernel
+def learn_all_goals(values, rule, cell_tm1, cell_t, rates):
+    """One update of every goal of a map. rates: α ψ for each event.
+
+    All values outside of goal_range are zero and remain so, which spares fine maps most of the work.
+    """
+    q, cells, goal_range, target = values.q, values.cells, values.goal_range, values.scratch
+    begin = min(min(goal_range[cell_tm1, 0], goal_range[cell_t, 0]), cell_t)
+    end = max(max(goal_range[cell_tm1, 1], goal_range[cell_t, 1]), cell_t + 1)
+    goal_range[cell_tm1, 0], goal_range[cell_tm1, 1] = begin, end
+    count = end - begin
+    row = values.first + cell_t * N_EVENTS * cells + begin
+    north, south = q[row : row + count], q[row + cells : row + cells + count]
+    east, west = q[row + 2 * cells : row + 2 * cells + count], q[row + 3 * cells : row + 3 * cells + count]
+    for goal in range(count):  # comparisons instead of max(), so that the loop compiles to vector instructions
+        vertical = north[goal] if north[goal] > south[goal] else south[goal]
+        horizontal = east[goal] if east[goal] > west[goal] else west[goal]
+        target[goal] = rule.discount * (vertical if vertical > horizontal else horizontal)
+    target[cell_t - begin] = UNIT if rule.terminal else UNIT + target[cell_t - begin]
+    highest = UNIT if rule.terminal else UNIT / (UNIT - rule.discount)
+    for event in range(N_EVENTS):
+        row = values.first + (cell_tm1 * N_EVENTS + event) * cells + begin
+        value = q[row : row + count]
+        occurred = rates[event] > ZERO
+        if occurred or rule.away and rule.absent_rate > ZERO:
+            rate, bound = (rates[event], UNBOUNDED) if occurred else (-rule.absent_rate, highest)
+            for goal in range(count):
+                new = value[goal] + rate * (target[goal] - value[goal])
+                new = new if new < bound else bound
+                value[goal] = new if new > SMALLEST else ZERO
+        elif rule.absent_rate > ZERO:
+            for goal in range(count):
+                new = value[goal] - rule.absent_rate * value[goal]
+                value[goal] = new if new > SMALLEST else ZERO
+
+
+@kernel
+def learn_one_goal(values, rule, cell_tm1, goal, rates, fading):
+    """Move one goal's value of each event in a cell towards 1, at `rates` times `fading`; of absent events it sinks."""
+    widen(values.goal_range, cell_tm1, goal)
+    for event in range(N_EVENTS):
+        index = values.first + (cell_tm1 * N_EVENTS + event) * values.cells + goal
+        if rates[event] > ZERO:
+            values.q[index] += fading * rates[event] * (UNIT - values.q[index])
+        elif rule.absent_rate > ZERO:
+            values.q[index] = sunk(values.q[index], fading * rule.absent_rate, UNIT, rule.away, UNIT)
+
+
+@kernel
+def widen(goal_range, cell, goal):
+    """Let a cell know of a goal."""
+    goal_range[cell, 0] = min(goal_range[cell, 0], goal)
+    goal_range[cell, 1] = max(goal_range[cell, 1], goal + 1)
+
+
+@kernel
+def sunk(value, rate, target, away, highest):
+    """The value of an event that did not occur: nearer to zero, or away from its target but within 0 … `highest`."""
+    if away:
+        value -= rate * (target - value)
+        value = value if value < highest else highest
+    else:
+        value -= rate * value
+    return value if value > SMALLEST else ZERO
+
+
+@kernel
+def fade(trace, count, retained, discount):
+    """Let all that is remembered fade to a share of `retained`, and return how many cells still are remembered."""
+    for i in range(count):
+        trace.strength[i] *= retained
+    for row in range(N_ROWS):
+        begin = row * trace.cells.shape[0]
+        weights, worths = trace.weight[begin : begin + count], trace.goal_worth[begin : begin + count]
+        for i in range(count):
+            weights[i] *= retained
+            reached = worths[i] * retained * discount
+            worths[i] = reached if reached > SMALLEST else ZERO
+    i = 0
+    while i < count:
+        if trace.strength[i] < CUT:
+            count -= 1
+            replace(trace, i, count)
+        else:
+            i += 1
+    return count
+
+
+@kernel
+def replace(trace, i, last):
+    """Put the last of the list in place of one to be forgotten."""
+    cells, rows = trace.cells, trace.cells.shape[0]
+    trace.places[cells[last]] = i + 1
+    trace.places[cells[i]] = 0
+    cells[i], trace.strength[i] = cells[last], trace.strength[last]
+    for begin in range(0, N_ROWS * rows, rows):
+        trace.weight[begin + i], trace.goal_worth[begin + i] = trace.weight[begin + last], trace.goal_worth[begin + last]
+
+
+@kernel
+def forget_all(trace, count):
+    """Take all cells off the list."""
+    for i in range(count):
+        trace.places[trace.cells[i]] = 0
+
+
+@kernel
+def join(trace, count, cell, rates, absent_rate):
+    """Remember a cell that is left, and return how many cells are remembered."""
+    rows = trace.cells.shape[0]
+    i = trace.places[cell] - 1
+    if i < 0:
+        i = count
+        count += 1
+        trace.cells[i], trace.places[cell], trace.strength[i] = cell, count, ZERO
+        for row in range(N_ROWS):
+            trace.weight[row * rows + i] = trace.goal_worth[row * rows + i] = ZERO
+    trace.strength[i] += UNIT
+    for event in range(N_EVENTS):
+        absent = rates[event] == ZERO
+        at = (event + absent * N_EVENTS) * rows + i
+        rate = absent_rate if absent else rates[event]
+        trace.weight[at] += rate
+        trace.goal_worth[at] += rate
+    return count
+
+
+@kernel
+def learn_remembered(values, rule, trace, count, goal):
+    """Learn in all remembered cells that the goal is where they led to.
+
+    The values of an event are all read before any is used: those of a fine map lie far apart, and so the processor can
+    wait for many at a time.
+    """
+    cells, stride, read = trace.cells, N_EVENTS * values.cells, values.scratch
+    for i in range(count):
+        widen(values.goal_range, cells[i], goal)
+    for event in range(N_EVENTS):
+        column = values.first + event * values.cells + goal
+        for i in range(count):
+            read[i] = values.q[column + cells[i] * stride]
+        happened, absent = event * values.cells, (event + N_EVENTS) * values.cells
+        move(read, count, trace.weight[happened : happened + count], trace.goal_worth[happened : happened + count],
+             trace.weight[absent : absent + count], trace.goal_worth[absent : absent + count], rule.away)
+        for i in range(count):
+            values.q[column + cells[i] * stride] = read[i]
+
+
+@kernel
+def move(values, count, happened, reached, absent, missed, away):
+    """Move values of an event towards what the goal is worth where it happened, and let them sink where it did not."""
+    for i in range(count):
+        value = values[i]
+        weight = happened[i] if happened[i] > ZERO else UNIT
+        raised = value + (weight if weight < UNIT else UNIT) * (reached[i] / weight - value)
+        value = raised if happened[i] > ZERO else value
+        weight = absent[i] if absent[i] > ZERO else UNIT
+        lowered = sunk(value, weight if weight < UNIT else UNIT, missed[i] / weight, away, UNIT)
+        value = lowered if absent[i] > ZERO else value
+        values[i] = value if value > SMALLEST else ZERO

@@ -1,0 +1,95 @@
+"""All that changes in an agent, as the flat arrays that the kernels take: its values, tracks, desires and policy."""
+
+from typing import NamedTuple
+
+from neorl.core.choices import N_EVENTS
+from neorl.core.kernel import array, execute, kernel, new_tuple
+from neorl.core.learning import N_ROWS, values_of
+from neorl.core.parameters import Parameters
+
+
+class ValueState(NamedTuple):
+    """The values of all maps, one map after the other. See `learning.MapValues` for one map's."""
+
+    q: array("float32", "values")
+    goal_range: array("int64", "cells", 2)
+    scratch: array("float32", "cells")
+
+
+class TrackState(NamedTuple):
+    """The tracks of all maps, one map after the other."""
+
+    cell: array("int64", "tracks")  # the active cell
+    events: array("int64", "tracks", 5)  # steps on which each action was taken since the cell was entered
+    trace_cell: array("int64", "tracks", "trace")  # cells left, a ring
+    trace_rates: array("float32", "tracks", "trace", 4)  # the rates of their events
+    trace_count: array("int64", "tracks")  # cells left since the track started
+    remembered: array("int64", "traces")  # the fields of a `learning.Trace`, a track after the other
+    remembered_at: array("int64", "traces")
+    remembered_count: array("int64", "tracks")
+    strength: array("float32", "traces")
+    trace_weight: array("float32", "trace_rows")
+    trace_worth: array("float32", "trace_rows")
+
+
+class DesireState(NamedTuple):
+    """The desires as of the last choice that was not drawn."""
+
+    q: array("float64", "desires", 4)  # what each adds to the value of each action in its node
+    target: array("float64", "desires", 3)  # where a node's desire lands, seen from the agent, and with what valence
+    valence: array("float64", "desires")  # of all its elements together
+
+
+class State(NamedTuple):
+    """All that changes in an agent."""
+
+    values: ValueState
+    tracks: TrackState
+    desires: DesireState
+    last_event: array("int64", 1)
+    activity: array("float32", 4)  # of each event
+    thing_position: array("float64", "things", 2)  # after the last step, in pixels
+    attended: array("int64", 1)  # which of the things is learned about
+    action_value: array("float64", 4)  # as of the last choice that was not drawn
+    stream: array("uint64", 4)  # the random numbers of the policy
+
+
+def new_state(parameters, stream, n_things, old=None):
+    """The `State` of an agent that has learned nothing, in a world of so many things.
+
+    old: a state of the same parameters that is no longer needed, whose room for values is used again: to get a gigabyte
+    from the system, page by page, takes longer than a run.
+    """
+    maps = parameters.maps
+    traces = maps.first_trace[-1] if parameters.learning.memory_retained > 0 else 0
+    sizes = {"values": maps.first_value[-1], "cells": maps.first_cell[-1], "tracks": maps.first_track[-1],
+             "trace": parameters.learning.trace, "traces": traces, "trace_rows": N_ROWS * traces,
+             "desires": len(parameters.desires.source), "things": n_things}
+    values = {}
+    if old:
+        execute(clear_q, parameters, old)
+        values["q"] = old.values.q
+    state = new_tuple(State, sizes, {"stream": stream, "values": values})
+    execute(clear_goal_ranges, parameters, state)
+    return state
+
+
+@kernel
+def clear_q(parameters: Parameters, state: State) -> None:
+    """Set all values to zero that are not."""
+    for m in range(parameters.maps.cells.shape[0]):
+        values = values_of(parameters.maps, state, m)
+        for cell in range(values.cells):
+            for event in range(N_EVENTS):
+                row = values.first + (cell * N_EVENTS + event) * values.cells
+                for goal in range(values.goal_range[cell, 0], values.goal_range[cell, 1]):
+                    values.q[row + goal] = 0.0
+
+
+@kernel
+def clear_goal_ranges(parameters: Parameters, state: State) -> None:
+    """Let no cell know of any goal."""
+    maps = parameters.maps
+    for m in range(maps.cells.shape[0]):
+        for cell in range(maps.first_cell[m], maps.first_cell[m + 1]):
+            state.values.goal_range[cell, 0], state.values.goal_range[cell, 1] = maps.cells[m], 0

@@ -1,0 +1,154 @@
+"""A run refuses what would end the interpreter or spoil its values, and can be interrupted."""
+
+import _thread
+import threading
+import time
+
+import numpy as np
+import pytest
+
+from neorl import (Condition, Desire, Learning, NresMap, Policy, Run, WaterWorld, learn, multimodal, network_d,
+                   place_cells, superpose)
+from neorl.core.kernel import arrays
+from neorl.worlds import rollout
+
+TANK = WaterWorld(n_creeps=4)
+
+
+@pytest.fixture
+def run():
+    return Run(multimodal([3, 4]), TANK, seed=1)
+
+
+@pytest.mark.parametrize("name", ["agent", "world", "parameters", "state", "step"])
+def test_what_a_run_is_made_of_cannot_be_put_in_place_of_another_runs(run, name):
+    other = Run(multimodal([9, 12]), WaterWorld(n_creeps=9))
+    with pytest.raises(AttributeError, match=f"property '{name}' of 'Run' object has no setter"):
+        setattr(run, name, getattr(other, name))
+    run.advance(1_000)
+
+
+def test_a_tank_with_other_creeps_is_refused_and_one_with_as_many_is_copied(run):
+    with pytest.raises(ValueError, match=r"state.creep_position is float64 \(9, 2\), allowed .* float64 \(4, 2\)"):
+        run.world_state = WaterWorld(n_creeps=9).reset(0)
+    with pytest.raises(ValueError, match="state is 5, allowed is a WaterWorldState"):
+        run.world_state = 5
+    tank = TANK.reset(7)
+    run.world_state = tank
+    run.advance(1_000)
+    assert np.array_equal(tank.agent_position, [125, 125]) and not np.array_equal(run.world_state[0], [125, 125])
+
+
+def test_a_creep_without_a_direction_is_refused(run):
+    run.world_state.creep_direction[2] = 0
+    with pytest.raises(ValueError, match="(?s)state.creep_direction is .* allowed are vectors of length 1"):
+        run.advance(1)
+
+
+@pytest.mark.parametrize("part", ["parameters", "state"])
+def test_no_array_that_the_kernels_trust_can_be_written_to(run, part):
+    for name, array in arrays(getattr(run, part)).items():
+        if array.size:
+            with pytest.raises(ValueError, match="read-only"):
+                array[...] = 1
+    assert run.advance(100) == Run(multimodal([3, 4]), TANK, seed=1).advance(100)
+
+
+def test_values_cannot_be_written_behind_the_back_of_what_cells_know(run):
+    run.advance(1_000)
+    with pytest.raises(ValueError, match="read-only"):
+        run.q(1)[0, 0, 0] = 1.0
+
+
+@pytest.mark.parametrize("index", [-1, -2, 4, 0.0, "PC"])
+def test_there_is_no_map_before_the_first_or_after_the_last(run, index):
+    with pytest.raises(ValueError, match=f"index is {index!r}, allowed are integers from 0 to 3"):
+        run.q(index)
+
+
+@pytest.mark.parametrize("make", [lambda: NresMap(4 * 10**9), lambda: place_cells([65_536]), lambda: NresMap(46_341)])
+def test_a_map_of_more_cells_than_can_be_counted_is_refused(make):
+    with pytest.raises(ValueError, match="resolution is .*, allowed are maps of at most 2147483647 cells"):
+        make()
+
+
+def test_an_agent_that_does_not_fit_into_memory_is_refused_by_a_run_and_by_a_change(run):
+    large = place_cells([2_000])
+    with pytest.raises(MemoryError, match="a run of this agent needs 238418.6 GiB of memory"):
+        Run(large, TANK)
+    with pytest.raises(MemoryError, match="a run of this agent needs"):
+        run.change(large)
+    run.advance(100)
+
+
+def test_the_cells_that_a_map_gives_are_cells_to_learn_and_to_add_by():
+    nres_map = NresMap(4)
+    q = np.zeros((16, 4, 16), np.float32)
+    cell_tm1, cell_t = nres_map.encode([0.1, 0.1]), nres_map.encode([0.4, 0.1])
+    learn(q, cell_tm1, cell_t, [0, 0, 1, 0], learning_rate=0.5)
+    assert superpose(q, cell_tm1, [cell_t], [2.0]).tolist() == [0, 0, 1, 0]
+
+
+@pytest.mark.parametrize("bad", [
+    lambda q: learn(q, 0, 1, 0.5), lambda q: learn(q[0], 0, 1, [0] * 4), lambda q: learn(q.tolist(), 0, 1, [0] * 4),
+    lambda q: learn(q, 0, 1.0, [0] * 4), lambda q: superpose(q, 0, 1, [1.0]), lambda q: superpose(q, 0, [1], 1.0),
+])
+def test_what_is_no_table_of_values_or_no_cell_is_refused(bad):
+    with pytest.raises(ValueError, match="allowed (is|are)"):
+        bad(np.zeros((4, 4, 4), np.float32))
+
+
+def test_hits_are_kept_without_rewards(run):
+    rewards, hits = np.zeros(500, np.float32), np.zeros((500, 2), np.int16)
+    paid = run.advance(5_000, hits=hits)
+    assert Run(multimodal([3, 4]), TANK, seed=1).advance(5_000, rewards=rewards) == paid == rewards.sum()
+    assert hits.sum() > 0 and paid == hits[:, 0].sum() - hits[:, 1].sum()
+
+
+@pytest.mark.parametrize("rewards", [np.zeros(200, np.float32)[::2], [0.0] * 100, np.zeros((100, 1), np.float32)])
+def test_bins_that_the_kernel_cannot_take_are_refused(run, rewards):
+    with pytest.raises(ValueError, match="rewards is .* allowed is float32 from"):
+        run.advance(1_000, rewards)
+
+
+def test_an_interrupted_run_goes_on_where_it_stopped():
+    """Ctrl-C comes at any moment, and is not kept waiting until all steps are done."""
+    agent = network_d([3, 9])
+    interrupted, whole = (Run(agent, TANK, seed=3) for _ in range(2))
+    interrupted.advance(1)  # by which the kernel is compiled
+    threading.Timer(0.4, _thread.interrupt_main).start()
+    began = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        interrupted.advance(10**10)
+    assert time.monotonic() - began < 30 and interrupted.step > 1
+    interrupted.advance(777)
+    whole.advance(interrupted.step)
+    for part in ("state", "world_state"):
+        one, other = arrays(getattr(interrupted, part)), arrays(getattr(whole, part))
+        assert all(np.array_equal(one[name], other[name]) for name in one)
+
+
+def test_equal_conditions_are_kept_under_one_key():
+    plain = Condition(place_cells([3], 1.0, learning=Learning(0.5, memory=2.0, trace=1), policy=Policy(0.0)),
+                      WaterWorld(win_reward=5.0), steps=100, runs=2, changes=[(50, place_cells([4]))])
+    numpy = Condition(place_cells(np.array([3]), np.float64(1), policy=Policy(np.float32(0)),
+                                  learning=Learning(np.float64(0.5), memory=2, trace=np.int32(1),
+                                                    terminal=np.bool_(True))),
+                      WaterWorld(np.int64(250), np.int8(3), win_reward=5, contact=np.str_("rounded")),
+                      steps=np.int64(100), runs=np.uint8(2), changes=[(np.int64(50), place_cells([4]))])
+    assert plain == numpy and plain.key == numpy.key
+
+
+def test_a_number_of_another_type_compiles_nothing_anew():
+    Run(place_cells([3]), TANK).advance(1)
+    compiled = len(rollout.rollout.signatures)
+    rule = Learning(np.float32(0.5), trace=np.int32(1), memory=np.float64(2.0), bootstrap=np.bool_(True))
+    Run(place_cells([3], learning=rule), WaterWorld(np.int16(250), win_reward=np.int64(1))).advance(1)
+    assert len(rollout.rollout.signatures) == compiled == 1
+
+
+@pytest.mark.parametrize("make", [lambda: Learning(terminal=1), lambda: Learning(bootstrap=0.0),
+                                  lambda: Desire("green", "PC", 1.0, signed=1), lambda: Learning(trace=np.array([1]))])
+def test_what_is_nearly_a_flag_or_a_number_is_refused(make):
+    with pytest.raises(ValueError, match="allowed are"):
+        make()
