@@ -1,0 +1,239 @@
+"""What the page on assumptions computes and reports: claims under readings within the text, and beyond it.
+
+1. Agents run in the groups of conditions `CHEAP` under every reading, and in `EXPENSIVE` under the first ones alone.
+2. Which choices matter for a claim is learned from `ENOUGH` readings or more.
+3. Shares are of readings with short runs. Beside them stand those of readings at the papers' own lengths, which are the
+   design of the calibration.
+4. Tables and sentences are Markdown.
+"""
+
+import numpy as np
+
+from neorl.chapters.shared.wording import listed, table
+from neorl.evidence import calibration_results, multiverse
+from neorl.evidence.priors import BEYOND, TO_THE_LETTER, WITHIN
+from neorl.evidence.reading import PAPER_FPS, conditions, judge
+from neorl.evidence.statements import STATEMENTS
+from neorl.evidence.statistics import difference, estimate
+from neorl.experiments.sweep import sweep
+
+CHEAP = ("layers", "modal", "networks", "revaluing", "resolutions")  # of `neorl.evidence.reading.GROUPS`
+EXPENSIVE = ("single", "pace")
+ENOUGH = 32  # readings
+PREDICTED = 0.1  # the least R² with which choices are said to predict the number of a claim
+NAMED, MATTERS = 3, 0.05  # of the choices that a claim depends on: how many are named at most, and the least importance
+FULL_SIZE = 128  # readings
+
+
+def judge_readings(readings, groups, steps, runs, seed=0):
+    """The claims that runs in some groups of conditions suffice for, under each reading: [{name: `Claim`}, …].
+
+    readings: of `Reading`. groups, steps, runs, seed: as `neorl.evidence.reading.conditions` takes them.
+    """
+    wanted = [conditions(reading, steps, runs, seed, groups) for reading in readings]
+    results = sweep([each for of_reading in wanted for each in of_reading.values()])
+    return [judge({key: next(results) for key in of_reading}) for of_reading in wanted]
+
+
+def shares(judged, judged_part, rows):
+    """How often each claim holds in short runs and agrees at the papers' lengths, as `report.store` takes it.
+
+    judged, judged_part: the claims under all readings and under the first ones, as `judge_readings` has them. rows: of
+    the table of the calibration.
+    """
+    found, at_length = multiverse.shares(judged) | multiverse.shares(judged_part), calibration_results.evenly(rows)
+    return {name: counts | at_length.get(name, {}) for name, counts in _in_order(found).items()}
+
+
+def importances(*multiverses):
+    """How much each choice matters for each claim: ({claim: {choice: importance}}, {claim: R²}).
+
+    multiverses: pairs of readings and the claims under them, as `judge_readings` has them. A claim that was judged
+    under fewer than `ENOUGH` readings has no importances and no R².
+    """
+    importance, explained = {}, {}
+    for readings, judged in multiverses:
+        for name in judged[0]:
+            importance[name] = {}
+            if len(readings) >= ENOUGH:
+                importance[name], explained[name] = multiverse.importance(readings, judged, name)
+    return _in_order(importance), _in_order(explained)
+
+
+def predicted(explained):
+    """The claims whose number the choices predict, a list of names. explained: {claim: R²}."""
+    return [name for name, share in explained.items() if share >= PREDICTED]
+
+
+def agreement_at_length(shares):
+    """How often the numbers of claims agree with the thesis at the papers' lengths. shares: as `shares` has them."""
+    agreeing = {name: found["agrees"] / found["measured"] for name, found in shares.items() if found.get("measured")}
+    return ("At the papers' own lengths, under readings drawn evenly within the text, the numbers agree with the "
+            f"thesis in: {', '.join(f'**{name}** {_percent(share)}' for name, share in agreeing.items())}. The average "
+            f"is {_percent(np.mean([*agreeing.values()]))}.")
+
+
+def holding_in_short_runs(shares, judged, judged_part, steps, runs):
+    """Which claims hold under more than half of the readings, which under none, and how many do on average.
+
+    shares: as `shares` has them. judged, judged_part: as it takes them. steps, runs: of each condition.
+    """
+    holding = {name: _share(found, "holds") for name, found in shares.items()}
+    counts = _held(judged)
+    return ("The rules ask for more: an interval, which takes more runs than so many readings can have. In short "
+            f"runs, {steps / 60 / PAPER_FPS:.3g} minutes of simulated time at {PAPER_FPS} steps a second and {runs} "
+            f"runs a condition, these are shares of what agents do early: {len(shares)} claims were judged under "
+            f"{len(judged)} readings within the text, those whose runs are expensive ({', '.join(judged_part[0])}) "
+            f"under {len(judged_part)} of these. On average a claim holds under "
+            f"**{_percent(np.mean([*holding.values()]))}** of the readings. Under more than half hold "
+            f"{listed(name for name, share in holding.items() if share > 0.5)}; under no reading "
+            f"{listed(name for name, share in holding.items() if share == 0)}. Of the {len(judged[0])} claims that "
+            f"were judged under every reading, the reading with the most has {max(counts)}, and the average is "
+            f"{np.mean(counts):.1f}.")
+
+
+def foremost_choices(importance, predicted, points):
+    """The choice that matters most for each claim that the choices predict.
+
+    importance: {claim: {choice: importance}}. predicted: names of claims. points: how many readings there are.
+    """
+    if not predicted:
+        return f"From {points} readings no choice predicts the number of a claim."
+    claims = {}
+    for name in predicted:
+        foremost = max(importance[name], key=importance[name].get)
+        claims.setdefault(WITHIN[foremost].label, []).append(name)
+    words = "; ".join(f"*{label}* ({', '.join(names)})" for label, names in claims.items())
+    return f"The choice that matters most to a claim: {words}. For the other claims no choice predicts the number."
+
+
+def verdicts(shares):
+    """The share of readings with each verdict, and of those that agree at the papers' lengths, as a table.
+
+    shares: as `shares` has them.
+    """
+    rows = []
+    for name, found in shares.items():
+        holds, undecided, untestable = (_share(found, kind) for kind in ("holds", "undecided", "untestable"))
+        at_length = (f"{_percent(found['agrees'] / found['measured'])} of {found['measured']}"
+                     if found.get("measured") else "")
+        rows.append([_stated(name), _percent(holds), _percent(undecided), _percent(1 - holds - undecided),
+                     _percent(untestable), str(found["readings"]), at_length])
+    return table(["Claim", "Holds", "Undecided", "Fails", "Untestable", "Readings", "Agrees at the papers' lengths"],
+                 rows)
+
+
+def undecided(shares, runs):
+    """How many verdicts are undecided. shares: as `shares` has them. runs: of each condition."""
+    unsettled, total = (sum(found[kind] for found in shares.values()) for kind in ("undecided", "readings"))
+    return (f"Of {total:,} verdicts in all, {unsettled:,} ({_percent(unsettled / total)}) are undecided. An interval "
+            f"from {runs} runs is rough; shares over many readings are less so.")
+
+
+def choices(readings):
+    """Every choice with its prior within the text and what readings choose, as a table. readings: {name: `Reading`}."""
+    rows = []
+    for field, choice in BEYOND.items():
+        prior = WITHIN[field].stated if field in WITHIN else "pinned"
+        taken = (choice.words(getattr(reading, field)) for reading in readings.values())
+        rows.append([choice.label, prior, *taken, ", ".join(choice.papers.replace("T", ""))])
+    return table(["Choice", "Prior", *(name.capitalize() for name in readings), "Papers"], rows)
+
+
+def agreements(readings):
+    """Whether readings are within the text, as a list. readings: {name: `Reading`}."""
+    found = {name: reading.within_the_text for name, reading in readings.items()}
+    return "\n".join(f"- The reading *{name}* is {'' if agreement else 'not within the text: '}{agreement}."
+                     for name, agreement in found.items())
+
+
+def dependence(importance, explained, shares):
+    """The choices that each claim depends on most, as a table.
+
+    importance, explained: as `importances` has them. shares: as `shares` has them.
+    """
+    known, rows = predicted(explained), []
+    for name, found in importance.items():
+        if name not in explained:
+            rows.append([name, "", f"{shares[name]['readings']} readings are too few"])
+            continue
+        best = sorted(found, key=found.get, reverse=True)[:NAMED]
+        words = ", ".join(f"{WITHIN[key].label} ({found[key]:.2f})" for key in best if found[key] >= MATTERS)
+        rows.append([name, f"{max(0, explained[name]):.2f}", words if name in known else "no choice predicts it"])
+    return table(["Claim", "R²", "What it depends on most"], rows)
+
+
+def whether_enough(points):
+    """Whether a number of readings is enough to show what claims depend on."""
+    return f"{points} readings are " + ("enough to show the large effects." if points >= FULL_SIZE
+                                        else "too few to show much.")
+
+
+def clear_leads(supports):
+    """The levels with clearly more claims than the letter's, or fewer, as a table, and what chance alone would bring.
+
+    supports: of `neorl.evidence.multiverse.Support`, for every level.
+    """
+    clear = [each for each in supports if each.lead.low > 0 or each.lead.high < 0]
+    compared = sum(not each.is_to_the_letter for each in supports)
+    told = f"Of {compared} levels, {len(clear)} are listed; by chance alone it would be about {0.05 * compared:.0f}."
+    if not clear:
+        return told
+    rows = [[WITHIN[each.choice].label, each.level, f"{each.held:.2f}", str(each.lead)] for each in clear]
+    return f"{table(['Choice', 'Level', 'Claims that hold', 'Lead over the letter'], rows)}\n\n{told}"
+
+
+def priors_beyond():
+    """The choices that are varied otherwise beyond the text than within it, with both priors, as a table."""
+    rows = []
+    for field, choice in BEYOND.items():
+        if choice != WITHIN.get(field):
+            within = WITHIN[field].stated if field in WITHIN else choice.words(getattr(TO_THE_LETTER, field))
+            rows.append([choice.label, choice.stated, within])
+    return table(["Choice", "Prior beyond the text", "Within"], rows)
+
+
+def verdicts_beyond(shares, judged_outside):
+    """The shares of readings beyond the text under which claims hold, beside those within it, as a table.
+
+    shares: within the text, as `shares` has them. judged_outside: as `judge_readings` has it, beyond the text.
+    """
+    outside = multiverse.shares(judged_outside)
+    rows = [[_stated(name), _percent(_share(outside[name], "holds")), _percent(_share(outside[name], "undecided")),
+             _percent(_share(found, "holds"))] for name, found in shares.items() if name in outside]
+    return table(["Claim", "Holds beyond the text", "Undecided", "Within"], rows)
+
+
+def counts_beyond(outside, judged_outside, judged):
+    """How many claims hold under a reading beyond the text and within it, and in how many choices it breaks the text.
+
+    outside: readings beyond the text. judged_outside, judged: the claims under them and within the text, as
+    `judge_readings` has them.
+    """
+    broken = [len(reading.within_the_text.broken) for reading in outside]
+    beyond, within = np.array(_held(judged_outside)), np.array(_held(judged))
+    return (f"{len(outside)} readings, of which {np.count_nonzero(broken)} break the text, in {np.mean(broken):.1f} "
+            f"choices on average. Beyond the text {beyond.mean():.1f} of {len(judged[0])} claims hold on average; "
+            f"within it, {within.mean():.1f}; the difference is {estimate(difference, beyond, within)}.")
+
+
+def _in_order(found):
+    """{name of a claim: anything} in the order of the claims."""
+    return {name: found[name] for name in STATEMENTS if name in found}
+
+
+def _held(judged):
+    """How many claims hold under each reading."""
+    return [len(multiverse.held(claims)) for claims in judged]
+
+
+def _share(found, kind):
+    return found[kind] / found["readings"]
+
+
+def _stated(name):
+    return f"**{name}** {STATEMENTS[name].text}"
+
+
+def _percent(share):
+    return f"{share:.0%}".replace("%", "\u00a0%")

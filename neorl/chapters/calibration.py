@@ -1,0 +1,138 @@
+"""What the page on calibration computes and reports: the best reading run once more, and what the table says.
+
+1. The best reading of the table runs again with fresh seeds. Beside it run the reading to the letter and the nearest
+   other readings.
+2. Single maps, the last group of conditions, are expensive: they have fewer runs, and the other readings do without.
+3. Tables and sentences are Markdown. `neorl.evidence.calibration_results` draws the conclusions that they tell.
+"""
+
+from dataclasses import replace
+
+from neorl.chapters.shared.wording import table
+from neorl.evidence.calibration_results import giving
+from neorl.evidence.calibration_table import Row, lives, measured, nearest
+from neorl.evidence.calibration_targets import GROUPS, TARGETS
+from neorl.evidence.priors import TO_THE_LETTER, WITHIN
+
+*CHEAP, SINGLE_MAPS = GROUPS
+IN_FULL = 100  # runs, from which on the single maps have all of them
+SETS, PAIRS = 8, 6  # how many sets of claims that hold together are told, and how many pairs that never do
+
+
+def few(runs):
+    """How many runs the reading to the letter has where the best one has `runs`."""
+    return max(2, runs // 5)
+
+
+def runs_of_single_maps(runs):
+    """How many runs the single maps of the best reading have where its other conditions have `runs`."""
+    return runs if runs >= IN_FULL else few(runs)
+
+
+def confirm(best, steps, runs, seed):
+    """Run the best row once more: (`Row` with what came out, {key of the condition: `Result`}).
+
+    best: a `Row`. steps: of a run at most. runs: of each condition, at least two; single maps have
+    `runs_of_single_maps`.
+    """
+    row = replace(best, seed=seed, steps=steps, runs=max(2, runs))
+    life = lives(row, CHEAP) | lives(replace(row, runs=runs_of_single_maps(runs)), [SINGLE_MAPS])
+    return measured(row, life), life
+
+
+def to_the_letter(steps, runs, seed):
+    """Run the reading to the letter, with a `few` of the runs: a `Row` with what came out."""
+    row = Row(0, seed, few(runs), steps, TO_THE_LETTER)
+    return measured(row, lives(row))
+
+
+def lives_of_others(rows, best, steps, seed):
+    """What rows of other readings than the best row's live in two runs each: [{key of the condition: `Result`}, …].
+
+    The row at place i has the seed `seed` + i.
+    """
+    return [lives(replace(row, seed=seed + place, steps=steps, runs=2), CHEAP)
+            for place, row in enumerate(rows) if row.reading != best.reading]
+
+
+def agreeing(rows):
+    """How many rows agree with all targets, as text. rows: of `Row`."""
+    return str(sum(row.distance == 0 for row in rows) or "None")
+
+
+def never_together(together):
+    """The pairs of claims that never hold together, though chance would bring them together. together: a `Together`."""
+    return "; ".join(f"{a} and {b}" for a, b in together.never) or "none"
+
+
+def numbers(letter, best, confirmed):
+    """The statistics of three rows beside the targets, as a table, each with a mark whether it agrees with the thesis.
+
+    letter, best, confirmed: a `Row` each, complete.
+    """
+    rows = []
+    for name, target in TARGETS.items():
+        interval = f"{target.low:.3g} … {target.high:.3g}".replace("-", "−").replace("inf", "∞")
+        measures = (_marked(target, *row.statistics[name]) for row in (letter, best, confirmed))
+        rows.append([target.claim, target.label, target.thesis, interval, *measures])
+    return table(["Claim", "Statistic", "Thesis", "Agrees", "To the letter", "Best, in the table", "Best, fresh seeds"],
+                 rows)
+
+
+def choices(readings):
+    """What readings choose where the text leaves a choice, as a table. readings: {name: `Reading`}."""
+    rows = [[choice.label, *(choice.words(getattr(reading, field)) for reading in readings.values())]
+            for field, choice in WITHIN.items()]
+    return table(["Choice", *readings], rows)
+
+
+def idle_discount(best):
+    """That γ has no effect under the best `Reading`, where that is so; otherwise nothing."""
+    if best.learning.bootstrap or best.learning.memory_value != "reached":
+        return ""
+    return ("Without bootstrapping, and with a memory of goals that were simply reached, nothing is discounted, and so "
+            "γ has no effect under the best reading.")
+
+
+def largest_sets(together):
+    """The largest sets of claims that hold together, and the claims that they lack, as a table. together: a `Together`.
+    """
+    rows = [[", ".join(names), str(count), ", ".join(name for name in together.claims if name not in names)]
+            for names, count in together.sets[:SETS]]
+    return table(["Claims that hold together", "Readings", "Missing"], rows)
+
+
+def unseen_pairs(together):
+    """The pairs of claims that hold in no row, with the rows that chance would bring. together: a `Together`."""
+    pairs = together.unseen[:PAIRS]
+    return "; ".join(f"{a} with {b} ({expected:.1f})" for a, b, expected in pairs) or "none"
+
+
+def without_a_claim(rows):
+    """How near a reading comes to the targets if a claim is given up, the nearest first, as a table. rows: of `Row`."""
+    first, *_ = nearest(rows)
+    found = {"nothing": (first.distance, first)}
+    found |= sorted(giving(rows).items(), key=lambda given_up: given_up[1][0])
+    return table(["Without", "Nearest distance to the others", "Held by that reading"],
+                 [[claim, f"{distance:.2f}", ", ".join(sorted(row.held))] for claim, (distance, row) in found.items()])
+
+
+def rows_by_group(rows):
+    """How many rows ran in each group of conditions, and in how many waves. rows: of `Row`."""
+    counts = ", ".join(f"{sum(group in row.groups for row in rows):,} {group}" for group in GROUPS)
+    return f"{counts}; in {1 + max(row.wave for row in rows)} waves"
+
+
+def targets():
+    """The targets with the reasons for their intervals, as a table."""
+    return table(["Claim", "Statistic", "Scale", "Why the interval is as wide as it is"],
+                 [[each.claim, each.label, f"{each.scale:.3g}", each.reason] for each in TARGETS.values()])
+
+
+def equal(pairs):
+    """How many rows came out as they stand in the table. pairs: of `neorl.evidence.calibration_table.rerun`."""
+    return sum(old == new for old, new in pairs)
+
+
+def _marked(target, value, error):
+    return f"{'●' if target.holds(value) else '○'} {value:.2f} ± {error:.2f}".replace("-", "−")
