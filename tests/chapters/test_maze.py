@@ -6,7 +6,7 @@ from matplotlib import pyplot as plt
 
 from neorl.chapters.chapter_2 import maze_figures
 from neorl.chapters.chapter_2.latent_learning import (DAYS, GROUPS, LEARNERS, Animal, Record, _learn_by_traces, _live,
-                                                      findings, new_state, simulate_groups)
+                                                      compare_learners, findings, judge, new_state, simulate_groups)
 from neorl.chapters.chapter_2.maze import Maze, random_maze
 from neorl.chapters.shared.grid import MOVES
 from neorl.core.kernel import execute
@@ -213,6 +213,17 @@ def test_groups_are_as_far_apart_below_as_above_and_ahead_only_with_the_whole_in
     found = findings({"throughout": flat(12), "never": flat(12), "delayed": flat(10, 13, 12.005)})
     assert found["before"].here.value == pytest.approx(-2) and not found["before"].holds
     assert found["one meal"].here.low < 0 < found["one meal"].here.high and not found["one meal"].holds
+
+
+def test_every_kind_of_animal_is_compared_and_neorl_is_judged():
+    level = {"throughout": flat(2), "never": flat(14), "delayed": flat(14, 2, 2)}
+    ahead = level | {"delayed": flat(14, 1, 1)}
+    by_learner = {"neoRL": level, "Q-learning": ahead, "Sarsa(λ)": level}
+    found = compare_learners(by_learner)
+    assert [found[name]["below"].holds for name in LEARNERS] == [False, True, False]
+    assert found["Q-learning"] == findings(ahead)
+    assert judge(by_learner).verdict == "partly" and judge(by_learner | {"neoRL": ahead}).verdict == "reproduced"
+    assert "With other learners it is: Q-learning −1.00" in judge(by_learner).detail
 
 
 @pytest.mark.parametrize("day", [0, DAYS])

@@ -6,7 +6,7 @@ from matplotlib import pyplot as plt
 
 from neorl.chapters.chapter_2 import psychology_figures
 from neorl.chapters.chapter_2.neuron import (REST, Neuron, action_potential, efficacy, firing_rate, gate_rates,
-                                             gates_at_rest, integrate, synaptic_current)
+                                             gates_at_rest, integrate, peak, pulses_at_threshold, synaptic_current)
 from neorl.chapters.shared.grid import Grid
 from neorl.drawing import figures
 
@@ -32,6 +32,16 @@ def test_an_action_potential_is_all_or_none():
     peaks = {current: action_potential(current).potential.max() for current in (3.0, 6.0, 8.0, 16.0)}
     assert peaks[3.0] < peaks[6.0] < -55.0
     assert 35.0 < peaks[8.0] < peaks[16.0] < 45.0
+
+
+def test_the_threshold_lies_between_two_pulses_close_to_each_other(monkeypatch):
+    monkeypatch.setattr("neorl.chapters.chapter_2.neuron.peak", lambda current: 30.0 if current > 6.92 else -57.0)
+    weak, strong = pulses_at_threshold()
+    assert weak <= 6.92 < strong and strong - weak <= 0.05
+
+
+def test_the_peak_is_the_highest_potential():
+    assert peak(8.0) == action_potential(8.0).potential.max()
 
 
 def test_after_an_action_potential_the_axon_is_below_rest():

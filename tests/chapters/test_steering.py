@@ -6,7 +6,7 @@ from matplotlib import pyplot as plt
 
 from neorl import Run, WaterWorld, multimodal, place_cells
 from neorl.chapters.chapter_1 import navigation_figures
-from neorl.chapters.chapter_1.before_and_after import newborn, trials, veteran
+from neorl.chapters.chapter_1.before_and_after import leads, newborn, trials, veteran
 from neorl.chapters.chapter_1.steering import CLOSE, HASTE, chase, follow_route, steer
 from neorl.experiments.recording import Recording
 
@@ -68,6 +68,16 @@ def test_trials_pair_newborns_with_veterans_and_do_not_hang_on_their_number():
     before, after = trials(multimodal([3, 5]), TANK, runs=6, **choices)
     assert trials(multimodal([3, 5]), TANK, runs=2, **choices).tolist() == [before[:2].tolist(), after[:2].tolist()]
     assert after.mean() > before.mean()
+
+
+def test_leads_are_what_trials_bring_a_second_by_how_long_veterans_have_lived(monkeypatch):
+    def made_up(agent, world, *, lessons, steps, runs, seed):
+        assert (steps, seed) == (150, 7)  # three seconds
+        return np.array([np.full(runs, 3.0), np.full(runs, 3.0 + lessons)])
+
+    monkeypatch.setattr("neorl.chapters.chapter_1.before_and_after.trials", made_up)
+    found = leads(multimodal([3]), TANK, [0, 6], steps=150, runs=4, seed=7)
+    assert found == {0: (0.0, 0.0, 0.0), 6: (2.0, 2.0, 2.0)}
 
 
 @pytest.mark.parametrize("change, message", [({"steps": -1}, "steps is -1"), ({"runs": 0}, "runs is 0"),

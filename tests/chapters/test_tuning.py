@@ -6,7 +6,8 @@ from matplotlib import pyplot as plt
 
 from neorl import NresMap
 from neorl.chapters.chapter_2 import tuning_figures
-from neorl.chapters.chapter_2.tuning import Trajectory, Tuning, egocentric, in_field, information, roam, spikes, tuning
+from neorl.chapters.chapter_2.tuning import (Trajectory, Tuning, cartesian, egocentric, in_field, information, likeness,
+                                             rate_maps, roam, spikes, told_by_spikes, tuning)
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, HEAD_DIRECTION_CELL, LANDMARK_VECTOR_CELL,
                                  OBJECT_VECTOR_CELL, SPEED_CELL, TAU)
 
@@ -153,6 +154,39 @@ def test_information_is_the_mutual_information_of_a_rare_spike():
     mean = np.sum(share * spike)
     told = np.sum(share * (spike * np.log2(spike / mean) + (1 - spike) * np.log2((1 - spike) / (1 - mean))))
     assert information(Tuning(rate, share)) == pytest.approx(told / mean, rel=1e-3)
+
+
+def test_spikes_tell_about_what_they_follow_and_by_chance_about_nothing_else(trajectory):
+    walk = Trajectory(trajectory.position[:20_000], trajectory.velocity[:20_000], 0.02)
+    trains = {"north": walk.direction > 0.5 * TAU, "fast": walk.speed > 0.3, "corner": walk.position.max(axis=1) < 0.3,
+              "chance": np.random.default_rng(0).random(20_000) < 0.1}
+    told = told_by_spikes(trains, walk, seed=1)
+    assert {cell: [each.clear for each in about.values()] for cell, about in told.items()} == {
+        "north": [False, True, False], "fast": [False, False, True], "corner": [True, False, False],
+        "chance": [False, False, False]}
+    assert [*told["north"]] == ["position", "direction", "speed"]
+    expected = information(tuning(trains["north"], walk.direction, 0.02, TAU, 18, closed=True))
+    assert told["north"]["direction"].bits == expected > 0.5
+
+
+def test_rate_maps_are_drawn_from_a_stream_for_each_cell(trajectory):
+    walk = Trajectory(trajectory.position[:5_000], trajectory.velocity[:5_000], 0.02)
+    axes = {"step": 0.02, "high": 1.0, "bins": 5}
+    cells = {"place": (NresMap(2), 0), "object": (NresMap(6, OBJECT_VECTOR_CELL), 1)}
+    maps = rate_maps(cells, walk, [(0.5, 0.5)], [3, 1], **axes)
+    fired = spikes(in_field(*cells["object"], walk, [(0.5, 0.5)]), 0.02, [3, 1, 1])
+    assert [*maps] == ["place", "object"]
+    np.testing.assert_array_equal(maps["object"], tuning(fired, walk.position, **axes).rate)
+
+
+def test_maps_are_compared_where_both_were_seen():
+    one, other = np.array([[1.0, 2.0], [3.0, np.nan]]), np.array([[2.0, 4.0], [6.0, -50.0]])
+    found = likeness({"same": one, "turned": one}, {"turned": -other, "more": one, "same": other})
+    assert found == pytest.approx({"same": 1.0, "turned": -1.0}) and [*found] == ["same", "turned"]
+
+
+def test_a_point_in_polar_coordinates_has_cartesian_ones():
+    np.testing.assert_allclose(cartesian(3.0, np.pi / 6), [1.5 * np.sqrt(3), 1.5])
 
 
 def test_forward_is_where_one_heads_and_starboard_a_quarter_turn_to_the_right():

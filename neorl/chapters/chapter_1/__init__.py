@@ -1,1 +1,1 @@
-"""What the notebook of chapter 1 runs and draws."""
+"""What the notebook of chapter 1 runs, draws and says."""

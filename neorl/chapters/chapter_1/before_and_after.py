@@ -9,6 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from neorl import checks
+from neorl.evidence.statistics import difference, estimate
 from neorl.experiments.run import Run
 
 
@@ -39,3 +40,16 @@ def trials(agent, world, *, lessons, steps, runs, seed=0):
 
     with ThreadPoolExecutor() as pool:
         return np.array(list(pool.map(pair, range(checks.integer("runs", runs, at_least=1))))).T
+
+
+def leads(agent, world, lives, *, steps, runs, seed=0):
+    """What veterans of several lives earn per second more than newborns in their first steps: {lessons: `Estimate`}.
+
+    lives: for each the lessons that `trials` takes. steps: of a trial, ≥ 1. Raises ValueError for a bad argument.
+    """
+    found = {}
+    for lessons in lives:
+        rewards = trials(agent, world, lessons=lessons, steps=steps, runs=runs, seed=seed)
+        before, after = rewards / (steps / world.fps)
+        found[lessons] = estimate(difference, after, before)
+    return found

@@ -25,6 +25,7 @@ from neorl.chapters.shared.tabular import exploring_action, learn_q
 from neorl.core.kernel import execute, kernel
 from neorl.core.learning import MapValues, Rule, learn_all_goals
 from neorl.core.stream import new_stream
+from neorl.evidence.rules_chapters import judge_latent_learning
 from neorl.evidence.statistics import Estimate, difference, estimate
 
 LEARNERS = ("neoRL", "Q-learning", "Sarsa(λ)")
@@ -134,6 +135,17 @@ def findings(groups, first_reward=FIRST_REWARD):
         "below": Finding("and below it, over all days that are left", lead, lead.high < 0),
         "one meal": Finding("One meal takes it further than it took those fed throughout", saved, saved.high < 0),
     }
+
+
+def compare_learners(by_learner):
+    """The `findings` of each kind of animal: {learner: {name: `Finding`}}, from {learner: {group: `Record`}}."""
+    return {learner: findings(groups) for learner, groups in by_learner.items()}
+
+
+def judge(by_learner):
+    """Demonstration H1, from {learner: {group: `Record`}} of all ``LEARNERS``: a `Claim`, in which neoRL is judged."""
+    rivals = {learner: by_learner[learner] for learner in LEARNERS[1:]}
+    return judge_latent_learning(by_learner["neoRL"], rivals, FIRST_REWARD)
 
 
 class AnimalState(NamedTuple):

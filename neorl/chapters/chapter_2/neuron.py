@@ -26,6 +26,7 @@ CAPACITY = 1.0  # µF/cm²
 SODIUM, POTASSIUM, LEAK = 120.0, 36.0, 0.3  # mS/cm², all channels open
 SODIUM_AT, POTASSIUM_AT, LEAK_AT = REST + 115.0, REST - 12.0, REST + 10.613  # mV, where each current reverses
 RESOLUTION = 0.01  # ms between two points of an action potential
+PULSES_APART = 0.05  # µA/cm², how closely the threshold of the axon is looked for
 
 
 class Axon(NamedTuple):
@@ -58,6 +59,26 @@ def action_potential(current, start=5.0, stop=6.0, duration=25.0):
         state = solution.y[:, -1]
         parts.append(np.vstack([solution.t, solution.y])[:, :-1])
     return Axon(*np.concatenate(parts, axis=1))
+
+
+def peak(current):
+    """The highest potential of an axon at rest that gets the pulse of current of `action_potential`, in mV."""
+    return action_potential(current).potential.max()
+
+
+def pulses_at_threshold():
+    """The strongest pulse known not to set off an action potential, and the weakest known to: two currents, µA/cm².
+
+    They are `PULSES_APART` from each other at most. An action potential is a peak above 0 mV.
+    """
+    weak, strong = 1.0, 20.0
+    while strong - weak > PULSES_APART:
+        middle = (weak + strong) / 2
+        if peak(middle) > 0:
+            strong = middle
+        else:
+            weak = middle
+    return weak, strong
 
 
 def gates_at_rest():

@@ -21,6 +21,9 @@ from neorl.core.kernel import execute
 from neorl.core.maps import NresMap
 
 WALLS = 4
+SHIFTS = 99  # of spikes in time, at random
+# For each variable that spikes may tell about, what `tuning` takes as high, bins and closed.
+VARIABLES = {"position": (1.0, 20, False), "direction": (TAU, 18, True), "speed": (0.5, 10, False)}
 
 
 class Trajectory(NamedTuple):
@@ -141,6 +144,63 @@ def information(tuned):
     mean = np.sum(share * rate, axis=axes, keepdims=True)
     ratio = np.divide(rate, mean, out=np.zeros_like(rate), where=mean > 0)
     return np.sum(share * ratio * np.log2(ratio, out=np.zeros_like(ratio), where=ratio > 0), axis=axes)
+
+
+class Told(NamedTuple):
+    """What the spikes of a cell tell about a variable."""
+
+    bits: float  # a spike
+    clear: bool  # whether that is more than with any of `SHIFTS` shifts of the spikes in time
+
+
+def told_by_spikes(trains, trajectory, seed=0):
+    """What spikes tell about where an animal is, where it is heading and how fast it goes: {cell: {variable: `Told`}}.
+
+    trains: {cell: spikes at each step}, (steps,) each. Shifted spikes go round the recording, by 1,000 steps or more
+    either way, or by a tenth of a recording of fewer than 10,000.
+    """
+    steps = len(trajectory.position)
+    margin = min(1_000, steps // 10)
+    shifts = np.random.default_rng(seed).integers(margin, steps - margin, size=SHIFTS)
+    told = {}
+    for cell, train in trains.items():
+        shifted = np.stack([train, *(np.roll(train, shift) for shift in shifts)])
+        told[cell] = {}
+        for variable, (high, bins, closed) in VARIABLES.items():
+            values = getattr(trajectory, variable)
+            bits, *by_chance = information(tuning(shifted, values, trajectory.step, high, bins, closed=closed))
+            told[cell][variable] = Told(bits, bits > max(by_chance))
+    return told
+
+
+def rate_maps(cells, trajectory, objects, seed, **axes):
+    """Rate maps of cells whose spikes are drawn anew: {cell: rate}, as `Tuning` has it.
+
+    cells: {cell: (`NresMap`, which of its cells)}. objects: see `in_field`. seed: a sequence of integers, to which the
+    spikes add the number of the cell. axes: the arguments of `tuning` from ``step`` on.
+    """
+    maps = {}
+    for number, (name, cell) in enumerate(cells.items()):
+        fired = spikes(in_field(*cell, trajectory, objects), trajectory.step, [*seed, number])
+        maps[name] = tuning(fired, trajectory.position, **axes).rate
+    return maps
+
+
+def likeness(maps, others):
+    """How alike two maps of each cell are, by their correlation over the places seen in both: {cell: number}.
+
+    maps: {cell: rate (bins, bins)}. others: the same, of these cells or more.
+    """
+    found = {}
+    for cell, rate in maps.items():
+        seen = ~np.isnan(rate + others[cell])
+        found[cell] = np.corrcoef(rate[seen], others[cell][seen])[0, 1]
+    return found
+
+
+def cartesian(distance, bearing):
+    """A point in polar coordinates as (x, y): float64 (2,). bearing: radians from x by way of y."""
+    return distance * np.array([np.cos(bearing), np.sin(bearing)])
 
 
 def egocentric(vectors, heading):

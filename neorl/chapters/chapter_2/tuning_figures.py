@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.patches import Arc, Rectangle
 
-from neorl.chapters.chapter_2.tuning import egocentric
+from neorl.chapters.chapter_2.tuning import cartesian, egocentric
 from neorl.drawing import figures
 from neorl.drawing.figures import AGENT, CURVES, GREEN, INK, LOW_PANEL, RED
 
@@ -35,7 +35,7 @@ def draw_frames(point, heading, distance, bearing):
     for part in (forward * ahead, starboard * aside):
         left.plot(*np.transpose([part, (east, north)]), color=AGENT, linestyle=":", linewidth=1.2)
     left.plot(east, north, marker="o", color=RED)
-    tip = distance * np.array([np.cos(bearing), np.sin(bearing)])
+    tip = cartesian(distance, bearing)
     _arrow(right, (0, 0), (reach, 0), INK)
     right.plot(*np.transpose([(0, 0), tip]), color=AGENT)
     right.plot(*tip, marker="o", color=RED)

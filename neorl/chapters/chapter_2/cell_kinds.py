@@ -1,0 +1,43 @@
+"""Kinds of cells that stand for places, things and directions, as the modalities of this book have them.
+
+Beside them stands the thesis's table 2.1, after Bicanski and Burgess (2020): whether the locality and the direction of
+a kind are allocentric, a distance or neither, and what it is about.
+"""
+
+from neorl.chapters.shared import wording
+from neorl.core.modality import MODALITIES
+
+THESIS = {
+    "head-direction cell": ("–", "allocentric", "head direction"),
+    "place cell": ("allocentric", "–", "agent position"),
+    "border cell": ("allocentric", "–", "location of borders"),
+    "boundary-vector cell": ("[distance]", "allocentric", "location of boundaries"),
+    "object-vector cell": ("[distance]", "allocentric", "location of objects"),
+    "landmark-vector cell": ("[distance]", "allocentric", "location of landmarks"),
+}
+CONCERNS = {"proximal": "location of borders", "cartesian": "agent position", "angle": "head direction",
+            "length": "agent speed"}  # by tuning; a polar one is about where something lies
+
+
+def kinds():
+    """What each modality says of itself: {kind: (locality, direction, concern)}, without the emulation of paper B."""
+    return {each.name: (_locality(each), "allocentric" if each.has_direction else "–",
+                        CONCERNS.get(each.tuning, f"location of {each.vector}"))
+            for each in MODALITIES if (each.vector, each.tuning) != ("objects", "cartesian")}
+
+
+def as_in_thesis(found):
+    """How many kinds of `THESIS` are found with the same three entries. found: as `kinds` has it."""
+    return sum(found.get(kind) == entries for kind, entries in THESIS.items())
+
+
+def kinds_table(found):
+    """The kinds as a Markdown table. found: as `kinds` has it."""
+    return wording.table(["Cell", "Locality", "Direction", "Concern"],
+                         [[kind, *entries] for kind, entries in found.items()])
+
+
+def _locality(modality):
+    if modality.vector == "position":
+        return "allocentric"
+    return "[distance]" if "distance" in modality.axes else "–"

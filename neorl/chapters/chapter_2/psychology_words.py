@@ -1,0 +1,48 @@
+"""What animals do in boxes and under wishes, put into words."""
+
+import numpy as np
+
+from neorl.evidence.statistics import estimate
+
+LAST_SESSIONS = 3  # of a phase, over which presses are counted
+
+
+def describe_latencies(latencies, published):
+    """How fast cats get out of the box under each law, {name: seconds (runs, trials)}, and a cat of old, (trials,)."""
+    paces, early = [], []
+    for law, seconds in latencies.items():
+        mean = seconds.mean(axis=0)
+        halved = np.flatnonzero(mean <= mean[0] / 2)
+        when = f"trial {halved[0] + 1} is the first" if len(halved) else "no trial is one"
+        first, last = (estimate(np.mean, seconds[:, trial]) for trial in (0, -1))
+        paces.append(f"with *{law}* a cat takes {first} seconds in the first trial and {last} in the last, and {when} "
+                     "that takes half of that time or less")
+        early.append(f"{mean[: len(published)].mean():.0f} with *{law}*")
+    return (f"In the mean, {'; '.join(paces)}. Over its first {len(published)} trials the cat of 1899 took "
+            f"{np.mean(published):.0f} seconds; the simulated ones take {', '.join(early)}.")
+
+
+def describe_presses(minutes, ends):
+    """How light comes to gate the lever, at the end of phases in which it always pays, pays in the light, never pays.
+
+    minutes: presses of rats {"sees", "blind"}, (runs, sessions, 2), the first minute of a session in the light.
+    ends: how many sessions have passed at the end of each phase, of which the last three count.
+    """
+    sees, blind = ([minutes[rat][:, end - LAST_SESSIONS : end].mean(axis=1) for end in ends]
+                   for rat in ("sees", "blind"))
+    rates = [estimate(np.mean, each) for light_and_dark in sees for each in light_and_dark.T]
+    gap, by_food = (estimate(np.mean, gated[:, 0] - gated[:, 1]) for _, gated, _ in (sees, blind))
+    last_press = (": the last press paid, so the next one may, and in this way food itself is a stimulus"
+                  if by_food.low > 0 else "")
+    light = ("The light gates the response much better, but only for who perceives it." if gap.low > by_food.high else
+             "So few rats do not show what the light adds.")
+    return ("In the last three sessions of each phase a rat that sees the light presses {} times a minute in the light "
+            "and {} in the dark while the lever always pays, {} and {} while it pays in the light, and {} and {} once "
+            "it never pays. ".format(*rates)
+            + f"In the second phase the light makes a difference of {gap} presses a minute. In blind rats the "
+            f"difference is {by_food}{last_press}. {light}")
+
+
+def describe_way(steps):
+    """A way of so many steps, None if there is none."""
+    return "no way" if steps is None else f"{steps} steps"

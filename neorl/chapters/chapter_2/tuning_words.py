@@ -1,0 +1,60 @@
+"""What is seen in two reference frames, and what the spikes of tuned cells tell, put into words and tables."""
+
+import numpy as np
+
+from neorl.chapters.chapter_2.tuning import SHIFTS
+from neorl.chapters.shared import wording
+
+OWN = {"head-direction cell": "direction", "speed cell": "speed"}  # the variable of a cell's modality, if not position
+SAME = 1e-9  # lengths that differ by less are equal
+
+
+def describe_frames(seconds, allocentric, seen, turned):
+    """How the vector to a landmark, (steps, 2), changes in two frames while the animal turns, up to second `turned`."""
+    spans = [np.ptp(vectors[seconds < turned], axis=0).max() for vectors in (allocentric, seen)]
+    apart = np.abs(np.linalg.norm(allocentric, axis=1) - np.linalg.norm(seen, axis=1)).max()
+    when = "at every moment" if apart < SAME else f"to within {apart:.1g}"
+    return (f"While it turns, the components of the allocentric vector change by {spans[0]:.2f}, and those of the "
+            f"egocentric one by up to {spans[1]:.2f}. The distance is the same in both frames {when}.")
+
+
+def information_table(told):
+    """Bits a spike as a Markdown table, bold where shifted spikes tell less: {cell: {variable: `Told`}}."""
+    rows = [[cell, *(f"**{each.bits:.2f}**" if each.clear else f"{each.bits:.2f}" for each in about.values())]
+            for cell, about in told.items()]
+    return wording.table(["Cell", *next(iter(told.values()))], rows)
+
+
+def describe_information(told):
+    """Which cells tell about the variable of their own modality, and which about others: {cell: {variable: `Told`}}."""
+    right, others = 0, []
+    for cell, about in told.items():
+        own = OWN.get(cell, "position")
+        right += about[own].clear and about[own].bits == max(each.bits for each in about.values())
+        others += [f"the {cell} about {variable}" for variable, each in about.items() if each.clear and variable != own]
+    complete = right == len(told)
+    beyond = (f"Beyond that, {', '.join(others)} {'exceeds' if len(others) == 1 else 'exceed'} the shifted spikes."
+              if others else "None exceeds the shifted spikes anywhere else.")
+    return (f"{'All' if complete else right} of the {len(told)} cells tell most, and more than chance, about the "
+            f"variable of their own modality{'' if complete else ' in so short a recording'}. {beyond} With {SHIFTS} "
+            f"shifts, one in a hundred comparisons does so by chance, and {2 * len(told)} of these have nothing to find"
+            + (", unless the way the animal goes links the variables." if others else ".")
+            + (" So each cell tells about the concern of its modality, and next to nothing about the others."
+               if complete and len(others) < 3 else ""))
+
+
+def describe_sizes(tuned, active):
+    """What is saved by maps apart: {cell: (`NresMap`, which of its cells)}, and {cell: when it is active, (steps,)}."""
+    cells = [nres_map.cells for nres_map, _ in tuned.values()]
+    digits, power = f"{np.prod(cells, dtype=float):.1e}".split("e")
+    shares = [100 * np.mean(each) for each in active.values()]
+    return (f"It also saves. The {len(cells)} maps of this box have {sum(cells)} cells in all. A single map of "
+            f"everything, with a cell for each combination, would need {digits} × 10<sup>{int(power)}</sup>. Of each "
+            "map a few cells at most are active at a time: the cells shown here were active for "
+            f"{min(shares):.1f} to {max(shares):.1f} % of the time. What the separate maps cannot say is which "
+            "combination there is: that the animal runs just when it is near a wall, say, is in none of them.")
+
+
+def describe_likeness(found):
+    """How alike two maps of each cell are, a line for each: {cell: correlation}."""
+    return "\n".join(f"{cell}: correlation of the maps {number:.2f}" for cell, number in found.items())

@@ -1,0 +1,76 @@
+"""What is said of reference frames and of tuned cells."""
+
+import numpy as np
+import pytest
+
+from neorl import NresMap
+from neorl.chapters.chapter_2.tuning import Told
+from neorl.chapters.chapter_2.tuning_words import (describe_frames, describe_information, describe_likeness,
+                                                   describe_sizes, information_table)
+
+CELLS = {"place cell": "position", "head-direction cell": "direction", "speed cell": "speed"}
+
+
+def told(*others, unclear=()):
+    """Cells that tell 2 bits of the variable of their own modality, and half a bit of others: (cell, variable)."""
+    return {cell: {variable: Told(2.0, cell not in unclear) if variable == own else
+                   Told(0.5 if (cell, variable) in others else 0.01, (cell, variable) in others)
+                   for variable in CELLS.values()} for cell, own in CELLS.items()}
+
+
+@pytest.mark.parametrize("length, when", [(1.0, "in both frames at every moment."),
+                                          (1.25, "in both frames to within 0.2.")])
+def test_the_frames_are_compared_while_the_animal_turns(length, when):
+    allocentric = np.array([(1.0, 0.0), (1.0, 0.0), (0.8, -0.6)])
+    seen = length * np.array([(1.0, 0.0), (0.0, -1.0), (0.8, -0.6)])
+    words = describe_frames(np.arange(3), allocentric, seen, turned=2)
+    assert f"change by 0.00, and those of the egocentric one by up to {length:.2f}. The distance" in words
+    assert words.endswith(when)
+
+
+def test_the_table_sets_what_is_clear_in_bold():
+    assert information_table(told(("speed cell", "position"))).splitlines() == [
+        "| Cell | position | direction | speed |", "|---|---|---|---|", "| place cell | **2.00** | 0.01 | 0.01 |",
+        "| head-direction cell | 0.01 | **2.00** | 0.01 |", "| speed cell | **0.50** | 0.01 | **2.00** |"]
+
+
+def test_cells_that_tell_about_their_own_variable_alone_are_told_so():
+    words = describe_information(told())
+    assert words.startswith("All of the 3 cells tell most, and more than chance, about the variable of their own "
+                            "modality. None exceeds the shifted spikes anywhere else. With 99 shifts, ")
+    assert words.endswith("6 of these have nothing to find. So each cell tells about the concern of its modality, and "
+                          "next to nothing about the others.")
+
+
+def test_what_cells_tell_beyond_that_is_named():
+    words = describe_information(told(("speed cell", "position")))
+    assert "Beyond that, the speed cell about position exceeds the shifted spikes. With 99" in words
+    assert "nothing to find, unless the way the animal goes links the variables. So each cell" in words
+    words = describe_information(told(("speed cell", "position"), ("place cell", "speed")))
+    assert "the place cell about speed, the speed cell about position exceed the shifted" in words
+    assert words.endswith("next to nothing about the others.")
+    many = told(("speed cell", "position"), ("place cell", "speed"), ("place cell", "direction"))
+    assert describe_information(many).endswith("links the variables.")
+
+
+def test_cells_that_do_not_tell_about_their_own_variable_are_not_counted():
+    words = describe_information(told(unclear=["place cell"]))
+    assert words.startswith("2 of the 3 cells tell most, and more than chance, about the variable of their own "
+                            "modality in so short a recording. None exceeds")
+    assert words.endswith("nothing to find.")
+    outdone = told(("place cell", "speed"))
+    outdone["place cell"]["speed"] = Told(3.0, True)
+    assert describe_information(outdone).startswith("2 of the 3 cells")
+
+
+def test_a_single_map_of_everything_is_as_large_as_the_product_of_all():
+    tuned = {"fine": (NresMap(20), 3), "coarse": (NresMap(10), 0), "small": (NresMap(5), 0)}
+    active = {"fine": np.arange(1_000) < 23, "coarse": np.arange(1_000) < 100, "small": np.arange(1_000) < 132}
+    words = describe_sizes(tuned, active)
+    assert "The 3 maps of this box have 525 cells in all." in words and "would need 1.0 × 10<sup>6</sup>. Of" in words
+    assert "were active for 2.3 to 13.2 % of the time" in words
+
+
+def test_each_cell_has_a_line_with_how_alike_its_maps_are():
+    assert describe_likeness({"place cell": 0.987, "border cell": -0.25}).splitlines() == [
+        "place cell: correlation of the maps 0.99", "border cell: correlation of the maps -0.25"]
