@@ -123,6 +123,16 @@ def test_an_iteration_that_might_not_end_is_refused(task, change, message):
         decision.policy_iteration(*task.expected(), **{"discount": 0.9, "sweeps": 3, **change})
 
 
+def test_a_loss_is_looked_at_after_iterations_only():
+    losses = [1.0, 0.1, 0.6, 0.1, 0.4, 0.1, 0.0]  # evaluations stand between them
+    assert [decision.iterations_until(losses, limit) for limit in (2, 0.5, 0.3)] == [0, 2, 3]
+
+
+def test_sweeps_are_counted_over_all_iterations(task):
+    stages = decision.policy_iteration(*task.expected(), 0.9, 3)
+    assert decision.sweeps_until_stable(*task.expected(), 0.9, 3) == 3 * (len(stages) - 1) // 2 > 3
+
+
 def test_a_sweep_is_the_bellman_equation():
     probability = np.array([[[0.25, 0.75]], [[1.0, 0.0]]])
     q = decision.action_values(probability, np.array([[1.0], [2.0]]), np.array([10.0, 20.0]), 0.5)
@@ -210,6 +220,11 @@ def test_transitions_and_first_visits_are_counted_one_by_one(lives):
             met[state, action] = met[state, action] or step + 1
         np.testing.assert_array_equal(counts[run], table)
         np.testing.assert_array_equal(first[run], met)
+
+
+def test_how_full_models_are_is_told_in_percent_and_by_pair():
+    percent, branching = decision.model_filling(np.array([10, 30]), np.array([100, 100]), np.array([5, 10]))
+    assert percent == pytest.approx(20) and branching == pytest.approx((2.5, 2, 3))
 
 
 def test_a_learned_model_is_the_process_itself_in_the_end(task, lives):

@@ -119,6 +119,19 @@ def test_the_exponential_function_is_that_of_numpy():
     assert ensembles._exponential(0.0) == 1 and ensembles._exponential(-1e9) == 0
 
 
+def test_finals_are_those_of_lives_with_a_greediness_halved_as_it_is_and_doubled():
+    finals = ensembles.final_by_greediness(DYNA, steps=200, runs=2, seed=3)
+    assert tuple(finals) == ensembles.RULES
+    for final, doublings in zip(finals["rank voting"], (-1, 0, 1), strict=True):
+        lived = walk(DYNA, "rank voting", steps=200, runs=2, seed=3, doublings=doublings)
+        np.testing.assert_array_equal(final, lived[:, -1])
+
+
+def test_learners_that_agree_have_their_way_with_the_probability_that_greediness_gives_them():
+    assert ensembles.agreement("majority voting") == pytest.approx(softmax(1.6 * np.array([5, 0, 0, 0]))[0])
+    assert ensembles.agreement("rank voting") == pytest.approx(softmax(0.6 * 5 * np.array([4, 3, 2, 1]))[0])
+
+
 def test_the_best_reward_in_a_corridor_is_known():
     """One way to go: 85 % of steps go there, 5 % the other way, 10 % and any step out of the corridor bump."""
     assert best_reward(Maze(("SG",))) == pytest.approx(0.85 * 100 - 0.15 * 2)
@@ -143,6 +156,7 @@ def test_learners_alone_come_to_what_others_have_found():
     (lambda: walk(DYNA, "Sarsa", steps=19, runs=1), "steps is 19"),
     (lambda: walk(DYNA, "Sarsa", steps=100, runs=0), "runs is 0"),
     (lambda: walk(DYNA, "Sarsa", steps=100, runs=1, seed=-1), "seed is -1"),
+    (lambda: ensembles.agreement("Sarsa"), "rule is 'Sarsa', allowed are 'majority voting', 'rank voting'"),
     (lambda: walk(DYNA, "Sarsa", steps=100, runs=1, doublings=6), "doublings is 6, allowed are integers from -5 to 5"),
 ])
 def test_a_bad_argument_is_refused(make, message):

@@ -100,6 +100,13 @@ def test_states_are_counted():
     assert SMALL.states("heads") == SMALL.states("latent heads") == 2 * cells + cells * cells
 
 
+def test_every_concern_more_doubles_what_one_learner_needs_and_not_what_heads_do():
+    game = Game()
+    fewer = hybrid_reward.times_fewer(game.grid.states, len(game.places))
+    assert fewer == game.states("one learner") / game.states("heads")
+    assert hybrid_reward.times_fewer(10, 2) == 400 / 120 and hybrid_reward.times_fewer(10, 3) == 800 / 130
+
+
 def test_the_last_bin_is_the_last_fifth():
     edges = play(SMALL, Learner("heads"), steps=10_000, runs=1).edges
     assert edges[0] == 0 and list(edges[-2:]) == [8_000, 10_000] and np.all(np.diff(edges) > 0)

@@ -65,6 +65,15 @@ def test_a_bad_process_is_refused(call, message):
         call()
 
 
+def test_rules_by_which_nothing_can_be_lumped_need_every_history():
+    least = {"sum": [2, 4, 8], "table": [2, 4, 7], "delay": [2, 4, 8]}
+    assert temporality.unlumpable(np.arange(1, 4), least) == ["sum", "delay"]
+
+
+def test_the_memory_for_a_number_of_histories():
+    assert 2 ** temporality.memory_for(6) == pytest.approx(1e6)
+
+
 def test_a_mechanism_pays_for_the_outcome_of_the_symbols_it_has_shown():
     memory = 3
     lived = decision.live(temporality.mechanism(2, memory, "sum"), [2_000], 1, 0, discount=0.0)
@@ -108,6 +117,18 @@ def test_actions_that_do_not_stick_are_those_of_the_grid():
     process = temporality.sticky(CLIFF.next_state, WORTH, 0.0)
     np.testing.assert_allclose(decision.plan(*process.expected(), 0.9), np.repeat(plain, 4, axis=0))
     assert len(process.starts) == 4 * (CLIFF.states - 3)
+
+
+def test_shares_of_the_best_return_are_those_of_learners_with_that_floor_and_that_view():
+    process = temporality.sticky(CLIFF.next_state, WORTH, 0.25)
+    pairs = np.arange(process.states)
+    shares = temporality.shares_by_floor(process, 0.5, (0.02, 0.9), steps=300, runs=2, seed=1, discount=0.9)
+    for floor, both in shares.items():
+        for seen, share in zip((pairs // 4, pairs), both, strict=True):
+            lived = decision.live(process, [300], 2, 1, seen, learning_rate=floor, discount=0.9)
+            values = decision.policy_values(process, lived.q[:, 0].argmax(axis=-1)[:, seen], 0.9)
+            np.testing.assert_allclose(share, values[:, process.starts].mean(axis=1) / 0.5)
+    assert len({tuple(share) for both in shares.values() for share in both}) == 4
 
 
 def test_the_last_action_matters_only_if_actions_stick():

@@ -1,14 +1,31 @@
-"""Tables and lists of names in Markdown."""
+"""Tables, lists of names, numbers and intervals in Markdown."""
 
-from neorl.chapters.shared.wording import listed, table
+import numpy as np
+
+from neorl.chapters.shared.wording import by_interval, listed, number, table
+from neorl.evidence.statistics import Estimate
 
 
 def test_a_table_has_a_line_for_its_heads_one_below_and_one_for_each_row():
     assert table(["Claim", "Share"], [["A1", "0.5"], ["A2", ""]]) == (
         "| Claim | Share |\n|---|---|\n| A1 | 0.5 |\n| A2 |  |")
+    assert table(("a", 1), [("b", Estimate(2, 1, 3))]) == "| a | 1 |\n|---|---|\n| b | 2.00 [1.00, 3.00] |"
     assert table(["Claim"], []) == "| Claim |\n|---|"
 
 
 def test_names_are_listed_and_none_is_said():
     assert listed(name for name in ("A1", "B2")) == "A1, B2"
     assert listed([]) == "none" and listed((), "no claim") == "no claim"
+
+
+def test_a_number_has_a_minus_sign_and_zero_has_none():
+    assert [number(value) for value in (1.234, -1.5, -0.001)] == ["1.23", "−1.50", "0.00"]
+    assert number(-12.34, 1) == "−12.3"
+
+
+def test_an_interval_decides_only_if_it_leaves_out_zero():
+    texts = "more", "less", "open"
+    assert by_interval(Estimate(2, 1, 3), *texts) == "more"
+    assert by_interval(Estimate(-2, -3, -1), *texts) == "less"
+    assert by_interval(Estimate(1, -1, 3), *texts) == by_interval(Estimate(-1, -3, 1), *texts) == "open"
+    assert by_interval(Estimate(1, np.nan, np.nan), *texts) == "open"

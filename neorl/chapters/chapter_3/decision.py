@@ -16,7 +16,8 @@ import numpy as np
 from neorl import checks
 from neorl.chapters.shared.tabular import exploring_action, learn_q
 from neorl.core.kernel import execute, kernel
-from neorl.core.stream import randint, new_stream, uniform
+from neorl.core.stream import new_stream, randint, uniform
+from neorl.evidence.statistics import estimate
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,6 +162,19 @@ def policy_iteration(probability, reward, discount, sweeps):
             return stages
 
 
+def iterations_until(losses, limit):
+    """After how many iterations a loss is below a limit for the first time.
+
+    losses: of each `Stage` of `policy_iteration`, (stages,), of which one after an iteration is below the limit.
+    """
+    return next(iteration for iteration, loss in enumerate(losses[::2]) if loss < limit)
+
+
+def sweeps_until_stable(probability, reward, discount, sweeps):
+    """How many sweeps `policy_iteration` takes in all, with so many for each evaluation."""
+    return sweeps * (len(policy_iteration(probability, reward, discount, sweeps)) // 2)
+
+
 def plan(probability, reward, discount, sweeps=200):
     """The best action values that sweeps of the Bellman optimality equation find: float64 (…, states, actions).
 
@@ -256,6 +270,15 @@ def learned_model(lives, steps):
     tried = np.maximum(counts.sum(axis=-1), 1)
     paid = np.bincount(_pairs(lives, steps), weights=lives.rewards[:, :steps].ravel(), minlength=tried.size)
     return counts / tried[..., None], paid.reshape(tried.shape) / tried
+
+
+def model_filling(filled, entries, pairs):
+    """How full the tables of models are: the mean percentage, and how many entries a pair of state and action has.
+
+    filled, entries, pairs: (runs,), how many entries of a table differ from 0, how many there are, and how many pairs
+    they belong to. The entries of a pair are an `Estimate`.
+    """
+    return 100 * (filled / entries).mean(), estimate(np.mean, filled / pairs)
 
 
 def first_visits(lives):

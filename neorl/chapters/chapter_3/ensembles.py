@@ -141,6 +141,26 @@ def walk(maze, chooser, *, steps, runs, seed=0, doublings=0):
     return rewards / np.diff(edges)
 
 
+def final_by_greediness(maze, *, steps, runs, seed=0):
+    """Reward per step in the last twentieth of lives, with a rule's greediness halved, as it is, and doubled.
+
+    maze, steps, runs, seed: as in `walk`. Returns {rule: [float64 (runs,), …]}.
+    """
+    return {rule: [walk(maze, rule, steps=steps, runs=runs, seed=seed, doublings=doublings)[:, -1]
+                   for doublings in (-1, 0, 1)] for rule in RULES}
+
+
+def agreement(rule):
+    """How probably a vote takes the action that all learners like best, if they agree on every place of their ranks.
+
+    rule: "majority voting" or "rank voting". Raises ValueError for any other.
+    """
+    ballots = {"majority voting": (1, 0, 0, 0), "rank voting": (4, 3, 2, 1)}  # of one learner
+    checks.one_of("rule", rule, tuple(ballots))
+    weight = np.exp(GREEDINESS[CHOOSERS.index(rule)] * len(LEARNERS) * np.array(ballots[rule]))
+    return float(weight[0] / weight.sum())
+
+
 @kernel
 def _walk(next_state, start, goal, chooser, doublings, edges, stream, preferences, critics, weight, policy, rewards):
     """Live until the last edge; weight and policy (4,) are working memory."""

@@ -75,8 +75,12 @@ class Game:
 
     def states(self, kind):
         """How many states a learner of a kind (one of ``KINDS``) tells apart, all heads taken together."""
-        states, places = self.grid.states, len(self.places)
-        return states * states * 2**places if kind == "one learner" else states * places + states * states
+        return _states(kind, self.grid.states, len(self.places))
+
+
+def times_fewer(cells, places):
+    """How many times fewer states heads tell apart than one learner does, in a game of so many cells and places."""
+    return _states("one learner", cells, places) / _states("heads", cells, places)
 
 
 @dataclass(frozen=True)
@@ -162,6 +166,10 @@ def settled_values(grid, place, discount):
     checks.real("discount", discount, 0, 1)
     distance, _ = _shortest_ways(grid)
     return discount ** checks.finite("distance to place", distance[place])[grid.next_state]
+
+
+def _states(kind, cells, places):
+    return cells**2 * 2**places if kind == "one learner" else cells * places + cells**2
 
 
 class _Board(NamedTuple):

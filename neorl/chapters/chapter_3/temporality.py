@@ -11,7 +11,7 @@ have to be told apart is counted from what follows them, by `states_needed`.
 import numpy as np
 
 from neorl import checks
-from neorl.chapters.chapter_3.decision import Process
+from neorl.chapters.chapter_3.decision import Process, live, policy_values
 
 RULES = {
     "sum": "the sum of the last L symbols modulo Ψ",
@@ -69,6 +69,19 @@ def states_needed(following, outcome):
         label = finer
 
 
+def unlumpable(memories, least):
+    """The rules of two symbols by which no two histories can be lumped, for any memory.
+
+    memories: int64 (points,). least: {rule: [`states_needed` for each of memories]}.
+    """
+    return [rule for rule, states in least.items() if np.array_equal(states, 2**memories)]
+
+
+def memory_for(power):
+    """The memory with which two symbols have 10 to that power histories."""
+    return power / np.log10(2)
+
+
 def mechanism(alphabet, memory, rule, seed=0):
     """A `Process` whose states are histories; the action is the outcome that the agent names. It never ends.
 
@@ -121,3 +134,20 @@ def sticky(next_state, worth, stickiness, starts=None):
     starts = np.flatnonzero(~ends) if starts is None else np.array(starts)
     return Process(successors, np.array([1 - stickiness, stickiness]), value[successors // actions], ends[state],
                    (starts[:, None] * actions + np.arange(actions)).ravel())
+
+
+def shares_by_floor(process, best, floors, steps, runs, seed, discount):
+    """The share of the best return that Q-learners make of a `sticky` process, without the last action and with it.
+
+    best: the best return, on average over starts. floors: learning rates, below which learners do not go.
+    steps, runs, seed, discount: as in `neorl.chapters.chapter_3.decision.live`.
+    Returns {floor: [float64 (runs,), float64 (runs,)]}.
+    """
+    pairs = np.arange(process.states)
+
+    def share(floor, seen):
+        lived = live(process, [steps], runs, seed, seen, learning_rate=floor, discount=discount)
+        chosen = lived.q[:, -1].argmax(axis=-1)[:, seen]
+        return policy_values(process, chosen, discount)[:, process.starts].mean(axis=-1) / best
+
+    return {floor: [share(floor, seen) for seen in (pairs // process.actions, pairs)] for floor in floors}

@@ -1,0 +1,68 @@
+"""What it costs to remember, and not to, as the page of chapter 3 reports it, in Markdown."""
+
+import numpy as np
+
+from neorl.chapters.chapter_3.growth import growth_factor
+from neorl.chapters.chapter_3.temporality import RULES
+from neorl.chapters.shared.wording import table
+from neorl.evidence.statistics import difference, estimate
+
+
+def states_met(met):
+    """Whether every learner meets every history: met {Ψ: (memories (points,), states (runs, points))}."""
+    full = all((states == alphabet**memories).all() for alphabet, (memories, states) in met.items())
+    return ("Every learner meets all Ψ to the power of L states, in every world." if full else
+            "Not every learner meets all Ψ to the power of L states in time.")
+
+
+def states_table(memories, least):
+    """The states that each rule needs of two symbols, for every second memory: least {rule: [states, …]}."""
+    rows = [(RULES[rule], *states[1::2]) for rule, states in least.items()]
+    return table(("Outcome, Ψ = 2", *(f"L = {memory}" for memory in memories[1::2])),
+                 [*rows, ("*all histories*", *(2**memory for memory in memories[1::2]))])
+
+
+def experience_factors(needed):
+    """By what factors a step that matters prolongs learning: {name: (memories (points,), steps (runs, points))}."""
+    return "; ".join(f"{growth_factor(*series)} with {name}" for name, series in needed.items())
+
+
+def short_memory(paid, memory):
+    """What agents make that remember a step less than matters.
+
+    paid: {"sum", "table": reward a step (runs, lengths)}, of lengths remembered from 0 to `memory`.
+    """
+    short, enough, partial = (estimate(np.mean, paid[rule][:, length]) for rule, length
+                              in (("sum", memory - 1), ("sum", memory), ("table", memory - 1)))
+    guess = "So all but one step of memory is worth no more than a guess. " if short.high < 0.55 else ""
+    return (f"With the sum, who remembers {memory - 1} of the {memory} steps makes {short}, and who remembers all "
+            f"makes {enough}. {guess}With the table, {memory - 1} steps make {partial}: there a part of the past tells "
+            "a part of the outcome, so how hard the curse strikes depends on the mechanism.")
+
+
+def worth_of_last_action(curves, seen_states):
+    """What it costs and brings to remember the last action, where actions are certain and where they are sticky.
+
+    curves: {"certain", "certain + last", "sticky", "sticky + last": (steps (checkpoints,), share of the best return
+    (runs, checkpoints))}. seen_states: {the same: how many}. The cost is told for when learners that need not remember
+    first make nine tenths, in the mean, or for the end if they never do.
+    """
+    steps, certain = curves["certain"]
+    _, remembering = curves["certain + last"]
+    high = certain.mean(axis=0) >= 0.9
+    early = high.argmax() if high.any() else -1
+    price = estimate(difference, certain[:, early], remembering[:, early])
+    gap = {kind: estimate(difference, curves[f"{kind} + last"][1][:, -1], curves[kind][1][:, -1])
+           for kind in ("certain", "sticky")}
+    behind = (": the agent that does not remember stays behind." if gap["sticky"].low > 0 else
+              ", which with so few learners or steps decides nothing.")
+    return (f"The learners meet {seen_states['sticky']} states without the last action and "
+            f"{seen_states['sticky + last']} with it. Where actions are certain, to remember costs {price} of the best "
+            f"return after {steps[early]:,} steps, and in the end it makes a difference of {gap['certain']}. Where "
+            f"they are sticky it makes one of {gap['sticky']}{behind}")
+
+
+def floors_table(shares):
+    """What learners make by the floor of their learning rate: of `shares_by_floor`."""
+    return table(("Floor of α", "Without the last action", "With it"),
+                 [(floor, *(estimate(np.mean, each) for each in both)) for floor, both in shares.items()])
