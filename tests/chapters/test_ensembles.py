@@ -7,6 +7,7 @@ from scipy import stats
 
 from neorl.chapters.chapter_3 import ensembles, hybrid_reward_figures
 from neorl.chapters.chapter_3.ensembles import CHOOSERS, DYNA, LEARNERS, ROOMS, Maze, best_reward, walk
+from neorl.core.kernel import execute
 from neorl.drawing.figures import CURVES, INK
 from neorl.evidence.statistics import estimate
 
@@ -115,8 +116,8 @@ def test_a_life_is_the_same_alone_and_among_others():
 
 def test_the_exponential_function_is_that_of_numpy():
     xs = np.linspace(-49.9, 0, 500)
-    np.testing.assert_allclose([ensembles._exponential(x) for x in xs], np.exp(xs), rtol=1e-7)
-    assert ensembles._exponential(0.0) == 1 and ensembles._exponential(-1e9) == 0
+    np.testing.assert_allclose([execute(ensembles._exponential, x) for x in xs], np.exp(xs), rtol=1e-7)
+    assert execute(ensembles._exponential, 0.0) == 1 and execute(ensembles._exponential, -1e9) == 0
 
 
 def test_finals_are_those_of_lives_with_a_greediness_halved_as_it_is_and_doubled():

@@ -10,6 +10,7 @@ from matplotlib import pyplot as plt
 from neorl.chapters.chapter_3 import hybrid_reward, hybrid_reward_figures
 from neorl.chapters.chapter_3.hybrid_reward import KINDS, Game, Learner, play, settled_values
 from neorl.chapters.shared.grid import Grid
+from neorl.core.kernel import execute
 from neorl.core.stream import new_stream
 from neorl.drawing.figures import CURVES
 from neorl.evidence.statistics import probability_of_improvement
@@ -115,7 +116,7 @@ def test_the_last_bin_is_the_last_fifth():
 def test_every_set_of_places_is_equally_likely_to_hold_the_fruits():
     game = Game(fruits=5)
     board, stream = hybrid_reward._board(game), new_stream(np.random.SeedSequence(3))
-    drawn = np.array([hybrid_reward._laid_out(board, stream) for _ in range(5_600)])
+    drawn = np.array([execute(hybrid_reward._laid_out, board, stream) for _ in range(5_600)])
     sets, counts = np.unique(drawn, return_counts=True)
     assert len(sets) == 56 and all(int(each).bit_count() == 5 for each in sets)
     assert np.sum((counts - 100) ** 2 / 100) < 93  # χ² with 55 degrees of freedom, 99.9 %

@@ -39,7 +39,7 @@ def findings_of(held):
 
 def test_the_table_of_findings_has_a_row_for_each_and_a_column_for_each_kind_of_animal():
     rows = findings_table(findings_of({"level": ["Q-learning"]})).splitlines()
-    assert rows[0] == "| | neoRL | Q-learning | Sarsa(λ) |" and len(rows) == 6
+    assert rows[0] == "|  | neoRL | Q-learning | Sarsa(λ) |" and len(rows) == 6
     number = "−2.00 [−3.00, −1.00]"
     assert rows[2] == f"| Of level | **no** {number} | **yes** {number} | **no** {number} |"
 

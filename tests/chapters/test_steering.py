@@ -8,6 +8,7 @@ from neorl import Run, WaterWorld, multimodal, place_cells
 from neorl.chapters.chapter_1 import navigation_figures
 from neorl.chapters.chapter_1.before_and_after import leads, newborn, trials, veteran
 from neorl.chapters.chapter_1.steering import CLOSE, HASTE, chase, follow_route, steer
+from neorl.core.kernel import execute
 from neorl.experiments.recording import Recording
 
 TANK = WaterWorld()
@@ -22,7 +23,7 @@ def test_the_helmsman_takes_the_action_after_which_the_velocity_is_best():
         state.agent_position, state.agent_velocity = rng.uniform(0, 250, 2), rng.uniform(-200, 200, 2)
         target = state.agent_position + rng.uniform(-60, 60, 2)
         miss = HASTE * (target - state.agent_position) - state.agent_velocity
-        action = steer(state, TANK.rules, *target)
+        action = execute(steer, state, TANK.rules, *target)
         assert np.linalg.norm(miss - MOVES, axis=1).argmin() == action
         taken.add(action)
     assert taken == set(range(5))
