@@ -84,6 +84,24 @@ def test_the_stream_is_the_same_for_any_number_of_runs_and_any_rule():
     np.testing.assert_array_equal(*exits)
 
 
+def test_rules_learn_from_the_same_streams_as_alone():
+    rules = {"one": INVERSION, "other": DIFFERENCE}
+    found = credit.learn_by_each(Chamber(effort=3), rules, 20, 2, seed=4)
+    assert list(found) == ["one", "other"]
+    np.testing.assert_array_equal(found["other"], learn_in(Chamber(effort=3), DIFFERENCE, 20, 2, seed=4))
+    by_hold = credit.vary_hold((2, 50), rules, 20, 2, seed=4)
+    assert list(by_hold) == [2, 50]
+    np.testing.assert_array_equal(by_hold[50]["one"], learn_in(Chamber(hold=50), INVERSION, 20, 2, seed=4))
+
+
+def test_with_the_same_horizon_the_steps_of_a_visit_are_discounted_as_a_visit():
+    rules = credit.variants(Chamber(effort=5))
+    assert rules["temporal difference, same horizon"].discount ** 5 == pytest.approx(INVERSION.discount)
+    assert rules["temporal difference, same horizon"].update_on == "step"
+    of_inversion = [(rule.credit, rule.absent_decay) for rule in rules.values() if rule.update_on == "cell"]
+    assert of_inversion == [("happened", 0), ("last", 0), ("share", 1)]
+
+
 def test_roles_are_means_over_both_exits():
     values = np.array([[1.0, 0.2], [0.4, 0.8], [0.5, 0.7], [0.0, 0.1]])
     np.testing.assert_allclose(by_role(values), [0.9, 0.3, 0.6, 0.05])

@@ -86,6 +86,14 @@ def test_policies_are_drawn_where_there_is_no_element_and_ringed_where_they_diff
     assert [float(ring.get_xdata()[0]) for ring in first.lines] == [1, 2] and not second.lines
 
 
+def test_a_state_is_ringed_for_a_wrong_action_and_not_for_one_that_is_left_out():
+    left, either = (np.tile(q, (4, 1)) for q in ([0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 1.0, 1.0]))
+    purposive_figures.draw_policies(Grid(("....",)), {"sum": either, "plan": left}, {0: 1.0})
+    assert [float(ring.get_xdata()[0]) for ring in drawn()[0].lines] == [1, 2, 3]
+    purposive_figures.draw_policies(Grid(("....",)), {"sum": left, "plan": either}, {0: 1.0})
+    assert not drawn()[0].lines
+
+
 def test_roles_are_drawn_as_means_over_runs():
     values = np.random.default_rng(0).random((5, 10, 4))
     purposive_figures.draw_roles({"one": values, "other": values + 1})

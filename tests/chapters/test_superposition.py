@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from neorl.chapters.chapter_4 import potentials
-from neorl.chapters.chapter_4.superposition import fit_ridges
+from neorl.chapters.chapter_4.superposition import AXES, exact_sums, fit_ridges
 from neorl.chapters.shared.grid import Grid
 from neorl.core.horde import learn
 
@@ -28,7 +28,7 @@ def test_a_single_ridge_is_found_at_its_angle():
 
 
 def test_no_sum_of_functions_of_the_coordinates_makes_a_product():
-    ridges = fit_ridges(X * Y, 2, np.array([0.0, np.pi / 2]))
+    ridges = fit_ridges(X * Y, 2, AXES)
     np.testing.assert_allclose(ridges.errors, 1)
 
 
@@ -47,6 +47,14 @@ def test_what_is_left_over_is_the_rest_of_a_least_squares_fit_of_all_ridges_toge
 def test_a_fit_refuses_what_is_no_function_on_a_square(values, terms, message):
     with pytest.raises(ValueError, match=message):
         fit_ridges(values, terms)
+
+
+def test_some_functions_show_their_sum_at_a_glance():
+    found = exact_sums(X, Y)
+    assert list(found) == ["product of x and y", "larger of x and y", "distance from 0"]
+    for function, _, total in found.values():
+        np.testing.assert_allclose(total, function, atol=1e-12)
+    assert [function[0, -1] for function, *_ in found.values()] == pytest.approx([-1, 1, 2**0.5])  # x = 1, y = −1
 
 
 def test_the_value_of_a_single_goal_falls_by_the_discount_with_each_step():
@@ -78,6 +86,27 @@ def test_what_a_policy_is_worth_adds_up_over_rewards_and_the_best_values_do_not(
     np.testing.assert_allclose(alone.sum(axis=0), potentials.evaluate(N5, policy, rewards.sum(axis=0)))
     sums, together = potentials.plan(N5, rewards).sum(axis=0), potentials.plan(N5, rewards.sum(axis=0))
     assert np.all(sums >= together - 1e-9) and (sums - together).max() > 0.5
+
+
+def test_the_values_of_drawn_actions_add_up():
+    assert potentials.error_of_sum(N5, np.eye(25)[3] - np.eye(25)[20]) < 1e-12
+
+
+def test_the_sum_would_be_off_if_values_of_drawn_actions_did_not_add_up(monkeypatch):
+    monkeypatch.setattr(potentials, "evaluate", lambda grid, policy, rewards: rewards.sum(axis=-1) ** 2 * np.ones(25))
+    assert potentials.error_of_sum(N5, np.eye(25)[0] + np.eye(25)[1]) == 2
+
+
+def test_several_actions_may_be_best():
+    q = np.array([[1.0, 1.0, 0.5, 1 - 1e-12], [0.0, 0.2, 0.1, 0.2]])
+    assert potentials.best_actions(q).tolist() == [[True, True, False, True], [False, True, False, True]]
+
+
+def test_a_sum_misleads_where_an_action_that_it_calls_best_is_not_by_the_plan():
+    planned = np.array([[1.0, 1, 0, 0]] * 4)
+    added = np.array([[1.0, 1, 0, 0], [1, 0, 0, 0], [0, 1, 1, 0], [0, 0, 1, 0]])
+    assert potentials.misled(added, planned, elements=[3]) == [2]
+    assert potentials.misled(added, planned, elements={}) == [2, 3]
 
 
 def test_the_horde_learns_towards_each_goal_what_planning_finds():
@@ -129,6 +158,15 @@ def test_placements_are_drawn_and_the_same_each_time():
     one, two = (potentials.compare(N5, [1, 1, -1], placements=30) for _ in range(2))
     np.testing.assert_array_equal(one.achieved, two.achieved)
     assert len(set(one.achieved.round(6))) > 20
+
+
+def test_many_wanted_and_few_among_feared_are_compared_under_other_discounts():
+    found = potentials.compare_discounts(N5, placements=3, seed=2, discounts=(0.5, 0.9))
+    assert list(found) == [0.5, 0.9]
+    for discount, (many, few) in found.items():
+        for comparison, valences in ((many, [1, 1, 1, 1, 1, 1]), (few, [1, -1, -1])):
+            expected = potentials.compare(N5, valences, 3, seed=2, discount=discount)
+            np.testing.assert_array_equal(comparison, expected)
 
 
 def test_cosines_are_those_of_the_angles():

@@ -36,6 +36,20 @@ def test_displacements_are_those_counted_by_hand():
     assert mean_squared_displacement(straight.astype(np.int32), [100_000])[0, 0] == 1e10
 
 
+def test_distance_grows_with_the_root_of_time_first_and_with_time_itself_at_last():
+    lags = 10 ** np.arange(7)
+    squared = np.array([[1, 7, 100, 1e6, 7e8, 7e10, 1e12], [4, 7, 400, 4e6, 7e8, 7e10, 4e12]])
+    np.testing.assert_allclose(walks.powers_of_time(squared, lags), [[0.5, 0.5], [1, 1]])
+
+
+def test_a_walk_has_arrived_when_it_first_is_near_its_goal():
+    path = np.arange(20)[:, None] * [1, 0, 0]
+    there_and_back = np.concatenate([path, path[::-1]])
+    first = walks.first_arrivals(np.stack([there_and_back, -there_and_back]), goal=(10, 0, 0))
+    np.testing.assert_array_equal(first, [6, np.inf])
+    assert walks.first_arrivals(path[None], goal=(3, 0, 0)) == [0]
+
+
 def test_a_walker_that_is_always_biased_goes_to_its_goal_and_wanders_about_it():
     paths = walk(1.0, (3, -2, 0), steps=9, runs=2)
     np.testing.assert_array_equal(paths[:, 5], [[3, -2, 0]] * 2)
@@ -93,6 +107,17 @@ def test_the_parts_of_a_series_are_found_and_the_better_the_longer_it_is():
         errors.append(np.mean(of_runs, axis=0))
     assert np.all(errors[0] < [0.3, 0.4, 0.15])
     assert np.all(errors[1] < 0.2 * errors[0])  # a tenth is to be expected
+
+
+def test_errors_are_those_of_each_run_by_length(monkeypatch):
+    true = wold.Parts(np.zeros(4), np.zeros(4), np.zeros(4), np.array([0.6, 0.3]))
+    found = wold.Parts(np.full(4, 2.0), np.zeros(4), np.array([1.0, -1, 1, -1]), np.array([0.5, 0.7]))
+    lived = []
+    monkeypatch.setattr(wold, "generate", lambda *chosen: (lived.append(chosen), true))
+    monkeypatch.setattr(wold, "decompose", lambda series, order: found)
+    errors = wold.errors([0.6, 0.3], period=20.0, longest=1_000, runs=2, seed=7)
+    assert list(errors) == [300, 1_000] and lived[-1] == ([0.6, 0.3], 1.0, 20.0, 1_000, 1, 7)
+    np.testing.assert_allclose(errors[300], [[2, 2], [1, 1], [0.4, 0.4]])
 
 
 def test_the_coefficients_of_an_autoregression_are_the_powers_of_its_own():

@@ -26,9 +26,10 @@ from neorl.core.stream import randint, new_stream, uniform
 ROLES = ("cause", "other lever", "light", "bell")
 CELLS = 3  # the chamber, and behind each exit one
 POSSIBLE = {"trace": (1,), "memory": (0.0,), "credit": ("share", "happened", "last"), "absent_form": ("decay",)}
-INVERSION = Learning(learning_rate=0.03, discount=0.8, update_on="cell", credit="share", absent_decay=0.0, absent_form="decay",
-                     terminal=True, trace=1, memory=0.0, bootstrap=True, causes="any", capture="contact",
-                     attention="each")  # the plainest rule of its kind, whatever rule the agents of the book have
+# The plainest rule of its kind, whatever rule the agents of the book have.
+INVERSION = Learning(learning_rate=0.03, discount=0.8, update_on="cell", credit="share", absent_decay=0.0,
+                     absent_form="decay", terminal=True, trace=1, memory=0.0, bootstrap=True, causes="any",
+                     capture="contact", attention="each")
 DIFFERENCE = replace(INVERSION, update_on="step")
 
 
@@ -110,6 +111,35 @@ def lead_of_cause(values):
     """
     roles = by_role(values)
     return roles[..., 0] - roles[..., 1:].max(axis=-1)
+
+
+def learn_by_each(chamber, rules, visits, runs, seed=0):
+    """What `learn_in` returns for each of several rules, on the same streams: {name: values}.
+
+    rules: {name: `Learning`}. All else is as in `learn_in`.
+    """
+    return {name: learn_in(chamber, rule, visits, runs, seed) for name, rule in rules.items()}
+
+
+def vary_hold(holds, rules, visits, runs, seed=0):
+    """The same in chambers whose bouts last shorter or longer: {hold: {name: values}}.
+
+    holds: as `Chamber` takes them. All else is as in `learn_in`.
+    """
+    return {hold: learn_by_each(Chamber(hold=hold), rules, visits, runs, seed) for hold in holds}
+
+
+def variants(chamber):
+    """Rules beside the two that the thesis compares: {name: `Learning`}.
+
+    With the same horizon, temporal difference discounts ``effort`` steps in the chamber as inversion does a visit. The
+    others give credit in other ways.
+    """
+    a_step = DIFFERENCE.discount ** (1 / chamber.effort)
+    return {"temporal difference, same horizon": replace(DIFFERENCE, discount=a_step),
+            "inversion, ψ = 1 for all that happened": replace(INVERSION, credit="happened"),
+            "inversion, ψ = 1 for the last alone": replace(INVERSION, credit="last"),
+            "inversion, ψ(0) = −1": replace(INVERSION, absent_decay=1.0)}
 
 
 @kernel

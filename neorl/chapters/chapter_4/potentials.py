@@ -54,10 +54,34 @@ def evaluate(grid, policy, rewards, discount=0.8):
     return np.linalg.solve(np.eye(grid.states) - discount * moves, brought[..., None])[..., 0]
 
 
+def error_of_sum(grid, rewards):
+    """How far the values of drawn actions are off if those for each state's reward are added: float.
+
+    rewards: (states,). It is 0 up to rounding, as for every fixed policy.
+    """
+    drawn = np.full((grid.states, 4), 0.25)
+    alone = evaluate(grid, np.stack([drawn] * grid.states), np.eye(grid.states))
+    return np.abs(rewards @ alone - evaluate(grid, drawn, rewards)).max()
+
+
+def best_actions(q):
+    """Which actions are best, several where they are equal: bool (…, states, 4)."""
+    return q > q.max(axis=-1, keepdims=True) - 1e-9
+
+
 def greedy(q):
     """The policy of the best actions, equally likely where there are several: float64 (…, states, 4)."""
-    best = q > q.max(axis=-1, keepdims=True) - 1e-9
+    best = best_actions(q)
     return best / best.sum(axis=-1, keepdims=True)
+
+
+def misled(q, planned, elements):
+    """The states without an element in which an action is best by q and not by the plan: a list of integers.
+
+    q, planned: (states, 4). elements: a collection of states.
+    """
+    wrong = (best_actions(q) & ~best_actions(planned)).any(axis=1)
+    return [state for state in np.flatnonzero(wrong) if state not in elements]
 
 
 def compare(grid, valences, placements, seed=0, discount=0.8):
@@ -85,6 +109,15 @@ def compare(grid, valences, placements, seed=0, discount=0.8):
     usual = worth["best"].mean()
     achieved, at_random = (1 - (worth["best"] - worth[name]) / usual for name in ("superposed", "random"))
     return Comparison((agreement * empty).sum(axis=-1) / empty.sum(axis=-1), achieved, at_random)
+
+
+def compare_discounts(grid, placements, seed=0, discounts=(0.5, 0.95)):
+    """Many wanted elements, and few among feared ones, under several discounts: {γ: two `Comparison`}.
+
+    The first has six elements of valence 1, the second one of 1 and two of −1. All else is as in `compare`.
+    """
+    return {discount: [compare(grid, valences, placements, seed, discount) for valences in ([1] * 6, [1, -1, -1])]
+            for discount in discounts}
 
 
 def cosines(vectors):

@@ -6,6 +6,7 @@ from matplotlib.colors import LinearSegmentedColormap, to_rgb
 from matplotlib.ticker import MaxNLocator, PercentFormatter
 
 from neorl.chapters.chapter_4.credit import ROLES
+from neorl.chapters.chapter_4.potentials import misled
 from neorl.chapters.chapter_4.walks import expected_squared_displacement
 from neorl.chapters.shared.grid_figures import draw_grid, draw_policy, new_grids
 from neorl.drawing.figures import AGENT, CURVES, GREEN, INK, RED, add_estimates, name_ends
@@ -97,7 +98,7 @@ def draw_policies(grid, q_by_title, valences):
     A state of the first panel is ringed where one of its actions is not among the best of the last.
     """
     colours = {state: (GREEN if valence > 0 else RED, 0.55) for state, valence in valences.items()}
-    best = [q > q.max(axis=1, keepdims=True) - 1e-9 for q in q_by_title.values()]
+    first, *_, last = q_by_title.values()
     panels = new_grids(grid, columns=len(q_by_title))
     for axes, (title, q) in zip(panels, q_by_title.items()):
         draw_grid(axes, grid, colours)
@@ -107,9 +108,8 @@ def draw_policies(grid, q_by_title, valences):
         for state, valence in valences.items():
             axes.text(*grid.places[state], "+" if valence > 0 else "−", ha="center", va="center", weight="bold",
                       color="white", fontsize=14)
-    for state in np.flatnonzero((best[0] & ~best[-1]).any(axis=1)):
-        if state not in valences:
-            panels[0].plot(*grid.places[state], marker="o", markersize=25, fillstyle="none", color=RED)
+    for state in misled(first, last, valences):
+        panels[0].plot(*grid.places[state], marker="o", markersize=25, fillstyle="none", color=RED)
 
 
 def draw_roles(values_by_rule):

@@ -14,6 +14,7 @@ from neorl import checks
 
 DEGREE = 10  # of the outer functions
 ANGLES = np.pi * np.arange(60) / 60
+AXES = np.array([0, np.pi / 2])  # the angles of functions of x alone and of y alone
 
 
 class Ridges(NamedTuple):
@@ -21,6 +22,16 @@ class Ridges(NamedTuple):
 
     angles: np.ndarray  # θ of each ridge: float64 (terms,)
     errors: np.ndarray  # root mean square left over by 0, 1, … ridges: float64 (terms + 1,), in standard deviations
+
+
+def exact_sums(x, y):
+    """Functions of two variables that show their sum at a glance: {name: (function, formula of the sum, sum)}.
+
+    x, y: float64 (…). Function and sum are of the same shape, and equal up to rounding.
+    """
+    return {"product of x and y": (x * y, "((x + y)² − (x − y)²) / 4", ((x + y) ** 2 - (x - y) ** 2) / 4),
+            "larger of x and y": (np.maximum(x, y), "(x + y + √((x − y)²)) / 2", (x + y + np.sqrt((x - y) ** 2)) / 2),
+            "distance from 0": (np.hypot(x, y), "√(x² + y²)", np.sqrt(x**2 + y**2))}
 
 
 def fit_ridges(values, terms, angles=ANGLES):

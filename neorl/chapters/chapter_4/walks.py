@@ -11,6 +11,7 @@ import numpy as np
 
 from neorl import checks
 
+NEAR = 5  # units from a goal within which a walk has come to it
 DIRECTIONS = np.concatenate([np.eye(3, dtype=np.int32), -np.eye(3, dtype=np.int32)])
 
 
@@ -56,6 +57,15 @@ def _towards(to_goal):
     return axis + 3 * behind
 
 
+def first_arrivals(paths, goal):
+    """The step at which each walk first is within ``NEAR`` units of a goal: float64 (runs,), infinite if it never is.
+
+    paths: (runs, steps + 1, 3). goal: three numbers.
+    """
+    near = np.linalg.norm(paths - np.array(goal), axis=2) < NEAR
+    return np.where(near.any(axis=1), near.argmax(axis=1), np.inf)
+
+
 def mean_squared_displacement(paths, lags):
     """How far walks get in so many steps, squared, on average over all places to begin: float64 (runs, lags).
 
@@ -72,3 +82,12 @@ def expected_squared_displacement(strength, lags):
     Up to about (1 − β²) / β² steps a walk diffuses, and its distance grows with the root of time; then it drifts.
     """
     return (1 - strength**2) * lags + (strength * lags) ** 2
+
+
+def powers_of_time(squared, lags):
+    """The power of time by which distance grows, at the shortest lags and at the longest: float64 (2, runs).
+
+    squared: as `mean_squared_displacement` returns it, for four lags or more.
+    """
+    return np.array([np.log(squared[:, j] / squared[:, i]) / np.log(lags[j] / lags[i]) / 2
+                     for i, j in ((0, 2), (-4, -1))])

@@ -15,6 +15,7 @@ from scipy import linalg, optimize, signal
 from neorl import checks
 
 PAST = 20  # values of the past that predict the next one
+LENGTHS = (300, 1_000, 3_000, 10_000, 30_000)  # of the series that `errors` takes apart, in steps
 
 
 class Parts(NamedTuple):
@@ -67,6 +68,24 @@ def decompose(series, order):
     earlier = np.stack([innovations[order - k : -k] for k in range(1, order + 1)], axis=1)
     coefficients = _least_squares(earlier, rest[PAST + order :])
     return Parts(deterministic[PAST:], rest[PAST:], innovations, coefficients)
+
+
+def errors(coefficients, period, longest, runs, seed=0):
+    """How far what `decompose` finds is off from what `generate` puts in, by length: {steps: float64 (3, runs)}.
+
+    Of u_t and of y_t it is the root mean square, of b_1, b_2, … the largest error; the oscillation has an amplitude of
+    1. longest: steps of the longest series, which leaves out greater ``LENGTHS``. All else is as in `generate`.
+    """
+    return {steps: np.transpose([_error(coefficients, period, steps, run, seed) for run in range(runs)])
+            for steps in LENGTHS if steps <= longest}
+
+
+def _error(coefficients, period, steps, run, seed):
+    series, true = generate(coefficients, 1.0, period, steps, run, seed)
+    found = decompose(series, order=len(coefficients))
+    return [np.sqrt(np.mean((found.deterministic - true.deterministic) ** 2)),
+            np.sqrt(np.mean((found.innovations - true.innovations) ** 2)),
+            np.abs(found.coefficients - true.coefficients).max()]
 
 
 def _left_over(frequency, series):

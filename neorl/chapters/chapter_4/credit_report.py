@@ -1,0 +1,110 @@
+"""What the page of chapter 4 says of the rules of learning in the chamber with two levers, in Markdown.
+
+Values are as `neorl.chapters.chapter_4.credit.learn_by_each` returns them: {rule: (runs, visits, 4, 2)}.
+"""
+
+import numpy as np
+
+from neorl.chapters.chapter_4.credit import INVERSION, Chamber, by_role, lead_of_cause
+from neorl.chapters.shared.wording import table
+from neorl.evidence.statistics import estimate, probability_of_improvement
+
+TOLD = [0, 9, 99]  # after 1, 10 and 100 visits
+
+
+def leads(values):
+    """The lead of the cause by each rule, and that of the first rule less that of the second, after 1, 10, 100 visits.
+
+    The first rule is inference inversion and the second temporal difference.
+    """
+    lead = {name: lead_of_cause(each)[:, TOLD] for name, each in values.items()}
+    right = {name: np.mean(each > 0, axis=0) for name, each in lead.items()}
+    rows = [[name, estimate(np.mean, each[:, 1]), estimate(np.mean, each[:, 2]),
+             ", ".join(f"{100 * share:.0f}" for share in right[name]) + " %"] for name, each in lead.items()]
+    inversion, difference, *_ = lead.values()
+    ahead = [estimate(np.mean, each) for each in (inversion - difference).T]
+    after = [_finely(each) for each in ahead]
+    chance = probability_of_improvement(inversion[:, 2], difference[:, 2])
+    said = [f"The lead of inference inversion, less that of temporal difference on the same streams, is {after[0]} "
+            f"after 1 visit, {after[1]} after 10 and {after[2]} after 100; there a run of the one beats a run of the "
+            f"other with probability {chance}."]
+    if ahead[2].low > 0:
+        said.append("So in the end inversion has the larger lead, "
+                    f"{inversion[:, 2].mean() / difference[:, 2].mean():.0f} times as large: to temporal difference, "
+                    "most steps lead from the chamber to the chamber, and for these nothing tells one event from "
+                    "another.")
+    by_inversion, by_difference, *_ = right.values()
+    if np.abs(by_inversion - by_difference)[1:].max() <= 0.1:
+        said.append("But *both* put the cause first about equally often, from the tenth visit on. A lead that is small "
+                    "is still a lead, as long as nothing else is added to it. In an agent that adds up the values of "
+                    "many cells and several maps, other things are.")
+    return ("The *lead* of the cause is its value less that of the best of the other three. *Cause first* is the share "
+            "of runs in which it is positive, so that a choice by value would be right.\n\n"
+            + table(["Rule", "Lead after 10", "after 100", "Cause first after 1, 10, 100"], rows)
+            + "\n\n" + " ".join(said))
+
+
+def _finely(found):
+    """An estimate with three decimals."""
+    bounds = "" if np.isnan(found.low) else f" [{found.low:z.3f}, {found.high:z.3f}]"
+    return f"{found.value:z.3f}{bounds}".replace("-", "−")
+
+
+def longer_stays(efforts, sampled, lead):
+    """How values and leads bear finer steps, by inversion, by temporal difference, and by that with the same horizon.
+
+    efforts: steps to open an exit, in order. sampled, lead: values by role (runs, 4) and the lead of the cause, an
+    `Estimate`, for each effort: {rule: […]}, of these three rules.
+    """
+    at_first = sampled["inversion"][0][:, 0].mean()
+    causes = [estimate(np.mean, groups[-1][:, 0]) for groups in sampled.values()]
+    last = [estimates[-1].value for estimates in lead.values()]
+    said = [f"From 1 step to {efforts[-1]}, the value of the cause goes from {at_first:.2f} to {causes[0]} with "
+            f"inversion, and to {causes[1]} with temporal difference, or {causes[2]} with the same horizon. The lead "
+            f"ends at {last[0]:.2f}, {last[1]:.3f} and {last[2]:.3f}."]
+    if last[0] > 0.5 * lead["inversion"][0].value and last[0] > 2 * max(last[1:]):
+        said.append("So inversion hardly cares how finely time is cut, and temporal difference does. A longer horizon "
+                    "mends the value and not the lead: the finer the steps, the less a single one matters. This is the "
+                    "robustness in time that the thesis claims for its rule (section 4.1.3), and it holds here. It "
+                    "also matters for superposition: a coarse map, whose cells take long to cross, has values of the "
+                    "same size as a fine one.")
+    return " ".join(said)
+
+
+def late_effects(delays, first, brief, quick):
+    """Which rules bear exits that open late, events that do not last, and quick learning.
+
+    first: {"inversion", "last event", "difference": [share of runs with the cause first, an Estimate, for each delay]}.
+    brief: {hold: values}, the usual one among them. quick: values with α = 0.3. Both are of inversion and of temporal
+    difference.
+    """
+    share = {name: f"{100 * estimates[-1].value:.0f} %" for name, estimates in first.items()}
+    said = [f"With a delay of {delays[-1]} steps the cause comes first in {share['inversion']} of the runs with credit "
+            f"by share, in {share['last event']} with credit for the last event and in {share['difference']} with "
+            "temporal difference."]
+    lead = {hold: _final_leads(values) for hold, values in brief.items()}
+    shortest, usual = (lead[hold][0] for hold in (min(lead), Chamber.hold))  # by inversion
+    if shortest.high < usual.low:
+        said.append("Credit by share has a weakness of its own: events that do not persist. The briefer they are, the "
+                    "more of both levers is in every stay.")
+    said.append(f"The table is for exits that open at once, after {Chamber.effort} presses in all.")
+    rows = [[f"{hold} steps", *estimates] for hold, estimates in lead.items()]
+    inversion, difference = _final_leads(quick)
+    return (" ".join(said) + "\n\n" + table(["Events last", "Lead, inversion", "Lead, temporal difference"], rows)
+            + f"\n\nAll this is with α = {INVERSION.learning_rate:g}. With α = 0.3, ten times as much, the lead after "
+            f"100 visits is {inversion} and {difference}.")
+
+
+def _final_leads(values):
+    return [estimate(np.mean, lead_of_cause(each)[:, -1]) for each in values.values()]
+
+
+def bright_light(values):
+    """By which rules the cause comes first, and how cause and light compare, as text: a line for each rule."""
+    lines = []
+    for name, each in values.items():
+        _, after_10, after_100 = np.mean(lead_of_cause(each)[:, TOLD] > 0, axis=0)
+        cause, _, light, _ = by_role(each)[:, -1].mean(axis=0)
+        lines.append(f"{name}: cause first in {after_10:.0%} after 10 visits, {after_100:.0%} after 100; "
+                     f"value of cause and light {np.array([cause, light]).round(2)}")
+    return "\n".join(lines)

@@ -1,0 +1,69 @@
+"""Whether it takes persistence to learn: agents that learn at changes of cell, or else at every step (claim T7).
+
+1. The agents are those of paper A with maps N3, N7 and N23, in the tank of that paper. They differ in their temporal
+   driver alone.
+2. Those that learn at every step do so with three discounts: γ itself, and the roots of it that see as far in time if a
+   stay in a cell lasts 10 steps or 50.
+3. They have as many runs as a verdict needs, at most. The best of the three counts.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from neorl.chapters.shared.wording import table
+from neorl.evidence import claims
+from neorl.evidence.reading import conditions
+from neorl.evidence.statistics import estimate
+from neorl.experiments.sweep import sweep
+
+CHANGES, BROWNIAN = "changes of cell", "Brownian motion"
+STAYS = (1, 10, 50)  # steps
+
+
+def live(readings, steps, runs, seed=0):
+    """The results under each reading: {name: {label: Result}}, labelled `CHANGES`, `BROWNIAN`, or by their discount.
+
+    readings: {name: Reading}. steps, runs, seed: as in `conditions`, but that agents that learn at every step have 10
+    runs at most.
+    """
+    return {name: _live(reading, steps, runs, seed) for name, reading in readings.items()}
+
+
+def _live(reading, steps, runs, seed):
+    made = conditions(reading, steps, runs, seed, groups=["layers"])
+    chosen = {CHANGES: made["layers"], BROWNIAN: made["brownian", 8]}
+    for stay in STAYS:
+        rule = replace(reading, credit="step", discount=reading.discount ** (1 / stay))
+        made = conditions(rule, steps, min(runs, claims.RUNS_FOR_A_VERDICT), seed, groups=["layers"])
+        chosen[f"γ = {rule.discount:.4g}"] = made["layers"]
+    return dict(zip(chosen, sweep([*chosen.values()])))
+
+
+def judge(results):
+    """Claim T7 under one reading. results: as `live` has them."""
+    each_step = {label: result for label, result in results.items() if label not in (CHANGES, BROWNIAN)}
+    return claims.judge_persistence(results[CHANGES], each_step, results[BROWNIAN])
+
+
+def in_words(lived, judged):
+    """What agents finally earn under each reading, and what learning at every step keeps, in Markdown.
+
+    lived: as `live` returns it. judged: {name: `Claim`}, of the same readings.
+    """
+    learns_at = {CHANGES: CHANGES, BROWNIAN: f"nothing: {BROWNIAN}"}
+    rows = []
+    for of_readings in zip(*(results.items() for results in lived.values())):
+        rows.append([learns_at.get(of_readings[0][0], "every step")])
+        for label, result in of_readings:
+            rate = result.rate() if label == BROWNIAN else result.rate(*claims.FINAL)
+            rows[-1].append(f"{estimate(np.mean, rate)}" + ("" if label in learns_at else f" ({label})"))
+    said = "; ".join(f"{name}, {_share_that_is_kept(claim)}" for name, claim in judged.items())
+    return ("Reward per second in the last fifth of a run, of Brownian motion in the whole:\n\n"
+            + table(["Learns at", *lived], rows) + f"\n\n{said.capitalize()}.")
+
+
+def _share_that_is_kept(claim):
+    if claim.outcome == "not testable":
+        return "agents that learn at changes of cell show no gain to compare with"
+    return f"learning at every step keeps {claim.here} of the gain that learning at changes of cell brings"

@@ -1,0 +1,75 @@
+"""What the page of chapter 4 says of value functions towards each cell, and of their sums, in Markdown."""
+
+import numpy as np
+
+from neorl.chapters.shared.wording import table
+from neorl.evidence.statistics import estimate
+
+
+def overlaps(learned, planned, cosines):
+    """Whether the value functions of all cells are orthogonal, and whether they are a basis.
+
+    learned: (runs, goals, cells). planned: (goals, cells). cosines: by how far goals are apart, {"learned": (runs,
+    distances), "planned": (1, distances)}.
+    """
+    runs, cells = learned.shape[:2]
+    neighbours, opposite = (estimate(np.mean, cosines["learned"][:, apart]) for apart in (1, -1))
+    independent = np.linalg.matrix_rank(learned) == cells
+    said = []
+    if opposite.low > 0 or runs < 2:
+        said.append(f"They are not orthogonal: neighbours have a cosine of {neighbours}, and even opposite corners of "
+                    f"{opposite}.")
+    else:
+        said.append(f"Neighbours have a cosine of {neighbours}, opposite corners of {opposite}.")
+    if opposite.value < cosines["planned"][0, -1]:
+        said.append("Those that were learned overlap less than the planned ones. A likely reason: an agent that drifts "
+                    "is less sure to arrive, so values fall off faster with distance.")
+    said.append(f"But they are *independent* in {independent.sum()} of {runs} agents: the {cells} functions have rank "
+                f"{cells}, so that no one of them is a sum of others. The planned ones are too, with rank "
+                f"{np.linalg.matrix_rank(planned)}.")
+    if independent.all():
+        said.append("So the set is a *basis*, as the thesis says: any function on the "
+                    f"{cells} cells is a weighted sum of the {cells}.")
+    if independent.any():
+        typical = np.median(np.linalg.cond(learned[independent]))
+        said.append("How well they keep apart is told by the condition number, 1 for orthogonal functions: its median "
+                    f"over agents is {typical:,.0f}, and for the planned functions it is "
+                    f"{np.linalg.cond(planned):,.0f}.")
+    return " ".join(said)
+
+
+def shares_of_plan(compared, feared, by_discount):
+    """What is made by following the sum, as a share of what the plan makes.
+
+    compared: {(n, m): `Comparison`}, of n wanted elements and m feared ones. feared: {m: name}, 0 among them.
+    by_discount: as `neorl.chapters.chapter_4.potentials.compare_discounts` returns it.
+    """
+    wanted = list(dict.fromkeys(n for n, _ in compared))
+    header = ["Wanted", *feared.values(), "drawn actions, none feared"]
+    rows = [[n, *(estimate(np.mean, compared[n, m].achieved) for m in feared),
+             estimate(np.mean, compared[n, 0].at_random)] for n in wanted]
+    said = []
+    exact = [str(n) for n in wanted if compared[n, 0].achieved.min() > 1 - 1e-9]
+    if exact:
+        said.append(f"Without fear, the sum lost nothing in any placement of {' or '.join(exact)} wanted.")
+    shares = [each.achieved.mean() for each in compared.values()]
+    drawn = [each.at_random.mean() for each in compared.values()]
+    n, m = min(zip(shares, compared))[1]
+    said.append(f"Following it makes {_range(shares)} of what the plan makes, and drawing actions {_range(drawn)}. It "
+                f"does worst with {n} wanted and {m} feared.")
+    others = (f"with γ = {discount:g} they make " + " and ".join(str(estimate(np.mean, each.achieved)) for each in both)
+              for discount, both in by_discount.items())
+    said.append("How much is lost depends on the discount: for six wanted and none feared, and for one wanted and two "
+                f"feared, {'; '.join(others)}.")
+    return ("What remains to who follows the sum, where the plan makes 1:\n\n" + table(header, rows) + "\n\n"
+            + " ".join(said))
+
+
+def _range(shares):
+    return f"{100 * min(shares):z.0f} to {100 * max(shares):z.0f} %".replace("-", "−")
+
+
+def largest_weights(weights, rewards):
+    """The eight largest weights that make a plan of value functions, and the valences, as text. Both are (cells,)."""
+    return "\n".join(f"cell {cell}: weight {weights[cell]:+.2f}, valence {rewards[cell]:+.0f}"
+                     for cell in np.argsort(-np.abs(weights))[:8])

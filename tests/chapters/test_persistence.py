@@ -1,0 +1,75 @@
+"""Agents that learn at changes of cell or at every step: what is run, judged and said."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from neorl import Result, WaterWorld, brownian
+from neorl.chapters.chapter_4 import persistence
+from neorl.chapters.chapter_4.persistence import BROWNIAN, CHANGES
+from neorl.evidence.priors import TO_THE_LETTER
+from neorl.evidence.reading import conditions
+
+
+def made_up(first, last=None, runs=12, bins=100):
+    """A result whose runs earn `first` a second, and `last` in the last fifth, give or take very little."""
+    rates = np.full((runs, bins), first)
+    rates[:, -bins // 5 :] = first if last is None else last
+    rates += 1e-4 * np.arange(runs)[:, None]
+    return Result(brownian(), WaterWorld(), 10 * bins, runs, 0, (0.2 * rates).astype(np.float32),
+                  np.zeros((runs, bins, 2), np.int16))
+
+
+def results(changes=1.0, step=0.2):
+    return {CHANGES: made_up(0.5, changes), BROWNIAN: made_up(0.1, 0.9), "γ = 0.8": made_up(0.1),
+            "γ = 0.98": made_up(0.5, step)}
+
+
+@pytest.fixture
+def lived(monkeypatch):
+    monkeypatch.setattr(persistence, "sweep", lambda conditions: conditions)
+    reading = replace(TO_THE_LETTER, discount=0.8)
+    (found,) = persistence.live({"to the letter": reading}, steps=150_000, runs=30, seed=3).values()
+    return reading, found
+
+
+def test_agents_differ_in_their_temporal_driver_alone(lived):
+    reading, found = lived
+    assert list(found) == [CHANGES, BROWNIAN, "γ = 0.8", "γ = 0.9779", "γ = 0.9955"]
+    made = conditions(reading, 150_000, 30, 3, ["layers"])
+    assert found[CHANGES] == made["layers"] and found[BROWNIAN] == made["brownian", 8]
+    step = found["γ = 0.9779"]
+    assert step.agent.learning.update_on == "step" and step.agent.learning.discount**10 == pytest.approx(0.8)
+    assert replace(step.agent, learning=found[CHANGES].agent.learning) == found[CHANGES].agent
+
+
+def test_learning_at_every_step_has_as_many_runs_as_a_verdict_needs(lived):
+    _, found = lived
+    assert (found[CHANGES].runs, found["γ = 0.8"].runs) == (30, 10)
+
+
+def test_the_best_discount_counts():
+    claim = persistence.judge(results(changes=1.1, step=0.3))
+    assert claim.name == "T7" and claim.here.value == pytest.approx((0.3 - 0.26) / (1.1 - 0.26), abs=1e-3)
+    assert "does best with γ = 0.98," in claim.detail
+
+
+def test_rewards_are_told_beside_what_is_kept_of_the_gain():
+    lived = {"to the letter": results(), "calibrated": results(step=0.5)}
+    text = persistence.in_words(lived, {name: persistence.judge(each) for name, each in lived.items()})
+    rows = [line for line in text.splitlines() if line.startswith("|")]
+    assert rows[0] == "| Learns at | to the letter | calibrated |"
+    assert rows[2] == "| changes of cell | 1.00 [1.00, 1.00] | 1.00 [1.00, 1.00] |"
+    assert rows[3] == "| nothing: Brownian motion | 0.26 [0.26, 0.26] | 0.26 [0.26, 0.26] |"  # in the whole run
+    assert rows[5] == "| every step | 0.20 [0.20, 0.20] (γ = 0.98) | 0.50 [0.50, 0.50] (γ = 0.98) |"
+    assert text.splitlines()[-1] == (
+        "To the letter, learning at every step keeps −0.08 [−0.08, −0.08] of the gain that learning at changes of cell "
+        "brings; calibrated, learning at every step keeps 0.32 [0.32, 0.32] of the gain that learning at changes of "
+        "cell brings.")
+
+
+def test_without_a_gain_there_is_nothing_to_keep():
+    lived = {"calibrated": results(changes=0.2)}
+    text = persistence.in_words(lived, {"calibrated": persistence.judge(lived["calibrated"])})
+    assert text.endswith("Calibrated, agents that learn at changes of cell show no gain to compare with.")
