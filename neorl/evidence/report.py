@@ -103,12 +103,6 @@ def verdict(record, name):
     return record["claims"].get(name, {"verdict": NOT_COMPUTED})["verdict"]
 
 
-def tally(record):
-    """How many claims have each verdict, {verdict: count}, the open ones and those not computed among them."""
-    found = [verdict(record, name) for name in CLAIMS]
-    return {each: found.count(each) for each in (*VERDICTS, OPEN, NOT_COMPUTED) if each in found}
-
-
 def standing(record, names):
     """What became of some claims, in Markdown: a line for each verdict. record: as `read` has it."""
     lines = []

@@ -1,0 +1,108 @@
+"""The two conclusions of the thesis (section 5.1), held against the verdicts on its claims under two readings.
+
+1. Each conclusion rests on some claims, and all others are the ground that they stand on.
+2. A conclusion holds *whole* if all its claims are reproduced, *in part* if some are, *not at all* if none of those
+   judged is, and it is *without a verdict* if none is judged.
+3. `verdicts` are {reading: {name of a claim: what became of it}}, with the words of `neorl.evidence.report.verdict`, of
+   `LETTER` and `CALIBRATED`.
+"""
+
+from neorl.evidence import report
+from neorl.evidence.report import CALIBRATED, LETTER, NOT_COMPUTED, OPEN
+from neorl.evidence.statements import CLAIMS, STATEMENTS
+from neorl.evidence.verdict import VERDICTS
+
+SUPERPOSITION = ("A2", "A3", "A4", "A6", "A7", "A8", "B1", "B2", "B3", "B4", "B6", "B7", "T6")
+SEPARATION = ("T1", "T7", "C1", "C2", "C3", "C4")
+GROUND = tuple(name for name in CLAIMS if name not in SUPERPOSITION + SEPARATION)
+CONCLUSIONS = {"Superposition": SUPERPOSITION, "Learning apart from behaviour": SEPARATION}
+OTHER_VERDICTS = {"partly": "Partly: {}; the page of claims has what is missing.",
+                  "not testable": "Not testable, because agents have learned nothing to test them by: {}.",
+                  NOT_COMPUTED: "Not computed yet, where this page was made: {}."}
+
+
+def verdicts_by_reading(record):
+    """The verdicts under both readings. record: as `neorl.evidence.report.read` has it."""
+    records = {LETTER: {**record, "claims": record["letter"]}, CALIBRATED: record}
+    return {reading: {name: report.verdict(found, name) for name in CLAIMS} for reading, found in records.items()}
+
+
+def overview(verdicts):
+    """How many claims have which verdict, how far each conclusion holds, and what is open, in Markdown."""
+    lines = []
+    for reading, found in verdicts.items():
+        counts = {each: len(_with(each, found)) for each in VERDICTS}
+        told = ", ".join(f"{count} {each}" for each, count in counts.items() if count)
+        lines.append(f"**{reading.capitalize()}**, of {sum(counts.values())} claims judged: {told}.")
+    for title, names in CONCLUSIONS.items():
+        held = "; ".join(f"{reading}, {_held(found, names)}" for reading, found in verdicts.items())
+        lines.append(f"**{title}**: {held}.")
+    lines.append(f"{', '.join(_with(OPEN, verdicts[CALIBRATED]))} is open: no page has a rule for it yet.")
+    return (f"The book holds {len(CLAIMS)} claims of the thesis, each judged by a rule that was fixed before the "
+            "results. A conclusion holds *whole* if all its claims are reproduced, and *in part* if some are.\n\n"
+            + "\n".join(f"- {line}" for line in lines))
+
+
+def _held(found, names):
+    """How far a conclusion holds whose claims are `names`, with those that do."""
+    judged = [name for name in names if found[name] in VERDICTS and found[name] != "no verdict"]
+    kept = [name for name in judged if found[name] == "reproduced"]
+    if not kept:
+        return "*not at all*" if judged else "*without a verdict*"
+    return f"*{'whole' if len(kept) == len(names) else 'in part'}* ({', '.join(kept)}, of {len(judged)} claims judged)"
+
+
+def both_verdicts(verdicts):
+    """What became of each claim under both readings, in Markdown: {name: text}."""
+    return {name: f"*{verdicts[CALIBRATED][name]}* calibrated, *{verdicts[LETTER][name]}* to the letter"
+            for name in CLAIMS}
+
+
+def what_did_not_hold(record, verdicts):
+    """What was not reproduced, what was under one reading alone, and what else became of claims, in Markdown.
+
+    record: as `neorl.evidence.report.read` has it.
+    """
+    calibrated = verdicts[CALIBRATED]
+    said = [_not_reproduced(record, _with("not reproduced", calibrated)), _differences(verdicts)]
+    said += [sentence.format(", ".join(_with(verdict, calibrated))) for verdict, sentence in OTHER_VERDICTS.items()
+             if _with(verdict, calibrated)]
+    shares = {name: share for name, share in record["shares"].items() if name in CLAIMS}
+    if shares:
+        said.append(_in_short_runs(shares))
+    return "\n\n".join(said)
+
+
+def _not_reproduced(record, names):
+    if not names:
+        return "No claim was judged as not reproduced in the calibrated reading, on the pages computed so far."
+    lines = [f"- **{name}** {STATEMENTS[name].text}. Thesis: {STATEMENTS[name].thesis}; here: "
+             f"{report.number(record['claims'][name])}. {record['claims'][name]['detail']}" for name in names]
+    return "Not reproduced in the calibrated reading:\n\n" + "\n".join(lines)
+
+
+def _differences(verdicts):
+    """Which claims are reproduced under one reading alone, of those that both have judged."""
+    calibrated, letter = verdicts[CALIBRATED], verdicts[LETTER]
+    judged = [name for name in CLAIMS if calibrated[name] in VERDICTS and letter[name] in VERDICTS]
+    differ = [name for name in judged if calibrated[name] != letter[name]]
+    here, there = ([name for name in differ if found[name] == "reproduced"] for found in (calibrated, letter))
+    return (f"Reproduced calibrated and not to the letter: {_listed(here)}; to the letter and not calibrated: "
+            f"{_listed(there)}.")
+
+
+def _in_short_runs(shares):
+    """Which claims hold in no reading that was tried, and which are left undecided by most."""
+    never = [name for name, share in shares.items() if not share["holds"]]
+    unclear = [name for name, share in shares.items() if share["undecided"] > share["readings"] / 2]
+    return (f"In short runs under {max(share['readings'] for share in shares.values())} readings within the text, "
+            f"{_listed(never)} held in none that could be decided; {_listed(unclear)} were left undecided by more than "
+            "half of them.")
+
+
+def _with(verdict, found):
+    return [name for name, each in found.items() if each == verdict]
+
+
+def _listed(names):
+    return ", ".join(names) or "none"

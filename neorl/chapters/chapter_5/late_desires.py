@@ -1,0 +1,74 @@
+"""Agents that have no desires in the first part of a run, against agents that have them throughout: a demonstration.
+
+1. Both are agents of paper B with all maps of both modalities.
+2. An *indifferent* agent has the same desires with a valence of 0 each. It drifts about, and learns.
+3. When its time has come, it is given the valences of the others.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from neorl.agents import papers
+from neorl.evidence.statistics import difference, estimate
+from neorl.evidence.verdict import EARLY, FINAL
+from neorl.experiments.cache import simulate_once
+from neorl.worlds.waterworld import WaterWorld
+
+BEFORE, AFTER = (0.4, 0.5), (0.5, 0.6)  # half-time, a tenth of the run each
+
+
+def live(reading, begin, steps, runs, seed=0):
+    """The result of agents under a `Reading` that have desires from step ``begin`` on, 0 for throughout: a `Result`.
+
+    steps, runs, seed: as `neorl.simulate` takes them.
+    """
+    desiring = papers.multimodal(papers.PRIMES, place_gain=reading.place_gain, **reading.agents)
+    indifferent = replace(desiring, desires=[replace(desire, valence=0.0) for desire in desiring.desires])
+    agent, changes = (indifferent, [(begin, desiring)]) if begin else (desiring, [])
+    world = WaterWorld(fps=reading.fps, contact=reading.contact)
+    return simulate_once(agent, world, steps=steps, runs=runs, seed=seed, changes=changes)
+
+
+def in_words(throughout, from_half_time):
+    """Whether agents that desire from half-time on have learned before, in Markdown. Both are a `Result`."""
+    before = estimate(np.mean, from_half_time.rate(*BEFORE))
+    after = estimate(np.mean, from_half_time.rate(*AFTER))
+    newborn = estimate(np.mean, throughout.rate(*EARLY))
+    lead = estimate(difference, from_half_time.rate(*AFTER), throughout.rate(*EARLY))
+    gap, at_last = (estimate(difference, from_half_time.rate(*share), throughout.rate(*share))
+                    for share in (AFTER, FINAL))
+    said = [f"In the tenth of the run before half-time the indifferent agents earn {before} per second, in the tenth "
+            f"after it {after}. The others earned {newborn} in the first tenth of their run."]
+    if lead.low > 0:
+        said.append(f"So the indifferent agents do not begin at half-time: their lead over the first tenth is {lead}.")
+    else:
+        said.append(f"Their lead over that, {lead}, may be none.")
+    if gap.low <= 0 <= gap.high:
+        why = ", which these runs cannot tell from none"
+    elif gap.high < 0:
+        why = ": less, since agents that pursue creeps meet more of them"
+    else:
+        why = ": more, since agents that drift see more of the tank"
+    ahead = ", so that the agents without desires for half a life are ahead" if at_last.low > 0 else ""
+    said.append(f"Against agents with desires throughout, at the same time, the difference is {gap}{why}; in the last "
+                f"fifth of the run it is {at_last}{ahead}.")
+    return " ".join(said)
+
+
+def vary_begin(reading, begins, steps, runs, seed=0):
+    """What agents earn per second in the tenth of a run after their desires begin: {minutes before: `Estimate`}.
+
+    begins: steps, each ≥ 1. All else is as in `live`.
+    """
+    earned = {}
+    for begin in begins:
+        result = live(reading, begin, steps, runs, seed)
+        earned[begin / result.world.fps / 60] = estimate(np.mean, result.rate(begin / steps, begin / steps + 0.1))
+    return earned
+
+
+def beginnings(earned):
+    """What `vary_begin` has found, as text: a line each."""
+    return "\n".join(f"{minutes:5.2f} minutes without desires: {reward} per second in the tenth after"
+                     for minutes, reward in earned.items())

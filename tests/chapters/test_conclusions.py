@@ -1,0 +1,105 @@
+"""The two conclusions, against verdicts that are made up."""
+
+import pytest
+
+from neorl.chapters.chapter_5 import conclusions
+from neorl.chapters.chapter_5.conclusions import GROUND, SEPARATION, SUPERPOSITION
+from neorl.evidence.report import CALIBRATED, LETTER
+from neorl.evidence.statements import CLAIMS, STATEMENTS
+
+WITH_RULE = [name for name in CLAIMS if STATEMENTS[name].rule]
+
+
+def record(calibrated, letter=None, shares=None):
+    """A record of all claims, from {name: verdict}; what is left out has none of its own."""
+    of_readings = {part: {name: {"here": [0.5, 0.4, 0.6], "runs": 20, "verdict": verdict, "detail": f"So {name} is."}
+                          for name, verdict in found.items()}
+                   for part, found in (("claims", calibrated), ("letter", letter or {}))}
+    return {**of_readings, "shares": shares or {}}
+
+
+def verdicts(*found):
+    return conclusions.verdicts_by_reading(record(*found))
+
+
+def what_did_not_hold(*found):
+    made = record(*found)
+    return conclusions.what_did_not_hold(made, conclusions.verdicts_by_reading(made)).split("\n\n")
+
+
+def all_claims(verdict):
+    return dict.fromkeys(WITH_RULE, verdict)
+
+
+def test_every_claim_belongs_to_one_conclusion_or_to_the_ground():
+    assert sorted([*SUPERPOSITION, *SEPARATION, *GROUND]) == sorted(CLAIMS)
+
+
+def test_each_reading_has_verdicts_of_its_own():
+    found = verdicts({"A2": "reproduced"}, {"A2": "partly"})
+    assert list(found) == [LETTER, CALIBRATED]
+    assert (found[LETTER]["A2"], found[CALIBRATED]["A2"]) == ("partly", "reproduced")
+    assert (found[CALIBRATED]["A3"], found[LETTER]["C5"]) == ("not computed in this build", "open")
+    assert conclusions.both_verdicts(found)["A2"] == "*reproduced* calibrated, *partly* to the letter"
+
+
+def test_the_overview_counts_verdicts_and_says_what_is_open():
+    text = conclusions.overview(verdicts(all_claims("reproduced") | {"A1": "partly", "T2": "partly"}, {"A2": "partly"}))
+    assert f"- **Calibrated**, of {len(WITH_RULE)} claims judged: {len(WITH_RULE) - 2} reproduced, 2 partly.\n" in text
+    assert "- **To the letter**, of 1 claims judged: 1 partly.\n" in text
+    assert text.endswith("\n- C5 is open: no page has a rule for it yet.")
+
+
+@pytest.mark.parametrize("found, held", [
+    ({}, "*without a verdict*"), (dict.fromkeys(SEPARATION, "no verdict"), "*without a verdict*"),
+    (dict.fromkeys(SEPARATION, "reproduced"), "*whole* (T1, T7, C1, C2, C3, C4, of 6 claims judged)"),
+    ({"T1": "reproduced", "C1": "not reproduced", "C2": "no verdict"}, "*in part* (T1, of 2 claims judged)"),
+    ({"T1": "partly", "C1": "not testable"}, "*not at all*"),
+])
+def test_a_conclusion_holds_as_far_as_its_claims_do(found, held):
+    lines = conclusions.overview(verdicts(found, {"C4": "reproduced"})).splitlines()
+    assert ("- **Learning apart from behaviour**: to the letter, *in part* (C4, of 1 claims judged); calibrated, "
+            f"{held}.") in lines
+    assert "- **Superposition**: to the letter, *without a verdict*; calibrated, *without a verdict*." in lines
+
+
+def test_what_was_not_reproduced_stands_beside_the_thesis():
+    first, *_ = what_did_not_hold({"A2": "not reproduced", "A3": "reproduced"})
+    assert first == "Not reproduced in the calibrated reading:"
+    _, line, *_ = what_did_not_hold({"A2": "not reproduced", "A3": "reproduced"})
+    assert line == ("- **A2** Every single resolution beats Brownian motion. Thesis: > 0; here: 0.50 [0.40, 0.60]. So "
+                    "A2 is.")
+
+
+def test_without_a_failure_there_is_none_to_list():
+    first, *_ = what_did_not_hold({"A2": "partly"}, {"A2": "not reproduced"})
+    assert first.startswith("No claim was judged as not reproduced in the calibrated reading")
+
+
+def test_readings_differ_in_claims_that_both_have_judged():
+    _, second, *_ = what_did_not_hold(
+        {"A2": "reproduced", "A3": "reproduced", "A4": "partly", "A5": "reproduced", "A6": "partly"},
+        {"A2": "reproduced", "A3": "partly", "A4": "reproduced", "A6": "not testable"})
+    assert second == "Reproduced calibrated and not to the letter: A3; to the letter and not calibrated: A4."
+    _, second, *_ = what_did_not_hold({"A2": "reproduced"})
+    assert second == "Reproduced calibrated and not to the letter: none; to the letter and not calibrated: none."
+
+
+def test_what_else_became_of_claims_is_told_where_there_are_any():
+    some = all_claims("reproduced") | {"A2": "partly", "A3": "not testable", "A4": "not testable"}
+    del some["T8"]
+    assert what_did_not_hold(some)[2:] == [
+        "Partly: A2; the page of claims has what is missing.",
+        "Not testable, because agents have learned nothing to test them by: A3, A4.",
+        "Not computed yet, where this page was made: T8."]
+    assert len(what_did_not_hold(all_claims("reproduced"))) == 2
+
+
+def test_claims_that_hold_in_no_short_run_or_are_undecided_in_most_are_named():
+    shares = {"A2": {"holds": 0, "undecided": 2, "readings": 4}, "A3": {"holds": 1, "undecided": 3, "readings": 4},
+              "H1": {"holds": 0, "undecided": 8, "readings": 8}}
+    assert what_did_not_hold(all_claims("reproduced"), {}, shares)[-1] == (
+        "In short runs under 4 readings within the text, A2 held in none that could be decided; A3 were left undecided "
+        "by more than half of them.")
+    del shares["A2"], shares["A3"]
+    assert len(what_did_not_hold(all_claims("reproduced"), {}, shares)) == 2  # H1 is a demonstration
