@@ -40,6 +40,30 @@ def test_a_notebook_defines_no_function_or_class(cells):
             assert not any(isinstance(node, ast.FunctionDef | ast.ClassDef | ast.Lambda) for node in nodes)
 
 
+HIDDEN = {"remove-input", "hide-input", "hide-cell"}
+LOGIC = (ast.For, ast.While, ast.If, ast.IfExp, ast.comprehension, ast.Compare, ast.BoolOp, ast.Try, ast.With, ast.Assert,
+         ast.Raise, ast.AugAssign, ast.NamedExpr)
+
+
+def is_logic(node):
+    """Whether a node decides, repeats or computes; arithmetic on names and numbers may stand as an argument."""
+    if isinstance(node, ast.BinOp) and not isinstance(node.op, ast.BitOr):
+        return any(isinstance(inner, ast.Call | ast.Subscript) for inner in ast.walk(node))
+    return isinstance(node, LOGIC)
+
+
+def test_a_hidden_cell_only_calls_what_the_package_has(cells):
+    for cell in cells:
+        if cell.cell_type == "code" and HIDDEN & set(cell.metadata.get("tags", [])):
+            assert not any(map(is_logic, ast.walk(ast.parse(cell.source)))), cell.source
+
+
+@pytest.mark.parametrize("source", ["[each for each in names]", "a if b else c", "f'{2 * len(names)}'", "a and b", "a > 1",
+                                    "for each in names: print(each)", "total += 1"])
+def test_what_counts_as_logic(source):
+    assert any(map(is_logic, ast.walk(ast.parse(source))))
+
+
 def test_a_notebook_has_one_cell_of_typed_parameters(cells):
     (tagged,) = [cell for cell in cells if "parameters" in cell.metadata.get("tags", [])]
     statements = ast.parse(tagged.source).body

@@ -6,7 +6,8 @@ from matplotlib import pyplot as plt
 from scipy import stats
 
 from neorl.chapters.chapter_3 import ensembles, hybrid_reward_figures
-from neorl.chapters.chapter_3.ensembles import CHOOSERS, DYNA, LEARNERS, ROOMS, Maze, best_reward, walk
+from neorl.chapters.chapter_3.ensembles import (CHOOSERS, DYNA, LEARNERS, ROOMS, GridMaze, best_reward,
+                                                      run_ensemble)
 from neorl.core.kernel import execute
 from neorl.drawing.figures import CURVES, INK
 from neorl.evidence.statistics import estimate
@@ -98,18 +99,18 @@ class Plainly:
 @pytest.mark.parametrize("doublings", [0, 2, -1])
 def test_learners_and_rules_are_what_the_paper_says(chooser, doublings):
     made = Plainly(DYNA, chooser, doublings, seed=6, run=1).rewards(1_000)
-    walked = walk(DYNA, chooser, steps=1_000, runs=2, seed=6, doublings=doublings)
+    walked = run_ensemble(DYNA, chooser, steps=1_000, runs=2, seed=6, doublings=doublings)
     np.testing.assert_allclose(walked[1], made.reshape(20, -1).mean(axis=1))
 
 
 def test_a_life_that_leads_nowhere_begins_anew():
     """From its start this maze takes more steps than there are, nearly always, before it is left for good."""
-    made = Plainly(far := Maze(("S" + 30 * "." + "G",)), "chance", 0, seed=1, run=0).rewards(3_000)
-    np.testing.assert_allclose(walk(far, "chance", steps=3_000, runs=1, seed=1)[0], made.reshape(20, -1).mean(axis=1))
+    made = Plainly(far := GridMaze(("S" + 30 * "." + "G",)), "chance", 0, seed=1, run=0).rewards(3_000)
+    np.testing.assert_allclose(run_ensemble(far, "chance", steps=3_000, runs=1, seed=1)[0], made.reshape(20, -1).mean(axis=1))
 
 
 def test_a_life_is_the_same_alone_and_among_others():
-    alone, among = (walk(DYNA, "Sarsa", steps=1_000, runs=runs, seed=2) for runs in (1, 3))
+    alone, among = (run_ensemble(DYNA, "Sarsa", steps=1_000, runs=runs, seed=2) for runs in (1, 3))
     np.testing.assert_array_equal(alone[0], among[0])
     assert np.any(among[1] != among[0])
 
@@ -124,7 +125,7 @@ def test_finals_are_those_of_lives_with_a_greediness_halved_as_it_is_and_doubled
     finals = ensembles.final_by_greediness(DYNA, steps=200, runs=2, seed=3)
     assert tuple(finals) == ensembles.RULES
     for final, doublings in zip(finals["rank voting"], (-1, 0, 1), strict=True):
-        lived = walk(DYNA, "rank voting", steps=200, runs=2, seed=3, doublings=doublings)
+        lived = run_ensemble(DYNA, "rank voting", steps=200, runs=2, seed=3, doublings=doublings)
         np.testing.assert_array_equal(final, lived[:, -1])
 
 
@@ -135,30 +136,30 @@ def test_learners_that_agree_have_their_way_with_the_probability_that_greediness
 
 def test_the_best_reward_in_a_corridor_is_known():
     """One way to go: 85 % of steps go there, 5 % the other way, 10 % and any step out of the corridor bump."""
-    assert best_reward(Maze(("SG",))) == pytest.approx(0.85 * 100 - 0.15 * 2)
+    assert best_reward(GridMaze(("SG",))) == pytest.approx(0.85 * 100 - 0.15 * 2)
     ahead, back = 0.85, 0.05  # from S 1/p + q/p² steps lead two cells on, since a step back from there costs both
     steps = 1 / ahead + (1 + back / ahead) / ahead
     bumps = 0.15 * (1 + back / ahead) / ahead + 0.10 / ahead
-    assert best_reward(Maze(("S.G",))) == pytest.approx((100 - 2 * bumps - 0.1 * (steps - bumps - 1)) / steps)
+    assert best_reward(GridMaze(("S.G",))) == pytest.approx((100 - 2 * bumps - 0.1 * (steps - bumps - 1)) / steps)
 
 
 def test_learners_alone_come_to_what_others_have_found():
     """A student reimplementation reports 5.20, 5.20, 5.21, 5.21 and 5.18 with standard deviations of 0.14 to 0.20."""
-    best, chance = best_reward(DYNA), walk(DYNA, "chance", steps=50_000, runs=5)[:, -1]
+    best, chance = best_reward(DYNA), run_ensemble(DYNA, "chance", steps=50_000, runs=5)[:, -1]
     for learner, reported in zip(LEARNERS, (5.20, 5.20, 5.21, 5.21, 5.18)):
-        value, low, high = estimate(np.mean, walk(DYNA, learner, steps=50_000, runs=20)[:, -1])
+        value, low, high = estimate(np.mean, run_ensemble(DYNA, learner, steps=50_000, runs=20)[:, -1])
         assert chance.max() < 0 < low and abs(value - reported) < 0.15 and value < best
 
 
 @pytest.mark.parametrize("make, message", [
-    (lambda: Maze(("S..",)), "rows is .* one S and one G"), (lambda: Maze(("SSG",)), "one S and one G"),
-    (lambda: walk("maze", "Sarsa", steps=100, runs=1), "maze is 'maze', allowed is a Maze"),
-    (lambda: walk(DYNA, "SARSA", steps=100, runs=1), "chooser is 'SARSA', allowed are 'Q-learning', 'Sarsa'"),
-    (lambda: walk(DYNA, "Sarsa", steps=19, runs=1), "steps is 19"),
-    (lambda: walk(DYNA, "Sarsa", steps=100, runs=0), "runs is 0"),
-    (lambda: walk(DYNA, "Sarsa", steps=100, runs=1, seed=-1), "seed is -1"),
+    (lambda: GridMaze(("S..",)), "rows is .* one S and one G"), (lambda: GridMaze(("SSG",)), "one S and one G"),
+    (lambda: run_ensemble("maze", "Sarsa", steps=100, runs=1), "maze is 'maze', allowed is a GridMaze"),
+    (lambda: run_ensemble(DYNA, "SARSA", steps=100, runs=1), "chooser is 'SARSA', allowed are 'Q-learning', 'Sarsa'"),
+    (lambda: run_ensemble(DYNA, "Sarsa", steps=19, runs=1), "steps is 19"),
+    (lambda: run_ensemble(DYNA, "Sarsa", steps=100, runs=0), "runs is 0"),
+    (lambda: run_ensemble(DYNA, "Sarsa", steps=100, runs=1, seed=-1), "seed is -1"),
     (lambda: ensembles.agreement("Sarsa"), "rule is 'Sarsa', allowed are 'majority voting', 'rank voting'"),
-    (lambda: walk(DYNA, "Sarsa", steps=100, runs=1, doublings=6), "doublings is 6, allowed are integers from -5 to 5"),
+    (lambda: run_ensemble(DYNA, "Sarsa", steps=100, runs=1, doublings=6), "doublings is 6, allowed are integers from -5 to 5"),
 ])
 def test_a_bad_argument_is_refused(make, message):
     with pytest.raises(ValueError, match=message):
@@ -166,7 +167,7 @@ def test_a_bad_argument_is_refused(make, message):
 
 
 def test_finals_are_drawn_as_dots():
-    made = {name: {each: walk(maze, each, steps=400, runs=3) for each in ("Sarsa", "rank voting")}
+    made = {name: {each: run_ensemble(maze, each, steps=400, runs=3) for each in ("Sarsa", "rank voting")}
             for name, maze in {"small": DYNA, "rooms": ROOMS}.items()}
     hybrid_reward_figures.draw_finals(made, {"small": 5.0, "rooms": 4.0})
     for axes, by_name in zip(plt.gcf().axes, made.values()):

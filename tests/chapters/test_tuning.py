@@ -6,10 +6,11 @@ from matplotlib import pyplot as plt
 
 from neorl import NresMap
 from neorl.chapters.chapter_2 import tuning_figures
-from neorl.chapters.chapter_2.tuning import (Trajectory, Tuning, cartesian, egocentric, in_field, information, likeness,
-                                             rate_maps, roam, spikes, told_by_spikes, tuning)
+from neorl.chapters.chapter_2.tuning import (Trajectory, TuningCurve, cartesian, egocentric, in_field, information,
+                                             likeness, rate_maps, roam, spikes, told_by_spikes, tuning_curve)
+from neorl.core.geometry import TAU
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, HEAD_DIRECTION_CELL, LANDMARK_VECTOR_CELL,
-                                 OBJECT_VECTOR_CELL, SPEED_CELL, TAU)
+                                 OBJECT_VECTOR_CELL, SPEED_CELL)
 
 
 @pytest.fixture(scope="module")
@@ -88,46 +89,46 @@ def test_spikes_are_poisson_at_the_rates_inside_and_outside():
 
 def test_a_rate_is_spikes_over_time():
     values = [0.1, 0.1, 0.6, 0.6, 0.6, 1.0]
-    tuned = tuning([1, 3, 0, 0, 1, 1], values, step=0.5, high=1.0, bins=4, smoothing=0.0)
+    tuned = tuning_curve([1, 3, 0, 0, 1, 1], values, step=0.5, high=1.0, bins=4, smoothing=0.0)
     np.testing.assert_array_equal(tuned.rate, [4.0, np.nan, 2 / 3, 2.0])
     np.testing.assert_array_equal(tuned.seconds, [1.0, 0.0, 1.5, 0.5])
 
 
 def test_a_rate_map_has_x_first_and_many_trains_at_once():
     places = np.array([(0.1, 0.9), (0.1, 0.9), (0.9, 0.1)])
-    tuned = tuning([[1, 1, 0], [0, 0, 5]], places, step=1.0, high=1.0, bins=2, smoothing=0.0)
+    tuned = tuning_curve([[1, 1, 0], [0, 0, 5]], places, step=1.0, high=1.0, bins=2, smoothing=0.0)
     np.testing.assert_array_equal(tuned.rate, [[[np.nan, 1], [0, np.nan]], [[np.nan, 0], [5, np.nan]]])
     np.testing.assert_array_equal(tuned.seconds, [[0, 2], [1, 0]])
 
 
 def test_where_the_animal_never_was_there_is_no_rate():
-    smooth = tuning([1, 3, 1], [0.1, 0.1, 0.6], step=0.5, high=1.0, bins=4)
+    smooth = tuning_curve([1, 3, 1], [0.1, 0.1, 0.6], step=0.5, high=1.0, bins=4)
     assert np.isnan(smooth.rate).tolist() == [False, True, False, True] and np.all(smooth.seconds > 0)
 
 
 def test_what_lies_beyond_the_axis_is_left_out():
-    tuned = tuning([1, 1, 1], [-0.1, 0.5, 1.1], step=1.0, high=1.0, bins=1, smoothing=0.0)
+    tuned = tuning_curve([1, 1, 1], [-0.1, 0.5, 1.1], step=1.0, high=1.0, bins=1, smoothing=0.0)
     assert (tuned.rate, tuned.seconds) == (1.0, 1.0)
 
 
 def test_smoothing_leaves_a_constant_rate_alone_and_a_direction_closed():
     values = np.tile((np.arange(8) + 0.5) / 8 * TAU, 10)
-    np.testing.assert_allclose(tuning(np.ones(80), values, 0.1, TAU, 8).rate, 10.0)
-    single = tuning(np.arange(80) % 8 == 0, values, 0.1, TAU, 8, closed=True).rate
+    np.testing.assert_allclose(tuning_curve(np.ones(80), values, 0.1, TAU, 8).rate, 10.0)
+    single = tuning_curve(np.arange(80) % 8 == 0, values, 0.1, TAU, 8, closed=True).rate
     np.testing.assert_allclose(single[1:], single[:0:-1])  # symmetric about the first bin, across the end
     assert single[0] > single[1] > single[2] and single[-1] == pytest.approx(single[1])
 
 
 def test_a_map_is_smoothed_along_both_axes():
     places = (np.stack(np.meshgrid(range(9), range(9), indexing="ij"), axis=-1).reshape(-1, 2) + 0.5) / 9
-    blob = tuning(np.arange(81) == 40, places, 1.0, 1.0, 9).rate
+    blob = tuning_curve(np.arange(81) == 40, places, 1.0, 1.0, 9).rate
     assert blob[4, 4] > blob[3, 4] > blob[3, 3] > 0
     np.testing.assert_allclose(blob, blob.T)
 
 
 def test_a_map_recovers_the_rates_that_made_it(trajectory):
     active = in_field(NresMap(2), 3, trajectory)
-    tuned = tuning(spikes(active, 0.02, 5, 10.0, 1.0), trajectory.position, 0.02, 1.0, bins=10)
+    tuned = tuning_curve(spikes(active, 0.02, 5, 10.0, 1.0), trajectory.position, 0.02, 1.0, bins=10)
     assert tuned.rate[7:, 7:].mean() == pytest.approx(10.0, rel=0.05)
     assert tuned.rate[:3].mean() == pytest.approx(1.0, rel=0.1)
 
@@ -136,15 +137,15 @@ def test_a_spike_of_a_cell_with_one_field_tells_how_small_it_is():
     seconds = np.full((4, 4), 3.0)
     field = np.zeros((4, 4))
     field[1, 2] = 7.0
-    assert information(Tuning(field, seconds)) == pytest.approx(4.0)  # log₂ 16
-    assert information(Tuning(np.full((4, 4), 2.0), seconds)) == pytest.approx(0.0)
-    assert information(Tuning(np.zeros((4, 4)), seconds)) == 0.0
+    assert information(TuningCurve(field, seconds)) == pytest.approx(4.0)  # log₂ 16
+    assert information(TuningCurve(np.full((4, 4), 2.0), seconds)) == pytest.approx(0.0)
+    assert information(TuningCurve(np.zeros((4, 4)), seconds)) == 0.0
 
 
 def test_information_weighs_by_time_and_passes_over_what_was_not_seen():
     rate = np.array([[4.0, 0.0, np.nan], [1.0, 1.0, np.nan]])
     expected = [0.25 * 4 * 2, 0.0]  # a quarter of the time at four times the mean: 2 bits
-    np.testing.assert_allclose(information(Tuning(rate, np.array([1.0, 3.0, 9.0]))), expected)
+    np.testing.assert_allclose(information(TuningCurve(rate, np.array([1.0, 3.0, 9.0]))), expected)
 
 
 def test_information_is_the_mutual_information_of_a_rare_spike():
@@ -153,7 +154,7 @@ def test_information_is_the_mutual_information_of_a_rare_spike():
     spike = rate * step
     mean = np.sum(share * spike)
     told = np.sum(share * (spike * np.log2(spike / mean) + (1 - spike) * np.log2((1 - spike) / (1 - mean))))
-    assert information(Tuning(rate, share)) == pytest.approx(told / mean, rel=1e-3)
+    assert information(TuningCurve(rate, share)) == pytest.approx(told / mean, rel=1e-3)
 
 
 def test_spikes_tell_about_what_they_follow_and_by_chance_about_nothing_else(trajectory):
@@ -165,7 +166,7 @@ def test_spikes_tell_about_what_they_follow_and_by_chance_about_nothing_else(tra
         "north": [False, True, False], "fast": [False, False, True], "corner": [True, False, False],
         "chance": [False, False, False]}
     assert [*told["north"]] == ["position", "direction", "speed"]
-    expected = information(tuning(trains["north"], walk.direction, 0.02, TAU, 18, closed=True))
+    expected = information(tuning_curve(trains["north"], walk.direction, 0.02, TAU, 18, closed=True))
     assert told["north"]["direction"].bits == expected > 0.5
 
 
@@ -176,7 +177,7 @@ def test_rate_maps_are_drawn_from_a_stream_for_each_cell(trajectory):
     maps = rate_maps(cells, walk, [(0.5, 0.5)], [3, 1], **axes)
     fired = spikes(in_field(*cells["object"], walk, [(0.5, 0.5)]), 0.02, [3, 1, 1])
     assert [*maps] == ["place", "object"]
-    np.testing.assert_array_equal(maps["object"], tuning(fired, walk.position, **axes).rate)
+    np.testing.assert_array_equal(maps["object"], tuning_curve(fired, walk.position, **axes).rate)
 
 
 def test_maps_are_compared_where_both_were_seen():
@@ -205,7 +206,7 @@ def test_turning_changes_no_distance():
 
 def test_a_rate_map_is_drawn_with_x_to_the_right_and_y_down(trajectory):
     north_east = (trajectory.position > [0.5, -1]).all(axis=1) & (trajectory.position[:, 1] < 0.5)
-    tuned = tuning(north_east, trajectory.position, 0.02, 1.0, bins=4, smoothing=0.0)
+    tuned = tuning_curve(north_east, trajectory.position, 0.02, 1.0, bins=4, smoothing=0.0)
     tuning_figures.draw_rate_maps(trajectory, north_east, {"corner": tuned.rate}, [(0.2, 0.3)])
     path, panel, *_ = plt.gcf().axes
     (image,) = panel.images
@@ -242,8 +243,8 @@ def test_both_frames_meet_in_the_point():
     (lambda: in_field(NresMap(2), 4, roam(5)), "cell is 4, allowed are integers from 0 to 3"),
     (lambda: in_field("map", 0, roam(5)), "allowed is a NresMap"),
     (lambda: spikes([True], 0.02, inside=-1.0), "inside is -1.0"),
-    (lambda: tuning([1], [0.5], 1.0, 1.0, bins=0), "bins is 0"),
-    (lambda: tuning([1], [0.5], 1.0, 0.0, bins=1), "high is 0.0"),
+    (lambda: tuning_curve([1], [0.5], 1.0, 1.0, bins=0), "bins is 0"),
+    (lambda: tuning_curve([1], [0.5], 1.0, 0.0, bins=1), "high is 0.0"),
     (lambda: egocentric([1.0, 2.0, 3.0], 0.0), "vectors has the shape"),
 ])
 def test_what_makes_no_tuning_is_refused(call, message):

@@ -94,15 +94,15 @@ def spikes(active, step, seed=0, inside=20.0, outside=0.2):
     return np.random.default_rng(seed).poisson(rates * checks.real("step", step, 1e-9)).astype(np.int16)
 
 
-class Tuning(NamedTuple):
+class TuningCurve(NamedTuple):
     """How a cell fires in each bin of a variable; first the axis that the variable's values name first."""
 
     rate: np.ndarray  # float64 (…, bins) or (…, bins, bins), spikes a second; NaN where the animal never was
     seconds: np.ndarray  # float64 (bins,) or (bins, bins), time spent there, smoothed as the spikes are
 
 
-def tuning(counts, values, step, high, bins, smoothing=1.0, closed=False):
-    """The tuning of a cell to a variable: a `Tuning`.
+def tuning_curve(counts, values, step, high, bins, smoothing=1.0, closed=False):
+    """The tuning of a cell to a variable: a `TuningCurve`.
 
     counts: spikes at each step, (steps,), or several trains (…, steps). values: of the variable, (steps,) or
     (steps, 2). step: seconds. high: each axis is cut into ``bins`` from 0 to ``high``; what lies beyond it is left out.
@@ -127,11 +127,11 @@ def tuning(counts, values, step, high, bins, smoothing=1.0, closed=False):
         seconds = gaussian_filter1d(seconds, smoothing, axis, mode=mode)
         fired = gaussian_filter1d(fired, smoothing, axis, mode=mode)
     with np.errstate(invalid="ignore", divide="ignore"):
-        return Tuning(np.where(times > 0, fired / seconds, np.nan), seconds)
+        return TuningCurve(np.where(times > 0, fired / seconds, np.nan), seconds)
 
 
 def information(tuned):
-    """Bits that a spike carries about the variable of a `Tuning`: float64 (…), 0 for a cell that never fires.
+    """Bits that a spike carries about the variable of a `TuningCurve`: float64 (…), 0 for a cell that never fires.
 
     The sum over bins of p (λ/λ̄) log₂ (λ/λ̄), with the share p of the time spent in a bin, the rate λ there and the
     mean rate λ̄ (Skaggs et al. 1993). Spikes that are few make it come out too large.
@@ -168,13 +168,13 @@ def told_by_spikes(trains, trajectory, seed=0):
         told[cell] = {}
         for variable, (high, bins, closed) in VARIABLES.items():
             values = getattr(trajectory, variable)
-            bits, *by_chance = information(tuning(shifted, values, trajectory.step, high, bins, closed=closed))
+            bits, *by_chance = information(tuning_curve(shifted, values, trajectory.step, high, bins, closed=closed))
             told[cell][variable] = Told(bits, bits > max(by_chance))
     return told
 
 
 def rate_maps(cells, trajectory, objects, seed, **axes):
-    """Rate maps of cells whose spikes are drawn anew: {cell: rate}, as `Tuning` has it.
+    """Rate maps of cells whose spikes are drawn anew: {cell: rate}, as `TuningCurve` has it.
 
     cells: {cell: (`NresMap`, which of its cells)}. objects: see `in_field`. seed: a sequence of integers, to which the
     spikes add the number of the cell. axes: the arguments of `tuning` from ``step`` on.
@@ -182,7 +182,7 @@ def rate_maps(cells, trajectory, objects, seed, **axes):
     maps = {}
     for number, (name, cell) in enumerate(cells.items()):
         fired = spikes(in_field(*cell, trajectory, objects), trajectory.step, [*seed, number])
-        maps[name] = tuning(fired, trajectory.position, **axes).rate
+        maps[name] = tuning_curve(fired, trajectory.position, **axes).rate
     return maps
 
 

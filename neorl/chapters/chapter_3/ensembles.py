@@ -44,7 +44,7 @@ SQUARINGS = 10  # of exp(x / 1024)
 
 
 @dataclass(frozen=True)
-class Maze:
+class GridMaze:
     """A maze: rows of a grid that mark one start, "S", and one goal, "G".
 
     Raises ValueError for anything else.
@@ -72,13 +72,13 @@ class Maze:
         return self.grid.marked("G")[0]
 
 
-DYNA = Maze((".......#G",  # Sutton's, the small maze of the paper
+DYNA = GridMaze((".......#G",  # Sutton's, the small maze of the paper
              "..#....#.",
              "S.#....#.",
              "..#......",
              ".....#...",
              "........."))
-ROOMS = Maze(("S....#.....",  # Sutton, Precup and Singh's (1999)
+ROOMS = GridMaze(("S....#.....",  # Sutton, Precup and Singh's (1999)
               ".....#.....",
               "...........",
               ".....#.....",
@@ -112,15 +112,15 @@ def best_reward(maze):
     return float(gain)
 
 
-def walk(maze, chooser, *, steps, runs, seed=0, doublings=0):
+def run_ensemble(maze, chooser, *, steps, runs, seed=0, doublings=0):
     """Reward per step in each twentieth of ``runs`` lives of ``steps`` steps: float64 (runs, 20).
 
-    maze: a `Maze`. chooser: who chooses, one of ``CHOOSERS``: a learner alone, a rule for all five, or chance. steps:
+    maze: a `GridMaze`. chooser: who chooses, one of ``CHOOSERS``: a learner alone, a rule for all five, or chance. steps:
     ≥ 20. doublings: how often the chooser's greediness is doubled, or halved if negative, from −5 to 5.
     Run k is the same among any number of runs.
     Raises ValueError for a bad argument.
     """
-    checks.instance("maze", maze, Maze)
+    checks.instance("maze", maze, GridMaze)
     checks.one_of("chooser", chooser, CHOOSERS)
     checks.integer("steps", steps, at_least=BINS)
     checks.integer("runs", runs, at_least=1)
@@ -133,7 +133,7 @@ def walk(maze, chooser, *, steps, runs, seed=0, doublings=0):
         preferences = np.zeros((len(LEARNERS), states, 4))
         preferences[-1] = 1 / 4
         stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run,)))
-        execute(_walk, maze.grid.next_state, maze.start, maze.goal, CHOOSERS.index(chooser), doublings, edges, stream,
+        execute(_run, maze.grid.next_state, maze.start, maze.goal, CHOOSERS.index(chooser), doublings, edges, stream,
               preferences, np.zeros((len(LEARNERS), states)), np.zeros(4), np.zeros(4), rewards[run])
 
     with ThreadPoolExecutor(2) as pool:
@@ -146,7 +146,7 @@ def final_by_greediness(maze, *, steps, runs, seed=0):
 
     maze, steps, runs, seed: as in `walk`. Returns {rule: [float64 (runs,), …]}.
     """
-    return {rule: [walk(maze, rule, steps=steps, runs=runs, seed=seed, doublings=doublings)[:, -1]
+    return {rule: [run_ensemble(maze, rule, steps=steps, runs=runs, seed=seed, doublings=doublings)[:, -1]
                    for doublings in (-1, 0, 1)] for rule in RULES}
 
 
@@ -162,7 +162,7 @@ def agreement(rule):
 
 
 @kernel
-def _walk(next_state, start, goal, chooser, doublings, edges, stream, preferences, critics, weight, policy, rewards):
+def _run(next_state, start, goal, chooser, doublings, edges, stream, preferences, critics, weight, policy, rewards):
     """Live until the last edge; weight and policy (4,) are working memory."""
     state_tm1, age = start, 0
     action_tm1 = _choice(preferences, state_tm1, chooser, doublings, stream, weight, policy)

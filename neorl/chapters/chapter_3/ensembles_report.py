@@ -1,6 +1,6 @@
 """What ensembles made of two mazes, as the page of chapter 3 reports it, in Markdown.
 
-``made`` is {maze: {chooser: reward per step (runs, parts)}}, of `neorl.chapters.chapter_3.ensembles.walk`. Choosers are
+``made`` is {maze: {chooser: reward per step (runs, parts)}}, of `neorl.chapters.chapter_3.ensembles.run_ensemble`. Choosers are
 ranked by their means over runs, at the end, which is the last part, or over the life, which is all of them.
 """
 
