@@ -65,10 +65,11 @@ def summary(judged):
     return "\n".join([*lines, "", told])
 
 
-def errata():
-    """The errata of the source as a Markdown table."""
+def errata(place=""):
+    """The errata of the source as a Markdown table: all, or those of a place such as "paper A"."""
     rows = ["| Where | The thesis says | Right is |", "|---|---|---|"]
-    return "\n".join([*rows, *(f"| {each.place} | {each.says} | {each.right} |" for each in ERRATA)])
+    return "\n".join([*rows, *(f"| {each.place} | {each.says} | {each.right} |" for each in ERRATA
+                               if place in each.place)])
 
 
 def store(page, claims=(), shares=None, letter=()):

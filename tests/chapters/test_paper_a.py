@@ -6,9 +6,12 @@ import numpy as np
 import pytest
 
 from neorl import Result, WaterWorld, brownian, place_cells
-from neorl.chapters.paper_a import CONTROL, REWARD, STATES, THESIS, beside_thesis, choices, in_words, live
+from neorl.chapters.paper_a.experiments import CONTROL, explorer_conditions, layers, live, neighbours, singles
+from neorl.chapters.paper_a.findings import (REWARD, STATES, THESIS, beside_thesis, choices, in_words,
+                                             judge_second_experiment)
+from neorl.chapters.shared.side_by_side import judge_each
 from neorl.evidence.priors import TO_THE_LETTER
-from neorl.evidence.reading import GROUPS, LAYERS, SINGLE, Reading, judge
+from neorl.evidence.reading import GROUPS, LAYERS, SINGLE, Reading
 
 WORLD = WaterWorld(n_creeps=8, win_reward=5.0)
 
@@ -39,34 +42,69 @@ def test_both_experiments_are_run_under_each_reading(cache_folder):
 
 
 def test_single_maps_have_as_many_runs_as_a_verdict_needs_and_a_control(cache_folder, monkeypatch):
-    monkeypatch.setattr("neorl.chapters.paper_a.sweep", lambda conditions: conditions)
+    monkeypatch.setattr("neorl.chapters.shared.side_by_side.sweep", lambda conditions: conditions)
     (found,) = live({"book": Reading()}, steps=150_000, runs=30).values()
     assert set(found) == {*GROUPS["layers"], *GROUPS["single"], CONTROL}
     assert (found["single", 90].runs, found["layer", 7].runs) == (10, 30)
     assert found[CONTROL] == replace(found["single", 90], agent=brownian())
 
 
+def test_agents_with_one_map_are_named_by_it_in_either_experiment(results):
+    assert list(singles(results)) == ["N10", "N30", "N50", "N70", "N90"]
+    assert list(layers(results)) == ["N3", "N7", "N23"]
+    assert singles(results)["N50"] is results["single", 50] and layers(results)["N7"] is results["layer", 7]
+
+
+def test_neighbours_differ_in_one_choice():
+    reading = Reading(learning_rate=0.1, weighting="cells", bootstrap=True, memory=5.0)
+    made = neighbours(reading)
+    assert "maps by N" in made and "maps by N²" not in made
+    assert "no bootstrapping" in made and "bootstrapping" not in made
+    assert (made["α 0.005"].learning_rate, made["α 1"].learning_rate) == pytest.approx((0.005, 1.0))
+    assert made["half the board"] == replace(reading, tiled_fraction=0.5)
+    assert not {"maps by N²", "no memory"} - set(neighbours(replace(reading, weighting="equal")))
+
+
+def test_the_explorer_offers_both_readings_and_one_control(results):
+    calibrated, letter = results | {CONTROL: "control"}, dict.fromkeys(results, "letter")
+    offered = explorer_conditions({"to the letter": letter, "calibrated": calibrated})
+    assert next(iter(offered)) == "Figure 7: all" and len(offered) == 2 * (1 + len(LAYERS) + len(SINGLE)) + 1
+    assert offered["Figure 7: all"] is results["layers"] and offered["Figure 7: all, to the letter"] == "letter"
+    assert offered["Figure 7: N23"] is results["layer", 23] and offered["Figure 6: N90"] is results["single", 90]
+    assert offered["Figure 7: N23, to the letter"] == offered["Figure 6: N90, to the letter"] == "letter"
+    assert offered["Figure 6: Brownian"] == "control"
+
+
 def test_numbers_stand_beside_those_of_the_thesis(results):
-    found = beside_thesis(results)
+    (found,) = beside_thesis({"book": results}).values()
     assert set(found) == set(THESIS)
     assert found[REWARD].value == pytest.approx(3.5, rel=0.05) and found[REWARD].low < 3.5 < found[REWARD].high
     assert found[STATES].value == pytest.approx(587 / 49)
 
 
 def test_what_was_found_is_put_in_words(results):
-    claims = [*judge(results).values()]
-    words = in_words(results, claims)
+    judged = judge_each({"to the letter": results, "calibrated": results})
+    first, words = in_words({"to the letter": results, "calibrated": results}, judged).splitlines()
+    assert first.startswith("- **To the letter.** ● ") and words.startswith("- **Calibrated.** ● ")
     assert "the order of single maps is N50 (0.40), N30 (0.30), N70 (0.25), N10 (0.20), N90 (0.10);" in words
     assert "Brownian motion earns 0.03 and resets the board 0.00 times in 150,000 steps" in words
     assert "together finally earn 0.70 per second, 3." in words and "(thesis: 3.5)" in words
-    assert all(claim.name in words.split(". ")[0] for claim in claims)
+    assert "alone they earn 0.10, 0.20, 0.30, in all 0.60." in words
+    assert all(claim.name in words.split("By reward")[0] for claim in judged["calibrated"])
     assert "● reproduced: A1" in words and "no verdict" not in words
+
+
+def test_the_second_experiment_is_judged_by_itself(results):
+    (judged,) = judge_second_experiment({"book": results}).values()
+    assert judged == [claim for claim in judge_each({"book": results})["book"] if claim.name in ("A6", "A7", "A8")]
+    assert len(judged) == 3
 
 
 def test_few_runs_are_no_verdict(results):
     few = {key: Result(each.agent, WORLD, each.steps, 2, 0, each.rewards[:2], each.hits[:2])
            for key, each in results.items()}
-    assert in_words(few, [*judge(few).values()]).startswith("– no verdict: A1, A2, A3, A4, A5, A6, A7, A8. By")
+    words = in_words({"book": few}, judge_each({"book": few}))
+    assert words.startswith("- **Book.** – no verdict: A1, A2, A3, A4, A5, A6, A7, A8. By")
 
 
 def test_choices_are_listed_with_what_the_text_makes_of_them():

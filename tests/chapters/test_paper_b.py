@@ -1,122 +1,204 @@
-"""The experiments of paper B, against lives that are followed step by step."""
+"""What the page of paper B computes and reports: its conditions, and its numbers and sentences."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import neorl
-from neorl.agents import papers
-from neorl.chapters import paper_b
+from neorl.chapters.paper_b import experiments, findings
+from neorl.chapters.paper_b.trials import Costs, Watched
+from neorl.chapters.shared import side_by_side
+from neorl.core.modality import MODALITIES
 from neorl.evidence.reading import Reading
+from neorl.evidence.statistics import Estimate
 
 READING = Reading(causes="any", capture="contact", attention="each", place_gain=1.0, weighting="resolution")
-PRIMES = (2, 3)
 
 
-@pytest.fixture(autouse=True)
-def small(monkeypatch):
-    """Maps of few cells."""
-    monkeypatch.setattr(paper_b, "PRIMES", PRIMES)
+def made_up(rate, runs=12, red=0.0, bins=3_000, win_reward=0.0):
+    """A result in which every run takes so many green and red creeps a second, give or take some luck."""
+    luck = np.random.default_rng(0).random((runs, bins, 2))
+    hits = (luck < 0.2 * np.array([rate, red])).astype(np.int16)
+    rewards = (hits[..., 0] - hits[..., 1]).astype(np.float32)
+    world = neorl.WaterWorld(win_reward=win_reward)
+    return neorl.Result(neorl.place_cells([2]), world, 10 * bins, runs, 0, rewards, hits)
+
+
+@pytest.fixture(scope="module")
+def lived():
+    """Results of every key, as if both modalities earned 0.6 a second and place cells 0.3."""
+    made = experiments.all_conditions(READING, 1_000, 12)
+    rates = {key: 0.3 for key in made} | {"both": 0.6, ("objects", "all"): 0.1, ("pace", "both"): 0.6,
+                                          ("brownian", 3): 0.05}
+    return {"calibrated": {key: made_up(rate, win_reward=float(key[0] == "points")) for key, rate in rates.items()}}
 
 
 def test_main_conditions_have_all_runs_and_others_fewer():
-    made = paper_b.experiments(READING, 1_000, 60, seed=3)
-    assert {made[key].runs for key in paper_b.AGENTS.values()} == {60}
+    made = experiments.all_conditions(READING, 1_000, 60, seed=3)
+    assert {made[key].runs for key in experiments.AGENTS.values()} == {60}
     assert made["place", 3].runs == made["revalued"].runs == made["joined"].runs == 10
     assert {each.seed for each in made.values()} == {3}
-    assert [paper_b.few(runs) for runs in (1, 10, 20, 100)] == [1, 10, 10, 10]
 
 
 def test_object_vector_cells_join_place_cells_at_half_time():
-    made = paper_b.experiments(READING, 1_000, 2)
+    made = experiments.all_conditions(READING, 1_000, 2)
     assert made["joined"].agent == made["place", "all"].agent
     assert made["joined"].changes == ((500, made["both"].agent),)
 
 
 def test_points_are_taken_from_the_same_lives(cache_folder):
-    made = paper_b.experiments(READING, 4_000, 1)
+    made = experiments.all_conditions(READING, 4_000, 1)
     chosen = {key: made[key] for key in ("both", ("points", "PC + OVC"))}
-    results = paper_b.live({"calibrated": chosen})["calibrated"]
+    results = side_by_side.live({"calibrated": chosen})["calibrated"]
     np.testing.assert_array_equal(results["both"].hits, results["points", "PC + OVC"].hits)
-    (found,) = paper_b.points_a_reset(results).values()
+    found = findings.points_a_reset({"calibrated": results})["calibrated"]["PC + OVC"]
     boards = results["points", "PC + OVC"].totals[0] - results["both"].totals[0]
     assert boards > 0 and found.value == results["both"].totals[0] / boards
 
 
-def test_conditions_that_readings_share_are_lived_once(cache_folder):
-    made = paper_b.experiments(READING, 1_000, 1)
-    lived = paper_b.live({name: {"both": made["both"]} for name in "ab"})
-    assert lived["a"]["both"] is lived["b"]["both"]
+def test_all_conditions_are_lived_under_each_reading(monkeypatch):
+    monkeypatch.setattr(side_by_side, "sweep", lambda conditions: conditions)
+    lived = experiments.live({"one": READING, "other": Reading()}, 1_000, 20, seed=3)
+    assert lived == {"one": experiments.all_conditions(READING, 1_000, 20, 3),
+                     "other": experiments.all_conditions(Reading(), 1_000, 20, 3)}
 
 
 def test_neighbours_differ_in_one_choice():
-    made = paper_b.neighbours(READING, 1_000, 2)
+    made = experiments.neighbours(READING, 1_000, 2)
     assert "causes: own" in made and "gain of place, B: 3" in made
     assert READING.capture not in [name.split(": ")[1] for name in made if name.startswith("capture")]
     wanted = made["attention: wanted"]["both"].agent
     assert wanted.learning == replace(READING.learning, attention="wanted")
 
 
-def test_a_stay_is_the_time_from_one_change_of_cell_to_the_next_but_for_resets():
-    (found,) = paper_b.mean_stays(READING, 8_000, 1)
-    agent = papers.place_cells(PRIMES, **READING.place_agents)
-    run, changes = neorl.Run(agent, neorl.WaterWorld(win_reward=100.0), 0), np.zeros(2)
-    run.advance(2_000)
-    run.advance(1)
-    resets = 0
-    for _ in range(1_999):
-        before = run.state.tracks.cell.copy()
-        reset = run.advance(1) > 50
-        resets += reset
-        changes += (run.state.tracks.cell != before) & (not reset)
-    assert resets > 0
-    np.testing.assert_allclose(found, 40 / changes)
+def test_the_figures_of_the_paper_have_their_agents_in_order(lived):
+    results = lived["calibrated"]
+    four, five = experiments.of_figure_4(results, "objects"), experiments.of_figure_5(results)
+    assert list(four) == ["N2", "N3", "N5", "N7", "N11", "N13", "all"] and four["N5"] is results["objects", 5]
+    assert list(five) == ["PC", "OVC", "PC + OVC"] and five["PC + OVC"] is results["both"]
 
 
-def test_the_desired_place_moves_and_experience_is_worth_something():
-    moved, seconds = paper_b.distances(READING, 40_000, 2)
-    assert moved["ignorant"].shape == moved["experienced"].shape == (2, 6, 150) and seconds[-1] == 30
-    run = neorl.Run(papers.place_cells(PRIMES, **READING.place_agents), neorl.WaterWorld(), 0, 1)
-    run.advance(10_000)
-    for place in paper_b.PLACES:
-        run.change(paper_b.desiring(READING, place))
-        run.advance(1_500)
-        at = run.world_state.agent_position / 250 - (place.x, place.y)
-        assert np.hypot(*at) in moved["experienced"][1, :2, -1]
-    assert moved["experienced"].mean() < moved["ignorant"].mean()
+def test_the_explorer_offers_the_figures_and_what_changes(lived):
+    offered = experiments.explorer_conditions(lived | {"to the letter": dict.fromkeys(lived["calibrated"], "letter")},
+                                              "moving")
+    results = lived["calibrated"]
+    assert next(iter(offered)) == "Figure 5: PC + OVC" and len(offered) == 1 + 2 * 7 + 3 + 3
+    assert offered["Figure 4A: N13"] is results["place", 13] and offered["Figure 4B: all"] is results["objects", "all"]
+    assert offered["Figure 5, to the letter: OVC"] == "letter" and offered["A desire that moves"] == "moving"
+    assert offered["Red revalued half-way"] is results["revalued"] and offered["OVC joins"] is results["joined"]
 
 
-def test_values_are_those_of_goals_that_can_be_asked_for():
-    found = paper_b.mean_values(READING, 5_000, 1)
-    run = neorl.Run(papers.multimodal(PRIMES, **READING.agents), neorl.WaterWorld())
-    run.advance(5_000)
-    expected = {"PC": 0.0, "OVC": 0.0}
-    for m, (node, n) in enumerate([("PC", 2), ("PC", 3), ("OVC", 2), ("OVC", 3)]):
-        contact = int(run.agent.maps[m].encode([0, 0]))
-        goals = range(n * n) if node == "PC" else [contact]
-        best = [neorl.superpose(run.q(m), state, [goal], [1.0]).max() for state in range(n * n) for goal in goals
-                if state != goal]
-        expected[node] += np.mean(best) * n / 5
-    assert expected["OVC"] > 0
-    for node, value in expected.items():
-        np.testing.assert_allclose(found[node], [value], rtol=1e-5)
+def watched(runs=12):
+    """Trials in which experience halves the distance, values of objects are a third, and maps cost as much as alone."""
+    moved = {"experienced": np.full((runs, 6, 10), 0.2), "ignorant": np.full((runs, 6, 10), 0.4)}
+    moved["experienced"][:, :2] = 0.3
+    luck = np.random.default_rng(0).random
+    costs = Costs([], 1 + 0.01 * luck(runs), 2 + 0.01 * luck((12, runs)), 13 + 0.01 * luck((12, runs)))
+    stays = np.array([[6.0, 5.0, 4.0, 3.0, 2.0, 1.0]]) + 0.1 * luck((runs, 6))
+    values = {"PC": np.full(runs, 0.6), "OVC": np.full(runs, 0.2)}
+    return Watched(moved, np.arange(1.0, 11.0), stays, values, costs)
 
 
-def test_costs_are_of_agents_with_one_map_more_each_time():
-    both = papers.multimodal(PRIMES)
-    one = paper_b._with_maps(both, [("PC", 2), ("OVC", 3)])
-    assert [(node.name, node.resolutions) for node in one.nodes] == [("PC", (2,)), ("OVC", (3,))]
-    assert one.desires == both.desires and paper_b._with_maps(both, []).desires == ()
-    cost = paper_b.measure_costs(READING, 500, 3)
-    assert cost.labels == ["PC N2", "PC N3", "OVC N2", "OVC N3"]
-    assert cost.alone.shape == cost.first.shape == (4, 3) and (cost.first > 0).all()
-    assert cost.measured[0] == cost.predicted[0]
+def test_all_claims_of_the_page_are_judged_in_their_order(lived):
+    (judged,) = findings.judge_each(lived, {"calibrated": watched()}).values()
+    assert [claim.name for claim in judged] == ["B1", "B2", "B3", "B4", "B5", "B6", "B7", "T1", "T2", "T6", "T8"]
+    by = {claim.name: claim for claim in judged}
+    assert (by["T2"].verdict, by["T8"].verdict) == ("reproduced", "reproduced")
+    assert by["B7"].here.value == pytest.approx(0.0)
+    backwards = watched()._replace(stays=watched().stays[:, ::-1])
+    *_, t8 = findings.judge_each(lived, {"calibrated": backwards})["calibrated"]
+    assert t8.verdict == "not reproduced"
 
 
-def test_red_creeps_a_minute_add_up_to_those_taken(cache_folder):
-    made = paper_b.experiments(READING, 6_000, 1)["both"]
-    result = neorl.simulate(**made.choices, progress=False)
-    curves, minutes = paper_b.red_a_minute(result, stretches=10)
-    assert curves.shape == (1, 10) and minutes[-1] == pytest.approx(1.9)
-    assert curves.mean() * 2 == pytest.approx(result.hits[..., 1].sum())
+def test_what_was_found_is_put_in_words_reading_by_reading(lived):
+    both = lived | {"to the letter": lived["calibrated"]}
+    judged = findings.judge_each(both, {"to the letter": watched(), "calibrated": watched()})
+    letter, calibrated = findings.in_words(both, judged).split("\n\n")
+    level, minute = findings.levels(lived)["calibrated"], findings.minutes(lived)["calibrated"]
+    assert letter.startswith(f"**To the letter**, place cells finally earn {level['PC']} per second (thesis: 0.29), ")
+    assert calibrated.startswith("**Calibrated**, place cells finally earn ")
+    assert f"and both together {level['PC + OVC']} (thesis: 0.55)" in calibrated
+    assert f"take {minute['PC'].value:.0f} minutes (thesis: more than 160), {minute['OVC'].value:.0f}, and" in letter
+    assert side_by_side.verdicts_in_words(judged["calibrated"]) in calibrated and calibrated.endswith(".")
+
+
+def test_levels_are_those_of_the_last_fifth_and_minutes_those_of_longer_lives(lived):
+    results = dict(lived["calibrated"])
+    late = results["both"].rewards * (np.arange(3_000) >= 2_400)
+    results["both"] = replace(results["both"], rewards=late.astype(np.float32))
+    results["pace", "objects"] = replace(results["both"], runs=12)
+    level, minute = findings.levels({"a": results})["a"], findings.minutes({"a": results})["a"]
+    assert level["PC + OVC"].value == pytest.approx(0.6, rel=0.1) and level["OVC"].value == pytest.approx(0.1, rel=0.2)
+    assert minute["OVC"].value > 8 > 5 > minute["PC + OVC"].value
+
+
+def test_every_modality_has_a_row():
+    rows = findings.modalities_table().splitlines()[2:]
+    assert len(rows) == len(MODALITIES)
+    assert rows[0] == "| place cell | allocentric | x × y (cartesian) | 2-D |" and rows[-1].endswith("| 1-D |")
+
+
+def test_values_stand_with_their_ratio_and_its_interval():
+    trials = watched(2)._replace(values={"PC": np.array([0.5, 1.0]), "OVC": np.array([0.1, 0.4])})
+    (row,) = findings.values_table({"calibrated": trials}).splitlines()[2:]
+    assert row == "| calibrated | 0.75 [0.50, 1.00] | 0.25 [0.10, 0.40] | 0.30 [0.20, 0.40] |"
+
+
+def test_points_are_counted_for_each_agent_of_each_reading(lived):
+    found = findings.points_a_reset({"one": lived["calibrated"], "other": lived["calibrated"]})
+    assert list(found) == ["one", "other"]
+    assert list(found["one"]) == ["PC", "OVC", "PC + OVC", "Brownian motion"]
+
+
+@pytest.mark.parametrize("n, boards", [(1, [1]), (3, [1, 1, 1, 2, 2, 2, 3])])
+def test_a_board_brings_twice_the_green_creeps_that_it_begins_with(n, boards):
+    assert findings.expected_points(neorl.WaterWorld(n_creeps=n)) == pytest.approx(2 * np.mean(boards))
+
+
+def test_intervals_that_hold_the_expected_points_are_counted():
+    found = {"one": {"PC": Estimate(3.0, 2.0, 4.0), "OVC": Estimate(1.0, 0.5, 1.5)},
+             "other": {"PC": Estimate(3.4, 3.4, 3.5), "OVC": Estimate(5.0, 4.0, 6.0)}}
+    assert findings.points_in_words(found, 3.4) == (
+        "A fresh board has 1.70 green creeps on average, which gives 3.40 points a reset. That lies within 2 of the 4 "
+        "intervals.")
+    single = {"one": {"PC": Estimate(3.0, np.nan, np.nan)}}
+    assert findings.points_in_words(single, 3.4).endswith("which gives 3.40 points a reset.")
+
+
+def test_red_creeps_a_minute_add_up_to_those_taken():
+    result = made_up(0.3, runs=2, red=0.5)
+    curves, minutes = findings.red_a_minute({"a": {"revalued": result}})
+    assert curves["a"].shape == (2, 100) and minutes[[0, -1]] == pytest.approx([0.05, 9.95])
+    np.testing.assert_allclose(curves["a"].mean(axis=1) * 10, result.hits[..., 1].sum(axis=1))
+
+
+def test_red_creeps_are_told_before_and_after_the_turn_and_at_last():
+    curve = np.zeros((2, 100))
+    curve[:, 49], curve[:, 50], curve[:, 80:] = 1.0, [2.0, 4.0], 5.0
+    assert findings.red_in_words({"to the letter": curve, "calibrated": 2 * curve}) == (
+        "To the letter, the agents take 1.0 red creeps a minute in the hundredth of the run before the turn, 3.0 in "
+        "the one after it, and 5.0 in the last fifth. Calibrated, the agents take 2.0 red creeps a minute in the hundredth "
+        "of the run before the turn, 6.0 in the one after it, and 10.0 in the last fifth.")
+
+
+def test_distances_are_told_for_the_first_two_moves_and_the_later_ones():
+    assert findings.distances_in_words({"to the letter": watched(), "calibrated": watched()}).startswith(
+        "To the letter, it is 0.30 and 0.20 for experienced agents, 0.40 and 0.40 for ignorant ones. Calibrated, it ")
+
+
+def test_what_agents_earn_is_told_for_the_twentieths_beside_the_change():
+    def rate(begin, end):
+        return np.array([{(0.45, 0.5): 0.1, (0.5, 0.55): 0.3}[begin, end]] * 2)
+
+    results = {"joined": SimpleNamespace(rate=rate)}
+    assert findings.joining_in_words({"one": results, "other": results}) == (
+        "0.10 and 0.30 per second (one) and 0.10 and 0.30 per second (other)")
+
+
+def test_more_maps_are_compared_in_each_reading(lived, monkeypatch):
+    monkeypatch.setattr(findings, "sooner_with_more", lambda more, fewer: (more, fewer))
+    (found,) = findings.minutes_with_more_maps(lived).values()
+    results = lived["calibrated"]
+    assert found["a modality"][0] is results["both"] and len(found["resolutions of place"][1]) == 6

@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 
 from neorl import Result, WaterWorld, brownian
-from neorl.chapters.paper_c import NETWORKS, final_rates, in_words, live, networks, recur
+from neorl.chapters.paper_c.experiments import NETWORKS, explorer_conditions, live, neighbours, networks, recur
+from neorl.chapters.paper_c.findings import drastic_level, final_rates, finals, in_words, recursion_in_words
 from neorl.evidence.priors import TO_THE_LETTER
 from neorl.evidence.reading import GROUPS, Reading, networks as agents
 from neorl.evidence.rules_paper_c import judge_networks
+from neorl.evidence.statistics import Estimate
 
 LIKE_THE_THESIS = {"A": 0.12, "B": 0.2, "C": 0.3, "D": 0.6}
 
@@ -42,19 +44,57 @@ def test_recursion_is_varied_and_none_is_network_c(cache_folder):
 
 
 def test_what_the_networks_page_has_not_run_yet_has_few_runs(monkeypatch):
-    monkeypatch.setattr("neorl.chapters.paper_c.sweep", lambda conditions: conditions)
+    monkeypatch.setattr("neorl.chapters.shared.side_by_side.sweep", lambda conditions: conditions)
     (made,) = recur({"book": Reading()}, [-3.0, -1.0, 0.0], steps=300, runs=30).values()
     assert [condition.runs for condition in made] == [10, 30, 30]
 
 
 def test_what_was_found_is_put_in_words(results):
-    judged = judge_networks(*networks(results).values(), results["brownian", 3])
-    words = in_words(results, judged)
-    assert "● reproduced: C1, C2, C3, C4" in words
+    judged = {"book": judge_networks(*networks(results).values(), results["brownian", 3])}
+    words = in_words({"book": results}, judged)
+    assert words.startswith("- **Book.** ● reproduced: C1, C2, C3, C4. By reward")
     numbers = [f"{result.rate(0.8, 1.0).mean():.2f}" for result in networks(results).values()]
     assert " < ".join(f"{name} ({number})" for name, number in zip(NETWORKS, numbers)) in words
     backwards = results | {("network", "A"): results["network", "D"], ("network", "D"): results["network", "A"]}
-    assert "order is D (" in in_words(backwards, judged)
+    assert "order is D (" in in_words({"book": backwards}, judged)
+
+
+def test_neighbours_differ_in_one_choice_and_are_more_with_many_runs():
+    reading = Reading(network_resolutions=(3, 7, 23), memory=5.0, scale=0.5, bootstrap=True)
+    made = neighbours(reading, runs=99)
+    assert list(made) == ["maps of primes", "no memory", "places × 5", "by size"]
+    assert made["places × 5"] == replace(reading, network_gain=5.0)
+    more = neighbours(reading, runs=100)
+    assert list(more)[:4] == list(made) and "no bootstrapping" in more and "bootstrapping" not in more
+    assert more["twice as far"].scale == 1.0 and more["incoming"].vectors == "incoming"
+
+
+def test_the_explorer_offers_the_networks_of_both_readings(results):
+    letter = dict.fromkeys(results, "letter")
+    offered = explorer_conditions({"to the letter": letter, "calibrated": results})
+    assert [*offered][:5] == [*(f"Figure 4e: {name}" for name in NETWORKS), "Figure 4e: A, to the letter"]
+    assert offered["Figure 4e: D"] is results["network", "D"] and offered["Figure 4e: D, to the letter"] == "letter"
+
+
+def test_recursion_has_to_lift_a_network_that_earns_something(results):
+    (level,) = drastic_level(results).values()
+    assert level == pytest.approx(1.5 * results["network", "C"].rate(0.8, 1.0).mean())
+    assert list(drastic_level(results)) == ["thesis: D beyond 1.5 × C"]
+    assert drastic_level(results | {("network", "C"): made_up(brownian(), 0.0)}) == {}
+
+
+def test_final_rates_over_weights_are_those_of_the_last_fifth(results):
+    ((low, high),) = finals({"book": [results["network", "A"], results["network", "D"]]}).values()
+    assert high.value == pytest.approx(results["network", "D"].rate(0.8, 1.0).mean()) and low.high < high.low
+
+
+def test_the_best_weight_of_recursion_is_told_with_what_agents_earn_without():
+    found = {"to the letter": [Estimate(0.3, 0.2, 0.4), Estimate(0.1, 0.0, 0.2), Estimate(-0.2, -0.3, -0.1)],
+             "calibrated": [Estimate(0.0, -0.1, 0.1), Estimate(0.2, 0.1, 0.3), Estimate(0.5, 0.4, 0.6)]}
+    assert recursion_in_words([-0.5, 0.0, 1.0], found) == (
+        "Under the reading *to the letter* the best weight is r = −0.5, with 0.30 [0.20, 0.40]; without recursion it "
+        "is 0.10 [0.00, 0.20]. Under the reading *calibrated* the best weight is r = 1, with 0.50 [0.40, 0.60]; without "
+        "recursion it is 0.20 [0.10, 0.30].")
 
 
 def test_the_table_has_a_row_for_each_network_and_reading(results):

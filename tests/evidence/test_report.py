@@ -150,6 +150,13 @@ def test_errata_are_a_table_and_their_arithmetic_is_right():
     assert 3**2 + 7**2 + 23**2 == 587 and "587" in rows[0] and round(587 / 49) == 12 and "twelvefold" in rows[0]
 
 
+def test_errata_of_a_place_are_those_that_name_it():
+    header, rule, *rows = report.errata("paper C").splitlines()
+    assert [header, rule] == report.errata().splitlines()[:2]
+    assert rows == [row for row, each in zip(report.errata().splitlines()[2:], ERRATA) if "paper C" in each.place]
+    assert len(rows) == 4 and "paper B" in rows[-1]
+
+
 def test_all_that_is_kept_is_read_unless_files_are_named(record, cache_folder):
     (cache_folder / "claims" / "notes.txt").touch()
     assert report.read() == record

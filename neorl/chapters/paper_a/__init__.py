@@ -1,0 +1,1 @@
+"""Paper A: agents with one map, and with three."""

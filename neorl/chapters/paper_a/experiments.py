@@ -1,0 +1,63 @@
+"""The two experiments of paper A, under several readings of the text.
+
+1. The first experiment has agents with one map, N10 to N90, the second agents with N3, N7, N23 and with all three.
+2. The paper shows single runs of the first and the mean of many of the second. Here, too, the first has fewer: as many
+   as a verdict needs.
+"""
+
+from dataclasses import replace
+
+from neorl.agents.papers import brownian
+from neorl.chapters.shared import side_by_side
+from neorl.chapters.shared.side_by_side import by_resolution, changed, few
+from neorl.evidence.reading import LAYERS, SINGLE, conditions
+from neorl.evidence.report import CALIBRATED, LETTER
+
+CONTROL = "control"
+
+
+def live(readings, steps, runs, seed=0, groups=("layers", "single")):
+    """The results of both experiments under each reading: {name: {key: Result}}, with the keys of `conditions`.
+
+    readings: {name: Reading}. steps, runs, seed: as in `conditions`, but that the group "single" has 10 runs at most.
+    groups: of `conditions`, "layers" and "single". With the latter comes the key `CONTROL`, Brownian motion for as many
+    steps and runs.
+    """
+    made = {name: {} for name in readings}
+    for name, reading in readings.items():
+        for group in groups:
+            made[name] |= conditions(reading, steps, few(runs) if group == "single" else runs, seed, groups=(group,))
+        if "single" in groups:
+            made[name][CONTROL] = replace(made[name]["single", SINGLE[0]], agent=brownian())
+    return side_by_side.live(made)
+
+
+def singles(results):
+    """The agents with one map among the results of one reading, of the first experiment: {"N10": Result, …}."""
+    return by_resolution(results, "single", SINGLE)
+
+
+def layers(results):
+    """The agents with one map among the results of one reading, of the second experiment: {"N3": Result, …}."""
+    return by_resolution(results, "layer", LAYERS)
+
+
+def neighbours(reading):
+    """Readings that differ from a reading in one choice that matters here, also beyond the text: {name: Reading}."""
+    slow, quick = (min(reading.learning_rate * factor, 1.0) for factor in (0.05, 20))
+    return changed(reading, {"maps by N": {"weighting": "resolution"}, "maps by N²": {"weighting": "cells"},
+                             "bootstrapping": {"bootstrap": True}, "no bootstrapping": {"bootstrap": False},
+                             "no memory": {"memory": 0.0},
+                             f"α {slow:.3g}": {"learning_rate": slow}, f"α {quick:.3g}": {"learning_rate": quick},
+                             "ε 0.02": {"exploration": 0.02}, "half the board": {"tiled_fraction": 0.5},
+                             "own cell silent": {"own_cell": "silent"}})
+
+
+def explorer_conditions(results):
+    """The conditions that the Explorer of the page offers: {name: Result}. results: as `live` has them, by reading."""
+    offered = {}
+    for name, suffix in ((CALIBRATED, ""), (LETTER, ", to the letter")):
+        offered[f"Figure 7: all{suffix}"] = results[name]["layers"]
+        offered |= {f"Figure 7: {n}{suffix}": result for n, result in layers(results[name]).items()}
+        offered |= {f"Figure 6: {n}{suffix}": result for n, result in singles(results[name]).items()}
+    return offered | {"Figure 6: Brownian": results[CALIBRATED][CONTROL]}

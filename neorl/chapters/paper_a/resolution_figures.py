@@ -1,0 +1,41 @@
+"""Drawings of paper A: maps over one board, the field of elements of interest, and maps alone and together."""
+
+from matplotlib import pyplot as plt
+
+from neorl.chapters.paper_a.experiments import layers
+from neorl.chapters.paper_a.findings import REWARD, THESIS
+from neorl.drawing.figures import AGENT, GREEN, INK, RED, draw_cells, draw_proficiency, draw_values, new_board
+from neorl.drawing.thesis_figures import mark_levels
+from neorl.evidence.verdict import FINAL
+
+
+def draw_together(results):
+    """Reward per second of N3, N7 and N23 alone, of all three, and of the sum of the three; results of one reading.
+
+    A dashed line lies where the thesis has all three: at 3.5 times what N7 finally earns here.
+    """
+    alone = layers(results)
+    draw_proficiency(alone | {"all three": results["layers"]}, ("sum of the three", [*alone.values()]))
+    level = THESIS[REWARD] * results["layer", 7].rate(*FINAL).mean()
+    mark_levels(plt.gca(), {f"thesis: {THESIS[REWARD]} × N7": level})
+
+
+def draw_elements(nres_map, places, valences, values):
+    """Elements of interest with their valences, and the action values (cells, 4) that they make of a map.
+
+    places: (elements, 2), in board widths. valences: (elements,).
+    """
+    fills = {goal: (GREEN if valence > 0 else RED, 0.6 * abs(valence))
+             for goal, valence in zip(nres_map.encode(places), valences)}
+    axes = new_board()
+    draw_cells(axes, nres_map, fills=fills)
+    draw_values(axes, nres_map, values)
+    for (x, y), valence in zip(places, valences):
+        axes.text(x - 0.08, y - 0.05, f"{valence:+g}", weight="bold")
+
+
+def draw_maps(maps):
+    """The receptive fields of three maps over one board, in lines that get thinner from map to map."""
+    axes = new_board()
+    for nres_map, colour, width in zip(maps, (RED, AGENT, INK), (3.2, 1.8, 0.7)):
+        draw_cells(axes, nres_map, colour, width=width)

@@ -1,0 +1,1 @@
+"""Paper B: agents with place cells, with object-vector cells and with both."""

@@ -1,0 +1,160 @@
+"""What the page of paper B reports of its experiments and trials: verdicts, numbers beside the thesis's, sentences.
+
+`lived` is what `neorl.chapters.paper_b.experiments.live` returns, {reading: {key: `Result`}}, and `watched` what
+`neorl.chapters.paper_b.trials.watch` does, {reading: `Watched`}.
+"""
+
+import numpy as np
+
+from neorl.chapters.paper_b.experiments import of_figure_5
+from neorl.chapters.shared.side_by_side import verdicts_in_words
+from neorl.core.modality import MODALITIES
+from neorl.evidence import claims
+from neorl.evidence.reading import PRIMES, additions, judge
+from neorl.evidence.rules_chapters import sooner_with_more
+from neorl.evidence.statements import STATEMENTS
+from neorl.evidence.statistics import estimate, points, quotient, ratio, resets, time_to_final_level
+
+THESIS_LEVELS = {"PC": 0.29, "OVC": 0.29, "PC + OVC": 0.55}  # reward per second; section 3.2, and "no loss" in 3.1
+THESIS_MINUTES = {"PC": 160, "PC + OVC": 15}  # section 3.2
+STRETCHES = 100  # of a run, in which red creeps are counted
+
+
+def judge_each(lived, watched):
+    """All claims of the page under each reading, in their order: {name: [`Claim`, …]}."""
+    return {name: _judged(lived[name], each) for name, each in watched.items()}
+
+
+def _judged(results, watched):
+    found = {name: claim for name, claim in judge(results).items() if name[0] != "A"}
+    near = {name: each.mean(axis=2) for name, each in watched.moved.items()}
+    cost = watched.costs
+    for claim in (claims.judge_points(results["points", "PC + OVC"]),
+                  claims.judge_joining(results["joined"], results["place", "all"], results["brownian", 3]),
+                  claims.judge_changes(results["revalued"], near),
+                  claims.judge_cost(cost.first[-1], cost.alone, cost.none),
+                  claims.judge_time_scale(PRIMES, watched.stays)):
+        found[claim.name] = claim
+    return [found[name] for name in STATEMENTS if name in found]
+
+
+def in_words(lived, judged):
+    """What was found under each reading, a paragraph of Markdown each: final levels, the time to them, and verdicts.
+
+    judged: as `judge_each` returns it.
+    """
+    level, minute = levels(lived), minutes(lived)
+    return "\n\n".join(f"**{name.capitalize()}**, {_found(level[name], minute[name])} {verdicts_in_words(each)}."
+                       for name, each in judged.items())
+
+
+def _found(level, minute):
+    taken = {name: f"{each.value:.0f}" for name, each in minute.items()}
+    return (f"place cells finally earn {level['PC']} per second (thesis: {THESIS_LEVELS['PC']}), object-vector cells "
+            f"{level['OVC']}, and both together {level['PC + OVC']} (thesis: {THESIS_LEVELS['PC + OVC']}). To reach "
+            f"their final level they take {taken['PC']} minutes (thesis: more than {THESIS_MINUTES['PC']}), "
+            f"{taken['OVC']}, and {taken['PC + OVC']} (thesis: {THESIS_MINUTES['PC + OVC']}).")
+
+
+def levels(lived):
+    """Final reward per second of figure 5's agents under each reading: {name: {agent: `Estimate`}}."""
+    return {name: {agent: estimate(np.mean, result.rate(*claims.FINAL))
+                   for agent, result in of_figure_5(results).items()} for name, results in lived.items()}
+
+
+def minutes(lived):
+    """Minutes until figure 5's agents reach their final level, as `judge_pace` takes them: {name: {agent: `Estimate`}}.
+    """
+    keys = {"PC": ("pace", "place"), "OVC": ("pace", "objects"), "PC + OVC": ("pace", "both")}
+    return {name: {agent: estimate(np.mean, time_to_final_level(results[key]) / 60) for agent, key in keys.items()}
+            for name, results in lived.items()}
+
+
+def modalities_table():
+    """The modalities that the thesis names, as a Markdown table."""
+    rows = ["| Cell | Reference frame | Tuned to | Map |", "|---|---|---|---|"]
+    return "\n".join([*rows, *(f"| {each.name} | {each.frame} | {' × '.join(each.axes)} ({each.tuning}) | "
+                               f"{len(each.axes)}-D |" for each in MODALITIES)])
+
+
+def values_table(watched):
+    """How large the values of either modality are under each reading, and their ratio, as a Markdown table."""
+    rows = ["| Reading | PC | OVC | OVC / PC, where the remark has 3 |", "|---|---|---|---|"]
+    for name, each in watched.items():
+        places, objects = each.values["PC"], each.values["OVC"]
+        means = (estimate(np.mean, values) for values in (places, objects, quotient(objects, places)))
+        rows.append(f"| {name} | {' | '.join(map(str, means))} |")
+    return "\n".join(rows)
+
+
+def points_a_reset(lived):
+    """Points that a board brings until it is reset, of figure 5's agents and of Brownian motion under each reading.
+
+    {name: {agent: `Estimate`}}
+    """
+    return {name: {key[1]: estimate(ratio, points(result), resets(result)) for key, result in results.items()
+                   if key[0] == "points"} for name, results in lived.items()}
+
+
+def expected_points(world):
+    """Points that a board brings until it is reset, whatever agents do: twice the green creeps that it begins with.
+
+    Each of its n creeps is green with a probability of one half, and at least one is: n / (1 − 2^−n).
+    """
+    return world.n_creeps / (1 - 0.5**world.n_creeps)
+
+
+def points_in_words(found, expected):
+    """How `expected_points` come about, and in how many intervals of `points_a_reset` they lie, if it has intervals."""
+    told = f"A fresh board has {expected / 2:.2f} green creeps on average, which gives {expected:.2f} points a reset."
+    intervals = [each for of_agents in found.values() for each in of_agents.values() if not np.isnan(each.low)]
+    if not intervals:
+        return told
+    within = sum(each.low <= expected <= each.high for each in intervals)
+    return f"{told} That lies within {within} of the {len(intervals)} intervals."
+
+
+def red_a_minute(lived):
+    """Red creeps that agents take a minute where these are revalued: ({name: (runs, stretches)}, (stretches,)).
+
+    The run is cut into equal stretches; the second array has their middles, in minutes of the first reading.
+    """
+    edges = np.linspace(0, 1, STRETCHES + 1)
+    curves = {name: np.stack([60 * results["revalued"].hit_rate(*pair)[:, 1] for pair in zip(edges[:-1], edges[1:])],
+                             axis=1) for name, results in lived.items()}
+    seconds = next(iter(lived.values()))["revalued"].seconds
+    return curves, (edges[:-1] + edges[1:]) / 2 * seconds / 60
+
+
+def red_in_words(curves):
+    """How many red creeps agents take before these are revalued and after, of the curves of `red_a_minute`."""
+    lines = []
+    for name, curve in curves.items():
+        half, fifth = curve.shape[1] // 2, curve.shape[1] // 5
+        before, after, later = curve[:, half - 1].mean(), curve[:, half].mean(), curve[:, -fifth:].mean()
+        lines.append(f"{name.capitalize()}, the agents take {before:.1f} red creeps a minute in the hundredth of the "
+                     f"run before the turn, {after:.1f} in the one after it, and {later:.1f} in the last fifth.")
+    return " ".join(lines)
+
+
+def distances_in_words(watched):
+    """How far from a desired place agents are after the first two moves, and after the later ones, by reading."""
+    lines = []
+    for name, each in watched.items():
+        experienced, ignorant = (f"{moved[:, :2].mean():.2f} and {moved[:, 2:].mean():.2f}"
+                                 for moved in (each.moved["experienced"], each.moved["ignorant"]))
+        lines.append(f"{name.capitalize()}, it is {experienced} for experienced agents, {ignorant} for ignorant ones.")
+    return " ".join(lines)
+
+
+def joining_in_words(lived):
+    """What agents earn in a twentieth of the run before other cells join and in the one after it, by reading."""
+    rates = {name: [results["joined"].rate(*part).mean() for part in ((0.45, 0.5), (0.5, 0.55))]
+             for name, results in lived.items()}
+    return " and ".join(f"{before:.2f} and {after:.2f} per second ({name})" for name, (before, after) in rates.items())
+
+
+def minutes_with_more_maps(lived):
+    """By how many minutes agents with more maps are sooner than those with fewer: {name: {addition: `Estimate`}}."""
+    return {name: {added: sooner_with_more(more, fewer) for added, (more, fewer, _) in additions(results).items()}
+            for name, results in lived.items()}

@@ -1,0 +1,59 @@
+"""Drawings of paper B: beside the thesis's numbers, the cells of every modality, and what trials have shown."""
+
+import numpy as np
+from matplotlib import pyplot as plt
+
+from neorl.chapters.paper_b.trials import SECONDS_A_MOVE
+from neorl.core.maps import NresMap
+from neorl.core.modality import MODALITIES
+from neorl.drawing.figures import INK, draw_curves, draw_receptive_fields, draw_sweep, draw_tank, new_boards
+from neorl.drawing.thesis_figures import draw_against_thesis
+from neorl.evidence.reading import PRIMES
+from neorl.evidence.statistics import estimate
+
+LABELS = {"PC": "place cells", "OVC": "object-vector\ncells", "PC + OVC": "both"}
+
+
+def draw_agents(thesis, found, xlabel):
+    """What was found of figure 5's agents beside the thesis's numbers, a row for each agent that the thesis has one of.
+
+    thesis: {agent: number}. found: {reading: {agent: Estimate}}.
+    """
+    draw_against_thesis({LABELS[agent]: number for agent, number in thesis.items()},
+                        {name: {LABELS[agent]: of_agents[agent] for agent in thesis}
+                         for name, of_agents in found.items()}, xlabel)
+
+
+def draw_modalities(world, state):
+    """The receptive fields of a map of each modality over a tank, those of its active cells filled."""
+    for axes, modality in zip(new_boards(2, 4), MODALITIES):
+        draw_receptive_fields(axes, NresMap(7, modality), world, state)
+        draw_tank(axes, world, state)
+        axes.set_title(modality.name)
+
+
+def draw_revaluing(minutes, curves):
+    """Red creeps a minute over the run, {reading: (runs, stretches)}, with a line at half-time, when they are revalued.
+    """
+    draw_curves(minutes, curves, "simulated minutes", "red creeps a minute")
+    plt.gca().axvline((minutes[0] + minutes[-1]) / 2, color=INK, linewidth=0.7)
+
+
+def draw_distances(watched):
+    """How far from a desired place that moves agents are, over all moves: of a `Watched`."""
+    starts = SECONDS_A_MOVE * np.arange(watched.moved["experienced"].shape[1])
+    draw_curves((starts[:, None] + watched.seconds).ravel(),
+                {name: each.reshape(len(each), -1) for name, each in watched.moved.items()},
+                "seconds", "distance, board widths")
+
+
+def draw_time_scale(watched):
+    """Seconds in a cell over the width of its receptive field, on logarithmic axes, by reading: {name: `Watched`}."""
+    finest_first = PRIMES[::-1]
+    widths = [1 / n for n in finest_first]
+    stays = {name: [estimate(np.mean, stay) for stay in each.stays.T[::-1]] for name, each in watched.items()}
+    draw_sweep(widths, stays, "width of a receptive field, share of the range", "seconds in a cell")
+    axes = plt.gca()
+    axes.set(xscale="log", yscale="log", ylim=(None, None))
+    axes.set_xticks(widths, ["" if n == 11 else f"1/{n}" for n in finest_first])
+    axes.minorticks_off()

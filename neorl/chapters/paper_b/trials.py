@@ -1,0 +1,210 @@
+"""Paper B's agents watched while they live, since rewards do not show all that is claimed of them.
+
+Watched are how near they come to a desired place that moves, how long they stay in the cells of a map, how large their
+values are, how long a step takes to compute, and what becomes of their maps when others join.
+"""
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from time import perf_counter
+from typing import NamedTuple
+
+import numpy as np
+
+from neorl.agents import papers
+from neorl.agents.agent import Desire, Node, Place, Policy
+from neorl.core.modality import PLACE_CELL
+from neorl.evidence.reading import PRIMES
+from neorl.experiments.cache import simulate_once
+from neorl.experiments.run import Run, bin_steps
+from neorl.experiments.simulation import usable_threads
+from neorl.worlds.waterworld import WaterWorld
+
+PLACES = (Place(0.3, 0.3), Place(0.65, 0.65))  # of the agent's position; it is desired in turn
+MOVES, SECONDS_A_MOVE = 6, 30
+LIVED = 0.25  # of a run, before agents are watched
+TIMED_STEPS = 20_000
+
+
+class Costs(NamedTuple):
+    """Microseconds a step on one core, each (repetitions,), of agents that all move alike."""
+
+    labels: list  # of the maps
+    none: np.ndarray  # without any map
+    alone: np.ndarray  # (maps, repetitions), with one map
+    first: np.ndarray  # (maps, repetitions), with this map and all before it
+
+    @property
+    def measured(self):
+        """What the agents with more and more maps cost typically, (maps,)."""
+        return np.median(self.first, axis=1)
+
+    @property
+    def predicted(self):
+        """What they would if maps cost together what each costs by itself, (maps,)."""
+        base = np.median(self.none)
+        return base + np.cumsum(np.median(self.alone, axis=1) - base)
+
+
+class Watched(NamedTuple):
+    """What the trials of a reading have shown."""
+
+    moved: dict  # distances from a desired place that moves, (runs, moves, samples) by name, see `distances`
+    seconds: np.ndarray  # when each sample of a move is, (samples,)
+    stays: np.ndarray  # (runs, maps), see `mean_stays`
+    values: dict  # (runs,) by name of the node, see `mean_values`
+    costs: Costs
+
+
+def watch(readings, steps, runs, seed=0):
+    """All trials under each reading, {name: Reading}: {name: `Watched`}.
+
+    steps: of a run of the page's conditions. runs: of each trial; what a step costs is measured as often.
+    """
+    return {name: Watched(*distances(reading, steps, runs, seed), mean_stays(reading, steps, runs, seed),
+                          mean_values(reading, steps // 4, runs, seed),
+                          measure_costs(reading, min(steps, TIMED_STEPS), runs, seed))
+            for name, reading in readings.items()}
+
+
+def desiring(reading, place):
+    """Place cells that desire nothing but a place."""
+    return replace(papers.place_cells(PRIMES, **reading.place_agents), desires=[Desire(place, "PC", valence=1.0)])
+
+
+def distances(reading, steps, runs, seed=0):
+    """How far from a desired place agents are, in board widths, while it moves to and fro: (moved, seconds).
+
+    moved: {"experienced": (runs, moves, samples), "ignorant": the same}, of place cells that have lived a quarter of
+    `steps` among creeps before, and of such that have not. seconds: when each sample of a move is, (samples,).
+    """
+    world = _tank(reading)
+    agent, desires = papers.place_cells(PRIMES, **reading.place_agents), [desiring(reading, at) for at in PLACES]
+    interval = bin_steps(world)
+    samples = SECONDS_A_MOVE * world.fps // interval
+
+    def near(lived, k):
+        run, found = Run(agent, world, seed, k), np.empty((MOVES, samples))
+        run.advance(lived)
+        for move in range(MOVES):
+            at = PLACES[move % len(PLACES)]
+            run.change(desires[move % len(PLACES)])
+            for sample in range(samples):
+                run.advance(interval)
+                found[move, sample] = np.linalg.norm(run.world_state.agent_position / world.width - (at.x, at.y))
+        return found
+
+    lived = {"experienced": round(LIVED * steps), "ignorant": 0}
+    moved = {name: _of_runs(lambda k: near(before, k), agent, runs) for name, before in lived.items()}
+    return moved, (np.arange(samples) + 1) * interval / world.fps
+
+
+def live_with_moving_desire(reading, steps, runs, seed=0):
+    """The first two moves of agents with experience, as the `Result` of a condition that can be lived again."""
+    tank = _tank(reading)
+    agent, desires = papers.place_cells(PRIMES, **reading.place_agents), [desiring(reading, at) for at in PLACES]
+    lived, move = steps // 4, SECONDS_A_MOVE * tank.fps
+    return simulate_once(agent, tank, steps=lived + 2 * move, runs=runs, seed=seed,
+                         changes=[(lived, desires[0]), (lived + move, desires[1])])
+
+
+def mean_stays(reading, steps, runs, seed=0, watched=15_000):
+    """How long agents stay in a cell, in mean seconds, for each of the maps of place cells: (runs, maps).
+
+    They have lived a quarter of `steps` before and are watched for as long, `watched` steps at most. A board's reset,
+    which puts an agent elsewhere, is no change of cell; without any change a stay is as long as it was watched.
+    """
+    world = _tank(reading)
+    agent = papers.place_cells(PRIMES, **reading.place_agents)
+    lived = round(LIVED * steps)
+    path_steps = max(2, min(lived, watched))
+
+    def of_run(k):
+        run = Run(agent, world, seed, k)
+        run.advance(lived)
+        path, moved = np.empty((path_steps, 2)), np.empty(path_steps, bool)
+        for step in range(path_steps):
+            run.advance(1)
+            path[step] = run.world_state.agent_position / world.width
+            moved[step] = run.world_state.agent_velocity.any() or (path[step] != 0.5).any()  # it is not as after a reset
+        changes = [((np.diff(each.encode(path)) != 0) & moved[1:]).sum() for each in agent.maps]
+        return path_steps / world.fps / np.maximum(changes, 1)
+
+    return _of_runs(of_run, agent, runs)
+
+
+def mean_values(reading, steps, runs, seed=0):
+    """How large the values of agents with both modalities are after `steps` steps: {node: (runs,)}.
+
+    Of a map it is the value of the best action, averaged over states and over the goals that the node can be asked
+    for: any other cell of a map of places, the agent's own cell of a map of object vectors. Maps count by their
+    weights; gains are left out.
+    """
+    world = _tank(reading)
+    agent = papers.multimodal(PRIMES, **reading.agents)
+
+    def of_nodes(k):
+        run = Run(agent, world, seed, k)
+        run.advance(steps)
+        means = []
+        for m, each in enumerate(agent.maps):
+            best = run.q(m).max(axis=1)
+            if each.modality.vector == "position":
+                means.append(best[~np.eye(each.cells, dtype=bool)].mean())
+            else:
+                means.append(np.delete(best[:, run.parameters.maps.contact[m]], run.parameters.maps.contact[m]).mean())
+        return [np.dot(run.parameters.maps.weight[begin:end], means[begin:end])
+                for begin, end in zip(run.parameters.nodes.first_map[:-1], run.parameters.nodes.first_map[1:])]
+
+    return dict(zip((node.name for node in agent.nodes), _of_runs(of_nodes, agent, runs).T))
+
+
+def measure_costs(reading, steps, repetitions, seed=0):
+    """What agents with one map more each time cost: a `Costs`.
+
+    Their nodes have a gain of 0 and do not explore, so they evaluate and learn everything but draw every action.
+    """
+    agents = {**reading.agents, "policy": Policy(0.0, "random")}
+    both = papers.multimodal(PRIMES, place_gain=0.0, object_gain=0.0, **agents)
+    world = _tank(reading)
+    maps = [(node.name, n) for node in both.nodes for n in node.resolutions]
+    sets = [(), *((each,) for each in maps), *(maps[:k] for k in range(2, len(maps) + 1))]
+    alive = [Run(_with_maps(both, chosen), world, seed) for chosen in sets]
+    cost = np.empty((len(sets), repetitions))
+    for repetition in range(repetitions):  # all in turn, so that they share what disturbs
+        for place, run in enumerate(alive):
+            start = perf_counter()
+            run.advance(steps)
+            cost[place, repetition] = (perf_counter() - start) / steps * 1e6
+    alone = cost[1 : len(maps) + 1]
+    first = np.concatenate([alone[:1], cost[len(maps) + 1 :]])
+    return Costs([f"{name} N{n}" for name, n in maps], cost[0], alone, first)
+
+
+def maps_kept(before, after, world, steps, seed=0):
+    """How many maps of an agent hold the same values, to the last bit, when it becomes another after so many steps.
+
+    after: an agent whose first maps are those of `before`.
+    """
+    run, maps = Run(before, world, seed), range(len(before.maps))
+    run.advance(steps)
+    knew = [run.q(m).copy() for m in maps]
+    run.change(after)
+    return sum(np.array_equal(run.q(m), knew[m]) for m in maps)
+
+
+def _tank(reading):
+    return WaterWorld(fps=reading.fps, contact=reading.contact)
+
+
+def _with_maps(agent, chosen):
+    """The agent with these of its maps only, (name of the node, N) each; without any, it has a map of one cell."""
+    of_node = {node.name: [n for name, n in chosen if name == node.name] for node in agent.nodes}
+    nodes = [replace(node, resolutions=of_node[node.name]) for node in agent.nodes if of_node[node.name]]
+    desires = [each for each in agent.desires if of_node[each.target]]
+    return replace(agent, nodes=nodes or [Node("none", PLACE_CELL, [1])], desires=desires)
+
+
+def _of_runs(live_one, agent, runs):
+    with ThreadPoolExecutor(min(usable_threads(agent), runs)) as cores:
+        return np.array(list(cores.map(live_one, range(runs))))

@@ -1,0 +1,61 @@
+"""The experiments of paper C, under several readings of the text: four networks, and how strongly the last recurs."""
+
+from dataclasses import replace
+
+from neorl.agents.papers import PRIMES
+from neorl.chapters.shared import side_by_side
+from neorl.chapters.shared.side_by_side import changed, few
+from neorl.evidence.reading import LAYERS, conditions
+from neorl.evidence.report import CALIBRATED, LETTER
+
+NETWORKS = tuple("ABCD")
+MANY_RUNS = 100  # from which on there are more `neighbours`
+
+
+def live(readings, steps, runs, seed=0):
+    """The results of networks A to D, and of Brownian motion, under each reading: {name: {key: Result}}.
+
+    readings: {name: Reading}. steps, runs, seed, and the keys: as in `conditions`.
+    """
+    return side_by_side.live({name: conditions(reading, steps, runs, seed, groups=("networks",))
+                              for name, reading in readings.items()})
+
+
+def networks(results):
+    """The networks among the results of one reading: {"A": Result, …}."""
+    return {name: results["network", name] for name in NETWORKS}
+
+
+def recur(readings, weights, steps, runs, seed=0):
+    """The results of network D over its weight of recursion: {name: [Result for each weight]}.
+
+    readings: {name: Reading}. weights: numbers; with 0, D is C. steps, runs, seed: as in `conditions`, but that there
+    are 10 runs at most of what `live` does not have.
+    """
+    made = {name: {} for name in readings}
+    for name, reading in readings.items():
+        for weight in weights:
+            some = runs if weight in (0, reading.recursion) else few(runs)
+            found = conditions(replace(reading, recursion=weight), steps, some, seed, groups=("networks",))
+            made[name][weight] = found["network", "D" if weight else "C"]
+    return {name: [*results.values()] for name, results in side_by_side.live(made).items()}
+
+
+def neighbours(reading, runs):
+    """Readings that differ from a reading in one choice that matters here, also beyond the text: {name: Reading}.
+
+    There are more of them where the networks have `MANY_RUNS` runs.
+    """
+    changes = {"maps N3, N7, N23": {"network_resolutions": LAYERS}, "maps of primes": {"network_resolutions": PRIMES},
+               "no memory": {"memory": 0.0}, "places × 5": {"network_gain": 5.0}, "by size": {"vectors": "by size"}}
+    if runs >= MANY_RUNS:
+        changes |= {"bootstrapping": {"bootstrap": True}, "no bootstrapping": {"bootstrap": False},
+                    "incoming": {"vectors": "incoming"}, "twice as far": {"scale": 2 * reading.scale},
+                    "ε 0.02": {"exploration": 0.02}, "own cell silent": {"own_cell": "silent"}}
+    return changed(reading, changes)
+
+
+def explorer_conditions(results):
+    """The conditions that the Explorer of the page offers: {name: Result}. results: as `live` has them, by reading."""
+    return {f"Figure 4e: {name}{suffix}": result for reading, suffix in ((CALIBRATED, ""), (LETTER, ", to the letter"))
+            for name, result in networks(results[reading]).items()}

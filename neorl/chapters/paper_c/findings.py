@@ -1,0 +1,63 @@
+"""What the page of paper C reports of its experiments.
+
+The paper prints an order of four curves and no numbers, so ours stand beside Brownian motion and beside one another.
+Results are those of `neorl.chapters.paper_c.experiments.live`: {reading: {key: Result}}.
+"""
+
+import numpy as np
+
+from neorl.chapters.paper_c.experiments import NETWORKS, networks
+from neorl.chapters.shared.side_by_side import listed, number, verdicts_in_words
+from neorl.evidence.statistics import estimate
+from neorl.evidence.verdict import FINAL
+
+DRASTIC = 1.5  # "drastically" is read as by half or more
+
+
+def in_words(results, judged):
+    """What was found under each reading, as a Markdown list: verdicts, and the numbers behind them.
+
+    judged: the claims of each reading, {name: [Claim, …]}.
+    """
+    return listed({name: _found(results[name], claims) for name, claims in judged.items()})
+
+
+def _found(results, claims):
+    final = {name: result.rate(*FINAL).mean() for name, result in networks(results).items()}
+    order = " < ".join(f"{name} ({number(final[name])})" for name in sorted(final, key=final.get))
+    return (f"{verdicts_in_words(claims)}. By reward per second in the last fifth of a run the order is {order}, where "
+            f"the thesis has A < B < C ≪ D; Brownian motion earns {number(results['brownian', 3].rate().mean())}.")
+
+
+def drastic_level(results):
+    """The level that D has to exceed under a reading, {name: reward per second}; {} if C finally earns nothing."""
+    level = DRASTIC * results["network", "C"].rate(*FINAL).mean()
+    return {f"thesis: D beyond {DRASTIC} × C": level} if level > 0 else {}
+
+
+def final_rates(by_reading):
+    """What networks finally earn and take under each reading, as a Markdown table: {name: results as `live` has them}.
+    """
+    rows = ["| Network | Reading | Reward per second | Green a minute | Red a minute |", "|---|---|---|---|---|"]
+    for network in NETWORKS:
+        for name, results in by_reading.items():
+            result = results["network", network]
+            green, red = 60 * result.hit_rate(*FINAL).mean(axis=0)
+            rows.append(f"| {network} | {name} | {estimate(np.mean, result.rate(*FINAL))} | {green:.1f} | {red:.1f} |")
+    return "\n".join(rows)
+
+
+def finals(recurring):
+    """Final reward per second for each weight, {name: [Estimate, …]}, of what `recur` returns."""
+    return {name: [estimate(np.mean, result.rate(*FINAL)) for result in results] for name, results in recurring.items()}
+
+
+def recursion_in_words(weights, found):
+    """The best weight of recursion under each reading, and what agents earn without any: of `finals`, by reading."""
+    lines = []
+    for name, estimates in found.items():
+        best, weight = max(zip(estimates, weights))
+        without = estimates[weights.index(0.0)]
+        lines.append(f"Under the reading *{name}* the best weight is r = {weight:g}, with {best}; without recursion it "
+                     f"is {without}.")
+    return " ".join(lines).replace("= -", "= −")

@@ -1,0 +1,54 @@
+"""Desires as the wires of a network: which ones make it up, where they land, and which are refused."""
+
+from dataclasses import replace
+from textwrap import wrap
+
+import numpy as np
+
+from neorl.experiments.run import Run
+
+WELL_INSIDE = 0.2  # board widths from the middle
+PATIENCE = 5_000  # steps
+LINE = 66  # characters
+
+
+def make_up(network, desires, reading):
+    """Whether desires are those of a network, when those between nodes have the scale and the sign of a reading."""
+    passed = {"scale": reading.scale, "signed": reading.vectors == "signed"}
+    desires = [replace(desire, **passed) if desire.between_nodes else desire for desire in desires]
+    return replace(network, desires=desires) == network
+
+
+def moment_of_desire(network, world, steps, seed=0):
+    """A `Run` of so many steps, and of some more until the agent is well inside the board and its place cells desire.
+
+    It waits for that no longer than `PATIENCE`.
+    """
+    run = Run(network, world, seed)
+    run.advance(steps)
+    while run.step < steps + PATIENCE and not (_is_inside(run) and run.output("PC").q.any()):
+        run.advance(1)
+    return run
+
+
+def _is_inside(run):
+    return np.abs(run.world_state.agent_position / run.world.width - 0.5).max() < WELL_INSIDE
+
+
+def landings(run):
+    """Where the desires between the nodes of a run's agent land, and what they are worth, as a Markdown table."""
+    rows = ["| Desire | Lands at, from the agent, in board widths | Valence |", "|---|---|---|"]
+    for desire, (east, south, valence) in zip(run.agent.desires, run.state.desires.target):
+        if desire.between_nodes:
+            row = f"{desire.source} to {desire.target}, {' and '.join(desire.of)} creeps"
+            rows.append(f"| {row} | ({east:z.3f}, {south:z.3f}) | {valence:+g} |".replace("-", "−"))
+    return "\n".join(rows)
+
+
+def refusal(network, desire):
+    """Why a network cannot have one desire more, in short lines; "" if it can."""
+    try:
+        replace(network, desires=[*network.desires, desire])
+    except ValueError as error:
+        return "\n".join(wrap(str(error), LINE))
+    return ""

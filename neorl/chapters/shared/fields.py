@@ -1,0 +1,14 @@
+"""What elements of interest make of a whole map (thesis eq. 4.3 and 4.4)."""
+
+import numpy as np
+
+from neorl.core.horde import superpose
+
+
+def superposed_field(q, goals, valences):
+    """The value of each action in every cell of a map, as if the agent were there: float64 (cells, 4).
+
+    q: float32 (cells, 4, cells). goals: the cells of the elements of interest. valences: their weights, as many.
+    Raises ValueError for anything else.
+    """
+    return np.array([superpose(q, cell, goals, valences) for cell in range(len(q))])

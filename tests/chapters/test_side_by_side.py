@@ -1,0 +1,75 @@
+"""Readings of the thesis side by side: which conditions are computed, and what is said of several readings at once."""
+
+from dataclasses import replace
+
+import pytest
+
+import neorl
+from neorl.chapters.shared import side_by_side
+from neorl.evidence.priors import TO_THE_LETTER
+from neorl.evidence.reading import Reading
+from neorl.evidence.statistics import Estimate
+from neorl.evidence.verdict import Claim
+
+
+def claim(name, outcome, runs=10):
+    return Claim(name, Estimate(0.0, 0.0, 0.0), "", runs, outcome, False)
+
+
+def test_conditions_that_readings_share_are_computed_once(monkeypatch):
+    computed = []
+
+    def sweep(conditions):
+        computed.extend(conditions)
+        return [f"result {i}" for i, _ in enumerate(conditions)]
+
+    monkeypatch.setattr(side_by_side, "sweep", sweep)
+    one, other = (neorl.Condition(neorl.place_cells([n]), neorl.WaterWorld(), 100, 1) for n in (2, 3))
+    lived = side_by_side.live({"a": {"x": one, "y": other}, "b": {"y": other, "z": replace(one)}})
+    assert computed == [one, other]
+    assert lived == {"a": {"x": "result 0", "y": "result 1"}, "b": {"y": "result 1", "z": "result 0"}}
+
+
+def test_secondary_conditions_have_as_many_runs_as_a_verdict_needs_at_most():
+    assert [side_by_side.few(runs) for runs in (1, 10, 20, 100)] == [1, 10, 10, 10]
+
+
+def test_each_reading_is_judged_by_its_own_results(monkeypatch):
+    monkeypatch.setattr(side_by_side, "judge", lambda results: {name: name.upper() for name in results})
+    assert side_by_side.judge_each({"one": {"a1": 0, "a2": 0}, "other": {}}) == {"one": ["A1", "A2"], "other": []}
+
+
+def test_a_change_that_leaves_a_reading_as_it_is_makes_no_other():
+    reading = Reading(memory=0.0, exploration=0.1)
+    made = side_by_side.changed(reading, {"no memory": {"memory": 0.0}, "greedy": {"exploration": 0.0}})
+    assert made == {"greedy": replace(reading, exploration=0.0)}
+
+
+def test_results_are_named_by_resolution_in_the_order_asked_for():
+    results = {("place", "all"): "together", ("place", 2): "coarse", ("place", 13): "fine", "both": "other"}
+    found = side_by_side.by_resolution(results, "place", (2, 13, "all"))
+    assert list(found.items()) == [("N2", "coarse"), ("N13", "fine"), ("all", "together")]
+
+
+def test_claims_stand_by_their_verdicts_and_a_verdict_that_none_has_is_left_out():
+    claims = [claim("A1", "partly"), claim("A2", "reproduced"), claim("A3", "partly"),
+              claim("A4", "reproduced", runs=9)]
+    assert side_by_side.verdicts_in_words(claims) == "● reproduced: A2; ◐ partly: A1, A3; – no verdict: A4"
+
+
+def test_what_is_said_of_each_reading_is_an_item_of_a_list():
+    assert side_by_side.listed({"to the letter": "One.", "calibrated": "Two."}) == (
+        "- **To the letter.** One.\n- **Calibrated.** Two.")
+
+
+def test_choices_are_open_or_pinned():
+    table = side_by_side.choices({"letter": TO_THE_LETTER, "far": replace(TO_THE_LETTER, scale=2.0)},
+                                 ["scale", "network_resolutions"])
+    assert table.splitlines() == ["| Choice | The text | letter | far |", "|---|---|---|---|",
+                                  "| desire scale | pinned | 1 | 2 |",
+                                  "| resolutions, C | open | {3, 7, 23} | {3, 7, 23} |"]
+
+
+@pytest.mark.parametrize("value, text", [(0.125, "0.12"), (-0.5, "−0.50"), (-0.001, "0.00")])
+def test_a_number_has_two_decimals_and_a_true_minus(value, text):
+    assert side_by_side.number(value) == text
