@@ -80,7 +80,7 @@ def turn(notebook):
 
 
 def records(notebook):
-    """The records of claims that a notebook reads: first none, in the second round that of shares, at last all others'."""
+    """The records of claims that a notebook reads: first none, in the second round that of shares, then all."""
     if turn(notebook) == 0:
         return []
     read = "*" if notebook.stem == CONCLUSION else "assumptions"
@@ -204,7 +204,7 @@ def script(kind, content):
 
 def write_claims():
     """The table of all claims, from what the notebooks have found, for the page that includes it."""
-    table = report.page(report.read(sorted(CHAPTERS.glob("*.claims.json"))))
+    table = report.page(report.load(sorted(CHAPTERS.glob("*.claims.json"))))
     target = CHAPTERS / "claims-table.md"
     if not target.exists() or target.read_text(encoding="utf-8") != table:
         target.write_text(table, encoding="utf-8")

@@ -11,7 +11,7 @@ BETWEEN = re.compile(r"(?<=<!-- claims: make readme -->\n).*(?=<!-- end of claim
 
 def main():
     readme = ROOT / "README.md"
-    table = report.in_short(report.read(sorted((ROOT / "book" / "chapters").glob("*.claims.json"))))
+    table = report.in_short(report.load(sorted((ROOT / "book" / "chapters").glob("*.claims.json"))))
     readme.write_text(BETWEEN.sub(lambda _: table, readme.read_text(encoding="utf-8")), encoding="utf-8")
 
 

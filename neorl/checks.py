@@ -73,7 +73,7 @@ def instance(name, value, kind):
     raise ValueError(f"{name} is {value!r}, allowed is a {kind.__name__}")
 
 
-def store(instance, **values):
+def assign(instance, **values):
     """Put checked values into the fields of a frozen dataclass, so that equal values are the same in every way."""
     for name, value in values.items():
         object.__setattr__(instance, name, value)

@@ -18,7 +18,8 @@ from neorl.core import modality
 RECORD = Path(__file__).parent / "golden.json"
 SHORT, LONG = 200, 6_000
 RUN = 3
-PLAIN = {"learning_rate": 0.03, "discount": 0.8, "update_on": "cell", "credit": "share", "absent_decay": 0.0, "terminal": True,
+PLAIN = {"learning_rate": 0.03, "discount": 0.8, "update_on": "cell", "credit": "share", "absent_decay": 0.0,
+         "terminal": True,
          "trace": 1, "bootstrap": True, "memory": 0.0, "memory_unit": "cells", "memory_value": "reached",
          "activity": 0.5, "absent_form": "decay", "causes": "any", "capture": "contact", "attention": "each"}
 PRIMES = (2, 3, 5, 7, 11, 13)
@@ -50,7 +51,8 @@ RULES = {
     "step, not terminal": {"update_on": "step", "terminal": False},
 }
 # What the calibration found: a memory of its own for each way to fade, to credit and to be captured.
-CALIBRATED = {"learning_rate": 0.0157, "discount": 0.9045, "credit": "happened", "activity": 3.331, "absent_decay": 0.1101,
+CALIBRATED = {"learning_rate": 0.0157, "discount": 0.9045, "credit": "happened", "activity": 3.331,
+              "absent_decay": 0.1101,
               "absent_form": "away", "memory": 4.396, "memory_unit": "seconds", "bootstrap": False, "causes": "own",
               "capture": "leap", "attention": "wanted"}
 MEMORIES = {
@@ -72,7 +74,8 @@ RUNS = {
     "objects N5": (object_vector_cells([5], **learning()), 3),
     "both": (multimodal(PRIMES, place_gain=1.0, **learning()), 3),
     "both, gain of place": (multimodal(PRIMES, place_gain=5.0, **learning()), 3),
-    "whole board": (multimodal([3, 7], place_gain=1.0, **learning() | {"tiled_fraction": 1.0, "object_tiled_fraction": 1.0}), 3),
+    "whole board": (multimodal([3, 7], place_gain=1.0, **learning() | {"tiled_fraction": 1.0,
+                                                                       "object_tiled_fraction": 1.0}), 3),
     "own cell counts": (multimodal([3, 7], place_gain=1.0, **learning() | {"own_cell": "counts"}), 3),
     "greedy": (multimodal([3, 7], place_gain=1.0, **learning() | {"policy": Policy(0.0, "random")}), 3),
     "no-op": (multimodal([3, 7], place_gain=1.0, **learning() | {"policy": Policy(0.1, "no-op")}), 3),

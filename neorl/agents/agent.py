@@ -78,7 +78,7 @@ class Learning:
     attention: str = "wanted"
 
     def __post_init__(self):
-        checks.store(
+        checks.assign(
             self,
             learning_rate=checks.real("learning_rate", self.learning_rate, 0, 1),
             discount=checks.real("discount", self.discount, 0, 1),
@@ -100,7 +100,7 @@ class Learning:
             for name, value in AT_EVERY_STEP.items():
                 if getattr(self, name) not in (value, getattr(Learning, name)):
                     raise ValueError(f"{name} is {getattr(self, name)!r}, allowed with update_on 'step' is {value!r}")
-                checks.store(self, **{name: value})
+                checks.assign(self, **{name: value})
         if self.memory > 0 and self.trace > 1:
             raise ValueError(f"trace is {self.trace}, allowed with memory, here {self.memory}, is 1")
 
@@ -122,7 +122,7 @@ class Policy:
     when_indifferent: str = "random"
 
     def __post_init__(self):
-        checks.store(self, exploration=checks.real("exploration", self.exploration, 0, 1),
+        checks.assign(self, exploration=checks.real("exploration", self.exploration, 0, 1),
                      when_indifferent=checks.one_of("when_indifferent", self.when_indifferent, WHEN_INDIFFERENT))
 
 
@@ -147,10 +147,10 @@ class Node:
         if not isinstance(self.name, str) or self.name in COLOURS:
             raise ValueError(f"name is {self.name!r}, allowed are strings other than {COLOURS}")
         checks.instance("modality", self.modality, Modality)
-        checks.store(self, resolutions=checks.several("resolutions", self.resolutions))
+        checks.assign(self, resolutions=checks.several("resolutions", self.resolutions))
         if not self.resolutions:
             raise ValueError("resolutions is (), allowed are one integer or more")
-        checks.store(self, resolutions=tuple(each.resolution for each in self.maps),
+        checks.assign(self, resolutions=tuple(each.resolution for each in self.maps),
                      weighting=checks.one_of("weighting", self.weighting, WEIGHTINGS),
                      gain=checks.real("gain", self.gain))
 
@@ -171,7 +171,7 @@ class Place:
     y: float
 
     def __post_init__(self):
-        checks.store(self, x=checks.real("x", self.x), y=checks.real("y", self.y))
+        checks.assign(self, x=checks.real("x", self.x), y=checks.real("y", self.y))
 
 
 @dataclass(frozen=True)
@@ -201,13 +201,13 @@ class Desire:
     def __post_init__(self):
         if not isinstance(self.source, str | Place):
             point = checks.several("source", self.source)
-            checks.store(self, source=tuple(checks.real("source", value) for value in point))
+            checks.assign(self, source=tuple(checks.real("source", value) for value in point))
         checks.instance("target", self.target, str)
         if not self.between_nodes or self.source == self.target or self.valence is not None:
             if self.valence is None:
                 raise ValueError(f"valence of the desire {self} is None, allowed are finite numbers")
-            checks.store(self, valence=checks.real("valence", self.valence))
-        checks.store(self, of=tuple(checks.instance("of", each, str) for each in checks.several("of", self.of)),
+            checks.assign(self, valence=checks.real("valence", self.valence))
+        checks.assign(self, of=tuple(checks.instance("of", each, str) for each in checks.several("of", self.of)),
                      scale=checks.real("scale", self.scale, 0), signed=checks.flag("signed", self.signed))
         if self.of and not self.between_nodes:
             raise ValueError(f"of is {self.of!r}, allowed for the desire {self} is (): it comes from no node")
@@ -240,7 +240,7 @@ class Agent:
 
     def __post_init__(self):
         for name, kind, fewest in (("nodes", Node, 1), ("desires", Desire, 0)):
-            checks.store(self, **{name: checks.several(name, getattr(self, name))})
+            checks.assign(self, **{name: checks.several(name, getattr(self, name))})
             for each in getattr(self, name):
                 checks.instance(name, each, kind)
             if len(getattr(self, name)) < fewest:
@@ -250,7 +250,7 @@ class Agent:
             raise ValueError(f"nodes are {', '.join(map(repr, names))}, allowed is each name once")
         checks.instance("learning", self.learning, Learning)
         checks.instance("policy", self.policy, Policy)
-        checks.store(self, own_cell=checks.one_of("own_cell", self.own_cell, OWN_CELL))
+        checks.assign(self, own_cell=checks.one_of("own_cell", self.own_cell, OWN_CELL))
         for desire in self.desires:
             self._check_desire(desire)
         self.evaluation_order  # which raises ValueError for a cycle

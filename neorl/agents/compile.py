@@ -17,7 +17,7 @@ def compiled(agent, world):
 
 
 def chosen(agent, world):
-    """The chosen `Parameters`, a dict for a tuple within, from which `derive` makes the others; and the sizes of all."""
+    """The chosen `Parameters`, a dict for a tuple within, from which `derive` makes the others; and all sizes."""
     names = [node.name for node in agent.nodes]
     n_maps = sum(len(node.resolutions) for node in agent.nodes)
     choices = {

@@ -78,6 +78,7 @@ class Machine {
 
 /** An argument as the numbers that the module takes: those of a tuple field by field, an array's address. */
 function flat(kind, value) {
+  if (value === undefined) throw new Error(`Something of kind ${kind} is missing.`);
   if (typeof kind === "string") return layout.tuples[kind].flatMap(([name, field]) => flat(field, value[name]));
   return [ArrayBuffer.isView(value) ? value.byteOffset : Number(value)];
 }

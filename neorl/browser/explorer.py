@@ -4,8 +4,8 @@ What it needs is in its state, so it works in a page without Python: the kernels
 its *presets* (agents as parameters, with the band of the runs that a page has of them), and its traits, which are the
 controls.
 
-- `settings.js` makes parameters of a preset and of the traits, `engine.js` runs it in a worker, and nothing else decides
-  a run: run k of a seed is the run that `neorl.Run` makes of it.
+- `settings.js` makes parameters of a preset and of the traits, `engine.js` runs them in a worker, and nothing else
+  decides a run: run k of a seed is the run that `neorl.Run` makes of it.
 - `drawing.js` draws; `page.js`, `controls.js`, `hands.js` and `widget.js` are what the reader sees and turns.
 """
 

@@ -4,7 +4,8 @@ Numba's LLVM code of each kernel is compiled again for WebAssembly by llvmlite a
 twice: the arguments of an exported function follow from the annotations of its kernel, in their order,
 
 1. the sizes of its arrays, by name, as int32;
-2. each argument, a named tuple field by field, and so the tuples within it: a pointer for an array, int32 for integers and flags, else a number;
+2. each argument, a named tuple field by field, and so the tuples within it: a pointer for an array, int32 for integers
+   and flags, else a number;
 
 before them a pointer to the result, and 0. Its own result is 0. Memory is the only import; the caller's part of it
 begins at the exported global __heap_base.
@@ -38,8 +39,8 @@ from neorl.worlds import probe
 from neorl.worlds.rollout import begin_tracks, rollout
 from neorl.worlds.waterworld import Rules, WaterWorldState, reset_board
 
-EXPORTS = (start_stream, derive, clear_goal_ranges, reset_board, begin_tracks, rollout, probe.survey, probe.cell_seen_at,
-           probe.step_second)
+EXPORTS = (start_stream, derive, clear_goal_ranges, reset_board, begin_tracks, rollout, probe.survey,
+           probe.cell_seen_at, probe.step_second)
 TUPLES = (Parameters, State, Rules, WaterWorldState)
 ENUMERATIONS = (Action, Source, Tuning, Vector)
 SCALARS = {bool: "bool", int: "int64", float: "float64", np.float32: "float32"}
@@ -60,8 +61,8 @@ def module():
         if importlib.util.find_spec("ziglang") is None:
             raise RuntimeError("WebAssembly needs LLD, a linker that the package ziglang brings: pip install ziglang")
         environment = {name: value for name, value in os.environ.items() if name != "NUMBA_DISABLE_JIT"}
-        built = subprocess.run([sys.executable, "-m", "neorl.browser.wasm"], env=environment | {"NUMBA_CPU_NAME": "generic"},
-                               capture_output=True)
+        built = subprocess.run([sys.executable, "-m", "neorl.browser.wasm"], capture_output=True,
+                               env=environment | {"NUMBA_CPU_NAME": "generic"})
         if built.returncode:
             raise RuntimeError(f"the WebAssembly module was not built:\n{built.stderr.decode()}")
         content = built.stdout
@@ -73,8 +74,8 @@ def layout():
     """What a caller of the module has to know, ready for JSON; lists where the order matters.
 
     "tuples": for each named tuple its fields, [name, kind], a kind being [dtype, shape], the shape of a scalar None, or
-    the name of a tuple within. "exports": for each function its "sizes", its "arguments", [name, kind], and the dtype of
-    its "result". "enumerations": {name: {member: number}}.
+    the name of a tuple within. "exports": for each function its "sizes", its "arguments", [name, kind], and the dtype
+    of its "result". "enumerations": {name: {member: number}}.
     """
     return {"tuples": {kind.__name__: [[name, _described(each)] for name, each in fields(kind).items()]
                        for each in TUPLES for kind in _with_those_within(each)},

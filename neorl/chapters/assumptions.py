@@ -36,7 +36,7 @@ def judge_readings(readings, groups, steps, runs, seed=0):
 
 
 def shares(judged, judged_part, rows):
-    """How often each claim holds in short runs and agrees at the papers' lengths, as `report.store` takes it.
+    """How often each claim holds in short runs and agrees at the papers' lengths, as `report.save` takes it.
 
     judged, judged_part: the claims under all readings and under the first ones, as `judge_readings` has them. rows: of
     the table of the calibration.

@@ -2,8 +2,8 @@
 
 ``q[state, action, goal]`` estimates the discounted value of taking an action in one cell for reaching another (Sutton
 et al. 2011; thesis sections 4.1.2 and 4.1.3). All goals learn at every update (`neorl.core.learning`): this is latent
-learning. *Superposition* (eq. 4.3, 4.4) turns it into behaviour: the value of an action is the sum of its values for the
-cells that hold elements of interest, each weighted by the valence of its element.
+learning. *Superposition* (eq. 4.3, 4.4) turns it into behaviour: the value of an action is the sum of its values for
+the cells that hold elements of interest, each weighted by the valence of its element.
 """
 
 import numpy as np

@@ -46,8 +46,8 @@ def kernel(function):
 def inlined_kernel(function):
     """Compile a kernel for other kernels alone, into each of which it is inlined.
 
-    An agent's parameters are so many arrays that handing them over costs more than most kernels that take them; inlined,
-    it costs nothing.
+    An agent's parameters are so many arrays that handing them over costs more than most kernels that take them;
+    inlined, it costs nothing.
     """
     return _compiled(function, OPTIONS | INLINED)
 
@@ -80,7 +80,7 @@ def fields(kind):
 
 
 def new_tuple(kind, sizes, given):
-    """A named tuple of what is given, {name: value, or a dict of them for a tuple within}; its other arrays are all 0."""
+    """A named tuple of what is given, {name: value, or a dict of them for a tuple within}; other arrays are all 0."""
     values = {}
     for name, field in fields(kind).items():
         if is_tuple(field):

@@ -9,8 +9,8 @@ nothing else is ever paid.
 2. What a track remembers, by a leaky integrator or by a trace of the cells left last, learns that the cell entered is
    where it led to. With a leaky integrator, a cell that is left joins what is remembered: each event adds its rate to a
    weight of its own, one for having happened there and one, by ψ(0), for having been absent. At every change of cell
-   the weights fade by one factor, and what a goal is worth to them by another (1, or γ). Each remembered event moves its
-   value for the cell entered towards what that is worth to it, at its weight or at 1, whichever is less. A cell is
+   the weights fade by one factor, and what a goal is worth to them by another (1, or γ). Each remembered event moves
+   its value for the cell entered towards what that is worth to it, at its weight or at 1, whichever is less. A cell is
    forgotten when its strength, 1 more each time it is left, has faded below 1e-4.
 3. The value of an event that did not occur sinks, towards zero or away from the target.
 
@@ -98,7 +98,8 @@ def learn_transition(parameters, state, m, point, cell_t, caused):
     for back in range(min(tracks.trace_count[track], learning.trace)):
         if back > 0 or not learning.bootstrap:
             slot = (tracks.trace_count[track] - 1 - back) % learning.trace
-            learn_one_goal(values, rule, tracks.trace_cell[track, slot], cell_t, tracks.trace_rates[track, slot], fading)
+            learn_one_goal(values, rule, tracks.trace_cell[track, slot], cell_t, tracks.trace_rates[track, slot],
+                           fading)
         fading *= learning.discount
 
 
@@ -270,7 +271,8 @@ def replace(trace, i, last):
     trace.places[cells[i]] = 0
     cells[i], trace.strength[i] = cells[last], trace.strength[last]
     for begin in range(0, N_ROWS * rows, rows):
-        trace.weight[begin + i], trace.goal_worth[begin + i] = trace.weight[begin + last], trace.goal_worth[begin + last]
+        trace.weight[begin + i] = trace.weight[begin + last]
+        trace.goal_worth[begin + i] = trace.goal_worth[begin + last]
 
 
 @kernel

@@ -32,7 +32,7 @@ class NresMap:
     modality: Modality = PLACE_CELL
 
     def __post_init__(self):
-        checks.store(self, resolution=checks.integer("resolution", self.resolution, at_least=1))
+        checks.assign(self, resolution=checks.integer("resolution", self.resolution, at_least=1))
         checks.instance("modality", self.modality, Modality)
         if self.cells > MOST_CELLS:
             raise ValueError(f"resolution is {self.resolution}, allowed are maps of at most {MOST_CELLS} cells")

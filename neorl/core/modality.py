@@ -53,8 +53,8 @@ class Modality:
 
     def __post_init__(self):
         checks.instance("name", self.name, str)
-        checks.store(self, vector=checks.one_of("vector", self.vector, tuple(TUNED)))
-        checks.store(self, tuning=checks.one_of("tuning", self.tuning, TUNED[self.vector]))
+        checks.assign(self, vector=checks.one_of("vector", self.vector, tuple(TUNED)))
+        checks.assign(self, tuning=checks.one_of("tuning", self.tuning, TUNED[self.vector]))
         axes = len(AXES[self.tuning]) - self.has_direction
         self._set_pairs("ranges", axes, axes)
         self._set_pairs("landmarks", *((1, np.inf) if self.vector == "landmarks" else (0, 0)))
@@ -69,7 +69,7 @@ class Modality:
         if not fewest <= len(pairs) <= most or any(len(pair) != 2 for pair in pairs):
             allowed = f"{fewest}" if fewest == most else f"{fewest} or more"
             raise ValueError(f"{name} is {getattr(self, name)!r}, allowed are {allowed} pairs of numbers")
-        checks.store(self, **{name: tuple(tuple(checks.real(name, value) for value in pair) for pair in pairs)})
+        checks.assign(self, **{name: tuple(tuple(checks.real(name, value) for value in pair) for pair in pairs)})
 
     @property
     def axes(self):
@@ -119,7 +119,8 @@ class Modality:
         """
         vectors = checks.points("vectors", vectors, ("x", "y"))
         tuning, _, reach_x, _, reach_y = self.space
-        pairs = np.array([execute(tuned, tuning, x, y, reach_x, reach_y) for x, y in vectors.reshape(-1, 2)]).reshape(-1, 2)
+        pairs = [execute(tuned, tuning, x, y, reach_x, reach_y) for x, y in vectors.reshape(-1, 2)]
+        pairs = np.array(pairs).reshape(-1, 2)
         pairs[:, 1] *= TAU if self.has_direction else 1.0
         return pairs[:, self.in_pair].reshape(*vectors.shape[:-1], len(self.axes))
 

@@ -75,7 +75,7 @@ def project(parameters, desires, e):
 
 @inlined_kernel
 def evaluate_desire(parameters, state, scene, n, e):
-    """What one desire adds to the Q-vector of its node, and the valence of its elements together, into state.desires."""
+    """What one desire adds to its node's Q-vector, and the valence of its elements together, into state.desires."""
     chosen, desires = parameters.desires, state.desires
     q, source, valence = desires.q[e], chosen.source[e], chosen.valence[e]
     for action in range(N_EVENTS):

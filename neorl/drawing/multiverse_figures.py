@@ -69,7 +69,7 @@ def _limits(values, borders):
 
 
 def draw_standing(record, names):
-    """The verdicts of claims, and the share of readings that they hold under: record as `neorl.evidence.report.read`
+    """The verdicts of claims, and the share of readings that they hold under: record as `neorl.evidence.report.load`
     has it.
 
     names: of the claims, from the top. Bars are short runs: what is undecided comes after what holds, in another

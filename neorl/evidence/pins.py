@@ -74,14 +74,16 @@ POLICY_AND_MAPS = (
         "ε = 0: the action of highest value is taken, as in a = argmax Q_tot(s, a) of paper A (The Control Problem by "
         "Superposition). Section 4.3.1, too, sets directed exploration against ε-greedy policies.",
         lambda reading: reading.exploration == 0),
-    Pin("action when idle", ("when_indifferent",), "Basal actions affect the agent by accelerating it in the cardinal directions, "
-        "[N, S, E, W].", "paper A, WaterWorld",
+    Pin("action when idle", ("when_indifferent",),
+        "Basal actions affect the agent by accelerating it in the cardinal directions, [N, S, E, W].",
+        "paper A, WaterWorld",
         "The no-op is no action of the agent, and equal values are a tie. The draw among them is uniform: “Learning "
         "can be regarded as inserting bias into this stochastic process” (section 4.1.1). With ε = 0 the agent would "
         "otherwise rest where it starts for good, and no event would occur to learn from. The author's later code does "
         "nothing while values add up to zero.",
         lambda reading: reading.when_indifferent == "random"),
-    Pin("range of place cells", ("tiled_fraction",), "Each axis is divided into N = 5 equal intervals", "paper B, figure 3",
+    Pin("range of place cells", ("tiled_fraction",), "Each axis is divided into N = 5 equal intervals",
+        "paper B, figure 3",
         "Maps of places cut the whole board into equal cells; so do figure 2 and Results of paper A.",
         lambda reading: reading.tiled_fraction == 1),
     Pin("weight of a map", ("weighting",), "the contribution of each learner is inversely proportional to the size of "
@@ -143,8 +145,9 @@ LEARNING = (
 )
 
 OBJECTS = (
-    Pin("range of object-vector cells", ("object_tiled_fraction",), "One can also compute a simple object vector cell (OVC) "
-        "interpretation by vector subtraction", "paper B, section 3",
+    Pin("range of object-vector cells", ("object_tiled_fraction",),
+        "One can also compute a simple object vector cell (OVC) interpretation by vector subtraction",
+        "paper B, section 3",
         "Differences of places lie between −1 and 1 board width. Whether N intervals divide all of that, the plainest, "
         "or less, and what lies beyond belongs to the outermost, is open."),
     Pin("transitions of object vectors", ("causes",), "the learning agent should look for the cause of the "

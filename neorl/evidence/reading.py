@@ -104,8 +104,9 @@ class Reading:
     def agents(self):
         """The makers' arguments that all its agents share."""
         policy = Policy(self.exploration, self.when_indifferent if self.exploration else "random")
-        return {"learning": self.learning, "policy": policy, "own_cell": self.own_cell, "tiled_fraction": self.tiled_fraction,
-                "object_tiled_fraction": self.object_tiled_fraction, "weighting": self.weighting}
+        return {"learning": self.learning, "policy": policy, "own_cell": self.own_cell,
+                "tiled_fraction": self.tiled_fraction, "object_tiled_fraction": self.object_tiled_fraction,
+                "weighting": self.weighting}
 
     @property
     def place_agents(self):

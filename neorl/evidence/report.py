@@ -25,7 +25,7 @@ PARTS = ("claims", "letter", "shares")  # of a record
 def table(claims, letter=(), shares=None):
     """Claims as a Markdown table, and below it what each verdict rests on.
 
-    claims: of `Claim`, under the book's reading. letter: the same, under that to the letter. shares: as in `store`.
+    claims: of `Claim`, under the book's reading. letter: the same, under that to the letter. shares: as in `save`.
     """
     record = {"claims": _kept(claims), "letter": _kept(letter), "shares": shares or {}}
     names = [claim.name for claim in claims]
@@ -72,7 +72,7 @@ def errata(place=""):
                                if place in each.place)])
 
 
-def store(page, claims=(), shares=None, letter=()):
+def save(page, claims=(), shares=None, letter=()):
     """Keep what a page has found as JSON, with the digest of the source that it was computed with.
 
     claims, letter: of `Claim`, under the book's reading and under the reading to the letter. shares: {name of a claim:
@@ -84,7 +84,7 @@ def store(page, claims=(), shares=None, letter=()):
     write_whole(folder() / "claims" / f"{page}.json", json.dumps(content, indent=1, allow_nan=False).encode())
 
 
-def read(paths=None):
+def load(paths=None):
     """The records in JSON files, as one: {"claims": {name: …}, "letter": …, "shares": …}. By default all kept."""
     paths = sorted((folder() / "claims").glob("*.json")) if paths is None else paths
     records = [json.loads(path.read_text(encoding="utf-8")) for path in paths]
@@ -105,7 +105,7 @@ def verdict(record, name):
 
 
 def standing(record, names):
-    """What became of some claims, in Markdown: a line for each verdict. record: as `read` has it."""
+    """What became of some claims, in Markdown: a line for each verdict. record: as `load` has it."""
     lines = []
     for each in (*VERDICTS, OPEN, NOT_COMPUTED):
         found = [f"{STATEMENTS[name].text} ({name})" for name in names if verdict(record, name) == each]
@@ -115,7 +115,7 @@ def standing(record, names):
 
 
 def extract(record, names):
-    """Some claims of a record, as `read` has it, as a Markdown table."""
+    """Some claims of a record, as `load` has it, as a Markdown table."""
     return "\n".join([HEADER, *(_row(record, name) for name in names)])
 
 

@@ -31,10 +31,10 @@ DIGEST_BYTES = hashlib.sha256().digest_size
 def simulate_once(agent, world, *, steps, runs, seed=0, changes=(), progress=True):
     """`simulate`, unless the same condition is on disk already; then what was computed is read. Returns a `Result`."""
     condition = Condition(agent, world, steps, runs, seed, changes)
-    result = read(condition)
+    result = load(condition)
     if result is None:
         result = simulate(**condition.choices, progress=progress)
-        keep(condition, result)
+        save(condition, result)
     return result
 
 
@@ -56,7 +56,7 @@ class Condition:
         checks.instance("agent", self.agent, Agent)
         checks.instance("world", self.world, WaterWorld)
         steps = checks.integer("steps", self.steps, at_least=1)
-        checks.store(self, steps=steps, runs=checks.integer("runs", self.runs, at_least=1),
+        checks.assign(self, steps=steps, runs=checks.integer("runs", self.runs, at_least=1),
                      seed=checks.integer("seed", self.seed, at_least=0), changes=checked_changes(self.changes, steps))
 
     @property
@@ -75,7 +75,7 @@ class Condition:
         return folder() / "conditions" / self.key
 
 
-def read(condition):
+def load(condition):
     """The `Result` of a condition if it is on disk, or else None."""
     content = read_checked(condition.path)
     if content is None:
@@ -84,7 +84,7 @@ def read(condition):
     return Result(**condition.choices, rewards=arrays["rewards"], hits=arrays["hits"])
 
 
-def keep(condition, result):
+def save(condition, result):
     """Write the `Result` of a condition to disk."""
     content = io.BytesIO()
     np.savez_compressed(content, rewards=result.rewards, hits=result.hits)

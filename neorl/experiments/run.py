@@ -201,7 +201,7 @@ def _bins(name, given, dtype, bins, *beside):
 
 
 def fitting_runs(agent):
-    """How many runs of an agent fit into nine tenths of the free memory. Raises MemoryError if not a single one does."""
+    """How many runs of an agent fit into nine tenths of the free memory. Raises MemoryError if there is none."""
     free = psutil.virtual_memory().available
     needed = 4 * agent.n_values
     if needed > 0.9 * free:

@@ -129,4 +129,5 @@ def checked_changes(changes, steps):
 
 def usable_threads(agent):
     """How many runs of an agent go side by side: a core each, within nine tenths of the memory that is free."""
-    return min(fitting_runs(agent), len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count())
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    return min(fitting_runs(agent), cores)

@@ -13,7 +13,7 @@ from concurrent.futures import BrokenExecutor, ThreadPoolExecutor, as_completed
 from tqdm import tqdm
 
 from neorl import checks
-from neorl.experiments.cache import Condition, keep, read_checked, simulate_once, source_digest
+from neorl.experiments.cache import Condition, read_checked, save, simulate_once, source_digest
 from neorl.experiments.simulation import simulate, usable_threads
 
 ATTEMPTS = 3
@@ -68,7 +68,7 @@ def _run(conditions, executor, bar):
         for task in as_completed(tasks):
             condition = tasks.pop(task)
             try:
-                keep(condition, task.result())
+                save(condition, task.result())
             except Exception as error:
                 errors[condition] = error
             else:

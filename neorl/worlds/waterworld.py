@@ -81,10 +81,10 @@ class WaterWorld:
     contact: str = "rounded"
 
     def __post_init__(self):
-        checks.store(self, width=checks.integer("width", self.width, at_least=1, at_most=2**31))
+        checks.assign(self, width=checks.integer("width", self.width, at_least=1, at_most=2**31))
         if self.radius < 1:
             raise ValueError(f"width is {self.width}, allowed are 11 pixels or more: a creep's radius is 4.7 % of it")
-        checks.store(self, n_creeps=checks.integer("n_creeps", self.n_creeps, at_least=1, at_most=2**20),
+        checks.assign(self, n_creeps=checks.integer("n_creeps", self.n_creeps, at_least=1, at_most=2**20),
                      fps=checks.integer("fps", self.fps, at_least=1, at_most=2**31),
                      win_reward=checks.real("win_reward", self.win_reward),
                      contact=checks.one_of("contact", self.contact, CONTACTS))
@@ -142,102 +142,102 @@ def check_state(state, world):
 
 
 @kernel
-def draw_creep(state, rules, creep):
+def draw_creep(board, rules, creep):
     """Put a fresh creep into a slot: anywhere but within 1.5 pixels of the agent."""
-    state.creep_is_green[creep] = uniform(state.stream) < 0.5
+    board.creep_is_green[creep] = uniform(board.stream) < 0.5
     margin = 1.5 * rules.radius
     distance_squared = 0.0
     while distance_squared < 1.5 * 1.5:
-        x = margin + uniform(state.stream) * (rules.width - 2.0 * margin)
-        y = margin + uniform(state.stream) * (rules.width - 2.0 * margin)
-        dx, dy = x - state.agent_position[0], y - state.agent_position[1]
+        x = margin + uniform(board.stream) * (rules.width - 2.0 * margin)
+        y = margin + uniform(board.stream) * (rules.width - 2.0 * margin)
+        dx, dy = x - board.agent_position[0], y - board.agent_position[1]
         distance_squared = dx * dx + dy * dy
-    state.creep_position[creep, 0] = x
-    state.creep_position[creep, 1] = y
-    state.creep_direction[creep, 0] = DIAGONAL if randint(state.stream, 2) == 1 else -DIAGONAL
-    state.creep_direction[creep, 1] = DIAGONAL if randint(state.stream, 2) == 1 else -DIAGONAL
-    state.creep_speed[creep] = uniform(state.stream) * 0.25 * rules.width
-    state.creep_jitter[creep] = uniform(state.stream)
+    board.creep_position[creep, 0] = x
+    board.creep_position[creep, 1] = y
+    board.creep_direction[creep, 0] = DIAGONAL if randint(board.stream, 2) == 1 else -DIAGONAL
+    board.creep_direction[creep, 1] = DIAGONAL if randint(board.stream, 2) == 1 else -DIAGONAL
+    board.creep_speed[creep] = uniform(board.stream) * 0.25 * rules.width
+    board.creep_jitter[creep] = uniform(board.stream)
 
 
 @kernel
-def reset_board(state: WaterWorldState, rules: Rules) -> None:
+def reset_board(board: WaterWorldState, rules: Rules) -> None:
     """Start an episode: the agent at rest in the centre, fresh creeps, at least one of them green."""
     for axis in range(2):
-        state.agent_position[axis] = 0.5 * rules.width
-        state.agent_velocity[axis] = 0.0
+        board.agent_position[axis] = 0.5 * rules.width
+        board.agent_velocity[axis] = 0.0
     greens = 0
     while greens == 0:
-        for creep in range(state.creep_speed.shape[0]):
-            draw_creep(state, rules, creep)
-            greens += state.creep_is_green[creep]
+        for creep in range(board.creep_speed.shape[0]):
+            draw_creep(board, rules, creep)
+            greens += board.creep_is_green[creep]
 
 
 @kernel
-def step_board(state, rules, action, contacts):
+def step_board(board, rules, action, contacts):
     """One step of the rules. Returns (reward, done); `contacts` takes what each creep paid, 0 if untouched."""
-    move_agent(state, rules, action)
-    reward, done = touch_creeps(state, rules, contacts)
+    move_agent(board, rules, action)
+    reward, done = touch_creeps(board, rules, contacts)
     for creep in range(contacts.shape[0]):
-        move_creep(state, rules, creep)
+        move_creep(board, rules, creep)
     return reward, done
 
 
 @kernel
-def move_agent(state, rules, action):
+def move_agent(board, rules, action):
     if action != Action.no_op:
         axis = 1 if action == Action.N or action == Action.S else 0
         sign = -1.0 if action == Action.N or action == Action.W else 1.0
-        state.agent_velocity[axis] += sign * 0.25 * rules.width
+        board.agent_velocity[axis] += sign * 0.25 * rules.width
     highest = rules.width - 2.0 * rules.radius
     for axis in range(2):
-        position = state.agent_position[axis] + state.agent_velocity[axis] * rules.dt
+        position = board.agent_position[axis] + board.agent_velocity[axis] * rules.dt
         # The original tests ≥ in x and > in y.
         if position > highest or (position == highest and axis == 0):
-            state.agent_position[axis] = highest
-            state.agent_velocity[axis] = 0.0
+            board.agent_position[axis] = highest
+            board.agent_velocity[axis] = 0.0
         elif position < 0.0:
-            state.agent_position[axis] = 0.0
-            state.agent_velocity[axis] = 0.0
+            board.agent_position[axis] = 0.0
+            board.agent_velocity[axis] = 0.0
         else:
-            state.agent_position[axis] = position
-            state.agent_velocity[axis] *= DRAG
+            board.agent_position[axis] = position
+            board.agent_velocity[axis] *= DRAG
 
 
 @kernel
-def touch_creeps(state, rules, contacts):
-    agent_x = np.floor(state.agent_position[0] + rules.rounding)
-    agent_y = np.floor(state.agent_position[1] + rules.rounding)
+def touch_creeps(board, rules, contacts):
+    agent_x = np.floor(board.agent_position[0] + rules.rounding)
+    agent_y = np.floor(board.agent_position[1] + rules.rounding)
     reach = 2.0 * rules.radius
     reward, greens = 0.0, 0
     for creep in range(contacts.shape[0]):
-        dx = abs(agent_x - np.floor(state.creep_position[creep, 0] + rules.rounding))
-        dy = abs(agent_y - np.floor(state.creep_position[creep, 1] + rules.rounding))
+        dx = abs(agent_x - np.floor(board.creep_position[creep, 0] + rules.rounding))
+        dy = abs(agent_y - np.floor(board.creep_position[creep, 1] + rules.rounding))
         contacts[creep] = 0
         if dx < reach and dy < reach:
-            contacts[creep] = 1 if state.creep_is_green[creep] else -1
+            contacts[creep] = 1 if board.creep_is_green[creep] else -1
             reward += contacts[creep]
-            draw_creep(state, rules, creep)
-        greens += state.creep_is_green[creep]
+            draw_creep(board, rules, creep)
+        greens += board.creep_is_green[creep]
     if greens == 0:
         reward += rules.win_reward
     return reward, greens == 0
 
 
 @kernel
-def move_creep(state, rules, creep):
+def move_creep(board, rules, creep):
     low, high = rules.radius, rules.width - rules.radius
-    bounce = -(1.0 + 0.5 * state.creep_jitter[creep])
+    bounce = -(1.0 + 0.5 * board.creep_jitter[creep])
     for axis in range(2):
-        direction = state.creep_direction[creep, axis]
-        position = state.creep_position[creep, axis] + direction * state.creep_speed[creep] * rules.dt
+        direction = board.creep_direction[creep, axis]
+        position = board.creep_position[creep, axis] + direction * board.creep_speed[creep] * rules.dt
         if position > high:
             position, direction = high, direction * bounce
         elif position <= low:
             position, direction = low, direction * bounce
-        state.creep_position[creep, axis] = position
-        state.creep_direction[creep, axis] = direction
-    x, y = state.creep_direction[creep, 0], state.creep_direction[creep, 1]
+        board.creep_position[creep, axis] = position
+        board.creep_direction[creep, axis] = direction
+    x, y = board.creep_direction[creep, 0], board.creep_direction[creep, 1]
     length = math.sqrt(x * x + y * y)
-    state.creep_direction[creep, 0] = x / length
-    state.creep_direction[creep, 1] = y / length
+    board.creep_direction[creep, 0] = x / length
+    board.creep_direction[creep, 1] = y / length

@@ -61,7 +61,8 @@ PAPERS = (place_cells, brownian, object_vector_cells, multimodal, network_a, net
     (lambda: Learning(trace=0), "trace is 0"),
     (lambda: Learning(terminal=1.5), "terminal is 1.5"),
     (lambda: Learning(bootstrap=None), "bootstrap is None"),
-    *((lambda choice=choice: Learning(update_on="step", **choice), f"{[*choice][0]} is .*, allowed with update_on 'step' is")
+    *((lambda choice=choice: Learning(update_on="step", **choice),
+       f"{[*choice][0]} is .*, allowed with update_on 'step' is")
       for choice in ({"trace": 5}, {"memory": 7.5}, {"credit": "last"}, {"absent_decay": 0.15})),
     (lambda: Learning(memory=-1), "memory is -1"),
     (lambda: Learning(memory=2.0, trace=3), "trace is 3, allowed with memory, here 2.0, is 1"),
@@ -128,7 +129,8 @@ def test_the_agent_of_paper_a_is_one_node_and_two_desires():
 def test_object_vectors_may_have_a_range_of_their_own():
     places, objects = multimodal([3], tiled_fraction=1, object_tiled_fraction=0.25).nodes
     assert places.modality == PLACE_CELL and objects.modality.ranges == ((-0.25, 0.25), (-0.25, 0.25))
-    assert object_vector_cells([3], tiled_fraction=0.2, object_tiled_fraction=1).nodes[0].modality == CARTESIAN_OBJECT_VECTOR_CELL
+    assert object_vector_cells([3], tiled_fraction=0.2,
+                               object_tiled_fraction=1).nodes[0].modality == CARTESIAN_OBJECT_VECTOR_CELL
     for name in ("tiled_fraction", "object_tiled_fraction"):
         with pytest.raises(ValueError, match=f"{name} is 0, allowed are numbers above 0"):
             multimodal([3], **{name: 0})
@@ -160,7 +162,8 @@ def test_maps_tracks_and_desires_lie_one_after_the_other():
                Desire("PC", "OVC"))
     parameters = compiled(Agent((PC, OVC, HD), desires), WaterWorld(n_creeps=5))
     maps, nodes, chosen = parameters.maps, parameters.nodes, parameters.desires
-    assert maps.first_value.tolist() == [0, 4 * 2**4, 4 * (2**4 + 3**4), 4 * (2**4 + 2 * 3**4), 4 * (2**4 + 2 * 3**4 + 4**2)]
+    assert maps.first_value.tolist() == [0, 4 * 2**4, 4 * (2**4 + 3**4), 4 * (2**4 + 2 * 3**4),
+                                         4 * (2**4 + 2 * 3**4 + 4**2)]
     assert maps.first_cell.tolist() == [0, 4, 13, 22, 26]
     assert nodes.first_map.tolist() == [0, 2, 3, 4] and maps.first_track.tolist() == [0, 1, 2, 7, 8]
     assert nodes.inputs.tolist() == [1, 0, 2, 3] and nodes.first_input.tolist() == [0, 1, 4, 4]
@@ -198,7 +201,8 @@ def test_a_chain_of_three_nodes_runs_and_every_desire_gets_to_its_end():
     run = Run(Agent((HD, PC, OVC), desires, own_cell="counts"), WaterWorld(), seed=0)
     run.advance(500)
     assert run.step == 500 and run.state.values.q.any()
-    run._state.values.q[:] = np.random.default_rng(0).random(run.state.values.q.size)  # desires that do not happen to be met
+    values = run._state.values.q
+    values[:] = np.random.default_rng(0).random(values.size)  # desires that do not happen to be met
     run.advance(1)
     assert run.state.desires.valence[0] == run.state.desires.valence[1] >= 1 and run.state.desires.valence[2] == 0.5
     assert run.state.desires.target[1:].all() and run.state.desires.q.all()

@@ -41,7 +41,8 @@ def test_a_notebook_defines_no_function_or_class(cells):
 
 
 HIDDEN = {"remove-input", "hide-input", "hide-cell"}
-LOGIC = (ast.For, ast.While, ast.If, ast.IfExp, ast.comprehension, ast.Compare, ast.BoolOp, ast.Try, ast.With, ast.Assert,
+LOGIC = (ast.For, ast.While, ast.If, ast.IfExp, ast.comprehension, ast.Compare, ast.BoolOp, ast.Try, ast.With,
+         ast.Assert,
          ast.Raise, ast.AugAssign, ast.NamedExpr)
 
 
@@ -58,7 +59,8 @@ def test_a_hidden_cell_only_calls_what_the_package_has(cells):
             assert not any(map(is_logic, ast.walk(ast.parse(cell.source)))), cell.source
 
 
-@pytest.mark.parametrize("source", ["[each for each in names]", "a if b else c", "f'{2 * len(names)}'", "a and b", "a > 1",
+@pytest.mark.parametrize("source", ["[each for each in names]", "a if b else c", "f'{2 * len(names)}'", "a and b",
+                                    "a > 1",
                                     "for each in names: print(each)", "total += 1"])
 def test_what_counts_as_logic(source):
     assert any(map(is_logic, ast.walk(ast.parse(source))))

@@ -47,7 +47,8 @@ def ask(open_page, tmp_path, state):
     """`ask(request, …)` gives what the engine of a run that has just begun answers to each."""
     preset = state["_presets"]["D"]
     world = preset["world"] | {"n_creeps": TANK.n_creeps}
-    begin = {"type": "begin", "parameters": preset["parameters"], "world": world, "seed": SEED, "run": K, "steps": 10 * STEPS,
+    begin = {"type": "begin", "parameters": preset["parameters"], "world": world, "seed": SEED, "run": K,
+             "steps": 10 * STEPS,
              "bin_steps": 100}
     script = f"const state = {json.dumps(state)};{ENGINE}".replace("</", r"<\/")
     (tmp_path / "page.html").write_text(f'<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">'
@@ -116,7 +117,8 @@ def learned(run, m, goal):
 @pytest.mark.parametrize("rule", RULES, ids=str)
 def test_what_is_learned_with_a_memory_is_what_python_learns_to_the_last_bit(ask, rule):
     agent, goal = network_d([4, 5], scale=2.0, signed=False, **rule), 9
-    frame = ask(advance(STEPS), {"type": "look", "map": "OVC N5", "goal": goal}, parameters=_parameters(agent, TANK))[-1]
+    frame = ask(advance(STEPS), {"type": "look", "map": "OVC N5", "goal": goal},
+                parameters=_parameters(agent, TANK))[-1]
     run = Run(agent, TANK, SEED, K)
     assert frame["reward"] == run.advance(STEPS)
     assert np.reshape(frame["seen"]["ways"], (-1, 2)).tolist() == learned(run, 3, goal)
@@ -150,7 +152,8 @@ def test_a_second_agent_does_what_it_is_told_on_the_same_creeps(ask):
     contacts, paid, touched = np.zeros(TANK.n_creeps, np.int8), 0.0, 0
     for action in actions:
         run.advance(1)
-        paid += execute(probe.step_second, run._parameters, run._state, TANK.rules, run.world_state, second, contacts, action)
+        paid += execute(probe.step_second, run._parameters, run._state, TANK.rules, run.world_state, second, contacts,
+                        action)
         touched += np.abs(contacts).sum()
     assert touched > 2 and frame["player"]["reward"] == paid
     assert [frame["player"][name] for name in "xy"] == pytest.approx(second.agent_position / TANK.width)
@@ -161,7 +164,7 @@ def test_a_place_is_found_in_the_cell_that_it_lies_in(ask):
     places = [(0.1, 0.9), (0.55, 0.3), (0.99, 0.01)]
     found = ask(*({"type": "look", "map": name, "goal": None, "at": {"x": x, "y": y}}
                   for name in ("PC N5", "OVC N4") for x, y in places))[1:]
-    agent = Run(AGENT, TANK, SEED, K).state.agent_position / TANK.width
+    agent = Run(AGENT, TANK, SEED, K).world_state.agent_position / TANK.width
     place, objects = (node.modality for node in AGENT.nodes)
     expected = [*NresMap(5, place).encode(places), *NresMap(4, objects).encode(places - agent)]
     assert [each["seen"]["goal"] for each in found] == expected

@@ -24,7 +24,8 @@ def test_a_recording_holds_every_step_of_its_run(recordings):
         if step:
             run.advance(1, np.zeros(100, np.float32), hits)
         agent, creeps = recordings[1].agent[step], recordings[1].creeps[step]
-        assert np.allclose(agent, np.concatenate([run.world_state.agent_position, run.world_state.agent_velocity]) / 250, atol=1e-6)
+        assert np.allclose(agent, np.concatenate([run.world_state.agent_position,
+                                                  run.world_state.agent_velocity]) / 250, atol=1e-6)
         assert np.allclose(creeps[:, :2], run.world_state.creep_position / 250, atol=1e-6)
         assert np.allclose(np.hypot(*creeps[:, 2:].T), run.world_state.creep_speed / 250, atol=1e-6)
         assert recordings[1].green[step].tolist() == run.world_state.creep_is_green.tolist()

@@ -85,7 +85,7 @@ def test_a_run_begins_as_in_python_without_any_python(name):
     for words, stream in (([2**32 - 1, 0, 0, 0, 17], board.stream), ([2**32 - 1, 0, 0, 0, 17, 0], state.stream)):
         machine.call("start_stream", sizes | {"words": len(words)}, words=machine.put(np.array(words, np.uint64)),
                      stream=stream)
-    machine.call("reset_board", sizes, state=board, rules=run.world.rules)
+    machine.call("reset_board", sizes, board=board, rules=run.world.rules)
     machine.call("clear_goal_ranges", sizes, parameters=parameters, state=state)
     machine.call("begin_tracks", sizes, parameters=parameters, state=state, board=board)
     assert_equal_to(run, {"state": state, "board": board})

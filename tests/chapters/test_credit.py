@@ -23,7 +23,8 @@ def told_anew(chamber, learning, visits, seed=0, run=0):
         while opened is None or len(seen) <= opened[1] + chamber.delay:
             if over:
                 lever = execute(randint, stream, 2)
-                on = [lever == 0, lever == 1, execute(uniform, stream) < chamber.light, execute(uniform, stream) < chamber.bell]
+                on = [lever == 0, lever == 1, execute(uniform, stream) < chamber.light,
+                      execute(uniform, stream) < chamber.bell]
             seen.append(np.array(on, float))
             over = execute(uniform, stream) < 1 / chamber.hold
             if opened is None and sum(seen)[lever] >= chamber.effort:

@@ -106,7 +106,8 @@ def test_learners_and_rules_are_what_the_paper_says(chooser, doublings):
 def test_a_life_that_leads_nowhere_begins_anew():
     """From its start this maze takes more steps than there are, nearly always, before it is left for good."""
     made = Plainly(far := GridMaze(("S" + 30 * "." + "G",)), "chance", 0, seed=1, run=0).rewards(3_000)
-    np.testing.assert_allclose(run_ensemble(far, "chance", steps=3_000, runs=1, seed=1)[0], made.reshape(20, -1).mean(axis=1))
+    np.testing.assert_allclose(run_ensemble(far, "chance", steps=3_000, runs=1, seed=1)[0],
+                               made.reshape(20, -1).mean(axis=1))
 
 
 def test_a_life_is_the_same_alone_and_among_others():
@@ -159,7 +160,8 @@ def test_learners_alone_come_to_what_others_have_found():
     (lambda: run_ensemble(DYNA, "Sarsa", steps=100, runs=0), "runs is 0"),
     (lambda: run_ensemble(DYNA, "Sarsa", steps=100, runs=1, seed=-1), "seed is -1"),
     (lambda: ensembles.agreement("Sarsa"), "rule is 'Sarsa', allowed are 'majority voting', 'rank voting'"),
-    (lambda: run_ensemble(DYNA, "Sarsa", steps=100, runs=1, doublings=6), "doublings is 6, allowed are integers from -5 to 5"),
+    (lambda: run_ensemble(DYNA, "Sarsa", steps=100, runs=1, doublings=6),
+     "doublings is 6, allowed are integers from -5 to 5"),
 ])
 def test_a_bad_argument_is_refused(make, message):
     with pytest.raises(ValueError, match=message):

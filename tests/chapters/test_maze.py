@@ -143,7 +143,8 @@ def test_sarsa_learns_along_traces_of_which_the_newest_replaces_those_of_its_pla
 def test_sarsa_leaves_no_trace_of_yesterday():
     maze, animal = Maze(), new_state(30)
     errors = np.zeros(3, np.int64)
-    execute(_live, LEARNERS.index("Sarsa(λ)"), 0.1, 1.0, 0.0, 1.0, maze.next_state, maze.goal, maze.choice_points, 1, animal,
+    execute(_live, LEARNERS.index("Sarsa(λ)"), 0.1, 1.0, 0.0, 1.0, maze.next_state, maze.goal, maze.choice_points, 1,
+            animal,
           new_stream(np.random.SeedSequence(0)), errors, errors.copy())
     assert errors[0] > 0 and errors[2] == 0  # it went into blinds on the first day, and straight on the last
     assert animal.q[maze.blinds].any() and not animal.traces[maze.blinds].any()
@@ -174,7 +175,8 @@ def test_exploration_is_the_share_of_drawn_actions():
 def test_what_is_learned_are_the_values_of_bellman(learner):
     maze, animal = Maze(), new_state(30)
     counts = np.zeros(DAYS, np.int64)
-    execute(_live, LEARNERS.index(learner), 1.0, 0.9, 0.1, 0.0, maze.next_state, maze.goal, maze.choice_points, 1, animal,
+    execute(_live, LEARNERS.index(learner), 1.0, 0.9, 0.1, 0.0, maze.next_state, maze.goal, maze.choice_points, 1,
+            animal,
           new_stream(np.random.SeedSequence(0)), counts, counts.copy())
     horde = animal.horde.q.reshape(30, 4, 30)
     q = horde[:, :, maze.goal] if learner == "neoRL" else animal.q

@@ -179,8 +179,8 @@ def test_red_creeps_are_told_before_and_after_the_turn_and_at_last():
     curve[:, 49], curve[:, 50], curve[:, 80:] = 1.0, [2.0, 4.0], 5.0
     assert findings.red_in_words({"to the letter": curve, "calibrated": 2 * curve}) == (
         "To the letter, the agents take 1.0 red creeps a minute in the hundredth of the run before the turn, 3.0 in "
-        "the one after it, and 5.0 in the last fifth. Calibrated, the agents take 2.0 red creeps a minute in the hundredth "
-        "of the run before the turn, 6.0 in the one after it, and 10.0 in the last fifth.")
+        "the one after it, and 5.0 in the last fifth. Calibrated, the agents take 2.0 red creeps a minute in the "
+        "hundredth of the run before the turn, 6.0 in the one after it, and 10.0 in the last fifth.")
 
 
 def test_distances_are_told_for_the_first_two_moves_and_the_later_ones():

@@ -26,10 +26,10 @@ def test_a_stay_is_the_time_from_one_change_of_cell_to_the_next_but_for_resets()
     run.advance(1)
     resets = 0
     for _ in range(1_999):
-        before = run.memory.cell.copy()
+        before = run.state.tracks.cell.copy()
         reset = run.advance(1) > 50
         resets += reset
-        changes += (run.memory.cell != before) & (not reset)
+        changes += (run.state.tracks.cell != before) & (not reset)
     assert resets > 0
     np.testing.assert_allclose(found, 40 / changes)
 
@@ -42,7 +42,7 @@ def test_the_desired_place_moves_and_experience_is_worth_something():
     for place in trials.PLACES:
         run.change(trials.desiring(READING, place))
         run.advance(1_500)
-        at = run.state.agent_position / 250 - (place.x, place.y)
+        at = run.world_state.agent_position / 250 - (place.x, place.y)
         assert np.hypot(*at) in moved["experienced"][1, :2, -1]
     assert moved["experienced"].mean() < moved["ignorant"].mean()
 

@@ -32,7 +32,7 @@ def test_the_moment_is_the_first_at_which_the_agent_is_well_inside_and_desires()
     other.advance(300)
     fits = []
     for _ in range(run.step - 300 + 1):
-        at = other.state.agent_position / world.width
+        at = other.world_state.agent_position / world.width
         fits.append(np.abs(at - 0.5).max() < 0.2 and other.output("PC").q.any())
         other.advance(1)
     assert fits[-1] and not any(fits[:-1])
@@ -46,7 +46,7 @@ def test_the_moment_is_not_waited_for_in_vain(monkeypatch):
 
 def test_the_table_has_where_each_desire_between_nodes_lands():
     run = Run(network_b([2, 3]), WaterWorld())
-    run.memory.landing[2:] = [[0.25, -0.1, 1.0], [-0.0001, 0.5, -1.5]]
+    run._state.desires.target[2:] = [[0.25, -0.1, 1.0], [-0.0001, 0.5, -1.5]]
     assert wiring.landings(run).splitlines()[2:] == ["| PC to OVC, green creeps | (0.250, −0.100) | +1 |",
                                                      "| PC to OVC, red creeps | (0.000, 0.500) | −1.5 |"]
 

@@ -181,7 +181,8 @@ def test_cells_of_a_map_with_ranges_of_its_own():
 
 def test_the_outermost_cells_of_a_map_reach_as_far_as_things_can_be():
     axes = figures.new_board(low=-1)
-    for nres_map in (place_cells([2], tiled_fraction=0.5).maps[0], object_vector_cells([2], tiled_fraction=0.5).maps[0]):
+    for nres_map in (place_cells([2], tiled_fraction=0.5).maps[0],
+                     object_vector_cells([2], tiled_fraction=0.5).maps[0]):
         figures.draw_cells(axes, nres_map)
     boxes = [patch.get_bbox().extents.tolist() for patch in axes.patches]
     assert boxes[:4] == [[0, 0, 0.5, 0.5], [0.5, 0, 1, 0.5], [0, 0.5, 0.5, 1], [0.5, 0.5, 1, 1]]

@@ -42,7 +42,8 @@ def test_a_reading_against_the_text_says_which_sentences_it_breaks(change, broke
 
 @pytest.mark.parametrize("change", [
     {"weighting": "cells"}, {"credit": "count"}, {"credit": "share"}, {"credit": "activity", "memory": 0.0},
-    {"absent_form": "decay"}, {"bootstrap": False}, {"terminal": True}, {"object_tiled_fraction": 0.25}, {"place_gain": 5.0},
+    {"absent_form": "decay"}, {"bootstrap": False}, {"terminal": True}, {"object_tiled_fraction": 0.25},
+    {"place_gain": 5.0},
     {"network_resolutions": (2, 3)}, {"fps": 30}, {"learning_rate": 0.9}, {"memory_unit": "seconds"}])
 def test_what_is_open_breaks_nothing(change):
     assert replace(TO_THE_LETTER, **change).within_the_text

@@ -28,7 +28,7 @@ def layers(runs=20):
 
 def test_claims_are_kept_as_data(cache_folder):
     judged = networks()
-    report.store("paper_c", judged, letter=judged[:1])
+    report.save("paper_c", judged, letter=judged[:1])
     kept = json.loads((cache_folder / "claims" / "paper_c.json").read_text())
     assert list(kept["claims"]) == ["C1", "C2", "C3", "C4"] and list(kept["letter"]) == ["C1"]
     assert kept["claims"]["C4"]["here"] == list(judged[3].here)
@@ -36,7 +36,7 @@ def test_claims_are_kept_as_data(cache_folder):
 
 
 def test_a_bound_that_does_not_exist_is_kept_as_null(cache_folder):
-    report.store("look", layers(runs=1))
+    report.save("look", layers(runs=1))
     text = (cache_folder / "claims" / "look.json").read_text()
     assert "NaN" not in text
     assert json.loads(text)["claims"]["A6"]["here"][1:] == [None, None]
@@ -76,11 +76,11 @@ def test_a_summary_names_where_claims_hold_and_what_comes_closest():
 
 @pytest.fixture
 def record(cache_folder):
-    report.store("paper_c", networks(), letter=networks(*paper_c()[::-1]))
-    report.store("look", layers(runs=1))
-    report.store("assumptions", shares={"C2": {"holds": 64, "undecided": 26, "untestable": 3, "readings": 256,
+    report.save("paper_c", networks(), letter=networks(*paper_c()[::-1]))
+    report.save("look", layers(runs=1))
+    report.save("assumptions", shares={"C2": {"holds": 64, "undecided": 26, "untestable": 3, "readings": 256,
                                                "agrees": 2, "measured": 40}})
-    return report.read((cache_folder / "claims").iterdir())
+    return report.load((cache_folder / "claims").iterdir())
 
 
 def row(table, name):
@@ -137,7 +137,8 @@ def test_some_claims_of_a_record_make_a_table(record):
 
 def test_the_page_of_claims_shows_the_code_of_every_rule():
     text = (Path(__file__).parents[2] / "book" / "claims.md").read_text(encoding="utf-8")
-    shown = re.findall(r"\((rule-[\w-]+)\)=\n### .+\n\n```{literalinclude} ../neorl/evidence/(\w+).py\n:pyobject: (\w+)\n", text)
+    section = r"\((rule-[\w-]+)\)=\n### .+\n\n```{literalinclude} ../neorl/evidence/(\w+).py\n:pyobject: (\w+)\n"
+    shown = re.findall(section, text)
     rules = [getattr(claims, statement.rule) for statement in STATEMENTS.values() if statement.rule]
     assert {label: (module, rule) for label, module, rule in shown} == {
         report.label(rule.__name__): (inspect.getmodule(rule).__name__.removeprefix("neorl.evidence."), rule.__name__)
@@ -159,8 +160,8 @@ def test_errata_of_a_place_are_those_that_name_it():
 
 def test_all_that_is_kept_is_read_unless_files_are_named(record, cache_folder):
     (cache_folder / "claims" / "notes.txt").touch()
-    assert report.read() == record
-    assert list(report.read([cache_folder / "claims" / "look.json"])["claims"]) == ["A6", "A7", "A8"]
+    assert report.load() == record
+    assert list(report.load([cache_folder / "claims" / "look.json"])["claims"]) == ["A6", "A7", "A8"]
 
 
 def test_readings_are_drawn_beside_the_verdicts(record):

@@ -44,12 +44,15 @@ READINGS = {
     "leaky": place_cells([6], tiled_fraction=0.5, learning=plain_rule(trace=5, bootstrap=False)),
     "objects": object_vector_cells([3, 4], weighting="resolution"),
     "memory": multimodal([3, 6], learning=plain_rule(memory=4.0)),
-    "memory alone": multimodal([2, 5], learning=plain_rule(memory=30.0, bootstrap=False, absent_decay=0.3, learning_rate=0.3)),
-    "memory of seconds": multimodal([4], learning=plain_rule(memory=0.2, memory_unit="seconds", memory_value="discounted",
+    "memory alone": multimodal([2, 5], learning=plain_rule(memory=30.0, bootstrap=False, absent_decay=0.3,
+                                                           learning_rate=0.3)),
+    "memory of seconds": multimodal([4], learning=plain_rule(memory=0.2, memory_unit="seconds",
+                                                             memory_value="discounted",
                                                            bootstrap=False, credit="happened")),
     "away": multimodal([5], learning=plain_rule(absent_decay=0.2, absent_form="away", terminal=False)),
     "away alone": multimodal([5], learning=plain_rule(absent_decay=0.2, absent_form="away", bootstrap=False, trace=4)),
-    "away with memory": multimodal([5], learning=plain_rule(absent_decay=0.4, absent_form="away", memory=6.0, bootstrap=False,
+    "away with memory": multimodal([5], learning=plain_rule(absent_decay=0.4, absent_form="away", memory=6.0,
+                                                            bootstrap=False,
                                                           memory_value="discounted")),
     "count": place_cells([4], learning=plain_rule(credit="count", learning_rate=0.4)),
     "activity": multimodal([4], learning=plain_rule(credit="activity", activity=0.1, absent_decay=0.1, memory=2.0)),
@@ -254,7 +257,8 @@ def learn_told_again(rule, world, table, track, cell_t, action, activity, caused
                 for event in range(4):
                     old = table[cell_left, event, cell_t]
                     absent = sunk_told_again(old, fading * decay, one, away, one) if decay > 0 else old
-                    table[cell_left, event, cell_t] = old + fading * rates[event] * (1 - old) if rates[event] else absent
+                    learned = old + fading * rates[event] * (1 - old)
+                    table[cell_left, event, cell_t] = learned if rates[event] else absent
             fading *= np.float32(rule.discount)
     track.cell, track.events = cell_t, []
 
@@ -555,7 +559,8 @@ def test_recursion_takes_vectors_and_valences_of_the_step_before():
     np.testing.assert_allclose(run.state.desires.target[3:, :2], [expected, expected])
 
 
-@pytest.mark.parametrize("agent", [multimodal([3, 12]), place_cells([14], learning=plain_rule(trace=5, absent_decay=0.2))])
+@pytest.mark.parametrize("agent", [multimodal([3, 12]),
+                                   place_cells([14], learning=plain_rule(trace=5, absent_decay=0.2))])
 def test_a_run_in_the_room_of_another_begins_with_nothing_and_is_the_same(agent):
     before = Run(agent, WaterWorld(), seed=0, run=3)
     before.advance(20_000)
@@ -570,5 +575,6 @@ def test_a_run_after_that_of_another_agent_has_room_of_its_own():
     before = Run(place_cells([14]), WaterWorld())
     before.advance(5_000)
     knew = before.state.values.q.copy()
-    assert not np.shares_memory(Run(place_cells([13]), WaterWorld(), after=before).state.values.q, before.state.values.q)
+    assert not np.shares_memory(Run(place_cells([13]), WaterWorld(), after=before).state.values.q,
+                                before.state.values.q)
     np.testing.assert_array_equal(before.state.values.q, knew)

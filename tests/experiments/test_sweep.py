@@ -98,7 +98,7 @@ def test_a_condition_that_fails_always_is_told_after_the_others_are_kept(monkeyp
     monkeypatch.setattr(sweep_module, "simulate", simulate_with_failures)
     with pytest.raises(RuntimeError, match="2 of 5 conditions have failed 3 times, such as Condition.*MemoryError"):
         sweep(CONDITIONS, progress=False)
-    assert [cache.read(condition) is not None for condition in CONDITIONS] == [True, False, True, False, True]
+    assert [cache.load(condition) is not None for condition in CONDITIONS] == [True, False, True, False, True]
 
 
 def test_a_worker_with_other_sources_is_refused(monkeypatch):
@@ -107,11 +107,11 @@ def test_a_worker_with_other_sources_is_refused(monkeypatch):
     monkeypatch.setattr(sweep_module, "source_digest", lambda: next(calls))
     with pytest.raises(RuntimeError, match="has other sources of neorl than the sweep"):
         sweep(CONDITIONS[:1], ThreadPoolExecutor(1), progress=False)
-    assert cache.read(CONDITIONS[0]) is None
+    assert cache.load(CONDITIONS[0]) is None
 
 
 def test_an_interrupted_sweep_keeps_what_is_finished_and_gives_up_the_rest(monkeypatch, cache_folder):
-    original, finished = sweep_module.keep, []
+    original, finished = sweep_module.save, []
 
     def keep_one(condition, result):
         if finished:
@@ -119,10 +119,10 @@ def test_an_interrupted_sweep_keeps_what_is_finished_and_gives_up_the_rest(monke
         finished.append(condition)
         original(condition, result)
 
-    monkeypatch.setattr(sweep_module, "keep", keep_one)
+    monkeypatch.setattr(sweep_module, "save", keep_one)
     with pytest.raises(KeyboardInterrupt):
         sweep(CONDITIONS * 1, progress=False)
-    assert cache.read(finished[0]) is not None and len(list((cache_folder / "conditions").iterdir())) == 1
+    assert cache.load(finished[0]) is not None and len(list((cache_folder / "conditions").iterdir())) == 1
 
 
 def test_progress_tells_the_time_that_is_left(capsys):
@@ -173,7 +173,7 @@ def test_a_cluster_of_worker_processes_brings_the_same(cluster, lived):
 def test_a_killed_worker_of_a_cluster_loses_no_more_than_what_it_was_at(cluster, monkeypatch):
     """One of two workers is killed as soon as the first condition is kept; the others are lived again or elsewhere."""
     conditions = [Condition(place_cells([3]), WORLD, 200_000, 1, seed) for seed in range(20, 28)]
-    original, kept_after = sweep_module.keep, []
+    original, kept_after = sweep_module.save, []
 
     def keep_and_kill(condition, result):
         original(condition, result)
@@ -181,7 +181,7 @@ def test_a_killed_worker_of_a_cluster_loses_no_more_than_what_it_was_at(cluster,
             os.kill(next(iter(client.run(os.getpid).values())), signal.SIGKILL)
         kept_after.append(condition)
 
-    monkeypatch.setattr(sweep_module, "keep", keep_and_kill)
+    monkeypatch.setattr(sweep_module, "save", keep_and_kill)
     with Client(cluster) as client:
         results = sweep(conditions, client.get_executor(), progress=False)
     assert len(kept_after) == len(conditions)  # each once

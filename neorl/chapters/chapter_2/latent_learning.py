@@ -88,9 +88,9 @@ def _simulate(animal, maze, runs, seed, group, first_reward):
     errors, known = np.zeros((runs, DAYS), np.int64), np.zeros((runs, DAYS), np.int64)
     for run in range(runs):
         stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run, group)))
-        execute(_live, LEARNERS.index(animal.learner), animal.learning_rate, animal.discount, animal.exploration, animal.trace,
-              maze.next_state, maze.goal, maze.choice_points, first_reward, new_state(maze.states), stream,
-              errors[run], known[run])
+        execute(_live, LEARNERS.index(animal.learner), animal.learning_rate, animal.discount, animal.exploration,
+                animal.trace, maze.next_state, maze.goal, maze.choice_points, first_reward, new_state(maze.states),
+                stream, errors[run], known[run])
     return Record(errors, known / len(maze.turns))
 
 

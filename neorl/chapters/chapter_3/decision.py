@@ -224,8 +224,8 @@ def live(process, checkpoints, runs, seed, seen=None, learning_rate=0.0, discoun
         q, visits = np.zeros(lives.q.shape[2:]), np.zeros(lives.q.shape[2:])
         state = process.starts[execute(randint, stream, len(process.starts))]
         for checkpoint, (begin, end) in enumerate(zip(steps, steps[1:])):
-            state = execute(_live_on, process.successors, limits, process.rewards, process.ends, process.starts, seen, state, q,
-                             visits, *rates, stream, *(path[run, begin:end] for path in lives[:4]))
+            state = execute(_live_on, process.successors, limits, process.rewards, process.ends, process.starts, seen,
+                            state, q, visits, *rates, stream, *(path[run, begin:end] for path in lives[:4]))
             lives.q[run, checkpoint] = q
     return lives
 

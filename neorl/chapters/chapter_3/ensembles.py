@@ -115,8 +115,8 @@ def best_reward(maze):
 def run_ensemble(maze, chooser, *, steps, runs, seed=0, doublings=0):
     """Reward per step in each twentieth of ``runs`` lives of ``steps`` steps: float64 (runs, 20).
 
-    maze: a `GridMaze`. chooser: who chooses, one of ``CHOOSERS``: a learner alone, a rule for all five, or chance. steps:
-    ≥ 20. doublings: how often the chooser's greediness is doubled, or halved if negative, from −5 to 5.
+    maze: a `GridMaze`. chooser: who chooses, one of ``CHOOSERS``: a learner alone, a rule for all five, or chance.
+    steps: ≥ 20. doublings: how often the chooser's greediness is doubled, or halved if negative, from −5 to 5.
     Run k is the same among any number of runs.
     Raises ValueError for a bad argument.
     """

@@ -1,7 +1,8 @@
 """What ensembles made of two mazes, as the page of chapter 3 reports it, in Markdown.
 
-``made`` is {maze: {chooser: reward per step (runs, parts)}}, of `neorl.chapters.chapter_3.ensembles.run_ensemble`. Choosers are
-ranked by their means over runs, at the end, which is the last part, or over the life, which is all of them.
+``made`` is {maze: {chooser: reward per step (runs, parts)}}, of `neorl.chapters.chapter_3.ensembles.run_ensemble`.
+Choosers are ranked by their means over runs, at the end, which is the last part, or over the life, which is all of
+them.
 """
 
 import numpy as np

@@ -50,7 +50,7 @@ class Chamber:
     bell: float = 0.1
 
     def __post_init__(self):
-        checks.store(self, effort=checks.integer("effort", self.effort, at_least=1),
+        checks.assign(self, effort=checks.integer("effort", self.effort, at_least=1),
                      delay=checks.integer("delay", self.delay, at_least=0),
                      hold=checks.real("hold", self.hold, at_least=1), light=checks.real("light", self.light, 0, 1),
                      bell=checks.real("bell", self.bell, 0, 1))

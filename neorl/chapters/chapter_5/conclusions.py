@@ -22,7 +22,7 @@ OTHER_VERDICTS = {"partly": "Partly: {}; the page of claims has what is missing.
 
 
 def verdicts_by_reading(record):
-    """The verdicts under both readings. record: as `neorl.evidence.report.read` has it."""
+    """The verdicts under both readings. record: as `neorl.evidence.report.load` has it."""
     records = {LETTER: {**record, "claims": record["letter"]}, CALIBRATED: record}
     return {reading: {name: report.verdict(found, name) for name in CLAIMS} for reading, found in records.items()}
 
@@ -61,7 +61,7 @@ def both_verdicts(verdicts):
 def what_did_not_hold(record, verdicts):
     """What was not reproduced, what was under one reading alone, and what else became of claims, in Markdown.
 
-    record: as `neorl.evidence.report.read` has it.
+    record: as `neorl.evidence.report.load` has it.
     """
     calibrated = verdicts[CALIBRATED]
     said = [_not_reproduced(record, _with("not reproduced", calibrated)), _differences(verdicts)]

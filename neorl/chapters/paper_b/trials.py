@@ -125,8 +125,9 @@ def mean_stays(reading, steps, runs, seed=0, watched=15_000):
         path, moved = np.empty((path_steps, 2)), np.empty(path_steps, bool)
         for step in range(path_steps):
             run.advance(1)
-            path[step] = run.world_state.agent_position / world.width
-            moved[step] = run.world_state.agent_velocity.any() or (path[step] != 0.5).any()  # it is not as after a reset
+            tank = run.world_state
+            path[step] = tank.agent_position / world.width
+            moved[step] = tank.agent_velocity.any() or (path[step] != 0.5).any()  # it is not as after a reset
         changes = [((np.diff(each.encode(path)) != 0) & moved[1:]).sum() for each in agent.maps]
         return path_steps / world.fps / np.maximum(changes, 1)
 
@@ -146,15 +147,15 @@ def mean_values(reading, steps, runs, seed=0):
     def of_nodes(k):
         run = Run(agent, world, seed, k)
         run.advance(steps)
-        means = []
+        maps, nodes, means = run.parameters.maps, run.parameters.nodes, []
         for m, each in enumerate(agent.maps):
             best = run.q(m).max(axis=1)
             if each.modality.vector == "position":
                 means.append(best[~np.eye(each.cells, dtype=bool)].mean())
             else:
-                means.append(np.delete(best[:, run.parameters.maps.contact[m]], run.parameters.maps.contact[m]).mean())
-        return [np.dot(run.parameters.maps.weight[begin:end], means[begin:end])
-                for begin, end in zip(run.parameters.nodes.first_map[:-1], run.parameters.nodes.first_map[1:])]
+                means.append(np.delete(best[:, maps.contact[m]], maps.contact[m]).mean())
+        return [np.dot(maps.weight[begin:end], means[begin:end])
+                for begin, end in zip(nodes.first_map[:-1], nodes.first_map[1:])]
 
     return dict(zip((node.name for node in agent.nodes), _of_runs(of_nodes, agent, runs).T))
 
