@@ -104,12 +104,6 @@ def support(readings, judged, choices=WITHIN):
     return found
 
 
-def leading(supports):
-    """The reading to the letter but for each choice's level, the nearest to it in the prior, that clearly leads it."""
-    levels = {each.choice: each.value for each in reversed(supports) if each.lead.low > 0}
-    return replace(TO_THE_LETTER, **levels)
-
-
 def importance(readings, judged, name, choices=WITHIN, seed=0):
     """How much each of the choices matters for the number of a claim: ({name of the choice: importance}, R²).
 

@@ -104,16 +104,6 @@ def verdict(record, name):
     return record["claims"].get(name, {"verdict": NOT_COMPUTED})["verdict"]
 
 
-def standing(record, names):
-    """What became of some claims, in Markdown: a line for each verdict. record: as `load` has it."""
-    lines = []
-    for each in (*VERDICTS, OPEN, NOT_COMPUTED):
-        found = [f"{STATEMENTS[name].text} ({name})" for name in names if verdict(record, name) == each]
-        if found:
-            lines.append(f"- *{each.capitalize()}*: {'; '.join(found)}.")
-    return "\n".join(lines)
-
-
 def extract(record, names):
     """Some claims of a record, as `load` has it, as a Markdown table."""
     return "\n".join([HEADER, *(_row(record, name) for name in names)])

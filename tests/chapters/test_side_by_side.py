@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import pytest
 
 import neorl
 from neorl.chapters.shared import side_by_side
@@ -58,7 +57,7 @@ def test_claims_stand_by_their_verdicts_and_a_verdict_that_none_has_is_left_out(
 
 
 def test_what_is_said_of_each_reading_is_an_item_of_a_list():
-    assert side_by_side.listed({"to the letter": "One.", "calibrated": "Two."}) == (
+    assert side_by_side.each_in_words({"to the letter": "One.", "calibrated": "Two."}) == (
         "- **To the letter.** One.\n- **Calibrated.** Two.")
 
 
@@ -68,8 +67,3 @@ def test_choices_are_open_or_pinned():
     assert table.splitlines() == ["| Choice | The text | letter | far |", "|---|---|---|---|",
                                   "| desire scale | pinned | 1 | 2 |",
                                   "| resolutions, C | open | {3, 7, 23} | {3, 7, 23} |"]
-
-
-@pytest.mark.parametrize("value, text", [(0.125, "0.12"), (-0.5, "−0.50"), (-0.001, "0.00")])
-def test_a_number_has_two_decimals_and_a_true_minus(value, text):
-    assert side_by_side.number(value) == text

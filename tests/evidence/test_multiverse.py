@@ -251,17 +251,6 @@ def test_support_beyond_the_text_is_of_all_choices():
     assert found["exploration", "0"].is_to_the_letter
     assert found["exploration", "0.02"].held == 1 and found["exploration", "0.1"].held == 0
     assert {name for name, _ in found} == set(BEYOND)
-    assert multiverse.leading(list(found.values())).exploration == 0.02
-
-
-def test_what_leads_is_the_reading_to_the_letter_but_for_what_clearly_leads_it():
-    nothing, half, more = Estimate(0.3, -0.1, 0.7), Estimate(0.5, 0.1, 0.9), Estimate(0.9, 0.5, 1.3)
-    supports = [multiverse.Support("tiled_fraction", "1", 1.0, True, 1.0, Estimate(0, -0.2, 0.2)),
-                multiverse.Support("tiled_fraction", "0.5", 0.5, False, 1.5, half),
-                multiverse.Support("exploration", "0.02", 0.02, False, 1.5, half),
-                multiverse.Support("exploration", "0.1", 0.1, False, 1.9, more),
-                multiverse.Support("credit", "last", "last", False, 1.3, nothing)]
-    assert multiverse.leading(supports) == replace(TO_THE_LETTER, tiled_fraction=0.5, exploration=0.02)
 
 
 def test_the_choices_that_matter_are_found(made_up):

@@ -121,14 +121,6 @@ def test_the_short_table_says_the_same(record):
     assert "{ref}" not in table
 
 
-def test_claims_are_listed_by_what_became_of_them(record):
-    assert report.standing(record, ["H1", "C3", "C2", "A6", "C5"]) == (
-        "- *Reproduced*: Values from both nodes (C) beat those of the last one (A, B) (C3); A desire for each colour "
-        f"(B) beats one for all (A) (C2).\n- *No verdict*: {STATEMENTS['A6'].text} (A6).\n"
-        f"- *Open*: {STATEMENTS['C5'].text} (C5).\n"
-        f"- *Not computed in this build*: {STATEMENTS['H1'].text} (H1).")
-
-
 def test_some_claims_of_a_record_make_a_table(record):
     header, _, *rows = report.extract(record, ["A6", "C2", "C5"]).splitlines()
     assert header.startswith("| Claim | Thesis | To the letter |") and len(rows) == 3

@@ -6,7 +6,8 @@ Results are those of `neorl.chapters.paper_a.experiments.live`: {reading: {key: 
 import numpy as np
 
 from neorl.chapters.shared import side_by_side
-from neorl.chapters.shared.side_by_side import listed, number, verdicts_in_words
+from neorl.chapters.shared.side_by_side import each_in_words, verdicts_in_words
+from neorl.chapters.shared.wording import number
 from neorl.evidence.claims import judge_multiple_layers
 from neorl.evidence.priors import BEYOND
 from neorl.evidence.reading import LAYERS, SINGLE
@@ -28,7 +29,7 @@ def in_words(results, judged):
 
     judged: the claims of each reading, {name: [Claim, …]}.
     """
-    return listed({name: _found(results[name], claims) for name, claims in judged.items()})
+    return each_in_words({name: _found(results[name], claims) for name, claims in judged.items()})
 
 
 def _found(results, claims):

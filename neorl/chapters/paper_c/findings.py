@@ -7,7 +7,8 @@ Results are those of `neorl.chapters.paper_c.experiments.live`: {reading: {key: 
 import numpy as np
 
 from neorl.chapters.paper_c.experiments import NETWORKS, networks
-from neorl.chapters.shared.side_by_side import listed, number, verdicts_in_words
+from neorl.chapters.shared.side_by_side import each_in_words, verdicts_in_words
+from neorl.chapters.shared.wording import number
 from neorl.evidence.statistics import estimate
 from neorl.evidence.verdict import FINAL
 
@@ -19,7 +20,7 @@ def in_words(results, judged):
 
     judged: the claims of each reading, {name: [Claim, …]}.
     """
-    return listed({name: _found(results[name], claims) for name, claims in judged.items()})
+    return each_in_words({name: _found(results[name], claims) for name, claims in judged.items()})
 
 
 def _found(results, claims):

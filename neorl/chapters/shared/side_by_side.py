@@ -6,6 +6,7 @@ Readings are {name: `Reading`}, and their results {name: {key: `Result`}}, with 
 
 from dataclasses import replace
 
+from neorl.chapters.shared.wording import table
 from neorl.evidence.priors import BEYOND, WITHIN
 from neorl.evidence.reading import judge
 from neorl.evidence.report import SIGNS
@@ -50,7 +51,7 @@ def verdicts_in_words(claims):
     return "; ".join(f"{SIGNS[verdict]} {verdict}: {some}" for verdict, some in names.items() if some)
 
 
-def listed(words):
+def each_in_words(words):
     """What is said of each reading, as a Markdown list: {name: text}."""
     return "\n".join(f"- **{name.capitalize()}.** {text}" for name, text in words.items())
 
@@ -60,14 +61,6 @@ def choices(readings, fields):
 
     fields: the names of fields of `Reading`.
     """
-    rows = ["| Choice | The text | " + " | ".join(readings) + " |", "|---" * (len(readings) + 2) + "|"]
-    for field in fields:
-        chosen = (BEYOND[field].words(getattr(reading, field)) for reading in readings.values())
-        status = "open" if field in WITHIN else "pinned"
-        rows.append(f"| {BEYOND[field].label} | {status} | {' | '.join(chosen)} |")
-    return "\n".join(rows)
-
-
-def number(value):
-    """A number with two decimals, as text."""
-    return f"{value:z.2f}".replace("-", "−")
+    return table(["Choice", "The text", *readings], [
+        [BEYOND[field].label, "open" if field in WITHIN else "pinned",
+         *(BEYOND[field].words(getattr(reading, field)) for reading in readings.values())] for field in fields])
