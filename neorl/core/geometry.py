@@ -108,7 +108,7 @@ def cell_at(u, v, tiles):
     return clamp_index(row, tiles.rows) * tiles.columns + clamp_index(column, tiles.columns)
 
 
-@kernel
+@inlined_kernel
 def clamp_index(interval, count):
     """The nearest of the intervals 0 … count − 1; compared before it becomes an integer, which may not hold it."""
     if not interval > 0.0:

@@ -163,7 +163,7 @@ def start_track(parameters, tracks, m, point, cell):
     track = parameters.maps.first_track[m] + point
     enter(tracks, track, cell)
     tracks.trace_count[track] = 0
-    if parameters.learning.memory_retained > ZERO:
+    if tracks.remembered_count[track] > 0:
         forget_all(trace_of(parameters.maps, tracks, m, point), tracks.remembered_count[track])
         tracks.remembered_count[track] = 0
 
@@ -223,7 +223,7 @@ def learn_one_goal(values, rule, cell_tm1, goal, rates, fading):
             values.q[index] = sunk(values.q[index], fading * rule.absent_rate, UNIT, rule.away, UNIT)
 
 
-@kernel
+@inlined_kernel
 def widen(goal_range, cell, goal):
     """Let a cell know of a goal."""
     goal_range[cell, 0] = min(goal_range[cell, 0], goal)

@@ -111,12 +111,14 @@ def add_element(parameters, state, n, x, y, dx, dy, valence, q):
     of_agent = at_place or nodes.vector[n] == Vector.velocity
     u, v = place_coordinates(nodes, n, x + dx if at_place else dx, y + dy if at_place else dy)
     for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
-        cell, undirected = cell_of(maps, m, u, v), without_direction(maps, m, u)
-        meeting = contact_cell(maps, m, cell)
-        if not of_agent:
-            add_value(parameters, state, m, cell, meeting, valence, q)
-        elif not undirected:
-            add_value(parameters, state, m, state.tracks.cell[maps.first_track[m]], cell, valence, q)
+        cell = cell_of(maps, m, u, v)
+        if of_agent:
+            goal, evaluated = cell, not without_direction(maps, m, u)
+            cell = state.tracks.cell[maps.first_track[m]]
+        else:
+            goal, evaluated = contact_cell(maps, m, cell), True
+        if evaluated:
+            add_value(parameters, state, m, cell, goal, valence, q)
 
 
 @inlined_kernel

@@ -186,7 +186,7 @@ def step_board(board, rules, action, contacts):
 @kernel
 def move_agent(board, rules, action):
     if action != Action.no_op:
-        axis = 1 if action == Action.N or action == Action.S else 0
+        axis = 1 if action <= Action.S else 0
         sign = -1.0 if action == Action.N or action == Action.W else 1.0
         board.agent_velocity[axis] += sign * 0.25 * rules.width
     highest = rules.width - 2.0 * rules.radius
