@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from neorl.chapters.chapter_1.navigation_words import describe_gain, describe_leads, describe_rule
+from neorl.chapters.chapter_1.navigation_report import describe_gain, describe_leads, describe_rule
 from neorl.evidence.statistics import Estimate
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from neorl.chapters.chapter_2.psychology_words import describe_latencies, describe_presses, describe_way
+from neorl.chapters.chapter_2.psychology_report import describe_latencies, describe_presses, describe_way
 
 
 def test_a_law_is_told_by_its_first_and_last_trial_and_by_when_times_have_halved():

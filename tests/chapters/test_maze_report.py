@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from neorl.chapters.chapter_2.latent_learning import DAYS, LEARNERS, Finding, Record
-from neorl.chapters.chapter_2.maze_words import (describe_errors, describe_first_meals, describe_findings,
+from neorl.chapters.chapter_2.maze_report import (describe_errors, describe_first_meals, describe_findings,
                                                  describe_known, describe_settings, describe_verdict, findings_table)
 from neorl.evidence.statistics import Estimate
 from neorl.evidence.verdict import Claim

@@ -5,7 +5,7 @@ import pytest
 
 from neorl import NresMap
 from neorl.chapters.chapter_2.tuning import Told
-from neorl.chapters.chapter_2.tuning_words import (describe_frames, describe_information, describe_likeness,
+from neorl.chapters.chapter_2.tuning_report import (describe_frames, describe_information, describe_likeness,
                                                    describe_sizes, information_table)
 
 CELLS = {"place cell": "position", "head-direction cell": "direction", "speed cell": "speed"}
