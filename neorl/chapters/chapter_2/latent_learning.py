@@ -21,7 +21,7 @@ import numpy as np
 
 from neorl import checks
 from neorl.chapters.chapter_2.maze import Maze
-from neorl.chapters.shared.tabular import exploring_action, learn_q
+from neorl.chapters.shared.tabular import Rates, exploring_action, learn_q
 from neorl.core.kernel import execute, kernel
 from neorl.core.learning import MapValues, Rule, learn_all_goals
 from neorl.core.stream import new_stream
@@ -86,11 +86,12 @@ def simulate_groups(animal, maze, runs, seed=0, first_reward=FIRST_REWARD):
 
 def _simulate(animal, maze, runs, seed, group, first_reward):
     errors, known = np.zeros((runs, DAYS), np.int64), np.zeros((runs, DAYS), np.int64)
+    rates = Rates(animal.learning_rate, animal.discount, animal.exploration)
+    table = Table(maze.next_state, maze.goal, maze.choice_points)
     for run in range(runs):
         stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run, group)))
-        execute(_live, LEARNERS.index(animal.learner), animal.learning_rate, animal.discount, animal.exploration,
-                animal.trace, maze.next_state, maze.goal, maze.choice_points, first_reward, new_state(maze.states),
-                stream, errors[run], known[run])
+        execute(_live, LEARNERS.index(animal.learner), rates, animal.trace, table, first_reward,
+                new_state(maze.states), stream, errors[run], known[run])
     return Record(errors, known / len(maze.turns))
 
 
@@ -148,6 +149,14 @@ def judge(by_learner):
     return judge_latent_learning(by_learner["neoRL"], rivals, FIRST_REWARD)
 
 
+class Table(NamedTuple):
+    """A `Maze` as the kernel takes it."""
+
+    next_state: np.ndarray
+    goal: int
+    choice_points: np.ndarray
+
+
 class AnimalState(NamedTuple):
     """What changes while an animal lives."""
 
@@ -168,39 +177,37 @@ def new_state(states):
 
 
 @kernel
-def _live(learner, learning_rate, discount, exploration, trace, next_state, goal, choice_points, first_reward, animal,
-          stream, errors, known):
+def _live(learner, rates, trace, maze, first_reward, animal, stream, errors, known):
     """Run the maze once a day, and count errors and what is known in `errors` and `known`, a number a day."""
-    wants_food = False
+    wants_food, goal = False, maze.goal
     for day in range(errors.shape[0]):
         state, ended = 0, False
         for each in range(animal.traces.size):
             animal.traces.flat[each] = 0.0
-        action = _choose(learner, wants_food, state, goal, exploration, animal, stream)
+        action = _choose(learner, wants_food, state, goal, rates.exploration, animal, stream)
         for _ in range(LONGEST_TRIAL):
             state_tm1, action_tm1 = state, action
-            state = next_state[state_tm1, action_tm1]
+            state = maze.next_state[state_tm1, action_tm1]
             ended = state == goal
             errors[day] += state > goal and state != state_tm1
             reward = 1.0 if ended and day + 1 >= first_reward else 0.0
             if learner == SARSA:
-                action = _choose(learner, wants_food, state, goal, exploration, animal, stream)
-                _learn_by_traces(animal, state_tm1, action_tm1, reward, state, action, ended, learning_rate, discount,
-                                 trace)
+                action = _choose(learner, wants_food, state, goal, rates.exploration, animal, stream)
+                _learn_by_traces(animal, state_tm1, action_tm1, reward, state, action, ended, rates, trace)
             elif learner == Q_LEARNING:
-                learn_q(animal.q, state_tm1, action_tm1, reward, state, ended, learning_rate, discount)
+                learn_q(animal.q, state_tm1, action_tm1, reward, state, ended, rates.learning_rate, rates.discount)
             elif state != state_tm1:
                 for each in range(4):
-                    animal.rates[each] = np.float32(learning_rate if each == action_tm1 else 0.0)
-                rule = Rule(np.float32(discount), True, np.float32(0.0), False)
+                    animal.rates[each] = np.float32(rates.learning_rate if each == action_tm1 else 0.0)
+                rule = Rule(np.float32(rates.discount), True, np.float32(0.0), False)
                 learn_all_goals(animal.horde, rule, state_tm1, state, animal.rates)
             if ended:
                 break
             if learner != SARSA:
-                action = _choose(learner, wants_food, state, goal, exploration, animal, stream)
+                action = _choose(learner, wants_food, state, goal, rates.exploration, animal, stream)
         wants_food = wants_food or ended and day + 1 >= first_reward
-        for choice in choice_points:
-            known[day] += _knows(learner, choice, next_state, goal, animal)
+        for choice in maze.choice_points:
+            known[day] += _knows(learner, choice, maze.next_state, goal, animal)
 
 
 @kernel
@@ -245,14 +252,13 @@ def _knows(learner, choice, next_state, goal, animal):
 
 
 @kernel
-def _learn_by_traces(animal, state_tm1, action_tm1, reward_t, state_t, action_t, terminal, learning_rate, discount,
-                     trace):
+def _learn_by_traces(animal, state_tm1, action_tm1, reward_t, state_t, action_t, terminal, rates, trace):
     """One update of Sarsa(λ): a trace replaces all those of its state."""
-    target = reward_t if terminal else reward_t + discount * animal.q[state_t, action_t]
+    target = reward_t if terminal else reward_t + rates.discount * animal.q[state_t, action_t]
     error = target - animal.q[state_tm1, action_tm1]
     for action in range(4):
         animal.traces[state_tm1, action] = 1.0 if action == action_tm1 else 0.0
     for state in range(animal.q.shape[0]):
         for action in range(4):
-            animal.q[state, action] += learning_rate * error * animal.traces[state, action]
-            animal.traces[state, action] *= discount * trace
+            animal.q[state, action] += rates.learning_rate * error * animal.traces[state, action]
+            animal.traces[state, action] *= rates.discount * trace

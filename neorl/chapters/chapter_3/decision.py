@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl import checks
-from neorl.chapters.shared.tabular import exploring_action, learn_q
+from neorl.chapters.shared.tabular import Rates, exploring_action, learn_q
 from neorl.core.kernel import execute, kernel
 from neorl.core.stream import new_stream, randint, uniform
 from neorl.evidence.statistics import estimate
@@ -200,6 +200,26 @@ class Lives(NamedTuple):
     q: np.ndarray  # float64 (runs, checkpoints, states seen, actions)
 
 
+class Table(NamedTuple):
+    """A `Process` as the kernel takes it, and what its states look like."""
+
+    successors: np.ndarray
+    limits: np.ndarray  # float64 (outcomes − 1,), between the outcomes of a number in [0, 1)
+    rewards: np.ndarray
+    ends: np.ndarray
+    starts: np.ndarray
+    seen: np.ndarray
+
+
+class Path(NamedTuple):
+    """The part of `Lives` that a kernel fills in, each (steps,)."""
+
+    states_tm1: np.ndarray
+    actions: np.ndarray
+    rewards: np.ndarray
+    states_t: np.ndarray
+
+
 def live(process, checkpoints, runs, seed, seen=None, learning_rate=0.0, discount=0.9, exploration=1.0):
     """Q-learners in a process, each in its own copy: `Lives` up to the last checkpoint.
 
@@ -214,38 +234,39 @@ def live(process, checkpoints, runs, seed, seen=None, learning_rate=0.0, discoun
     checks.integer("states", process.states, at_least=1, at_most=np.iinfo(np.int16).max)
     checks.integer("actions", process.actions, at_least=1, at_most=np.iinfo(np.int8).max)
     seen = np.arange(process.states) if seen is None else np.asarray(seen)
-    rates = [checks.real(name, value, 0, 1) for name, value in
-             [("learning_rate", learning_rate), ("discount", discount), ("exploration", exploration)]]
+    rates = Rates(checks.real("learning_rate", learning_rate, 0, 1), checks.real("discount", discount, 0, 1),
+                  checks.real("exploration", exploration, 0, 1))
     lives = Lives(*(np.zeros((runs, steps[-1]), kind) for kind in (np.int16, np.int8, np.float32, np.int16)),
                   np.zeros((runs, len(checkpoints), seen.max() + 1, process.actions)))
-    limits = np.cumsum(process.chances)[:-1]
+    table = Table(process.successors, np.cumsum(process.chances)[:-1], process.rewards, process.ends, process.starts,
+                  seen)
     for run in range(runs):
         stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run,)))
         q, visits = np.zeros(lives.q.shape[2:]), np.zeros(lives.q.shape[2:])
         state = process.starts[execute(randint, stream, len(process.starts))]
         for checkpoint, (begin, end) in enumerate(zip(steps, steps[1:])):
-            state = execute(_live_on, process.successors, limits, process.rewards, process.ends, process.starts, seen,
-                            state, q, visits, *rates, stream, *(path[run, begin:end] for path in lives[:4]))
+            path = Path(*(each[run, begin:end] for each in lives[:4]))
+            state = execute(_live_on, table, rates, state, q, visits, stream, path)
             lives.q[run, checkpoint] = q
     return lives
 
 
 @kernel
-def _live_on(successors, limits, rewards, ends, starts, seen, state, q, visits, learning_rate, discount, exploration,
-             stream, states_tm1, actions, paid, states_t):
-    """Live as many steps as `paid` has room for, and return the state after the last."""
-    for step in range(paid.shape[0]):
-        action = exploring_action(q, seen[state], exploration, stream)
+def _live_on(table, rates, state, q, visits, stream, path):
+    """Take as many steps as the path has room for, and return the state after the last."""
+    seen, limits = table.seen, table.limits
+    for step in range(path.rewards.shape[0]):
+        action = exploring_action(q, seen[state], rates.exploration, stream)
         drawn, outcome = uniform(stream), 0
         while outcome < limits.shape[0] and drawn >= limits[outcome]:
             outcome += 1
-        next_state, reward = successors[state, action, outcome], rewards[state, action, outcome]
+        next_state, reward = table.successors[state, action, outcome], table.rewards[state, action, outcome]
         visits[seen[state], action] += 1
-        rate = max(learning_rate, 1.0 / visits[seen[state], action])
-        learn_q(q, seen[state], action, reward, seen[next_state], ends[next_state], rate, discount)
-        states_tm1[step], actions[step], paid[step] = seen[state], action, reward
-        states_t[step] = seen[next_state]
-        state = starts[randint(stream, starts.shape[0])] if ends[next_state] else next_state
+        rate = max(rates.learning_rate, 1.0 / visits[seen[state], action])
+        learn_q(q, seen[state], action, reward, seen[next_state], table.ends[next_state], rate, rates.discount)
+        path.states_tm1[step], path.actions[step], path.rewards[step] = seen[state], action, reward
+        path.states_t[step] = seen[next_state]
+        state = table.starts[randint(stream, table.starts.shape[0])] if table.ends[next_state] else next_state
     return state
 
 

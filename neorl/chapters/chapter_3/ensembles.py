@@ -20,6 +20,7 @@ positive or negative. The policy of a learner is proportional to exp(greediness 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -112,6 +113,14 @@ def best_reward(maze):
     return float(gain)
 
 
+class Table(NamedTuple):
+    """A `GridMaze` as the kernel takes it."""
+
+    next_state: np.ndarray
+    start: int
+    goal: int
+
+
 def run_ensemble(maze, chooser, *, steps, runs, seed=0, doublings=0):
     """Reward per step in each twentieth of ``runs`` lives of ``steps`` steps: float64 (runs, 20).
 
@@ -128,23 +137,24 @@ def run_ensemble(maze, chooser, *, steps, runs, seed=0, doublings=0):
     checks.integer("doublings", doublings, at_least=-5, at_most=5)
     edges = np.linspace(0, steps, BINS + 1).astype(int)
     rewards, states = np.zeros((runs, BINS)), maze.grid.states
+    table = Table(maze.grid.next_state, maze.start, maze.goal)
 
-    def walk_one(run):
+    def run_one(run):
         preferences = np.zeros((len(LEARNERS), states, 4))
         preferences[-1] = 1 / 4
         stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run,)))
-        execute(_run, maze.grid.next_state, maze.start, maze.goal, CHOOSERS.index(chooser), doublings, edges, stream,
-              preferences, np.zeros((len(LEARNERS), states)), np.zeros(4), np.zeros(4), rewards[run])
+        execute(_run, table, CHOOSERS.index(chooser), doublings, edges, stream, preferences,
+                np.zeros((len(LEARNERS), states)), np.zeros(4), np.zeros(4), rewards[run])
 
     with ThreadPoolExecutor(2) as pool:
-        list(pool.map(walk_one, range(runs)))
+        list(pool.map(run_one, range(runs)))
     return rewards / np.diff(edges)
 
 
 def final_by_greediness(maze, *, steps, runs, seed=0):
     """Reward per step in the last twentieth of lives, with a rule's greediness halved, as it is, and doubled.
 
-    maze, steps, runs, seed: as in `walk`. Returns {rule: [float64 (runs,), …]}.
+    maze, steps, runs, seed: as in `run_ensemble`. Returns {rule: [float64 (runs,), …]}.
     """
     return {rule: [run_ensemble(maze, rule, steps=steps, runs=runs, seed=seed, doublings=doublings)[:, -1]
                    for doublings in (-1, 0, 1)] for rule in RULES}
@@ -162,14 +172,15 @@ def agreement(rule):
 
 
 @kernel
-def _run(next_state, start, goal, chooser, doublings, edges, stream, preferences, critics, weight, policy, rewards):
+def _run(maze, chooser, doublings, edges, stream, preferences, critics, weight, policy, rewards):
     """Live until the last edge; weight and policy (4,) are working memory."""
+    start, goal = maze.start, maze.goal
     state_tm1, age = start, 0
     action_tm1 = _choice(preferences, state_tm1, chooser, doublings, stream, weight, policy)
     for part in range(rewards.shape[0]):
         for _ in range(edges[part], edges[part + 1]):
             direction = randint(stream, 4) if uniform(stream) < SLIP else action_tm1
-            state_t, age = next_state[state_tm1, direction], age + 1
+            state_t, age = maze.next_state[state_tm1, direction], age + 1
             arrived = state_t == goal
             reward = GOAL if arrived else BUMP if state_t == state_tm1 else STEP
             rewards[part] += reward

@@ -24,7 +24,7 @@ from scipy.sparse import csgraph
 
 from neorl import checks
 from neorl.chapters.shared.grid import Grid
-from neorl.chapters.shared.tabular import exploring_action, learn_q
+from neorl.chapters.shared.tabular import Rates, exploring_action, learn_q
 from neorl.core.kernel import execute, kernel
 from neorl.core.stream import randint, new_stream, uniform
 
@@ -141,13 +141,13 @@ def play(game, learner, *, steps, runs, seed=0):
     checks.integer("seed", seed, at_least=0)
     edges = np.concatenate([[0], np.round(steps * SHARE ** np.arange(BINS - 1, -1, -1))]).astype(int)
     rewards, ends, known = np.zeros((runs, BINS)), np.zeros((runs, BINS, len(ENDS)), int), np.zeros(runs, int)
-    board = _board(game)
+    board, rates = _board(game), Rates(learner.learning_rate, learner.discount, learner.exploration)
 
     def play_one(run):
         q = np.zeros((game.states(learner.kind), 4))
         stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run,)))
-        execute(_play, board, learner.kind == "one learner", learner.kind == "latent heads", learner.exploration,
-              learner.learning_rate, learner.discount, edges, stream, q, np.zeros((1, 4)), rewards[run], ends[run])
+        execute(_play, board, learner.kind == "one learner", learner.kind == "latent heads", rates, edges, stream, q,
+                np.zeros((1, 4)), rewards[run], ends[run])
         known[run] = np.any(q, axis=1).sum()
 
     with ThreadPoolExecutor(2) as pool:
@@ -199,7 +199,7 @@ def _shortest_ways(grid):
 
 
 @kernel
-def _play(board, joint, latent, exploration, learning_rate, discount, edges, stream, q, value, rewards, ends):
+def _play(board, joint, latent, rates, edges, stream, q, value, rewards, ends):
     """Play until the last edge; `value` is working memory for the sum over heads. `left` has a bit for each place."""
     states, places = board.next_state.shape[0], board.places.shape[0]
     agent_tm1, ghost_tm1, left_tm1, age = board.agent, board.ghost, _laid_out(board, stream), 0
@@ -212,7 +212,7 @@ def _play(board, joint, latent, exploration, learning_rate, discount, edges, str
                     for place in range(places):
                         if left_tm1 >> place & 1:
                             value[0, action] += q[place * states + agent_tm1, action]
-            action = exploring_action(value, 0, exploration, stream)
+            action = exploring_action(value, 0, rates.exploration, stream)
 
             agent_t, left_t, ghost_t = board.next_state[agent_tm1, action], left_tm1, ghost_tm1
             fruit = 0.0
@@ -231,15 +231,15 @@ def _play(board, joint, latent, exploration, learning_rate, discount, edges, str
 
             if joint:
                 learn_q(q, ghost_row, action, fruit + penalty, (left_t * states + agent_t) * states + ghost_t,
-                        caught or left_t == 0, learning_rate, discount)
+                        caught or left_t == 0, rates.learning_rate, rates.discount)
             else:
-                learn_q(q, ghost_row, action, penalty, (places + agent_t) * states + ghost_t, caught, learning_rate,
-                        discount)
+                learn_q(q, ghost_row, action, penalty, (places + agent_t) * states + ghost_t, caught,
+                        rates.learning_rate, rates.discount)
                 for place in range(places):
                     if latent or left_tm1 >> place & 1:
                         reached = board.places[place] == agent_t
                         learn_q(q, place * states + agent_tm1, action, 1.0 if reached else 0.0,
-                                place * states + agent_t, reached, learning_rate, discount)
+                                place * states + agent_t, reached, rates.learning_rate, rates.discount)
 
             agent_tm1, ghost_tm1, left_tm1, age = agent_t, ghost_t, left_t, age + 1
             if caught or left_t == 0 or age == board.limit:

@@ -4,8 +4,18 @@ A learner chooses, greedily or not, with ties drawn at random; and it moves a va
 thesis eq. 3.5 and 4.6).
 """
 
+from typing import NamedTuple
+
 from neorl.core.kernel import kernel
 from neorl.core.stream import randint, uniform
+
+
+class Rates(NamedTuple):
+    """How a tabular learner learns and explores, each from 0 to 1."""
+
+    learning_rate: float  # α
+    discount: float  # γ
+    exploration: float  # ε
 
 
 @kernel
