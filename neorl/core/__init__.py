@@ -1,4 +1,4 @@
-"""The kernels: streams of random numbers, modalities, maps, the Horde, networks of nodes, and the life of an agent.
+"""The kernels of random streams, modalities, maps, the Horde, networks of nodes, and the life of an agent.
 
 Kernels take flat arrays and scalars (`neorl.core.kernel` has their rules), and every number of the book comes out of
 them. The room uses `neorl.checks` alone.

@@ -1,4 +1,4 @@
-"""Experiments: runs, many runs of a condition, what is finished kept on disk, and many conditions at a time.
+"""Single runs, many runs of a condition, the cache of finished conditions, and sweeps of many.
 
 The room uses `neorl.agents`, `neorl.worlds` and what lies below them.
 """

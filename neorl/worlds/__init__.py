@@ -1,4 +1,4 @@
-"""Worlds for agents to live in: `WaterWorld`, the rollout of an agent in it, and kernels that probe a rollout.
+"""Worlds for agents to live in, so far `WaterWorld`, with the rollout of an agent and kernels that probe one.
 
 The room uses `neorl.core`.
 """

@@ -1,1 +1,1 @@
-"""What the notebook of chapter 3 runs and draws: decision processes, ensembles, hybrid reward."""
+"""What the notebook of chapter 3 runs and draws, namely decision processes, ensembles, hybrid reward."""

@@ -1,1 +1,1 @@
-"""What the notebook of chapter 4 runs and draws: credit, superposition, time scales, cost."""
+"""What the notebook of chapter 4 runs and draws, namely credit, superposition, time scales, cost."""

@@ -1,4 +1,4 @@
-"""Drawings of chapter 4: walks and their parts, sums of functions, overlaps, and what events come to be worth."""
+"""Drawings of chapter 4, of walks and their parts, sums of functions, overlaps, and what events come to be worth."""
 
 import numpy as np
 from matplotlib import pyplot as plt

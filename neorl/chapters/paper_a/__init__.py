@@ -1,1 +1,1 @@
-"""Paper A: agents with one map, and with three."""
+"""What the notebook of paper A runs and draws, on agents with one map, and with three."""

@@ -1,1 +1,1 @@
-"""Paper C: networks of desires."""
+"""What the notebook of paper C runs and draws, on networks of desires."""
