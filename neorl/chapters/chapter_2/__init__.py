@@ -1,1 +1,1 @@
-"""What the notebook of chapter 2 runs, draws and says, namely how animals learn, latent learning, cells that are tuned."""
+"""What the notebook of chapter 2 runs, draws and says, namely how animals learn, and cells that are tuned."""

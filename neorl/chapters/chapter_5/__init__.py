@@ -1,1 +1,1 @@
-"""What the notebook of chapter 5 runs and reports, namely the two conclusions of the thesis, and a demonstration of each."""
+"""What the notebook of chapter 5 runs and reports, namely the two conclusions of the thesis, demonstrated."""
