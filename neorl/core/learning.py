@@ -257,14 +257,14 @@ def fade(trace, count, retained, discount):
     while i < count:
         if trace.strength[i] < CUT:
             count -= 1
-            replace(trace, i, count)
+            forget(trace, i, count)
         else:
             i += 1
     return count
 
 
 @kernel
-def replace(trace, i, last):
+def forget(trace, i, last):
     """Put the last of the list in place of one to be forgotten."""
     cells, rows = trace.cells, trace.cells.shape[0]
     trace.places[cells[last]] = i + 1

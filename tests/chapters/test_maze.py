@@ -5,7 +5,8 @@ import pytest
 from matplotlib import pyplot as plt
 
 from neorl.chapters.chapter_2 import maze_figures
-from neorl.chapters.chapter_2.latent_learning import (DAYS, GROUPS, LEARNERS, Animal, Record, Table, _learn_by_traces,
+from neorl.chapters.chapter_2.latent_learning import (DAYS, GROUPS, LEARNERS, Animal, Record, MazeArrays,
+                                                      _learn_by_traces,
                                                       _live, compare_learners, findings, judge, new_state,
                                                       simulate_groups)
 from neorl.chapters.chapter_2.maze import Maze, random_maze
@@ -145,7 +146,7 @@ def test_sarsa_learns_along_traces_of_which_the_newest_replaces_those_of_its_pla
 def test_sarsa_leaves_no_trace_of_yesterday():
     maze, animal = Maze(), new_state(30)
     errors = np.zeros(3, np.int64)
-    table = Table(maze.next_state, maze.goal, maze.choice_points)
+    table = MazeArrays(maze.next_state, maze.goal, maze.choice_points)
     execute(_live, LEARNERS.index("Sarsa(λ)"), Rates(0.1, 1.0, 0.0), 1.0, table, 1, animal,
           new_stream(np.random.SeedSequence(0)), errors, errors.copy())
     assert errors[0] > 0 and errors[2] == 0  # it went into blinds on the first day, and straight on the last
@@ -177,7 +178,7 @@ def test_exploration_is_the_share_of_drawn_actions():
 def test_what_is_learned_are_the_values_of_bellman(learner):
     maze, animal = Maze(), new_state(30)
     counts = np.zeros(DAYS, np.int64)
-    table = Table(maze.next_state, maze.goal, maze.choice_points)
+    table = MazeArrays(maze.next_state, maze.goal, maze.choice_points)
     execute(_live, LEARNERS.index(learner), Rates(1.0, 0.9, 0.1), 0.0, table, 1, animal,
           new_stream(np.random.SeedSequence(0)), counts, counts.copy())
     horde = animal.horde.q.reshape(30, 4, 30)

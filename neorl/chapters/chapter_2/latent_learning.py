@@ -87,7 +87,7 @@ def simulate_groups(animal, maze, runs, seed=0, first_reward=FIRST_REWARD):
 def _simulate(animal, maze, runs, seed, group, first_reward):
     errors, known = np.zeros((runs, DAYS), np.int64), np.zeros((runs, DAYS), np.int64)
     rates = Rates(animal.learning_rate, animal.discount, animal.exploration)
-    table = Table(maze.next_state, maze.goal, maze.choice_points)
+    table = MazeArrays(maze.next_state, maze.goal, maze.choice_points)
     for run in range(runs):
         stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run, group)))
         execute(_live, LEARNERS.index(animal.learner), rates, animal.trace, table, first_reward,
@@ -149,7 +149,7 @@ def judge(by_learner):
     return judge_latent_learning(by_learner["neoRL"], rivals, FIRST_REWARD)
 
 
-class Table(NamedTuple):
+class MazeArrays(NamedTuple):
     """A `Maze` as the kernel takes it."""
 
     next_state: np.ndarray

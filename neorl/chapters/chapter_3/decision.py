@@ -200,7 +200,7 @@ class Lives(NamedTuple):
     q: np.ndarray  # float64 (runs, checkpoints, states seen, actions)
 
 
-class Table(NamedTuple):
+class ProcessArrays(NamedTuple):
     """A `Process` as the kernel takes it, and what its states look like."""
 
     successors: np.ndarray
@@ -238,7 +238,8 @@ def live(process, checkpoints, runs, seed, seen=None, learning_rate=0.0, discoun
                   checks.real("exploration", exploration, 0, 1))
     lives = Lives(*(np.zeros((runs, steps[-1]), kind) for kind in (np.int16, np.int8, np.float32, np.int16)),
                   np.zeros((runs, len(checkpoints), seen.max() + 1, process.actions)))
-    table = Table(process.successors, np.cumsum(process.chances)[:-1], process.rewards, process.ends, process.starts,
+    table = ProcessArrays(process.successors, np.cumsum(process.chances)[:-1], process.rewards, process.ends,
+                          process.starts,
                   seen)
     for run in range(runs):
         stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run,)))

@@ -113,7 +113,7 @@ def best_reward(maze):
     return float(gain)
 
 
-class Table(NamedTuple):
+class GridMazeArrays(NamedTuple):
     """A `GridMaze` as the kernel takes it."""
 
     next_state: np.ndarray
@@ -137,7 +137,7 @@ def run_ensemble(maze, chooser, *, steps, runs, seed=0, doublings=0):
     checks.integer("doublings", doublings, at_least=-5, at_most=5)
     edges = np.linspace(0, steps, BINS + 1).astype(int)
     rewards, states = np.zeros((runs, BINS)), maze.grid.states
-    table = Table(maze.grid.next_state, maze.start, maze.goal)
+    table = GridMazeArrays(maze.grid.next_state, maze.start, maze.goal)
 
     def run_one(run):
         preferences = np.zeros((len(LEARNERS), states, 4))
