@@ -18,17 +18,23 @@ The package is built in rooms, and a module imports only from its own room and f
 from neorl.agents.agent import Agent, Desire, Learning, Node, Place, Policy
 from neorl.agents.papers import (brownian, multimodal, network_a, network_b, network_c, network_d, object_vector_cells,
                                  place_cells)
+from neorl.agents.learner import Learner
 from neorl.core.horde import learn, superpose
+from neorl.core.kernel import kernel, kernel_maker
 from neorl.core.maps import NresMap
-from neorl.core.modality import Modality
+from neorl.core.modality import Axis, Modality
+from neorl.core.policy import greedy, softmax
+from neorl.core.scene import CARDINAL, Actions, Scene
 from neorl.experiments.cache import Condition, simulate_once
 from neorl.experiments.run import Run
 from neorl.experiments.simulation import Result, simulate
 from neorl.experiments.sweep import sweep
 from neorl.worlds.waterworld import WaterWorld
+from neorl.worlds.world import World
 
-__all__ = ["Agent", "Condition", "Desire", "Learning", "Modality", "Node", "NresMap", "Place", "Policy", "Result",
-           "Run", "WaterWorld", "learn", "simulate", "simulate_once", "superpose", "sweep",
+__all__ = ["CARDINAL", "Actions", "Agent", "Axis", "Condition", "Desire", "Learner", "Learning", "Modality", "Node",
+           "NresMap", "Place", "Policy", "Result", "Run", "Scene", "WaterWorld", "World", "greedy", "kernel",
+           "kernel_maker", "learn", "simulate", "simulate_once", "softmax", "superpose", "sweep",
            "brownian", "multimodal", "network_a", "network_b", "network_c", "network_d", "object_vector_cells",
            "place_cells"]
 

@@ -73,6 +73,16 @@ def instance(name, value, kind):
     raise ValueError(f"{name} is {value!r}, allowed is a {kind.__name__}")
 
 
+class Final:
+    """A class that kernels read by its fields alone, and that therefore has no subclasses."""
+
+    def __init_subclass__(cls, **keywords):
+        super().__init_subclass__(**keywords)
+        if Final not in cls.__bases__:
+            raise TypeError(f"{cls.__name__} cannot be a subclass of {cls.__bases__[0].__name__}: kernels read its "
+                            "fields and would never call what a subclass overrides; give a neorl.kernel as a field")
+
+
 def assign(instance, **values):
     """Put checked values into the fields of a frozen dataclass, so that equal values are the same in every way."""
     for name, value in values.items():

@@ -1,33 +1,36 @@
 """A neoRL agent as data: a network of nodes, how it learns, how it chooses, and what it desires.
 
 A *node* holds the maps of one modality at several resolutions (paper C, section 1 and figure 3). *Desires* are the
-edges of the network. Each makes an element of interest of something for one node: of the green or the red creeps, of a
-point of the node's own space, or of what another node wants, or the node itself wanted a step ago. Whatever the thesis
+edges of the network. Each makes an element of interest of something for one node: of the things of one kind, of a place
+or a point of the node's own space, or of what another node wants, or the node itself wanted a step ago. An agent knows
+no world: the names of kinds get their meaning when it meets one. Whatever the thesis
 leaves open is a field. Its default is that of the calibrated reading, which of all readings within the text that were
 run came nearest to the thesis's numbers (see `neorl.evidence.calibration`). Nothing here runs.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from graphlib import CycleError, TopologicalSorter
 
 from neorl import checks
-from neorl.core.choices import N_EVENTS, Attention, Capture, Credit, UpdateOn, Weighting
+from neorl.core.choices import Attention, Capture, Credit, UpdateOn, Weighting
 from neorl.core.horde import OWN_CELL
 from neorl.core.maps import NresMap
 from neorl.core.modality import Modality
+from neorl.core.policy import greedy
 
-UPDATES_ON, CREDITS, CAPTURES, ATTENTIONS, WEIGHTINGS = (
-    tuple(kind.__members__) for kind in (UpdateOn, Credit, Capture, Attention, Weighting))
+UPDATES_ON, CAPTURES, ATTENTIONS, WEIGHTINGS = (
+    tuple(kind.__members__) for kind in (UpdateOn, Capture, Attention, Weighting))
+CREDITS = tuple(name for name in Credit.__members__ if name != "own")
 ABSENT_FORMS = ("decay", "away")
 MEMORY_UNITS = ("cells", "seconds")
 MEMORY_VALUES = ("reached", "discounted")
 CAUSES = ("any", "own")
 WHEN_INDIFFERENT = ("random", "no-op")
-COLOURS = ("green", "red")
 
 
 @dataclass(frozen=True)
-class Learning:
+class Learning(checks.Final):
     """How the Horde learns (thesis section 4.1.3).
 
     learning_rate: α in [0, 1]. discount: γ in [0, 1] for each update. It has no effect unless something discounts:
@@ -36,7 +39,9 @@ class Learning:
         temporal difference (eq. 4.6), to which no field below but `terminal` applies: see `AT_EVERY_STEP`.
     credit: ψ of an event in the cell just left. "share": the share of the steps there on which it occurred;
         "happened": 1 if it occurred at all; "count": the number of steps on which it occurred, α ψ being 1 at most;
-        "activity": how active it was at the end, see `activity`; "last": 1 for the last event only.
+        "activity": how active it was at the end, see `activity`; "last": 1 for the last event only. Or a
+        `neorl.kernel` ``(count, steps, last, activity) → ψ``: on how many of the steps in the cell it occurred, out of
+        how many; whether it was the last; how active it was. A ψ below 0 counts as 0, and α ψ is 1 at most.
     activity: seconds > 0, the time constant of the leaky integrator of the credit "activity". It is 1 for an event
         that has occurred on every step for long; below 0.01 it counts as 0 (section 4.4).
     absent_decay: −ψ(0) in [0, 1]: the values of events that did not occur sink at the rate α · absence.
@@ -55,7 +60,8 @@ class Learning:
         occurred had the thing stood still.
     capture: what the capture of a thing is to them: "contact", arrival at distance 0; "leap", a change to the cell of
         the fresh thing like any other; "silent", nothing. They begin anew with the fresh thing, but for a leap.
-    attention: which things they follow: "each", the "nearest", or the one "wanted", the nearest green one.
+    attention: which things they follow: "each", the "nearest", or the one "wanted", the nearest of the kind that the
+        world names first: in WaterWorld, green.
 
     Raises ValueError for anything else.
     """
@@ -83,7 +89,7 @@ class Learning:
             learning_rate=checks.real("learning_rate", self.learning_rate, 0, 1),
             discount=checks.real("discount", self.discount, 0, 1),
             update_on=checks.one_of("update_on", self.update_on, UPDATES_ON),
-            credit=checks.one_of("credit", self.credit, CREDITS),
+            credit=self.credit if callable(self.credit) else checks.one_of("credit", self.credit, CREDITS),
             activity=checks.real("activity", self.activity, 0),
             absent_decay=checks.real("absent_decay", self.absent_decay, 0, 1),
             absent_form=checks.one_of("absent_form", self.absent_form, ABSENT_FORMS),
@@ -111,26 +117,34 @@ AT_EVERY_STEP = {"credit": "share", "absent_decay": 0.0, "trace": 1, "memory": 0
 
 
 @dataclass(frozen=True)
-class Policy:
+class Policy(checks.Final):
     """How the agent chooses: the action of highest value, ties broken at random (paper A, The Control Problem).
 
     exploration: ε in [0, 1], the share of steps on which the action is drawn instead.
-    when_indifferent: what to do while every action is worth exactly 0: "random" or "no-op".
+    when_indifferent: what to do while every action is worth exactly 0: "random", that is to choose as ever, or "no-op",
+        to be idle.
+    choose: a `neorl.kernel` (value, stream) → action: `neorl.greedy`, `neorl.softmax` of a temperature, or the user's
+        own; see `neorl.core.policy`.
+
+    Raises ValueError for anything else.
     """
 
     exploration: float = 0.0
     when_indifferent: str = "random"
+    choose: Callable = greedy
 
     def __post_init__(self):
         checks.assign(self, exploration=checks.real("exploration", self.exploration, 0, 1),
                      when_indifferent=checks.one_of("when_indifferent", self.when_indifferent, WHEN_INDIFFERENT))
+        if not callable(self.choose):
+            raise ValueError(f"choose is {self.choose!r}, allowed is a neorl.kernel (value, stream) → action")
 
 
 @dataclass(frozen=True)
-class Node:
+class Node(checks.Final):
     """The maps of one modality, which learn side by side and add up their values (paper A, experiment 2).
 
-    name: any but "green" and "red". resolutions: one integer ≥ 1 or more.
+    name: a string that is no kind of thing in the worlds it is to live in. resolutions: one integer ≥ 1 or more.
     weighting: of the maps in the sum. "equal"; "resolution", by N; "cells", by N². The weights add up to 1.
     gain: of the node's values in the agent's; with 0 only the node's desires count.
 
@@ -144,8 +158,7 @@ class Node:
     gain: float = 1.0
 
     def __post_init__(self):
-        if not isinstance(self.name, str) or self.name in COLOURS:
-            raise ValueError(f"name is {self.name!r}, allowed are strings other than {COLOURS}")
+        checks.instance("name", self.name, str)
         checks.instance("modality", self.modality, Modality)
         checks.assign(self, resolutions=checks.several("resolutions", self.resolutions))
         if not self.resolutions:
@@ -160,33 +173,43 @@ class Node:
         return tuple(NresMap(resolution, self.modality) for resolution in self.resolutions)
 
 
-@dataclass(frozen=True)
-class Place:
-    """A place in the arena, in board widths from its upper left corner: an element of interest that stays where it is.
+@dataclass(frozen=True, init=False)
+class Place(checks.Final):
+    """A place in the world, an element of interest that stays where it is: `Place(x, y)` in the plane.
 
-    Raises ValueError unless both are finite numbers.
+    coordinates: a finite number for each axis of the world, in units of its size; in WaterWorld, board widths from the
+        upper left corner.
+
+    Raises ValueError for anything else.
     """
 
-    x: float
-    y: float
+    coordinates: tuple[float, ...]
 
-    def __post_init__(self):
-        checks.assign(self, x=checks.real("x", self.x), y=checks.real("y", self.y))
+    def __init__(self, *coordinates):
+        checks.assign(self, coordinates=tuple(checks.real("coordinates", each) for each in coordinates))
+
+    @classmethod
+    def of_fields(cls, coordinates):
+        """The place with these coordinates, in one tuple."""
+        return cls(*coordinates)
+
+    def __repr__(self):
+        return f"Place{self.coordinates}"
 
 
 @dataclass(frozen=True)
-class Desire:
+class Desire(checks.Final):
     """One edge of a network: `source` as an element of interest of the node `target`.
 
-    source: "green" or "red", the creeps of that colour; a `Place`, like a creep that does not move; a point in the
+    source: a kind of the world's things, such as "green"; a `Place`, like a thing that does not move; a point in the
         target's space, which whatever the node follows is to reach; or the name of a node, whose desire vector
-        Σ |w| (Q_E − Q_W, Q_S − Q_N) over its elements, times `scale`, says where, as seen from the agent in board
-        widths, the element lies (paper C, section 1). A node that desires of itself does so by its desire vector of
-        the step before: recursion.
+        Σ |w| (Q_E − Q_W, Q_S − Q_N) over its elements (in other worlds: the pushes of all actions, times their values),
+        times `scale`, says where, as seen from the agent in units of the world's size, the element lies (paper C,
+        section 1). A node that desires of itself does so by its desire vector of the step before: recursion.
     valence: how much an element matters, and its sign. For a desire between nodes None stands for the sum of the
         valences that the vector comes from; recursion needs a number, the weight r.
     of: the names of the sources that the vector of a node comes from; () stands for all its elements.
-    scale: board widths for a vector of length 1, ≥ 0. signed: sum w instead of |w|.
+    scale: units of the world's size for a vector of length 1, ≥ 0. signed: sum w instead of |w|.
 
     Raises ValueError for anything else.
     """
@@ -203,26 +226,17 @@ class Desire:
             point = checks.several("source", self.source)
             checks.assign(self, source=tuple(checks.real("source", value) for value in point))
         checks.instance("target", self.target, str)
-        if not self.between_nodes or self.source == self.target or self.valence is not None:
-            if self.valence is None:
-                raise ValueError(f"valence of the desire {self} is None, allowed are finite numbers")
+        if self.valence is not None:
             checks.assign(self, valence=checks.real("valence", self.valence))
         checks.assign(self, of=tuple(checks.instance("of", each, str) for each in checks.several("of", self.of)),
                      scale=checks.real("scale", self.scale, 0), signed=checks.flag("signed", self.signed))
-        if self.of and not self.between_nodes:
-            raise ValueError(f"of is {self.of!r}, allowed for the desire {self} is (): it comes from no node")
 
     def __str__(self):
         return f"{self.source!r} → {self.target!r}"
 
-    @property
-    def between_nodes(self):
-        """Whether it comes from a node."""
-        return isinstance(self.source, str) and self.source not in COLOURS
-
 
 @dataclass(frozen=True)
-class Agent:
+class Agent(checks.Final):
     """One neoRL agent: a network of nodes. Its value of an action is the sum of those of its nodes, times their gains.
 
     nodes: one `Node` or more, each name once. desires: any number of `Desire`.
@@ -257,28 +271,36 @@ class Agent:
 
     def _check_desire(self, desire):
         nodes = {node.name: node for node in self.nodes}
-        for name in (desire.source, desire.target) if desire.between_nodes else (desire.target,):
-            if name not in nodes:
-                raise ValueError(f"desire {desire}: there is no node {name!r}, allowed are "
-                                 f"{', '.join(map(repr, nodes))}")
+        if desire.target not in nodes:
+            raise ValueError(f"desire {desire}: there is no node {desire.target!r}, allowed are "
+                             f"{', '.join(map(repr, nodes))}")
+        if desire.valence is None and (desire.source not in nodes or desire.source == desire.target):
+            raise ValueError(f"valence of the desire {desire} is None, allowed are finite numbers unless it comes from "
+                             f"another node, {', '.join(map(repr, nodes))}")
+        if desire.of and desire.source not in nodes:
+            raise ValueError(f"of is {desire.of!r}, allowed for the desire {desire} is (): it comes from no node")
         modality = nodes[desire.target].modality
         if isinstance(desire.source, str | Place) and not modality.takes_places:
             raise ValueError(f"desire {desire}: what lies at a place has no point among {modality.name}s, allowed are "
                              f"points of their own space")
         if isinstance(desire.source, tuple) and len(desire.source) != len(modality.axes):
             raise ValueError(f"desire {desire}: allowed for {modality.name}s are points of {len(modality.axes)} "
-                             f"coordinates: {', '.join(modality.axes)}")
+                             f"coordinates: {', '.join(modality.names)}")
         inputs = {other.source for other in self.desires if other.target == desire.source}
         for source in desire.of:
             if source not in inputs:
                 raise ValueError(f"desire {desire}: {source!r} is no element of the node {desire.source!r}")
+
+    def comes_from_node(self, desire):
+        """Whether a desire comes from a node, and not from something in the world."""
+        return any(desire.source == node.name for node in self.nodes)
 
     @property
     def evaluation_order(self):
         """The names of the nodes, each after those that it takes desires from."""
         before = {node.name: [] for node in self.nodes}
         for desire in self.desires:
-            if desire.between_nodes and desire.source != desire.target:
+            if desire.source in before and desire.source != desire.target:
                 before[desire.target].append(desire.source)
         try:
             return tuple(TopologicalSorter(before).static_order())
@@ -291,8 +313,3 @@ class Agent:
     def maps(self):
         """The maps of all nodes, one node after the other."""
         return tuple(nres_map for node in self.nodes for nres_map in node.maps)
-
-    @property
-    def n_values(self):
-        """How many Q values a run holds; each takes four bytes."""
-        return sum(N_EVENTS * nres_map.cells**2 for nres_map in self.maps)

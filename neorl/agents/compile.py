@@ -1,64 +1,116 @@
-"""An agent's choices as the flat arrays that the kernels take."""
+"""An agent's choices as the flat arrays that the kernels take, for one world.
+
+Of a world an agent needs no more than its `size`, `fps`, `kinds`, `actions` and the number of its `things`: see
+`neorl.worlds.world`. The names of kinds in its desires get their meaning here.
+"""
 
 import numpy as np
 
 from neorl.agents.agent import Place
-from neorl.core.choices import Attention, Capture, Credit, Source, UpdateOn, Vector, Weighting
+from neorl.core.choices import Attention, Capture, Credit, Source, UpdateOn, Weighting
+from neorl.core.constants import Constants, features, no_credit, no_feature
 from neorl.core.kernel import execute, new_tuple
+from neorl.core.modality import as_turns, axis_parameters, firsts, integers
 from neorl.core.parameters import Parameters, derive
 
 
 def compiled(agent, world):
-    """The `Parameters` of an agent in a world."""
+    """The `Parameters` of an agent in a world.
+
+    Raises ValueError if the agent desires what the world does not have, or has cells that have no meaning there.
+    """
     choices, sizes = chosen(agent, world)
     parameters = new_tuple(Parameters, sizes, choices)
-    execute(derive, parameters, world.n_creeps)
+    execute(derive, parameters, world.things)
     return parameters
+
+
+def constants_of(agent, world):
+    """The `Constants` of an agent in a world."""
+    own = tuple(function for node in agent.nodes for function in node.modality.functions)
+    credit = agent.learning.credit if callable(agent.learning.credit) else no_credit
+    return Constants(features(*own) if own else no_feature, credit, agent.policy.choose,
+                     tuple(range(len(world.actions.names))), tuple(range(world.actions.axes)))
+
+
+def n_values(agent, world):
+    """How many Q values an agent holds in a world; each takes four bytes."""
+    return sum(len(world.actions.names) * nres_map.cells**2 for nres_map in agent.maps)
 
 
 def chosen(agent, world):
     """The chosen `Parameters`, a dict for a tuple within, from which `derive` makes the others; and all sizes."""
-    names = [node.name for node in agent.nodes]
-    n_maps = sum(len(node.resolutions) for node in agent.nodes)
-    choices = {
-        "width": float(world.width), "own_cell_counts": agent.own_cell == "counts",
-        "maps": {"resolution": _integers(n for node in agent.nodes for n in node.resolutions)},
-        "nodes": _nodes(agent.nodes) | {"order": _integers(names.index(name) for name in agent.evaluation_order)},
-        "desires": _desires(agent.desires, names, [node.modality for node in agent.nodes]),
+    _check_meeting(agent, world)
+    names, n_axes = [node.name for node in agent.nodes], world.actions.axes
+    modalities = [node.modality for node in agent.nodes]
+    choices, sizes = axis_parameters(modalities, n_axes)
+    choices["nodes"] |= {"weighting": integers(Weighting[node.weighting] for node in agent.nodes),
+                         "gain": np.array([node.gain for node in agent.nodes]),
+                         "first_map": firsts(len(node.resolutions) for node in agent.nodes),
+                         "order": integers(names.index(name) for name in agent.evaluation_order)}
+    coordinates = max([n_axes, *(len(modality.axes) for modality in modalities)])
+    choices |= {
+        "size": float(world.size), "own_cell_counts": agent.own_cell == "counts",
+        "push": np.array(world.actions.pushes, float),
+        "maps": {"resolution": integers(n for node in agent.nodes for n in node.resolutions)},
+        "desires": _desires(agent, world, coordinates),
         "learning": _learning(agent.learning, world.fps),
         "policy": {"exploration": agent.policy.exploration,
                    "indifferent_is_no_op": agent.policy.when_indifferent == "no-op"}}
-    return choices, {"maps": n_maps, "nodes": len(names), "landmarks": len(choices["nodes"]["landmark"]),
-                     "desires": len(agent.desires)}
+    return choices, sizes | {
+        "maps": len(agent.maps), "map_axes": sum(len(node.resolutions) * len(node.modality.axes) for node in agent.nodes),
+        "desires": len(agent.desires), "actions": len(world.actions.names), "axes": n_axes, "coordinates": coordinates}
 
 
-def _nodes(nodes):
-    modalities = [node.modality for node in nodes]
-    spaces = np.array([modality.space for modality in modalities])
-    landmarks = [place for modality in modalities for place in modality.landmarks]
-    return {"vector": _integers(Vector[modality.vector] for modality in modalities),
-            "tuning": _integers(spaces[:, 0]),
-            "low": spaces[:, [1, 3]],
-            "high": spaces[:, [2, 4]],
-            "weighting": _integers(Weighting[node.weighting] for node in nodes),
-            "gain": np.array([node.gain for node in nodes]),
-            "first_map": _firsts([len(node.resolutions) for node in nodes]),
-            "first_landmark": _firsts([len(modality.landmarks) for modality in modalities]),
-            "landmark": np.array(landmarks, float).reshape(-1, 2)}
+def _check_meeting(agent, world):
+    n_axes, kinds = world.actions.axes, tuple(world.kinds)
+    for node in agent.nodes:
+        if node.name in kinds:
+            raise ValueError(f"a node is called {node.name!r}, allowed are names other than the kinds of this world's "
+                             f"things: {', '.join(map(repr, kinds))}")
+        if node.modality.least_axes > n_axes:
+            raise ValueError(f"{node.modality.name}s need a world of {node.modality.least_axes} axes or more, this one "
+                             f"has {n_axes}")
+        if node.modality.landmarks and len(node.modality.landmarks[0]) != n_axes:
+            raise ValueError(f"landmarks is {node.modality.landmarks!r}, allowed are places of {n_axes} coordinates")
+    for desire in agent.desires:
+        if isinstance(desire.source, str) and not agent.comes_from_node(desire) and desire.source not in kinds:
+            raise ValueError(f"desire {desire}: {desire.source!r} is neither a node of the agent nor a kind of this "
+                             f"world's things, allowed are {', '.join(map(repr, kinds)) or 'none'}")
+        if isinstance(desire.source, Place) and len(desire.source.coordinates) != n_axes:
+            raise ValueError(f"desire {desire}: allowed in this world are places of {n_axes} coordinates")
+    if agent.policy.when_indifferent == "no-op" and world.actions.idle is None:
+        raise ValueError("when_indifferent is 'no-op', allowed in a world without idleness is 'random'")
 
 
-def _desires(desires, names, modalities):
+def _desires(agent, world, coordinates):
+    names, desires = [node.name for node in agent.nodes], agent.desires
     elements = [[desire.source == other.target and (not desire.of or other.source in desire.of) for other in desires]
                 for desire in desires]
-    points = [_at(desire, modalities[names.index(desire.target)]) for desire in desires]
-    return {"source": _integers(_source(desire) for desire in desires),
-            "target": _integers(names.index(desire.target) for desire in desires),
+    at = np.zeros((len(desires), coordinates))
+    for e, desire in enumerate(desires):
+        if isinstance(desire.source, Place):
+            at[e, : world.actions.axes] = desire.source.coordinates
+        elif not isinstance(desire.source, str):
+            at[e, : len(desire.source)] = as_turns(agent.nodes[names.index(desire.target)].modality, desire.source)[0]
+    return {"source": integers(_source(agent, desire) for desire in desires),
+            "kind": integers(world.kinds.index(desire.source) if desire.source in world.kinds else -1
+                             for desire in desires),
+            "target": integers(names.index(desire.target) for desire in desires),
             "valence": np.array([desire.valence or 0.0 for desire in desires], float),
             "sums_valence": np.array([desire.valence is None for desire in desires], np.bool_),
             "scale": np.array([desire.scale for desire in desires], float),
             "signed": np.array([desire.signed for desire in desires], np.bool_),
             "elements": np.array(elements, np.bool_).reshape(len(desires), len(desires)),
-            "at": np.array(points, float).reshape(-1, 2)}
+            "at": at}
+
+
+def _source(agent, desire):
+    if isinstance(desire.source, Place):
+        return Source.place
+    if not isinstance(desire.source, str):
+        return Source.point
+    return Source.node if agent.comes_from_node(desire) else Source.kind
 
 
 def _learning(learning, fps):
@@ -68,7 +120,7 @@ def _learning(learning, fps):
             "absent_decay": np.float32(learning.absent_decay),
             "away": learning.absent_form == "away",
             "update_on": int(UpdateOn[learning.update_on]),
-            "credit": int(Credit[learning.credit]),
+            "credit": int(Credit.own if callable(learning.credit) else Credit[learning.credit]),
             "activity_retained": _retained(learning.activity * fps),
             "terminal": learning.terminal,
             "trace": learning.trace,
@@ -84,28 +136,3 @@ def _learning(learning, fps):
 def _retained(constant):
     """What one step, or change, leaves of what fades with a time constant of so many."""
     return np.float32(constant / (1.0 + constant))
-
-
-def _integers(values):
-    return np.array([int(value) for value in values], np.int64)
-
-
-def _firsts(sizes):
-    return np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
-
-
-def _source(desire):
-    if isinstance(desire.source, Place):
-        return Source.place
-    if not isinstance(desire.source, str):
-        return Source.point
-    return Source.node if desire.between_nodes else Source[desire.source]
-
-
-def _at(desire, modality):
-    """The two numbers that say where a desire is, if it is at a fixed point."""
-    if isinstance(desire.source, str):
-        return 0.0, 0.0
-    if isinstance(desire.source, Place):
-        return desire.source.x, desire.source.y
-    return modality.as_pairs(desire.source)[0]

@@ -89,6 +89,7 @@ def _share(name, value):
 
 def _covering(share, modality):
     """The modality with the ranges of its axes cut down to a share about their middle."""
-    ranges = tuple((low + (1 - share) * (high - low) / 2, high - (1 - share) * (high - low) / 2)
-                   for low, high in modality.ranges)
-    return replace(modality, ranges=ranges)
+    margin = (1 - share) / 2
+    axes = [axis if axis.closed else replace(axis, low=axis.low + margin * (axis.high - axis.low),
+                                             high=axis.high - margin * (axis.high - axis.low)) for axis in modality.axes]
+    return replace(modality, axes=axes)

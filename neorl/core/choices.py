@@ -2,13 +2,13 @@
 
 from enum import IntEnum
 
-Source = IntEnum("Source", "green red node point place", start=0)  # where a desire comes from
+Source = IntEnum("Source", "kind node point place", start=0)  # where a desire comes from
 Weighting = IntEnum("Weighting", "equal resolution cells", start=0)  # of maps: by N to the power of this number
 UpdateOn = IntEnum("UpdateOn", "cell step", start=0)
-Credit = IntEnum("Credit", "share happened last count activity", start=0)
+Credit = IntEnum("Credit", "share happened last count activity own", start=0)
 Capture = IntEnum("Capture", "contact leap silent", start=0)
 Attention = IntEnum("Attention", "each nearest wanted", start=0)
-Vector = IntEnum("Vector", "position velocity objects boundaries landmarks", start=0)  # what a modality starts from
-Tuning = IntEnum("Tuning", "cartesian proximal polar angle length", start=0)  # what its cells keep of that
-Action = IntEnum("Action", "N S E W no_op", start=0)
-N_EVENTS = 4  # the no-op is no event
+Vector = IntEnum("Vector", "position velocity objects boundaries landmarks own", start=0)  # what an axis starts from
+Feature = IntEnum("Feature", "component margin length direction", start=0)  # what it keeps of that
+Cut = IntEnum("Cut", "equal closed boundaries", start=0)  # of an axis into intervals; closed: that is no direction
+Action = IntEnum("Action", "N S E W no_op", start=0)  # of worlds whose actions are `scene.CARDINAL`

@@ -1,9 +1,13 @@
 """From where things are to the cells that are active.
 
-A vector, in board widths or in board widths a second, becomes a point (u, v) of a modality's space (`tuned`), and a
-point the one active cell of a map of that space (`cell_at`). A direction is in turns, from east by way of south.
+A space is a list of axes. Along each an agent perceives one number, the axis's *coordinate*: a *feature* of a *vector*
+in units of the world's size (a second, for velocity); a direction is in turns, from the first axis of the world towards
+the second. A map cuts each axis into intervals, and the intervals that hold the coordinates make the one active cell
+(`find_cells`). Without a direction, as at rest, the coordinate is not a number, and the interval stays as it was.
 
-`scene` is what the agent perceives of its world: its own position and velocity, and where things are.
+A node *follows* one vector (`parameters.NodeParameters`): the agent's own, or that of each of several points. An element
+of interest is *placed* along the axes of that vector, but in a contact keeps the direction that it is in; along the axes
+of other vectors it is everywhere. In this order they make the number of a cell.
 """
 
 import math
@@ -11,8 +15,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl.core.choices import Tuning, Vector
-from neorl.core.kernel import inlined_kernel, kernel
+from neorl.core.choices import Cut, Feature, Vector
+from neorl.core.kernel import array, inlined_kernel, kernel
 
 TAU = 2.0 * math.pi
 SQRT_3 = math.sqrt(3.0)
@@ -20,41 +24,27 @@ TAN_15_DEGREES = 2.0 - SQRT_3
 TERMS = 14  # of the series of the arctangent, so that it is exact to the last few bits
 
 
-class Tiles(NamedTuple):
-    """How the two axes of a map are cut; v may be a direction, in turns."""
-
-    columns: int
-    rows: int
-    low_u: float  # where the first column begins
-    scale_u: float  # columns a unit
-    low_v: float
-    scale_v: float
-    closed: bool  # whether the last row borders on the first
+# What an axis is: its `choices.Vector`; its `choices.Feature`; the axis of the world that it is along, or the number of a
+# feature of the user's own; how it is cut (`choices.Cut`); and its own number of intervals, or 0 for the map's resolution.
+VECTOR, FEATURE, ALONG, CUT, INTERVALS = range(5)
 
 
-@kernel
-def boundary_vector(wall, x, y):
-    """From a place to the nearest point of the western, northern, eastern or southern wall (0 … 3): (x, y)."""
-    if wall == 0:
-        return -x, 0.0
-    if wall == 1:
-        return 0.0, -y
-    if wall == 2:
-        return 1.0 - x, 0.0
-    return 0.0, 1.0 - y
+class AxisParameters(NamedTuple):
+    """The axes of the spaces of all nodes, one node after the other."""
+
+    what: array("int64", "node_axes", 5)
+    low: array("float64", "node_axes")
+    high: array("float64", "node_axes")
+    first_boundary: array("int64", "node_axes + 1")
+    boundary: array("float64", "boundaries")  # between unequal intervals
 
 
-@kernel
-def tuned(tuning, x, y, reach_x, reach_y):
-    """The two coordinates of a vector: length, and direction in turns, also if the cells are tuned to one of them."""
-    if tuning == Tuning.proximal:
-        return into_margin(x, reach_x), into_margin(y, reach_y)
-    if tuning == Tuning.cartesian:
-        return x, y
-    return math.sqrt(x * x + y * y), turn(x, y)
+# How a map cuts an axis: where the first interval begins, intervals a unit, the number of the last, that of the one that
+# lies beyond (the last, or the first if the axis closes), and by how much an interval more raises the number of the cell.
+LOW, SCALE, LAST, BEYOND, STRIDE = range(5)
 
 
-@kernel
+@inlined_kernel
 def into_margin(x, reach):
     """How far a component in 0 … 1 reaches into the margin along either wall, negative along the first."""
     if x < 0.5:
@@ -86,88 +76,109 @@ def turn(x, y):
     return turned if turned < 1.0 else 0.0
 
 
+@inlined_kernel
+def component(parameters, constants, scene, n, vector, point, axis):
+    """One component of the vector of a point, along an axis of the world."""
+    own = scene.position[axis] / parameters.size
+    if vector == Vector.position:
+        return own
+    if vector == Vector.velocity:
+        return scene.velocity[axis] / parameters.size
+    if vector == Vector.objects:
+        return scene.things[point, axis] / parameters.size - own
+    if vector == Vector.landmarks:
+        return parameters.nodes.landmark[parameters.nodes.first_landmark[n] + point, axis] - own
+    if point % len(constants.axes) != axis:  # the nearest point of a wall: first where each axis begins, then where it ends
+        return 0.0
+    return -own if point < len(constants.axes) else 1.0 - own
+
+
+@inlined_kernel
+def locate(parameters, constants, scene, n, point, given, offset, coordinates):
+    """Put the coordinates of a point of a node into `coordinates`, not a number where there is no direction.
+
+    given: whether the vector that the node follows is `offset` instead of what is perceived. Returns whether that
+    vector, and whether every vector has a direction where that matters.
+    """
+    axes, nodes = parameters.axes, parameters.nodes
+    followed_has, all_have, follows, first = True, True, nodes.follows[n], nodes.first_axis[n]
+    for axis in range(first, nodes.first_axis[n + 1]):
+        vector, feature, along = axes.what[axis, VECTOR], axes.what[axis, FEATURE], axes.what[axis, ALONG]
+        replaced = given and vector == follows
+        if vector == Vector.own:
+            coordinate = constants.feature(along, scene, point)
+            all_have = all_have and coordinate == coordinate
+        elif feature <= Feature.margin:
+            coordinate = offset[along] if replaced else component(parameters, constants, scene, n, vector, point, along)
+            if feature == Feature.margin:
+                coordinate = into_margin(coordinate, axes.high[axis])
+        else:
+            coordinate, x, y = 0.0, 0.0, 0.0
+            for each in range(len(constants.axes)):
+                value = offset[each] if replaced else component(parameters, constants, scene, n, vector, point, each)
+                coordinate += value * value
+                x, y = value if each == 0 else x, value if each == 1 else y
+            coordinate = math.sqrt(coordinate)
+            if feature == Feature.direction:
+                all_have = all_have and coordinate > 0.0
+                followed_has = followed_has and (coordinate > 0.0 or vector != follows)
+                coordinate = turn(x, y) if coordinate > 0.0 else np.nan
+        if axes.what[axis, CUT] != Cut.equal:
+            coordinate = in_range(axes, axis, coordinate)
+        coordinates[axis - first] = coordinate
+    return followed_has, all_have
+
+
+@inlined_kernel
+def find_cells(parameters, coordinates, n, cells):
+    """Put the active cell of every map of a node into `cells`; no direction counts as 0."""
+    grid, nodes = parameters.grid, parameters.nodes
+    n_axes = nodes.first_axis[n + 1] - nodes.first_axis[n]
+    for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
+        cell, g = 0.0, parameters.maps.first_grid[m]
+        for axis in range(n_axes):
+            cut = grid[g + axis]
+            cell += cut[STRIDE] * interval_at(cut, coordinates[axis])
+        cells[m - nodes.first_map[n]] = int(cell)
+
+
+@inlined_kernel
+def interval_at(cut, coordinate):
+    """The number of the interval that holds a coordinate, or of the one at the end of the range."""
+    interval = np.floor((coordinate - cut[LOW]) * cut[SCALE])
+    interval = interval if interval > 0.0 else 0.0
+    return cut[BEYOND] if interval > cut[LAST] else interval
+
+
 @kernel
-def tiling(resolution, tuning, low_0, high_0, low_1, high_1):
-    """The `Tiles` of a map of N intervals an axis, with cells of that tuning, between those bounds."""
-    columns = 1 if tuning == Tuning.angle else resolution
-    rows = 1 if tuning == Tuning.length else resolution
-    closed = tuning == Tuning.angle or tuning == Tuning.polar
-    if closed:  # in turns, the first interval centred on east
-        low_1 = -0.5 / resolution
-        high_1 = 1.0 + low_1
-    return Tiles(columns, rows, low_0, columns / (high_0 - low_0), low_1, rows / (high_1 - low_1), closed)
+def in_range(axes, axis, coordinate):
+    """A coordinate along an axis that closes on itself, in its range; among boundaries, the number of its interval."""
+    if coordinate != coordinate:
+        return coordinate
+    if axes.what[axis, CUT] == Cut.closed:
+        low, length = axes.low[axis], axes.high[axis] - axes.low[axis]
+        return coordinate - length * np.floor((coordinate - low) / length)
+    if axes.what[axis, CUT] == Cut.equal:
+        return coordinate
+    interval = 0.0
+    for at in range(axes.first_boundary[axis], axes.first_boundary[axis + 1]):
+        interval += coordinate >= axes.boundary[at]
+    return interval
 
 
 @kernel
-def cell_at(u, v, tiles):
-    """The cell of a point (u, v)."""
-    column = np.floor((u - tiles.low_u) * tiles.scale_u)
-    row = np.floor((v - tiles.low_v) * tiles.scale_v)
-    if tiles.closed and row >= tiles.rows:
-        row -= tiles.rows
-    return clamp_index(row, tiles.rows) * tiles.columns + clamp_index(column, tiles.columns)
-
-
-@inlined_kernel
-def clamp_index(interval, count):
-    """The nearest of the intervals 0 … count − 1; compared before it becomes an integer, which may not hold it."""
-    if not interval > 0.0:
-        return 0
-    return count - 1 if interval > count - 1 else int(interval)
-
-
-@inlined_kernel
-def tiles_of(maps, m):
-    """The `Tiles` of a map."""
-    return Tiles(maps.columns[m], maps.rows[m], maps.low_u[m], maps.scale_u[m], maps.low_v[m], maps.scale_v[m],
-                 maps.closed[m])
-
-
-@inlined_kernel
-def point_coordinates(parameters, scene, n, point):
-    """The coordinates of a point that a node follows, a direction in turns."""
-    nodes, width = parameters.nodes, parameters.width
-    x, y = scene.agent_position[0] / width, scene.agent_position[1] / width
-    if nodes.vector[n] == Vector.velocity:
-        x, y = scene.agent_velocity[0] / width, scene.agent_velocity[1] / width
-    elif nodes.vector[n] == Vector.objects:
-        x, y = scene.creep_position[point, 0] / width - x, scene.creep_position[point, 1] / width - y
-    elif nodes.vector[n] == Vector.boundaries:
-        x, y = boundary_vector(point, x, y)
-    elif nodes.vector[n] != Vector.position:
-        landmark = nodes.first_landmark[n] + point
-        x, y = nodes.landmark[landmark, 0] - x, nodes.landmark[landmark, 1] - y
-    return place_coordinates(nodes, n, x, y)
-
-
-@inlined_kernel
-def place_coordinates(nodes, n, x, y):
-    return tuned(nodes.tuning[n], x, y, nodes.high[n, 0], nodes.high[n, 1])
-
-
-@inlined_kernel
-def cell_of(maps, m, u, v):
-    return cell_at(u, v, tiles_of(maps, m))
-
-
-@inlined_kernel
-def without_direction(maps, m, u):
-    """Whether a map of directions is to place a vector of length 0."""
-    return maps.closed[m] and u == 0.0
+def with_kept_directions(grid, g, coordinates, n_axes, cell, before):
+    """A cell with the intervals of another along the axes where there is no direction. g: of the map's first axis."""
+    kept = 0
+    for axis in range(n_axes):
+        stride, intervals = int(grid[g + axis, STRIDE]), int(grid[g + axis, LAST]) + 1
+        kept += stride * ((cell if coordinates[axis] == coordinates[axis] else before) // stride % intervals)
+    return kept
 
 
 @inlined_kernel
 def contact_cell(maps, m, cell):
-    """Where a thing that is in a cell arrives when it meets the agent."""
-    if maps.closed[m]:
-        return cell - cell % maps.columns[m] + maps.contact[m] % maps.columns[m]
-    return maps.contact[m]
-
-
-@inlined_kernel
-def moved_alone(parameters, state, scene, n, m, point):
-    """Whether a thing's cell would have changed had the thing stood still in this step."""
-    dx = (state.thing_position[point, 0] - scene.agent_position[0]) / parameters.width
-    dy = (state.thing_position[point, 1] - scene.agent_position[1]) / parameters.width
-    u, v = place_coordinates(parameters.nodes, n, dx, dy)
-    return cell_of(parameters.maps, m, u, v) != state.tracks.cell[parameters.maps.first_track[m] + point]
+    """Where a thing that is in a cell arrives when it meets the agent: at distance 0, in the direction that it is in."""
+    if maps.placed[m] == maps.cells[m]:
+        return maps.contact[m]
+    return cell - cell % maps.placed[m] + maps.contact[m]

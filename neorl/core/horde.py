@@ -9,9 +9,9 @@ the cells that hold elements of interest, each weighted by the valence of its el
 import numpy as np
 
 from neorl import checks
-from neorl.core.choices import N_EVENTS, Action
 from neorl.core.kernel import execute
 from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
+from neorl.core.scene import CARDINAL
 
 OWN_CELL = ("silent", "counts")  # an element in the agent's own cell
 
@@ -19,55 +19,58 @@ OWN_CELL = ("silent", "counts")  # an element in the agent's own cell
 def learn(q, cell_tm1, cell_t, credit, learning_rate=0.03, discount=0.8, terminal=True):
     """Learn every goal, in place, from the one transition cell_tm1 → cell_t (thesis eq. 4.8; eq. 4.6 with one event).
 
-    q: float32 (cells, 4, cells), C-contiguous. cell_tm1, cell_t: 0 … cells − 1.
-    credit: (4,), ψ of each event in [0, 1]. learning_rate α, discount γ: in [0, 1].
+    q: float32 (cells, actions, cells), C-contiguous. cell_tm1, cell_t: 0 … cells − 1.
+    credit: (actions,), ψ of each event in [0, 1]. learning_rate α, discount γ: in [0, 1].
     terminal: a goal reached is worth 1, and not 1 + γ times what may follow.
     Raises ValueError for anything else.
     """
-    cells = _check_q(q)
+    cells, actions = _check_q(q)
     if not q.flags.writeable:
         raise ValueError("q is read-only, allowed are arrays that can be written to")
     cell_tm1 = checks.integer("cell_tm1", cell_tm1, at_least=0, at_most=cells - 1)
     cell_t = checks.integer("cell_t", cell_t, at_least=0, at_most=cells - 1)
     credit = np.array([checks.real("credit", value, 0, 1) for value in checks.several("credit", credit)], np.float32)
-    if len(credit) != N_EVENTS:
-        raise ValueError(f"credit has {len(credit)} values, allowed are {N_EVENTS}")
+    if len(credit) != actions:
+        raise ValueError(f"credit has {len(credit)} values, allowed are {actions}")
     rates = np.float32(checks.real("learning_rate", learning_rate, 0, 1)) * credit
     rule = Rule(np.float32(checks.real("discount", discount, 0, 1)), checks.flag("terminal", terminal), ZERO, False)
     every_goal = np.tile([0, cells], (cells, 1))
-    execute(learn_all_goals, MapValues(q.reshape(-1), 0, cells, every_goal, np.empty(cells, np.float32)), rule,
+    execute(learn_all_goals, MapValues(q.reshape(-1), 0, cells, actions, every_goal, np.empty(cells, np.float32)), rule,
             cell_tm1, cell_t, rates)
 
 
 def superpose(q, cell, goals, valences, own_cell="counts"):
-    """The value of each action in a cell: float64 (4,) (thesis eq. 4.3 and 4.4).
+    """The value of each action in a cell: float64 (actions,) (thesis eq. 4.3 and 4.4).
 
-    q: float32 (cells, 4, cells). cell: where the agent is. goals: the cells of the elements of interest; valences:
+    q: float32 (cells, actions, cells). cell: where the agent is. goals: the cells of the elements of interest; valences:
     their weights, as many. own_cell: whether an element in `cell` itself is "silent" or "counts".
     Raises ValueError for anything else.
     """
-    cells = _check_q(q)
+    cells, actions = _check_q(q)
     cell = checks.integer("cell", cell, at_least=0, at_most=cells - 1)
     goals = [checks.integer("goals", goal, at_least=0, at_most=cells - 1) for goal in checks.several("goals", goals)]
     valences = [checks.real("valences", valence) for valence in checks.several("valences", valences)]
     if len(goals) != len(valences):
         raise ValueError(f"valences has {len(valences)} values, allowed is one for each of the {len(goals)} goals")
     checks.one_of("own_cell", own_cell, OWN_CELL)
-    value = np.zeros(N_EVENTS)
+    value = np.zeros(actions)
     for goal, valence in zip(goals, valences):
         if goal != cell or own_cell == "counts":
             value += valence * q[cell, :, goal].astype(float)
     return value
 
 
-def as_vectors(values):
-    """Action values (n, 4) as vectors in the arena (n, 2): (E − W, S − N)."""
-    return np.stack([values[:, Action.E] - values[:, Action.W], values[:, Action.S] - values[:, Action.N]], axis=1)
+def as_vectors(values, actions=CARDINAL):
+    """Action values (n, actions) as vectors in the world (n, axes): the sum of the pushes times the values.
+
+    actions: the world's `neorl.core.scene.Actions`; by default (E − W, S − N).
+    """
+    return values @ np.array(actions.pushes)
 
 
 def _check_q(q):
     checks.instance("q", q, np.ndarray)
-    cells = len(q) if q.ndim else 0
-    if q.dtype != np.float32 or q.shape != (cells, N_EVENTS, cells) or not q.flags.c_contiguous:
-        raise ValueError(f"q is {q.dtype} {q.shape}, allowed are C-contiguous float32 arrays (cells, 4, cells)")
-    return cells
+    cells, actions = q.shape[:2] if q.ndim == 3 else (0, 0)
+    if q.dtype != np.float32 or q.shape != (cells, actions, cells) or not q.size or not q.flags.c_contiguous:
+        raise ValueError(f"q is {q.dtype} {q.shape}, allowed are C-contiguous float32 arrays (cells, actions, cells)")
+    return cells, actions

@@ -19,6 +19,8 @@ Nothing that is compiled is kept on disk: numba notices a change in a kernel's o
 kernels that it calls, and a result must never come from code that is no longer there.
 """
 
+import functools
+import sys
 from typing import Annotated, get_args, get_type_hints
 
 import numba
@@ -32,6 +34,17 @@ INLINED = {"forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": 
 
 class Kernel(CPUDispatcher):
     """A compiled function that only other kernels and `execute` can call."""
+
+    def __reduce__(self):
+        if hasattr(self, "origin"):
+            return self.origin
+        module = sys.modules.get(self.__module__)
+        if getattr(module, self.__name__, None) is self:
+            return self.__name__  # what a module defines is the same kernel in another process
+        return super().__reduce__()
+
+    def __repr__(self):
+        return f"<kernel {self.__module__}.{self.__qualname__}>"
 
     def __call__(self, *arguments):
         raise TypeError(f"{self.__module__}.{self.__name__} is a kernel, which checks nothing: call it by "
@@ -52,11 +65,28 @@ def inlined_kernel(function):
     return _compiled(function, OPTIONS | INLINED)
 
 
+def inlined(kernel):
+    """The same kernel for other kernels alone, into each of which it is inlined."""
+    return inlined_kernel(kernel.py_func) if isinstance(kernel, Kernel) else kernel
+
+
 def _compiled(function, options):
     compiled = numba.njit(**options)(function)
     if isinstance(compiled, CPUDispatcher):  # and not the function itself, as with NUMBA_DISABLE_JIT
         compiled.__class__ = Kernel
     return compiled
+
+
+def kernel_maker(function):
+    """A function that makes kernels, the same one for the same arguments: a rule with parameters."""
+
+    @functools.cache
+    def make(*arguments):
+        made = function(*arguments)
+        made.origin = make, arguments
+        return made
+
+    return functools.wraps(function)(make)
 
 
 def execute(kernel, *arguments):

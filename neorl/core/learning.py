@@ -21,14 +21,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl.core.choices import N_EVENTS, Credit
+from neorl.core.choices import Credit
 from neorl.core.kernel import array, inlined_kernel, kernel
 
 ZERO, UNIT, SMALLEST = np.float32(0.0), np.float32(1.0), np.float32(1e-30)
 UNBOUNDED = np.float32(np.inf)
 CUT = np.float32(1e-4)
 INACTIVE = np.float32(0.01)
-N_ROWS = 2 * N_EVENTS
 
 
 class MapValues(NamedTuple):
@@ -37,6 +36,7 @@ class MapValues(NamedTuple):
     q: array("float32", "values")  # q[state, action, goal], of this map and maybe of others
     first: int  # where in q the map begins
     cells: int
+    actions: int
     goal_range: array("int64", "cells", 2)  # the goals, from and to, of which a cell may know anything: others are 0
     scratch: array("float32", "cells")  # working memory, a number a goal
 
@@ -61,10 +61,11 @@ class Trace(NamedTuple):
     strength: array("float32", "cells")  # by place in the list, and so are the rows below
     weight: array("float32", "trace_rows")  # a row for each event's having happened, then for its having been absent
     goal_worth: array("float32", "trace_rows")  # weight times what a goal is worth
+    rows: int
 
 
 @inlined_kernel
-def learn_transition(parameters, state, m, point, cell_t, caused):
+def learn_transition(parameters, constants, state, m, point, cell_t, caused):
     """Learn from a track's change of cell; one that the agent has not caused only lets what is remembered fade."""
     learning, tracks = parameters.learning, state.tracks
     track = parameters.maps.first_track[m] + point
@@ -73,20 +74,20 @@ def learn_transition(parameters, state, m, point, cell_t, caused):
     remembers = learning.memory_retained > ZERO
     if remembers:
         tracks.remembered_count[track] = fade(
-            trace_of(parameters.maps, tracks, m, point), tracks.remembered_count[track],
-            retained_since(learning, tracks, track), learning.discount if learning.memory_discounts else UNIT)
+            trace_of(parameters, tracks, m, point), tracks.remembered_count[track],
+            retained_since(learning, constants, tracks, track), learning.discount if learning.memory_discounts else UNIT)
     if not caused:
         return
-    values = values_of(parameters.maps, state, m)
+    values = values_of(parameters, state, m)
     slot = tracks.trace_count[track] % learning.trace
     tracks.trace_cell[track, slot] = cell_tm1
     rates = tracks.trace_rates[track, slot]
-    rate_events(learning, state, track, rates)
+    rate_events(learning, constants, state, track, rates)
     tracks.trace_count[track] += 1
     if learning.bootstrap:
         learn_all_goals(values, rule, cell_tm1, cell_t, rates)
     if remembers:
-        trace = trace_of(parameters.maps, tracks, m, point)
+        trace = trace_of(parameters, tracks, m, point)
         for turn in range(2):
             if turn == learning.bootstrap:  # the cell just left joins late if it has learned by bootstrapping already
                 tracks.remembered_count[track] = join(trace, tracks.remembered_count[track], cell_tm1, rates,
@@ -104,29 +105,29 @@ def learn_transition(parameters, state, m, point, cell_t, caused):
 
 
 @inlined_kernel
-def steps_in_cell(tracks, track):
+def steps_in_cell(constants, tracks, track):
     """How many steps a track has spent in its active cell."""
     steps = 0
-    for event in range(N_EVENTS + 1):
+    for event in range(len(constants.actions) + 1):
         steps += tracks.events[track, event]
     return steps
 
 
 @inlined_kernel
-def retained_since(learning, tracks, track):
+def retained_since(learning, constants, tracks, track):
     """The share of what is remembered that is left when a track leaves its cell."""
     retained = learning.memory_retained
     if learning.memory_by_time:
-        for _ in range(steps_in_cell(tracks, track) - 1):
+        for _ in range(steps_in_cell(constants, tracks, track) - 1):
             retained = retained * learning.memory_retained if retained > CUT else ZERO
     return retained
 
 
 @inlined_kernel
-def rate_events(learning, state, track, rates):
+def rate_events(learning, constants, state, track, rates):
     """The rates α ψ of the events in the cell that a track leaves (thesis eq. 4.7)."""
-    steps = steps_in_cell(state.tracks, track)
-    for event in range(N_EVENTS):
+    steps = steps_in_cell(constants, state.tracks, track)
+    for event in range(len(constants.actions)):
         count = state.tracks.events[track, event]
         credit = np.float32(count) / np.float32(steps)
         if learning.credit == Credit.happened:
@@ -137,41 +138,46 @@ def rate_events(learning, state, track, rates):
             credit = np.float32(count)
         elif learning.credit == Credit.activity:
             credit = state.activity[event] if state.activity[event] >= INACTIVE else ZERO
+        elif learning.credit == Credit.own:
+            credit = np.float32(constants.credit(count, steps, event == state.last_event[0], state.activity[event]))
+            credit = credit if credit > ZERO else ZERO
         rates[event] = min(learning.learning_rate * credit, UNIT)
 
 
 @inlined_kernel
-def values_of(maps, state, m):
+def values_of(parameters, state, m):
     """The `MapValues` of a map."""
+    maps = parameters.maps
     begin, end = maps.first_cell[m], maps.first_cell[m + 1]
-    return MapValues(state.values.q, maps.first_value[m], maps.cells[m], state.values.goal_range[begin:end],
-                     state.values.scratch)
+    return MapValues(state.values.q, maps.first_value[m], maps.cells[m], parameters.push.shape[0],
+                     state.values.goal_range[begin:end], state.values.scratch)
 
 
 @inlined_kernel
-def trace_of(maps, tracks, m, point):
+def trace_of(parameters, tracks, m, point):
     """The `Trace` of a track."""
+    maps, rows = parameters.maps, 2 * parameters.push.shape[0]
     begin = maps.first_trace[m] + point * maps.cells[m]
     end = begin + maps.cells[m]
     return Trace(tracks.remembered[begin:end], tracks.remembered_at[begin:end], tracks.strength[begin:end],
-                 tracks.trace_weight[N_ROWS * begin : N_ROWS * end], tracks.trace_worth[N_ROWS * begin : N_ROWS * end])
+                 tracks.trace_weight[rows * begin : rows * end], tracks.trace_worth[rows * begin : rows * end], rows)
 
 
 @inlined_kernel
-def start_track(parameters, tracks, m, point, cell):
+def start_track(parameters, constants, tracks, m, point, cell):
     """Start the track of a point in a cell."""
     track = parameters.maps.first_track[m] + point
-    enter(tracks, track, cell)
+    enter(constants, tracks, track, cell)
     tracks.trace_count[track] = 0
     if tracks.remembered_count[track] > 0:
-        forget_all(trace_of(parameters.maps, tracks, m, point), tracks.remembered_count[track])
+        forget_all(trace_of(parameters, tracks, m, point), tracks.remembered_count[track])
         tracks.remembered_count[track] = 0
 
 
 @inlined_kernel
-def enter(tracks, track, cell):
+def enter(constants, tracks, track, cell):
     tracks.cell[track] = cell
-    for event in range(N_EVENTS + 1):
+    for event in range(len(constants.actions) + 1):
         tracks.events[track, event] = 0
 
 
@@ -185,18 +191,25 @@ def learn_all_goals(values, rule, cell_tm1, cell_t, rates):
     begin = min(min(goal_range[cell_tm1, 0], goal_range[cell_t, 0]), cell_t)
     end = max(max(goal_range[cell_tm1, 1], goal_range[cell_t, 1]), cell_t + 1)
     goal_range[cell_tm1, 0], goal_range[cell_tm1, 1] = begin, end
-    count = end - begin
-    row = values.first + cell_t * N_EVENTS * cells + begin
-    north, south = q[row : row + count], q[row + cells : row + cells + count]
-    east, west = q[row + 2 * cells : row + 2 * cells + count], q[row + 3 * cells : row + 3 * cells + count]
-    for goal in range(count):  # comparisons instead of max(), so that the loop compiles to vector instructions
-        vertical = north[goal] if north[goal] > south[goal] else south[goal]
-        horizontal = east[goal] if east[goal] > west[goal] else west[goal]
-        target[goal] = rule.discount * (vertical if vertical > horizontal else horizontal)
+    count, last = end - begin, values.actions - 1
+    row = values.first + cell_t * values.actions * cells + begin
+    for event in range(0, values.actions, 4):  # four actions at a time, the last again if there are fewer
+        factor = UNIT if event + 4 <= last else rule.discount
+        first, second = row + event * cells, row + min(event + 1, last) * cells
+        third, fourth = row + min(event + 2, last) * cells, row + min(event + 3, last) * cells
+        one, two, three, four = (q[first : first + count], q[second : second + count], q[third : third + count],
+                                 q[fourth : fourth + count])
+        for goal in range(count):  # comparisons instead of max(), so that the loop compiles to vector instructions
+            left = one[goal] if one[goal] > two[goal] else two[goal]
+            right = three[goal] if three[goal] > four[goal] else four[goal]
+            best = left if left > right else right
+            if event > 0:
+                best = best if best > target[goal] else target[goal]
+            target[goal] = factor * best
     target[cell_t - begin] = UNIT if rule.terminal else UNIT + target[cell_t - begin]
     highest = UNIT if rule.terminal else UNIT / (UNIT - rule.discount)
-    for event in range(N_EVENTS):
-        row = values.first + (cell_tm1 * N_EVENTS + event) * cells + begin
+    for event in range(values.actions):
+        row = values.first + (cell_tm1 * values.actions + event) * cells + begin
         value = q[row : row + count]
         occurred = rates[event] > ZERO
         if occurred or rule.away and rule.absent_rate > ZERO:
@@ -215,8 +228,8 @@ def learn_all_goals(values, rule, cell_tm1, cell_t, rates):
 def learn_one_goal(values, rule, cell_tm1, goal, rates, fading):
     """Move one goal's value of each event in a cell towards 1, at `rates` times `fading`; of absent events it sinks."""
     widen(values.goal_range, cell_tm1, goal)
-    for event in range(N_EVENTS):
-        index = values.first + (cell_tm1 * N_EVENTS + event) * values.cells + goal
+    for event in range(values.actions):
+        index = values.first + (cell_tm1 * values.actions + event) * values.cells + goal
         if rates[event] > ZERO:
             values.q[index] += fading * rates[event] * (UNIT - values.q[index])
         elif rule.absent_rate > ZERO:
@@ -246,7 +259,7 @@ def fade(trace, count, retained, discount):
     """Let all that is remembered fade to a share of `retained`, and return how many cells still are remembered."""
     for i in range(count):
         trace.strength[i] *= retained
-    for row in range(N_ROWS):
+    for row in range(trace.rows):
         begin = row * trace.cells.shape[0]
         weights, worths = trace.weight[begin : begin + count], trace.goal_worth[begin : begin + count]
         for i in range(count):
@@ -270,7 +283,7 @@ def forget(trace, i, last):
     trace.places[cells[last]] = i + 1
     trace.places[cells[i]] = 0
     cells[i], trace.strength[i] = cells[last], trace.strength[last]
-    for begin in range(0, N_ROWS * rows, rows):
+    for begin in range(0, trace.rows * rows, rows):
         trace.weight[begin + i] = trace.weight[begin + last]
         trace.goal_worth[begin + i] = trace.goal_worth[begin + last]
 
@@ -291,12 +304,12 @@ def join(trace, count, cell, rates, absent_rate):
         i = count
         count += 1
         trace.cells[i], trace.places[cell], trace.strength[i] = cell, count, ZERO
-        for row in range(N_ROWS):
+        for row in range(trace.rows):
             trace.weight[row * rows + i] = trace.goal_worth[row * rows + i] = ZERO
     trace.strength[i] += UNIT
-    for event in range(N_EVENTS):
+    for event in range(rates.shape[0]):
         absent = rates[event] == ZERO
-        at = (event + absent * N_EVENTS) * rows + i
+        at = (event + absent * rates.shape[0]) * rows + i
         rate = absent_rate if absent else rates[event]
         trace.weight[at] += rate
         trace.goal_worth[at] += rate
@@ -310,14 +323,14 @@ def learn_remembered(values, rule, trace, count, goal):
     The values of an event are all read before any is used: those of a fine map lie far apart, and so the processor can
     wait for many at a time.
     """
-    cells, stride, read = trace.cells, N_EVENTS * values.cells, values.scratch
+    cells, stride, read = trace.cells, values.actions * values.cells, values.scratch
     for i in range(count):
         widen(values.goal_range, cells[i], goal)
-    for event in range(N_EVENTS):
+    for event in range(values.actions):
         column = values.first + event * values.cells + goal
         for i in range(count):
             read[i] = values.q[column + cells[i] * stride]
-        happened, absent = event * values.cells, (event + N_EVENTS) * values.cells
+        happened, absent = event * values.cells, (event + values.actions) * values.cells
         move(read, count, trace.weight[happened : happened + count], trace.goal_worth[happened : happened + count],
              trace.weight[absent : absent + count], trace.goal_worth[absent : absent + count], rule.away)
         for i in range(count):

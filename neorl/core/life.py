@@ -4,96 +4,134 @@
 2. The action is an event in the active cell of every track until that track has moved on.
 3. A map learns all its goals from each track whose active cell changes (with update_on "step", after every step).
 4. A thing that is touched has met the agent: its tracks learn that, then follow the fresh thing as if it had always
-   been there. After the last one of an episode the world starts afresh. Neither leap is a transition to learn from.
+   been there. After the last one of an episode the world starts afresh. Neither leap is a transition to learn from, nor
+   is a thing's appearing or vanishing.
 5. At rest, or at distance 0, a track keeps the direction that it had.
 6. What a capture is, which changes of cell a thing's tracks learn from and which things have any are choices of
    `neorl.agents.agent.Learning`; a track that does not learn follows its point all the same.
 
-`scene` is what the agent perceives of its world, and `contacts` which things it has met in this step.
+`scene` is what the agent perceives of its world (`neorl.core.scene.Scene`).
 """
 
 import numpy as np
 
-from neorl.core.choices import N_EVENTS, Attention, Capture, Credit, UpdateOn, Vector
-from neorl.core.geometry import cell_of, contact_cell, moved_alone, point_coordinates, without_direction
-from neorl.core.kernel import inlined_kernel, kernel
+from neorl.core.choices import Attention, Capture, Credit, UpdateOn, Vector
+from neorl.core.geometry import contact_cell, find_cells, locate, with_kept_directions
+from neorl.core.kernel import inlined_kernel
 from neorl.core.learning import UNIT, ZERO, enter, learn_transition, start_track
+from neorl.core.network import choose
+from neorl.core.scene import ABSENT
 
 
 @inlined_kernel
-def act(parameters, state, action):
-    """Note that an action was taken, as an event in the active cell of every track."""
+def act(parameters, constants, state, scene):
+    """Choose an action, and note it as an event in the active cell of every track."""
+    action = choose(parameters, constants, state, scene)
     for track in range(state.tracks.cell.shape[0]):
         state.tracks.events[track, action] += 1
     state.last_event[0] = action
-    if parameters.learning.credit == Credit.activity:
+    if parameters.learning.credit == Credit.activity or parameters.learning.credit == Credit.own:
         retained = parameters.learning.activity_retained
-        for event in range(N_EVENTS):
+        for event in range(len(constants.actions)):
             state.activity[event] *= retained
             state.activity[event] += UNIT - retained if event == action else ZERO
+    return action
 
 
 @inlined_kernel
-def perceive(parameters, state, scene, contacts, n):
-    """Let every map of a node find its active cells, and learn if there is reason to."""
+def observe(parameters, constants, state, scene):
+    """Perceive what an action has led to, and learn from it."""
+    for n in range(parameters.nodes.points.shape[0]):
+        for point in range(parameters.nodes.points[n]):
+            perceive(parameters, constants, state, scene, n, point)
+    attend(parameters, constants, state, scene)
+
+
+@inlined_kernel
+def perceive(parameters, constants, state, scene, n, point):
+    """Let every map of a node find the active cell of a point, and learn if there is reason to."""
     learning, tracks = parameters.learning, state.tracks
-    things = parameters.nodes.vector[n] == Vector.objects
-    for point in range(parameters.nodes.points[n]):
-        met = things and contacts[point] != 0
-        attended = not things or learning.attention == Attention.each or state.attended[0] == point
-        u, v = point_coordinates(parameters, scene, n, point)
-        for m in range(parameters.nodes.first_map[n], parameters.nodes.first_map[n + 1]):
-            track = parameters.maps.first_track[m] + point
-            cell_tm1, cell = tracks.cell[track], cell_of(parameters.maps, m, u, v)
-            arrives = met and learning.capture == Capture.contact
-            stays = arrives or without_direction(parameters.maps, m, u)
-            cell_t = contact_cell(parameters.maps, m, cell_tm1) if stays else cell
-            ends = not attended or met and learning.capture != Capture.leap
-            if attended and (arrives or not ends) and (cell_t != cell_tm1 or learning.update_on == UpdateOn.step):
-                drifts = things and learning.own_causes and not arrives
-                caused = not drifts or moved_alone(parameters, state, scene, n, m, point)
-                learn_transition(parameters, state, m, point, cell_t, caused)
-                enter(tracks, track, cell_t)
-            if ends:
-                start_track(parameters, tracks, m, point, cell)
+    things = parameters.nodes.follows[n] == Vector.objects
+    met = things and scene.met[point] != 0
+    absent = things and scene.kinds[point] < 0
+    attended = not things or learning.attention == Attention.each or state.attended[0] == point
+    breaks = not attended or absent or met and learning.capture != Capture.leap
+    _, all_have_directions = locate(parameters, constants, scene, n, point, False, state.offset, state.coordinates)
+    find_cells(parameters, state.coordinates, n, state.cells)
+    looked_alone = False
+    for m in range(parameters.nodes.first_map[n], parameters.nodes.first_map[n + 1]):
+        k, track = m - parameters.nodes.first_map[n], parameters.maps.first_track[m] + point
+        cell_tm1, cell = tracks.cell[track], state.cells[k]
+        ends = breaks or cell_tm1 < 0
+        if not (all_have_directions or ends):
+            cell = with_kept_directions(parameters.grid, parameters.maps.first_grid[m], state.coordinates,
+                                        parameters.nodes.first_axis[n + 1] - parameters.nodes.first_axis[n], cell,
+                                        cell_tm1)
+        arrives = met and learning.capture == Capture.contact and cell_tm1 >= 0
+        cell_t = contact_cell(parameters.maps, m, cell_tm1) if arrives else cell
+        if attended and (arrives or not ends) and (cell_t != cell_tm1 or learning.update_on == UpdateOn.step):
+            drifts = things and learning.own_causes and not arrives
+            if drifts and not looked_alone:
+                look_alone(parameters, constants, state, scene, n, point)
+                looked_alone = True
+            caused = not drifts or state.alone[k] != cell_tm1
+            learn_transition(parameters, constants, state, m, point, cell_t, caused)
+            enter(constants, tracks, track, cell_t)
+        if ends:
+            start_track(parameters, constants, tracks, m, point, ABSENT if absent else cell)
 
 
 @inlined_kernel
-def attend(parameters, state, scene):
+def look_alone(parameters, constants, state, scene, n, point):
+    """Find the cells in which a thing would be had it stood still in this step, into state.alone."""
+    for axis in range(len(constants.axes)):
+        state.offset[axis] = (state.things[point, axis] - scene.position[axis]) / parameters.size
+    locate(parameters, constants, scene, n, point, True, state.offset, state.coordinates)
+    find_cells(parameters, state.coordinates, n, state.alone)
+
+
+@inlined_kernel
+def attend(parameters, constants, state, scene):
     """See where the things are, and which of them is to be learned about."""
     attention = parameters.learning.attention
     if parameters.learning.own_causes:
-        for thing in range(state.thing_position.shape[0]):
-            state.thing_position[thing, 0] = scene.creep_position[thing, 0]
-            state.thing_position[thing, 1] = scene.creep_position[thing, 1]
+        for thing in range(scene.things.shape[0]):
+            for axis in range(len(constants.axes)):
+                state.things[thing, axis] = scene.things[thing, axis]
     if attention != Attention.each:
         nearest = np.inf
-        for thing in range(state.thing_position.shape[0]):
-            dx = scene.creep_position[thing, 0] - scene.agent_position[0]
-            dy = scene.creep_position[thing, 1] - scene.agent_position[1]
-            distance = dx * dx + dy * dy
-            if distance < nearest and (attention != Attention.wanted or scene.creep_is_green[thing]):
+        for thing in range(scene.kinds.shape[0]):
+            distance = 0.0
+            for axis in range(len(constants.axes)):
+                offset = scene.things[thing, axis] - scene.position[axis]
+                distance += offset * offset
+            wanted = scene.kinds[thing] == 0 or attention != Attention.wanted and scene.kinds[thing] > 0
+            if distance < nearest and wanted:
                 nearest = distance
                 state.attended[0] = thing
 
 
-@kernel
-def reset_tracks(parameters, state, scene):
+@inlined_kernel
+def begin(parameters, constants, state, scene):
     """Take the present cells as given, with nothing that led to them, and desires without a past."""
     for n in range(parameters.nodes.points.shape[0]):
         for point in range(parameters.nodes.points[n]):
-            reset_point(parameters, state, scene, n, point)
-    for event in range(N_EVENTS):
+            begin_point(parameters, constants, state, scene, n, point)
+    for event in range(len(constants.actions)):
         state.activity[event] = ZERO
-    attend(parameters, state, scene)
+    attend(parameters, constants, state, scene)
     for e in range(state.desires.valence.shape[0]):
         state.desires.valence[e] = 0.0
-        for action in range(N_EVENTS):
+        for action in range(len(constants.actions)):
             state.desires.q[e, action] = 0.0
 
 
 @inlined_kernel
-def reset_point(parameters, state, scene, n, point):
-    u, v = point_coordinates(parameters, scene, n, point)
+def begin_point(parameters, constants, state, scene, n, point):
+    """Start the tracks of a point where it is now."""
+    locate(parameters, constants, scene, n, point, False, state.offset, state.coordinates)
+    find_cells(parameters, state.coordinates, n, state.cells)
+    absent = parameters.nodes.follows[n] == Vector.objects and scene.kinds[point] < 0
     for m in range(parameters.nodes.first_map[n], parameters.nodes.first_map[n + 1]):
-        start_track(parameters, state.tracks, m, point, cell_of(parameters.maps, m, u, v))
+        cell = state.cells[m - parameters.nodes.first_map[n]]
+        start_track(parameters, constants, state.tracks, m, point, ABSENT if absent else cell)

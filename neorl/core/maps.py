@@ -1,26 +1,28 @@
 """NRES maps: neural representation of a Euclidean space by cells with mutually exclusive receptive fields.
 
-An N-map cuts each axis of a modality's space into N equal intervals, so that exactly one cell is active for any point
-(one-hot; thesis section 4.1.2, paper B section 2.1). Cells are counted along the first axis first: a map of places row
-by row from the upper left. An interval holds its lower end and not its upper one. A point beyond the range of the map
-belongs to the cell at the end of the range; a direction closes on itself, its first interval centred on east.
+An N-map cuts each axis of a modality's space into N equal intervals, unless the axis has its own, so that exactly one
+cell is active for any point (one-hot; thesis section 4.1.2, paper B section 2.1). Cells are counted along the first axis
+first: a map of places row by row from the upper left. An interval holds its lower end and not its upper one. A point
+beyond the range of the map belongs to the cell at the end of the range; a direction closes on itself, its first interval
+centred on east.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from neorl import checks
-from neorl.core.geometry import cell_at, tiling
-from neorl.core.kernel import execute
-from neorl.core.modality import PLACE_CELL, Modality
-
+from neorl.core.geometry import find_cells, in_range
+from neorl.core.kernel import array, execute, kernel
+from neorl.core.modality import PLACE_CELL, Modality, as_turns, space_of
+from neorl.core.parameters import SpaceParameters
 
 MOST_CELLS = 2**31 - 1
 
 
 @dataclass(frozen=True)
-class NresMap:
+class NresMap(checks.Final):
     """A map of one modality.
 
     resolution: N, intervals an axis, at least 1; there can be `MOST_CELLS` cells.
@@ -38,9 +40,14 @@ class NresMap:
             raise ValueError(f"resolution is {self.resolution}, allowed are maps of at most {MOST_CELLS} cells")
 
     @property
+    def intervals(self):
+        """The number of intervals along each axis: a tuple."""
+        return tuple(axis.intervals or self.resolution for axis in self.modality.axes)
+
+    @property
     def cells(self):
-        """The number of cells: N for each axis of the modality, multiplied."""
-        return self.resolution ** len(self.modality.axes)
+        """The number of cells: the intervals of all axes, multiplied."""
+        return math.prod(self.intervals)
 
     def encode(self, points):
         """The active cell for each point.
@@ -48,13 +55,26 @@ class NresMap:
         points: float (…, axes), coordinates of the modality. Returns int64 (…), 0 … cells − 1.
         Raises ValueError if a point is not finite or has another number of coordinates.
         """
-        points = checks.points("points", points, self.modality.axes)
-        tiles = execute(tiling, self.resolution, *self.modality.space)
-        cells = [execute(cell_at, u, v, tiles) for u, v in self.modality.as_pairs(points)]
-        return np.array(cells, np.int64).reshape(points.shape[:-1])
+        points = checks.points("points", points, self.modality.names)
+        cells = np.zeros(points.shape[:-1], np.int64)
+        execute(encode, space_of(self.modality, self.resolution), as_turns(self.modality, points), np.zeros(1, np.int64),
+                cells.reshape(-1))
+        return cells
 
     def covers(self, points):
         """Whether each point lies in the range of the map, so that encoding it clamps nothing: bool (…)."""
-        points = checks.points("points", points, self.modality.axes)[..., : len(self.modality.ranges)]
-        low, high = np.array(self.modality.ranges).reshape(-1, 2).T
-        return np.all((low <= points) & (points <= high), axis=-1)
+        points = checks.points("points", points, self.modality.names)
+        open_axes = [i for i, axis in enumerate(self.modality.axes) if not axis.closed]
+        low, high = (np.array([getattr(self.modality.axes[i], end) for i in open_axes]) for end in ("low", "high"))
+        return np.all((low <= points[..., open_axes]) & (points[..., open_axes] <= high), axis=-1)
+
+
+@kernel
+def encode(space: SpaceParameters, points: array("float64", "points", "coordinates"), found: array("int64", 1),
+           cells: array("int64", "points")) -> None:
+    """The cell of each point, which is moved into its range, in the space's only map. found: working memory."""
+    for point in range(cells.shape[0]):
+        for axis in range(points.shape[1]):
+            points[point, axis] = in_range(space.axes, axis, points[point, axis])
+        find_cells(space, points[point], 0, found)
+        cells[point] = found[0]

@@ -1,148 +1,317 @@
-"""Modalities: rules that turn the situation into coordinates in a Euclidean space.
+"""Modalities: what the cells of a map stand for, as the axes of a Euclidean space.
 
-A modality starts from a vector, in board widths and seconds: the agent's position or velocity, or where things are as
-seen from the agent (objects, boundaries, landmarks), axes staying as they are in the arena. It keeps what its cells are
-tuned to (thesis section 2.2 and table 2.1; paper B, table 1):
+Along each axis an agent perceives one number, made of a vector in units of the world's size (its width in WaterWorld)
+and seconds: its own position or velocity, or where things are as seen from it (objects, boundaries, landmarks), axes
+staying as they are in the world. An axis keeps a *feature* of the vector (thesis section 2.2 and table 2.1; paper B,
+table 1):
 
-- *cartesian*: both components as they are; the experiments use it for places and, as an emulation, for objects;
-- *proximal*: how far either component reaches into a margin along the walls, negative in the west and the north, and 0
-  in the middle of the board;
-- *polar*: length and direction; *angle*: the direction alone; *length*: the length alone.
+- *component*: one component as it is; the experiments use two for places and, as an emulation, for objects;
+- *margin*: how far a component reaches into a margin along the walls, negative in the west and the north, and 0 in the
+  middle of the board;
+- *length*, and *direction*.
 
-A direction runs from east (0) by way of south, since y points down. A vector of length 0 has none: by itself it is
-taken to be east, and in the life of an agent it keeps the direction that it had (see `neorl.core.life`).
+A direction runs from east (0) by way of south, since y points down, and closes on itself. A vector of length 0 has none:
+by itself it is taken to be east, and in the life of an agent it keeps the direction that it had (see
+`neorl.core.life`).
+
+Axes of several vectors make *conjunctive* cells, such as of place and head direction: `PLACE_CELL.axes +
+HEAD_DIRECTION_CELL.axes`.
 """
 
+import functools
 from dataclasses import dataclass
 
 import numpy as np
 
 from neorl import checks
-from neorl.core.choices import Tuning
-from neorl.core.geometry import TAU, boundary_vector, tuned
-from neorl.core.kernel import execute
+from neorl.core.choices import Cut, Feature, Vector
+from neorl.core.geometry import TAU, AxisParameters, locate
+from neorl.core.constants import Constants, features, no_credit, no_feature
+from neorl.core.kernel import array, execute, kernel, new_tuple
+from neorl.core.parameters import SpaceParameters, cut_axes
+from neorl.core.scene import Scene
 
-
-TUNED = {"position": ("cartesian", "proximal"), "velocity": ("cartesian", "polar", "angle", "length")}
-TUNED |= dict.fromkeys(("objects", "boundaries", "landmarks"), ("cartesian", "polar"))
-AXES = {"cartesian": ("x", "y"), "proximal": ("x", "y"), "polar": ("distance", "direction"), "angle": ("direction",),
-        "length": ("speed",)}
+VECTORS = ("position", "velocity", "objects", "boundaries", "landmarks")
+SEVERAL = ("objects", "boundaries", "landmarks")  # of these there may be several points, and a modality follows one kind
+FEATURES = tuple(Feature.__members__)
 SEEN_FROM_AGENT = "centred on the agent, allocentric direction"
 FRAMES = {"position": "allocentric", "velocity": "allocentric direction"}
 
 
 @dataclass(frozen=True)
-class Modality:
+class Axis(checks.Final):
+    """One axis of a space.
+
+    of: "position", "velocity", "objects", "boundaries" (the nearest point of each wall) or "landmarks"; or a
+        `neorl.kernel` ``(scene, point) → number``, whose number is the coordinate: what it takes is the
+        `neorl.core.scene.Scene` and which of the things, walls or landmarks is looked at.
+    feature: of that vector: "component", "margin" (of a position), "length" or "direction" (in the plane of the first
+        two axes of the world).
+    along: for a component or a margin, the axis of the world: 0 for x, 1 for y, and so on.
+    low, high: the range, in units of the world's size (a second, for velocity); beyond it lies the interval at its end.
+        For a margin `high` is its width. A direction has none.
+    closed: whether the range closes on itself, as for an angle; a direction always does.
+    intervals: how many there are, whatever the resolution of the map; None stands for its resolution.
+    boundaries: of unequal intervals, from the first to the last, in place of `low`, `high` and `intervals`.
+    name: of the coordinate; by default one that follows from the other fields.
+
+    Raises ValueError for anything else.
+    """
+
+    of: str
+    feature: str = "component"
+    along: int = 0
+    low: float = 0.0
+    high: float = 1.0
+    closed: bool = False
+    intervals: int | None = None
+    boundaries: tuple[float, ...] = ()
+    name: str = ""
+
+    def __post_init__(self):
+        if not callable(self.of):
+            checks.one_of("of", self.of, VECTORS)
+        checks.assign(self, feature=checks.one_of("feature", self.feature, FEATURES),
+                     along=checks.integer("along", self.along, at_least=0),
+                     boundaries=tuple(checks.real("boundaries", each)
+                                      for each in checks.several("boundaries", self.boundaries)))
+        if self.boundaries:
+            if len(self.boundaries) < 2 or any(np.diff(self.boundaries) <= 0):
+                raise ValueError(f"boundaries is {self.boundaries!r}, allowed are two numbers or more that increase")
+            checks.assign(self, low=self.boundaries[0], high=self.boundaries[-1], intervals=len(self.boundaries) - 1)
+        checks.assign(self, low=checks.real("low", self.low), high=checks.real("high", self.high),
+                     closed=checks.flag("closed", self.closed or self.is_direction))
+        if self.intervals is not None:
+            checks.assign(self, intervals=checks.integer("intervals", self.intervals, at_least=1))
+        if self.low >= self.high:
+            raise ValueError(f"low is {self.low!r}, allowed are numbers below high, here {self.high!r}")
+        if self.feature == "margin" and (self.of != "position" or not 0 < self.high <= 0.5):
+            raise ValueError(f"a margin of {self.high!r} of {self.of!r}: allowed are margins of a position, up to 0.5")
+        if self.boundaries and self.closed:
+            raise ValueError(f"boundaries is {self.boundaries!r}, allowed for an axis that is closed is ()")
+        checks.assign(self, name=checks.instance("name", self.name, str) or self._name)
+
+    @property
+    def is_direction(self):
+        """Whether the coordinate is a direction, in radians."""
+        return not callable(self.of) and self.feature == "direction"
+
+    @property
+    def _name(self):
+        if callable(self.of):
+            return self.of.__name__
+        if self.feature in ("component", "margin"):
+            return "xyz"[self.along] if self.along < 3 else f"x{self.along}"
+        return "speed" if (self.of, self.feature) == ("velocity", "length") else (
+            "distance" if self.feature == "length" else "direction")
+
+
+def cartesian(of, *ranges, intervals=None):
+    """Axes for the components of a vector, each with its range (low, high): a tuple of `Axis`."""
+    return tuple(Axis(of, "component", along, low, high, intervals=intervals)
+                 for along, (low, high) in enumerate(ranges))
+
+
+def polar(of, reach, intervals=None):
+    """Axes for the length of a vector in the plane, from 0 to `reach`, and its direction: a tuple of `Axis`."""
+    return Axis(of, "length", high=reach, intervals=intervals), Axis(of, "direction", intervals=intervals)
+
+
+@dataclass(frozen=True)
+class Modality(checks.Final):
     """What the cells of a map stand for.
 
     name: of such a cell in neuroscience.
-    vector: "position", "velocity", "objects", "boundaries" (the nearest point of each wall) or "landmarks".
-    tuning: "cartesian", "proximal", "polar", "angle" or "length"; see the module for which goes with what.
-    ranges: (low, high) for each axis but a direction, in board widths (a second, for velocity). Beyond it lies the
-        cell at its end. For "proximal" high is the width of the margin.
-    landmarks: where they stand, (x, y) each, if `vector` is "landmarks".
+    axes: one `Axis` or more, of objects, boundaries or landmarks one kind at most.
+    landmarks: where they stand, in units of the world's size, if an axis is of landmarks.
 
     Raises ValueError for anything else.
     """
 
     name: str
-    vector: str
-    tuning: str
-    ranges: tuple[tuple[float, float], ...] = ()
-    landmarks: tuple[tuple[float, float], ...] = ()
+    axes: tuple[Axis, ...]
+    landmarks: tuple[tuple[float, ...], ...] = ()
 
     def __post_init__(self):
         checks.instance("name", self.name, str)
-        checks.assign(self, vector=checks.one_of("vector", self.vector, tuple(TUNED)))
-        checks.assign(self, tuning=checks.one_of("tuning", self.tuning, TUNED[self.vector]))
-        axes = len(AXES[self.tuning]) - self.has_direction
-        self._set_pairs("ranges", axes, axes)
-        self._set_pairs("landmarks", *((1, np.inf) if self.vector == "landmarks" else (0, 0)))
-        for low, high in self.ranges:
-            if low >= high:
-                raise ValueError(f"ranges is {self.ranges!r}, allowed are pairs with the lower number first")
-            if self.tuning == "proximal" and not 0 < high <= 0.5:
-                raise ValueError(f"ranges is {self.ranges!r}, allowed are margins up to half a board width")
-
-    def _set_pairs(self, name, fewest, most):
-        pairs = tuple(checks.several(name, pair) for pair in checks.several(name, getattr(self, name)))
-        if not fewest <= len(pairs) <= most or any(len(pair) != 2 for pair in pairs):
-            allowed = f"{fewest}" if fewest == most else f"{fewest} or more"
-            raise ValueError(f"{name} is {getattr(self, name)!r}, allowed are {allowed} pairs of numbers")
-        checks.assign(self, **{name: tuple(tuple(checks.real(name, value) for value in pair) for pair in pairs)})
+        axes = tuple(checks.instance("axes", each, Axis) for each in checks.several("axes", self.axes))
+        if not axes or len({axis.of for axis in axes if axis.of in SEVERAL}) > 1:
+            raise ValueError(f"axes is {axes!r}, allowed are one or more, of {', '.join(SEVERAL)} one kind at most")
+        landmarks = tuple(tuple(checks.real("landmarks", value) for value in checks.several("landmarks", each))
+                          for each in checks.several("landmarks", self.landmarks))
+        checks.assign(self, axes=axes, landmarks=landmarks)
+        order = [0.0 if axis.of == self.follows and not axis.is_direction else 1.0 if axis.of == self.follows else 2.0
+                 for axis in axes]
+        if order != sorted(order):
+            raise ValueError(f"axes is {axes!r}, allowed are first those of {self.follows}, a direction last, and then "
+                             "those of other vectors")
+        if bool(landmarks) != (self.follows == "landmarks") or len({len(each) for each in landmarks}) > 1:
+            raise ValueError(f"landmarks is {self.landmarks!r}, allowed are places where an axis is of landmarks, and "
+                             "() elsewhere")
 
     @property
-    def axes(self):
-        """The names of the coordinates; a direction comes last, and is in radians."""
-        return AXES[self.tuning]
+    def follows(self):
+        """The vector that elements of interest have a place in: that of several points, or else of the agent."""
+        vectors = [axis.of for axis in self.axes if not callable(axis.of)]
+        several = [each for each in vectors if each in SEVERAL]
+        return several[0] if several else "position" if "position" in vectors or not vectors else "velocity"
 
     @property
-    def has_direction(self):
-        """Whether the last axis is a direction, and closes on itself."""
-        return self.tuning in ("polar", "angle")
-
-    @property
-    def space(self):
-        """What `maps.tiling` takes of it: (tuning, low, high, low, high), 0 and 1 where an axis has no range."""
-        bounds = [float(bound) for pair in self.ranges for bound in pair]
-        return int(Tuning[self.tuning]), *[*bounds, 0.0, 1.0, 0.0, 1.0][:4]
-
-    @property
-    def in_pair(self):
-        """Where the coordinates stand in the pairs of `tuned`, of which a 1-D modality has only one: a slice."""
-        return slice(1, 2) if self.tuning == "angle" else slice(len(self.axes))
+    def names(self):
+        """The names of the coordinates; a direction is in radians."""
+        return tuple(axis.name for axis in self.axes)
 
     @property
     def frame(self):
         """The reference frame; a length alone has none."""
-        return "–" if self.tuning == "length" else FRAMES.get(self.vector, SEEN_FROM_AGENT)
+        lengths = {axis.feature for axis in self.axes} == {"length"}
+        return "–" if lengths else FRAMES.get(self.follows, SEEN_FROM_AGENT)
 
     @property
     def takes_places(self):
-        """Whether an element of interest at a place in the arena has a meaning here."""
-        return self.vector != "velocity" or self.tuning == "angle"
+        """Whether an element of interest at a place in the world has a meaning here."""
+        return self.follows != "velocity" or [axis.feature for axis in self.axes] == ["direction"]
 
-    def coordinates(self, world, state):
-        """Where everything that the modality follows is, in a state of a world: float64 (points, axes)."""
-        velocity = state.agent_velocity / world.width
-        x, y = state.agent_position / world.width
-        vectors = {"position": [(x, y)], "velocity": [velocity],
-                   "objects": state.creep_position / world.width - (x, y),
-                   "boundaries": [execute(boundary_vector, wall, x, y) for wall in range(4)],
-                   "landmarks": np.array(self.landmarks).reshape(-1, 2) - (x, y)}[self.vector]
-        return self.tune(vectors)
+    @property
+    def functions(self):
+        """The kernels of the user's own among its axes: a tuple."""
+        return tuple(axis.of for axis in self.axes if callable(axis.of))
+
+    def coordinates(self, scene, size):
+        """Where everything that the modality follows is in a `Scene`: float64 (points, axes), directions in radians.
+
+        size: of the world, its unit of length.
+        """
+        n_axes = len(scene.position)
+        points = {"objects": len(scene.things), "boundaries": 2 * n_axes, "landmarks": len(self.landmarks)}
+        found = np.zeros((points.get(self.follows, 1), len(self.axes)))
+        execute(_locate_in(self.functions, n_axes), space_of(self, 1, n_axes, size), scene, found)
+        return as_radians(self, found)
 
     def tune(self, vectors):
-        """The coordinates that vectors (…, 2) have for these cells: float64 (…, axes).
+        """The coordinates that vectors (…, axes of the world) have for these cells: float64 (…, axes).
 
-        Raises ValueError if a vector is not finite or not of two components.
+        Raises ValueError if a vector is not finite or not of two components or more, or for conjunctive cells.
         """
-        vectors = checks.points("vectors", vectors, ("x", "y"))
-        tuning, _, reach_x, _, reach_y = self.space
-        pairs = [execute(tuned, tuning, x, y, reach_x, reach_y) for x, y in vectors.reshape(-1, 2)]
-        pairs = np.array(pairs).reshape(-1, 2)
-        pairs[:, 1] *= TAU if self.has_direction else 1.0
-        return pairs[:, self.in_pair].reshape(*vectors.shape[:-1], len(self.axes))
+        vectors = checks.finite("vectors", np.asarray(vectors, float))
+        if any(axis.of != self.follows for axis in self.axes):
+            raise ValueError(f"{self.name}s have axes of several vectors, allowed are modalities with one")
+        if vectors.ndim == 0 or vectors.shape[-1] < self.least_axes:
+            raise ValueError(f"vectors has the shape {vectors.shape}, allowed are (…, {self.least_axes}) or more")
+        n_axes = vectors.shape[-1]
+        found = np.zeros((*vectors.shape[:-1], len(self.axes)))
+        execute(_tune_in(n_axes), space_of(self, 1, n_axes), _empty_scene(n_axes), vectors.reshape(-1, n_axes),
+                found.reshape(-1, len(self.axes)))
+        return as_radians(self, found)
 
-    def as_pairs(self, points):
-        """Coordinates (…, axes) as kernels take them: float64 (points, 2), a direction in turns."""
-        points = np.asarray(points, float).reshape(-1, len(self.axes))
-        pairs = np.zeros((len(points), 2))
-        pairs[:, self.in_pair] = points
-        if self.has_direction:
-            pairs[:, 1] = pairs[:, 1] / TAU % 1.0
-        return pairs
+    @property
+    def least_axes(self):
+        """How many axes a world has at least where these cells have a meaning."""
+        least = [2 if axis.feature == "direction" else axis.along + 1 for axis in self.axes if not callable(axis.of)]
+        return max([1, *least, *(len(each) for each in self.landmarks)])
+
+
+def as_radians(modality, coordinates):
+    """Coordinates (…, axes) as the kernels have them, with directions in radians; none counts as east."""
+    scale = np.where([axis.is_direction for axis in modality.axes], TAU, 1.0)
+    return np.nan_to_num(coordinates) * scale
+
+
+def as_turns(modality, points):
+    """Points (…, axes) as kernels take them: float64 (points, axes), directions in turns."""
+    directions = [axis.is_direction for axis in modality.axes]
+    points = np.array(points, float).reshape(-1, len(directions))
+    points[:, directions] = points[:, directions] / TAU % 1.0
+    return points
+
+
+def space_of(modality, resolution, n_axes=None, size=1.0):
+    """The `SpaceParameters` of a map of a modality."""
+    n_axes = n_axes or modality.least_axes
+    given, sizes = axis_parameters([modality], n_axes)
+    given["nodes"]["first_map"] = integers([0, 1])
+    sizes |= {"maps": 1, "map_axes": len(modality.axes), "actions": 0, "axes": n_axes, "desires": 0, "coordinates": 0}
+    space = new_tuple(SpaceParameters, sizes, given | {"size": float(size), "maps": {
+        "resolution": np.array([resolution])}})
+    execute(cut_axes, space, 0, 0)
+    return space
+
+
+def axis_parameters(modalities, n_axes):
+    """What kernels take of the modalities of all nodes, {"nodes": …, "axes": …}, and sizes."""
+    axes = [axis for modality in modalities for axis in modality.axes]
+    own = [axis for axis in axes if callable(axis.of)]
+    inner = [axis.boundaries[1:-1] for axis in axes]
+    landmarks = [place for modality in modalities for place in modality.landmarks]
+    nodes = {"follows": integers(Vector[modality.follows] for modality in modalities),
+             "first_axis": firsts(len(modality.axes) for modality in modalities),
+             "first_landmark": firsts(len(modality.landmarks) for modality in modalities),
+             "landmark": np.array(landmarks, float).reshape(-1, n_axes)}
+    return {"nodes": nodes, "axes": {
+        "what": np.array([_what(axis, own) for axis in axes], np.int64),
+        "low": np.array([axis.low for axis in axes]), "high": np.array([axis.high for axis in axes]),
+        "first_boundary": firsts(map(len, inner)), "boundary": np.array([each for one in inner for each in one], float),
+    }}, {"nodes": len(modalities), "node_axes": len(axes), "boundaries": sum(map(len, inner)),
+         "landmarks": len(landmarks)}
+
+
+def _what(axis, own):
+    """The row of an axis in `AxisParameters.what`. own: the axes that are of kernels of the user's own."""
+    cut = Cut.boundaries if axis.boundaries else Cut.closed if axis.closed and not axis.is_direction else Cut.equal
+    vector, along = (Vector.own, own.index(axis)) if callable(axis.of) else (Vector[axis.of], axis.along)
+    return vector, Feature[axis.feature], along, cut, axis.intervals or 0
+
+
+def integers(values):
+    """Values as an array of int64."""
+    return np.array([int(value) for value in values], np.int64)
+
+
+def firsts(counts):
+    """Where each of several lists of so many entries begins, and where the last ends, one after the other: int64."""
+    return np.concatenate([[0], np.cumsum(integers(counts))]).astype(np.int64)
+
+
+def _empty_scene(n_axes):
+    return new_tuple(Scene, {"axes": n_axes, "things": 0}, {})
+
+
+@functools.cache
+def _locate_in(functions, n_axes):
+    feature, axes = features(*functions) if functions else no_feature, tuple(range(n_axes))
+
+    @kernel
+    def locate_all(space: SpaceParameters, scene: Scene, found: array("float64", "points", "coordinates")) -> None:
+        for point in range(found.shape[0]):
+            locate(space, Constants(feature, no_credit, no_credit, (0,), axes), scene, 0, point, False, scene.position,
+                   found[point])
+
+    return locate_all
+
+
+@functools.cache
+def _tune_in(n_axes):
+    axes = tuple(range(n_axes))
+
+    @kernel
+    def tune(space: SpaceParameters, scene: Scene, vectors: array("float64", "points", "axes"),
+             found: array("float64", "points", "coordinates")) -> None:
+        for point in range(found.shape[0]):
+            locate(space, Constants(no_feature, no_credit, no_credit, (0,), axes), scene, 0, 0, True, vectors[point],
+                   found[point])
+
+    return tune
 
 
 # O'Keefe and Dostrovsky 1971; Solstad et al. 2008; Høydal et al. 2019 and, in its Cartesian emulation, paper B,
 # section 3; Lever et al. 2009; Deshmukh and Knierim 2013; Taube et al. 1990; Kropff et al. 2015.
-PLACE_CELL = Modality("place cell", "position", "cartesian", ((0, 1), (0, 1)))
-BORDER_CELL = Modality("border cell", "position", "proximal", ((-0.25, 0.25), (-0.25, 0.25)))
-OBJECT_VECTOR_CELL = Modality("object-vector cell", "objects", "polar", ((0, 1),))
-CARTESIAN_OBJECT_VECTOR_CELL = Modality("object-vector cell, Cartesian", "objects", "cartesian", ((-1, 1), (-1, 1)))
-BOUNDARY_VECTOR_CELL = Modality("boundary-vector cell", "boundaries", "polar", ((0, 1),))
-LANDMARK_VECTOR_CELL = Modality("landmark-vector cell", "landmarks", "polar", ((0, 1),), ((0.5, 0.5),))
-HEAD_DIRECTION_CELL = Modality("head-direction cell", "velocity", "angle")
-SPEED_CELL = Modality("speed cell", "velocity", "length", ((0, 2),))
+PLACE_CELL = Modality("place cell", cartesian("position", (0, 1), (0, 1)))
+BORDER_CELL = Modality("border cell", [Axis("position", "margin", along, -0.25, 0.25) for along in (0, 1)])
+OBJECT_VECTOR_CELL = Modality("object-vector cell", polar("objects", 1))
+CARTESIAN_OBJECT_VECTOR_CELL = Modality("object-vector cell, Cartesian", cartesian("objects", (-1, 1), (-1, 1)))
+BOUNDARY_VECTOR_CELL = Modality("boundary-vector cell", polar("boundaries", 1))
+LANDMARK_VECTOR_CELL = Modality("landmark-vector cell", polar("landmarks", 1), ((0.5, 0.5),))
+HEAD_DIRECTION_CELL = Modality("head-direction cell", [Axis("velocity", "direction")])
+SPEED_CELL = Modality("speed cell", [Axis("velocity", "length", high=2)])
 MODALITIES = (PLACE_CELL, BORDER_CELL, OBJECT_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, BOUNDARY_VECTOR_CELL,
               LANDMARK_VECTOR_CELL, HEAD_DIRECTION_CELL, SPEED_CELL)

@@ -1,131 +1,151 @@
 """From desires to the values of actions, through the network of an agent's nodes (paper C, section 1).
 
-1. Every element of interest evaluates, in each map of its node, the value function of one goal at the cell of one
-   point. Where the map is about the agent itself (its place, its direction), the point is the agent's and the goal is
-   the element's. Where the map is about things as seen from the agent, the element is one of these things, and the goal
-   is that the two meet: distance 0, in a polar map at the direction that the thing is in. An element where the agent is
-   has no direction, and adds nothing to a map of directions.
+1. Every element of interest evaluates, in each map of its node, the value function of a goal at the cell of one point.
+   Where the map is about the agent itself (its place, its direction), the point is the agent's and the goal is the
+   element's. Where the map is about things as seen from the agent, the element is one of these things, and the goal is
+   that the two meet: distance 0, in a polar map at the direction that the thing is in. An element where the agent is
+   has no direction, and adds nothing to a map of directions. Along the axes of conjunctive cells that say nothing of
+   where it is, an element is everywhere: it is in several cells, and their values add.
 2. These values add, weighted by valence and by the weight of the map (thesis eq. 4.3, 4.4): the node's Q-vector.
-3. Opposite actions taken from one another make a Q-vector a vector in the arena: a desire. It lands at the end of that
-   vector and is an element of interest there, for the next node.
+3. The pushes of all actions, times their values, make a Q-vector a vector in the world: a desire. It lands at the end
+   of that vector and is an element of interest there, for the next node.
 
-`scene` is what the agent perceives of its world: its own position and velocity, and where things are.
+`scene` is what the agent perceives of its world (`neorl.core.scene.Scene`).
 """
 
-from neorl.core.choices import N_EVENTS, Action, Source, Vector
-from neorl.core.geometry import cell_of, contact_cell, place_coordinates, without_direction
+from neorl.core.choices import Source, Vector
+from neorl.core.geometry import contact_cell, find_cells, locate
 from neorl.core.kernel import inlined_kernel
 from neorl.core.stream import randint, uniform
 
 
 @inlined_kernel
-def choose(parameters, state, scene):
+def choose(parameters, constants, state, scene):
     """The action of the behaviour policy."""
     policy, value = parameters.policy, state.action_value
     if policy.exploration > 0.0 and uniform(state.stream) < policy.exploration:
-        return randint(state.stream, N_EVENTS)
-    evaluate(parameters, state, scene)
-    best = max(max(value[0], value[1]), max(value[2], value[3]))
-    if policy.indifferent_is_no_op and best == 0.0 and min(min(value[0], value[1]), min(value[2], value[3])) == 0.0:
-        return Action.no_op.value
-    ties = 0
-    for action in range(N_EVENTS):
-        ties += value[action] == best
-    skip = randint(state.stream, ties) if ties > 1 else 0
-    action = 0
-    while action < N_EVENTS - 1 and (value[action] != best or skip > 0):
-        skip -= value[action] == best
-        action += 1
-    return action
+        return randint(state.stream, len(constants.actions))
+    evaluate(parameters, constants, state, scene)
+    if policy.indifferent_is_no_op:
+        wanted = 0
+        for action in range(len(constants.actions)):
+            wanted += value[action] != 0.0
+        if wanted == 0:
+            return len(constants.actions)
+    return constants.choose(value, state.stream)
 
 
 @inlined_kernel
-def evaluate(parameters, state, scene):
+def evaluate(parameters, constants, state, scene):
     """The value of each action, into state.action_value: the nodes' Q-vectors times their gains, nodes in order."""
     nodes, desires = parameters.nodes, state.desires
-    for action in range(N_EVENTS):
+    for action in range(len(constants.actions)):
         state.action_value[action] = 0.0
+    for axis in range(len(constants.axes)):
+        state.here[axis] = scene.position[axis] / parameters.size
     for place in range(nodes.order.shape[0]):
         n = nodes.order[place]
         inputs = nodes.inputs[nodes.first_input[n] : nodes.first_input[n + 1]]
         for i in range(inputs.shape[0]):  # all before any is renewed, because recursion takes those of the last step
             if parameters.desires.source[inputs[i]] == Source.node:
-                project(parameters, desires, inputs[i])
+                project(parameters, constants, desires, inputs[i])
         for i in range(inputs.shape[0]):
-            evaluate_desire(parameters, state, scene, n, inputs[i])
-            for action in range(N_EVENTS):
+            evaluate_desire(parameters, constants, state, scene, n, inputs[i])
+            for action in range(len(constants.actions)):
                 state.action_value[action] += nodes.gain[n] * desires.q[inputs[i], action]
 
 
 @inlined_kernel
-def project(parameters, desires, e):
+def project(parameters, constants, desires, e):
     """Where the desire of a node lands, and its valence, into desires.target."""
-    chosen = parameters.desires
-    east, south, valence = 0.0, 0.0, 0.0
-    for i in range(chosen.source.shape[0]):
-        if chosen.elements[e, i]:
-            sign = 1.0 if chosen.signed[e] or desires.valence[i] > 0.0 else -1.0
-            east += sign * (desires.q[i, Action.E] - desires.q[i, Action.W])
-            south += sign * (desires.q[i, Action.S] - desires.q[i, Action.N])
-            valence += desires.valence[i]
-    desires.target[e, 0] = chosen.scale[e] * east
-    desires.target[e, 1] = chosen.scale[e] * south
-    desires.target[e, 2] = valence if chosen.sums_valence[e] else chosen.valence[e]
+    chosen, valence = parameters.desires, 0.0
+    for axis in range(len(constants.axes)):
+        total, valence = 0.0, 0.0
+        for i in range(chosen.source.shape[0]):
+            if chosen.elements[e, i]:
+                pushed = 0.0
+                for action in range(len(constants.actions)):
+                    pushed += parameters.push[action, axis] * desires.q[i, action]
+                total += pushed if chosen.signed[e] or desires.valence[i] > 0.0 else -pushed
+                valence += desires.valence[i]
+        desires.target[e, axis] = chosen.scale[e] * total
+    desires.target[e, len(constants.axes)] = valence if chosen.sums_valence[e] else chosen.valence[e]
 
 
 @inlined_kernel
-def evaluate_desire(parameters, state, scene, n, e):
+def evaluate_desire(parameters, constants, state, scene, n, e):
     """What one desire adds to its node's Q-vector, and the valence of its elements together, into state.desires."""
-    chosen, desires = parameters.desires, state.desires
+    chosen, desires, n_axes = parameters.desires, state.desires, len(constants.axes)
     q, source, valence = desires.q[e], chosen.source[e], chosen.valence[e]
-    for action in range(N_EVENTS):
+    for action in range(len(constants.actions)):
         q[action] = 0.0
     if source == Source.node:
-        valence = desires.target[e, 2]
-    desires.valence[e] = valence if source >= Source.node else 0.0
+        valence = desires.target[e, n_axes]
+    desires.valence[e] = 0.0 if source == Source.kind else valence
     if source == Source.point:
         for m in range(parameters.nodes.first_map[n], parameters.nodes.first_map[n + 1]):
             for track in range(parameters.maps.first_track[m], parameters.maps.first_track[m + 1]):
-                add_value(parameters, state, m, state.tracks.cell[track], chosen.goal[e, m], valence, q)
+                if state.tracks.cell[track] >= 0:
+                    add_value(parameters, constants, state, m, state.tracks.cell[track], chosen.goal[e, m], valence, q)
         return
-    x, y = scene.agent_position[0] / parameters.width, scene.agent_position[1] / parameters.width
-    for thing in range(1 if source >= Source.node else scene.creep_speed.shape[0]):
-        if source == Source.node:
-            dx, dy = desires.target[e, 0], desires.target[e, 1]
-        elif source == Source.place:
-            dx, dy = chosen.at[e, 0] - x, chosen.at[e, 1] - y
-        elif scene.creep_is_green[thing] == (source == Source.red):
-            continue
-        else:
+    sees_things = source == Source.kind and parameters.nodes.follows[n] == Vector.objects
+    for thing in range(scene.kinds.shape[0] if source == Source.kind else 1):
+        if source == Source.kind:
+            if scene.kinds[thing] != chosen.kind[e]:
+                continue
             desires.valence[e] += valence
-            dx = scene.creep_position[thing, 0] / parameters.width - x
-            dy = scene.creep_position[thing, 1] / parameters.width - y
-        add_element(parameters, state, n, x, y, dx, dy, valence, q)
+        if sees_things:
+            for m in range(parameters.nodes.first_map[n], parameters.nodes.first_map[n + 1]):
+                cell = state.tracks.cell[parameters.maps.first_track[m] + thing]
+                add_goals(parameters, constants, state, m, cell, contact_cell(parameters.maps, m, cell), valence, q)
+            continue
+        for axis in range(n_axes):
+            here = state.here[axis]
+            if source == Source.node:
+                state.offset[axis] = desires.target[e, axis]
+            elif source == Source.place:
+                state.offset[axis] = chosen.at[e, axis] - here
+            else:
+                state.offset[axis] = scene.things[thing, axis] / parameters.size - here
+        add_element(parameters, constants, state, scene, n, valence, q)
 
 
 @inlined_kernel
-def add_element(parameters, state, n, x, y, dx, dy, valence, q):
-    """Add the values, in every map of a node, of an element at (dx, dy) from the agent, which is at (x, y)."""
+def add_element(parameters, constants, state, scene, n, valence, q):
+    """Add the values, in every map of a node, of an element at state.offset from the agent."""
     maps, nodes = parameters.maps, parameters.nodes
-    at_place = nodes.vector[n] == Vector.position
-    of_agent = at_place or nodes.vector[n] == Vector.velocity
-    u, v = place_coordinates(nodes, n, x + dx if at_place else dx, y + dy if at_place else dy)
+    if nodes.follows[n] == Vector.position:
+        for axis in range(len(constants.axes)):
+            state.offset[axis] += state.here[axis]
+    has_direction, _ = locate(parameters, constants, scene, n, 0, True, state.offset, state.coordinates)
+    of_agent = nodes.follows[n] == Vector.position or nodes.follows[n] == Vector.velocity
+    if of_agent and not has_direction:
+        return
+    find_cells(parameters, state.coordinates, n, state.cells)
     for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
-        cell = cell_of(maps, m, u, v)
+        cell = state.cells[m - nodes.first_map[n]]
         if of_agent:
-            goal, evaluated = cell, not without_direction(maps, m, u)
-            cell = state.tracks.cell[maps.first_track[m]]
+            add_goals(parameters, constants, state, m, state.tracks.cell[maps.first_track[m]], cell, valence, q)
         else:
-            goal, evaluated = contact_cell(maps, m, cell), True
-        if evaluated:
-            add_value(parameters, state, m, cell, goal, valence, q)
+            add_goals(parameters, constants, state, m, cell, contact_cell(maps, m, cell), valence, q)
 
 
 @inlined_kernel
-def add_value(parameters, state, m, cell, goal, valence, q):
+def add_goals(parameters, constants, state, m, cell, goal, valence, q):
+    """Add the values of all goals that differ from one along the axes alone on which an element has no place."""
+    followed = parameters.maps.followed[m]
+    if followed == parameters.maps.cells[m]:
+        add_value(parameters, constants, state, m, cell, goal, valence, q)
+    else:
+        for other in range(goal % followed, parameters.maps.cells[m], followed):
+            add_value(parameters, constants, state, m, cell, other, valence, q)
+
+
+@inlined_kernel
+def add_value(parameters, constants, state, m, cell, goal, valence, q):
     """Add one goal's value of each action in a cell, times its valence and the weight of the map."""
-    maps = parameters.maps
+    maps, actions = parameters.maps, len(constants.actions)
     if goal != cell or parameters.own_cell_counts:
-        weight, index = maps.weight[m] * valence, maps.first_value[m] + cell * N_EVENTS * maps.cells[m] + goal
-        for action in range(N_EVENTS):
+        weight, index = maps.weight[m] * valence, maps.first_value[m] + cell * actions * maps.cells[m] + goal
+        for action in range(actions):
             q[action] += weight * state.values.q[index + action * maps.cells[m]]

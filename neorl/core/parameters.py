@@ -3,15 +3,18 @@
 Maps follow one another in the order of the agent's nodes. A *track* is one point that a map follows: the agent itself,
 or one of the things that its modality is about. All tracks of a map share its values. Desires keep the agent's order.
 What follows from other parameters is filled in by a kernel, so the browser can do it without Python.
+
+Kernels of the user's own are not in here, see `neorl.core.functions`.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from neorl.core.choices import N_EVENTS, Source, Vector
-from neorl.core.geometry import cell_at, tiling
-from neorl.core.kernel import array, kernel
+from neorl.core.choices import Cut, Feature, Source, Vector
+from neorl.core.geometry import (BEYOND, CUT, FEATURE, INTERVALS, LAST, LOW, SCALE, STRIDE, VECTOR, AxisParameters, in_range,
+                                 interval_at)
+from neorl.core.kernel import array, inlined_kernel, kernel
 
 
 class MapParameters(NamedTuple):
@@ -19,16 +22,12 @@ class MapParameters(NamedTuple):
 
     resolution: array("int64", "maps")
     # derived
-    columns: array("int64", "maps")  # of its `Tiles`, and so are the next six
-    rows: array("int64", "maps")
-    low_u: array("float64", "maps")
-    scale_u: array("float64", "maps")
-    low_v: array("float64", "maps")
-    scale_v: array("float64", "maps")
-    closed: array("bool", "maps")
     cells: array("int64", "maps")
-    contact: array("int64", "maps")  # the cell of the vector (0, 0)
+    placed: array("int64", "maps")  # how many there are along the axes on which an element has a place in a contact
+    contact: array("int64", "maps")  # the cell of distance 0, the first one
+    followed: array("int64", "maps")  # how many there are along the axes of the vector that the node follows
     weight: array("float64", "maps")
+    first_grid: array("int64", "maps + 1")  # where in `grid` its axes begin
     first_value: array("int64", "maps + 1")  # where in q the map begins
     first_cell: array("int64", "maps + 1")  # how many cells the maps before it have
     first_track: array("int64", "maps + 1")
@@ -38,16 +37,14 @@ class MapParameters(NamedTuple):
 class NodeParameters(NamedTuple):
     """The nodes. `first_…` arrays have one more entry, for the end of the last node's."""
 
-    vector: array("int64", "nodes")  # see `choices.Vector`
-    tuning: array("int64", "nodes")  # see `choices.Tuning`
-    low: array("float64", "nodes", 2)  # the range of each axis, 0 to 1 if it has none
-    high: array("float64", "nodes", 2)
+    follows: array("int64", "nodes")  # see `choices.Vector`: of its axes' the one that an element has a place in
     weighting: array("int64", "nodes")  # see `choices.Weighting`
     gain: array("float64", "nodes")
     first_map: array("int64", "nodes + 1")
+    first_axis: array("int64", "nodes + 1")
     first_landmark: array("int64", "nodes + 1")
     order: array("int64", "nodes")  # nodes, each after those that it takes desires from
-    landmark: array("float64", "landmarks", 2)
+    landmark: array("float64", "landmarks", "axes")
     # derived
     points: array("int64", "nodes")  # how many it follows
     first_input: array("int64", "nodes + 1")  # where in `inputs` its desires begin
@@ -58,13 +55,14 @@ class DesireParameters(NamedTuple):
     """The desires."""
 
     source: array("int64", "desires")  # see `choices.Source`
+    kind: array("int64", "desires")  # of the things that it is for
     target: array("int64", "desires")  # the node
     valence: array("float64", "desires")
     sums_valence: array("bool", "desires")  # whether the valence is that of its elements instead
     scale: array("float64", "desires")
     signed: array("bool", "desires")
     elements: array("bool", "desires", "desires")  # which desires of its source its vector comes from
-    at: array("float64", "desires", 2)  # of a point its coordinates, a direction in turns; of a place where it is
+    at: array("float64", "desires", "coordinates")  # of a point its coordinates, of a place where it is
     # derived
     goal: array("int64", "desires", "maps")  # the cell of a point
 
@@ -97,13 +95,28 @@ class PolicyParameters(NamedTuple):
     indifferent_is_no_op: bool
 
 
+class SpaceParameters(NamedTuple):
+    """What a modality alone is compiled to, without an agent; the part of `Parameters` that finds cells."""
+
+    size: float
+    push: array("float64", "actions", "axes")
+    maps: MapParameters
+    grid: array("float64", "map_axes", 5)  # of each map how it cuts each axis of its node, see `geometry.LOW`
+    nodes: NodeParameters
+    axes: AxisParameters
+    desires: DesireParameters
+
+
 class Parameters(NamedTuple):
     """All that is chosen of an agent for one world."""
 
-    width: float  # of the board, in pixels
+    size: float  # of the world, in its own units of length
     own_cell_counts: bool
+    push: array("float64", "actions", "axes")  # of each action that is an event
     maps: MapParameters
+    grid: array("float64", "map_axes", 5)  # of each map how it cuts each axis of its node, see `geometry.LOW`
     nodes: NodeParameters
+    axes: AxisParameters
     desires: DesireParameters
     learning: LearningParameters
     policy: PolicyParameters
@@ -112,42 +125,82 @@ class Parameters(NamedTuple):
 @kernel
 def derive(parameters: Parameters, n_things: int) -> None:
     """Fill in the parameters that follow from the chosen ones."""
-    maps, nodes, desires = parameters.maps, parameters.nodes, parameters.desires
-    for n in range(nodes.vector.shape[0]):
+    maps, nodes = parameters.maps, parameters.nodes
+    for n in range(nodes.follows.shape[0]):
         points = 1
-        if nodes.vector[n] == Vector.objects:
+        if nodes.follows[n] == Vector.objects:
             points = n_things
-        elif nodes.vector[n] == Vector.boundaries:
-            points = 4
-        elif nodes.vector[n] == Vector.landmarks:
+        elif nodes.follows[n] == Vector.boundaries:
+            points = 2 * parameters.push.shape[1]
+        elif nodes.follows[n] == Vector.landmarks:
             points = nodes.first_landmark[n + 1] - nodes.first_landmark[n]
         nodes.points[n] = points
         total = 0.0
         for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
-            tiles = tiling(maps.resolution[m], nodes.tuning[n], nodes.low[n, 0], nodes.high[n, 0], nodes.low[n, 1],
-                           nodes.high[n, 1])
-            cells = tiles.columns * tiles.rows
-            maps.columns[m], maps.rows[m], maps.closed[m] = tiles.columns, tiles.rows, tiles.closed
-            maps.low_u[m], maps.scale_u[m] = tiles.low_u, tiles.scale_u
-            maps.low_v[m], maps.scale_v[m] = tiles.low_v, tiles.scale_v
-            maps.cells[m] = cells
-            maps.contact[m] = cell_at(0.0, 0.0, tiles)
+            cut_axes(parameters, n, m)
+            cells = maps.cells[m]
             maps.weight[m] = 1.0
             for _ in range(nodes.weighting[n]):
                 maps.weight[m] *= maps.resolution[m]
             total += maps.weight[m]
-            maps.first_value[m + 1] = maps.first_value[m] + N_EVENTS * cells * cells
+            maps.first_value[m + 1] = maps.first_value[m] + parameters.push.shape[0] * cells * cells
             maps.first_cell[m + 1] = maps.first_cell[m] + cells
             maps.first_track[m + 1] = maps.first_track[m] + points
             maps.first_trace[m + 1] = maps.first_trace[m] + points * cells
-            for e in range(desires.source.shape[0]):
-                if desires.source[e] == Source.point and desires.target[e] == n:
-                    desires.goal[e, m] = cell_at(desires.at[e, 0], desires.at[e, 1], tiles)
         for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
             maps.weight[m] /= total
-        end = nodes.first_input[n]
-        for e in range(desires.target.shape[0]):
-            if desires.target[e] == n:
-                nodes.inputs[end] = e
-                end += 1
-        nodes.first_input[n + 1] = end
+        find_inputs(parameters, n)
+
+
+@kernel
+def cut_axes(parameters, n, m):
+    """Cut the axes of a node into the intervals of a map."""
+    maps, grid, axes, nodes = parameters.maps, parameters.grid, parameters.axes, parameters.nodes
+    g = maps.first_grid[m]
+    maps.cells[m] = maps.placed[m] = maps.followed[m] = 1
+    maps.contact[m] = 0
+    for axis in range(nodes.first_axis[n], nodes.first_axis[n + 1]):
+        is_direction = axes.what[axis, FEATURE] == Feature.direction and axes.what[axis, VECTOR] != Vector.own
+        intervals = axes.what[axis, INTERVALS] if axes.what[axis, INTERVALS] > 0 else maps.resolution[m]
+        low, high = axes.low[axis], axes.high[axis]
+        if is_direction:  # in turns, the first interval centred on 0
+            low = -0.5 / intervals
+            high = 1.0 + low
+        elif axes.what[axis, CUT] == Cut.boundaries:  # what is cut is the number of the interval
+            low, high = 0.0, float(intervals)
+        grid[g, LOW], grid[g, SCALE], grid[g, LAST] = low, intervals / (high - low), intervals - 1.0
+        grid[g, BEYOND] = 0.0 if is_direction or axes.what[axis, CUT] == Cut.closed else intervals - 1.0
+        grid[g, STRIDE] = maps.cells[m]
+        maps.cells[m] *= intervals
+        if axes.what[axis, VECTOR] == nodes.follows[n]:
+            maps.followed[m] = maps.cells[m]
+            if not is_direction:
+                maps.placed[m] = maps.cells[m]
+                maps.contact[m] += int(grid[g, STRIDE] * interval_in(axes, axis, grid[g], 0.0))
+        g += 1
+    maps.first_grid[m + 1] = g
+
+
+@inlined_kernel
+def interval_in(axes, axis, cut, coordinate):
+    """The interval of a map that holds a coordinate along an axis."""
+    coordinate = coordinate if axes.what[axis, CUT] == Cut.equal else in_range(axes, axis, coordinate)
+    return interval_at(cut, coordinate)
+
+
+@kernel
+def find_inputs(parameters, n):
+    """List the desires of a node, and find the goals of those for a point."""
+    nodes, desires, maps = parameters.nodes, parameters.desires, parameters.maps
+    end, first_axis = nodes.first_input[n], nodes.first_axis[n]
+    for e in range(desires.target.shape[0]):
+        if desires.target[e] == n:
+            nodes.inputs[end] = e
+            end += 1
+            for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
+                desires.goal[e, m] = 0
+                for axis in range(nodes.first_axis[n + 1] - first_axis):
+                    cut = parameters.grid[maps.first_grid[m] + axis]
+                    interval = interval_in(parameters.axes, first_axis + axis, cut, desires.at[e, axis])
+                    desires.goal[e, m] += int(cut[STRIDE] * interval)
+    nodes.first_input[n + 1] = end

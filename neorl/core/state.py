@@ -2,9 +2,8 @@
 
 from typing import NamedTuple
 
-from neorl.core.choices import N_EVENTS
 from neorl.core.kernel import array, execute, kernel, new_tuple
-from neorl.core.learning import N_ROWS, values_of
+from neorl.core.learning import values_of
 from neorl.core.parameters import Parameters
 
 
@@ -19,10 +18,10 @@ class ValueState(NamedTuple):
 class TrackState(NamedTuple):
     """The tracks of all maps, one map after the other."""
 
-    cell: array("int64", "tracks")  # the active cell
-    events: array("int64", "tracks", 5)  # steps on which each action was taken since the cell was entered
+    cell: array("int64", "tracks")  # the active cell, or ABSENT
+    events: array("int64", "tracks", "actions + 1")  # steps on which each was taken since the cell was entered, idle last
     trace_cell: array("int64", "tracks", "trace")  # cells left, a ring
-    trace_rates: array("float32", "tracks", "trace", 4)  # the rates of their events
+    trace_rates: array("float32", "tracks", "trace", "actions")  # the rates of their events
     trace_count: array("int64", "tracks")  # cells left since the track started
     remembered: array("int64", "traces")  # the fields of a `learning.Trace`, a track after the other
     remembered_at: array("int64", "traces")
@@ -35,8 +34,8 @@ class TrackState(NamedTuple):
 class DesireState(NamedTuple):
     """The desires as of the last choice that was not drawn."""
 
-    q: array("float64", "desires", 4)  # what each adds to the value of each action in its node
-    target: array("float64", "desires", 3)  # where a node's desire lands, seen from the agent, and with what valence
+    q: array("float64", "desires", "actions")  # what each adds to the value of each action in its node
+    target: array("float64", "desires", "axes + 1")  # where a node's desire lands, from the agent, and its valence
     valence: array("float64", "desires")  # of all its elements together
 
 
@@ -47,11 +46,16 @@ class State(NamedTuple):
     tracks: TrackState
     desires: DesireState
     last_event: array("int64", 1)
-    activity: array("float32", 4)  # of each event
-    thing_position: array("float64", "things", 2)  # after the last step, in pixels
+    activity: array("float32", "actions")  # of each event
+    things: array("float64", "things", "axes")  # where they were after the last step
     attended: array("int64", 1)  # which of the things is learned about
-    action_value: array("float64", 4)  # as of the last choice that was not drawn
+    action_value: array("float64", "actions")  # as of the last choice that was not drawn
     stream: array("uint64", 4)  # the random numbers of the policy
+    here: array("float64", "axes")  # working memory: where the agent is, in units of the world's size
+    coordinates: array("float64", "coordinates")  # working memory: of the point that is looked at
+    cells: array("int64", "maps")  # working memory: its cells in the maps of a node
+    alone: array("int64", "maps")  # working memory: those had it not moved
+    offset: array("float64", "axes")  # working memory: of an element of interest from the agent
 
 
 def new_state(parameters, stream, n_things, old=None):
@@ -60,11 +64,13 @@ def new_state(parameters, stream, n_things, old=None):
     old: a state of the same parameters that is no longer needed, whose room for values is used again: to get a gigabyte
     from the system, page by page, takes longer than a run.
     """
-    maps = parameters.maps
+    maps, (actions, axes) = parameters.maps, parameters.push.shape
     traces = maps.first_trace[-1] if parameters.learning.memory_retained > 0 else 0
     sizes = {"values": maps.first_value[-1], "cells": maps.first_cell[-1], "tracks": maps.first_track[-1],
-             "trace": parameters.learning.trace, "traces": traces, "trace_rows": N_ROWS * traces,
-             "desires": len(parameters.desires.source), "things": n_things}
+             "trace": parameters.learning.trace, "traces": traces, "trace_rows": 2 * actions * traces,
+             "desires": len(parameters.desires.source), "things": n_things, "actions": actions, "axes": axes,
+             "coordinates": parameters.desires.at.shape[1],
+             "maps": len(maps.cells)}
     values = {}
     if old:
         execute(clear_q, parameters, old)
@@ -78,10 +84,10 @@ def new_state(parameters, stream, n_things, old=None):
 def clear_q(parameters: Parameters, state: State) -> None:
     """Set all values to zero that are not."""
     for m in range(parameters.maps.cells.shape[0]):
-        values = values_of(parameters.maps, state, m)
+        values = values_of(parameters, state, m)
         for cell in range(values.cells):
-            for event in range(N_EVENTS):
-                row = values.first + (cell * N_EVENTS + event) * values.cells
+            for event in range(values.actions):
+                row = values.first + (cell * values.actions + event) * values.cells
                 for goal in range(values.goal_range[cell, 0], values.goal_range[cell, 1]):
                     values.q[row + goal] = 0.0
 

@@ -12,7 +12,6 @@ import functools
 import hashlib
 import io
 import os
-import tempfile
 from dataclasses import dataclass, fields
 from pathlib import Path
 
@@ -22,7 +21,8 @@ import platformdirs
 from neorl import checks
 from neorl.agents.agent import Agent
 from neorl.experiments.simulation import Result, checked_changes, simulate
-from neorl.worlds.waterworld import WaterWorld
+from neorl.files import write_whole
+from neorl.worlds.world import World
 
 ROOMS = ("core", "worlds", "agents", "experiments")  # all that a run is made of, beside `neorl.checks`
 DIGEST_BYTES = hashlib.sha256().digest_size
@@ -46,7 +46,7 @@ class Condition:
     """
 
     agent: Agent
-    world: WaterWorld
+    world: World
     steps: int
     runs: int
     seed: int = 0
@@ -54,7 +54,7 @@ class Condition:
 
     def __post_init__(self):
         checks.instance("agent", self.agent, Agent)
-        checks.instance("world", self.world, WaterWorld)
+        checks.instance("world", self.world, World)
         steps = checks.integer("steps", self.steps, at_least=1)
         checks.assign(self, steps=steps, runs=checks.integer("runs", self.runs, at_least=1),
                      seed=checks.integer("seed", self.seed, at_least=0), changes=checked_changes(self.changes, steps))
@@ -100,7 +100,7 @@ def folder():
 def source_digest():
     """A digest of the source of every module that takes part in a run."""
     package = Path(__file__).parents[1]
-    paths = [package / "checks.py", *(path for room in ROOMS for path in sorted((package / room).rglob("*.py")))]
+    paths = [package / "checks.py", package / "files.py", *(path for room in ROOMS for path in sorted((package / room).rglob("*.py")))]
     return hashlib.sha256(b"".join(path.read_bytes() for path in paths)).hexdigest()
 
 
@@ -116,13 +116,3 @@ def read_checked(path):
 def write_checked(path, content):
     """Write bytes to a file, after a digest of them."""
     write_whole(path, hashlib.sha256(content).digest() + content)
-
-
-def write_whole(path, content):
-    """Write bytes to a file that others see complete or not at all."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.NamedTemporaryFile(dir=path.parent, prefix=".", delete=False) as file:
-        file.write(content)
-        file.flush()
-        os.fsync(file.fileno())
-    os.replace(file.name, path)

@@ -6,6 +6,7 @@ import numpy as np
 
 from neorl import checks
 from neorl.experiments.run import new_bins
+from neorl.worlds.waterworld import GREEN
 
 
 @dataclass(frozen=True)
@@ -32,9 +33,9 @@ def record(name, run, steps):
             run.advance(1, rewards[0], hits[0])
             taken = taken + hits[0].sum(axis=0)
         state = run.world_state
-        velocity = state.creep_direction * state.creep_speed[:, None]
-        frames.append((np.concatenate([state.agent_position, state.agent_velocity]) * scale,
-                       np.hstack([state.creep_position, velocity]) * scale, state.creep_is_green.copy(), taken))
+        scene, velocity = state.scene, state.direction * state.speed[:, None]
+        frames.append((np.concatenate([scene.position, scene.velocity]) * scale,
+                       np.hstack([scene.things, velocity]) * scale, scene.kinds == GREEN, taken))
     agent, creeps, green, hits = map(np.array, zip(*frames))
     return Recording(name, run.world.fps, run.world.radius * scale, agent.astype(np.float32),
                      creeps.astype(np.float32), green, hits)

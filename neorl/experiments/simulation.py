@@ -1,4 +1,4 @@
-"""Independent learners in WaterWorld, many side by side, and what they earn."""
+"""Independent learners in a world, many side by side, and what they earn."""
 
 import os
 import threading
@@ -10,20 +10,22 @@ from tqdm import tqdm
 
 from neorl import checks
 from neorl.agents.agent import Agent
-from neorl.experiments.run import SLICE, Run, bin_steps, fitting_runs, new_bins
-from neorl.worlds.waterworld import WaterWorld
+from neorl.agents.memory import fitting_runs
+from neorl.experiments.run import SLICE, Run, bin_steps, new_bins
+from neorl.worlds.world import World
 
 
 @dataclass(frozen=True)
 class Result:
     """What the runs of one condition brought.
 
-    rewards: float32 (runs, bins), summed over bins of 0.2 s. hits: int16 (runs, bins, 2), green and red creeps.
+    rewards: float32 (runs, bins), summed over bins of 0.2 s. hits: int16 (runs, bins, kinds), the
+    things of each kind that were met; in WaterWorld green and red creeps.
     changes: (step, agent) pairs, what the runs became when.
     """
 
     agent: Agent
-    world: WaterWorld
+    world: World
     steps: int
     runs: int
     seed: int
@@ -61,7 +63,7 @@ class Result:
         return self.rewards[:, bins].sum(axis=1, dtype=float) / seconds
 
     def hit_rate(self, begin=0.0, end=1.0):
-        """float64 (runs, 2): green and red creeps taken per simulated second between two shares, as in `rate`."""
+        """float64 (runs, kinds): things met of each kind per simulated second between two shares, as in `rate`."""
         bins, seconds = self._stretch(begin, end)
         return self.hits[:, bins].sum(axis=1) / seconds
 
@@ -84,11 +86,11 @@ def simulate(agent, world, *, steps, runs, seed=0, changes=(), threads=None, pro
     Raises ValueError for a bad argument, MemoryError if a single run does not fit into the free memory.
     """
     checks.instance("agent", agent, Agent)
-    checks.instance("world", world, WaterWorld)
+    checks.instance("world", world, World)
     steps, runs = checks.integer("steps", steps, at_least=1), checks.integer("runs", runs, at_least=1)
     seed = checks.integer("seed", seed, at_least=0)
     changes = checked_changes(changes, steps)
-    usable = min(usable_threads(each) for each in (agent, *(later for _, later in changes)))
+    usable = min(usable_threads(each, world) for each in (agent, *(later for _, later in changes)))
     threads = usable if threads is None else checks.integer("threads", threads, at_least=1)
     rewards, hits = new_bins(world, runs, steps)
     label = ", ".join(f"{node.name} {'+'.join(f'N{n}' for n in node.resolutions)}" for node in agent.nodes)
@@ -127,7 +129,7 @@ def checked_changes(changes, steps):
     return tuple(pairs)
 
 
-def usable_threads(agent):
-    """How many runs of an agent go side by side: a core each, within nine tenths of the memory that is free."""
+def usable_threads(agent, world):
+    """How many runs of an agent in a world go side by side: a core each, within nine tenths of the memory that is free."""
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-    return min(fitting_runs(agent), cores)
+    return min(fitting_runs(agent, world), cores)

@@ -13,6 +13,7 @@ from concurrent.futures import BrokenExecutor, ThreadPoolExecutor, as_completed
 from tqdm import tqdm
 
 from neorl import checks
+from neorl.agents.compile import n_values
 from neorl.experiments.cache import Condition, read_checked, save, simulate_once, source_digest
 from neorl.experiments.simulation import simulate, usable_threads
 
@@ -35,7 +36,7 @@ def sweep(conditions, executor=None, progress=True):
     for condition in conditions:
         checks.instance("condition", condition, Condition)
     waiting = [condition for condition in dict.fromkeys(conditions) if read_checked(condition.path) is None]
-    waiting.sort(key=lambda condition: -condition.agent.n_values)  # the large ones take over each other's memory
+    waiting.sort(key=lambda condition: -n_values(condition.agent, condition.world))  # the large ones take over each other's memory
     total = sum(condition.steps * condition.runs for condition in waiting)
     with tqdm(total=total, unit="step", unit_scale=True, desc="sweep", leave=False, disable=not progress) as bar:
         for _ in range(ATTEMPTS):
@@ -54,9 +55,9 @@ def sweep(conditions, executor=None, progress=True):
 def _run(conditions, executor, bar):
     """Compute conditions, and return those that failed, {condition: exception}."""
     if executor is None:
-        agents = [agent for each in conditions for agent in (each.agent, *(later for _, later in each.changes))]
-        largest = max(agents, key=lambda agent: agent.n_values)
-        with ThreadPoolExecutor(usable_threads(largest)) as cores:
+        lives = [(agent, each.world) for each in conditions
+                 for agent in (each.agent, *(later for _, later in each.changes))]
+        with ThreadPoolExecutor(usable_threads(*max(lives, key=lambda life: n_values(*life)))) as cores:
             return _run(conditions, cores, bar)
     tasks, errors = {}, {}
     try:

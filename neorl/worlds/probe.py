@@ -1,6 +1,6 @@
 """Kernels for viewers: probe the values of an agent where it is not, and add a second player."""
 
-from neorl.core.choices import N_EVENTS, Vector
+from neorl.core.choices import Vector
 from neorl.core.geometry import cell_of, place_coordinates
 from neorl.core.kernel import array, kernel
 from neorl.core.life import reset_point, reset_tracks

@@ -1,44 +1,49 @@
-"""The rollout of an agent in WaterWorld: choose, act, let the world move on, perceive and learn, step after step."""
+"""The rollout of an agent in a world: choose, act, let the world move on, perceive and learn, step after step.
+
+The kernels of the world and of the agent's own functions are constants of the compiled code, so a world or a policy of
+one's own runs as fast as those of the package. Each combination is compiled once in a process.
+"""
+
+import functools
 
 import numpy as np
 
-from neorl.core.kernel import array, kernel
-from neorl.core.life import act, attend, perceive, reset_tracks
-from neorl.core.network import choose
+from neorl.core import life
+from neorl.core.constants import Constants
+from neorl.core.kernel import array, fields, inlined, kernel
 from neorl.core.parameters import Parameters
 from neorl.core.state import State
-from neorl.worlds.waterworld import Rules, WaterWorldState, reset_board, step_board
 
 
-@kernel
-def rollout(parameters: Parameters, state: State, rules: Rules, board: WaterWorldState,
-            contacts: array("int8", "things"), clock: array("int64", 1), last_step: int, total: float, bin_steps: int,
-            rewards: array("float32", "bins"), hits: array("int16", "bins", 2)) -> float:
-    """Take the steps clock[0] … last_step − 1, adding what they pay to the bins of `rewards` and `hits`.
+@functools.cache
+def rollout_in(dynamics, constants):
+    """The kernel `rollout` of agents with certain `Constants` in a world with certain `Dynamics`."""
+    (reset, step), (feature, credit, choose, actions, axes) = dynamics, constants
+    world, reset, step = fields(reset), inlined(reset), inlined(step)
 
-    contacts: working memory. total: reward so far, to which theirs is added and returned. hits: green and red creeps.
-    """
-    for step in range(clock[0], last_step):
-        action = choose(parameters, state, board)
-        act(parameters, state, action)
-        reward, done = step_board(board, rules, action, contacts)
-        for n in range(parameters.nodes.points.shape[0]):
-            perceive(parameters, state, board, contacts, n)
-        attend(parameters, state, board)
-        total += reward
-        interval = step // bin_steps
-        rewards[interval] += np.float32(reward)
-        for thing in range(contacts.shape[0]):
-            hits[interval, 0] += contacts[thing] == 1
-            hits[interval, 1] += contacts[thing] == -1
-        if done:
-            reset_board(board, rules)
-            reset_tracks(parameters, state, board)
-    clock[0] = last_step
-    return total
+    @kernel
+    def rollout(parameters: Parameters, state: State, world_state: world["state"], rules: world["rules"],
+                clock: array("int64", 1), last_step: int, total: float, bin_steps: int,
+                rewards: array("float32", "bins"), hits: array("int16", "bins", "kinds")) -> float:
+        """Take the steps clock[0] … last_step − 1, adding what they pay to the bins of `rewards` and `hits`.
 
+        total: reward so far, to which theirs is added and returned. hits: things met of each kind.
+        """
+        own, scene = Constants(feature, credit, choose, actions, axes), world_state.scene
+        for now in range(clock[0], last_step):
+            action = life.act(parameters, own, state, scene)
+            reward, done = step(world_state, rules, action)
+            life.observe(parameters, own, state, scene)
+            total += reward
+            interval = now // bin_steps
+            rewards[interval] += np.float32(reward)
+            for thing in range(scene.met.shape[0]):
+                if scene.met[thing] > 0:
+                    hits[interval, scene.met[thing] - 1] += 1
+            if done:
+                reset(world_state, rules)
+                life.begin(parameters, own, state, scene)
+        clock[0] = last_step
+        return total
 
-@kernel
-def begin_tracks(parameters: Parameters, state: State, board: WaterWorldState) -> None:
-    """Start every track where things are now, see `neorl.core.life.reset_tracks`."""
-    reset_tracks(parameters, state, board)
+    return rollout

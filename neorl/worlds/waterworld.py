@@ -22,32 +22,25 @@ import numpy as np
 
 from neorl import checks
 from neorl.core.choices import Action
-from neorl.core.kernel import array, execute, fields, kernel, length, new_tuple
-from neorl.core.stream import new_stream, randint, uniform
+from neorl.core.kernel import array, inlined_kernel, kernel
+from neorl.core.scene import CARDINAL, Scene
+from neorl.core.stream import randint, uniform
+from neorl.worlds.world import Dynamics, World
 
-ACTIONS = ("N", "S", "E", "W", "no-op")
+GREEN, RED = range(2)
 CONTACTS = ("rounded", "truncated")
 DRAG = 0.975
 DIAGONAL = 1.0 / math.sqrt(2.0)
 
 
 class WaterWorldState(NamedTuple):
-    """All that changes in a tank of n creeps, in pixels and seconds.
+    """All that changes in a tank of n creeps, in pixels and seconds. The things of the scene are the creeps."""
 
-    Every field is an array that can be written to; assigning to a field copies into it.
-    """
-
-    agent_position: array("float64", 2)  # x, y
-    agent_velocity: array("float64", 2)
-    creep_position: array("float64", "things", 2)
-    creep_direction: array("float64", "things", 2)  # of length 1
-    creep_speed: array("float64", "things")
-    creep_is_green: array("bool", "things")
-    creep_jitter: array("float64", "things")  # in [0, 1]
+    scene: Scene
+    direction: array("float64", "things", 2)  # of each creep, of length 1
+    speed: array("float64", "things")
+    jitter: array("float64", "things")  # in [0, 1]
     stream: array("uint64", 4)  # the random numbers of fresh creeps
-
-    def __setattr__(self, name, value):
-        getattr(self, name)[...] = value
 
 
 class Rules(NamedTuple):
@@ -61,7 +54,7 @@ class Rules(NamedTuple):
 
 
 @dataclass(frozen=True)
-class WaterWorld:
+class WaterWorld(World, checks.Final):
     """The rules of one tank.
 
     width: pixels a side, 11 … 2³¹, so that the radius of 4.7 % rounds to a pixel or more.
@@ -73,6 +66,9 @@ class WaterWorld:
 
     Raises ValueError for anything else.
     """
+
+    kinds = ("green", "red")
+    actions = CARDINAL
 
     width: int = 250
     n_creeps: int = 3
@@ -90,6 +86,21 @@ class WaterWorld:
                      contact=checks.one_of("contact", self.contact, CONTACTS))
 
     @property
+    def dynamics(self):
+        """The kernels."""
+        return Dynamics(reset, step)
+
+    @property
+    def size(self):
+        """The width, the unit of length in which agents see the tank."""
+        return self.width
+
+    @property
+    def things(self):
+        """The number of creeps."""
+        return self.n_creeps
+
+    @property
     def radius(self):
         """The radius of agent and creeps in whole pixels."""
         return round(0.047 * self.width)
@@ -100,144 +111,110 @@ class WaterWorld:
         return Rules(float(self.width), float(self.radius), 1.0 / self.fps, float(self.win_reward),
                      0.5 if self.contact == "rounded" else 0.0)
 
-    def reset(self, seed):
-        """A fresh state: the agent at rest in the centre, creeps drawn until one is green.
-
-        seed: an integer ≥ 0 or a `numpy.random.SeedSequence`.
-        """
-        if not isinstance(seed, np.random.SeedSequence):
-            seed = np.random.SeedSequence(checks.integer("seed", seed, at_least=0))
-        state = new_tuple(WaterWorldState, {"things": self.n_creeps}, {"stream": new_stream(seed)})
-        execute(reset_board, state, self.rules)
-        return state
-
-    def step(self, state, action):
-        """Advance `state` in place by one step.
-
-        action: 0 … 4 for N, S, E, W and no-op, or one of those names.
-        Returns (reward: float, hits: bool (n_creeps,), done: bool). After `done` the state holds the last board;
-        `reset` gives the next one.
-        Raises ValueError for an unknown action, a state of another number of creeps, or one that is not finite.
-        """
-        action = ACTIONS.index(checks.one_of("action", action, ACTIONS)) if isinstance(action, str) else action
-        action = checks.integer("action", action, at_least=0, at_most=Action.no_op)
-        check_state(state, self)
-        contacts = np.zeros(self.n_creeps, np.int8)
-        reward, done = execute(step_board, state, self.rules, action, contacts)
-        return float(reward), contacts != 0, bool(done)
-
-
-def check_state(state, world):
-    """Raise ValueError unless a state has the creeps of the world, and is finite."""
-    checks.instance("state", state, WaterWorldState)
-    for name, (dtype, shape) in fields(WaterWorldState).items():
-        value = getattr(state, name)
-        expected = tuple(length(each, {"things": world.n_creeps}) for each in shape)
-        if not isinstance(value, np.ndarray) or (value.dtype, value.shape) != (np.dtype(dtype), expected):
-            found = f"{value.dtype} {value.shape}" if isinstance(value, np.ndarray) else repr(value)
-            raise ValueError(f"state.{name} is {found}, allowed with n_creeps = {world.n_creeps} is {dtype} {expected}")
-        checks.finite(f"state.{name}", value)
-    if not np.any(state.creep_direction, axis=1).all():
-        raise ValueError(f"state.creep_direction is {state.creep_direction!r}, allowed are vectors of length 1")
+    def check_state(self, state):
+        """Raise ValueError unless a state has the creeps of the world, and is finite."""
+        super().check_state(state)
+        if not np.any(state.direction, axis=1).all():
+            raise ValueError(f"state.direction is {state.direction!r}, allowed are vectors of length 1")
 
 
 @kernel
-def draw_creep(board, rules, creep):
+def draw_creep(state, rules, creep):
     """Put a fresh creep into a slot: anywhere but within 1.5 pixels of the agent."""
-    board.creep_is_green[creep] = uniform(board.stream) < 0.5
+    state.scene.kinds[creep] = GREEN if uniform(state.stream) < 0.5 else RED
     margin = 1.5 * rules.radius
     distance_squared = 0.0
     while distance_squared < 1.5 * 1.5:
-        x = margin + uniform(board.stream) * (rules.width - 2.0 * margin)
-        y = margin + uniform(board.stream) * (rules.width - 2.0 * margin)
-        dx, dy = x - board.agent_position[0], y - board.agent_position[1]
+        x = margin + uniform(state.stream) * (rules.width - 2.0 * margin)
+        y = margin + uniform(state.stream) * (rules.width - 2.0 * margin)
+        dx, dy = x - state.scene.position[0], y - state.scene.position[1]
         distance_squared = dx * dx + dy * dy
-    board.creep_position[creep, 0] = x
-    board.creep_position[creep, 1] = y
-    board.creep_direction[creep, 0] = DIAGONAL if randint(board.stream, 2) == 1 else -DIAGONAL
-    board.creep_direction[creep, 1] = DIAGONAL if randint(board.stream, 2) == 1 else -DIAGONAL
-    board.creep_speed[creep] = uniform(board.stream) * 0.25 * rules.width
-    board.creep_jitter[creep] = uniform(board.stream)
+    state.scene.things[creep, 0] = x
+    state.scene.things[creep, 1] = y
+    state.direction[creep, 0] = DIAGONAL if randint(state.stream, 2) == 1 else -DIAGONAL
+    state.direction[creep, 1] = DIAGONAL if randint(state.stream, 2) == 1 else -DIAGONAL
+    state.speed[creep] = uniform(state.stream) * 0.25 * rules.width
+    state.jitter[creep] = uniform(state.stream)
 
 
 @kernel
-def reset_board(board: WaterWorldState, rules: Rules) -> None:
+def reset(state: WaterWorldState, rules: Rules) -> None:
     """Start an episode: the agent at rest in the centre, fresh creeps, at least one of them green."""
     for axis in range(2):
-        board.agent_position[axis] = 0.5 * rules.width
-        board.agent_velocity[axis] = 0.0
+        state.scene.position[axis] = 0.5 * rules.width
+        state.scene.velocity[axis] = 0.0
     greens = 0
     while greens == 0:
-        for creep in range(board.creep_speed.shape[0]):
-            draw_creep(board, rules, creep)
-            greens += board.creep_is_green[creep]
+        for creep in range(state.speed.shape[0]):
+            draw_creep(state, rules, creep)
+            greens += state.scene.kinds[creep] == GREEN
 
 
 @kernel
-def step_board(board, rules, action, contacts):
-    """One step of the rules. Returns (reward, done); `contacts` takes what each creep paid, 0 if untouched."""
-    move_agent(board, rules, action)
-    reward, done = touch_creeps(board, rules, contacts)
-    for creep in range(contacts.shape[0]):
-        move_creep(board, rules, creep)
+def step(state: WaterWorldState, rules: Rules, action: int):
+    """One step of the rules. Returns (reward, done)."""
+    move_agent(state.scene, rules, action)
+    reward, done = touch_creeps(state, rules)
+    for creep in range(state.speed.shape[0]):
+        move_creep(state, rules, creep)
     return reward, done
 
 
-@kernel
-def move_agent(board, rules, action):
+@inlined_kernel
+def move_agent(scene, rules, action):
     if action != Action.no_op:
         axis = 1 if action <= Action.S else 0
         sign = -1.0 if action == Action.N or action == Action.W else 1.0
-        board.agent_velocity[axis] += sign * 0.25 * rules.width
+        scene.velocity[axis] += sign * 0.25 * rules.width
     highest = rules.width - 2.0 * rules.radius
     for axis in range(2):
-        position = board.agent_position[axis] + board.agent_velocity[axis] * rules.dt
+        position = scene.position[axis] + scene.velocity[axis] * rules.dt
         # The original tests ≥ in x and > in y.
         if position > highest or (position == highest and axis == 0):
-            board.agent_position[axis] = highest
-            board.agent_velocity[axis] = 0.0
+            scene.position[axis] = highest
+            scene.velocity[axis] = 0.0
         elif position < 0.0:
-            board.agent_position[axis] = 0.0
-            board.agent_velocity[axis] = 0.0
+            scene.position[axis] = 0.0
+            scene.velocity[axis] = 0.0
         else:
-            board.agent_position[axis] = position
-            board.agent_velocity[axis] *= DRAG
+            scene.position[axis] = position
+            scene.velocity[axis] *= DRAG
 
 
-@kernel
-def touch_creeps(board, rules, contacts):
-    agent_x = np.floor(board.agent_position[0] + rules.rounding)
-    agent_y = np.floor(board.agent_position[1] + rules.rounding)
+@inlined_kernel
+def touch_creeps(state, rules):
+    agent_x = np.floor(state.scene.position[0] + rules.rounding)
+    agent_y = np.floor(state.scene.position[1] + rules.rounding)
     reach = 2.0 * rules.radius
     reward, greens = 0.0, 0
-    for creep in range(contacts.shape[0]):
-        dx = abs(agent_x - np.floor(board.creep_position[creep, 0] + rules.rounding))
-        dy = abs(agent_y - np.floor(board.creep_position[creep, 1] + rules.rounding))
-        contacts[creep] = 0
+    for creep in range(state.speed.shape[0]):
+        dx = abs(agent_x - np.floor(state.scene.things[creep, 0] + rules.rounding))
+        dy = abs(agent_y - np.floor(state.scene.things[creep, 1] + rules.rounding))
+        state.scene.met[creep] = 0
         if dx < reach and dy < reach:
-            contacts[creep] = 1 if board.creep_is_green[creep] else -1
-            reward += contacts[creep]
-            draw_creep(board, rules, creep)
-        greens += board.creep_is_green[creep]
+            state.scene.met[creep] = 1 + state.scene.kinds[creep]
+            reward += 1.0 if state.scene.kinds[creep] == GREEN else -1.0
+            draw_creep(state, rules, creep)
+        greens += state.scene.kinds[creep] == GREEN
     if greens == 0:
         reward += rules.win_reward
     return reward, greens == 0
 
 
-@kernel
-def move_creep(board, rules, creep):
+@inlined_kernel
+def move_creep(state, rules, creep):
     low, high = rules.radius, rules.width - rules.radius
-    bounce = -(1.0 + 0.5 * board.creep_jitter[creep])
+    bounce = -(1.0 + 0.5 * state.jitter[creep])
     for axis in range(2):
-        direction = board.creep_direction[creep, axis]
-        position = board.creep_position[creep, axis] + direction * board.creep_speed[creep] * rules.dt
+        direction = state.direction[creep, axis]
+        position = state.scene.things[creep, axis] + direction * state.speed[creep] * rules.dt
         if position > high:
             position, direction = high, direction * bounce
         elif position <= low:
             position, direction = low, direction * bounce
-        board.creep_position[creep, axis] = position
-        board.creep_direction[creep, axis] = direction
-    x, y = board.creep_direction[creep, 0], board.creep_direction[creep, 1]
+        state.scene.things[creep, axis] = position
+        state.direction[creep, axis] = direction
+    x, y = state.direction[creep, 0], state.direction[creep, 1]
     length = math.sqrt(x * x + y * y)
-    board.creep_direction[creep, 0] = x / length
-    board.creep_direction[creep, 1] = y / length
+    state.direction[creep, 0] = x / length
+    state.direction[creep, 1] = y / length

@@ -1,0 +1,85 @@
+"""Calls of a kernel with the same arguments again and again, at the cost of one argument.
+
+An agent is some eighty arrays, and handing them from Python to compiled code takes ten microseconds. So their addresses
+are put into a table once, and a compiled entry finds them there.
+"""
+
+import functools
+
+import numba
+import numpy as np
+from numba import carray, from_dtype, types
+from numba.extending import intrinsic
+
+from neorl.core.kernel import Kernel, execute, fields, is_tuple
+
+
+def bound(called, *arguments):
+    """A function without arguments that executes a kernel with these named tuples of arrays and numbers."""
+    if not isinstance(called, Kernel):
+        return lambda: execute(called, *arguments)
+    numbers, table = [], []
+    for each in arguments:
+        _enter(each, table, numbers)
+    entry, table, numbers = _entry(called), np.array(table, np.int64), np.array(numbers, np.float64)
+
+    def call(kept_alive=arguments):
+        return entry(table, numbers)
+
+    return call
+
+
+def _enter(values, table, numbers):
+    for value, kind in zip(values, fields(type(values)).values()):
+        if is_tuple(kind):
+            _enter(value, table, numbers)
+        elif isinstance(value, np.ndarray):
+            table += [value.ctypes.data, *value.shape]
+        elif kind in (bool, int):
+            table.append(value)
+        else:
+            numbers.append(value)
+
+
+@functools.cache
+def _entry(called):
+    """The compiled function (table, numbers) that calls a kernel."""
+    scope, place = {"called": called, "carray": carray, "np": np}, [0, 0]
+    kinds = [kind for name, kind in fields(called).items() if name != "return"]
+    source = f"def entry(table, numbers):\n    return called({', '.join(_taken(kind, scope, place) for kind in kinds)})"
+    exec(source, scope)
+    return numba.njit(error_model="numpy", nogil=True)(scope["entry"])
+
+
+def _taken(kind, scope, place):
+    """The expression that makes a value from the table and the numbers, from a place in each that it moves on."""
+    if is_tuple(kind):
+        scope[kind.__name__] = kind
+        return f"{kind.__name__}({', '.join(_taken(each, scope, place) for each in fields(kind).values())})"
+    at, number = place
+    if isinstance(kind, tuple):
+        dtype, shape = kind
+        scope[f"pointer_to_{np.dtype(dtype)}"] = _pointer_to(dtype)
+        place[0] += 1 + len(shape)
+        lengths = "".join(f"table[{at + 1 + axis}], " for axis in range(len(shape)))
+        return f"carray(pointer_to_{np.dtype(dtype)}(table[{at}]), ({lengths}))"
+    if kind in (bool, int):
+        place[0] += 1
+        return f"table[{at}] != 0" if kind is bool else f"table[{at}]"
+    place[1] += 1
+    return f"np.float32(numbers[{number}])" if kind is np.float32 else f"numbers[{number}]"
+
+
+@functools.cache
+def _pointer_to(dtype):
+    """A function of compiled code from an address to the pointer to an array."""
+    kind = types.CPointer(from_dtype(np.dtype(dtype)))
+
+    @intrinsic
+    def pointer(typing, address):
+        def generate(context, builder, signature, arguments):
+            return builder.inttoptr(arguments[0], context.get_value_type(kind))
+
+        return kind(types.int64), generate
+
+    return pointer

@@ -1,0 +1,78 @@
+"""How an action is chosen by the values of all: greedily, or by a softmax.
+
+A user's own policy is a kernel of the same form, ``(value, stream) → action``: value, float64 (actions,), is that of
+each action; stream, of random numbers, is drawn from by `neorl.core.stream.uniform` and `randint`.
+"""
+
+import math
+
+import numpy as np
+
+from neorl import checks
+from neorl.core.kernel import kernel, kernel_maker
+from neorl.core.stream import randint, uniform
+
+LN_2 = math.log(2.0)
+TERMS = 20  # of the series of the exponential function, so that it is exact to the last few bits
+
+
+@kernel
+def greedy(value, stream):
+    """The action of highest value, ties broken at random."""
+    best = value[0]
+    for action in range(1, value.shape[0]):
+        best = max(best, value[action])
+    ties = 0
+    for action in range(value.shape[0]):
+        ties += value[action] == best
+    skip = randint(stream, ties) if ties > 1 else 0
+    action = 0
+    while action < value.shape[0] - 1 and (value[action] != best or skip > 0):
+        skip -= value[action] == best
+        action += 1
+    return action
+
+
+@kernel_maker
+def softmax(temperature):
+    """The policy that draws an action a with a probability proportional to exp(value[a] / temperature).
+
+    temperature: > 0, in units of value. Raises ValueError for anything else.
+    """
+    if checks.real("temperature", temperature, 0) == 0:
+        raise ValueError(f"temperature is {temperature!r}, allowed are numbers above 0")
+
+    @kernel
+    def choose(value, stream):
+        best = value[0]
+        for action in range(1, value.shape[0]):
+            best = max(best, value[action])
+        total = 0.0
+        for action in range(value.shape[0]):
+            total += exponential((value[action] - best) / temperature)
+        rest = uniform(stream) * total
+        action = 0
+        while action < value.shape[0] - 1:
+            rest -= exponential((value[action] - best) / temperature)
+            if rest < 0.0:
+                break
+            action += 1
+        return action
+
+    return choose
+
+
+@kernel
+def exponential(x):
+    """e to the power of x ≤ 0, from its series near 0, halved as often as it takes."""
+    if not x > -700.0:
+        return 0.0
+    halvings = np.floor(-x / LN_2)
+    rest = x + halvings * LN_2
+    series = 1.0
+    for n in range(TERMS, 0, -1):
+        series = 1.0 + rest / n * series
+    while halvings > 0.0:
+        series *= 0.5
+        halvings -= 1.0
+    return series

@@ -1,0 +1,97 @@
+"""What a world is.
+
+A world is a frozen dataclass, its fields what is chosen of it, with a `State`, rules, and two kernels:
+
+1. ``State``, a named tuple of arrays (`neorl.core.kernel.array`), holds all that changes. It has a field ``scene``, the
+   `neorl.core.scene.Scene` that agents perceive, and a field ``stream`` of random numbers, uint64 (4,).
+2. ``rules``, a named tuple of numbers, holds all that stays the same, as the kernels take it.
+3. ``reset(state, rules)`` starts an episode; ``step(state, rules, action)`` takes a step, and returns the reward and
+   whether the episode is over. Both annotate what they take. A step fills ``scene.met``, for each thing, with 0 or 1 +
+   the number of the kind that it met as. Both keep to the rules of kernels (`neorl.core.kernel`).
+4. ``kinds`` names the kinds of its things, the one that an agent wants by default first; ``actions`` are its `Actions`,
+   whose numbers ``step`` takes. ``size`` is its unit of length, such as its width; ``fps`` are its steps per second;
+   ``things`` is how many things there are.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from neorl import checks
+from neorl.core.kernel import Kernel, arrays, execute, fields, is_tuple, length, new_tuple
+from neorl.core.stream import new_stream
+
+
+class Dynamics(NamedTuple):
+    """The two kernels of a world."""
+
+    reset: Kernel  # (state, rules)
+    step: Kernel  # (state, rules, action) → (reward, done)
+
+
+class World:
+    """A world of kernels; see the module for what a subclass defines."""
+
+    dynamics = None  # a `Dynamics`
+    kinds = ()
+    actions = None
+
+    @property
+    def State(self):
+        """The type of its states."""
+        return fields(self.dynamics.reset)["state"]
+
+    @property
+    def sizes(self):
+        """The sizes of the arrays in a state, by name."""
+        return {"things": self.things, "axes": self.actions.axes}
+
+    def reset(self, seed):
+        """A state at the beginning of an episode.
+
+        seed: an integer ≥ 0 or a `numpy.random.SeedSequence`. Raises ValueError for anything else.
+        """
+        if not isinstance(seed, np.random.SeedSequence):
+            seed = np.random.SeedSequence(checks.integer("seed", seed, at_least=0))
+        state = new_tuple(self.State, self.sizes, {"stream": new_stream(seed)})
+        execute(self.dynamics.reset, state, self.rules)
+        return state
+
+    def step(self, state, action):
+        """Advance `state` in place by one step.
+
+        action: the number of an action, or its name.
+        Returns (reward: float, met: bool (things,), done: bool). After `done` the state is the last of its episode;
+        `reset` gives the next one.
+        Raises ValueError for an unknown action, and for a state that does not fit or is not finite.
+        """
+        names = self.actions.all_names
+        action = names.index(checks.one_of("action", action, names)) if isinstance(action, str) else action
+        action = checks.integer("action", action, at_least=0, at_most=len(names) - 1)
+        self.check_state(state)
+        reward, done = execute(self.dynamics.step, state, self.rules, action)
+        return float(reward), state.scene.met != 0, bool(done)
+
+    def check_state(self, state):
+        """Raise ValueError unless the arrays of a state fit this world, and are finite."""
+        checks.instance("state", state, self.State)
+        check_arrays("state", state, self.sizes)
+        kinds = state.scene.kinds
+        if kinds.size and not (-1 <= kinds.min() and kinds.max() < len(self.kinds)):
+            raise ValueError(f"state.scene.kinds is {kinds!r}, allowed are −1 and the numbers of {self.kinds}")
+
+
+def check_arrays(name, values, sizes):
+    """Raise ValueError unless the arrays of a named tuple are finite and as their annotations have them."""
+    for field, kind in fields(type(values)).items():
+        value, path = getattr(values, field), f"{name}.{field}"
+        if is_tuple(kind):
+            check_arrays(path, checks.instance(path, value, kind), sizes)
+            continue
+        dtype, shape = kind
+        expected = tuple(length(each, sizes) for each in shape)
+        if (not isinstance(value, np.ndarray) or (value.dtype, value.shape) != (np.dtype(dtype), expected)
+                or not value.flags.c_contiguous or not value.flags.writeable):
+            found = f"{value.dtype} {value.shape}" if isinstance(value, np.ndarray) else repr(value)
+            raise ValueError(f"{path} is {found}, allowed is {dtype} {expected}, contiguous and writeable")
+        checks.finite(path, value)
