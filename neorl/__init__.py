@@ -29,12 +29,14 @@ from neorl.experiments.cache import Condition, simulate_once
 from neorl.experiments.run import Run
 from neorl.experiments.simulation import Result, simulate
 from neorl.experiments.sweep import sweep
+from neorl.worlds.arena import Arena
 from neorl.worlds.waterworld import WaterWorld
 from neorl.worlds.world import World
 
-__all__ = ["CARDINAL", "Actions", "Agent", "Axis", "Condition", "Desire", "Learner", "Learning", "Modality", "Node",
-           "NresMap", "Place", "Policy", "Result", "Run", "Scene", "WaterWorld", "World", "greedy", "kernel",
-           "kernel_maker", "learn", "simulate", "simulate_once", "softmax", "superpose", "sweep",
+__all__ = ["Actions", "Agent", "Arena", "Axis", "CARDINAL", "Condition", "Desire", "Learner", "Learning",
+           "Modality", "Node", "NresMap", "Place", "Policy", "Result", "Run", "Scene", "WaterWorld", "World",
+           "greedy", "kernel", "kernel_maker", "learn", "simulate", "simulate_once", "softmax", "superpose",
+           "sweep",
            "brownian", "multimodal", "network_a", "network_b", "network_c", "network_d", "object_vector_cells",
            "place_cells"]
 

@@ -1,0 +1,215 @@
+"""An arena in the plane, with walls, obstacles and places that matter; by default the water maze of Morris (1984).
+
+1. The agent moves as in WaterWorld, with inertia: an action adds a quarter of the size to its velocity along an axis,
+   which keeps 97.5 % of it a step; or in plain steps of one length. Along an axis where it would come into a wall or an
+   obstacle it stays where it is, and stops.
+2. The places are the things of the scene, and do not move. One is met when the agent comes within `radius` of it, which
+   pays what its kind pays, and, if `ends`, ends the trial; otherwise it can be met again once the agent has left it.
+3. A trial that is not over after `trial_seconds` ends without pay.
+4. A trial starts at one of the four cardinal points of the rim, drawn at random, or at `start`.
+
+The origin is the upper left corner; the pool, if round, touches all four sides.
+"""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from neorl import checks
+from neorl.core.kernel import array, execute, inlined_kernel, kernel
+from neorl.core.scene import CARDINAL, Scene
+from neorl.core.stream import randint
+from neorl.worlds.waterworld import DRAG
+from neorl.worlds.world import Dynamics, World
+
+SHAPES = ("round", "square")
+MOTIONS = ("inertia", "steps")
+RIM = 0.05  # how far from the wall a trial starts, of the size
+PUSH = 0.25  # of the size a second, that an action adds to the velocity
+
+
+class ArenaState(NamedTuple):
+    """All that changes in an arena."""
+
+    scene: Scene
+    inside: array("bool", "things")  # whether the agent is within the radius of a place
+    clock: array("int64", 1)  # steps since the trial began
+    stream: array("uint64", 4)  # the random numbers of starts
+
+
+class ArenaRules(NamedTuple):
+    """All that stays the same in an arena, as the kernels take it."""
+
+    size: float
+    dt: float  # seconds a step
+    round: bool
+    stride: float  # of a plain step, as a share of the size; 0 with inertia
+    radius: float
+    ends: bool
+    last_step: int
+    n_starts: int
+    start: array("float64", 4, 2)
+    push: array("float64", 4, 2)
+    place: array("float64", "things", 2)
+    kind: array("int64", "things")
+    pay: array("float64", "things")
+    obstacle: array("float64", "obstacles", 4)  # left, top, right, bottom
+
+
+@dataclass(frozen=True)
+class Arena(World, checks.Final):
+    """An arena in the plane, see the module for its rules. All lengths are shares of its size, its width and height.
+
+    places: (kind, x, y) each, the kind a name. pay: for each kind, in the order in which they first come in `places`,
+        what it pays to meet one; 1 for those that are left out.
+    obstacles: (left, top, right, bottom) each.
+    shape: of the walls, "round" or "square". motion: "inertia", or plain "steps" of `step_length`.
+    radius: within which a place is met, > 0. ends: whether that ends the trial.
+    start: where trials start, (x, y); () stands for one of four points of the rim.
+    trial_seconds: how long a trial lasts at most, > 0. fps: steps a second, 1 … 2³¹.
+
+    Raises ValueError for anything else, and for a start that is not free.
+    """
+
+    places: tuple[tuple[str, float, float], ...] = (("platform", 0.65, 0.35),)
+    pay: tuple[float, ...] = ()
+    obstacles: tuple[tuple[float, float, float, float], ...] = ()
+    shape: str = "round"
+    motion: str = "inertia"
+    step_length: float = 0.02
+    radius: float = 0.06
+    ends: bool = True
+    start: tuple[float, ...] = ()
+    trial_seconds: float = 60.0
+    fps: int = 50
+
+    actions = CARDINAL
+    size = 1.0
+
+    def __post_init__(self):
+        places = tuple(checks.several("places", each) for each in checks.several("places", self.places))
+        if any(len(each) != 3 or not isinstance(each[0], str) for each in places):
+            raise ValueError(f"places is {self.places!r}, allowed are (kind, x, y) each")
+        checks.assign(
+            self, places=tuple((kind, *(checks.real("places", value, 0, 1) for value in at)) for kind, *at in places),
+            pay=tuple(checks.real("pay", each) for each in checks.several("pay", self.pay)),
+            obstacles=tuple(tuple(checks.real("obstacles", value, 0, 1) for value in checks.several("obstacles", each))
+                            for each in checks.several("obstacles", self.obstacles)),
+            shape=checks.one_of("shape", self.shape, SHAPES), motion=checks.one_of("motion", self.motion, MOTIONS),
+            step_length=checks.real("step_length", self.step_length, 0, 1),
+            radius=checks.real("radius", self.radius, 1e-9), ends=checks.flag("ends", self.ends),
+            start=tuple(checks.real("start", value, 0, 1) for value in checks.several("start", self.start)),
+            trial_seconds=checks.real("trial_seconds", self.trial_seconds, 1e-9, 1e9),
+            fps=checks.integer("fps", self.fps, at_least=1, at_most=2**31))
+        if len(self.pay) > len(self.kinds):
+            raise ValueError(f"pay is {self.pay!r}, allowed are {len(self.kinds)} numbers, one for each kind")
+        for left, top, right, bottom, *more in (each + (0,) * (4 - len(each)) for each in self.obstacles):
+            if more or not (left < right and top < bottom):
+                raise ValueError(f"obstacles is {self.obstacles!r}, allowed are (left, top, right, bottom) each")
+        if len(self.start) not in (0, 2):
+            raise ValueError(f"start is {self.start!r}, allowed are () and a place (x, y)")
+        if any(execute(is_blocked, self.rules, x, y) for x, y in self.rules.start):
+            raise ValueError(f"start is {self.start!r}, allowed are places outside of walls and obstacles")
+
+    @property
+    def dynamics(self):
+        """The kernels."""
+        return Dynamics(reset, step)
+
+    @property
+    def kinds(self):
+        """The kinds of its places."""
+        return tuple(dict.fromkeys(kind for kind, *_ in self.places))
+
+    @property
+    def things(self):
+        """How many places there are."""
+        return len(self.places)
+
+    @property
+    def sizes(self):
+        """The sizes of the arrays in a state and in the rules, by name."""
+        return super().sizes | {"obstacles": len(self.obstacles)}
+
+    @property
+    def rules(self):
+        """The rules as the kernels take them."""
+        pay = dict(zip(self.kinds, (*self.pay, *[1.0] * len(self.kinds))))
+        near, far = RIM, 1.0 - RIM
+        starts = [self.start] * 4 if self.start else [(0.5, near), (0.5, far), (far, 0.5), (near, 0.5)]
+        return ArenaRules(
+            self.size, 1.0 / self.fps, self.shape == "round", self.step_length if self.motion == "steps" else 0.0,
+            self.radius, self.ends, max(1, round(self.trial_seconds * self.fps)), 1 if self.start else 4,
+            np.array(starts, float), np.array(self.actions.pushes, float),
+            np.array([at for _, *at in self.places], float).reshape(-1, 2),
+            np.array([self.kinds.index(kind) for kind, *_ in self.places], np.int64),
+            np.array([pay[kind] for kind, *_ in self.places], float), np.array(self.obstacles, float).reshape(-1, 4))
+
+
+@kernel
+def reset(state: ArenaState, rules: ArenaRules) -> None:
+    """Start a trial, at rest."""
+    scene, start = state.scene, randint(state.stream, rules.n_starts)
+    for axis in range(2):
+        scene.position[axis], scene.velocity[axis] = rules.start[start, axis], 0.0
+    state.clock[0] = 0
+    for place in range(rules.place.shape[0]):
+        scene.things[place, 0], scene.things[place, 1] = rules.place[place, 0], rules.place[place, 1]
+        scene.kinds[place], scene.met[place] = rules.kind[place], 0
+        state.inside[place] = is_near(scene, rules, place)
+
+
+@kernel
+def step(state: ArenaState, rules: ArenaRules, action: int):
+    """One step of the rules. Returns (reward, done)."""
+    scene, reward, met = state.scene, 0.0, 0
+    move(scene, rules, action)
+    for place in range(rules.place.shape[0]):
+        near = is_near(scene, rules, place)
+        meets = near and not state.inside[place]
+        scene.met[place] = 1 + rules.kind[place] if meets else 0
+        state.inside[place] = near
+        if meets:
+            met += 1
+            reward += rules.pay[place]
+    state.clock[0] += 1
+    return reward, rules.ends and met > 0 or state.clock[0] >= rules.last_step
+
+
+@inlined_kernel
+def move(scene, rules, action):
+    """Move the agent, along one axis after the other."""
+    for axis in range(2):
+        push = rules.push[action, axis] if action < rules.push.shape[0] else 0.0
+        if rules.stride > 0.0:
+            scene.velocity[axis] = push * rules.stride / rules.dt
+        else:
+            scene.velocity[axis] += PUSH * push
+        before = scene.position[axis]
+        scene.position[axis] += scene.velocity[axis] * rules.dt
+        if is_blocked(rules, scene.position[0], scene.position[1]):
+            scene.position[axis], scene.velocity[axis] = before, 0.0
+        elif rules.stride == 0.0:
+            scene.velocity[axis] *= DRAG
+
+
+@kernel
+def is_near(scene, rules, place):
+    """Whether the agent is within the radius of a place."""
+    dx, dy = scene.position[0] - rules.place[place, 0], scene.position[1] - rules.place[place, 1]
+    return dx * dx + dy * dy < rules.radius * rules.radius
+
+
+@kernel
+def is_blocked(rules, x, y):
+    """Whether there is a wall or an obstacle at (x, y)."""
+    if rules.round:
+        blocked = (x - 0.5) * (x - 0.5) + (y - 0.5) * (y - 0.5) > 0.25
+    else:
+        blocked = x < 0.0 or y < 0.0 or x > 1.0 or y > 1.0
+    for each in range(rules.obstacle.shape[0]):
+        left, top, right, bottom = (rules.obstacle[each, 0], rules.obstacle[each, 1], rules.obstacle[each, 2],
+                                    rules.obstacle[each, 3])
+        blocked = blocked or left < x < right and top < y < bottom
+    return blocked
