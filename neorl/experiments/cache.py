@@ -1,7 +1,7 @@
 """Finished conditions on disk, so that nothing is computed twice.
 
 A condition is kept under a key of all that determines it: agent, world, steps, runs, seed, and the source of every
-module that takes part in a run. A file is complete or absent, whatever moment the process is killed at, and carries a
+module that takes part in a run, and of every kernel of the user's own. A file is complete or absent, whatever moment the process is killed at, and carries a
 digest of its content: one that is damaged is noticed and computed again.
 
 The files lie in the folder that the environment variable ``NEORL_CACHE`` names, or in the user's cache folder; all of
@@ -20,6 +20,7 @@ import platformdirs
 
 from neorl import checks
 from neorl.agents.agent import Agent
+from neorl.experiments.identity import identity
 from neorl.experiments.simulation import Result, checked_changes, simulate
 from neorl.files import write_whole
 from neorl.worlds.world import World
@@ -67,7 +68,7 @@ class Condition:
     @property
     def key(self):
         """A name for the condition and the source that it runs with: 64 hexadecimal digits."""
-        return hashlib.sha256(repr((self, source_digest())).encode()).hexdigest()
+        return hashlib.sha256(f"{identity(self)} {source_digest()}".encode()).hexdigest()
 
     @property
     def path(self):
