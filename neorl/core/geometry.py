@@ -3,7 +3,7 @@
 A space is a list of axes. Along each an agent perceives one number, the axis's *coordinate*: a *feature* of a *vector*
 in units of the world's size (a second, for velocity); a direction is in turns, from the first axis of the world towards
 the second. A map cuts each axis into intervals, and the intervals that hold the coordinates make the one active cell
-(`find_cells`). Without a direction, as at rest, the coordinate is not a number, and the interval stays as it was.
+(`cell_of`). Without a direction, as at rest, the coordinate is not a number, and the interval stays as it was.
 
 A node *follows* one vector (`parameters.NodeParameters`): the agent's own, or that of each of several points. An element
 of interest is *placed* along the axes of that vector, but in a contact keeps the direction that it is in; along the axes
@@ -130,16 +130,13 @@ def locate(parameters, constants, scene, n, point, given, offset, coordinates):
 
 
 @inlined_kernel
-def find_cells(parameters, coordinates, n, cells):
-    """Put the active cell of every map of a node into `cells`; no direction counts as 0."""
-    grid, nodes = parameters.grid, parameters.nodes
-    n_axes = nodes.first_axis[n + 1] - nodes.first_axis[n]
-    for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
-        cell, g = 0.0, parameters.maps.first_grid[m]
-        for axis in range(n_axes):
-            cut = grid[g + axis]
-            cell += cut[STRIDE] * interval_at(cut, coordinates[axis])
-        cells[m - nodes.first_map[n]] = int(cell)
+def cell_of(parameters, coordinates, n, m):
+    """The cell of a point in a map of a node; no direction counts as 0."""
+    cell, first = 0.0, np.uint64(parameters.maps.first_grid[m])  # unsigned, an index cannot count from the end
+    for axis in range(np.uint64(parameters.nodes.first_axis[n + 1] - parameters.nodes.first_axis[n])):
+        cut = parameters.grid[first + axis]
+        cell += cut[STRIDE] * interval_at(cut, coordinates[axis])
+    return int(cell)
 
 
 @inlined_kernel

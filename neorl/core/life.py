@@ -16,7 +16,7 @@
 import numpy as np
 
 from neorl.core.choices import Attention, Capture, Credit, UpdateOn, Vector
-from neorl.core.geometry import contact_cell, find_cells, locate, with_kept_directions
+from neorl.core.geometry import cell_of, contact_cell, locate, with_kept_directions
 from neorl.core.kernel import inlined_kernel
 from neorl.core.learning import UNIT, ZERO, enter, learn_transition, start_track
 from neorl.core.network import choose
@@ -57,11 +57,10 @@ def perceive(parameters, constants, state, scene, n, point):
     attended = not things or learning.attention == Attention.each or state.attended[0] == point
     breaks = not attended or absent or met and learning.capture != Capture.leap
     _, all_have_directions = locate(parameters, constants, scene, n, point, False, state.offset, state.coordinates)
-    find_cells(parameters, state.coordinates, n, state.cells)
     looked_alone = False
     for m in range(parameters.nodes.first_map[n], parameters.nodes.first_map[n + 1]):
-        k, track = m - parameters.nodes.first_map[n], parameters.maps.first_track[m] + point
-        cell_tm1, cell = tracks.cell[track], state.cells[k]
+        track = parameters.maps.first_track[m] + point
+        cell_tm1, cell = tracks.cell[track], cell_of(parameters, state.coordinates, n, m)
         ends = breaks or cell_tm1 < 0
         if not (all_have_directions or ends):
             cell = with_kept_directions(parameters.grid, parameters.maps.first_grid[m], state.coordinates,
@@ -74,7 +73,7 @@ def perceive(parameters, constants, state, scene, n, point):
             if drifts and not looked_alone:
                 look_alone(parameters, constants, state, scene, n, point)
                 looked_alone = True
-            caused = not drifts or state.alone[k] != cell_tm1
+            caused = not drifts or cell_of(parameters, state.alone, n, m) != cell_tm1
             learn_transition(parameters, constants, state, m, point, cell_t, caused)
             enter(constants, tracks, track, cell_t)
         if ends:
@@ -83,11 +82,10 @@ def perceive(parameters, constants, state, scene, n, point):
 
 @inlined_kernel
 def look_alone(parameters, constants, state, scene, n, point):
-    """Find the cells in which a thing would be had it stood still in this step, into state.alone."""
+    """See where a thing would be had it stood still in this step, into state.alone."""
     for axis in range(len(constants.axes)):
         state.offset[axis] = (state.things[point, axis] - scene.position[axis]) / parameters.size
-    locate(parameters, constants, scene, n, point, True, state.offset, state.coordinates)
-    find_cells(parameters, state.coordinates, n, state.alone)
+    locate(parameters, constants, scene, n, point, True, state.offset, state.alone)
 
 
 @inlined_kernel
@@ -130,8 +128,7 @@ def begin(parameters, constants, state, scene):
 def begin_point(parameters, constants, state, scene, n, point):
     """Start the tracks of a point where it is now."""
     locate(parameters, constants, scene, n, point, False, state.offset, state.coordinates)
-    find_cells(parameters, state.coordinates, n, state.cells)
     absent = parameters.nodes.follows[n] == Vector.objects and scene.kinds[point] < 0
     for m in range(parameters.nodes.first_map[n], parameters.nodes.first_map[n + 1]):
-        cell = state.cells[m - parameters.nodes.first_map[n]]
+        cell = cell_of(parameters, state.coordinates, n, m)
         start_track(parameters, constants, state.tracks, m, point, ABSENT if absent else cell)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from neorl import checks
-from neorl.core.geometry import find_cells, in_range
+from neorl.core.geometry import cell_of, in_range
 from neorl.core.kernel import array, execute, kernel
 from neorl.core.modality import PLACE_CELL, Modality, as_turns, space_of
 from neorl.core.parameters import SpaceParameters
@@ -57,8 +57,7 @@ class NresMap(checks.Final):
         """
         points = checks.points("points", points, self.modality.names)
         cells = np.zeros(points.shape[:-1], np.int64)
-        execute(encode, space_of(self.modality, self.resolution), as_turns(self.modality, points), np.zeros(1, np.int64),
-                cells.reshape(-1))
+        execute(encode, space_of(self.modality, self.resolution), as_turns(self.modality, points), cells.reshape(-1))
         return cells
 
     def covers(self, points):
@@ -70,11 +69,10 @@ class NresMap(checks.Final):
 
 
 @kernel
-def encode(space: SpaceParameters, points: array("float64", "points", "coordinates"), found: array("int64", 1),
+def encode(space: SpaceParameters, points: array("float64", "points", "coordinates"),
            cells: array("int64", "points")) -> None:
-    """The cell of each point, which is moved into its range, in the space's only map. found: working memory."""
+    """The cell of each point, which is moved into its range, in the space's only map."""
     for point in range(cells.shape[0]):
         for axis in range(points.shape[1]):
             points[point, axis] = in_range(space.axes, axis, points[point, axis])
-        find_cells(space, points[point], 0, found)
-        cells[point] = found[0]
+        cells[point] = cell_of(space, points[point], 0, 0)

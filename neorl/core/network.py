@@ -14,7 +14,7 @@
 """
 
 from neorl.core.choices import Source, Vector
-from neorl.core.geometry import contact_cell, find_cells, locate
+from neorl.core.geometry import cell_of, contact_cell, locate
 from neorl.core.kernel import inlined_kernel
 from neorl.core.stream import randint, uniform
 
@@ -121,9 +121,8 @@ def add_element(parameters, constants, state, scene, n, valence, q):
     of_agent = nodes.follows[n] == Vector.position or nodes.follows[n] == Vector.velocity
     if of_agent and not has_direction:
         return
-    find_cells(parameters, state.coordinates, n, state.cells)
     for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
-        cell = state.cells[m - nodes.first_map[n]]
+        cell = cell_of(parameters, state.coordinates, n, m)
         if of_agent:
             add_goals(parameters, constants, state, m, state.tracks.cell[maps.first_track[m]], cell, valence, q)
         else:

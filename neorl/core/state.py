@@ -53,8 +53,7 @@ class State(NamedTuple):
     stream: array("uint64", 4)  # the random numbers of the policy
     here: array("float64", "axes")  # working memory: where the agent is, in units of the world's size
     coordinates: array("float64", "coordinates")  # working memory: of the point that is looked at
-    cells: array("int64", "maps")  # working memory: its cells in the maps of a node
-    alone: array("int64", "maps")  # working memory: those had it not moved
+    alone: array("float64", "coordinates")  # working memory: of that point had it not moved
     offset: array("float64", "axes")  # working memory: of an element of interest from the agent
 
 
@@ -69,8 +68,7 @@ def new_state(parameters, stream, n_things, old=None):
     sizes = {"values": maps.first_value[-1], "cells": maps.first_cell[-1], "tracks": maps.first_track[-1],
              "trace": parameters.learning.trace, "traces": traces, "trace_rows": 2 * actions * traces,
              "desires": len(parameters.desires.source), "things": n_things, "actions": actions, "axes": axes,
-             "coordinates": parameters.desires.at.shape[1],
-             "maps": len(maps.cells)}
+             "coordinates": parameters.desires.at.shape[1]}
     values = {}
     if old:
         execute(clear_q, parameters, old)
