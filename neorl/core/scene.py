@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import NamedTuple
 
+import numpy as np
+
 from neorl import checks
 from neorl.core.kernel import array
 
@@ -52,6 +54,11 @@ class Actions(checks.Final):
     def axes(self):
         """The number of axes of the world."""
         return len(self.pushes[0])
+
+    @property
+    def table(self):
+        """The pushes of all actions in the order of their numbers, idleness last: float64 (actions, axes)."""
+        return np.array([*self.pushes, *[(0.0,) * self.axes] * (self.idle is not None)], float)
 
     @property
     def all_names(self):

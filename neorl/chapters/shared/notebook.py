@@ -1,9 +1,10 @@
 """What every notebook of the book begins with: its parameters checked, its style set, its scale told."""
 
 import ast
+import inspect
 
 from IPython import get_ipython
-from IPython.display import HTML, display
+from IPython.display import HTML, Markdown, display
 
 from neorl import checks
 from neorl.drawing import figures
@@ -35,3 +36,9 @@ def injected_names():
     cells = shell.user_ns["In"] if shell else []
     injected = [ast.parse(cell) for cell in cells if cell.startswith("# Parameters\n")]
     return [target.id for tree in injected for statement in tree.body for target in statement.targets]
+
+
+def source(*values):
+    """The source of modules, classes or kernels, to be read: Markdown."""
+    sources = [inspect.getsource(getattr(each, "py_func", each)) for each in values]
+    return Markdown("\n".join(["```python", *sources, "```"]))

@@ -1,0 +1,37 @@
+"""A turtle in a room, with the interface of a Gymnasium environment: it goes ahead, or turns left or right by 45°."""
+
+import numpy as np
+
+from neorl import Actions, Scene
+
+TURTLE_ACTIONS = Actions(("ahead", "left", "right"), ((0, 0), (0, 0), (0, 0)))
+STRIDE, REACH, GOAL = 0.06, 0.12, (0.75, 0.25)
+
+
+class Turtle:
+    """`reset` and `step` as in Gymnasium; an observation is {"position": (2,), "heading": radians}."""
+
+    def reset(self, seed=None):
+        """Begin anywhere, in any of eight directions. Returns (observation, info)."""
+        self.rng = np.random.default_rng(seed) if seed is not None else self.rng
+        self.position, self.heading = self.rng.random(2), self.rng.integers(8)
+        return self.observation(), {}
+
+    def step(self, action):
+        """Returns (observation, reward, terminated, truncated, info)."""
+        self.heading = (self.heading + (0, -1, 1)[action]) % 8
+        if action == 0:
+            angle = self.heading * np.pi / 4
+            self.position = np.clip(self.position + STRIDE * np.array([np.cos(angle), np.sin(angle)]), 0, 1)
+        found = bool(np.hypot(*(self.position - GOAL)) < REACH)
+        return self.observation(), float(found), found, False, {}
+
+    def observation(self):
+        """What can be seen."""
+        return {"position": self.position, "heading": self.heading * np.pi / 4}
+
+
+def scene_of(observation):
+    """What an agent perceives of an observation: the heading stands in for the direction of its velocity."""
+    heading = observation["heading"]
+    return Scene(observation["position"], (np.cos(heading), np.sin(heading)))
