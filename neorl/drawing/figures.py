@@ -14,6 +14,7 @@ from neorl.core.geometry import TAU
 from neorl.core.horde import as_vectors
 from neorl.evidence.curves import binned_rate, low_passed
 from neorl.evidence.statistics import mean_band, tolerance_band
+from neorl.worlds import waterworld
 from neorl.worlds.probe import HALF_SECOND
 
 INK = "#808080"
@@ -78,12 +79,13 @@ def draw_values(axes, nres_map, values):
 def _rectangles(nres_map):
     """The upper left corners and the sides of the receptive fields of a map, (cells, 2) each."""
     # What lies beyond the range of a map belongs to the cell at its end, as far as things can be.
-    n, furthest = nres_map.resolution, (0, 1) if nres_map.modality.vector == "position" else (-1, 1)
-    borders = np.array([np.linspace(low, high, n + 1) for low, high in nres_map.modality.ranges])
-    borders[:, 0] = np.minimum(borders[:, 0], furthest[0])
-    borders[:, -1] = np.maximum(borders[:, -1], furthest[1])
-    rows, columns = np.divmod(np.arange(nres_map.cells), n)
-    begin, end = (np.stack([borders[0, columns + i], borders[1, rows + i]], axis=1) for i in (0, 1))
+    nearest, furthest = (0, 1) if nres_map.modality.follows == "position" else (-1, 1)
+    x, y = (np.array(axis.boundaries or np.linspace(axis.low, axis.high, n + 1))
+            for axis, n in zip(nres_map.modality.axes, nres_map.intervals))
+    for borders in (x, y):
+        borders[0], borders[-1] = min(borders[0], nearest), max(borders[-1], furthest)
+    rows, columns = np.divmod(np.arange(nres_map.cells), nres_map.intervals[0])
+    begin, end = (np.stack([x[columns + i], y[rows + i]], axis=1) for i in (0, 1))
     return begin, end - begin
 
 
@@ -93,36 +95,38 @@ def draw_receptive_fields(axes, nres_map, world, state):
     A place stands for itself, for a thing there as the agent would see it, or for the velocity that takes the agent
     there in half a second.
     """
-    modality, n = nres_map.modality, nres_map.resolution
-    agent = state.agent_position / world.width
+    modality = nres_map.modality
+    agent = state.scene.position / world.size
     side = np.linspace(0, 1, RASTER)
     places = np.stack(np.meshgrid(side, side), axis=-1)
-    vectors = {"position": places, "velocity": (places - agent) / HALF_SECOND}.get(modality.vector, places - agent)
+    vectors = {"position": places, "velocity": (places - agent) / HALF_SECOND}.get(modality.follows, places - agent)
     at = _in_intervals(nres_map, modality.tune(vectors))
     arena = axes.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
     thin = {"linewidths": 0.8, "colors": INK, "zorder": -1}
-    for axis in range(len(modality.ranges)):
+    for i, (axis, n) in enumerate(zip(modality.axes, nres_map.intervals)):
         borders = np.arange(1, n)
-        borders = borders[(at[..., axis].min() < borders) & (borders < at[..., axis].max())]
-        if len(borders):
-            axes.contour(side, side, at[..., axis], borders, **thin)
-    if modality.has_direction and n > 1:
-        directions = TAU * (np.arange(n) - 0.5) / n
-        beyond = agent + 2 * np.stack([np.cos(directions), np.sin(directions)], axis=1)
-        rays = axes.add_collection(LineCollection([(agent, end) for end in beyond], **thin), autolim=False)
-        rays.set_clip_path(arena)
-    for cell in np.unique(nres_map.encode(modality.coordinates(world, state))):
-        inside = np.min([_depth(at[..., axis], cell // n**axis % n, n, axis >= len(modality.ranges))
-                         for axis in range(len(modality.axes))], axis=0)
+        borders = borders[(at[..., i].min() < borders) & (borders < at[..., i].max())]
+        if axis.is_direction and n > 1:
+            directions = TAU * (np.arange(n) - 0.5) / n
+            beyond = agent + 2 * np.stack([np.cos(directions), np.sin(directions)], axis=1)
+            rays = axes.add_collection(LineCollection([(agent, end) for end in beyond], **thin), autolim=False)
+            rays.set_clip_path(arena)
+        elif len(borders):
+            axes.contour(side, side, at[..., i], borders, **thin)
+    for cell in np.unique(nres_map.encode(modality.coordinates(state.scene, world.size))):
+        intervals = np.unravel_index(cell, nres_map.intervals, order="F")
+        inside = np.min([_depth(at[..., i], interval, nres_map.intervals[i], modality.axes[i].closed)
+                         for i, interval in enumerate(intervals)], axis=0)
         axes.contourf(side, side, inside, [0, np.inf], colors=[AGENT], alpha=0.35, zorder=-2)
 
 
 def _in_intervals(nres_map, coordinates):
     """Coordinates (…, axes) in intervals of a map: on each axis interval i spans i … i + 1."""
-    n, modality = nres_map.resolution, nres_map.modality
-    low, high = np.array([*modality.ranges, *[(-0.5 * TAU / n, TAU - 0.5 * TAU / n)] * modality.has_direction]).T
+    intervals = np.array(nres_map.intervals)
+    low, high = np.array([(-0.5 * TAU / n, TAU - 0.5 * TAU / n) if axis.is_direction else (axis.low, axis.high)
+                          for axis, n in zip(nres_map.modality.axes, intervals)]).T
     # An interval holds its lower end, a contour leaves to those below what lies on it: what lies there has to move.
-    return n * (coordinates - low) / (high - low) + 1e-9
+    return intervals * (coordinates - low) / (high - low) + 1e-9
 
 
 def _depth(at, interval, n, closed):
@@ -137,10 +141,10 @@ def _depth(at, interval, n, closed):
 def draw_tank(axes, world, state):
     """Agent and creeps of a tank, each with its velocity over the coming half second; creeps carry their sign."""
     radius = world.radius / world.width
-    creep_velocity = state.creep_direction * state.creep_speed[:, None]
-    movers = [(state.agent_position, state.agent_velocity, AGENT, "")]
+    scene, creep_velocity = state.scene, state.direction * state.speed[:, None]
+    movers = [(scene.position, scene.velocity, AGENT, "")]
     movers += [(position, velocity, GREEN if green else RED, "+" if green else "−") for position, velocity, green
-               in zip(state.creep_position, creep_velocity, state.creep_is_green)]
+               in zip(scene.things, creep_velocity, scene.kinds == waterworld.GREEN)]
     for position, velocity, colour, sign in movers:
         x, y = position / world.width
         axes.add_patch(Circle((x, y), radius, facecolor=colour, edgecolor="none"))
@@ -152,9 +156,9 @@ def draw_tank(axes, world, state):
 
 def draw_desires(axes, run):
     """Where the desires between the nodes of a run's agent land, as seen from its agent."""
-    start = run.world_state.agent_position / run.world.width
+    start = run.world_state.scene.position / run.world.size
     for desire, landing in zip(run.agent.desires, run.state.desires.target[:, :2]):
-        if desire.between_nodes:
+        if run.agent.comes_from_node(desire):
             colour = desire_colour(desire)
             axes.annotate("", start + landing, start, annotation_clip=False, arrowprops={
                 "arrowstyle": "->", "color": colour, "linestyle": "--", "linewidth": 1.6, "shrinkA": 8, "shrinkB": 3})

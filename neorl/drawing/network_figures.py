@@ -4,7 +4,7 @@ Lengths are in ems, the height of a letter, and y runs downward. Every node has 
 node downward in a lane that later nodes keep clear of: so no line runs through a node.
 """
 
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from textwrap import wrap
 from typing import NamedTuple
 
@@ -120,7 +120,7 @@ def _laid_out(agent):
     depth = {}
     for name in agent.evaluation_order:
         depth[name] = 1 + max((depth[desire.source] for desire in agent.desires if desire.target == name
-                               and desire.between_nodes and desire.source != name), default=0)
+                               and desire.source in nodes and desire.source != name), default=0)
     order = sorted(depth, key=depth.get)
     boxes, y = {}, 0.0
     for name in order:
@@ -133,16 +133,16 @@ def _laid_out(agent):
         y += LOOP * len(loops)
         box.middle = y + box.height / 2
         y += box.height + GAP
-    outside = [_width(_label(desire)) for desire in agent.desires if not desire.between_nodes]
+    outside = [_width(_label(desire)) for desire in agent.desires if desire.source not in nodes]
     column = following = 2 * RADIUS + ARROW + max(outside) if outside else 0.0
     for before, name in zip([order[0], *order], order):
         box = boxes[name]
         if depth[name] > depth[before]:
             column = following
         # The lane furthest to the right comes in first, what comes from outside last: again none crosses another.
-        box.inputs.sort(key=lambda desire: -boxes[desire.source].lane(desire) if desire.between_nodes else 0.0)
+        box.inputs.sort(key=lambda desire: -boxes[desire.source].lane(desire) if desire.source in nodes else 0.0)
         box.left = max([column, *(boxes[desire.source].lane(desire) + _width(_label(desire)) + ARROW
-                                  for desire in box.inputs if desire.between_nodes)])
+                                  for desire in box.inputs if desire.source in nodes)])
         column = box.lane(box.leaving[-1]) + LANE if box.leaving else box.left
         following = max(following, box.right + GAP)
     return _Drawing(boxes, {node.name: f"× {_number(node.gain)}" for node in agent.nodes if node.gain})
@@ -175,7 +175,7 @@ def _draw(axes, em, drawing):
 def _draw_input(axes, em, desire, box, boxes):
     """What comes in at one port of a node: an element from outside, or the desire of another node."""
     y, label, colour = box.port(desire), _label(desire), desire_colour(desire)
-    if desire.between_nodes:
+    if desire.source in boxes:
         x = boxes[desire.source].lane(desire)
         _draw_arrow(axes, em, [(x, boxes[desire.source].bottom), (x, y), (box.left, y)], colour)
         _write(axes, em, box.left - 0.9, y - 0.65, label, colour, ha="right")
@@ -232,7 +232,7 @@ def _label(desire):
         valence = f"r = {valence.removeprefix('+')}"
     origin = ", ".join(desire.of)
     if not isinstance(desire.source, str):
-        point = astuple(desire.source) if isinstance(desire.source, Place) else desire.source
+        point = desire.source.coordinates if isinstance(desire.source, Place) else desire.source
         origin = f"({', '.join(map(_number, point))})"
     return f"{origin}: {valence}" if origin else valence
 

@@ -6,7 +6,7 @@ from matplotlib import pyplot as plt
 
 from neorl import NresMap, Result, Run, WaterWorld, brownian, network_b, object_vector_cells, place_cells, simulate
 from neorl.core.geometry import TAU
-from neorl.core.modality import HEAD_DIRECTION_CELL, MODALITIES, PLACE_CELL, Modality
+from neorl.core.modality import HEAD_DIRECTION_CELL, MODALITIES, PLACE_CELL, Modality, cartesian
 from neorl.drawing import figures
 from neorl.drawing.figures import binned_rate, low_passed
 from neorl.evidence.statistics import Estimate
@@ -174,7 +174,7 @@ def test_a_board_shows_every_cell_agent_and_creep():
 
 def test_cells_of_a_map_with_ranges_of_its_own():
     axes = figures.new_board()
-    figures.draw_cells(axes, NresMap(2, Modality("", "position", "cartesian", ((0, 1), (-1, 3)))))
+    figures.draw_cells(axes, NresMap(2, Modality("", cartesian("position", (0, 1), (-1, 3)))))
     boxes = [(*patch.get_xy(), patch.get_width(), patch.get_height()) for patch in axes.patches]
     assert boxes == [(0, -1, 0.5, 2), (0.5, -1, 0.5, 2), (0, 1, 0.5, 2), (0.5, 1, 0.5, 2)]
 
@@ -194,8 +194,8 @@ def test_the_outermost_cells_of_a_map_reach_as_far_as_things_can_be():
 def moving_tank():
     world = WaterWorld(n_creeps=3)
     state = world.reset(3)
-    state.agent_position = np.array([0.61, 0.43]) * world.width
-    state.agent_velocity = np.array([-0.3, 0.13]) * world.width
+    state.scene.position[:] = np.array([0.61, 0.43]) * world.width
+    state.scene.velocity[:] = np.array([-0.3, 0.13]) * world.width
     return world, state
 
 
@@ -206,13 +206,13 @@ def test_the_active_receptive_fields_are_filled(modality, resolution):
     nres_map, axes = NresMap(resolution, modality), figures.new_board()
     figures.draw_receptive_fields(axes, nres_map, world, state)
     axes.figure.draw_without_rendering()
-    active = set(nres_map.encode(modality.coordinates(world, state)))
+    active = set(nres_map.encode(modality.coordinates(state.scene, world.size)))
     fills = [fill for fill in axes.collections if fill.get_alpha()]
     assert len(fills) == len(active)
 
     places = np.random.default_rng(0).random((300, 2))
-    agent = state.agent_position / world.width
-    seen = {"position": places, "velocity": (places - agent) / 0.5}.get(modality.vector, places - agent)
+    agent = state.scene.position / world.size
+    seen = {"position": places, "velocity": (places - agent) / 0.5}.get(modality.follows, places - agent)
     filled = np.any([[fill.get_paths()[0].contains_point(place) for place in places] for fill in fills], axis=0)
     expected = np.isin(nres_map.encode(modality.tune(seen)), list(active))
     assert np.mean(filled == expected) > 0.98  # but for the rounding of corners
@@ -259,7 +259,7 @@ def test_desires_are_drawn_where_they_land():
     run.advance(20_000)
     axes = figures.new_board()
     figures.draw_desires(axes, run)
-    landed = [line.get_xydata()[0] - run.world_state.agent_position / 250 for line in axes.lines]
+    landed = [line.get_xydata()[0] - run.world_state.scene.position / 250 for line in axes.lines]
     np.testing.assert_allclose(landed, run.state.desires.target[2:, :2])
     assert [line.get_color() for line in axes.lines] == [figures.GREEN, figures.RED]
 

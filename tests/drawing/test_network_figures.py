@@ -66,7 +66,7 @@ def test_everything_is_drawn_and_nothing_overlaps(agent):
     plt.gcf().draw_without_rendering()
     gains = [node for node in agent.nodes if node.gain]
     assert len(drawn(FancyBboxPatch)) == len(agent.nodes) + 1
-    assert len(drawn(Circle)) == sum(not desire.between_nodes for desire in agent.desires)
+    assert len(drawn(Circle)) == sum(not agent.comes_from_node(desire) for desire in agent.desires)
     assert len(drawn(FancyArrowPatch)) == len(agent.desires) + len(gains)
     written = [text.get_window_extent() for text in plt.gca().texts if text.get_text()]
     boxes = [box.get_window_extent() for box in drawn(FancyBboxPatch)]
