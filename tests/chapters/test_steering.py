@@ -8,7 +8,7 @@ from neorl import Run, WaterWorld, multimodal, place_cells
 from neorl.chapters.chapter_1 import navigation_figures
 from neorl.chapters.chapter_1.before_and_after import leads, newborn, trials, veteran
 from neorl.chapters.chapter_1.steering import CLOSE, HASTE, chase, follow_route, steer
-from neorl.core.kernel import execute
+from neorl.core.kernel import arrays, execute
 from neorl.experiments.recording import Recording
 
 TANK = WaterWorld()
@@ -18,11 +18,12 @@ MOVES = 62.5 * np.array([(0, -1), (0, 1), (1, 0), (-1, 0), (0, 0)])
 def test_the_helmsman_takes_the_action_after_which_the_velocity_is_best():
     rng = np.random.default_rng(0)
     state = TANK.reset(0)
+    scene = state.scene
     taken = set()
     for _ in range(300):
-        state.agent_position, state.agent_velocity = rng.uniform(0, 250, 2), rng.uniform(-200, 200, 2)
-        target = state.agent_position + rng.uniform(-60, 60, 2)
-        miss = HASTE * (target - state.agent_position) - state.agent_velocity
+        scene.position[:], scene.velocity[:] = rng.uniform(0, 250, 2), rng.uniform(-200, 200, 2)
+        target = scene.position + rng.uniform(-60, 60, 2)
+        miss = HASTE * (target - scene.position) - scene.velocity
         action = execute(steer, state, TANK.rules, *target)
         assert np.linalg.norm(miss - MOVES, axis=1).argmin() == action
         taken.add(action)
@@ -54,7 +55,7 @@ def test_whoever_hunts_by_rule_takes_much_more_than_who_moves_at_random_and_a_ru
 def test_a_newborn_and_a_veteran_begin_on_the_same_board_and_know_nothing_and_what_a_run_has_taught():
     agent = place_cells([3])
     first, second = newborn(agent, TANK, seed=4, run=2), veteran(agent, TANK, 5_000, seed=4, run=2)
-    assert all(np.array_equal(a, b) for a, b in zip(first.world_state, second.world_state))
+    assert all(map(np.array_equal, *(arrays(run.world_state).values() for run in (first, second))))
     teacher = Run(agent, TANK, seed=5, run=2)
     teacher.advance(5_000)
     assert not first.q().any() and np.array_equal(second.q(), teacher.q()) and teacher.q().any()

@@ -42,7 +42,7 @@ def test_the_desired_place_moves_and_experience_is_worth_something():
     for place in trials.PLACES:
         run.change(trials.desiring(READING, place))
         run.advance(1_500)
-        at = run.world_state.agent_position / 250 - (place.x, place.y)
+        at = run.world_state.scene.position / 250 - place.coordinates
         assert np.hypot(*at) in moved["experienced"][1, :2, -1]
     assert moved["experienced"].mean() < moved["ignorant"].mean()
 

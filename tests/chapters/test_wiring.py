@@ -32,7 +32,7 @@ def test_the_moment_is_the_first_at_which_the_agent_is_well_inside_and_desires()
     other.advance(300)
     fits = []
     for _ in range(run.step - 300 + 1):
-        at = other.world_state.agent_position / world.width
+        at = other.world_state.scene.position / world.size
         fits.append(np.abs(at - 0.5).max() < 0.2 and other.output("PC").q.any())
         other.advance(1)
     assert fits[-1] and not any(fits[:-1])

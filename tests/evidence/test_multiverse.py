@@ -138,7 +138,7 @@ def test_a_desire_that_recurs_may_come_from_other_nodes_alone():
     made = networks(replace(TO_THE_LETTER, vectors="incoming"))
     *others, recurring = made["D"].desires
     assert recurring.of == ("PC",) and recurring.signed
-    assert not any(desire.signed for desire in others if desire.between_nodes)
+    assert not any(desire.signed for desire in others if made["D"].comes_from_node(desire))
     assert networks(TO_THE_LETTER)["D"].desires[-1].of == ()
 
 

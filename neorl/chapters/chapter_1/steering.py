@@ -12,7 +12,7 @@ import numpy as np
 from neorl import checks
 from neorl.core.choices import Action
 from neorl.core.kernel import execute, kernel
-from neorl.worlds.waterworld import reset_board, step_board
+from neorl.worlds.waterworld import GREEN, reset, step
 
 HASTE = 4.0  # what share of the way to go the helmsman wants to cover in a second; higher earns more, up to about 10
 CLOSE = 0.05  # of the width: a way-point is reached
@@ -31,8 +31,7 @@ def follow_route(world, waypoints, seconds, seed=0):
         raise ValueError(f"waypoints is {waypoints!r}, allowed are places (points, 2) in [0, 1]")
     path = np.zeros((int(checks.real("seconds", seconds, 0, 86_400) * world.fps) + 1, 2))
     state = world.reset(seed)
-    execute(sail, state, world.rules, waypoints * world.width, CLOSE * world.width, np.zeros(world.n_creeps, np.int8),
-            path)
+    execute(sail, state, world.rules, waypoints * world.width, CLOSE * world.width, path)
     return path / world.width
 
 
@@ -46,15 +45,16 @@ def chase(world, steps, runs, seed=0):
     rewards = np.zeros(checks.integer("runs", runs, at_least=1))
     for k in range(runs):
         state = world.reset(np.random.SeedSequence(checks.integer("seed", seed, at_least=0), spawn_key=(k,)))
-        rewards[k] = execute(hunt, state, world.rules, steps, np.zeros(world.n_creeps, np.int8))
+        rewards[k] = execute(hunt, state, world.rules, steps)
     return rewards
 
 
 @kernel
 def steer(state, rules, x, y):
     """The action after which the velocity is closest to the one that leads to (x, y)."""
-    want_x, want_y = HASTE * (x - state.agent_position[0]), HASTE * (y - state.agent_position[1])
-    miss_x, miss_y = want_x - state.agent_velocity[0], want_y - state.agent_velocity[1]
+    scene = state.scene
+    want_x, want_y = HASTE * (x - scene.position[0]), HASTE * (y - scene.position[1])
+    miss_x, miss_y = want_x - scene.velocity[0], want_y - scene.velocity[1]
     vertical = abs(miss_y) > abs(miss_x)
     if max(abs(miss_x), abs(miss_y)) < 0.125 * rules.width:  # half of what an action changes
         return Action.no_op.value
@@ -64,31 +64,30 @@ def steer(state, rules, x, y):
 
 
 @kernel
-def sail(state, rules, waypoints, close, contacts, path):
+def sail(state, rules, waypoints, close, path):
     """Write to `path` where the vessel is before each step and after the last, on its way from point to point."""
     target = 0
-    for step in range(path.shape[0]):
-        path[step, 0], path[step, 1] = state.agent_position[0], state.agent_position[1]
-        dx, dy = waypoints[target, 0] - path[step, 0], waypoints[target, 1] - path[step, 1]
+    for now in range(path.shape[0]):
+        path[now, 0], path[now, 1] = state.scene.position[0], state.scene.position[1]
+        dx, dy = waypoints[target, 0] - path[now, 0], waypoints[target, 1] - path[now, 1]
         if dx * dx + dy * dy < close * close and target < waypoints.shape[0] - 1:
             target += 1
-        step_board(state, rules, steer(state, rules, waypoints[target, 0], waypoints[target, 1]), contacts)
+        step(state, rules, steer(state, rules, waypoints[target, 0], waypoints[target, 1]))
 
 
 @kernel
-def hunt(state, rules, steps, contacts):
+def hunt(state, rules, steps):
     """The reward of so many steps, each towards the nearest green creep."""
-    total = 0.0
+    total, scene = 0.0, state.scene
     for _ in range(steps):
         nearest, least = 0, -1.0
-        for creep in range(contacts.shape[0]):
-            dx = state.creep_position[creep, 0] - state.agent_position[0]
-            dy = state.creep_position[creep, 1] - state.agent_position[1]
-            if state.creep_is_green[creep] and (least < 0.0 or dx * dx + dy * dy < least):
+        for creep in range(scene.kinds.shape[0]):
+            dx = scene.things[creep, 0] - scene.position[0]
+            dy = scene.things[creep, 1] - scene.position[1]
+            if scene.kinds[creep] == GREEN and (least < 0.0 or dx * dx + dy * dy < least):
                 nearest, least = creep, dx * dx + dy * dy
-        action = steer(state, rules, state.creep_position[nearest, 0], state.creep_position[nearest, 1])
-        reward, done = step_board(state, rules, action, contacts)
+        reward, done = step(state, rules, steer(state, rules, scene.things[nearest, 0], scene.things[nearest, 1]))
         total += reward
         if done:
-            reset_board(state, rules)
+            reset(state, rules)
     return total

@@ -5,7 +5,7 @@ a kind are allocentric, a distance or neither, and what it is about.
 """
 
 from neorl.chapters.shared import wording
-from neorl.core.modality import MODALITIES
+from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, MODALITIES
 
 THESIS = {
     "head-direction cell": ("–", "allocentric", "head direction"),
@@ -15,15 +15,15 @@ THESIS = {
     "object-vector cell": ("[distance]", "allocentric", "location of objects"),
     "landmark-vector cell": ("[distance]", "allocentric", "location of landmarks"),
 }
-CONCERNS = {"proximal": "location of borders", "cartesian": "agent position", "angle": "head direction",
-            "length": "agent speed"}  # by tuning; a polar one is about where something lies
+CONCERNS = {("position", "margin"): "location of borders", ("position", "component"): "agent position",
+            ("velocity", "direction"): "head direction", ("velocity", "length"): "agent speed"}
 
 
 def kinds():
     """What each modality says of itself: {kind: (locality, direction, concern)}, without the emulation of paper B."""
-    return {each.name: (_locality(each), "allocentric" if each.has_direction else "–",
-                        CONCERNS.get(each.tuning, f"location of {each.vector}"))
-            for each in MODALITIES if (each.vector, each.tuning) != ("objects", "cartesian")}
+    return {each.name: (_locality(each), "allocentric" if "direction" in each.names else "–",
+                        CONCERNS.get((each.follows, each.axes[0].feature), f"location of {each.follows}"))
+            for each in MODALITIES if each != CARTESIAN_OBJECT_VECTOR_CELL}
 
 
 def as_in_thesis(found):
@@ -38,6 +38,6 @@ def kinds_table(found):
 
 
 def _locality(modality):
-    if modality.vector == "position":
+    if modality.follows == "position":
         return "allocentric"
-    return "[distance]" if "distance" in modality.axes else "–"
+    return "[distance]" if "distance" in modality.names else "–"

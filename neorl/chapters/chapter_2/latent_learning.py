@@ -171,7 +171,8 @@ class AnimalState(NamedTuple):
 def new_state(states):
     """The `AnimalState` of an animal that has never been in a maze of so many states."""
     each, every_goal = (states, 4), np.tile([0, states], (states, 1))
-    horde = MapValues(np.zeros(states * 4 * states, np.float32), 0, states, every_goal, np.zeros(states, np.float32))
+    horde = MapValues(np.zeros(states * 4 * states, np.float32), 0, states, 4, every_goal,
+                      np.zeros(states, np.float32))
     return AnimalState(horde, np.zeros(4, np.float32), np.zeros(each), np.zeros(each), np.zeros(each, np.int64),
                        np.zeros((1, 4)))
 

@@ -16,11 +16,9 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.signal import lfilter
 
 from neorl import checks
-from neorl.core.geometry import TAU, boundary_vector
-from neorl.core.kernel import execute
+from neorl.core.geometry import TAU
 from neorl.core.maps import NresMap
 
-WALLS = 4
 SHIFTS = 99  # of spikes in time, at random
 # For each variable that spikes may tell about, what `tuning` takes as high, bins and closed.
 VARIABLES = {"position": (1.0, 20, False), "direction": (TAU, 18, True), "speed": (0.5, 10, False)}
@@ -73,13 +71,13 @@ def in_field(nres_map, cell, trajectory, objects=()):
     """
     modality = checks.instance("nres_map", nres_map, NresMap).modality
     checks.integer("cell", cell, at_least=0, at_most=nres_map.cells - 1)
-    if modality.vector == "boundaries":
-        vectors = [[execute(boundary_vector, wall, *place) for place in trajectory.position] for wall in range(WALLS)]
-    elif modality.vector in ("objects", "landmarks"):
-        places = objects if modality.vector == "objects" else modality.landmarks
+    if modality.follows == "boundaries":
+        vectors = [(wall - trajectory.position) * axis for wall in (0.0, 1.0) for axis in np.eye(2)]
+    elif modality.follows in ("objects", "landmarks"):
+        places = objects if modality.follows == "objects" else modality.landmarks
         vectors = [checks.points("objects", place, "xy") - trajectory.position for place in places]
     else:
-        vectors = [getattr(trajectory, modality.vector)]
+        vectors = [getattr(trajectory, modality.follows)]
     active = [nres_map.encode(modality.tune(each)) == cell for each in vectors]
     return np.any(np.reshape(active, (-1, len(trajectory.position))), axis=0)
 

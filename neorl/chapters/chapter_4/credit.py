@@ -18,12 +18,13 @@ import numpy as np
 
 from neorl import checks
 from neorl.agents.agent import Learning
-from neorl.core.choices import N_EVENTS, Credit
+from neorl.core.choices import Credit
 from neorl.core.kernel import execute, kernel
 from neorl.core.learning import UNIT, ZERO, MapValues, Rule, learn_all_goals
 from neorl.core.stream import randint, new_stream, uniform
 
 ROLES = ("cause", "other lever", "light", "bell")
+N_EVENTS = len(ROLES)
 CELLS = 3  # the chamber, and behind each exit one
 POSSIBLE = {"trace": (1,), "memory": (0.0,), "credit": ("share", "happened", "last"), "absent_form": ("decay",)}
 # The plainest rule of its kind, whatever rule the agents of the book have.
@@ -87,7 +88,7 @@ def learn_in(chamber, learning, visits, runs, seed=0):
     rule = Rule(np.float32(learning.discount), learning.terminal, absent_rate, False)
     for run in range(runs):
         sequence = np.random.SeedSequence(checks.integer("seed", seed, at_least=0), spawn_key=(run,))
-        learned = MapValues(np.zeros(CELLS * N_EVENTS * CELLS, np.float32), 0, CELLS,
+        learned = MapValues(np.zeros(CELLS * N_EVENTS * CELLS, np.float32), 0, CELLS, N_EVENTS,
                             np.tile([0, CELLS], (CELLS, 1)), np.zeros(CELLS, np.float32))
         execute(_live_in, ChamberRules(*astuple(chamber)), new_stream(sequence), by_step, credit, rate, rule, learned,
                 np.zeros(N_EVENTS, np.int64), np.zeros(N_EVENTS, np.bool_), np.zeros(N_EVENTS, np.float32), values[run])

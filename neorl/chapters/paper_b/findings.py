@@ -17,6 +17,8 @@ from neorl.evidence.statistics import estimate, points, quotient, ratio, resets,
 
 THESIS_LEVELS = {"PC": 0.29, "OVC": 0.29, "PC + OVC": 0.55}  # reward per second; section 3.2, and "no loss" in 3.1
 THESIS_MINUTES = {"PC": 160, "PC + OVC": 15}  # section 3.2
+TUNINGS = {("component", "component"): "cartesian", ("margin", "margin"): "proximal", ("length", "direction"): "polar",
+           ("direction",): "angle", ("length",): "length"}
 STRETCHES = 100  # of a run, in which red creeps are counted
 
 
@@ -73,8 +75,9 @@ def minutes(lived):
 def modalities_table():
     """The modalities that the thesis names, as a Markdown table."""
     rows = ["| Cell | Reference frame | Tuned to | Map |", "|---|---|---|---|"]
-    return "\n".join([*rows, *(f"| {each.name} | {each.frame} | {' × '.join(each.axes)} ({each.tuning}) | "
-                               f"{len(each.axes)}-D |" for each in MODALITIES)])
+    return "\n".join([*rows, *(f"| {each.name} | {each.frame} | {' × '.join(each.names)} "
+                               f"({TUNINGS[tuple(axis.feature for axis in each.axes)]}) | {len(each.axes)}-D |"
+                               for each in MODALITIES)])
 
 
 def values_table(watched):

@@ -91,7 +91,7 @@ def distances(reading, steps, runs, seed=0):
             run.change(desires[move % len(PLACES)])
             for sample in range(samples):
                 run.advance(interval)
-                found[move, sample] = np.linalg.norm(run.world_state.agent_position / world.width - (at.x, at.y))
+                found[move, sample] = np.linalg.norm(run.world_state.scene.position / world.size - at.coordinates)
         return found
 
     lived = {"experienced": round(LIVED * steps), "ignorant": 0}
@@ -125,9 +125,9 @@ def mean_stays(reading, steps, runs, seed=0, watched=15_000):
         path, moved = np.empty((path_steps, 2)), np.empty(path_steps, bool)
         for step in range(path_steps):
             run.advance(1)
-            tank = run.world_state
-            path[step] = tank.agent_position / world.width
-            moved[step] = tank.agent_velocity.any() or (path[step] != 0.5).any()  # it is not as after a reset
+            scene = run.world_state.scene
+            path[step] = scene.position / world.size
+            moved[step] = scene.velocity.any() or (path[step] != 0.5).any()  # it is not as after a reset
         changes = [((np.diff(each.encode(path)) != 0) & moved[1:]).sum() for each in agent.maps]
         return path_steps / world.fps / np.maximum(changes, 1)
 
@@ -150,7 +150,7 @@ def mean_values(reading, steps, runs, seed=0):
         maps, nodes, means = run.parameters.maps, run.parameters.nodes, []
         for m, each in enumerate(agent.maps):
             best = run.q(m).max(axis=1)
-            if each.modality.vector == "position":
+            if each.modality.follows == "position":
                 means.append(best[~np.eye(each.cells, dtype=bool)].mean())
             else:
                 means.append(np.delete(best[:, maps.contact[m]], maps.contact[m]).mean())

@@ -15,7 +15,7 @@ LINE = 66  # characters
 def make_up(network, desires, reading):
     """Whether desires are those of a network, when those between nodes have the scale and the sign of a reading."""
     passed = {"scale": reading.scale, "signed": reading.vectors == "signed"}
-    desires = [replace(desire, **passed) if desire.between_nodes else desire for desire in desires]
+    desires = [replace(desire, **passed) if network.comes_from_node(desire) else desire for desire in desires]
     return replace(network, desires=desires) == network
 
 
@@ -32,14 +32,14 @@ def moment_of_desire(network, world, steps, seed=0):
 
 
 def _is_inside(run):
-    return np.abs(run.world_state.agent_position / run.world.width - 0.5).max() < WELL_INSIDE
+    return np.abs(run.world_state.scene.position / run.world.size - 0.5).max() < WELL_INSIDE
 
 
 def landings(run):
     """Where the desires between the nodes of a run's agent land, and what they are worth, as a Markdown table."""
     rows = ["| Desire | Lands at, from the agent, in board widths | Valence |", "|---|---|---|"]
     for desire, (east, south, valence) in zip(run.agent.desires, run.state.desires.target):
-        if desire.between_nodes:
+        if run.agent.comes_from_node(desire):
             row = f"{desire.source} to {desire.target}, {' and '.join(desire.of)} creeps"
             rows.append(f"| {row} | ({east:z.3f}, {south:z.3f}) | {valence:+g} |".replace("-", "−"))
     return "\n".join(rows)
