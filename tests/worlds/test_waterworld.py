@@ -12,12 +12,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from neorl import WaterWorld
-from neorl.worlds.waterworld import ACTIONS
+from neorl.core.kernel import arrays
+from neorl.worlds.waterworld import GREEN, RED
 
 RECORDINGS = dict(np.load(Path(__file__).with_name("waterworld_recordings.npz")))
-FIELDS = {"agent_position": "agent_pos", "agent_velocity": "agent_vel", "creep_position": "creep_pos",
-          "creep_direction": "creep_dir", "creep_speed": "creep_speed", "creep_is_green": "creep_good",
-          "creep_jitter": "creep_jitter"}
+FIELDS = {"scene.position": "agent_pos", "scene.velocity": "agent_vel", "scene.things": "creep_pos",
+          "direction": "creep_dir", "speed": "creep_speed", "scene.kinds": "creep_good", "jitter": "creep_jitter"}
+
+
+def recorded_field(recorded, field, key, step):
+    value = recorded[key][step]
+    return np.where(value, GREEN, RED) if field == "scene.kinds" else value
 
 
 @pytest.mark.parametrize("name", sorted({key.split("/")[0] for key in RECORDINGS}))
@@ -29,12 +34,14 @@ def test_every_recorded_step_is_reproduced_exactly(name):
     state = world.reset(0)
     for step, action in enumerate(recorded["action"]):
         for field, key in FIELDS.items():
-            setattr(state, field, recorded[key + "0"][step])
+            arrays(state)[field][...] = recorded_field(recorded, field, key + "0", step)
         reward, hits, done = world.step(state, int(action))
         np.testing.assert_array_equal(hits, recorded["hit"][step])
+        before = recorded_field(recorded, "scene.kinds", "creep_good0", step)
+        np.testing.assert_array_equal(state.scene.met, np.where(hits, 1 + before, 0))
         for field, key in FIELDS.items():
-            new, old = getattr(state, field), recorded[key + "1"][step]
-            kept = ~hits if field.startswith("creep") else slice(None)  # fresh creeps are drawn from another stream
+            new, old = arrays(state)[field], recorded_field(recorded, field, key + "1", step)
+            kept = ~hits if key.startswith("creep") else slice(None)  # fresh creeps are drawn from another stream
             np.testing.assert_array_equal(new[kept], old[kept], err_msg=f"{field} at step {step}")
         if not hits.any():
             assert (reward, done) == (recorded["reward"][step], recorded["done"][step])
@@ -45,64 +52,71 @@ def test_a_reset_draws_creeps_within_their_ranges_and_one_green(seed, width, n_c
     world = WaterWorld(width, n_creeps)
     state = world.reset(seed)
     margin = 1.5 * world.radius
-    assert state.creep_is_green.any()
-    assert np.all((state.creep_position >= margin) & (state.creep_position <= width - margin))
-    assert np.all(np.linalg.norm(state.creep_position - state.agent_position, axis=1) >= 1.5)
-    np.testing.assert_allclose(np.abs(state.creep_direction), 1 / np.sqrt(2))
-    assert np.all((state.creep_speed >= 0) & (state.creep_speed <= 0.25 * width))
-    assert np.all((state.creep_jitter >= 0) & (state.creep_jitter < 1))
+    assert (state.scene.kinds == GREEN).any() and set(state.scene.kinds) <= {GREEN, RED}
+    assert np.all((state.scene.things >= margin) & (state.scene.things <= width - margin))
+    assert np.all(np.linalg.norm(state.scene.things - state.scene.position, axis=1) >= 1.5)
+    np.testing.assert_allclose(np.abs(state.direction), 1 / np.sqrt(2))
+    assert np.all((state.speed >= 0) & (state.speed <= 0.25 * width))
+    assert np.all((state.jitter >= 0) & (state.jitter < 1))
 
 
-@given(seed=st.integers(0, 2**32), actions=st.lists(st.sampled_from(ACTIONS), max_size=60))
+@given(seed=st.integers(0, 2**32), actions=st.lists(st.sampled_from(WaterWorld.actions.all_names), max_size=60))
 def test_nothing_leaves_the_tank(seed, actions):
     world = WaterWorld(n_creeps=3)
     state = world.reset(seed)
     for action in actions:
         world.step(state, action)
-        assert np.all((state.agent_position >= 0) & (state.agent_position <= world.width - 2 * world.radius))
-        assert np.all((state.creep_position >= world.radius) & (state.creep_position <= world.width - world.radius))
-        np.testing.assert_allclose(np.linalg.norm(state.creep_direction, axis=1), 1)
+        assert np.all((state.scene.position >= 0) & (state.scene.position <= world.width - 2 * world.radius))
+        assert np.all((state.scene.things >= world.radius) & (state.scene.things <= world.width - world.radius))
+        np.testing.assert_allclose(np.linalg.norm(state.direction, axis=1), 1)
 
 
-def touching(colours, win_reward=0.0):
+def touching(kinds, win_reward=0.0):
     """A tank whose first creep lies on the agent."""
-    world = WaterWorld(n_creeps=len(colours), win_reward=win_reward)
+    world = WaterWorld(n_creeps=len(kinds), win_reward=win_reward)
     state = world.reset(0)
-    state.creep_position = 20.0
-    state.creep_position[0] = state.agent_position
-    state.creep_is_green = colours
+    state.scene.things[:] = 20.0
+    state.scene.things[0] = state.scene.position
+    state.scene.kinds[:] = kinds
     return world, state
 
 
 def test_a_touched_creep_pays_by_its_colour_and_is_replaced():
-    for green in (True, False):
-        world, state = touching([green, True])
+    for kind in (GREEN, RED):
+        world, state = touching([kind, GREEN])
         reward, hits, done = world.step(state, "no-op")
-        assert reward == (1.0 if green else -1.0)
+        assert reward == (1.0 if kind == GREEN else -1.0)
+        assert state.scene.met.tolist() == [1 + kind, 0]  # the kind that it was, whatever the fresh one is
         assert hits.tolist() == [True, False]
         assert not done
-        assert np.linalg.norm(state.creep_position[0] - state.agent_position) >= 1
+        assert np.linalg.norm(state.scene.things[0] - state.scene.position) >= 1
 
 
 def test_the_last_green_creep_ends_the_episode_and_pays_the_win():
     ends = []
     for seed in range(40):
-        world, state = touching([True, False], win_reward=5.0)
-        state.stream = np.random.SFC64(seed).state["state"]["state"]
+        world, state = touching([GREEN, RED], win_reward=5.0)
+        state.stream[:] = np.random.SFC64(seed).state["state"]["state"]
         reward, _, done = world.step(state, "no-op")
         assert reward == (6.0 if done else 1.0)
-        assert done == (not state.creep_is_green.any())
+        assert done == (not (state.scene.kinds == GREEN).any())
         ends.append(done)
     assert 8 < sum(ends) < 32  # a fair coin decides the colour of the fresh creep
 
 
-def test_a_field_of_the_state_can_be_written_in_place_and_assigned():
-    state = WaterWorld().reset(0)
-    state.agent_position[0] = 3.0
-    array = state.agent_velocity
-    state.agent_velocity = [1, 2]
-    assert state.agent_position[0] == 3.0
-    assert array.tolist() == [1.0, 2.0]
+def test_a_state_can_be_written_in_place():
+    world, state = lonely()
+    state.scene.position[:] = 3.0
+    state.scene.velocity[:] = [1, 2]
+    world.step(state, "no-op")
+    assert state.scene.position.tolist() == [3.02, 3.04]
+
+
+def test_met_is_of_this_step_alone():
+    world, state = lonely(position=[100.0, 100.0], things=[110.0, 100.0])
+    assert world.step(state, "no-op")[1].all() and state.scene.met.all()
+    state.scene.things[:] = 200.0
+    assert not world.step(state, "no-op")[1].any() and not state.scene.met.any()
 
 
 @pytest.mark.parametrize("argument, value", [
@@ -120,11 +134,19 @@ def test_a_bad_step_is_refused_and_changes_nothing():
     for action in (5, -1, 1.5, "north", None):
         with pytest.raises(ValueError, match="action is .*, allowed are"):
             world.step(state, action)
-    with pytest.raises(ValueError, match=r"state.creep_position is float64 \(3, 2\), allowed with n_creeps = 4"):
+    with pytest.raises(ValueError, match=r"state.scene.things is float64 \(3, 2\), allowed is float64 \(4, 2\)"):
         WaterWorld(n_creeps=4).step(state, 0)
-    state.agent_position[1] = np.nan
-    with pytest.raises(ValueError, match="state.agent_position is .*nan"):
+    with pytest.raises(ValueError, match="state is 5, allowed is a WaterWorldState"):
+        world.step(5, 0)
+    for kind in (-2, 2):
+        state.scene.kinds[1] = kind
+        with pytest.raises(ValueError, match=r"state.scene.kinds is .*, allowed are −1 and the numbers of \('green'"):
+            world.step(state, 0)
+    state.scene.kinds[1] = RED
+    state.scene.position[1] = np.nan
+    with pytest.raises(ValueError, match="state.scene.position is .*nan"):
         world.step(state, 0)
+    assert state.scene.position[0] == 125.0 and not state.scene.velocity.any()
     for seed in (-1, 0.5, None):
         with pytest.raises(ValueError, match="seed is"):
             world.reset(seed)
@@ -134,42 +156,39 @@ def lonely(**fields):
     """A tank whose only creep is far from an agent at rest, but for the given fields."""
     world = WaterWorld(n_creeps=1)
     state = world.reset(0)
-    state.creep_position = [200.0, 200.0]
-    state.creep_speed = 0.0
-    state.agent_position = [50.0, 50.0]
-    for name, value in fields.items():
-        setattr(state, name, value)
+    for name, value in ({"things": 200.0, "speed": 0.0, "position": 50.0} | fields).items():
+        (state._asdict() | state.scene._asdict())[name][...] = value
     return world, state
 
 
 def test_an_agent_that_just_reaches_the_wall_is_stopped_in_x_and_glides_on_in_y():
     highest = 250.0 - 2 * 12
-    world, state = lonely(agent_position=[highest, highest], agent_velocity=[0.0, 0.0])
+    world, state = lonely(position=[highest, highest], velocity=[0.0, 0.0])
     world.step(state, "no-op")
-    assert state.agent_position.tolist() == [highest, highest]
-    state.agent_position = highest - 1.0
-    state.agent_velocity = 50.0
+    assert state.scene.position.tolist() == [highest, highest]
+    state.scene.position[:] = highest - 1.0
+    state.scene.velocity[:] = 50.0
     world.step(state, "no-op")
-    assert state.agent_velocity.tolist() == [0.0, 50.0 * 0.975]
+    assert state.scene.velocity.tolist() == [0.0, 50.0 * 0.975]
 
 
 def test_contact_begins_one_rounded_pixel_inside_two_radii():
     for distance, touched in [(24, False), (23.6, False), (23.4, True), (-24, False), (-23.6, False), (-23.5, True)]:
-        world, state = lonely(creep_position=[100.0 + distance, 90.0], agent_position=[100.0, 100.0])
+        world, state = lonely(things=[100.0 + distance, 90.0], position=[100.0, 100.0])
         assert world.step(state, "no-op")[1].tolist() == [touched], distance
 
 
 def test_a_creep_bounces_with_its_jitter_where_it_just_reaches_the_low_wall_but_not_the_high_one():
     for wall, sign, bounces in [(12.0, -1.0, True), (238.0, 1.0, False)]:
-        world, state = lonely(creep_position=[wall - sign, 100.0], creep_direction=[sign, 0.0], creep_speed=50.0,
-                              creep_jitter=0.5)
+        world, state = lonely(things=[wall - sign, 100.0], direction=[sign, 0.0], speed=50.0,
+                              jitter=0.5)
         world.step(state, "no-op")
-        assert state.creep_position[0].tolist() == [wall, 100.0]
-        assert state.creep_direction[0].tolist() == [-sign if bounces else sign, 0.0]
-    world, state = lonely(creep_position=[237.9, 100.0], creep_direction=[0.6, 0.8], creep_speed=50.0, creep_jitter=0.5)
+        assert state.scene.things[0].tolist() == [wall, 100.0]
+        assert state.direction[0].tolist() == [-sign if bounces else sign, 0.0]
+    world, state = lonely(things=[237.9, 100.0], direction=[0.6, 0.8], speed=50.0, jitter=0.5)
     world.step(state, "no-op")
     turned = np.array([-0.6 * 1.25, 0.8])
-    np.testing.assert_allclose(state.creep_direction[0], turned / np.linalg.norm(turned))
+    np.testing.assert_allclose(state.direction[0], turned / np.linalg.norm(turned))
 
 
 @pytest.mark.parametrize("contact, touched", [("rounded", False), ("truncated", True)])
@@ -177,8 +196,8 @@ def test_positions_are_compared_in_whole_pixels_by_either_rule(contact, touched)
     """Side by side at 100.4 and 123.5: 24 pixels apart if rounded, 23 if truncated, and two radii are 24."""
     world = WaterWorld(n_creeps=1, contact=contact)
     state = world.reset(0)
-    state.creep_is_green = True
-    state.agent_position, state.creep_position = (100.4, 100.0), (123.5, 100.0)
+    state.scene.kinds[:] = GREEN
+    state.scene.position[:], state.scene.things[:] = (100.4, 100.0), (123.5, 100.0)
     assert world.step(state, "no-op")[1].tolist() == [touched]
 
 
