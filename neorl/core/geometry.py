@@ -120,9 +120,10 @@ def locate(parameters, constants, scene, n, point, given, offset, coordinates):
                 x, y = value if each == 0 else x, value if each == 1 else y
             coordinate = math.sqrt(coordinate)
             if feature == Feature.direction:
-                all_have = all_have and coordinate > 0.0
-                followed_has = followed_has and (coordinate > 0.0 or vector != follows)
-                coordinate = turn(x, y) if coordinate > 0.0 else np.nan
+                has_direction = x != 0.0 or y != 0.0
+                all_have = all_have and has_direction
+                followed_has = followed_has and (has_direction or vector != follows)
+                coordinate = turn(x, y) if has_direction else np.nan
         if axes.what[axis, CUT] != Cut.equal:
             coordinate = in_range(axes, axis, coordinate)
         coordinates[axis - first] = coordinate
