@@ -118,7 +118,7 @@ def locate(parameters, constants, scene, n, point, given, offset, coordinates):
                 value = offset[each] if replaced else component(parameters, constants, scene, n, vector, point, each)
                 coordinate += value * value
                 x, y = value if each == 0 else x, value if each == 1 else y
-            coordinate = math.sqrt(coordinate)
+            coordinate = math.sqrt(abs(coordinate))  # abs() tells the compiler that the root needs no library
             if feature == Feature.direction:
                 has_direction = x != 0.0 or y != 0.0
                 all_have = all_have and has_direction
