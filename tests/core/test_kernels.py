@@ -1,35 +1,52 @@
 """The rules that every kernel keeps to, so that a run is the same everywhere."""
 
+import re
+
 import numba
 import numpy as np
 import pytest
 
-from neorl import Agent, Node, Run, WaterWorld, network_d, place_cells
-from neorl.core import geometry, learning, life, network, parameters, state, stream
+from neorl import Agent, Arena, Node, Policy, Run, WaterWorld, network_d, place_cells, softmax
+from neorl.agents.compile import constants_of
+from neorl.core import geometry, learning, life, maps, network, parameters, policy, state, stream
 from neorl.core.kernel import execute, inlined_kernel, kernel
 from neorl.core.modality import HEAD_DIRECTION_CELL
-from neorl.worlds import probe, rollout, waterworld
+from neorl.core.steps import steps_with
+from neorl.worlds import arena, probe, waterworld
+from neorl.worlds.rollout import rollout_in
 
-MODULES = (geometry, learning, life, network, parameters, probe, rollout, state, stream, waterworld)
-KERNELS = {value.__name__: value for module in MODULES
+TANK, POOL = WaterWorld(), Arena()
+AGENTS = {TANK: place_cells([3]),
+          POOL: Agent((Node("HD", HEAD_DIRECTION_CELL, [8]),), policy=Policy(choose=softmax(0.5)))}
+MODULES = (arena, geometry, learning, life, maps, network, parameters, policy, probe, state, stream, waterworld)
+KERNELS = {f"{value.__module__}.{value.__name__}": value for module in MODULES
            for value in vars(module).values() if isinstance(value, numba.core.dispatcher.Dispatcher)}
+MADE = {f"{type(world).__name__}: {made.__name__}": made for world, agent in AGENTS.items()
+        for made in (rollout_in(world.dynamics, constants_of(agent, world)), *steps_with(constants_of(agent, world)))}
+MADE["softmax"] = softmax(0.5)
 
 
 @pytest.fixture(scope="module", autouse=True)
 def compiled():
-    """Have every kernel compiled by a short run."""
-    Run(place_cells([3]), WaterWorld(), seed=0).advance(10)
+    """Have every kernel compiled by short runs."""
+    for world, agent in AGENTS.items():
+        Run(agent, world, seed=0).advance(10)
+        world.step(world.reset(0), 0)
 
 
 def test_the_kernels_are_found():
-    assert {"rollout", "learn_all_goals", "step_board", "uniform"} <= set(KERNELS)
+    assert {"neorl.core.learning.learn_all_goals", "neorl.core.stream.uniform", "neorl.worlds.waterworld.step",
+            "neorl.worlds.arena.step"} <= set(KERNELS)
+    assert {"WaterWorld: rollout", "Arena: rollout", "WaterWorld: observe", "softmax"} <= set(MADE)
+    assert all(rollout.signatures for name, rollout in MADE.items() if name.endswith("rollout"))
 
 
-@pytest.mark.parametrize("name", KERNELS)
+@pytest.mark.parametrize("name", [*KERNELS, *MADE])
 def test_a_kernel_has_the_options_of_all_and_calls_no_library(name):
-    assert KERNELS[name].targetoptions in [each(lambda: None).targetoptions for each in (kernel, inlined_kernel)]
-    assert "fastmath" not in KERNELS[name].targetoptions
-    for code in KERNELS[name].inspect_llvm().values():
+    tested = (KERNELS | MADE)[name]
+    assert tested.targetoptions in [each(lambda: None).targetoptions for each in (kernel, inlined_kernel)]
+    assert "fastmath" not in tested.targetoptions
+    for code in tested.inspect_llvm().values():
         calls = [line for line in code.splitlines() if " call " in line and "@" in line]
         called = {line.split("@", 1)[1].split("(")[0] for line in calls}
         # What is left are other kernels (_ZN…), LLVM's own, and the wrapper that Python calls.
@@ -51,18 +68,22 @@ def test_the_goal_loop_compiles_to_vector_instructions():
 
 
 def test_agents_of_any_network_share_one_compilation():
+    rollouts = set()
     for agent in (place_cells([3]), network_d([2, 5]), Agent((Node("HD", HEAD_DIRECTION_CELL, [8]),))):
-        Run(agent, WaterWorld(), seed=0).advance(10)
-    assert len(rollout.rollout.signatures) == 1
+        for world in (TANK, WaterWorld(width=100, n_creeps=5)):
+            Run(agent, world, seed=0).advance(10)
+            rollouts.add(rollout_in(world.dynamics, constants_of(agent, world)))
+    (rollout,) = rollouts
+    assert len(rollout.signatures) == 1
 
 
 @pytest.mark.parametrize("name", KERNELS)
 def test_a_kernel_called_from_python_refuses_instead_of_ending_the_interpreter(name):
-    with pytest.raises(TypeError, match=f"{name} is a kernel, which checks nothing"):
+    with pytest.raises(TypeError, match=f"{re.escape(name)} is a kernel, which checks nothing"):
         KERNELS[name](1, 2, 3)
 
 
 @pytest.mark.parametrize("name", [name for name in KERNELS if "no_cpython_wrapper" in KERNELS[name].targetoptions])
 def test_a_kernel_that_is_inlined_cannot_even_be_executed(name):
-    with pytest.raises(TypeError, match=f"{name} is only inlined into other kernels"):
+    with pytest.raises(TypeError, match=f"{re.escape(name)} is only inlined into other kernels"):
         execute(KERNELS[name], 1, 2, 3)

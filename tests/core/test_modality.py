@@ -7,18 +7,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from neorl import Modality, WaterWorld
-from neorl.core.choices import Tuning
-from neorl.core.geometry import TAU, into_margin, tuned, turn
+from neorl import Axis, Modality, Scene, WaterWorld, kernel
+from neorl.core.geometry import TAU, into_margin, turn
 from neorl.core.kernel import execute
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
-                                 LANDMARK_VECTOR_CELL, MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL)
+                                 LANDMARK_VECTOR_CELL, MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL, VECTORS,
+                                 cartesian, polar)
 
 EAST, SOUTH, WEST, NORTH = 0.0, 0.5 * math.pi, math.pi, 1.5 * math.pi
 WORLD = WaterWorld(width=200, n_creeps=2)
 components = st.floats(-10, 10)
 finite = st.floats(allow_nan=False, allow_infinity=False)
 shares = st.floats(0, 1)
+UNIT = (0, 1)
 reaches = st.floats(0, 0.5, exclude_min=True)
 
 
@@ -54,31 +55,37 @@ def test_a_turn_just_north_of_east_does_not_reach_1():
 
 
 @given(components, components, reaches, reaches)
-def test_each_tuning_equals_numpy(x, y, reach_x, reach_y):
+def test_each_feature_equals_numpy(x, y, reach_x, reach_y):
     vector, reach = np.array([x, y]), np.array([reach_x, reach_y])
     margin = np.minimum(vector - reach, 0) + np.maximum(vector - (1 - reach), 0)
+    margins = [Axis("position", "margin", along, -1, reach[along]) for along in (0, 1)]
+    assert Modality("margins", margins).tune(vector) == pytest.approx(margin, rel=1e-14, abs=1e-150)
     length, direction = np.hypot(x, y), np.arctan2(y, x) / TAU % 1.0 if x or y else 0.0
-    expected = {"cartesian": vector, "proximal": margin, "polar": (length, direction), "angle": (length, direction),
-                "length": (length, direction)}
-    assert set(expected) == set(Tuning.__members__)
-    for name, (u, v) in expected.items():
-        got_u, got_v = execute(tuned, int(Tuning[name]), x, y, reach_x, reach_y)
-        assert got_u == pytest.approx(u, rel=1e-14, abs=1e-150)
-        assert (turns_apart(got_v, v) if name in ("polar", "angle", "length") else abs(got_v - v)) < 1e-14
+    for of in ("position", "velocity", "objects", "boundaries"):
+        components = Modality("components", cartesian(of, (-1, 1), (-1, 1)))
+        assert components.tune(vector).tolist() == [x, y]
+        got_length, got_direction = Modality("radar", polar(of, 1)).tune(vector)
+        assert got_length == pytest.approx(length, rel=1e-14, abs=1e-150)
+        assert turns_apart(got_direction / TAU, direction) < 1e-14
+
+
+@kernel
+def margin_of(x, reach):
+    return into_margin(x, reach)
 
 
 @given(reaches, shares, shares)
 def test_a_margin_reaches_from_either_wall_to_0_without_a_leap(reach, a, b):
-    assert (execute(into_margin, 0.0, reach), execute(into_margin, 0.5, reach)) == (-reach, 0.0)
-    assert execute(into_margin, 1.0, reach) == pytest.approx(reach)
-    assert execute(into_margin, a, reach) == 0.0 or not reach <= a <= 1 - reach
-    assert abs(execute(into_margin, a, reach) - execute(into_margin, b, reach)) <= abs(a - b) + 1e-15
+    assert (execute(margin_of, 0.0, reach), execute(margin_of, 0.5, reach)) == (-reach, 0.0)
+    assert execute(margin_of, 1.0, reach) == pytest.approx(reach)
+    assert execute(margin_of, a, reach) == 0.0 or not reach <= a <= 1 - reach
+    assert abs(execute(margin_of, a, reach) - execute(margin_of, b, reach)) <= abs(a - b) + 1e-15
 
 
-def state_of(agent, velocity, creeps):
+def scene_of(agent, velocity, creeps):
     state = WORLD.reset(0)
-    state.agent_position, state.agent_velocity, state.creep_position = agent, velocity, creeps
-    return state
+    state.scene.position[:], state.scene.velocity[:], state.scene.things[:] = agent, velocity, creeps
+    return state.scene
 
 
 # The agent is at (0.1, 0.95), creeps are at (0.4, 0.55) and where the agent is, the default landmark is in the middle.
@@ -91,29 +98,35 @@ def state_of(agent, velocity, creeps):
     (LANDMARK_VECTOR_CELL, [(math.hypot(0.4, 0.45), TAU - math.atan2(45, 40))]),
     (HEAD_DIRECTION_CELL, [(math.pi - math.atan2(4, 3),)]),
     (SPEED_CELL, [(0.25,)]),
-    (Modality("landmarks", "landmarks", "cartesian", ((-1, 1), (-1, 1)), ((1, 0), (0.1, 0.95))),
+    (Modality("landmarks", cartesian("landmarks", (-1, 1), (-1, 1)), ((1, 0), (0.1, 0.95))),
      [(0.9, -0.95), (0.0, 0.0)]),
-    (Modality("walls", "boundaries", "cartesian", ((-1, 1), (-1, 1))), [(-0.1, 0), (0, -0.95), (0.9, 0), (0, 0.05)]),
-    (Modality("velocity", "velocity", "cartesian", ((-1, 1), (-1, 1))), [(-0.15, 0.2)]),
-    (Modality("velocity", "velocity", "polar", ((0, 1),)), [(0.25, math.pi - math.atan2(4, 3))]),
+    (Modality("walls", cartesian("boundaries", (-1, 1), (-1, 1))), [(-0.1, 0), (0, -0.95), (0.9, 0), (0, 0.05)]),
+    (Modality("velocity", cartesian("velocity", (-1, 1), (-1, 1))), [(-0.15, 0.2)]),
+    (Modality("velocity", polar("velocity", 1)), [(0.25, math.pi - math.atan2(4, 3))]),
+    (Modality("place × head direction", PLACE_CELL.axes + HEAD_DIRECTION_CELL.axes),
+     [(0.1, 0.95, math.pi - math.atan2(4, 3))]),
+    (Modality("object vector × velocity", OBJECT_VECTOR_CELL.axes + cartesian("velocity", (-1, 1), (-1, 1))),
+     [(0.5, TAU - math.atan2(4, 3), -0.15, 0.2), (0.0, EAST, -0.15, 0.2)]),
+    (Modality("object vector × place", CARTESIAN_OBJECT_VECTOR_CELL.axes + PLACE_CELL.axes[1:]),
+     [(0.3, -0.4, 0.95), (0.0, 0.0, 0.95)]),
 ])
 def test_coordinates_are_those_worked_out_by_hand(modality, expected):
-    coordinates = modality.coordinates(WORLD, state_of((20, 190), (-30, 40), [(80, 110), (20, 190)]))
+    coordinates = modality.coordinates(scene_of((20, 190), (-30, 40), [(80, 110), (20, 190)]), WORLD.size)
     assert coordinates.dtype == float and coordinates.shape == (len(expected), len(modality.axes))
     np.testing.assert_allclose(coordinates, expected, atol=1e-12)
 
 
 def test_an_agent_at_rest_heads_east_at_speed_0():
-    state = state_of((100, 100), (0.0, -0.0), [(0, 0), (200, 200)])
-    assert HEAD_DIRECTION_CELL.coordinates(WORLD, state).tolist() == [[EAST]]
-    assert SPEED_CELL.coordinates(WORLD, state).tolist() == [[0.0]]
+    scene = scene_of((100, 100), (0.0, -0.0), [(0, 0), (200, 200)])
+    assert HEAD_DIRECTION_CELL.coordinates(scene, WORLD.size).tolist() == [[EAST]]
+    assert SPEED_CELL.coordinates(scene, WORLD.size).tolist() == [[0.0]]
 
 
 @pytest.mark.parametrize("corner", [(0, 0), (200, 0), (0, 200), (200, 200)])
 def test_an_agent_in_a_corner_touches_two_walls(corner):
-    state = state_of(corner, (0, 0), [(0, 0), (200, 200)])
-    np.testing.assert_array_equal(BORDER_CELL.coordinates(WORLD, state), [np.where(corner, 0.25, -0.25)])
-    assert BOUNDARY_VECTOR_CELL.coordinates(WORLD, state)[:, 0].tolist() == [*np.divide(corner, 200),
+    scene = scene_of(corner, (0, 0), [(0, 0), (200, 200)])
+    np.testing.assert_array_equal(BORDER_CELL.coordinates(scene, WORLD.size), [np.where(corner, 0.25, -0.25)])
+    assert BOUNDARY_VECTOR_CELL.coordinates(scene, WORLD.size)[:, 0].tolist() == [*np.divide(corner, 200),
                                                                              *1 - np.divide(corner, 200)]
 
 
@@ -121,7 +134,7 @@ ALLOCENTRIC, SEEN = "allocentric", "centred on the agent, allocentric direction"
 PLANE, RADAR = ("x", "y"), ("distance", "direction")
 
 
-@pytest.mark.parametrize("modality, name, frame, axes, takes_places", [  # thesis table 2.1; speed from paper B, table 1
+@pytest.mark.parametrize("modality, name, frame, names, takes_places", [  # thesis table 2.1; speed: paper B, table 1
     (PLACE_CELL, "place cell", ALLOCENTRIC, PLANE, True),
     (BORDER_CELL, "border cell", ALLOCENTRIC, PLANE, True),
     (OBJECT_VECTOR_CELL, "object-vector cell", SEEN, RADAR, True),
@@ -131,53 +144,113 @@ PLANE, RADAR = ("x", "y"), ("distance", "direction")
     (HEAD_DIRECTION_CELL, "head-direction cell", "allocentric direction", ("direction",), True),
     (SPEED_CELL, "speed cell", "–", ("speed",), False),
 ])
-def test_the_modalities_are_those_of_the_tables(modality, name, frame, axes, takes_places):
+def test_the_modalities_are_those_of_the_tables(modality, name, frame, names, takes_places):
     assert modality in MODALITIES
-    assert (modality.name, modality.axes, modality.takes_places) == (name, axes, takes_places)
-    assert modality.has_direction == (axes[-1] == "direction")
+    assert (modality.name, modality.names, modality.takes_places) == (name, names, takes_places)
+    assert [axis.is_direction for axis in modality.axes] == [name == "direction" for name in names]
     assert modality.frame == frame
 
 
 def test_a_modality_is_a_value():
-    again = Modality("place cell", "position", "cartesian", [[0, 1], np.array([0.0, 1.0])])
+    again = Modality("place cell", [Axis("position"), Axis("position", along=np.int64(1), high=np.float32(1))])
     assert again == PLACE_CELL and hash(again) == hash(PLACE_CELL)
     assert len(set(MODALITIES)) == 8
 
 
-UNIT = (0, 1)
+@kernel
+def of_my_own(scene, point):
+    return scene.position[0]
 
 
-@pytest.mark.parametrize("arguments, message", [
-    (("smell", "cartesian", (UNIT, UNIT)), "vector is 'smell', allowed are 'position', 'velocity', 'objects', 'bound"),
-    (("position", "polar", (UNIT,)), "tuning is 'polar', allowed are 'cartesian', 'proximal'$"),
-    (("velocity", "proximal", (UNIT, UNIT)), "tuning is 'proximal', allowed are 'cartesian', 'polar', 'angle', 'l"),
-    (("objects", "angle", ()), "tuning is 'angle', allowed are 'cartesian', 'polar'$"),
-    (("position", "cartesian", (UNIT,)), r"ranges is \(\(0, 1\),\), allowed are 2 pairs of numbers$"),
-    (("objects", "polar", (UNIT, UNIT)), r"ranges is \(\(0, 1\), \(0, 1\)\), allowed are 1 pairs"),
-    (("velocity", "angle", (UNIT,)), "ranges is .*, allowed are 0 pairs"),
-    (("velocity", "length", ()), r"ranges is \(\), allowed are 1 pairs"),
-    (("velocity", "length", UNIT), "ranges is 0, allowed are lists and tuples"),
-    (("velocity", "length", ((0, 1, 2),)), "ranges is .*, allowed are 1 pairs"),
-    (("velocity", "length", ((0, np.nan),)), "ranges is nan, allowed are finite numbers"),
-    (("velocity", "length", ((0, np.inf),)), "ranges is inf, allowed are finite numbers"),
-    (("velocity", "length", ((1, 1),)), "ranges is .*, allowed are pairs with the lower number first"),
-    (("position", "cartesian", (UNIT, (1, 0))), "ranges is .*, allowed are pairs with the lower number first"),
-    (("velocity", "length", (("0", 1),)), "ranges is '0', allowed are finite numbers"),
-    (("position", "proximal", ((-1, 0.6), (-1, 0.5))), "ranges is .*, allowed are margins up to half a board width"),
-    (("position", "proximal", ((-1, 0.5), (-1, 0))), "ranges is .*, allowed are margins up to half a board width"),
-    (("landmarks", "polar", (UNIT,)), r"landmarks is \(\), allowed are 1 or more pairs"),
-    (("landmarks", "polar", (UNIT,), ((0.5, np.nan),)), "landmarks is nan, allowed are finite numbers"),
-    (("landmarks", "polar", (UNIT,), (0.5, 0.5)), "landmarks is 0.5, allowed are lists and tuples"),
-    (("objects", "polar", (UNIT,), ((0.5, 0.5),)), r"landmarks is \(\(0.5, 0.5\),\), allowed are 0 pairs"),
+@pytest.mark.parametrize("make, message", [
+    (lambda: Axis("smell"), "of is 'smell', allowed are 'position', 'velocity', 'objects', 'boundaries', 'landmarks'"),
+    (lambda: Axis("position", "colour"), "feature is 'colour', allowed are 'component', 'margin', 'length', 'd"),
+    *((lambda of=of: Axis(of, "margin", high=0.25), f"a margin of 0.25 of '{of}'") for of in VECTORS[1:]),
+    (lambda: Axis("position", "margin", low=-1, high=0.6), "a margin of 0.6 of 'position': allowed are .* up to 0.5"),
+    (lambda: Axis("position", "margin", low=-1, high=0.0), "a margin of 0.0 of 'position'"),
+    (lambda: Axis("position", along=-1), "along is -1, allowed are integers ≥ 0"),
+    (lambda: Axis("position", along=0.5), "along is 0.5"),
+    (lambda: Axis("velocity", "length", low=1), "low is 1.0, allowed are numbers below high, here 1.0"),
+    (lambda: Axis("velocity", low=1, high=0), "low is 1.0, allowed are numbers below high, here 0.0"),
+    (lambda: Axis("velocity", high=np.nan), "high is nan, allowed are finite numbers"),
+    (lambda: Axis("velocity", low=-np.inf), "low is -inf, allowed are finite numbers"),
+    (lambda: Axis("velocity", low="0"), "low is '0', allowed are finite numbers"),
+    (lambda: Axis("position", closed=1), "closed is 1, allowed are True, False"),
+    (lambda: Axis("position", intervals=0), "intervals is 0, allowed are integers ≥ 1"),
+    (lambda: Axis("position", intervals=2.5), "intervals is 2.5"),
+    (lambda: Axis("position", boundaries=(1,)), r"boundaries is \(1.0,\), allowed are two numbers or more"),
+    (lambda: Axis("position", boundaries=(0, 0.5, 0.5)), "boundaries is .* two numbers or more that increase"),
+    (lambda: Axis("position", boundaries=(0, np.inf)), "boundaries is inf, allowed are finite numbers"),
+    (lambda: Axis("position", boundaries=0.5), "boundaries is 0.5, allowed are lists and tuples"),
+    (lambda: Axis("position", boundaries=(0, 1), closed=True), "boundaries is .*, allowed for an axis that is closed"),
+    (lambda: Axis("velocity", "direction", boundaries=(0, 1)), "boundaries is .*, allowed for an axis that is closed"),
+    (lambda: Axis("position", name=5), "name is 5, allowed is a str"),
+    (lambda: Axis(of_my_own, low=2), "low is 2.0, allowed are numbers below high"),
+    (lambda: Modality(5, HEAD_DIRECTION_CELL.axes), "name is 5, allowed is a str"),
+    (lambda: Modality("X", ()), r"axes is \(\), allowed are one or more"),
+    (lambda: Modality("X", Axis("position")), "axes is Axis.*, allowed are lists and tuples"),
+    (lambda: Modality("X", ["position"]), "axes is 'position', allowed is a Axis"),
+    (lambda: Modality("X", polar("objects", 1) + polar("boundaries", 1)), "axes is .*, of objects, .* one kind at"),
+    (lambda: Modality("X", polar("objects", 1)[::-1]), "allowed are first those of objects, a direction last"),
+    (lambda: Modality("X", HEAD_DIRECTION_CELL.axes + PLACE_CELL.axes), "allowed are first those of position"),
+    (lambda: Modality("X", PLACE_CELL.axes + polar("objects", 1)), "allowed are first those of objects"),
+    (lambda: Modality("X", polar("landmarks", 1)), r"landmarks is \(\), allowed are places where an axis is of landm"),
+    (lambda: Modality("X", polar("landmarks", 1), ((0.5, np.nan),)), "landmarks is nan, allowed are finite numbers"),
+    (lambda: Modality("X", polar("landmarks", 1), (0.5, 0.5)), "landmarks is 0.5, allowed are lists and tuples"),
+    (lambda: Modality("X", polar("landmarks", 1), ((0.5, 0.5), (0.5,))), "landmarks is .*, allowed are places"),
+    (lambda: Modality("X", polar("objects", 1), ((0.5, 0.5),)), r"landmarks is \(\(0.5, 0.5\),\), allowed are places"),
 ])
-def test_a_bad_modality_is_refused(arguments, message):
+def test_a_bad_choice_is_refused(make, message):
     with pytest.raises(ValueError, match=message):
-        Modality("my cell", *arguments)
+        make()
 
 
-def test_a_name_is_text():
-    with pytest.raises(ValueError, match="name is 5, allowed is a str"):
-        Modality(5, "velocity", "angle")
+def test_an_axis_cannot_be_subclassed_to_no_effect():
+    with pytest.raises(TypeError, match="Mine cannot be a subclass of Axis"):
+        class Mine(Axis):
+            pass
+
+
+@pytest.mark.parametrize("axes, follows", [
+    (PLACE_CELL.axes + HEAD_DIRECTION_CELL.axes, "position"), (polar("objects", 1) + PLACE_CELL.axes, "objects"),
+    (polar("boundaries", 1) + SPEED_CELL.axes, "boundaries"), (SPEED_CELL.axes, "velocity"),
+    ([Axis(of_my_own)], "position"), ([*HEAD_DIRECTION_CELL.axes, Axis(of_my_own)], "velocity"),
+])
+def test_a_conjunctive_cell_follows_things_before_places_and_places_before_velocities(axes, follows):
+    assert Modality("X", axes).follows == follows
+
+
+def test_names_of_coordinates_follow_from_the_axes_unless_they_are_given():
+    axes = [Axis("position", along=along) for along in range(5)] + [Axis("velocity", "length"), Axis(of_my_own),
+                                                                    Axis("velocity", "length", name="haste")]
+    assert Modality("X", axes).names == ("x", "y", "z", "x3", "x4", "speed", "of_my_own", "haste")
+
+
+@pytest.mark.parametrize("position", [(0.5,), (0.5, 0.25, 0.75)])
+def test_coordinates_in_worlds_of_any_number_of_axes(position):
+    n, things = len(position), np.array([[1.0] * len(position), [0.0] * len(position)])
+    scene = Scene(np.array(position), np.array([0.1] * n), things, np.array([0, 0]), np.array([0, 0]))
+    along = [Axis("position", along=each) for each in range(n)]
+    np.testing.assert_array_equal(Modality("place", along).coordinates(scene, 1.0), [position])
+    objects = [Axis("objects", along=each, low=-1) for each in range(n)]
+    np.testing.assert_array_equal(Modality("objects", objects).coordinates(scene, 1.0), things - position)
+    walls = Modality("walls", [Axis("boundaries", "length")]).coordinates(scene, 1.0)[:, 0]
+    np.testing.assert_allclose(walls, [*position, *1 - np.array(position)])
+    speed = Modality("speed", [Axis("velocity", "length")])
+    np.testing.assert_allclose(speed.coordinates(scene, 1.0), [[0.1 * np.sqrt(n)]])
+    np.testing.assert_allclose(speed.tune(scene.velocity), [0.1 * np.sqrt(n)])
+
+
+def test_a_direction_is_in_the_plane_of_the_first_two_axes():
+    assert HEAD_DIRECTION_CELL.tune([0.0, 1.0, 7.0]) == pytest.approx([SOUTH])
+    assert HEAD_DIRECTION_CELL.tune([0.0, 1e-300]) == pytest.approx([SOUTH])
+
+
+def test_vectors_are_tuned_by_cells_of_one_vector_in_worlds_that_have_its_axes():
+    with pytest.raises(ValueError, match="X's have axes of several vectors"):
+        Modality("X'", PLACE_CELL.axes + HEAD_DIRECTION_CELL.axes).tune([0.1, 0.2])
+    with pytest.raises(ValueError, match=r"vectors has the shape \(1,\), allowed are \(…, 2\) or more"):
+        HEAD_DIRECTION_CELL.tune([0.1])
 
 
 def test_vectors_of_any_shape_are_tuned_and_those_that_are_not_finite_are_refused():
@@ -188,4 +261,4 @@ def test_vectors_of_any_shape_are_tuned_and_those_that_are_not_finite_are_refuse
         with pytest.raises(ValueError, match="vectors is .*, allowed are finite numbers"):
             OBJECT_VECTOR_CELL.tune(vector)
     with pytest.raises(ValueError, match="vectors has the shape"):
-        OBJECT_VECTOR_CELL.tune([0.1, 0.2, 0.3])
+        OBJECT_VECTOR_CELL.tune(0.1)
