@@ -9,8 +9,9 @@ from neorl import (Agent, Desire, Learning, Node, NresMap, Place, Policy, Run, W
                    network_a, network_b, network_c, network_d, object_vector_cells, place_cells)
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
                                  LANDMARK_VECTOR_CELL, MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL)
-from neorl.agents.compile import compiled
+from neorl.agents.compile import compiled, n_values
 from neorl.core.choices import Source
+from neorl.core.modality import cartesian
 
 PC, OVC = Node("PC", PLACE_CELL, (2, 3)), Node("OVC", CARTESIAN_OBJECT_VECTOR_CELL, (3,))
 HD, SPEED = Node("HD", HEAD_DIRECTION_CELL, (4,)), Node("speed", SPEED_CELL, (3,))
@@ -18,27 +19,19 @@ PAPERS = (place_cells, brownian, object_vector_cells, multimodal, network_a, net
 
 
 @pytest.mark.parametrize("make, message", [
-    (lambda: Node("green", PLACE_CELL, (3,)), r"name is 'green', allowed are strings other than \('green', 'red'\)"),
-    (lambda: Node("red", PLACE_CELL, (3,)), "name is 'red'"),
-    (lambda: Node(5, PLACE_CELL, (3,)), "name is 5"),
+    (lambda: Node(5, PLACE_CELL, (3,)), "name is 5, allowed is a str"),
     (lambda: Node("PC", "place cell", (3,)), "modality is 'place cell', allowed is a Modality"),
     (lambda: Node("PC", PLACE_CELL, 5), "resolutions is 5, allowed are lists and tuples"),
     (lambda: Node("PC", PLACE_CELL, ()), r"resolutions is \(\), allowed are one integer or more"),
     (lambda: Node("PC", PLACE_CELL, (3, 0)), "resolution is 0, allowed are integers ≥ 1"),
     (lambda: Node("PC", PLACE_CELL, (3,), "heavy"), "weighting is 'heavy', allowed are 'equal', 'resolution', 'cells'"),
     (lambda: Node("PC", PLACE_CELL, (3,), gain=np.inf), "gain is inf, allowed are finite numbers"),
-    (lambda: Desire("green", "PC"), "valence of the desire 'green' → 'PC' is None"),
-    (lambda: Desire((0.1, 0.2), "PC"), r"valence of the desire \(0.1, 0.2\) → 'PC' is None"),
-    (lambda: Desire("PC", "PC"), "valence of the desire 'PC' → 'PC' is None, allowed are finite numbers"),
     (lambda: Desire("red", "PC", np.nan), "valence is nan"),
     (lambda: Desire("PC", "OVC", "much"), "valence is 'much'"),
-    (lambda: Place(0.5, float("nan")), "y is nan, allowed are finite numbers"),
-    (lambda: Desire(Place(0.5, 0.5), "PC"), "valence of the desire Place.* is None"),
+    (lambda: Place(0.5, float("nan")), "coordinates is nan, allowed are finite numbers"),
     (lambda: Desire(0.5, "PC", 1.0), "source is 0.5, allowed are lists and tuples"),
     (lambda: Desire((0.5, np.nan), "PC", 1.0), "source is nan, allowed are finite numbers"),
     (lambda: Desire("PC", "OVC", of="green"), "of is 'green', allowed are lists and tuples"),
-    (lambda: Desire("green", "OVC", 1.0, of=("green",)), r"of is .*'green' → 'OVC' is \(\): it comes from no node"),
-    (lambda: Desire((0.5, 0.5), "OVC", 1.0, of=("green",)), "of is .*: it comes from no node"),
     (lambda: Desire("PC", "OVC", scale=-1), "scale is -1"),
     (lambda: Desire("PC", "OVC", signed=2), "signed is 2, allowed are True, False"),
     (lambda: Agent(()), r"nodes is \(\), allowed are one Node or more"),
@@ -75,6 +68,7 @@ PAPERS = (place_cells, brownian, object_vector_cells, multimodal, network_a, net
     (lambda: Learning(attention="all"), "attention is 'all'"),
     (lambda: Policy(exploration=1.1), "exploration is 1.1"),
     (lambda: Policy(when_indifferent="sleep"), "when_indifferent is 'sleep'"),
+    (lambda: Policy(choose="greedy"), "choose is 'greedy', allowed is a neorl.kernel"),
 ])
 def test_a_bad_choice_is_refused(make, message):
     with pytest.raises(ValueError, match=message):
@@ -82,9 +76,15 @@ def test_a_bad_choice_is_refused(make, message):
 
 
 @pytest.mark.parametrize("desires, message", [
-    ([Desire("blue", "PC")], "desire 'blue' → 'PC': there is no node 'blue', allowed are 'PC', 'OVC', 'HD', 'speed'"),
+    ([Desire("blue", "PC")], "valence .* 'blue' → 'PC' is None, .* another node, 'PC', 'OVC', 'HD', 'speed'"),
+    ([Desire("green", "PC")], "valence of the desire 'green' → 'PC' is None"),
+    ([Desire((0.1, 0.2), "PC")], r"valence of the desire \(0.1, 0.2\) → 'PC' is None"),
+    ([Desire(Place(0.5, 0.5), "PC")], "valence of the desire Place.* is None"),
+    ([Desire("PC", "PC")], "valence of the desire 'PC' → 'PC' is None, allowed are finite numbers"),
+    ([Desire("green", "OVC", 1.0, of=("green",))], r"of is .*'green' → 'OVC' is \(\): it comes from no node"),
+    ([Desire((0.5, 0.5), "OVC", 1.0, of=("green",))], "of is .*: it comes from no node"),
     ([Desire("green", "CP", 1.0)], "desire 'green' → 'CP': there is no node 'CP'"),
-    ([Desire("PC", "red")], "desire 'PC' → 'red': there is no node 'red'"),
+    ([Desire("PC", "red")], "desire 'PC' → 'red': there is no node 'red', allowed are 'PC', 'OVC'"),
     ([Desire("PC", "OVC"), Desire("OVC", "PC")], "desire ('PC' → 'OVC'|'OVC' → 'PC'): it closes the cycle .* itself"),
     ([Desire("PC", "OVC"), Desire("OVC", "HD"), Desire("HD", "PC")],
      "desire ('PC' → 'OVC': .* PC → OVC → HD → PC|'OVC' → 'HD': .* OVC → HD → PC → OVC|"
@@ -105,6 +105,24 @@ def test_a_network_that_cannot_be_evaluated_is_refused(desires, message):
         Agent((PC, OVC, HD, SPEED), desires)
 
 
+@pytest.mark.parametrize("node, desires, message", [
+    (Node("green", PLACE_CELL, (3,)), [], "a node is called 'green', allowed are names other than .*: 'green', 'red'"),
+    (Node("red", PLACE_CELL, (3,)), [], "a node is called 'red'"),
+    (PC, [Desire("blue", "PC", 1.0)], "'blue' → 'PC': 'blue' is neither a node .* nor a kind .* are 'green', 'red'"),
+    (PC, [Desire(Place(0.5), "PC", 1.0)], r"desire Place\(0.5,\) → 'PC': allowed .* are places of 2 coordinates"),
+    (PC, [Desire(Place(0.5, 0.5, 0.5), "PC", 1.0)], "allowed in this world are places of 2 coordinates"),
+    (Node("LVC", replace(LANDMARK_VECTOR_CELL, landmarks=((0.1, 0.2, 0.3),)), (3,)), [],
+     "landmark-vector cells need a world of 3 axes or more, this one has 2"),
+])
+def test_an_agent_and_a_world_that_do_not_go_together_are_refused_when_they_meet(node, desires, message):
+    agent = Agent((node,), desires)
+    for meet in (compiled, Run):
+        with pytest.raises(ValueError, match=message):
+            meet(agent, WaterWorld())
+    with pytest.raises(ValueError, match=message):
+        Run(place_cells([3]), WaterWorld()).change(agent)
+
+
 def test_recursion_to_itself_and_points_of_a_nodes_own_space_are_allowed():
     Agent((PC, SPEED), (Desire("green", "PC", 1.0), Desire("PC", "PC", -1.0, of=("PC", "green")),
                         Desire((0.5,), "speed", 1.0), Desire((0.1, 0.2), "PC", 1.0)))
@@ -118,7 +136,7 @@ def test_an_agent_is_a_value(make):
 
 def test_the_agent_of_paper_a_is_one_node_and_two_desires():
     desires = (Desire("green", "PC", 1.0), Desire("red", "PC", -1.0))
-    middle = replace(PLACE_CELL, ranges=((0.25, 0.75), (0.25, 0.75)))
+    middle = replace(PLACE_CELL, axes=cartesian("position", (0.25, 0.75), (0.25, 0.75)))
     assert place_cells([3, 7], tiled_fraction=0.5) == Agent((Node("PC", middle, (3, 7)),), desires)
     assert place_cells([3, 7], tiled_fraction=0.5) == Agent([Node("PC", middle, np.array([3, 7]))], list(desires))
     assert place_cells([3, 7], tiled_fraction=1) == Agent((Node("PC", PLACE_CELL, (3, 7)),), desires)
@@ -128,7 +146,8 @@ def test_the_agent_of_paper_a_is_one_node_and_two_desires():
 
 def test_object_vectors_may_have_a_range_of_their_own():
     places, objects = multimodal([3], tiled_fraction=1, object_tiled_fraction=0.25).nodes
-    assert places.modality == PLACE_CELL and objects.modality.ranges == ((-0.25, 0.25), (-0.25, 0.25))
+    assert places.modality == PLACE_CELL and objects.modality.axes == cartesian("objects", (-0.25, 0.25),
+                                                                                                  (-0.25, 0.25))
     assert object_vector_cells([3], tiled_fraction=0.2,
                                object_tiled_fraction=1).nodes[0].modality == CARTESIAN_OBJECT_VECTOR_CELL
     for name in ("tiled_fraction", "object_tiled_fraction"):
@@ -145,8 +164,8 @@ def test_a_node_is_evaluated_after_those_that_it_takes_desires_from():
 
 
 def test_n_values_counts_four_actions_for_each_pair_of_cells():
-    assert place_cells([3, 7, 23]).n_values == 4 * (3**4 + 7**4 + 23**4)
-    assert Agent((HD, SPEED)).n_values == 4 * (4**2 + 3**2)
+    assert n_values(place_cells([3, 7, 23]), WaterWorld()) == 4 * (3**4 + 7**4 + 23**4)
+    assert n_values(Agent((HD, SPEED)), WaterWorld()) == 4 * (4**2 + 3**2)
     assert Agent((PC, OVC)).maps == (NresMap(2), NresMap(3), NresMap(3, CARTESIAN_OBJECT_VECTOR_CELL))
 
 
@@ -167,7 +186,8 @@ def test_maps_tracks_and_desires_lie_one_after_the_other():
     assert maps.first_cell.tolist() == [0, 4, 13, 22, 26]
     assert nodes.first_map.tolist() == [0, 2, 3, 4] and maps.first_track.tolist() == [0, 1, 2, 7, 8]
     assert nodes.inputs.tolist() == [1, 0, 2, 3] and nodes.first_input.tolist() == [0, 1, 4, 4]
-    assert chosen.source.tolist() == [Source.green, Source.point, Source.red, Source.node]
+    assert chosen.source.tolist() == [Source.kind, Source.point, Source.kind, Source.node]
+    assert chosen.kind[[0, 2]].tolist() == [0, 1]
     assert chosen.goal[1].tolist() == [1, 5, 0, 0]
     assert chosen.valence.tolist() == [1, 1, -1, 0] and chosen.sums_valence.tolist() == [False, False, False, True]
 

@@ -1,23 +1,170 @@
 """NRES maps: one active cell for any point of any modality, also at the edges."""
 
+import math
+
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from neorl import Agent, Modality, Node, NresMap, Run, WaterWorld
+from neorl import Agent, Axis, Desire, Modality, Node, NresMap, Place, Run, WaterWorld
 from neorl.core.modality import (BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL, MODALITIES,
-                                 OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL, TAU)
+                                 OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL, TAU, cartesian)
 
 maps = st.builds(NresMap, st.integers(1, 30), st.sampled_from(MODALITIES))
 of_any_modality = pytest.mark.parametrize("modality", MODALITIES, ids=lambda modality: modality.name)
-closed = pytest.mark.parametrize("modality", [each for each in MODALITIES if each.has_direction],
+closed = pytest.mark.parametrize("modality", [each for each in MODALITIES if each.axes[-1].is_direction],
                                  ids=lambda modality: modality.name)
 near_and_far = st.floats(-3, 3) | st.floats(-1e6, 1e6)
 
+# Axes of every kind and cut, those of the vector that is followed before those of others, directions last.
+PLACE_DIRECTION = Modality("place × head direction", PLACE_CELL.axes + HEAD_DIRECTION_CELL.axes)
+OBJECT_VELOCITY = Modality("object vector × velocity",
+                           OBJECT_VECTOR_CELL.axes + cartesian("velocity", (-1, 1), (-1, 1), intervals=2))
+UNEQUAL = Modality("near and far", [Axis("objects", "length", boundaries=(0.0, 0.1, 0.15, 0.6)),
+                                    Axis("objects", "direction", intervals=5), Axis("position", along=1, intervals=3)])
+RING = Modality("ring", [Axis("position", closed=True, low=0.25, high=0.75),
+                         Axis("position", along=1, closed=True, intervals=4)])
+LINE, ROOM = (Modality(name, [Axis("position", along=along, low=-1, high=2) for along in range(axes)])
+              for name, axes in (("line", 1), ("room", 3)))
+CONJUNCTIVE = (PLACE_DIRECTION, OBJECT_VELOCITY, UNEQUAL, RING, LINE, ROOM)
+of_any_axes = pytest.mark.parametrize("modality", CONJUNCTIVE, ids=lambda modality: modality.name)
+
+
+@st.composite
+def open_or_closed_axes(draw):
+    """An axis that is a component of a position, cut in any way."""
+    if draw(st.booleans()):
+        return Axis("position", boundaries=sorted(draw(st.sets(st.floats(-2, 2), min_size=2, max_size=6))))
+    low = draw(st.floats(-2, 2))
+    return Axis("position", "component", 0, low, low + draw(st.floats(0.01, 3)), closed=draw(st.booleans()),
+                intervals=draw(st.none() | st.integers(1, 7)))
+
+
+def encoded_by_numpy(nres_map, points):
+    """The active cell of each point (n, axes), an axis at a time."""
+    cells, stride = np.zeros(len(points), int), 1
+    for axis, values in zip(nres_map.modality.axes, np.transpose(points)):
+        n = axis.intervals or nres_map.resolution
+        if axis.boundaries:
+            interval = np.searchsorted(axis.boundaries[1:-1], values, side="right")
+        elif axis.is_direction:
+            interval = np.floor(values / TAU % 1.0 * n + 0.5) % n
+        elif axis.closed:
+            interval = np.floor((values - axis.low) % (axis.high - axis.low) / (axis.high - axis.low) * n)
+        else:
+            interval = np.floor((values - axis.low) / (axis.high - axis.low) * n)
+        cells += stride * np.clip(interval, 0, n - 1).astype(int)
+        stride *= n
+    return cells
+
 
 def interval(nres_map, cell, axis):
-    return cell // nres_map.resolution**axis % nres_map.resolution
+    return cell // math.prod(nres_map.intervals[:axis]) % nres_map.intervals[axis]
+
+
+def near_a_boundary(nres_map, axis, value):
+    """Whether rounding decides which of two intervals holds a coordinate."""
+    axis = nres_map.modality.axes[axis]
+    if axis.boundaries:
+        return False  # a comparison, without rounding
+    length, low = (TAU, 0.0) if axis.is_direction else (axis.high - axis.low, axis.low)
+    away = (value - low) / length * (axis.intervals or nres_map.resolution) + (0.5 if axis.is_direction else 0.0)
+    return abs(away - round(away)) < 1e-7
+
+
+@of_any_axes
+@given(st.integers(1, 9), st.lists(near_and_far, min_size=4, max_size=4))
+def test_conjunctive_cells_equal_numpy(modality, resolution, point):
+    nres_map, point = NresMap(resolution, modality), point[: len(modality.axes)]
+    assume(not any(near_a_boundary(nres_map, axis, value) for axis, value in enumerate(point)))
+    cell = nres_map.encode(point)
+    assert cell.shape == () and 0 <= cell < nres_map.cells == math.prod(nres_map.intervals)
+    assert [int(cell)] == encoded_by_numpy(nres_map, [point]).tolist()
+
+
+@given(st.lists(open_or_closed_axes(), min_size=1, max_size=4), st.integers(1, 9), st.data())
+def test_any_cut_of_any_number_of_axes_equals_numpy(axes, resolution, data):
+    nres_map = NresMap(resolution, Modality("X", axes))
+    point = [data.draw(near_and_far | st.sampled_from(axis.boundaries or (axis.low,))) for axis in axes]
+    for i, axis in enumerate(axes):
+        near = near_a_boundary(nres_map, i, point[i])
+        assume(not near or axis.low == point[i])  # the lower end itself is exact
+    assert [int(nres_map.encode(point))] == encoded_by_numpy(nres_map, [point]).tolist()
+
+
+@of_any_axes
+def test_every_conjunctive_cell_is_active_somewhere(modality):
+    nres_map = NresMap(3, modality)
+    middles = [middles_of(axis, n) for axis, n in zip(modality.axes, nres_map.intervals)]
+    points = np.stack(np.meshgrid(*middles, indexing="ij"), axis=-1)
+    assert nres_map.encode(points).ravel("F").tolist() == list(range(nres_map.cells))
+    assert np.all(nres_map.covers(points))
+
+
+def middles_of(axis, n):
+    if axis.is_direction:
+        return np.arange(n) / n * TAU
+    ends = np.array(axis.boundaries or np.linspace(axis.low, axis.high, n + 1))
+    return (ends[1:] + ends[:-1]) / 2
+
+
+def test_intervals_are_those_of_the_axis_or_else_of_the_map():
+    assert NresMap(7, OBJECT_VELOCITY).intervals == (7, 7, 2, 2) and NresMap(7, OBJECT_VELOCITY).cells == 196
+    assert NresMap(7, UNEQUAL).intervals == (3, 5, 3) and NresMap(1, UNEQUAL).cells == 45
+    assert (NresMap(5, LINE).cells, NresMap(5, ROOM).cells, NresMap(5, PLACE_DIRECTION).cells) == (5, 125, 125)
+
+
+def test_unequal_intervals_hold_their_lower_end_and_all_that_is_beyond():
+    near = NresMap(9, Modality("X", [Axis("position", boundaries=(0.0, 0.1, 0.15, 0.6))]))
+    points = [-5.0, 0.0, 0.0999, 0.1, 0.1499, 0.15, 0.6, 1e300]
+    assert near.encode(np.array(points)[:, None]).tolist() == [0, 0, 0, 1, 1, 2, 2, 2]
+    assert near.covers(np.array(points)[:, None]).tolist() == [False, *[True] * 6, False]
+
+
+def test_an_axis_that_is_closed_goes_round_and_covers_everything():
+    ring = NresMap(4, RING)
+    along = np.array([0.25, 0.374, 0.375, 0.749, 0.75, 0.875, -0.25, 7.25 + 1e-9, 0.2499])
+    points = np.stack([along, np.zeros_like(along)], axis=-1)
+    assert ring.encode(points).tolist() == [0, 0, 1, 3, 0, 1, 0, 0, 3]
+    assert ring.covers(points).all()
+    assert ring.encode([[0.3, -0.1], [0.3, 1.1]]).tolist() == [12, 0]
+
+
+@pytest.mark.parametrize("modality", [each for each in CONJUNCTIVE if each != ROOM], ids=lambda modality: modality.name)
+def test_the_cells_of_a_conjunctive_run_are_those_of_the_public_encoding(modality):
+    run = Run(Agent((Node("X", modality, (2, 3)),)), WaterWorld(), seed=1)
+    for _ in range(5):
+        run.advance(150)
+        assert_cells_are_encoded(run, modality)
+
+
+def assert_cells_are_encoded(run, modality):
+    coordinates = modality.coordinates(run.world_state.scene, run.world.size)
+    expected = [nres_map.encode(coordinates).tolist() for nres_map in run.agent.maps]
+    first = run.parameters.maps.first_track
+    assert [run.state.tracks.cell[first[m] : first[m + 1]].tolist() for m in range(2)] == expected
+
+
+@pytest.mark.parametrize("modality, source", [(PLACE_DIRECTION, "green"), (OBJECT_VELOCITY, "green"),
+                                              (UNEQUAL, "green"), (RING, Place(0.3, 0.6))])
+def test_an_agent_of_conjunctive_cells_lives_and_learns(modality, source):
+    run = Run(Agent((Node("X", modality, [4]),), (Desire(source, "X", 1.0),)), WaterWorld(), seed=0)
+    run.advance(20_000)
+    assert run.q().shape == (NresMap(4, modality).cells, 4, NresMap(4, modality).cells)
+    assert np.count_nonzero(run.q()) > 100 and run.state.action_value.any()
+
+
+def test_an_element_has_a_place_along_the_axes_of_what_is_followed_and_is_everywhere_along_others():
+    """At a place, in any of five directions: the values of all five goals add."""
+    modality = Modality("X", PLACE_CELL.axes + (Axis("velocity", "direction", intervals=5),))
+    run = Run(Agent((Node("X", modality, [3]),), (Desire(Place(0.5, 0.1), "X", 2.0),)), WaterWorld(), seed=0)
+    values = run._state.values.q
+    values[:] = np.random.default_rng(0).random(values.size)
+    before = int(run.state.tracks.cell[0])
+    run.advance(1)
+    goals = 1 + 9 * np.arange(5)
+    np.testing.assert_allclose(run.state.action_value, 2.0 * run.q()[before][:, goals].sum(axis=1), rtol=1e-5)
 
 
 @given(maps, st.tuples(near_and_far, near_and_far))
@@ -27,8 +174,8 @@ def test_the_active_cell_is_the_one_whose_intervals_hold_the_point(nres_map, poi
     assert cell.shape == () and cell.dtype == np.int64 and 0 <= cell < nres_map.cells
     for axis, value in enumerate(point[: len(modality.axes)]):
         k = interval(nres_map, int(cell), axis)
-        if axis < len(modality.ranges):
-            low, high = modality.ranges[axis]
+        if not modality.axes[axis].is_direction:
+            low, high = modality.axes[axis].low, modality.axes[axis].high
             assert k - 1e-9 <= (np.clip(value, low, high) - low) / (high - low) * n <= k + 1 + 1e-9
         else:
             away = value / TAU * n - k
@@ -38,9 +185,7 @@ def test_the_active_cell_is_the_one_whose_intervals_hold_the_point(nres_map, poi
 @given(maps)
 def test_every_cell_is_active_somewhere(nres_map):
     n, modality = nres_map.resolution, nres_map.modality
-    centres = [low + (np.arange(n) + 0.5) / n * (high - low) for low, high in modality.ranges]
-    centres += [np.arange(n) / n * TAU] * modality.has_direction
-    points = np.stack(np.meshgrid(*centres), axis=-1)
+    points = np.stack(np.meshgrid(*[middles_of(axis, n) for axis in modality.axes]), axis=-1)
     assert nres_map.cells == n ** len(modality.axes)
     assert nres_map.encode(points).ravel().tolist() == list(range(nres_map.cells))
     assert np.all(nres_map.covers(points))
@@ -56,7 +201,7 @@ def test_a_map_of_one_axis_has_n_cells(modality, end):
 @of_any_modality
 def test_a_boundary_belongs_to_the_cell_after_it_and_the_rim_to_the_last(modality):
     nres_map, point = NresMap(4, modality), np.zeros(len(modality.axes))
-    for axis, (low, high) in enumerate(modality.ranges):
+    for axis, (low, high) in enumerate((each.low, each.high) for each in modality.axes if not each.is_direction):
         point[axis] = high
         assert interval(nres_map, int(nres_map.encode(point)), axis) == 3
         for k in range(4):
@@ -73,7 +218,7 @@ def test_cells_are_counted_along_the_first_axis_first():
 
 
 def test_a_point_beyond_the_range_belongs_to_the_cell_at_its_end_and_is_not_covered():
-    middle = NresMap(3, Modality("place cell", "position", "cartesian", ((0.25, 0.75), (0.25, 0.75))))
+    middle = NresMap(3, Modality("place cell", cartesian("position", (0.25, 0.75), (0.25, 0.75))))
     points = [[0.1, 0.1], [0.9, 0.1], [0.5, 0.5], [7.0, -7.0], [1e300, -1e300], [0.25, 0.75], [0.5, 0.76]]
     assert middle.encode(points).tolist() == [0, 2, 4, 2, 2, 6, 7]
     assert middle.covers(points).tolist() == [False, False, True, False, False, True, False]
@@ -112,13 +257,9 @@ def test_the_sectors_of_n4_are_centred_on_east_south_west_and_north():
 
 @of_any_modality
 def test_the_cells_of_a_run_are_those_of_the_public_encoding(modality):
-    world = WaterWorld()
-    agent = Agent((Node("X", modality, (2, 5)),))
-    run = Run(agent, world, seed=1)
+    run = Run(Agent((Node("X", modality, (2, 5)),)), WaterWorld(), seed=1)
     run.advance(777)
-    expected = [nres_map.encode(modality.coordinates(world, run.world_state)).tolist() for nres_map in agent.maps]
-    first = run.parameters.maps.first_track
-    assert [run.state.tracks.cell[first[m] : first[m + 1]].tolist() for m in range(2)] == expected
+    assert_cells_are_encoded(run, modality)
 
 
 @pytest.mark.parametrize("arguments, message", [
