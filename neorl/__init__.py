@@ -1,7 +1,8 @@
 """neorl: agents that navigate by neural representations of Euclidean space, and the experiments of their thesis.
 
 An `Agent` is a network of `Node`s and `Desire`s, a node tiles the space of a `Modality`, and `simulate` lets agents
-live in `WaterWorld`; `sweep` does many `Condition`s at a time. The agents of the papers are values of these types.
+live in `WaterWorld`, an `Arena` or another `World`; `sweep` does many `Condition`s at a time. A `Learner` is an agent in
+a loop of the user's own. The agents of the papers are values of these types.
 
 The package is built in rooms, and a module imports only from its own room and from those below:
 
@@ -10,9 +11,9 @@ The package is built in rooms, and a module imports only from its own room and f
 - `neorl.drawing`: figures;
 - `neorl.evidence`: statistics, claims and their rules, readings of the thesis and their calibration;
 - `neorl.experiments`: runs, sweeps, and what is finished kept on disk;
-- `neorl.agents`: agents as data;
-- `neorl.worlds`: WaterWorld, and an agent's rollout in it;
-- `neorl.core`: the kernels, modalities and maps.
+- `neorl.agents`: agents as data, and the `Learner`;
+- `neorl.worlds`: what a world is, WaterWorld and the arena, and an agent's rollout in them;
+- `neorl.core`: the kernels, scenes, modalities and maps.
 """
 
 from neorl.agents.agent import Agent, Desire, Learning, Node, Place, Policy

@@ -4,7 +4,7 @@ Maps follow one another in the order of the agent's nodes. A *track* is one poin
 or one of the things that its modality is about. All tracks of a map share its values. Desires keep the agent's order.
 What follows from other parameters is filled in by a kernel, so the browser can do it without Python.
 
-Kernels of the user's own are not in here, see `neorl.core.functions`.
+Kernels of the user's own are not in here, see `neorl.core.constants`.
 """
 
 from typing import NamedTuple
