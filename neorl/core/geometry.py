@@ -102,6 +102,10 @@ def locate(parameters, constants, scene, n, point, given, offset, coordinates):
     """
     axes, nodes = parameters.axes, parameters.nodes
     followed_has, all_have, follows, first = True, True, nodes.follows[n], nodes.first_axis[n]
+    if nodes.is_cartesian[n]:
+        for axis in range(np.uint64(nodes.first_axis[n + 1] - first)):
+            coordinates[axis] = offset[axis] if given else component(parameters, constants, scene, n, follows, point, axis)
+        return True, True
     for axis in range(first, nodes.first_axis[n + 1]):
         vector, feature, along = axes.what[axis, VECTOR], axes.what[axis, FEATURE], axes.what[axis, ALONG]
         replaced = given and vector == follows

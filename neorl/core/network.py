@@ -117,12 +117,15 @@ def add_element(parameters, constants, state, scene, n, valence, q):
     if nodes.follows[n] == Vector.position:
         for axis in range(len(constants.axes)):
             state.offset[axis] += state.here[axis]
-    has_direction, _ = locate(parameters, constants, scene, n, 0, True, state.offset, state.coordinates)
+    coordinates, has_direction = state.offset, True
+    if not nodes.is_cartesian[n]:
+        coordinates = state.coordinates
+        has_direction, _ = locate(parameters, constants, scene, n, 0, True, state.offset, coordinates)
     of_agent = nodes.follows[n] == Vector.position or nodes.follows[n] == Vector.velocity
     if of_agent and not has_direction:
         return
     for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
-        cell = cell_of(parameters, state.coordinates, n, m)
+        cell = cell_of(parameters, coordinates, n, m)
         if of_agent:
             add_goals(parameters, constants, state, m, state.tracks.cell[maps.first_track[m]], cell, valence, q)
         else:

@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl.core.choices import Cut, Feature, Source, Vector
-from neorl.core.geometry import (BEYOND, CUT, FEATURE, INTERVALS, LAST, LOW, SCALE, STRIDE, VECTOR, AxisParameters, in_range,
-                                 interval_at)
+from neorl.core.geometry import (ALONG, BEYOND, CUT, FEATURE, INTERVALS, LAST, LOW, SCALE, STRIDE, VECTOR,
+                                 AxisParameters, in_range, interval_at)
 from neorl.core.kernel import array, inlined_kernel, kernel
 
 
@@ -47,6 +47,7 @@ class NodeParameters(NamedTuple):
     landmark: array("float64", "landmarks", "axes")
     # derived
     points: array("int64", "nodes")  # how many it follows
+    is_cartesian: array("bool", "nodes")  # whether its coordinates are the components of what it follows, in their order
     first_input: array("int64", "nodes + 1")  # where in `inputs` its desires begin
     inputs: array("int64", "desires")  # desires, those of one node after those of the other
 
@@ -135,6 +136,12 @@ def derive(parameters: Parameters, n_things: int) -> None:
         elif nodes.follows[n] == Vector.landmarks:
             points = nodes.first_landmark[n + 1] - nodes.first_landmark[n]
         nodes.points[n] = points
+        nodes.is_cartesian[n] = True
+        for axis in range(nodes.first_axis[n], nodes.first_axis[n + 1]):
+            what = parameters.axes.what[axis]
+            if (what[VECTOR] != nodes.follows[n] or what[FEATURE] != Feature.component
+                    or what[ALONG] != axis - nodes.first_axis[n] or what[CUT] != Cut.equal):
+                nodes.is_cartesian[n] = False
         total = 0.0
         for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
             cut_axes(parameters, n, m)
