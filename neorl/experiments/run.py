@@ -89,10 +89,12 @@ class Run(Individual):
         rewards = _bins("rewards", rewards, np.float32, bins)
         hits = _bins("hits", hits, np.int16, bins, len(self.world.kinds))
         paid, clock = 0.0, on_lines_of_its_own(np.array([self.step]))
-        while self.step < last:
-            paid = execute(self._rollout, self._parameters, self._state, self._world_state, self.world.rules, clock,
-                           min(last, self.step + SLICE), paid, bin_length, rewards, hits)
-            self._progress = int(clock[0])
+        try:
+            while clock[0] < last:
+                paid = execute(self._rollout, self._parameters, self._state, self._world_state, self.world.rules, clock,
+                               min(last, clock[0] + SLICE), paid, bin_length, rewards, hits)
+        finally:
+            self._progress = int(clock[0])  # also if interrupted, which Python is as soon as the kernel returns
         return paid
 
 
