@@ -44,7 +44,8 @@ class Kernel(CPUDispatcher):
         return super().__reduce__()
 
     def __repr__(self):
-        return f"<kernel {self.__module__}.{self.__qualname__}>"
+        made_by, arguments = getattr(self, "origin", (self, ""))
+        return f"<kernel {made_by.__module__}.{made_by.__qualname__}{arguments}>"
 
     def __call__(self, *arguments):
         raise TypeError(f"{self.__module__}.{self.__name__} is a kernel, which checks nothing: call it by "
