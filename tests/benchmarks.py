@@ -12,7 +12,7 @@ from neorl import (Explorer, Run, WaterWorld, multimodal, network_a, network_b, 
 from neorl.core.kernel import execute, kernel
 from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
 from neorl.core.stream import new_stream, randint
-from neorl.worlds.waterworld import reset_board, step_board
+from neorl.worlds.waterworld import reset, step
 
 STEPS = 1_000_000
 RATES = np.float32(0.03) * np.array([0.4, 0.3, 0.2, 0.1], np.float32)
@@ -20,13 +20,13 @@ DISCOUNT = np.float32(0.8)
 
 
 @kernel
-def random_steps(state, rules, contacts, stream, steps):
+def random_steps(state, rules, stream, steps):
     total = 0.0
     for _ in range(steps):
-        reward, done = step_board(state, rules, randint(stream, 4), contacts)
+        reward, done = step(state, rules, randint(stream, 4))
         total += reward
         if done:
-            reset_board(state, rules)
+            reset(state, rules)
     return total
 
 
@@ -48,8 +48,7 @@ def updates_by_numpy(q, path):
 def test_steps(benchmark, n_creeps):
     world = WaterWorld(n_creeps=n_creeps)
     state, stream = world.reset(0), new_stream(np.random.SeedSequence(1))
-    contacts = np.zeros(n_creeps, np.int8)
-    benchmark.pedantic(execute, (random_steps, state, world.rules, contacts, stream, STEPS), warmup_rounds=1, rounds=10)
+    benchmark.pedantic(execute, (random_steps, state, world.rules, stream, STEPS), warmup_rounds=1, rounds=10)
 
 
 @pytest.mark.parametrize("by", ["kernel", "numpy"])
@@ -63,7 +62,7 @@ def test_thousand_updates_of_four_actions_and_every_goal(benchmark, resolution, 
     q = np.zeros((cells, 4, cells), np.float32)
     if by == "kernel":
         everything = np.tile([0, cells], (cells, 1))
-        values = MapValues(q.reshape(-1), 0, cells, everything, np.empty(cells, np.float32))
+        values = MapValues(q.reshape(-1), 0, cells, 4, everything, np.empty(cells, np.float32))
         arguments = (random_changes, values, Rule(DISCOUNT, True, ZERO, False), path, RATES)
         benchmark.pedantic(execute, arguments, warmup_rounds=3, rounds=30)
     else:

@@ -11,7 +11,7 @@ import grimp
 import numpy as np
 import pytest
 
-from neorl import Condition, Learning, WaterWorld, place_cells, simulate_once
+from neorl import Condition, Learning, Policy, WaterWorld, place_cells, simulate_once, softmax
 from neorl.experiments import cache
 
 AGENT, WORLD = place_cells([3]), WaterWorld()
@@ -40,6 +40,8 @@ def test_the_key_tells_all_that_determines_a_result_apart(monkeypatch):
     condition = Condition(AGENT, WORLD, 500, 2, 0)
     keys = [condition.key]
     keys.append(replace(condition, agent=place_cells([3], learning=Learning(discount=0.81))).key)
+    keys += [replace(condition, agent=place_cells([3], policy=Policy(choose=choose))).key
+             for choose in (softmax(0.1), softmax(1.0))]
     keys += [replace(condition, world=world).key for world in (WaterWorld(fps=30), WaterWorld(contact="truncated"))]
     keys += [replace(condition, **size).key for size in ({"steps": 501}, {"runs": 3}, {"seed": 1})]
     keys.append(replace(condition, changes=[(100, AGENT)]).key)
@@ -50,8 +52,8 @@ def test_the_key_tells_all_that_determines_a_result_apart(monkeypatch):
 
 def test_the_source_digest_covers_every_module_that_a_run_imports():
     imported = grimp.build_graph("neorl", cache_dir=None).find_upstream_modules("neorl.experiments.cache")
-    assert {"neorl.core.horde", "neorl.worlds.waterworld"} < imported
-    assert {name.split(".")[1] for name in imported} == {"checks", *cache.ROOMS}
+    assert {"neorl.core.horde", "neorl.worlds.world"} < imported
+    assert {name.split(".")[1] for name in imported} == {"checks", "files", *cache.ROOMS}
 
 
 @pytest.mark.parametrize("damage", [

@@ -11,6 +11,7 @@ import pytest
 from webassembly import copied
 
 from neorl import simulate
+from neorl.core.kernel import is_tuple
 
 RECORD = json.loads(golden.RECORD.read_text())
 INTERPRETED = ["place N3", "place, long trace alone", "both, absence", "network D, signed", "every modality",
@@ -41,8 +42,13 @@ def test_a_run_among_others_is_as_on_record(name, threads):
 def test_a_run_in_webassembly_is_as_on_record(name):
     machine, sizes, arguments = copied(golden.born(name))
     reward = machine.call("rollout", sizes, last_step=golden.LONG, bin_steps=golden.LONG, **arguments)
-    board = [view for _, view in arguments["board"]]
-    assert golden.recorded(reward, arguments["state"].values.q[1], board) == RECORD[name][str(golden.LONG)]
+    recorded = golden.recorded(reward, arguments["state"].values.q[1], views(arguments["world_state"]))
+    assert recorded == RECORD[name][str(golden.LONG)]
+
+
+def views(values):
+    """The arrays in a named tuple of (address, view) pairs."""
+    return type(values)(*(views(each) if is_tuple(each) else each[1] for each in values))
 
 
 def test_interpreted_runs_are_as_on_record():

@@ -10,8 +10,9 @@ import pytest
 
 from neorl import (Condition, Desire, Learning, NresMap, Policy, Run, WaterWorld, learn, multimodal, network_d,
                    place_cells, superpose)
+from neorl.agents.compile import constants_of
 from neorl.core.kernel import arrays
-from neorl.worlds import rollout
+from neorl.worlds.rollout import rollout_in
 
 TANK = WaterWorld(n_creeps=4)
 
@@ -30,19 +31,20 @@ def test_what_a_run_is_made_of_cannot_be_put_in_place_of_another_runs(run, name)
 
 
 def test_a_tank_with_other_creeps_is_refused_and_one_with_as_many_is_copied(run):
-    with pytest.raises(ValueError, match=r"state.creep_position is float64 \(9, 2\), allowed .* float64 \(4, 2\)"):
+    with pytest.raises(ValueError, match=r"state.scene.things is float64 \(9, 2\), allowed is float64 \(4, 2\)"):
         run.world_state = WaterWorld(n_creeps=9).reset(0)
     with pytest.raises(ValueError, match="state is 5, allowed is a WaterWorldState"):
         run.world_state = 5
     tank = TANK.reset(7)
     run.world_state = tank
     run.advance(1_000)
-    assert np.array_equal(tank.agent_position, [125, 125]) and not np.array_equal(run.world_state[0], [125, 125])
+    assert np.array_equal(tank.scene.position, [125, 125])
+    assert not np.array_equal(run.world_state.scene.position, [125, 125])
 
 
 def test_a_creep_without_a_direction_is_refused(run):
-    run.world_state.creep_direction[2] = 0
-    with pytest.raises(ValueError, match="(?s)state.creep_direction is .* allowed are vectors of length 1"):
+    run.world_state.direction[2] = 0
+    with pytest.raises(ValueError, match="(?s)state.direction is .* allowed are vectors of length 1"):
         run.advance(1)
 
 
@@ -151,10 +153,12 @@ def test_equal_conditions_are_kept_under_one_key():
 
 def test_a_number_of_another_type_compiles_nothing_anew():
     Run(place_cells([3]), TANK).advance(1)
-    compiled = len(rollout.rollout.signatures)
     rule = Learning(np.float32(0.5), trace=np.int32(1), memory=np.float64(2.0), bootstrap=np.bool_(True))
-    Run(place_cells([3], learning=rule), WaterWorld(np.int16(250), win_reward=np.int64(1))).advance(1)
-    assert len(rollout.rollout.signatures) == compiled == 1
+    agent, world = place_cells([3], learning=rule), WaterWorld(np.int16(250), win_reward=np.int64(1))
+    Run(agent, world).advance(1)
+    assert rollout_in(world.dynamics, constants_of(agent, world)) is rollout_in(
+        TANK.dynamics, constants_of(place_cells([3]), TANK))
+    assert len(rollout_in(TANK.dynamics, constants_of(agent, TANK)).signatures) == 1
 
 
 @pytest.mark.parametrize("make", [lambda: Learning(terminal=1), lambda: Learning(bootstrap=0.0),

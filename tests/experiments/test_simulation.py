@@ -18,7 +18,7 @@ from neorl.core.kernel import arrays, execute
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
                                  LANDMARK_VECTOR_CELL, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL)
 from neorl.core.stream import new_stream, uniform
-from neorl.worlds.waterworld import ACTIONS, reset_board
+from neorl.worlds.waterworld import GREEN, reset
 
 TANK = WaterWorld(n_creeps=8, win_reward=5.0)
 SENSES = (Node("PC", PLACE_CELL, (2, 5), gain=0.5), Node("border", BORDER_CELL, (3,)),
@@ -100,19 +100,19 @@ def told_again(agent, world, steps, seed, run):
             else:
                 action = int(best[int(execute(uniform, stream) * len(best))] if len(best) > 1 else best[0])
         activity = keep * activity + (np.float32(1) - keep) * (np.arange(4) == action).astype(np.float32)
-        before, attended = state.creep_position.copy(), attended_told_again(rule, state)
+        before, attended = state.scene.things.copy(), attended_told_again(rule, state.scene)
         reward, hits, done = world.step(state, action)
-        still = state._replace(creep_position=before)
+        still = state.scene._replace(things=before)
         rewards.append(reward)
         cells = cells_told_again(agent, world, state)
         for m, each in enumerate(maps):
             for point, track in enumerate(tracks[m]):
-                met = each.modality.vector == "objects" and hits[point]
-                if without_direction(each.modality, world, state, point) and not met:
+                met = each.modality.follows == "objects" and hits[point]
+                if without_direction(each.modality, world, state.scene, point) and not met:
                     cells[m][point] = meeting(each, track.cell)
             for point, track in enumerate(tracks[m]):
                 track.events.append(action)
-                is_thing = each.modality.vector == "objects"
+                is_thing = each.modality.follows == "objects"
                 met = is_thing and hits[point]
                 arrives, ends = met and rule.capture == "contact", met and rule.capture != "leap"
                 if is_thing and attended not in (None, point):
@@ -121,45 +121,49 @@ def told_again(agent, world, steps, seed, run):
                 cell_t = meeting(each, track.cell) if arrives else cells[m][point]
                 if (arrives or not ends) and (cell_t != track.cell or rule.update_on == "step"):
                     own = rule.causes == "own" and is_thing and not arrives
-                    caused = not own or each.encode(each.modality.coordinates(world, still))[point] != track.cell
+                    caused = not own or each.encode(each.modality.coordinates(still, world.size))[point] != track.cell
                     learn_told_again(rule, world, q[m], track, cell_t, action, activity, caused)
                 if ends:
                     tracks[m][point] = Track(cells[m][point])
         if done:
-            execute(reset_board, state, world.rules)
+            execute(reset, state, world.rules)
             tracks = fresh_tracks(agent, world, state)
             pull[:], worth[:], activity = 0, 0, np.zeros(4, np.float32)
     return rewards, q
 
 
 def cells_told_again(agent, world, state):
-    return [each.encode(each.modality.coordinates(world, state)).tolist() for each in agent.maps]
+    return [each.encode(each.modality.coordinates(state.scene, world.size)).tolist() for each in agent.maps]
 
 
 def fresh_tracks(agent, world, state):
     return [[Track(cell) for cell in cells] for cells in cells_told_again(agent, world, state)]
 
 
-def attended_told_again(rule, state):
+def attended_told_again(rule, scene):
     """Which thing is to be learned about, None for each."""
     if rule.attention == "each":
         return None
-    distances = ((state.creep_position - state.agent_position) ** 2).sum(axis=1)
-    return int(np.where(state.creep_is_green | (rule.attention == "nearest"), distances, np.inf).argmin())
+    distances = ((scene.things - scene.position) ** 2).sum(axis=1)
+    return int(np.where((scene.kinds == GREEN) | (rule.attention == "nearest"), distances, np.inf).argmin())
 
 
-def without_direction(modality, world, state, point):
+def has_direction(modality):
+    return modality.axes[-1].is_direction
+
+
+def without_direction(modality, world, scene, point):
     """Whether what has no direction, because it is at rest or at distance 0, is to be given one."""
-    if modality.vector == "velocity":
-        return modality.has_direction and not state.agent_velocity.any()
-    return modality.has_direction and modality.coordinates(world, state)[point, 0] == 0
+    if modality.follows == "velocity":
+        return has_direction(modality) and not scene.velocity.any()
+    return has_direction(modality) and modality.coordinates(scene, world.size)[point, 0] == 0
 
 
 def meeting(nres_map, cell):
     """The cell at distance 0, in the direction of the cell before."""
-    if nres_map.modality.tuning == "angle":
+    if nres_map.modality.names == ("direction",):
         return cell
-    if nres_map.modality.tuning == "polar":
+    if has_direction(nres_map.modality):
         return int(nres_map.encode([0, cell // nres_map.resolution / nres_map.resolution * 2 * np.pi]))
     return int(nres_map.encode([0, 0]))
 
@@ -167,7 +171,7 @@ def meeting(nres_map, cell):
 def values_told_again(agent, world, state, q, tracks, pull, worth):
     """The value of each action; `pull` and `worth` of each desire are those of the step before, and become today's."""
     owner = [node.name for node in agent.nodes for _ in node.resolutions]
-    here, creeps = state.agent_position / world.width, state.creep_position / world.width
+    here, creeps = state.scene.position / world.width, state.scene.things / world.width
     nodes, value = {node.name: node for node in agent.nodes}, np.zeros(4)
     for name in agent.evaluation_order:
         node = nodes[name]
@@ -175,7 +179,7 @@ def values_told_again(agent, world, state, q, tracks, pull, worth):
         weights = np.array([float(n) ** power for n in node.resolutions])
         weights /= weights.sum()
         mine = [m for m, other in enumerate(owner) if other == name]
-        elements = {e: elements_told_again(agent, desire, here, creeps - here, state.creep_is_green, pull, worth)
+        elements = {e: elements_told_again(agent, desire, here, creeps - here, state.scene.kinds == GREEN, pull, worth)
                     for e, desire in enumerate(agent.desires) if desire.target == name}
         for e, found in elements.items():
             pull[e], worth[e] = 0, 0
@@ -185,10 +189,10 @@ def values_told_again(agent, world, state, q, tracks, pull, worth):
                     nres_map, modality = agent.maps[m], node.modality
                     if isinstance(agent.desires[e].source, tuple):
                         pairs = [(track.cell, int(nres_map.encode(place))) for track in tracks[m]]
-                    elif modality.has_direction and modality.vector == "velocity" and not np.any(place):
+                    elif has_direction(modality) and modality.follows == "velocity" and not np.any(place):
                         pairs = []
-                    elif modality.vector in ("position", "velocity"):
-                        vector = here + place if modality.vector == "position" else place
+                    elif modality.follows in ("position", "velocity"):
+                        vector = here + place if modality.follows == "position" else place
                         pairs = [(tracks[m][0].cell, int(nres_map.encode(modality.tune(vector))))]
                     else:
                         cell = int(nres_map.encode(modality.tune(place)))
@@ -205,8 +209,8 @@ def elements_told_again(agent, desire, here, creeps, green, pull, worth):
     if isinstance(desire.source, tuple):
         return [(desire.source, desire.valence)]
     if isinstance(desire.source, Place):
-        return [(np.array([desire.source.x, desire.source.y]) - here, desire.valence)]
-    if not desire.between_nodes:
+        return [(np.array(desire.source.coordinates) - here, desire.valence)]
+    if not agent.comes_from_node(desire):
         wanted = green == (desire.source == "green")
         return [(place, desire.valence) for place in creeps[wanted]]
     place, valence = np.zeros(2), 0.0
@@ -314,7 +318,7 @@ def fingerprint(names, steps, **how):
         result = simulate(READINGS[name], TANK, steps=steps, runs=3, seed=1, progress=False, **how)
         run = Run(READINGS[name], TANK, seed=1, run=1)
         run.advance(steps)
-        parts += [result.rewards, result.hits, run.state.values.q, *run.world_state]
+        parts += [result.rewards, result.hits, run.state.values.q, *arrays(run.world_state).values()]
     return b"".join(part.tobytes() for part in parts)
 
 
@@ -345,9 +349,7 @@ def test_a_run_is_the_same_in_slices():
     whole.advance(3_000)
     for steps in (1, 9, 990, 2_000):
         sliced.advance(steps)
-    np.testing.assert_array_equal(whole.state.values.q, sliced.state.values.q)
-    for one, other in zip(whole.world_state, sliced.world_state):
-        np.testing.assert_array_equal(one, other)
+    assert_equal(whole, sliced)
 
 
 def test_becoming_the_same_agent_changes_nothing():
@@ -434,7 +436,7 @@ def test_an_agent_of_any_modality_learns_which_way_to_go(modality, resolution, h
     run.advance(200_000)
     nres_map = run.agent.maps[0]
     values = run.q()[nres_map.encode(here), :, nres_map.encode(goal)]
-    assert ACTIONS[values.argmax()] == action and values.max() > 1.05 * np.sort(values)[-2]
+    assert TANK.actions.names[values.argmax()] == action and values.max() > 1.05 * np.sort(values)[-2]
 
 
 def test_an_agent_learns_to_keep_a_speed():
@@ -445,14 +447,14 @@ def test_an_agent_learns_to_keep_a_speed():
         speeds[wish] = np.empty(2_000)
         for step in range(2_000):
             run.advance(1)
-            speeds[wish][step] = np.linalg.norm(run.world_state.agent_velocity) / TANK.width
+            speeds[wish][step] = np.linalg.norm(run.world_state.scene.velocity) / TANK.width
     assert np.median(speeds[1.9]) > 1.2 * np.median(speeds[0.1])
 
 
 def test_runs_write_to_no_common_cache_line():
     runs = [Run(place_cells([3]), TANK, run=run) for run in range(20)]
     written = [(array.ctypes.data, array.ctypes.data + array.nbytes, run) for run in runs
-               for array in (*arrays(run._state).values(), *run.world_state, run._contacts, run._step)
+               for array in (*arrays(run._state).values(), *arrays(run.world_state).values())
                if array.nbytes < 4_096]
     for (_, end, one), (begin, _, other) in itertools.pairwise(sorted(written, key=lambda each: each[:2])):
         assert begin - end >= 64 or one is other
@@ -506,7 +508,7 @@ def test_learning_pays():
     ({"steps": 0}, "steps is 0, allowed are integers ≥ 1"), ({"steps": -5}, "steps is -5"),
     ({"steps": 1e3}, "steps is 1000.0"), ({"runs": 0}, "runs is 0"), ({"runs": -1}, "runs is -1"),
     ({"seed": -1}, "seed is -1"), ({"threads": 0}, "threads is 0"), ({"agent": "N5"}, "agent is 'N5'"),
-    ({"world": None}, "world is None, allowed is a WaterWorld"),
+    ({"world": None}, "world is None, allowed is a World"),
 ])
 def test_a_bad_simulation_is_refused(change, message):
     arguments = {"agent": place_cells([3]), "world": TANK, "steps": 100, "runs": 1, "progress": False}
@@ -522,8 +524,8 @@ def test_a_bad_advance_is_refused_and_changes_nothing():
                                   (100, (hits, hits), "rewards is int16")]:
         with pytest.raises(ValueError, match=message):
             run.advance(steps, *given)
-    run.world_state.agent_position = np.nan
-    with pytest.raises(ValueError, match="state.agent_position is"):
+    run.world_state.scene.position[:] = np.nan
+    with pytest.raises(ValueError, match="state.scene.position is"):
         run.advance(1)
     assert run.step == 0 and not run.state.values.q.any()
 
