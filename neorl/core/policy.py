@@ -13,6 +13,7 @@ from neorl.core.kernel import kernel, kernel_maker
 from neorl.core.stream import randint, uniform
 
 LN_2 = math.log(2.0)
+LN_2_HIGH, LN_2_LOW = 6.93147180369123816490e-01, 1.90821492927058770002e-10  # in two parts, so that few bits are lost
 TERMS = 20  # of the series of the exponential function, so that it is exact to the last few bits
 
 
@@ -68,7 +69,7 @@ def exponential(x):
     if not x > -700.0:
         return 0.0
     halvings = np.floor(-x / LN_2)
-    rest = x + halvings * LN_2
+    rest = x + halvings * LN_2_HIGH + halvings * LN_2_LOW
     series = 1.0
     for n in range(TERMS, 0, -1):
         series = 1.0 + rest / n * series
