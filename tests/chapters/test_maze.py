@@ -5,14 +5,12 @@ import pytest
 from matplotlib import pyplot as plt
 
 from neorl.chapters.chapter_2 import maze_figures
-from neorl.chapters.chapter_2.latent_learning import (DAYS, GROUPS, LEARNERS, Animal, Record, MazeArrays,
-                                                      _learn_by_traces,
-                                                      _live, compare_learners, findings, judge, new_state,
-                                                      simulate_groups)
+from neorl.chapters.chapter_2.latent_learning import (DAYS, GROUPS, LEARNERS, Animal, Record, Rival, _learn_by_traces,
+                                                      compare_learners, findings, judge, live, simulate_groups)
 from neorl.chapters.chapter_2.maze import Maze, random_maze
 from neorl.chapters.shared.grid import MOVES
 from neorl.chapters.shared.tabular import Rates
-from neorl.core.kernel import execute
+from neorl.core.kernel import execute, new_tuple
 from neorl.core.stream import new_stream
 from neorl.evidence.statistics import Estimate
 
@@ -132,7 +130,7 @@ def test_sarsa_without_a_trace_learns_one_unit_a_meal():
 
 @pytest.mark.parametrize("ended", [False, True])
 def test_sarsa_learns_along_traces_of_which_the_newest_replaces_those_of_its_place(ended):
-    animal, rng = new_state(3), np.random.default_rng(0)
+    animal, rng = new_tuple(Rival, {"states": 3}, {}), np.random.default_rng(0)
     animal.q[:], animal.traces[:] = rng.random((2, 3, 4))
     target = 2.0 + (0 if ended else 0.9 * animal.q[2, 3])
     traces = animal.traces.copy()
@@ -144,13 +142,11 @@ def test_sarsa_learns_along_traces_of_which_the_newest_replaces_those_of_its_pla
 
 
 def test_sarsa_leaves_no_trace_of_yesterday():
-    maze, animal = Maze(), new_state(30)
-    errors = np.zeros(3, np.int64)
-    table = MazeArrays(maze.next_state, maze.goal, maze.choice_points)
-    execute(_live, LEARNERS.index("Sarsa(λ)"), Rates(0.1, 1.0, 0.0), 1.0, table, 1, animal,
-          new_stream(np.random.SeedSequence(0)), errors, errors.copy())
+    maze, animal = Maze(), Animal("Sarsa(λ)", discount=1.0, exploration=0.0, trace=1.0)
+    days = live(animal, maze, 1, new_stream(np.random.SeedSequence(0)))
+    errors, learned = zip(*[(errors, worth[maze.blinds].copy()) for (errors, worth), _ in zip(days, range(3))])
     assert errors[0] > 0 and errors[2] == 0  # it went into blinds on the first day, and straight on the last
-    assert animal.q[maze.blinds].any() and not animal.traces[maze.blinds].any()
+    assert learned[0].any() and np.array_equal(learned[1], learned[2])
 
 
 def test_sarsa_tries_what_it_has_tried_least():
@@ -162,8 +158,8 @@ def test_sarsa_tries_what_it_has_tried_least():
 
 
 def test_fed_throughout_and_without_exploration_neorl_and_q_learning_do_the_same():
-    neorl, q_learning = (simulate_groups(Animal(learner, exploration=0.0), Maze(), runs=20)["throughout"].errors
-                         for learner in ("neoRL", "Q-learning"))
+    hardly = Animal("neoRL", exploration=1e-12), Animal("Q-learning", exploration=1e-12)  # who draws whether to explore
+    neorl, q_learning = (simulate_groups(animal, Maze(), runs=20)["throughout"].errors for animal in hardly)
     np.testing.assert_array_equal(neorl, q_learning)
     assert (neorl[:, 14:] == 0).all()
 
@@ -176,16 +172,12 @@ def test_exploration_is_the_share_of_drawn_actions():
 
 @pytest.mark.parametrize("learner", ["neoRL", "Q-learning"])
 def test_what_is_learned_are_the_values_of_bellman(learner):
-    maze, animal = Maze(), new_state(30)
-    counts = np.zeros(DAYS, np.int64)
-    table = MazeArrays(maze.next_state, maze.goal, maze.choice_points)
-    execute(_live, LEARNERS.index(learner), Rates(1.0, 0.9, 0.1), 0.0, table, 1, animal,
-          new_stream(np.random.SeedSequence(0)), counts, counts.copy())
-    horde = animal.horde.q.reshape(30, 4, 30)
-    q = horde[:, :, maze.goal] if learner == "neoRL" else animal.q
+    maze = Maze()
+    *_, (_, q) = live(Animal(learner, learning_rate=1.0), maze, 1, new_stream(np.random.SeedSequence(0)))
     steps_left = maze.goal - np.arange(maze.goal)
     np.testing.assert_allclose(q[: maze.goal].max(axis=1), 0.9 ** (steps_left - 1.0), rtol=1e-5)
     if learner == "neoRL":  # and not for the goal box alone
+        horde = q.base.reshape(30, 4, 30)
         np.testing.assert_allclose(horde[0, N, 1 : maze.goal], 0.9 ** np.arange(maze.goal - 1.0), rtol=1e-5)
 
 

@@ -3,10 +3,9 @@
 An animal runs a maze once a day, and every entry into a blind is an error. Three groups differ only in when there is
 food in the goal box: throughout, never, or from day 11 on. Three kinds of animal run it:
 
-1. *neoRL* learns how to reach every place from all that happens, by the Horde's rule (`neorl.core.horde`; thesis eq.
-   4.8), and wants the goal box once it has met food there. The event of a transition is the action that made it; a bump
-   into a wall or a closed door changes no cell and teaches nothing. Without a wish every action is as good as any
-   other.
+1. *neoRL* is an `Agent`. It learns how to reach every place from all that happens (thesis eq. 4.8), and wants the goal
+   box once it has met food there. The event of a transition is the action that made it; a bump into a wall or a closed
+   door changes no cell and teaches nothing. Without a wish every action is as good as any other.
 2. *Q-learning* (Watkins 1989) learns what its actions bring, and nothing where they bring nothing.
 3. *Sarsa(λ)* (Sutton and Barto 2018, section 12.7) has replacing eligibility traces, so that one reward teaches all of
    the way that led to it, and prefers, among actions of equal value, the one that it has tried least.
@@ -14,27 +13,35 @@ food in the goal box: throughout, never, or from day 11 on. Three kinds of anima
 All see the same places, have the same four actions, and draw any of them with probability ε.
 """
 
+import functools
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from neorl import checks
+from neorl.agents.agent import Agent, Desire, Learning, Node, Policy
+from neorl.agents.compile import compiled, constants_of
+from neorl.agents.learner import Surroundings
 from neorl.chapters.chapter_2.maze import Maze
-from neorl.chapters.shared.tabular import Rates, exploring_action, learn_q
-from neorl.core.kernel import execute, kernel
-from neorl.core.learning import MapValues, Rule, learn_all_goals
+from neorl.chapters.shared.tabular import Rates, exploring_action, greedy_action, learn_q
+from neorl.core.kernel import array, execute, kernel, new_tuple
+from neorl.core.modality import Axis, Modality
+from neorl.core.scene import ABSENT, Actions, Scene
+from neorl.core.state import new_state
+from neorl.core.steps import steps_with
 from neorl.core.stream import new_stream
 from neorl.evidence.rules_chapters import judge_latent_learning
 from neorl.evidence.statistics import Estimate, difference, estimate
 
 LEARNERS = ("neoRL", "Q-learning", "Sarsa(λ)")
-NEORL, Q_LEARNING, SARSA = range(3)
 GROUPS = ("throughout", "never", "delayed")
 DAYS, FIRST_REWARD = 17, 11
 LONGEST_TRIAL = 5_000  # steps, after which who is lost is taken out; a random walk through 14 units takes about 110
 LEVEL = 0.1  # groups are on one level if they differ by less than this share of what food makes of a difference
 LEAST = -1e300
+# Of the maze a neoRL animal knows that there are places, one beside the other, and that there may be food.
+KNOWN = Surroundings(1, ("food",), Actions(("N", "S", "E", "W"), [(0,)] * 4), size=1.0, fps=1.0)
 
 
 @dataclass(frozen=True)
@@ -85,14 +92,49 @@ def simulate_groups(animal, maze, runs, seed=0, first_reward=FIRST_REWARD):
 
 
 def _simulate(animal, maze, runs, seed, group, first_reward):
-    errors, known = np.zeros((runs, DAYS), np.int64), np.zeros((runs, DAYS), np.int64)
-    rates = Rates(animal.learning_rate, animal.discount, animal.exploration)
-    table = MazeArrays(maze.next_state, maze.goal, maze.choice_points)
+    errors, known = np.zeros((runs, DAYS), np.int64), np.zeros((runs, DAYS))
     for run in range(runs):
         stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run, group)))
-        execute(_live, LEARNERS.index(animal.learner), rates, animal.trace, table, first_reward,
-                new_state(maze.states), stream, errors[run], known[run])
-    return Record(errors, known / len(maze.turns))
+        for day, (errors[run, day], worth) in enumerate(live(animal, maze, first_reward, stream)):
+            known[run, day] = _known(maze, worth[maze.choice_points])
+    return Record(errors, known)
+
+
+def _known(maze, worth):
+    """The share of choice points where the one best action is the true one. worth: of each action there, (units, 4)."""
+    best = worth.argmax(axis=1)
+    alone = (worth == worth.max(axis=1, keepdims=True)).sum(axis=1) == 1
+    return np.mean(alone & (maze.next_state[maze.choice_points, best] == maze.choice_points + 1))
+
+
+def live(animal, maze, first_reward, stream):
+    """An animal's days, one after the other: its errors, and what each action is then worth to reach the goal box.
+
+    The worth is float (states, 4). stream: of the animal's random numbers.
+    """
+    if animal.learner == "neoRL":
+        agent = neorl_animal(animal, maze)
+        parameters = compiled(agent, KNOWN)
+        state = new_state(parameters, stream, KNOWN.things)
+        scene = new_tuple(Scene, {"axes": 1, "things": 1}, {"things": np.array([[maze.goal + 0.5]]),
+                                                            "kinds": np.array([ABSENT])})
+        day = _day_of(constants_of(agent, KNOWN)), parameters, state, scene
+        worth = state.values.q.reshape(maze.states, 4, maze.states)[:, :, maze.goal]
+    else:
+        rates = Rates(animal.learning_rate, animal.discount, animal.exploration)
+        rival = new_tuple(Rival, {"states": maze.states}, {})
+        day = _rivals_day, animal.learner == "Sarsa(λ)", rates, animal.trace, stream, rival
+        worth = rival.q
+    for number in range(1, DAYS + 1):
+        yield execute(*day, maze.next_state, maze.goal, number >= first_reward), worth
+
+
+def neorl_animal(animal, maze):
+    """The `Agent`: place cells, one for each state of the maze, and a desire for food."""
+    places = Node("places", Modality("place cell", [Axis("position", high=maze.states)]), [maze.states])
+    learning = Learning(animal.learning_rate, animal.discount, credit="last", absent_decay=0.0, memory=0.0,
+                        bootstrap=True)
+    return Agent([places], [Desire("food", "places", 1.0)], learning, Policy(animal.exploration, choose=greedy_action))
 
 
 class Finding(NamedTuple):
@@ -149,107 +191,77 @@ def judge(by_learner):
     return judge_latent_learning(by_learner["neoRL"], rivals, FIRST_REWARD)
 
 
-class MazeArrays(NamedTuple):
-    """A `Maze` as the kernel takes it."""
+@functools.cache
+def _day_of(constants):
+    """The kernel that lets an agent run the maze once, and returns its errors. fed: whether there is food."""
+    begin, act, observe = steps_with(constants)
 
-    next_state: np.ndarray
-    goal: int
-    choice_points: np.ndarray
-
-
-class AnimalState(NamedTuple):
-    """What changes while an animal lives."""
-
-    horde: MapValues  # of neoRL
-    rates: np.ndarray  # float32 (4,), α for the event that occurred
-    q: np.ndarray  # float64 (states, 4), of the others
-    traces: np.ndarray  # float64 (states, 4)
-    tried: np.ndarray  # int64 (states, 4)
-    value: np.ndarray  # float64 (1, 4), what the actions are worth now
-
-
-def new_state(states):
-    """The `AnimalState` of an animal that has never been in a maze of so many states."""
-    each, every_goal = (states, 4), np.tile([0, states], (states, 1))
-    horde = MapValues(np.zeros(states * 4 * states, np.float32), 0, states, 4, every_goal,
-                      np.zeros(states, np.float32))
-    return AnimalState(horde, np.zeros(4, np.float32), np.zeros(each), np.zeros(each), np.zeros(each, np.int64),
-                       np.zeros((1, 4)))
-
-
-@kernel
-def _live(learner, rates, trace, maze, first_reward, animal, stream, errors, known):
-    """Run the maze once a day, and count errors and what is known in `errors` and `known`, a number a day."""
-    wants_food, goal = False, maze.goal
-    for day in range(errors.shape[0]):
-        state, ended = 0, False
-        for each in range(animal.traces.size):
-            animal.traces.flat[each] = 0.0
-        action = _choose(learner, wants_food, state, goal, rates.exploration, animal, stream)
+    @kernel
+    def live_a_day(parameters, state, scene, next_state, goal, fed):
+        place, errors = 0, 0
+        scene.position[0] = 0.5
+        begin(parameters, state, scene)
         for _ in range(LONGEST_TRIAL):
-            state_tm1, action_tm1 = state, action
-            state = maze.next_state[state_tm1, action_tm1]
-            ended = state == goal
-            errors[day] += state > goal and state != state_tm1
-            reward = 1.0 if ended and day + 1 >= first_reward else 0.0
-            if learner == SARSA:
-                action = _choose(learner, wants_food, state, goal, rates.exploration, animal, stream)
-                _learn_by_traces(animal, state_tm1, action_tm1, reward, state, action, ended, rates, trace)
-            elif learner == Q_LEARNING:
-                learn_q(animal.q, state_tm1, action_tm1, reward, state, ended, rates.learning_rate, rates.discount)
-            elif state != state_tm1:
-                for each in range(4):
-                    animal.rates[each] = np.float32(rates.learning_rate if each == action_tm1 else 0.0)
-                rule = Rule(np.float32(rates.discount), True, np.float32(0.0), False)
-                learn_all_goals(animal.horde, rule, state_tm1, state, animal.rates)
-            if ended:
+            place_tm1 = place
+            place = next_state[place_tm1, act(parameters, state, scene)]
+            errors += place > goal and place != place_tm1
+            scene.position[0] = place + 0.5
+            observe(parameters, state, scene)
+            if place == goal:
                 break
-            if learner != SARSA:
-                action = _choose(learner, wants_food, state, goal, rates.exploration, animal, stream)
-        wants_food = wants_food or ended and day + 1 >= first_reward
-        for choice in maze.choice_points:
-            known[day] += _knows(learner, choice, maze.next_state, goal, animal)
+        if place == goal and fed:
+            scene.kinds[0] = 0  # from now on it knows where there is food
+        return errors
+
+    return live_a_day
+
+
+class Rival(NamedTuple):
+    """What changes while an animal of another kind lives."""
+
+    q: array("float64", "states", 4)
+    traces: array("float64", "states", 4)
+    tried: array("int64", "states", 4)
+    value: array("float64", 4)  # what the actions are worth now
 
 
 @kernel
-def _choose(learner, wants_food, state, goal, exploration, animal, stream):
+def _rivals_day(by_traces, rates, trace, stream, animal, next_state, goal, fed):
+    """Let an animal of another kind run the maze once, and return its errors. by_traces: as Sarsa(λ) does."""
+    state, errors = 0, 0
+    animal.traces[:] = 0.0
+    action = _choose(by_traces, state, rates.exploration, animal, stream)
+    for _ in range(LONGEST_TRIAL):
+        state_tm1, action_tm1 = state, action
+        state = next_state[state_tm1, action_tm1]
+        ended = state == goal
+        errors += state > goal and state != state_tm1
+        reward = 1.0 if ended and fed else 0.0
+        if by_traces:
+            action = _choose(by_traces, state, rates.exploration, animal, stream)
+            _learn_by_traces(animal, state_tm1, action_tm1, reward, state, action, ended, rates, trace)
+        else:
+            learn_q(animal.q, state_tm1, action_tm1, reward, state, ended, rates.learning_rate, rates.discount)
+        if ended:
+            break
+        if not by_traces:
+            action = _choose(by_traces, state, rates.exploration, animal, stream)
+    return errors
+
+
+@kernel
+def _choose(by_traces, state, exploration, animal, stream):
     """An action of the animal's behaviour policy."""
-    if learner != NEORL or wants_food:
-        _evaluate(learner, state, goal, animal)
-    else:
+    value = animal.value
+    for action in range(4):
+        value[action] = animal.q[state, action]
+    if by_traces:
+        best = max(max(value[0], value[1]), max(value[2], value[3]))
         for action in range(4):
-            animal.value[0, action] = 0.0
-    if learner == SARSA:
-        best = max(max(animal.value[0, 0], animal.value[0, 1]), max(animal.value[0, 2], animal.value[0, 3]))
-        for action in range(4):
-            novelty = -float(animal.tried[state, action])
-            animal.value[0, action] = novelty if animal.value[0, action] == best else LEAST
-    action = exploring_action(animal.value, 0, exploration, stream)
+            value[action] = -float(animal.tried[state, action]) if value[action] == best else LEAST
+    action = exploring_action(value, exploration, stream)
     animal.tried[state, action] += 1
     return action
-
-
-@kernel
-def _evaluate(learner, state, goal, animal):
-    """What each action is worth to an animal that wants to be in the goal box, put into `value`."""
-    horde = animal.horde
-    for action in range(4):
-        of_goal = horde.q[(4 * state + action) * horde.cells + goal]
-        animal.value[0, action] = of_goal if learner == NEORL else animal.q[state, action]
-
-
-@kernel
-def _knows(learner, choice, next_state, goal, animal):
-    """Whether the one best action at a choice point is the true one."""
-    _evaluate(learner, choice, goal, animal)
-    best = 0
-    for action in range(4):
-        if animal.value[0, action] > animal.value[0, best]:
-            best = action
-    for action in range(4):
-        if action != best and animal.value[0, action] == animal.value[0, best]:
-            return False
-    return next_state[choice, best] == choice + 1
 
 
 @kernel

@@ -257,7 +257,7 @@ def _live_on(table, rates, state, q, visits, stream, path):
     """Take as many steps as the path has room for, and return the state after the last."""
     seen, limits = table.seen, table.limits
     for step in range(path.rewards.shape[0]):
-        action = exploring_action(q, seen[state], rates.exploration, stream)
+        action = exploring_action(q[seen[state]], rates.exploration, stream)
         drawn, outcome = uniform(stream), 0
         while outcome < limits.shape[0] and drawn >= limits[outcome]:
             outcome += 1

@@ -239,7 +239,7 @@ def _choice(preferences, state, chooser, doublings, stream, weight, policy):
         if chooser == MAJORITY:
             weight[_drawn(policy, stream)] += 1
         elif chooser == FAVOURITES:
-            weight[greedy_action(preferences[learner], state, stream)] += 1
+            weight[greedy_action(preferences[learner, state], stream)] += 1
         elif chooser == RANK:
             for action in range(4):
                 for other in range(4):  # who tie share their ranks

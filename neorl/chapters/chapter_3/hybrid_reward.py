@@ -147,7 +147,7 @@ def play(game, learner, *, steps, runs, seed=0):
         q = np.zeros((game.states(learner.kind), 4))
         stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run,)))
         execute(_play, board, learner.kind == "one learner", learner.kind == "latent heads", rates, edges, stream, q,
-                np.zeros((1, 4)), rewards[run], ends[run])
+                np.zeros(4), rewards[run], ends[run])
         known[run] = np.any(q, axis=1).sum()
 
     with ThreadPoolExecutor(2) as pool:
@@ -207,12 +207,12 @@ def _play(board, joint, latent, rates, edges, stream, q, value, rewards, ends):
         for _ in range(edges[part], edges[part + 1]):
             ghost_row = (left_tm1 * states + agent_tm1 if joint else places + agent_tm1) * states + ghost_tm1
             for action in range(4):
-                value[0, action] = q[ghost_row, action]
+                value[action] = q[ghost_row, action]
                 if not joint:
                     for place in range(places):
                         if left_tm1 >> place & 1:
-                            value[0, action] += q[place * states + agent_tm1, action]
-            action = exploring_action(value, 0, rates.exploration, stream)
+                            value[action] += q[place * states + agent_tm1, action]
+            action = exploring_action(value, rates.exploration, stream)
 
             agent_t, left_t, ghost_t = board.next_state[agent_tm1, action], left_tm1, ghost_tm1
             fruit = 0.0

@@ -19,13 +19,13 @@ class Rates(NamedTuple):
 
 
 @kernel
-def greedy_action(q, state, stream):
-    """An action with the largest value in a state, drawn where there are several."""
+def greedy_action(value, stream):
+    """An action with the largest value, drawn where there are several."""
     best, ties = 0, 0
-    for action in range(q.shape[1]):
-        if ties == 0 or q[state, action] > q[state, best]:
+    for action in range(value.shape[0]):
+        if ties == 0 or value[action] > value[best]:
             best, ties = action, 1
-        elif q[state, action] == q[state, best]:
+        elif value[action] == value[best]:
             ties += 1
             if randint(stream, ties) == 0:
                 best = action
@@ -33,11 +33,11 @@ def greedy_action(q, state, stream):
 
 
 @kernel
-def exploring_action(q, state, exploration, stream):
+def exploring_action(value, exploration, stream):
     """A greedy action, or with probability `exploration` (ε) any."""
     if uniform(stream) < exploration:
-        return randint(stream, q.shape[1])
-    return greedy_action(q, state, stream)
+        return randint(stream, value.shape[0])
+    return greedy_action(value, stream)
 
 
 @kernel
