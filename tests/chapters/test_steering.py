@@ -6,7 +6,7 @@ from matplotlib import pyplot as plt
 
 from neorl import Run, WaterWorld, multimodal, place_cells
 from neorl.chapters.chapter_1 import navigation_figures
-from neorl.chapters.chapter_1.before_and_after import leads, newborn, trials, veteran
+from neorl.chapters.chapter_1.before_and_after import leads, trials, veteran
 from neorl.chapters.chapter_1.steering import CLOSE, HASTE, chase, follow_route, steer
 from neorl.core.kernel import arrays, execute
 from neorl.experiments.recording import Recording
@@ -54,7 +54,7 @@ def test_whoever_hunts_by_rule_takes_much_more_than_who_moves_at_random_and_a_ru
 
 def test_a_newborn_and_a_veteran_begin_on_the_same_board_and_know_nothing_and_what_a_run_has_taught():
     agent = place_cells([3])
-    first, second = newborn(agent, TANK, seed=4, run=2), veteran(agent, TANK, 5_000, seed=4, run=2)
+    first, second = Run(agent, TANK, seed=4, run=2), veteran(agent, TANK, 5_000, seed=4, run=2)
     assert all(map(np.array_equal, *(arrays(run.world_state).values() for run in (first, second))))
     teacher = Run(agent, TANK, seed=5, run=2)
     teacher.advance(5_000)

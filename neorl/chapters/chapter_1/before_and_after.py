@@ -13,11 +13,6 @@ from neorl.evidence.statistics import difference, estimate
 from neorl.experiments.run import Run
 
 
-def newborn(agent, world, seed=0, run=0):
-    """A `neorl.experiments.run.Run` at its beginning."""
-    return Run(agent, world, seed, run)
-
-
 def veteran(agent, world, steps, seed=0, run=0):
     """A run at its beginning whose agent knows what run `run` of seed + 1 has taught it in so many steps.
 
@@ -25,7 +20,7 @@ def veteran(agent, world, steps, seed=0, run=0):
     """
     teacher = Run(agent, world, seed + 1, run)
     teacher.advance(steps)
-    learner = newborn(agent, world, seed, run)
+    learner = Run(agent, world, seed, run)
     learner.transfer(teacher)
     return learner
 
@@ -36,7 +31,7 @@ def trials(agent, world, *, lessons, steps, runs, seed=0):
     lessons: steps that a veteran has lived before. steps: of a trial. Raises ValueError for a bad argument.
     """
     def pair(k):
-        return newborn(agent, world, seed, k).advance(steps), veteran(agent, world, lessons, seed, k).advance(steps)
+        return Run(agent, world, seed, k).advance(steps), veteran(agent, world, lessons, seed, k).advance(steps)
 
     with ThreadPoolExecutor() as pool:
         return np.array(list(pool.map(pair, range(checks.integer("runs", runs, at_least=1))))).T
