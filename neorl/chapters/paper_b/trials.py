@@ -95,7 +95,7 @@ def distances(reading, steps, runs, seed=0):
         return found
 
     lived = {"experienced": round(LIVED * steps), "ignorant": 0}
-    moved = {name: _of_runs(lambda k: near(before, k), agent, runs) for name, before in lived.items()}
+    moved = {name: _of_runs(lambda k: near(before, k), agent, world, runs) for name, before in lived.items()}
     return moved, (np.arange(samples) + 1) * interval / world.fps
 
 
@@ -131,7 +131,7 @@ def mean_stays(reading, steps, runs, seed=0, watched=15_000):
         changes = [((np.diff(each.encode(path)) != 0) & moved[1:]).sum() for each in agent.maps]
         return path_steps / world.fps / np.maximum(changes, 1)
 
-    return _of_runs(of_run, agent, runs)
+    return _of_runs(of_run, agent, world, runs)
 
 
 def mean_values(reading, steps, runs, seed=0):
@@ -157,7 +157,7 @@ def mean_values(reading, steps, runs, seed=0):
         return [np.dot(maps.weight[begin:end], means[begin:end])
                 for begin, end in zip(nodes.first_map[:-1], nodes.first_map[1:])]
 
-    return dict(zip((node.name for node in agent.nodes), _of_runs(of_nodes, agent, runs).T))
+    return dict(zip((node.name for node in agent.nodes), _of_runs(of_nodes, agent, world, runs).T))
 
 
 def measure_costs(reading, steps, repetitions, seed=0):
@@ -206,6 +206,6 @@ def _with_maps(agent, chosen):
     return replace(agent, nodes=nodes or [Node("none", PLACE_CELL, [1])], desires=desires)
 
 
-def _of_runs(live_one, agent, runs):
-    with ThreadPoolExecutor(min(usable_threads(agent), runs)) as cores:
+def _of_runs(live_one, agent, world, runs):
+    with ThreadPoolExecutor(min(usable_threads(agent, world), runs)) as cores:
         return np.array(list(cores.map(live_one, range(runs))))
