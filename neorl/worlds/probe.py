@@ -1,70 +1,96 @@
-"""Kernels for viewers: probe the values of an agent where it is not, and add a second player."""
+"""Kernels for viewers: probe the values of an agent where it is not, and add a second player to WaterWorld."""
 
+import functools
+from typing import NamedTuple
+
+from neorl.core import life
 from neorl.core.choices import Vector
-from neorl.core.geometry import cell_of, place_coordinates
-from neorl.core.kernel import array, kernel
-from neorl.core.life import reset_point, reset_tracks
+from neorl.core.constants import Constants
+from neorl.core.geometry import find_cells, locate
+from neorl.core.kernel import Kernel, array, kernel
 from neorl.core.network import evaluate
 from neorl.core.parameters import Parameters
+from neorl.core.scene import Scene
 from neorl.core.state import State
-from neorl.worlds.waterworld import Rules, WaterWorldState, move_agent, reset_board, touch_creeps
+from neorl.worlds.waterworld import Rules, WaterWorldState, move_agent, reset, touch_creeps
 
 HALF_SECOND = 0.5  # a velocity is seen where it would take the agent in this time
 
 
-@kernel
-def survey(parameters: Parameters, state: State, elsewhere: State, there: WaterWorldState, side: int,
-           values: array("float64", "tiles", 4)) -> None:
-    """The value of each action as if the agent were in the middle of each of side × side tiles, row by row.
+class Probes(NamedTuple):
+    """What `probes_with` makes."""
 
-    elsewhere: a state to work in, with the agent's q and goal_range. there: the board, with a position to work in.
-    """
-    for tile in range(side * side):
-        there.agent_position[0] = (tile % side + 0.5) / side * parameters.width
-        there.agent_position[1] = (tile // side + 0.5) / side * parameters.width
-        reset_tracks(parameters, elsewhere, there)
-        for e in range(state.desires.valence.shape[0]):  # recursion takes the agent's own desires of the step before
-            elsewhere.desires.valence[e] = state.desires.valence[e]
-            for action in range(N_EVENTS):
-                elsewhere.desires.q[e, action] = state.desires.q[e, action]
-        evaluate(parameters, elsewhere, there)
-        for action in range(N_EVENTS):
-            values[tile, action] = elsewhere.action_value[action]
+    survey: Kernel
+    cell_seen_at: Kernel
+    step_second: Kernel
 
 
-@kernel
-def cell_seen_at(parameters: Parameters, board: WaterWorldState, m: int, x: float, y: float) -> int:
-    """The cell of a map for a place in the arena; if the map is about things, for a thing there."""
-    nodes = parameters.nodes
-    n = 0
-    while nodes.first_map[n + 1] <= m:
-        n += 1
-    if nodes.vector[n] != Vector.position:
-        x -= board.agent_position[0] / parameters.width
-        y -= board.agent_position[1] / parameters.width
-        if nodes.vector[n] == Vector.velocity:
-            x /= HALF_SECOND
-            y /= HALF_SECOND
-    u, v = place_coordinates(nodes, n, x, y)
-    return cell_of(parameters.maps, m, u, v)
+@functools.cache
+def probes_with(constants):
+    """The `Probes` of agents with certain `Constants`, of a plane."""
+    feature, credit, choose, actions, axes = constants
 
+    @kernel
+    def survey(parameters: Parameters, state: State, elsewhere: State, there: Scene, side: int,
+               values: array("float64", "tiles", "actions")) -> None:
+        """The value of each action as if the agent were in the middle of each of side × side tiles, row by row.
 
-@kernel
-def step_second(parameters: Parameters, state: State, rules: Rules, board: WaterWorldState, second: WaterWorldState,
-                contacts: array("int8", "things"), action: int) -> float:
-    """Let a second agent on the same board do an action, and return what it is paid.
+        elsewhere: a state to work in, with the agent's q and goal_range. there: the scene, with a position to work in.
+        """
+        own = Constants(feature, credit, choose, actions, axes)
+        for tile in range(side * side):
+            there.position[0] = (tile % side + 0.5) / side * parameters.size
+            there.position[1] = (tile // side + 0.5) / side * parameters.size
+            life.begin(parameters, own, elsewhere, there)
+            for e in range(state.desires.valence.shape[0]):  # recursion takes the agent's own of the step before
+                elsewhere.desires.valence[e] = state.desires.valence[e]
+                for action in range(len(actions)):
+                    elsewhere.desires.q[e, action] = state.desires.q[e, action]
+            evaluate(parameters, own, elsewhere, there)
+            for action in range(len(actions)):
+                values[tile, action] = elsewhere.action_value[action]
 
-    second: the board with a position and a velocity of its own. A creep that it takes is one that the first agent has
-    not met: what its maps follow instead starts anew, and nothing is learned from the leap.
-    """
-    move_agent(second, rules, action)
-    reward, done = touch_creeps(second, rules, contacts)
-    for n in range(parameters.nodes.points.shape[0]):
-        if parameters.nodes.vector[n] == Vector.objects:
-            for creep in range(contacts.shape[0]):
-                if contacts[creep] != 0:
-                    reset_point(parameters, state, board, n, creep)
-    if done:
-        reset_board(board, rules)
-        reset_tracks(parameters, state, board)
-    return reward
+    @kernel
+    def cell_seen_at(parameters: Parameters, elsewhere: State, scene: Scene, m: int, x: float, y: float) -> int:
+        """The cell of a map for a place in the world; if the map is about things, for a thing there.
+
+        elsewhere: a state to work in. Along the axes of other vectors it is the cell of what the agent perceives.
+        """
+        nodes, offset = parameters.nodes, elsewhere.offset
+        n = 0
+        while nodes.first_map[n + 1] <= m:
+            n += 1
+        offset[0], offset[1] = x, y
+        if nodes.follows[n] != Vector.position:
+            for axis in range(len(axes)):
+                offset[axis] -= scene.position[axis] / parameters.size
+                if nodes.follows[n] == Vector.velocity:
+                    offset[axis] /= HALF_SECOND
+        locate(parameters, Constants(feature, credit, choose, actions, axes), scene, n, 0, True, offset,
+               elsewhere.coordinates)
+        find_cells(parameters, elsewhere.coordinates, n, elsewhere.cells)
+        return elsewhere.cells[m - nodes.first_map[n]]
+
+    @kernel
+    def step_second(parameters: Parameters, state: State, board: WaterWorldState, rules: Rules, second: Scene,
+                    action: int) -> float:
+        """Let a second agent on the same board do an action, and return what it is paid.
+
+        second: the scene of the board, with a position and a velocity of its own. A creep that it takes is one that
+        the first agent has not met: what its maps follow instead starts anew, and nothing is learned from the leap.
+        """
+        own = Constants(feature, credit, choose, actions, axes)
+        move_agent(second, rules, action)
+        reward, done = touch_creeps(WaterWorldState(second, board.direction, board.speed, board.jitter, board.stream),
+                                    rules)
+        for n in range(parameters.nodes.points.shape[0]):
+            if parameters.nodes.follows[n] == Vector.objects:
+                for creep in range(second.met.shape[0]):
+                    if second.met[creep] != 0:
+                        life.begin_point(parameters, own, state, board.scene, n, creep)
+        if done:
+            reset(board, rules)
+            life.begin(parameters, own, state, board.scene)
+        return reward
+
+    return Probes(survey, cell_seen_at, step_second)

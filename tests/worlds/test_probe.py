@@ -5,16 +5,19 @@ import pytest
 
 from neorl import (Agent, Node, NresMap, Policy, Run, WaterWorld, multimodal, network_d, object_vector_cells,
                    place_cells, superpose)
+from neorl.agents.compile import constants_of
 from neorl.core.kernel import arrays, execute, mapped
-from neorl.core.modality import HEAD_DIRECTION_CELL
-from neorl.worlds.probe import HALF_SECOND, cell_seen_at, step_second, survey
+from neorl.core.modality import HEAD_DIRECTION_CELL, OBJECT_VECTOR_CELL, PLACE_CELL, Axis, Modality
+from neorl.worlds.probe import HALF_SECOND, probes_with
+from neorl.worlds.waterworld import GREEN, RED
 
 TANK = WaterWorld(n_creeps=5)
+survey, cell_seen_at, step_second = probes_with(constants_of(place_cells(), TANK))
 
 
 def surveyed(run, side):
     values = np.zeros((side * side, 4))
-    there = run.world_state._replace(agent_position=np.zeros(2))
+    there = run.world_state.scene._replace(position=np.zeros(2))
     execute(survey, run._parameters, run._state, mapped(np.copy, run._state), there, side, values)
     return values
 
@@ -24,8 +27,8 @@ def test_a_survey_is_the_superposition_at_every_place():
     run.advance(5_000)
     expected = np.zeros((9, 4))
     for m, nres_map in enumerate(run.agent.maps):
-        goals = nres_map.encode(run.world_state.creep_position / TANK.width)
-        valences = np.where(run.world_state.creep_is_green, 1.0, -1.0)
+        goals = nres_map.encode(run.world_state.scene.things / TANK.width)
+        valences = np.where(run.world_state.scene.kinds == GREEN, 1.0, -1.0)
         for tile in range(9):
             cell = int(nres_map.encode([(tile % 3 + 0.5) / 3, (tile // 3 + 0.5) / 3]))
             expected[tile] += 0.5 * superpose(run.q(m), cell, goals, valences, run.agent.own_cell)
@@ -36,9 +39,9 @@ def test_a_survey_at_the_agents_own_place_is_what_it_chooses_by_next():
     run = Run(network_d([4, 5], policy=Policy(exploration=0.0)), TANK, seed=2)
     for _ in range(20):
         run.advance(500)
-        run.world_state.agent_position[:] = TANK.width / 2
+        run.world_state.scene.position[:] = TANK.width / 2
         for m, nres_map in enumerate(run.agent.maps):
-            cells = nres_map.encode(nres_map.modality.coordinates(TANK, run.world_state))
+            cells = nres_map.encode(nres_map.modality.coordinates(run.world_state.scene, TANK.size))
             begin, end = run.parameters.maps.first_track[m : m + 2]
             run._state.tracks.cell[begin:end] = cells
         values = surveyed(run, 1)
@@ -60,24 +63,34 @@ def test_a_survey_changes_nothing(agent):
 
 def test_a_direction_is_seen_where_it_takes_the_agent():
     run = Run(Agent([Node("HD", HEAD_DIRECTION_CELL, [16])]), TANK, seed=0)
-    x, y = run.world_state.agent_position / TANK.width
+    x, y = run.world_state.scene.position / TANK.width
     south_east = NresMap(16, HEAD_DIRECTION_CELL).encode([np.pi / 4])
     at = x + 0.1 * HALF_SECOND, y + 0.1 * HALF_SECOND
-    assert execute(cell_seen_at, run._parameters, run.world_state, 0, *at) == south_east
+    assert execute(cell_seen_at, run._parameters, run._state, run.world_state.scene, 0, *at) == south_east
+
+
+def test_a_place_is_seen_in_the_cell_that_is_as_it_lies_and_otherwise_as_the_agent_is():
+    conjunctive = Modality("place and speed", (*PLACE_CELL.axes, Axis("velocity", "length", high=2.0)))
+    run = Run(Agent([Node("OVC", OBJECT_VECTOR_CELL, [3, 5]), Node("PC", conjunctive, [4])]), TANK, seed=6)
+    run.advance(200)
+    scene, (x, y) = run.world_state.scene, (0.7, 0.2)
+    from_agent = np.array([x, y]) - scene.position / TANK.width
+    expected = [*(NresMap(n, OBJECT_VECTOR_CELL).encode(OBJECT_VECTOR_CELL.tune(from_agent)) for n in (3, 5)),
+                NresMap(4, conjunctive).encode([x, y, np.hypot(*scene.velocity) / TANK.width])]
+    assert expected == [execute(cell_seen_at, run._parameters, run._state, scene, m, x, y) for m in range(3)]
 
 
 def test_a_creep_that_somebody_else_takes_is_gone_and_nothing_is_learned_from_it():
     run = Run(object_vector_cells([5]), TANK, seed=4)
     run.advance(3_000)
-    run.world_state.creep_is_green[:] = [True, True, False, True, False]
+    run.world_state.scene.kinds[:] = [GREEN, GREEN, RED, GREEN, RED]
     before, board = mapped(np.copy, run.state), run.world_state
-    second = board._replace(agent_position=board.creep_position[2].copy(), agent_velocity=np.zeros(2))
-    contacts = np.zeros(5, np.int8)
-    paid = execute(step_second, run._parameters, run._state, TANK.rules, board, second, contacts, 4)
-    taken = contacts != 0
-    assert contacts[2] == -1 and paid == contacts.sum()
+    second = board.scene._replace(position=board.scene.things[2].copy(), velocity=np.zeros(2))
+    paid = execute(step_second, run._parameters, run._state, board, TANK.rules, second, 4)
+    taken = second.met != 0
+    assert second.met[2] == 1 + RED and paid == sum(second.met == 1 + GREEN) - sum(second.met == 1 + RED)
     assert np.array_equal(run.state.values.q, before.values.q)
-    coordinates = run.agent.maps[0].modality.coordinates(TANK, run.world_state)
+    coordinates = run.agent.maps[0].modality.coordinates(board.scene, TANK.size)
     assert np.array_equal(run.state.tracks.cell[taken], run.agent.maps[0].encode(coordinates)[taken])
     assert not run.state.tracks.events[taken].any() and not run.state.tracks.trace_count[taken].any()
     assert np.array_equal(run.state.tracks.cell[~taken], before.tracks.cell[~taken])
@@ -87,13 +100,13 @@ def test_a_creep_that_somebody_else_takes_is_gone_and_nothing_is_learned_from_it
 def test_when_somebody_else_takes_the_last_green_creep_the_tank_starts_afresh():
     run = Run(multimodal([5]), WaterWorld(n_creeps=1), seed=5)
     run.advance(100)
-    board, contacts = run.world_state, np.zeros(1, np.int8)
-    while not board.creep_is_green[0]:
+    board = run.world_state
+    while board.scene.kinds[0] != GREEN:
         run.advance(1)
     paid = 0.0
     for _ in range(50):  # until the fresh creep is red, which ends the episode
-        second = board._replace(agent_position=board.creep_position[0].copy(), agent_velocity=np.zeros(2))
-        paid = execute(step_second, run._parameters, run._state, run.world.rules, board, second, contacts, 4)
-        if np.array_equal(board.agent_position, [125.0, 125.0]):
+        second = board.scene._replace(position=board.scene.things[0].copy(), velocity=np.zeros(2))
+        paid = execute(step_second, run._parameters, run._state, board, run.world.rules, second, 4)
+        if np.array_equal(board.scene.position, [125.0, 125.0]):
             break
-    assert np.array_equal(board.agent_position, [125.0, 125.0]) and board.creep_is_green[0] and paid == 1
+    assert np.array_equal(board.scene.position, [125.0, 125.0]) and board.scene.kinds[0] == GREEN and paid == 1
