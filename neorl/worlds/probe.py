@@ -6,7 +6,7 @@ from typing import NamedTuple
 from neorl.core import life
 from neorl.core.choices import Vector
 from neorl.core.constants import Constants
-from neorl.core.geometry import find_cells, locate
+from neorl.core.geometry import cell_of, locate
 from neorl.core.kernel import Kernel, array, kernel
 from neorl.core.network import evaluate
 from neorl.core.parameters import Parameters
@@ -68,8 +68,7 @@ def probes_with(constants):
                     offset[axis] /= HALF_SECOND
         locate(parameters, Constants(feature, credit, choose, actions, axes), scene, n, 0, True, offset,
                elsewhere.coordinates)
-        find_cells(parameters, elsewhere.coordinates, n, elsewhere.cells)
-        return elsewhere.cells[m - nodes.first_map[n]]
+        return cell_of(parameters, elsewhere.coordinates, n, m)
 
     @kernel
     def step_second(parameters: Parameters, state: State, board: WaterWorldState, rules: Rules, second: Scene,
