@@ -33,6 +33,8 @@ def restored(data):
         return data
     found = _find(data.get("is") or data.get("kernel"))
     if "is" not in data:
+        if "of" in data and not getattr(found, "makes_kernels", False):  # a file may name any function
+            raise ValueError(f"{data['kernel']} is {found!r}, allowed is what a neorl.kernel_maker makes of a function")
         return found(*restored(data["of"])) if "of" in data else found
     if not is_dataclass(found):
         raise ValueError(f"{data['is']} is {found!r}, allowed are dataclasses")

@@ -176,13 +176,16 @@ class Individual:
                 kept = {name: file[name] for name in file.files}
             about = json.loads(str(kept.pop("about")))
             digest = about["digest"]
-        except (ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
+        except (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile) as error:
             raise ValueError(f"{path} is damaged, or was not written by neorl: {error}") from error
         if (about.get("format"), about.get("is")) != (FORMAT, cls.__name__) or digest != _digest(kept):
             raise ValueError(f"{path} holds a {about.get('is')} of format {about.get('format')}, or is damaged; allowed "
                              f"is a {cls.__name__} of format {FORMAT}")
-        loaded = cls._of(restored(about["agent"]), restored(about["world"]))
-        loaded._progress = about["progress"]
+        try:
+            loaded = cls._of(restored(about["agent"]), restored(about["world"]))
+            loaded._progress = about["progress"]
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            raise ValueError(f"{path} describes no agent in a world of this version of neorl: {error!r}") from error
         for name in cls._kept:
             for each, mine in arrays(getattr(loaded, name)).items():
                 saved = kept.get(f"{name}.{each}", np.empty(0))

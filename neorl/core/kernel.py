@@ -87,6 +87,7 @@ def kernel_maker(function):
         made.origin = make, arguments
         return made
 
+    make.makes_kernels = True
     return functools.wraps(function)(make)
 
 
