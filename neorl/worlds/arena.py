@@ -97,7 +97,7 @@ class Arena(World, checks.Final):
             obstacles=tuple(tuple(checks.real("obstacles", value, 0, 1) for value in checks.several("obstacles", each))
                             for each in checks.several("obstacles", self.obstacles)),
             shape=checks.one_of("shape", self.shape, SHAPES), motion=checks.one_of("motion", self.motion, MOTIONS),
-            step_length=checks.real("step_length", self.step_length, 0, 1),
+            step_length=checks.real("step_length", self.step_length, 1e-9, 1),
             radius=checks.real("radius", self.radius, 1e-9), ends=checks.flag("ends", self.ends),
             start=tuple(checks.real("start", value, 0, 1) for value in checks.several("start", self.start)),
             trial_seconds=checks.real("trial_seconds", self.trial_seconds, 1e-9, 1e9),
