@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
@@ -22,9 +22,21 @@ def learned_by_numpy(q, cell_tm1, cell_t, credit, learning_rate, discount, termi
     return q
 
 
-@given(arrays(np.float32, (6, 4, 6), elements=shares.map(lambda value: value if value > 1e-6 else 0.0)),
-       st.integers(0, 5), st.integers(0, 5), st.lists(shares, min_size=4, max_size=4), shares, shares, st.booleans())
-def test_an_update_equals_numpy(q, cell_tm1, cell_t, credit, learning_rate, discount, terminal):
+small_or_0 = shares.map(lambda value: value if value > 1e-6 else 0.0)
+
+
+@st.composite
+def tables_and_credits(draw):
+    """Values of any number of actions, which the kernel takes four at a time, and a credit for each."""
+    actions = draw(st.sampled_from([4, 4, 1, 2, 3, 5, 6, 7, 8, 9, 13]))
+    return (draw(arrays(np.float32, (6, actions, 6), elements=small_or_0)),
+            draw(st.lists(shares, min_size=actions, max_size=actions)))
+
+
+@settings(max_examples=300)
+@given(tables_and_credits(), st.integers(0, 5), st.integers(0, 5), shares, shares, st.booleans())
+def test_an_update_equals_numpy(table, cell_tm1, cell_t, learning_rate, discount, terminal):
+    q, credit = table
     expected = learned_by_numpy(q, cell_tm1, cell_t, credit, learning_rate, discount, terminal)
     learn(q, cell_tm1, cell_t, credit, learning_rate, discount, terminal)
     np.testing.assert_array_equal(q, expected)

@@ -1,0 +1,98 @@
+"""How an action is chosen: greedily, or by a softmax whose exponential function is its own."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+from neorl import Agent, Desire, Node, Policy, Run, WaterWorld, greedy, softmax
+from neorl.core.kernel import execute
+from neorl.core.modality import PLACE_CELL
+from neorl.core.policy import exponential
+from neorl.core.stream import new_stream
+
+DRAWS = 20_000
+
+
+def drawn(choose, value, draws=DRAWS, seed=0):
+    """How often each action is chosen, as a share."""
+    stream, value = new_stream(np.random.SeedSequence(seed)), np.array(value, float)
+    return np.bincount([execute(choose, value, stream) for _ in range(draws)], minlength=len(value)) / draws
+
+
+def assert_shares(found, expected):
+    assert np.all(np.abs(found - expected) <= 5 * np.sqrt(np.array(expected) / DRAWS) + 1e-12)
+
+
+@given(st.floats(-699.9, 0))
+@example(0.0)
+@example(-0.0)
+@example(-5e-324)
+@example(-math.log(2))
+@example(-699.9)
+def test_the_exponential_function_equals_that_of_the_library(x):
+    assert abs(execute(exponential, x) - math.exp(x)) <= 4 * math.ulp(math.exp(x))
+
+
+@pytest.mark.parametrize("x", [-700.0, -1e300, -math.inf, math.nan])
+def test_what_is_next_to_nothing_is_nothing(x):
+    assert execute(exponential, x) == 0.0
+
+
+@pytest.mark.parametrize("temperature", [0.1, 1.0, 7.5])
+def test_softmax_draws_in_proportion_to_the_exponential_of_the_values(temperature):
+    value = temperature * np.array([0.0, 1.0, -2.0, 0.5, 1.0])
+    expected = np.exp(value / temperature)
+    assert_shares(drawn(softmax(temperature), value), expected / expected.sum())
+
+
+def test_softmax_draws_equal_values_equally_often():
+    assert_shares(drawn(softmax(0.5), [3.0] * 4), [0.25] * 4)
+    assert drawn(softmax(0.5), [3.0], draws=10).tolist() == [1.0]
+
+
+@pytest.mark.parametrize("value", [[1e308, -1e308, 1e308], [-1e308, -1.7e308, -1e308], [1e300, 1e299, 1e300]])
+def test_softmax_of_huge_values_draws_from_the_highest(value):
+    assert_shares(drawn(softmax(1.0), value), [0.5, 0.0, 0.5])
+
+
+def test_softmax_that_is_cold_is_greedy_and_that_is_hot_is_random():
+    assert drawn(softmax(1e-300), [0.1, 0.3, 0.2], draws=100).tolist() == [0, 1, 0]
+    assert_shares(drawn(softmax(1e300), [0.1, 0.3, 0.2]), [1 / 3] * 3)
+
+
+@pytest.mark.parametrize("temperature", [0, 0.0, -1.0, math.nan, math.inf, "hot"])
+def test_a_bad_temperature_is_refused(temperature):
+    with pytest.raises(ValueError, match="temperature is .*, allowed are"):
+        softmax(temperature)
+
+
+def test_softmax_of_one_temperature_is_one_kernel():
+    assert softmax(0.25) is softmax(0.25) and softmax(0.25) is not softmax(0.5)
+    assert repr(softmax(0.25)) != repr(softmax(0.5))
+
+
+def test_greedy_takes_the_highest_and_draws_among_equals():
+    assert drawn(greedy, [0.1, 0.3, -0.2], draws=50).tolist() == [0, 1, 0]
+    assert_shares(drawn(greedy, [2.0, 1.0, 2.0, 2.0]), [1 / 3, 0, 1 / 3, 1 / 3])
+    assert_shares(drawn(greedy, [0.0, -0.0]), [0.5, 0.5])
+
+
+def test_greedy_draws_no_number_without_need():
+    stream = new_stream(np.random.SeedSequence(0))
+    before = stream.copy()
+    execute(greedy, np.array([0.5, 0.25]), stream)
+    np.testing.assert_array_equal(stream, before)
+
+
+def test_an_agent_with_a_policy_of_softmax_prefers_what_is_better():
+    agent = Agent((Node("PC", PLACE_CELL, [1]),), (Desire((0.5, 0.5), "PC", 1.0),), policy=Policy(choose=softmax(1.0)))
+    run, actions = Run(agent, WaterWorld(), seed=0), []
+    run._state.values.q[:] = [0.0, 2.0, 1.0, 0.0]
+    for _ in range(3_000):
+        run.advance(1)
+        actions.append(int(run.state.last_event[0]))
+    expected = np.exp([0.0, 2.0, 1.0, 0.0])
+    np.testing.assert_allclose(np.bincount(actions, minlength=4) / 3_000, expected / expected.sum(), atol=0.05)

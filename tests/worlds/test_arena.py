@@ -1,0 +1,215 @@
+"""The rules of the arena, and that it is the same with the compiler switched off."""
+
+import hashlib
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from golden import plain_rule
+
+from neorl import Agent, Arena, Desire, Node, Policy, Run
+from neorl.core.kernel import arrays
+from neorl.core.modality import OBJECT_VECTOR_CELL, PLACE_CELL
+
+RIM = {(0.5, 0.05), (0.5, 0.95), (0.05, 0.5), (0.95, 0.5)}
+AIMLESS = Agent((Node("PC", PLACE_CELL, [3]),))  # with no desires every action is as good
+FREE = {"places": (), "start": (0.5, 0.5), "trial_seconds": 1e6}
+
+
+def walked(world, actions, seed=0):
+    """The scenes of a walk, copied: positions and velocities."""
+    state, positions, velocities = world.reset(seed), [], []
+    for action in actions:
+        world.step(state, action)
+        positions.append(state.scene.position.copy())
+        velocities.append(state.scene.velocity.copy())
+    return np.array(positions), np.array(velocities)
+
+
+def test_a_trial_starts_at_rest_at_one_of_four_points_of_the_rim_or_at_the_start():
+    states = [Arena().reset(seed) for seed in range(60)]
+    assert {tuple(state.scene.position.tolist()) for state in states} == RIM
+    assert not any(state.scene.velocity.any() for state in states)
+    assert {tuple(Arena(start=(0.3, 0.4)).reset(seed).scene.position.tolist()) for seed in range(9)} == {(0.3, 0.4)}
+
+
+def test_the_places_are_the_things_of_the_scene():
+    world = Arena(places=(("food", 0.2, 0.3), ("nest", 0.5, 0.6), ("food", 0.9, 0.5)))
+    scene = world.reset(0).scene
+    assert (world.kinds, world.things, world.size) == (("food", "nest"), 3, 1.0)
+    assert scene.things.tolist() == [[0.2, 0.3], [0.5, 0.6], [0.9, 0.5]]
+    assert scene.kinds.tolist() == [0, 1, 0] and not scene.met.any()
+
+
+def test_with_inertia_an_action_adds_to_the_velocity_and_a_step_keeps_most_of_it():
+    positions, velocities = walked(Arena(**FREE), ["E", "no-op", "N"])
+    assert positions[0].tolist() == [0.5 + 0.25 / 50, 0.5] and velocities[0].tolist() == [0.25 * 0.975, 0.0]
+    np.testing.assert_allclose(velocities[1], [0.25 * 0.975**2, 0.0])
+    np.testing.assert_allclose(velocities[2], [0.25 * 0.975**3, -0.25 * 0.975])
+    np.testing.assert_allclose(positions[2] - positions[1], [0.25 * 0.975**2 / 50, -0.25 / 50])
+
+
+def test_plain_steps_are_of_one_length_and_leave_no_velocity_behind():
+    world = Arena(motion="steps", step_length=0.1, fps=10, **FREE)
+    positions, velocities = walked(world, ["N", "S", "E", "W", "no-op"])
+    np.testing.assert_allclose(positions, [[0.5, 0.4], [0.5, 0.5], [0.6, 0.5], [0.5, 0.5], [0.5, 0.5]])
+    np.testing.assert_allclose(velocities, [[0, -1], [0, 1], [1, 0], [-1, 0], [0, 0]])
+
+
+@pytest.mark.parametrize("motion", ["inertia", "steps"])
+@pytest.mark.parametrize("shape", ["round", "square"])
+def test_nothing_leaves_the_walls_or_enters_an_obstacle(shape, motion):
+    obstacles = ((0.6, 0.35, 0.7, 0.65), (0.2, 0.2, 0.5, 0.3))
+    world = Arena(shape=shape, motion=motion, step_length=0.07, obstacles=obstacles, fps=10, **FREE)
+    rng = np.random.default_rng(0)
+    actions = np.repeat(rng.integers(0, 4, 600), rng.integers(1, 12, 600))
+    positions, _ = walked(world, actions.tolist())
+    x, y = positions.T
+    assert np.all((0 <= positions) & (positions <= 1))
+    for left, top, right, bottom in obstacles:
+        assert not np.any((left < x) & (x < right) & (top < y) & (y < bottom))
+    away = np.hypot(x - 0.5, y - 0.5)
+    assert np.all(away <= 0.5 + 1e-12) if shape == "round" else away.max() > 0.55
+    assert x.max() > 0.75 and x.min() < 0.15  # it has come to both walls, and past the obstacle
+
+
+@pytest.mark.parametrize("arguments, stopped", [
+    ({"shape": "square", "start": (0.997, 0.5)}, True), ({"start": (0.997, 0.5)}, True),
+    ({"start": (0.5, 0.5), "obstacles": ((0.501, 0.4, 0.6, 0.6),)}, True), ({"start": (0.5, 0.5)}, False),
+    ({"start": (0.5, 0.5), "obstacles": ((0.501, 0.51, 0.6, 0.6),)}, False),
+])
+def test_what_is_in_the_way_stops_the_agent_along_that_axis_alone(arguments, stopped):
+    world = Arena(places=(), **arguments)
+    state = world.reset(0)
+    state.scene.velocity[1] = 0.02
+    world.step(state, "E")
+    x, y = world.start
+    assert state.scene.position[0] == (x if stopped else x + 0.25 / 50)
+    assert state.scene.velocity[0] == (0.0 if stopped else 0.25 * 0.975)
+    assert state.scene.position[1] == y + 0.02 / 50 and state.scene.velocity[1] == 0.02 * 0.975
+
+
+def steps_along(world, actions):
+    state = world.reset(0)
+    return [(*world.step(state, action), state.scene.met.tolist()) for action in actions]
+
+
+def test_a_place_is_met_once_when_the_agent_comes_within_its_radius():
+    world = Arena(places=(("food", 0.6, 0.5),), radius=0.06, ends=False, motion="steps", step_length=0.05,
+                  start=(0.5, 0.5))
+    came = steps_along(world, ["E", "E", "no-op", "W", "W", "E"])
+    assert [reward for reward, *_ in came] == [1, 0, 0, 0, 0, 1]
+    assert [met for *_, met in came] == [[1], [0], [0], [0], [0], [1]]
+    assert [hits.tolist() for _, hits, *_ in came] == [[True], [False], [False], [False], [False], [True]]
+    assert not any(done for _, _, done, _ in came)
+
+
+def test_a_place_at_the_start_is_met_only_after_it_was_left():
+    world = Arena(places=(("nest", 0.5, 0.5),), motion="steps", step_length=0.1, start=(0.5, 0.5), ends=False)
+    assert [reward for reward, *_ in steps_along(world, ["no-op", "E", "W"])] == [0, 0, 1]
+
+
+@pytest.mark.parametrize("ends", [True, False])
+def test_to_meet_a_place_ends_the_trial_or_does_not(ends):
+    world = Arena(places=(("food", 0.6, 0.5),), motion="steps", step_length=0.1, start=(0.5, 0.5), ends=ends)
+    assert [done for _, _, done, _ in steps_along(world, ["W", "E", "E"])] == [False, False, ends]
+
+
+def test_each_kind_pays_its_own_and_those_left_out_pay_1():
+    places = (("food", 0.6, 0.5), ("trap", 0.5, 0.6), ("food", 0.4, 0.5), ("nest", 0.5, 0.4))
+    world = Arena(places=places, pay=(5.0, -2.0), motion="steps", step_length=0.1, start=(0.5, 0.5), radius=0.03,
+                  ends=False)
+    came = steps_along(world, ["E", "W", "S", "N", "W", "E", "N"])
+    assert [reward for reward, *_ in came] == [5, 0, -2, 0, 5, 0, 1]
+    assert [met for *_, met in came if any(met)] == [[1, 0, 0, 0], [0, 2, 0, 0], [0, 0, 1, 0], [0, 0, 0, 3]]
+    both = Arena(places=(("food", 0.6, 0.5), ("trap", 0.6, 0.5)), pay=(5.0, -2.0), motion="steps", step_length=0.1,
+                 start=(0.5, 0.5))
+    assert steps_along(both, ["E"])[0][0] == 3.0
+
+
+@pytest.mark.parametrize("seconds, fps, last", [(0.5, 10, 5), (0.01, 10, 1), (60.0, 1, 60)])
+def test_a_trial_without_success_ends_without_pay(seconds, fps, last):
+    world = Arena(trial_seconds=seconds, fps=fps, start=(0.3, 0.7))
+    came = steps_along(world, ["no-op"] * last)
+    assert [done for _, _, done, _ in came] == [False] * (last - 1) + [True]
+    assert not any(reward for reward, *_ in came)
+
+
+def test_a_trial_begins_anew_after_its_end():
+    world = Arena(trial_seconds=0.1, motion="steps", fps=50)
+    run = Run(AIMLESS, world, seed=2)
+    starts = set()
+    for _ in range(60):
+        run.advance(5)
+        assert run.world_state.clock[0] == 0
+        starts.add(tuple(run.world_state.scene.position.tolist()))
+    assert starts == RIM
+
+
+@pytest.mark.parametrize("arguments, message", [
+    ({"places": ("platform", 0.5, 0.5)}, "places is 'platform', allowed are lists and tuples"),
+    ({"places": (("platform", 0.5),)}, r"places is .*, allowed are \(kind, x, y\) each"),
+    ({"places": ((0.5, 0.5, "platform"),)}, r"places is .*, allowed are \(kind, x, y\) each"),
+    ({"places": (("platform", 0.5, 1.1),)}, "places is 1.1, allowed are numbers from 0 to 1"),
+    ({"pay": (1.0, 2.0)}, r"pay is \(1.0, 2.0\), allowed are 1 numbers, one for each kind"),
+    ({"pay": (np.nan,)}, "pay is nan"), ({"pay": 1.0}, "pay is 1.0, allowed are lists and tuples"),
+    ({"obstacles": ((0.1, 0.1, 0.2),)}, r"obstacles is .*, allowed are \(left, top, right, bottom\) each"),
+    ({"obstacles": ((0.1, 0.1, 0.2, 0.2, 0.3),)}, "obstacles is .*, allowed are"),
+    ({"obstacles": ((0.2, 0.1, 0.1, 0.2),)}, "obstacles is .*, allowed are"),
+    ({"obstacles": ((0.1, 0.2, 0.2, 0.2),)}, "obstacles is .*, allowed are"),
+    ({"obstacles": ((0.1, 0.1, 0.2, 2.0),)}, "obstacles is 2.0, allowed are numbers from 0 to 1"),
+    ({"shape": "oval"}, "shape is 'oval', allowed are 'round', 'square'"),
+    ({"motion": "flight"}, "motion is 'flight', allowed are 'inertia', 'steps'"),
+    ({"step_length": 2}, "step_length is 2"), ({"motion": "steps", "step_length": 0}, "step_length is 0"),
+    ({"radius": 0}, "radius is 0"), ({"radius": -1}, "radius is -1"),
+    ({"ends": 1}, "ends is 1, allowed are True, False"), ({"trial_seconds": 0}, "trial_seconds is 0"),
+    ({"start": (0.5,)}, r"start is \(0.5,\), allowed are \(\) and a place \(x, y\)"),
+    ({"start": (0.05, 0.05)}, r"start is \(0.05, 0.05\), allowed are places outside of walls and obstacles"),
+    ({"start": (0.5, 0.5), "obstacles": ((0.4, 0.4, 0.6, 0.6),)}, r"start is \(0.5, 0.5\), allowed are places outside"),
+    ({"obstacles": ((0.4, 0.0, 0.6, 0.2),)}, r"start is \(\), allowed are places outside of walls and obstacles"),
+    ({"fps": 0}, "fps is 0"), ({"fps": 2.5}, "fps is 2.5"),
+])
+def test_a_bad_arena_is_refused(arguments, message):
+    with pytest.raises(ValueError, match=message):
+        Arena(**arguments)
+
+
+WORLDS = {
+    "pool": Arena(),
+    "maze": Arena((("food", 0.2, 0.2), ("trap", 0.8, 0.8), ("food", 0.8, 0.2)), (1.0, -1.0), ((0.4, 0.3, 0.6, 0.7),),
+                  "square", "steps", radius=0.1, ends=False, start=(0.2, 0.8), trial_seconds=0.8),
+}
+SEEKERS = {name: Agent((Node("PC", PLACE_CELL, [3, 5]), Node("OVC", OBJECT_VECTOR_CELL, [4])),
+                       (Desire(world.kinds[0], "OVC", 1.0), Desire(world.kinds[-1], "PC", 0.5)))
+           for name, world in WORLDS.items()}
+
+
+def digest(name, steps):
+    run = Run(SEEKERS[name], WORLDS[name], seed=5)
+    paid = run.advance(steps)
+    content = [run.state.values.q, *(value for value in arrays(run.world_state).values())]
+    return f"{paid} {hashlib.sha256(b''.join(each.tobytes() for each in content)).hexdigest()}"
+
+
+def test_runs_in_an_arena_are_the_same_with_the_compiler_switched_off():
+    """The other process is this file run as a program, with NUMBA_DISABLE_JIT."""
+    printed = subprocess.run([sys.executable, __file__, "250"], capture_output=True, check=True, env={
+        **os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": os.pathsep.join(sys.path)}).stdout
+    assert json.loads(printed) == {name: digest(name, 250) for name in WORLDS}
+
+
+@pytest.mark.parametrize("motion", ["inertia", "steps"])
+def test_an_agent_learns_to_find_the_platform(motion):
+    rule = plain_rule(learning_rate=0.1, discount=0.9)
+    agent = Agent((Node("PC", PLACE_CELL, [7]),), (Desire("platform", "PC", 1.0),), rule, Policy(0.3))
+    learner, control = (Run(each, Arena(trial_seconds=20.0, motion=motion), seed=1) for each in (agent, AIMLESS))
+    for run in (learner, control):
+        run.advance(60_000)
+    assert learner.advance(60_000) > 3 * control.advance(60_000) > 0
+
+
+if __name__ == "__main__":
+    print(json.dumps({name: digest(name, int(sys.argv[1])) for name in WORLDS}))

@@ -1,0 +1,241 @@
+"""Worlds of a user's own, of any number of axes and actions: a dataclass and two kernels, and all else works."""
+
+import hashlib
+import json
+import os
+import subprocess
+import sys
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from neorl import (Actions, Agent, Axis, Desire, Learner, Learning, Modality, Node, Place, Policy, Run, Scene,
+                   World, kernel, simulate)
+from neorl.core.kernel import array, arrays, execute
+from neorl.core.modality import HEAD_DIRECTION_CELL, LANDMARK_VECTOR_CELL, PLACE_CELL, cartesian
+from neorl.core.stream import uniform
+from neorl.worlds.world import Dynamics
+
+
+class DiveState(NamedTuple):
+    scene: Scene
+    stream: array("uint64", 4)
+
+
+class DiveRules(NamedTuple):
+    stride: float
+
+
+@kernel
+def hide(state: DiveState, rules: DiveRules) -> None:
+    for axis in range(3):
+        state.scene.position[axis] = 0.5
+        state.scene.things[0, axis] = uniform(state.stream)
+
+
+@kernel
+def swim(state: DiveState, rules: DiveRules, action: int):
+    """A step along one of three axes; who comes near the pearl gets it, and there is another elsewhere."""
+    scene, axis, sign = state.scene, action // 2, 1.0 - 2.0 * (action % 2)
+    scene.position[axis] = min(max(scene.position[axis] + sign * rules.stride, 0.0), 1.0)
+    near = True
+    for each in range(3):
+        near = near and abs(scene.position[each] - scene.things[0, each]) < 0.15
+    scene.met[0] = 1 if near else 0
+    if near:
+        for each in range(3):
+            scene.things[0, each] = uniform(state.stream)
+    return 1.0 if near else 0.0, False
+
+
+@dataclass(frozen=True)
+class Dive(World):
+    """A cube of water with a pearl."""
+
+    stride: float = 0.1
+
+    dynamics = Dynamics(hide, swim)
+    kinds = ("pearl",)
+    actions = Actions(("east", "west", "south", "north", "down", "up"),
+                      ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)))
+    things, size, fps = 1, 1.0, 10
+
+    @property
+    def rules(self):
+        return DiveRules(self.stride)
+
+
+class RoundaboutState(NamedTuple):
+    scene: Scene
+    stream: array("uint64", 4)
+
+
+class NoRules(NamedTuple):
+    pass
+
+
+@kernel
+def enter(state: RoundaboutState, rules: NoRules) -> None:
+    state.scene.position[0] = 0.1
+
+
+@kernel
+def drive(state: RoundaboutState, rules: NoRules, action: int):
+    """A step forwards, the only thing to do, on a road that closes on itself."""
+    position = state.scene.position[0] + 0.2
+    state.scene.position[0] = position - np.floor(position)
+    return 0.0, False
+
+
+@dataclass(frozen=True)
+class Roundabout(World):
+    dynamics = Dynamics(enter, drive)
+    actions = Actions(("on",), ((1.0,),))
+    rules, things, size, fps = NoRules(), 0, 1.0, 1
+
+
+DEPTHS = Modality("place cell in a cube", cartesian("position", (0, 1), (0, 1), (0, 1)))
+AT_ONCE = Learning(0.3, 0.9, bootstrap=True, credit="last", memory=0.0, absent_decay=0.0, causes="any")
+SEEKER = Agent((Node("PC", DEPTHS, [5]),), (Desire("pearl", "PC", 1.0),), AT_ONCE, Policy(0.1))
+DRIVER = Agent((Node("PC", Modality("ring cell", (Axis("position", closed=True),)), [5]),),
+               (Desire(Place(0.5), "PC", 1.0),), AT_ONCE)
+LIVES = {"Dive": (SEEKER, Dive()), "Roundabout": (DRIVER, Roundabout())}
+
+
+def digest(name, steps):
+    run = Run(*LIVES[name], seed=6)
+    paid = run.advance(steps)
+    content = [run.state.values.q, *arrays(run.world_state).values()]
+    return f"{paid} {hashlib.sha256(b''.join(each.tobytes() for each in content)).hexdigest()}"
+
+
+def test_an_agent_learns_its_way_in_a_world_of_three_axes_and_six_actions():
+    learner, control = (simulate(agent, Dive(), steps=60_000, runs=2, progress=False)
+                        for agent in (SEEKER, Agent(SEEKER.nodes, SEEKER.desires, policy=Policy(1.0))))
+    assert learner.rate(0.5).mean() > 2 * control.rate(0.5).mean() > 0
+    np.testing.assert_array_equal(learner.hits.sum(axis=(1, 2)), learner.totals)
+
+
+def test_every_goal_of_a_cube_is_learned_with_the_action_that_leads_there():
+    run = Run(Agent((Node("PC", DEPTHS, [5]),), learning=AT_ONCE, policy=Policy(1.0)), Dive(stride=0.2), seed=0)
+    run.advance(100_000)
+    middle = NODE_MAP.encode([0.5, 0.5, 0.5])
+    for action, push in enumerate(Dive.actions.pushes):
+        goal = NODE_MAP.encode(0.5 + 0.4 * np.array(push))
+        assert run.q()[middle, :, goal].argmax() == action and run.q().shape == (125, 6, 125)
+
+
+NODE_MAP = SEEKER.maps[0]
+
+
+def test_the_output_of_a_node_has_a_component_for_every_axis():
+    run = Run(SEEKER, Dive(), seed=0)
+    run.advance(20_000)
+    output = run.output("PC")
+    assert output.q.shape == (6,) and output.q.any()
+    np.testing.assert_allclose(output.desire, output.q[::2] - output.q[1::2])
+
+
+def test_a_world_of_one_axis_and_one_action_is_learned_to_the_end():
+    run = Run(DRIVER, Roundabout(), seed=0)
+    run.advance(5_000)
+    moves = (np.arange(5) - np.arange(5)[:, None] - 1) % 5
+    np.testing.assert_allclose(run.q()[:, 0], 0.9 ** moves, rtol=1e-4)
+    assert run.world_state.scene.things.shape == (0, 1)
+
+
+@pytest.mark.parametrize("name", LIVES)
+def test_a_learner_in_a_loop_of_its_own_equals_a_run(name):
+    agent, world = LIVES[name]
+    run, state = Run(agent, world, seed=3), world.reset(np.random.SeedSequence(3, spawn_key=(0,)))
+    learner = Learner(agent, world.things, world.kinds, world.actions, size=world.size, fps=world.fps)
+    learner._state.stream[:] = run.state.stream
+    learner.begin(state.scene)
+    for _ in range(1_000):
+        world.step(state, learner.act())
+        learner.observe(state.scene)
+    run.advance(1_000)
+    np.testing.assert_array_equal(learner.q(), run.q())
+    np.testing.assert_array_equal(state.scene.position, run.world_state.scene.position)
+
+
+def test_worlds_of_ones_own_are_the_same_with_the_compiler_switched_off():
+    """The other process is this file run as a program, with NUMBA_DISABLE_JIT."""
+    printed = subprocess.run([sys.executable, __file__, "300"], capture_output=True, check=True, env={
+        **os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": os.pathsep.join(sys.path)}).stdout
+    assert json.loads(printed) == {name: digest(name, 300) for name in LIVES}
+
+
+@pytest.mark.parametrize("agent, world, message", [
+    (Agent((Node("PC", PLACE_CELL, [3]),)), Roundabout(), "place cells need a world of 2 axes or more, this one has 1"),
+    (Agent((Node("HD", HEAD_DIRECTION_CELL, [3]),)), Roundabout(), "head-direction cells need a world of 2 axes"),
+    (Agent((Node("LVC", LANDMARK_VECTOR_CELL, [3]),)), Dive(),
+     r"landmarks is \(\(0.5, 0.5\),\), allowed are places of 3 coordinates"),
+    (Agent((Node("PC", DEPTHS, [3]),), (Desire("green", "PC", 1.0),)), Dive(), "'green' is neither .* are 'pearl'"),
+    (Agent((Node("PC", DEPTHS, [3]),), (Desire(Place(0.1, 0.2), "PC", 1.0),)), Dive(), "places of 3 coordinates"),
+    (Agent((Node("pearl", DEPTHS, [3]),)), Dive(), "a node is called 'pearl'"),
+    (Agent(DRIVER.nodes, (Desire("pearl", "PC", 1.0),)), Roundabout(), "'pearl' is neither .*, allowed are none"),
+    (Agent(SEEKER.nodes, policy=Policy(when_indifferent="no-op")), Dive(),
+     "when_indifferent is 'no-op', allowed in a world without idleness is 'random'"),
+])
+def test_an_agent_that_does_not_go_with_a_world_is_refused(agent, world, message):
+    with pytest.raises(ValueError, match=message):
+        Run(agent, world)
+
+
+def test_only_the_actions_of_a_world_can_be_taken():
+    world = Dive()
+    state = world.reset(0)
+    for action in (6, -1, "no-op", 0.5, None):
+        with pytest.raises(ValueError, match="action is .*, allowed are"):
+            world.step(state, action)
+    reward, met, done = world.step(state, "up")
+    assert state.scene.position.tolist() == [0.5, 0.5, 0.4] and (reward, met.tolist(), done) == (0.0, [False], False)
+
+
+@pytest.mark.parametrize("arguments, message", [
+    (((), ()), r"names is \(\), allowed are one or more"),
+    ((("a", "a"), ((1,), (2,))), "names is .*, allowed are one or more, each once"),
+    ((("a", "b"), ((1,), (2,)), "b"), "names is .*, and others than idle, 'b'"),
+    ((("a", 5), ((1,), (2,))), "names is 5, allowed is a str"), (("ab", ((1,), (2,))), "names is 'ab'"),
+    ((("a", "b"), ((1,),)), "pushes is .*, allowed are as many as names"),
+    ((("a", "b"), ((1,), (2, 3))), "pushes is .*, each of the same number of axes"),
+    ((("a",), ((),)), "pushes is .*"), ((("a",), ((np.nan,),)), "pushes is nan"), ((("a",), (1,)), "pushes is 1"),
+    ((("a",), ((1,),), 5), "idle is 5, allowed is a str"),
+])
+def test_bad_actions_are_refused(arguments, message):
+    with pytest.raises(ValueError, match=message):
+        Actions(*arguments)
+
+
+def test_idleness_is_the_last_of_all_actions():
+    actions = Actions(["go", "stay"], [np.array([1, 0]), (0, 1)], "rest")
+    assert actions == Actions(("go", "stay"), ((1.0, 0.0), (0.0, 1.0)), "rest") and hash(actions)
+    assert actions.all_names == ("go", "stay", "rest") and actions.axes == 2
+    assert Dive.actions.all_names == Dive.actions.names and Dive.actions.axes == 3
+
+
+def test_a_state_that_does_not_fit_is_refused():
+    world = Dive()
+    for change, message in [({"position": np.zeros(2)}, r"state.scene.position is float64 \(2,\), allowed is float64"),
+                            ({"kinds": np.zeros(1, np.int8)}, r"state.scene.kinds is int8 \(1,\), allowed is int64"),
+                            ({"things": [[0.5] * 3]}, r"state.scene.things is \[\[0.5, 0.5, 0.5\]\], allowed is"),
+                            ({"kinds": np.ones(1, np.int64)}, "state.scene.kinds is .*, allowed are −1 and the numbers"),
+                            ({"things": np.full((1, 3), np.inf)}, "state.scene.things is .*inf")]:
+        state = world.reset(0)
+        with pytest.raises(ValueError, match=message):
+            world.step(state._replace(scene=state.scene._replace(**change)), 0)
+
+
+def test_a_world_draws_from_its_stream_alone():
+    one, other = (Dive().reset(seed) for seed in (5, 5))
+    execute(hide, one, Dive().rules)
+    Dive().step(other, 0)
+    execute(hide, other, Dive().rules)
+    np.testing.assert_array_equal(one.scene.things, other.scene.things)
+
+
+if __name__ == "__main__":
+    print(json.dumps({name: digest(name, int(sys.argv[1])) for name in LIVES}))
