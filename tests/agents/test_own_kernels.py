@@ -1,0 +1,151 @@
+"""Kernels of a user's own: those that say what the package's do give the same bits, with and without the compiler."""
+
+import hashlib
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from golden import plain_rule
+
+from neorl import Agent, Axis, Desire, Learning, Modality, Node, Policy, Run, WaterWorld, kernel, multimodal
+from neorl.core.kernel import arrays
+from neorl.core.stream import randint
+
+WORLD = WaterWorld(n_creeps=4, win_reward=5.0)
+PLAIN = {"learning": plain_rule(), "policy": Policy(0.1)}
+
+
+@kernel
+def happened(count, steps, last, activity):
+    return 1.0 if count > 0 else 0.0
+
+
+@kernel
+def share(count, steps, last, activity):
+    return np.float32(count) / np.float32(steps)
+
+
+@kernel
+def last_of_all(count, steps, last, activity):
+    return 1.0 if last else -3.0  # which counts as 0
+
+
+@kernel
+def activity_above(count, steps, last, activity):
+    return activity if activity >= 0.01 else 0.0
+
+
+@kernel
+def x_share(scene, point):
+    return scene.position[0] / 250.0
+
+
+@kernel
+def highest(value, stream):
+    best, ties = value[0], 0
+    for action in range(value.shape[0]):
+        best = max(best, value[action])
+    for action in range(value.shape[0]):
+        ties += value[action] == best
+    skip = randint(stream, ties) if ties > 1 else 0
+    for action in range(value.shape[0]):
+        if value[action] == best:
+            if skip == 0:
+                return action
+            skip -= 1
+    return 0
+
+
+def crediting(credit, **changes):
+    return multimodal([4], learning=plain_rule(credit=credit, absent_decay=0.1, **changes))
+
+
+def perceiving(of):
+    """An agent that wants points of its own spaces, in which the second axis is how far east it is."""
+    place = Modality("place", (Axis("position", along=1), Axis(of)))
+    beside = Modality("beside", (Axis("objects", along=1, low=-1), Axis(of)))
+    return Agent((Node("PC", place, [4, 7]), Node("B", beside, [3])),
+                 (Desire((0.2, 0.9), "PC", 1.0), Desire((0.0, 0.3), "B", 0.5)), **PLAIN)
+
+
+PAIRS = {  # the user's own, and what it re-implements
+    "credit happened": (crediting(happened), crediting("happened")),
+    "credit share": (crediting(share), crediting("share")),
+    "credit last": (crediting(last_of_all), crediting("last")),
+    "credit activity": (crediting(activity_above, activity=0.1), crediting("activity", activity=0.1)),
+    "credit happened, calibrated": (multimodal([5], learning=Learning(credit=happened)), multimodal([5])),
+    "position": (perceiving(x_share), perceiving("position")),
+    "greedy": (multimodal([3, 6], learning=plain_rule(), policy=Policy(0.05, choose=highest)),
+               multimodal([3, 6], learning=plain_rule(), policy=Policy(0.05))),
+}
+
+
+def digest(agent, steps):
+    run = Run(agent, WORLD, seed=4)
+    paid = run.advance(steps)
+    content = [run.state.values.q, *arrays(run.world_state).values()]
+    return f"{paid} {hashlib.sha256(b''.join(each.tobytes() for each in content)).hexdigest()}"
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_an_own_kernel_that_does_what_the_packages_does_gives_the_same_bits(name):
+    own, packaged = PAIRS[name]
+    assert own != packaged and digest(own, 4_000) == digest(packaged, 4_000)
+
+
+def test_own_kernels_run_the_same_with_the_compiler_switched_off():
+    """The other process is this file run as a program, with NUMBA_DISABLE_JIT."""
+    printed = subprocess.run([sys.executable, __file__, "250"], capture_output=True, check=True, env={
+        **os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": os.pathsep.join(sys.path)}).stdout
+    assert json.loads(printed) == {name: digest(packaged, 250) for name, (_, packaged) in PAIRS.items()}
+
+
+@kernel
+def never(count, steps, last, activity):
+    return 0.0
+
+
+@kernel
+def south(value, stream):
+    return 1
+
+
+@kernel
+def in_the_east(scene, point):
+    return 1.0 if scene.position[0] > 125.0 else 0.0
+
+
+def test_own_kernels_are_heard():
+    silent = Run(crediting(never), WORLD, seed=0)
+    silent.advance(3_000)
+    assert not silent.q(0).any()
+    diver = Run(multimodal([3], policy=Policy(choose=south)), WORLD, seed=0)
+    diver.advance(500)
+    assert diver.world_state.scene.position[1] == 250.0 - 2 * WORLD.radius
+    halves = Agent((Node("half", Modality("half", (Axis(in_the_east, intervals=2),)), [1]),), policy=Policy(1.0))
+    run = Run(halves, WORLD, seed=0)
+    seen = set()
+    for _ in range(400):
+        run.advance(5)
+        assert int(run.state.tracks.cell[0]) == (run.world_state.scene.position[0] > 125.0)
+        seen.add(int(run.state.tracks.cell[0]))
+    assert seen == {0, 1} and halves.maps[0].modality.names == ("in_the_east",)
+
+
+def test_kernels_of_one_modality_are_told_apart_from_those_of_another():
+    west = Modality("X", (Axis(x_share, low=0, high=1), Axis(in_the_east, intervals=2)))
+    east = Modality("X", (Axis(in_the_east, intervals=2), Axis(x_share, low=0, high=1)))
+    run = Run(Agent((Node("one", west, [5]), Node("other", east, [5])), policy=Policy(1.0)), WORLD, seed=0)
+    for _ in range(100):
+        run.advance(7)
+        one, other = (nres_map.encode(nres_map.modality.coordinates(run.world_state.scene, WORLD.size))[0]
+                      for nres_map in run.agent.maps)
+        assert run.state.tracks.cell.tolist() == [one, other]
+        assert (one % 5, one // 5) == (other // 2, other % 2)
+
+
+if __name__ == "__main__":
+    print(json.dumps({name: digest(own, int(sys.argv[1])) for name, (own, _) in PAIRS.items()}))
