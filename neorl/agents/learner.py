@@ -306,9 +306,11 @@ class Learner(Individual):
     def _take(self, scene):
         """Check a scene, and copy it."""
         offered, things = self._offered, self.world.things
-        velocity = 0.0 * offered.velocity if scene.velocity is None else scene.velocity
         _put("position", offered.position, scene.position)
-        _put("velocity", offered.velocity, velocity)
+        if scene.velocity is None:
+            offered.velocity[:] = 0.0
+        else:
+            _put("velocity", offered.velocity, scene.velocity)
         if things or len(scene.things):
             _put("things", offered.things, scene.things)
             try:
