@@ -172,7 +172,7 @@ class Individual:
         Raises OSError if there is no such file, ValueError if it is damaged, or of another kind or version.
         """
         try:
-            with np.load(Path(path), allow_pickle=False) as file:
+            with Path(path).open("rb") as opened, np.load(opened, allow_pickle=False) as file:
                 kept = {name: file[name] for name in file.files}
             about = json.loads(str(kept.pop("about")))
             digest = about["digest"]
