@@ -3,7 +3,6 @@
 What the kernels take is checked before they see it; parameters, state and values are views that cannot be written to.
 """
 
-import copy
 import hashlib
 import io
 import json
@@ -142,14 +141,17 @@ class Individual:
 
     def copy(self):
         """One that goes on by itself from here, to the same bits."""
-        other = copy.copy(self)
+        other = object.__new__(type(self))
+        vars(other).update(vars(self))
         for name in self._kept:
             setattr(other, name, kept_apart(mapped(np.copy, getattr(self, name))))
         other._bind()
         return other
 
-    __copy__ = None  # copies would share what is written to
-    __deepcopy__ = None
+    __copy__ = copy  # any other would share what is written to
+
+    def __deepcopy__(self, memo):
+        return self.copy()
 
     def save(self, path):
         """Write all to a file, by which `load` goes on to the same bits.
