@@ -34,8 +34,7 @@ CONCLUSION = "chapter_5"  # reads what all others have found
 # Notebooks of one round are computed two at a time, since much of each keeps one core busy alone: compiling, drawing.
 # All but the first read the shares of readings. The papers keep all cores busy, and paper B measures times.
 ROUNDS = (("assumptions", "chapter_1", "chapter_2", "chapter_3"), ("calibration", "chapter_4", "own_world"),
-          ("paper_a",),
-          ("paper_b",), ("paper_c",), (CONCLUSION,))
+          ("paper_a",), ("paper_b",), ("paper_c",), (CONCLUSION,))
 WIDGET_STATE = "application/vnd.jupyter.widget-state+json"
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 
