@@ -1,0 +1,407 @@
+"""A learner in a loop of the user's own: to the bit what a run is, kept and copied, and safe from what does not fit."""
+
+import copy
+import json
+
+import numpy as np
+import pytest
+from golden import every_modality, plain_rule
+
+from neorl import (Actions, Agent, Arena, Desire, Learner, Learning, Node, Policy, Run, Scene, WaterWorld, kernel,
+                   multimodal, network_d, place_cells, softmax)
+from neorl.core.kernel import arrays, execute, mapped
+from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL
+from neorl.core.stream import new_stream
+
+TANK = WaterWorld(width=100, n_creeps=2, win_reward=5.0)  # in which episodes end often
+AGENTS = {
+    "calibrated": network_d([2, 5]),
+    "every modality": every_modality(),
+    "at every step": multimodal([5], learning=plain_rule(update_on="step"), policy=Policy(0.1, "no-op")),
+    "trace": multimodal([4], learning=plain_rule(trace=7, capture="silent", attention="nearest")),
+    "softmax": multimodal([4], learning=plain_rule(credit="activity", memory=3.0), policy=Policy(choose=softmax(0.2))),
+}
+
+
+def newborn(agent, world, seed=0):
+    """A learner that knows a world, with the random numbers of the choices of a run, and the world's state."""
+    sequence = np.random.SeedSequence(seed, spawn_key=(0,))
+    state = world.reset(sequence)
+    learner = Learner(agent, world.things, world.kinds, world.actions, size=world.size, fps=world.fps)
+    learner._state.stream[:] = new_stream(sequence.spawn(1)[0])
+    learner.begin(state.scene)
+    return learner, state
+
+
+def take(learner, world, state, action):
+    """Let the world and the learner go through with an action."""
+    _, _, done = world.step(state, action)
+    learner.observe(state.scene)
+    if done:
+        execute(world.dynamics.reset, state, world.rules)
+        learner.begin(state.scene)
+    return done
+
+
+def live(learner, world, state, steps):
+    """Live so many steps; returns the actions."""
+    actions = []
+    for _ in range(steps):
+        actions.append(learner.act())
+        take(learner, world, state, actions[-1])
+    return actions
+
+
+def assert_equal(one, other):
+    theirs = arrays(other.state)
+    for name, mine in arrays(one.state).items():
+        np.testing.assert_array_equal(mine, theirs[name], name)
+
+
+@pytest.mark.parametrize("world", [TANK, Arena(trial_seconds=2.0)], ids=["tank", "arena"])
+@pytest.mark.parametrize("name", AGENTS)
+def test_a_learner_in_a_loop_of_its_own_equals_a_run_to_the_bit(name, world):
+    agent, ends = AGENTS[name], 0
+    if world is not TANK:
+        agent = Agent(agent.nodes, [Desire("platform", agent.nodes[0].name, 1.0)], agent.learning, agent.policy)
+    run, (learner, state) = Run(agent, world, seed=3), newborn(agent, world, seed=3)
+    while run.step < 1_000 or not ends and run.step < 20_000:
+        action = learner.act()
+        run.advance(1)
+        assert action == run.state.last_event[0]
+        ends += take(learner, world, state, action)
+    assert ends and all(learner.q(m).any() for m, each in enumerate(agent.maps) if each.cells > 100)
+    assert_equal(learner, run)
+    for name, values in arrays(run.world_state).items():
+        np.testing.assert_array_equal(arrays(state)[name], values, name)
+
+
+def test_a_learner_draws_from_the_stream_of_its_seed():
+    learner = Learner(place_cells([3]), 2, ("green", "red"), seed=5)
+    np.testing.assert_array_equal(learner.state.stream, new_stream(np.random.SeedSequence(5)))
+    assert Learner(place_cells([3]), 2, ("green", "red")).state.stream.tolist() != learner.state.stream.tolist()
+
+
+@pytest.mark.parametrize("half_way", [False, True], ids=["whole", "half-way"])
+@pytest.mark.parametrize("name", AGENTS)
+def test_a_learner_goes_on_from_a_copy_or_a_file_to_the_same_bit(name, half_way, tmp_path):
+    learner, state = newborn(AGENTS[name], TANK)
+    live(learner, TANK, state, 400)
+    action = learner.act() if half_way else None
+    learner.save(tmp_path / "learner")
+    others = [learner.copy(), Learner.load(tmp_path / "learner")]
+    states = [mapped(np.copy, state) for _ in others]
+    assert others[1].agent == learner.agent and others[1].world == learner.world
+    lives = []
+    for each, there in zip([learner, *others], [state, *states]):
+        if half_way:
+            with pytest.raises(RuntimeError, match="act.. came twice"):
+                each.act()
+            take(each, TANK, there, action)
+        lives.append(live(each, TANK, there, 400))
+    assert lives[0] == lives[1] == lives[2]
+    for other in others:
+        assert_equal(learner, other)
+
+
+@pytest.mark.parametrize("world", [TANK, Arena()], ids=["tank", "arena"])
+def test_a_run_goes_on_from_a_copy_or_a_file_to_the_same_bit(world, tmp_path):
+    agent = AGENTS["softmax"] if world is TANK else Agent(AGENTS["softmax"].nodes, policy=Policy(0.3))
+    run = Run(agent, world, seed=4, run=2)
+    run.advance(1_234)
+    run.save(tmp_path / "run")
+    others = [run.copy(), Run.load(tmp_path / "run")]
+    knew = run.q().copy()
+    paid = [each.advance(2_000) for each in others]
+    np.testing.assert_array_equal(run.q(), knew)  # the others are others
+    assert run.step == 1_234 and paid == [run.advance(2_000)] * 2 and run.step == others[1].step == 3_234
+    for other in others:
+        assert_equal(run, other)
+        for name, values in arrays(other.world_state).items():
+            np.testing.assert_array_equal(arrays(run.world_state)[name], values, name)
+
+
+def test_a_learner_that_has_not_begun_is_kept_as_such(tmp_path):
+    learner = Learner(place_cells([3]), 2, ("green", "red"))
+    learner.save(tmp_path / "learner")
+    for other in (learner.copy(), Learner.load(tmp_path / "learner")):
+        with pytest.raises(RuntimeError, match="before the first scene"):
+            other.act()
+
+
+@pytest.mark.parametrize("half_way", [False, True], ids=["whole", "half-way"])
+def test_a_learner_that_becomes_the_same_agent_goes_on_to_the_same_bit(half_way):
+    agent = AGENTS["trace"]
+    lives = []
+    for changes in (False, True):
+        learner, state = newborn(agent, TANK)
+        live(learner, TANK, state, 300)
+        action = learner.act() if half_way else None
+        if changes:
+            learner.change(agent)
+        if half_way:
+            take(learner, TANK, state, action)
+        lives.append((live(learner, TANK, state, 300), learner))
+    assert lives[0][0] == lives[1][0]
+    assert_equal(lives[0][1], lives[1][1])
+
+
+def test_a_learner_that_gets_a_second_modality_keeps_what_it_knows():
+    learner, state = newborn(place_cells([3, 7]), TANK)
+    live(learner, TANK, state, 3_000)
+    knows = [learner.q(m).copy() for m in (0, 1)]
+    learner.change(multimodal([3, 5, 7]))
+    np.testing.assert_array_equal(learner.q(0), knows[0])
+    np.testing.assert_array_equal(learner.q(2), knows[1])
+    assert knows[1].any() and not learner.q(1).any() and not learner.q(4).any()
+    live(learner, TANK, state, 3_000)
+    assert learner.q(1).any() and learner.q(4).any()
+    for agent in ("PC", Agent((Node("green", place_cells([3]).nodes[0].modality, [3]),))):
+        with pytest.raises(ValueError, match="agent is 'PC'|a node is called 'green'"):
+            learner.change(agent)
+
+
+@pytest.mark.parametrize("kind", [Run, Learner])
+def test_what_is_transferred_is_learned_on_as_by_its_source(kind):
+    """Bootstrapping goes by the goals that a cell knows of, so these have to come along."""
+    agent = multimodal([4, 6], learning=plain_rule(absent_decay=0.1), policy=Policy(0.1))
+    source = Run(agent, TANK, seed=1) if kind is Run else newborn(agent, TANK, seed=1)[0]
+    if kind is Run:
+        source.advance(3_000)
+    else:
+        live(source, TANK, TANK.reset(1), 3_000)
+    pupils = [newborn(agent, TANK, seed=8) for _ in range(2)]
+    pupils[0][0].transfer(source)
+    pupils[1][0]._state.values.q[:] = source.state.values.q
+    pupils[1][0]._state.values.goal_range[:] = [[0, each.cells] for each in agent.maps for _ in range(each.cells)]
+    np.testing.assert_array_equal(pupils[0][0].state.values.goal_range, source.state.values.goal_range)
+    lives = [live(learner, TANK, state, 1_000) for learner, state in pupils]
+    assert lives[0] == lives[1]
+    np.testing.assert_array_equal(pupils[0][0].state.values.q, pupils[1][0].state.values.q)
+    assert not np.array_equal(pupils[0][0].state.values.q, source.state.values.q)
+
+
+def test_only_what_has_the_same_maps_and_actions_can_be_transferred():
+    learner = Learner(place_cells([3]), 2, ("green", "red"))
+    six = Learner(place_cells([3]), 2, ("green", "red"), Actions(tuple("abcdef"), ((0.0, 1.0),) * 6))
+    for other, message in [(Learner(place_cells([4]), 2, ("green", "red")), "other has the maps"),
+                           (six, "and 6 actions, allowed are .* and 4"),
+                           (place_cells([3]), "other is Agent")]:
+        with pytest.raises(ValueError, match=message):
+            learner.transfer(other)
+
+
+def test_values_state_and_parameters_are_views_that_cannot_be_written_to():
+    learner, state = newborn(place_cells([3]), TANK)
+    view = learner.q()
+    live(learner, TANK, state, 1_000)
+    assert view.any()
+    for array in (view, *arrays(learner.state).values(), *arrays(learner.parameters).values()):
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 1
+    with pytest.raises(ValueError, match="index is 1, allowed are integers from 0 to 0"):
+        learner.q(1)
+
+
+FINE = Scene((0.5, 0.5), None, [(0.1, 0.2), (0.3, 0.4)], ["red", None])
+BAD_SCENES = [
+    ({"position": (0.5,)}, r"scene.position is \(0.5,\), allowed are numbers of the shape \(2,\)"),
+    ({"position": ("a", "b")}, r"scene.position is \('a', 'b'\), allowed are numbers"),
+    ({"position": None}, "scene.position is None"),
+    ({"position": (np.nan, 0.5)}, "allowed are finite numbers"),
+    ({"velocity": (np.inf, 0.5)}, "allowed are finite numbers"),
+    ({"velocity": (0.0, 0.0, 0.0)}, "scene.velocity is .*, allowed are numbers of the shape"),
+    ({"things": [(0.1, 0.2)]}, r"scene.things is \[\(0.1, 0.2\)\], allowed are numbers of the shape \(2, 2\)"),
+    ({"things": [(0.1, 0.2), (0.3, 0.4), (0.5, 0.6)]}, "scene.things is"),
+    ({"things": [(np.nan, 0.2), (0.3, 0.4)]}, "allowed are finite numbers"),
+    ({"kinds": ["red"]}, r"scene.kinds is \['red'\], allowed are numbers of the shape|scene.kinds is"),
+    ({"kinds": ["blue", None]}, "scene.kinds is .*'blue', None.*, allowed are None, 'green', 'red', -1, 0, 1"),
+    ({"kinds": [2, None]}, "scene.kinds is .*2, None"), ({"kinds": [-2, None]}, "scene.kinds is .*-2, None"),
+    ({"kinds": [["red"], None]}, "scene.kinds is"), ({"kinds": 5}, "scene.kinds is 5"),
+    ({"met": [1]}, r"scene.met is \[1\], allowed are numbers of the shape \(2,\)"),
+]
+
+
+@pytest.mark.parametrize("change, message", BAD_SCENES)
+@pytest.mark.parametrize("call", ["begin", "observe"])
+def test_a_scene_that_does_not_fit_is_refused_and_changes_nothing(call, change, message):
+    learner = Learner(multimodal([3]), 2, ("green", "red"))
+    learner.begin(FINE)
+    learner.act()
+    before = [array.copy() for array in (*arrays(learner.state).values(), *arrays(learner._scene).values())]
+    with pytest.raises(ValueError, match=message):
+        getattr(learner, call)(FINE._replace(**change))
+    for mine, array in zip(before, (*arrays(learner.state).values(), *arrays(learner._scene).values())):
+        np.testing.assert_array_equal(mine, array)
+    learner.observe(FINE)
+
+
+def test_kinds_go_by_name_or_by_number_and_what_is_absent_may_be_anywhere():
+    cells = []
+    for kinds, second in [(["red", None], 0.4), ([1, -1], 0.4), (np.array([1, -1], np.int8), np.nan),
+                          (["red", None], 9.0)]:
+        learner = Learner(multimodal([3]), 2, ("green", "red"))
+        learner.begin(FINE._replace(kinds=kinds, things=[(0.1, 0.2), (0.3, second)]))
+        cells.append(learner.state.tracks.cell.tolist())
+    assert cells[0] == cells[1] == cells[2] == cells[3] and cells[0][-1] == -1
+
+
+@pytest.mark.parametrize("calls, message", [
+    (["act"], "act.. came before the first scene, allowed is act.. after begin.scene. or observe.scene."),
+    (["observe"], "observe.scene. came before act.., allowed is observe.scene. after it"),
+    (["begin", "observe"], "observe.scene. came before act"), (["begin", "act", "act"], "act.. came twice"),
+    (["begin", "act", "observe", "observe"], "observe.scene. came before act"),
+])
+def test_steps_out_of_order_are_refused(calls, message):
+    learner = Learner(multimodal([3]), 2, ("green", "red"))
+    given = {"begin": [FINE], "observe": [FINE], "act": []}
+    for call in calls[:-1]:
+        getattr(learner, call)(*given[call])
+    before = [array.copy() for array in arrays(learner.state).values()]
+    with pytest.raises(RuntimeError, match=message):
+        getattr(learner, calls[-1])(*given[calls[-1]])
+    for mine, array in zip(before, arrays(learner.state).values()):
+        np.testing.assert_array_equal(mine, array)
+
+
+@pytest.mark.parametrize("arguments, message", [
+    (("PC",), "agent is 'PC', allowed is a Agent"), ((multimodal([3]), -1), "things is -1"),
+    ((multimodal([3]), 2, "green"), "kinds is 'green', allowed are lists and tuples"),
+    ((multimodal([3]), 2, ("green", "green")), "kinds is .*, allowed is each name once"),
+    ((multimodal([3]), 2, ("green",)), "'red' is neither a node of the agent nor a kind"),
+    ((multimodal([3]), 2, ("green", "red"), ("N", "S")), "actions is .*, allowed is a Actions"),
+    ((multimodal([3]), 2, ("green", "red"), Actions(("on",), ((1.0,),))), "cells need a world of 2 axes"),
+])
+def test_a_bad_learner_is_refused(arguments, message):
+    with pytest.raises(ValueError, match=message):
+        Learner(*arguments)
+
+
+@pytest.mark.parametrize("choice, message", [
+    ({"seed": -1}, "seed is -1"), ({"size": 0}, "size is 0.0, allowed are numbers above 0"),
+    ({"size": np.nan}, "size is nan"), ({"fps": -50}, "fps is -50.0, allowed are numbers above 0")])
+def test_a_bad_choice_of_a_learner_is_refused(choice, message):
+    with pytest.raises(ValueError, match=message):
+        Learner(multimodal([3]), 2, ("green", "red"), **choice)
+
+
+SEES_FOOD = Node("OVC", CARTESIAN_OBJECT_VECTOR_CELL, [5])
+
+
+def watcher(rule):
+    """A learner, and scenes in which the agent is at x and food, if it is there, at the other end."""
+    learner = Learner(Agent((SEES_FOOD,), (Desire("food", "OVC", 1.0),), rule), 1, ("food",))
+    return learner, lambda x, kind="food", met=0, food=0.9: Scene((x, 0.5), None, [(food, 0.5)], [kind], [met])
+
+
+@pytest.mark.parametrize("rule", [plain_rule(), Learning(), plain_rule(trace=5, bootstrap=False),
+                                  plain_rule(update_on="step"), plain_rule(capture="leap", attention="nearest")])
+def test_nothing_is_learned_from_what_vanishes_and_appears(rule):
+    learner, scene = watcher(rule)
+    learner.begin(scene(0.1))
+    for each in (scene(0.1, None), scene(0.9), scene(0.9, None), scene(0.2, None), scene(0.2), scene(0.3, None),
+                 scene(0.6)):
+        learner.act()
+        learner.observe(each)
+        assert (learner.state.tracks.cell[0] < 0) == (each.kinds == [None])
+    assert not learner.q().any()
+    learner.act()
+    learner.observe(scene(0.9))
+    assert learner.q().any()  # from a thing that was there before and after
+
+
+def test_a_thing_that_is_met_and_vanishes_was_met():
+    learner, scene = watcher(plain_rule(capture="contact"))
+    learner.begin(scene(0.5))
+    action = learner.act()
+    before = int(learner.state.tracks.cell[0])
+    learner.observe(scene(0.5, None, met=1))
+    contact = learner.agent.maps[0].encode([0.0, 0.0])
+    assert learner.q()[before, action, contact] > 0 and np.count_nonzero(learner.q()) == 1
+    assert learner.state.tracks.cell[0] < 0
+
+
+@kernel
+def of_a_module(count, steps, last, activity):
+    return 1.0 if last else 0.0
+
+
+def test_own_kernels_of_a_module_are_saved_by_name_and_others_are_refused(tmp_path):
+    learner, state = newborn(multimodal([3], learning=Learning(credit=of_a_module)), TANK)
+    live(learner, TANK, state, 50)
+    learner.save(tmp_path / "learner")
+    assert Learner.load(tmp_path / "learner").agent == learner.agent
+
+    @kernel
+    def of_no_module(count, steps, last, activity):
+        return 1.0
+
+    learner = Learner(multimodal([3], learning=Learning(credit=of_no_module)), 2, ("green", "red"))
+    with pytest.raises(ValueError, match="cannot be saved, allowed are kernels that a module defines"):
+        learner.save(tmp_path / "other")
+    assert not (tmp_path / "other").exists()
+
+
+@pytest.fixture
+def saved(tmp_path):
+    learner = Learner(multimodal([3], policy=Policy(choose=softmax(0.5))), 2, ("green", "red"))
+    learner.begin(FINE)
+    learner.save(tmp_path / "learner")
+    return tmp_path / "learner"
+
+
+@pytest.mark.parametrize("damage", [
+    lambda content: b"", lambda content: content[:-20], lambda content: content[:100],
+    lambda content: b"nothing of that", lambda content: content[:600] + bytes([content[600] ^ 1]) + content[601:],
+])
+def test_a_damaged_file_is_refused(saved, damage):
+    saved.write_bytes(damage(saved.read_bytes()))
+    with pytest.raises(ValueError, match="is damaged, or was not written by neorl|or is damaged; allowed"):
+        Learner.load(saved)
+
+
+@pytest.mark.parametrize("forge", [
+    lambda about, kept: about.update(format=2), lambda about, kept: about.pop("digest"),
+    lambda about, kept: about.pop("agent"), lambda about, kept: about.pop("progress"),
+    lambda about, kept: about["agent"].update(colour="red"), lambda about, kept: about["world"].update(things=5),
+    lambda about, kept: about["world"].pop("kinds"), lambda about, kept: about.update(agent=5),
+    lambda about, kept: about["agent"].update({"is": "neorl:Brain"}),
+    lambda about, kept: about["agent"].update({"is": "a_module_that_there_is_not:Agent"}),
+    lambda about, kept: about["agent"]["policy"].update(choose={"kernel": "os:getcwd", "of": []}),
+    lambda about, kept: about["agent"]["policy"].update(choose={"kernel": "neorl:hardmax", "of": [1.0]}),
+    lambda about, kept: kept.pop("_state.values.q"), lambda about, kept: kept.update(more=np.zeros(3)),
+    lambda about, kept: kept["_state.values.q"].fill(1.0),
+])
+def test_a_file_of_another_version_or_making_is_refused(saved, forge):
+    with np.load(saved) as file:
+        kept = {name: file[name] for name in file.files}
+    about = json.loads(str(kept.pop("about")))
+    forge(about, kept)
+    with saved.open("wb") as file:
+        np.savez(file, about=np.array(json.dumps(about)), **kept)
+    with pytest.raises(ValueError, match=str(saved)):
+        Learner.load(saved)
+
+
+def test_what_is_no_learner_or_not_there_is_refused(saved, tmp_path):
+    with pytest.raises(ValueError, match="holds a Learner of format 1.*, allowed is a Run|holds a Learner .* is a Run"):
+        Run.load(saved)
+    with pytest.raises(OSError):
+        Learner.load(tmp_path / "nowhere")
+    np.savez(tmp_path / "foreign.npz", q=np.zeros(3))
+    np.savez(tmp_path / "list.npz", about=np.array("[]"))
+    for name in ("foreign.npz", "list.npz"):
+        with pytest.raises(ValueError, match="was not written by neorl"):
+            Learner.load(tmp_path / name)
+
+
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy])
+def test_a_copy_by_python_goes_on_by_itself_too(copied):
+    learner, state = newborn(AGENTS["calibrated"], TANK)
+    other = copied(learner)
+    before = [array.copy() for array in arrays(other.state).values()]
+    actions = live(learner, TANK, mapped(np.copy, state), 200)
+    for mine, array in zip(before, arrays(other.state).values()):
+        np.testing.assert_array_equal(mine, array)
+    assert live(other, TANK, state, 200) == actions
+    assert_equal(learner, other)
