@@ -70,7 +70,8 @@ def instance(name, value, kind):
     """`value`, if it is of the kind."""
     if isinstance(value, kind):
         return value
-    raise ValueError(f"{name} is {value!r}, allowed is a {kind.__name__}")
+    article = "an" if kind.__name__[0] in "AEIOU" else "a"
+    raise ValueError(f"{name} is {value!r}, allowed is {article} {kind.__name__}")
 
 
 class Final:

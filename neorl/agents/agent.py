@@ -15,6 +15,7 @@ from graphlib import CycleError, TopologicalSorter
 from neorl import checks
 from neorl.core.choices import Attention, Capture, Credit, UpdateOn, Weighting
 from neorl.core.horde import OWN_CELL
+from neorl.core.kernel import check_kernel
 from neorl.core.maps import NresMap
 from neorl.core.modality import Modality
 from neorl.core.policy import greedy
@@ -89,7 +90,8 @@ class Learning(checks.Final):
             learning_rate=checks.real("learning_rate", self.learning_rate, 0, 1),
             discount=checks.real("discount", self.discount, 0, 1),
             update_on=checks.one_of("update_on", self.update_on, UPDATES_ON),
-            credit=self.credit if callable(self.credit) else checks.one_of("credit", self.credit, CREDITS),
+            credit=(check_kernel("credit", self.credit) if callable(self.credit) else
+                    checks.one_of("credit", self.credit, CREDITS)),
             activity=checks.real("activity", self.activity, 0),
             absent_decay=checks.real("absent_decay", self.absent_decay, 0, 1),
             absent_form=checks.one_of("absent_form", self.absent_form, ABSENT_FORMS),
@@ -135,9 +137,8 @@ class Policy(checks.Final):
 
     def __post_init__(self):
         checks.assign(self, exploration=checks.real("exploration", self.exploration, 0, 1),
-                     when_indifferent=checks.one_of("when_indifferent", self.when_indifferent, WHEN_INDIFFERENT))
-        if not callable(self.choose):
-            raise ValueError(f"choose is {self.choose!r}, allowed is a neorl.kernel (value, stream) → action")
+                     when_indifferent=checks.one_of("when_indifferent", self.when_indifferent, WHEN_INDIFFERENT),
+                     choose=check_kernel("choose", self.choose))
 
 
 @dataclass(frozen=True)

@@ -78,6 +78,13 @@ def _compiled(function, options):
     return compiled
 
 
+def check_kernel(name, value):
+    """`value`, if it is a kernel. Raises ValueError for anything else, such as a function that is not decorated."""
+    if isinstance(value, Kernel) or numba.config.DISABLE_JIT and callable(value):
+        return value
+    raise ValueError(f"{name} is {value!r}, allowed is a function that is decorated by neorl.kernel")
+
+
 def kernel_maker(function):
     """A function that makes kernels, the same one for the same arguments: a rule with parameters."""
 

@@ -27,7 +27,7 @@ from neorl import checks
 from neorl.core.choices import Cut, Feature, Vector
 from neorl.core.geometry import TAU, AxisParameters, locate
 from neorl.core.constants import Constants, features, no_credit, no_feature
-from neorl.core.kernel import array, execute, kernel, new_tuple
+from neorl.core.kernel import array, check_kernel, execute, kernel, new_tuple
 from neorl.core.parameters import SpaceParameters, cut_axes
 from neorl.core.scene import Scene
 
@@ -69,8 +69,7 @@ class Axis(checks.Final):
     name: str = ""
 
     def __post_init__(self):
-        if not callable(self.of):
-            checks.one_of("of", self.of, VECTORS)
+        check_kernel("of", self.of) if callable(self.of) else checks.one_of("of", self.of, VECTORS)
         checks.assign(self, feature=checks.one_of("feature", self.feature, FEATURES),
                      along=checks.integer("along", self.along, at_least=0),
                      boundaries=tuple(checks.real("boundaries", each)

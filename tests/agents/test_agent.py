@@ -68,7 +68,8 @@ PAPERS = (place_cells, brownian, object_vector_cells, multimodal, network_a, net
     (lambda: Learning(attention="all"), "attention is 'all'"),
     (lambda: Policy(exploration=1.1), "exploration is 1.1"),
     (lambda: Policy(when_indifferent="sleep"), "when_indifferent is 'sleep'"),
-    (lambda: Policy(choose="greedy"), "choose is 'greedy', allowed is a neorl.kernel"),
+    (lambda: Policy(choose="greedy"), "choose is 'greedy', allowed is a function that is decorated by neorl.kernel"),
+    (lambda: Policy(choose=lambda value, stream: 0), "choose is <function .*, allowed is a function that is decorated"),
 ])
 def test_a_bad_choice_is_refused(make, message):
     with pytest.raises(ValueError, match=message):

@@ -265,11 +265,11 @@ def test_steps_out_of_order_are_refused(calls, message):
 
 
 @pytest.mark.parametrize("arguments, message", [
-    (("PC",), "agent is 'PC', allowed is a Agent"), ((multimodal([3]), -1), "things is -1"),
+    (("PC",), "agent is 'PC', allowed is an Agent"), ((multimodal([3]), -1), "things is -1"),
     ((multimodal([3]), 2, "green"), "kinds is 'green', allowed are lists and tuples"),
     ((multimodal([3]), 2, ("green", "green")), "kinds is .*, allowed is each name once"),
     ((multimodal([3]), 2, ("green",)), "'red' is neither a node of the agent nor a kind"),
-    ((multimodal([3]), 2, ("green", "red"), ("N", "S")), "actions is .*, allowed is a Actions"),
+    ((multimodal([3]), 2, ("green", "red"), ("N", "S")), "actions is .*, allowed is an Actions"),
     ((multimodal([3]), 2, ("green", "red"), Actions(("on",), ((1.0,),))), "cells need a world of 2 axes"),
 ])
 def test_a_bad_learner_is_refused(arguments, message):

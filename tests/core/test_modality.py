@@ -189,7 +189,7 @@ def of_my_own(scene, point):
     (lambda: Modality(5, HEAD_DIRECTION_CELL.axes), "name is 5, allowed is a str"),
     (lambda: Modality("X", ()), r"axes is \(\), allowed are one or more"),
     (lambda: Modality("X", Axis("position")), "axes is Axis.*, allowed are lists and tuples"),
-    (lambda: Modality("X", ["position"]), "axes is 'position', allowed is a Axis"),
+    (lambda: Modality("X", ["position"]), "axes is 'position', allowed is an Axis"),
     (lambda: Modality("X", polar("objects", 1) + polar("boundaries", 1)), "axes is .*, of objects, .* one kind at"),
     (lambda: Modality("X", polar("objects", 1)[::-1]), "allowed are first those of objects, a direction last"),
     (lambda: Modality("X", HEAD_DIRECTION_CELL.axes + PLACE_CELL.axes), "allowed are first those of position"),
