@@ -7,7 +7,8 @@ import numpy as np
 import wasmtime
 
 from neorl.browser import wasm
-from neorl.core.kernel import length, mapped
+from neorl.browser.worlds import EitherState, rules_of
+from neorl.core.kernel import arrays, length, mapped, new_tuple
 
 PAGE = 2**16
 
@@ -70,20 +71,33 @@ class Machine:
 
 
 def sizes_of(run):
-    maps, nodes, tracks = run.parameters.maps, run.parameters.nodes, run.state.tracks
-    return {"maps": len(maps.cells), "nodes": len(nodes.vector), "landmarks": len(nodes.landmark),
-            "desires": len(run.parameters.desires.source), "values": maps.first_value[-1],
-            "cells": maps.first_cell[-1], "tracks": maps.first_track[-1], "trace": run.parameters.learning.trace,
-            "things": run.world.n_creeps, "words": 0, "bins": 1, "traces": len(tracks.strength),
-            "trace_rows": len(tracks.trace_weight)}
+    parameters, tracks = run.parameters, run.state.tracks
+    maps, (actions, axes) = parameters.maps, parameters.push.shape
+    return {"maps": len(maps.cells), "map_axes": len(parameters.grid), "nodes": len(parameters.nodes.follows),
+            "node_axes": len(parameters.axes.what), "boundaries": len(parameters.axes.boundary),
+            "landmarks": len(parameters.nodes.landmark), "desires": len(parameters.desires.source),
+            "coordinates": parameters.desires.at.shape[1], "actions": actions, "axes": axes,
+            "values": maps.first_value[-1], "cells": maps.first_cell[-1], "tracks": maps.first_track[-1],
+            "trace": parameters.learning.trace, "traces": len(tracks.strength), "trace_rows": len(tracks.trace_weight),
+            "things": run.world.things, "obstacles": len(rules_of(run.world).arena.obstacle), "words": 0, "bins": 1,
+            "kinds": len(run.world.kinds)}
+
+
+def either_of(run):
+    """The state of a run's world as that of either."""
+    either = new_tuple(EitherState, sizes_of(run), {})
+    given = arrays(run.world_state)
+    for name, array in arrays(either).items():
+        array[...] = given.get(name, 0)
+    return either
 
 
 def copied(run):
     """A machine with copies of a run's arrays, and the arguments of its exports."""
     machine = Machine(megabytes=32 + run.state.values.q.nbytes // 2**20)
+    world_state = machine.put_tuple(either_of(run))
     return machine, sizes_of(run), {
         "parameters": machine.put_tuple(run.parameters), "state": machine.put_tuple(run.state),
-        "rules": run.world.rules, "board": machine.put_tuple(run.world_state),
-        "contacts": machine.put(np.zeros(run.world.n_creeps, np.int8)), "total": 0.0,
-        "clock": machine.put(np.zeros(1, np.int64)), "rewards": machine.put(np.zeros(1, np.float32)),
-        "hits": machine.put(np.zeros((1, 2), np.int16))}
+        "rules": machine.put_tuple(rules_of(run.world)), "world_state": world_state, "scene": world_state.scene,
+        "total": 0.0, "clock": machine.put(np.zeros(1, np.int64)), "rewards": machine.put(np.zeros(1, np.float32)),
+        "hits": machine.put(np.zeros((1, len(run.world.kinds)), np.int16))}

@@ -125,6 +125,7 @@ class Controls {
     this.action("game").ariaPressed = Boolean(game);
     this.action("drop").disabled = !frame || this.elements.length >= MOST_ELEMENTS;
     for (const name of ["step", "game"]) this.action(name).disabled = !frame || frame.ended;
+    this.action("game").disabled ||= !this.hasCreeps();
     for (const name of ["map", "field"]) this.control(name).disabled = !frame;
     this.part(".pad").hidden = !game;
     this.showSpeed();
@@ -142,16 +143,18 @@ class Controls {
 
   showControls() {
     const { model } = this;
-    const { nodes, recursion, can_remember, parameters: { learning } } = this.presets[model.get("preset")];
+    const { nodes, recursion, red, can_remember, parameters: { learning } } = this.presets[model.get("preset")];
     for (const name of ["modality", "seed", "run"]) this.control(name).value = model.get(name);
-    this.control("modality").disabled = this.control("modality").parentElement.hidden = nodes.length > 1;
-    this.control("recursion").disabled = this.control("recursion").parentElement.hidden = recursion === null;
+    this.offer("modality", nodes.length === 1);
+    this.offer("recursion", recursion !== null);
+    this.offer("valence_red", red.length > 0);
+    this.offer("n_creeps", this.hasCreeps());
     this.control("resolutions").value = model.get("resolutions").join(", ");
     this.control("resolutions").setCustomValidity("");
     for (const chip of this.part(".chips").children) {
       chip.ariaPressed = model.get("resolutions").includes(Number(chip.dataset.chip));
     }
-    this.control("memory").disabled = this.control("memory").parentElement.hidden = !can_remember;
+    this.offer("memory", can_remember);
     this.control("memory").previousElementSibling.textContent = `Memory, ${learning.memory_by_time ? "seconds" : "cells"}`;
     const sliders = ["recursion", "valence_red", "n_creeps"];
     for (const name of sliders) this.showSlider(name, model.get(name) ?? 0);
@@ -167,6 +170,15 @@ class Controls {
       this.control(`gain-${index}`).parentElement.firstChild.textContent = `Gain of ${node}`;
       this.showSlider(`gain-${index}`, model.get("gains")[index]);
     });
+  }
+
+  /** Whether there is such a control for this agent and its world. */
+  offer(name, isOffered) {
+    this.control(name).disabled = this.control(name).parentElement.hidden = !isOffered;
+  }
+
+  hasCreeps() {
+    return this.model.get("n_creeps") !== null;
   }
 
   showSpeed() {
@@ -194,7 +206,8 @@ class Controls {
     this.placeHandles();
     const speed = `${grouped(rate)} steps a second, ${grouped(rate / world.fps)} × real time`;
     this.part(".lived").textContent = this.livedText() + (this.running() && rate ? ` · ${speed}` : "");
-    this.part(".said").textContent = this.sentences().join(" ") || HINT;
+    const hint = this.hasCreeps() ? `${HINT} Drag the creeps.` : HINT;
+    this.part(".said").textContent = this.sentences().join(" ") || hint;
   }
 
   livedText() {

@@ -1,8 +1,9 @@
-/* Drawings of the Explorer: the arena and the reward over the run, each on a canvas of its own.
+/* Drawings of the Explorer: the world and the reward over the run, each on a canvas of its own.
 
-Nothing here keeps anything or listens to anything: a drawing is made from what it is given. Places are in board widths,
-y downward, as in the frames of the engine. Positions are drawn as they are, so that discs reach over the border of the
-tank as they do in the figures of the book. Colours come from the style sheet, which takes them from the page. */
+Nothing here keeps anything or listens to anything: a drawing is made from what it is given. Places are in units of the
+world's size, y downward, as in the frames of the engine. Positions are drawn as they are, so that discs reach over the
+border of the tank as they do in the figures of the book. Colours come from the style sheet, which takes them from the
+page. */
 
 const [BOARD_MARGIN, LONGEST_DESIRE, BEYOND] = [0.055, 0.3, 3]; // in board widths; no drawing reaches beyond the last
 const [HALF_A_SECOND, FULL_TURN] = [0.5, 2 * Math.PI]; // a velocity is drawn that far ahead
@@ -12,7 +13,7 @@ const FIELD_TILES = 15; // a side, for the superposed value
 function readColours(root) {
   const style = getComputedStyle(root);
   const valueOf = (name) => [name, style.getPropertyValue(`--${name}`).trim()];
-  const names = ["ink", "paper", "agent", "green", "red", "goal"];
+  const names = ["ink", "paper", "agent", "green", "red", "place", "goal"];
   return { ...Object.fromEntries(names.map(valueOf)), font: style.fontFamily };
 }
 
@@ -40,14 +41,16 @@ function drawArena(canvas, colours, frame, cursor) {
   const unit = canvas.clientWidth / (1 + 2 * BOARD_MARGIN);
   context.translate(BOARD_MARGIN * unit, BOARD_MARGIN * unit);
   const board = { context, unit, colours };
-  const tank = new Path2D();
-  tank.rect(0, 0, unit, unit);
+  const walls = new Path2D();
+  if (frame?.round) walls.arc(unit / 2, unit / 2, unit / 2, 0, FULL_TURN);
+  else walls.rect(0, 0, unit, unit);
   context.save();
-  context.clip(tank);
+  context.clip(walls);
   if (frame?.seen) drawMap(board, cellsOf(frame.seen, frame.agent), frame);
   if (frame?.field) drawField(board, frame.field);
+  drawObstacles(board, frame?.obstacles ?? []);
   context.restore();
-  stroke(board, colours.ink, 1.4, 0.75, (path) => path.addPath(tank));
+  stroke(board, colours.ink, 1.4, 0.75, (path) => path.addPath(walls));
   if (frame) drawMovers(board, frame);
   if (cursor) drawCursor(board, cursor);
 }
@@ -63,33 +66,36 @@ function drawMap(board, cells, { active, seen: { goal, ways } }) {
   drawVectors(board, colours.goal, 1.5, 0.95, ways, (cell) => cells.middle(cell));
 }
 
-/** The receptive fields of a map in the arena: their borders, the region of a cell, and its middle with its size. */
+/** The receptive fields of a map in the world: their borders, the region of a cell, and its middle with its size. */
 function cellsOf(map, agent) {
   const origin = map.vector === "position" ? { x: 0, y: 0 } : agent;
   const scale = map.vector === "velocity" ? HALF_A_SECOND : 1; // where a velocity takes the agent in half a second
-  const make = ["cartesian", "proximal"].includes(map.tuning) ? squareCells : roundCells;
-  return make(map, origin, scale);
+  const isRound = map.axes.some(({ feature }) => ["length", "direction"].includes(feature));
+  return (isRound ? roundCells : squareCells)(map, origin, scale);
 }
 
-function bordersOf(count, low, perUnit) {
-  return Array.from({ length: count + 1 }, (_, index) => low + index / perUnit);
+/** The number of a cell's interval along an axis, the only one if there is no such axis. */
+function intervalOf(cell, axis) {
+  return axis ? Math.floor(cell / axis.stride) % (axis.borders.length - 1) : 0;
 }
 
-function squareCells(map, origin, scale) {
-  const place = (start, reach) => (border) => {
-    if (map.tuning === "cartesian") return start + scale * border;
-    return border < 1e-9 ? border + reach : border + 1 - reach; // the middle of the board is a single value, 0
-  };
-  const xs = bordersOf(map.columns, map.low_u, map.scale_u).map(place(origin.x, map.reach[0]));
-  const ys = bordersOf(map.rows, map.low_v, map.scale_v).map(place(origin.y, map.reach[1]));
+const intervalsOf = (axis) => (axis ? axis.borders.length - 1 : 1);
+
+function squareCells({ axes }, { x, y }, scale) {
+  const [across, down] = [0, 1].map((along) => axes.find((each) => each.along === along));
+  const placed = (axis, start) => (axis?.borders ?? [0, 1]).map((border) => {
+    if (axis?.feature !== "margin") return start + scale * border;
+    return border < 1e-9 ? border + axis.high : border + 1 - axis.high; // the middle of the board is a single value, 0
+  });
+  const [xs, ys] = [placed(across, x), placed(down, y)];
   // What lies beyond the range of a map belongs to the cell at its end.
   const shown = (borders, index) => {
     const last = borders.length - 2;
     return [index > 0 ? clampedToBoard(borders[index]) : 0, index < last ? clampedToBoard(borders[index + 1]) : 1];
   };
-  const corners = (cell) => [...shown(xs, cell % map.columns), ...shown(ys, Math.floor(cell / map.columns))];
+  const corners = (cell) => [...shown(xs, intervalOf(cell, across)), ...shown(ys, intervalOf(cell, down))];
   return {
-    count: Math.max(map.columns, map.rows),
+    count: Math.max(intervalsOf(across), intervalsOf(down)),
     addBorders(path, unit) {
       for (const x of xs.slice(1, -1)) path.moveTo(x * unit, 0), path.lineTo(x * unit, unit);
       for (const y of ys.slice(1, -1)) path.moveTo(0, y * unit), path.lineTo(unit, y * unit);
@@ -105,22 +111,24 @@ function squareCells(map, origin, scale) {
   };
 }
 
-function roundCells(map, { x, y }, scale) {
-  const radii = bordersOf(map.columns, map.low_u, map.scale_u).map((radius) => scale * radius);
-  const angles = bordersOf(map.rows, map.low_v, map.scale_v).map((turns) => FULL_TURN * turns);
+function roundCells({ axes }, { x, y }, scale) {
+  const [away, around] = ["length", "direction"].map((feature) => axes.find((each) => each.feature === feature));
+  const [rings, sectors] = [intervalsOf(away), intervalsOf(around)];
+  const radii = (away?.borders ?? [0, 1]).map((radius) => scale * radius);
+  const angles = (around?.borders ?? [0, 1]).map((turns) => FULL_TURN * turns);
   const extent = (cell) => {
-    const [ring, sector] = [cell % map.columns, Math.floor(cell / map.columns)];
-    const [from, to] = map.rows > 1 ? [angles[sector], angles[sector + 1]] : [0, FULL_TURN];
-    return { inner: radii[ring], outer: ring < map.columns - 1 ? radii[ring + 1] : BEYOND, from, to, ring };
+    const [ring, sector] = [intervalOf(cell, away), intervalOf(cell, around)];
+    const [from, to] = sectors > 1 ? [angles[sector], angles[sector + 1]] : [0, FULL_TURN];
+    return { inner: radii[ring], outer: ring < rings - 1 ? radii[ring + 1] : BEYOND, from, to, ring };
   };
   return {
-    count: Math.max(map.columns, map.rows),
+    count: Math.max(rings, sectors),
     addBorders(path, unit) {
       for (const radius of radii.slice(1, -1)) {
         path.moveTo((x + radius) * unit, y * unit);
         path.arc(x * unit, y * unit, radius * unit, 0, FULL_TURN);
       }
-      for (const angle of map.rows > 1 ? angles.slice(1) : []) {
+      for (const angle of sectors > 1 ? angles.slice(1) : []) {
         path.moveTo(x * unit, y * unit);
         path.lineTo((x + BEYOND * Math.cos(angle)) * unit, (y + BEYOND * Math.sin(angle)) * unit);
       }
@@ -135,10 +143,10 @@ function roundCells(map, { x, y }, scale) {
     },
     middle(cell) {
       const { inner, from, to, ring } = extent(cell);
-      const width = map.columns > 1 ? radii[ring + 1] - inner : 0.36;
+      const width = rings > 1 ? radii[ring + 1] - inner : 0.36;
       const radius = inner + width / 2;
-      const angle = map.rows > 1 ? (from + to) / 2 : 0;
-      const size = Math.min(width, map.rows > 1 ? radius * (to - from) : width);
+      const angle = sectors > 1 ? (from + to) / 2 : 0;
+      const size = Math.min(width, sectors > 1 ? radius * (to - from) : width);
       return { x: x + radius * Math.cos(angle), y: y + radius * Math.sin(angle), size };
     },
   };
@@ -180,23 +188,43 @@ function addHead(path, unit, x, y, dx, dy, head) {
   }
 }
 
-function drawMovers(board, { agent, creeps, player, nodes, landings, radius }) {
+function drawObstacles(board, obstacles) {
+  const sides = Array.from(obstacles, (side) => side * board.unit);
+  fillPath(board, board.colours.ink, 0.55, (path) => {
+    for (let i = 0; i < sides.length; i += 4) {
+      const [left, top, right, bottom] = sides.slice(i, i + 4);
+      path.rect(left, top, right - left, bottom - top);
+    }
+  });
+}
+
+function drawMovers(board, { agent, things, player, nodes, landings, radius, body }) {
   const { colours, unit } = board;
-  const movers = [...creeps, ...(player ? [player] : []), agent];
+  const movers = [...things, ...(player ? [player] : []), agent];
   stroke(board, colours.ink, 1.4, 0.8, (path) => {
     for (const { x, y, vx, vy } of movers.filter((each) => Math.hypot(each.vx, each.vy) > 0.02)) {
       addArrow(path, unit, x, y, HALF_A_SECOND * vx, HALF_A_SECOND * vy, 6);
     }
   });
-  for (const creep of creeps) drawDisc(board, creep, radius, ...signOf(board, creep.green ? 1 : -1));
-  drawDisc(board, agent, radius, colours.agent, "");
+  for (const thing of things) drawThing(board, thing, radius);
+  drawDisc(board, agent, body, colours.agent, "");
   if (player) {
-    drawDisc(board, player, radius, colours.ink, "");
-    drawDisc(board, player, 0.78 * radius, colours.paper, "Y", colours.ink);
+    drawDisc(board, player, body, colours.ink, "");
+    drawDisc(board, player, 0.78 * body, colours.paper, "Y", colours.ink);
   }
   nodes.forEach((node, index) => drawDesire(board, agent, node, index));
-  const isElsewhere = ({ x, y }) => Math.hypot(x - agent.x, y - agent.y) > radius;
+  const isElsewhere = ({ x, y }) => Math.hypot(x - agent.x, y - agent.y) > body;
   for (const landing of landings.filter(isElsewhere)) drawLanding(board, landing);
+}
+
+/** A creep with its sign, or a place as far as it reaches. */
+function drawThing(board, thing, radius) {
+  const { colours, unit } = board;
+  const signs = { green: 1, red: -1 };
+  if (thing.kind in signs) return drawDisc(board, thing, radius, ...signOf(board, signs[thing.kind]));
+  const addPlace = (path) => path.arc(thing.x * unit, thing.y * unit, radius * unit, 0, FULL_TURN);
+  fillPath(board, colours.place, 0.35, addPlace);
+  stroke(board, colours.place, 2, 1, addPlace);
 }
 
 function drawDisc(board, { x, y }, radius, colour, sign, signColour = "#fff") {
@@ -251,7 +279,7 @@ function drawCursor(board, { x, y }) {
 function drawCurve(canvas, colours, { seconds, binSeconds, rewards, bins, band }) {
   const board = { context: fittedContext(canvas), colours };
   const [left, top, right, bottom] = [34, 8, canvas.clientWidth - 8, canvas.clientHeight - 20];
-  const edges = bordersOf(bins, 0, 1 / binSeconds).map((edge) => Math.min(edge, seconds));
+  const edges = Array.from({ length: bins + 1 }, (_, bin) => Math.min(bin * binSeconds, seconds));
   const rates = Array.from({ length: bins }, (_, bin) => rewards[bin] / (edges[bin + 1] - edges[bin]));
   const values = [0, 0.5, ...rates, ...(band ? [...band.low, ...band.high] : [])];
   const [least, most] = [Math.min(...values), Math.max(...values)];

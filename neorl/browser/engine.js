@@ -3,7 +3,7 @@
 // 1. `layout` (from Python) says what each kernel takes, of which fields its tuples consist, and what its numbers mean.
 // 2. A run has a WebAssembly memory of its own, into which its arrays are laid one after the other.
 // 3. Every request gets one answer, in order: `REQUESTS` at the end has them all.
-// Places and velocities go out in board widths, y downward; inside they are pixels.
+// Places and velocities go out in units of the world's size, y downward; inside WaterWorld they are pixels.
 
 const ARRAYS = {
   float64: Float64Array, float32: Float32Array, int64: BigInt64Array, uint64: BigUint64Array, int16: Int16Array,
@@ -12,14 +12,7 @@ const ARRAYS = {
 const PAGE = 65536;
 const MOST_GIGABYTES = 3;
 const SLICE_MS = 4; // between two looks at the clock
-const OWN = ["agent_position", "agent_velocity"]; // of a second body in the same tank; it shares all else
-// What an agent has of each map, by the parameter that says where it begins.
-const OF_A_MAP = {
-  first_value: [["values", "q"]],
-  first_cell: [["values", "goal_range"]],
-  first_track: ["cell", "events", "trace_cell", "trace_rates", "trace_count", "remembered_count"].map((name) => ["tracks", name]),
-  first_trace: ["remembered", "remembered_at", "strength", "trace_weight", "trace_worth"].map((name) => ["tracks", name]),
-};
+const BODY_IN_ARENA = 0.03; // of the arena's size, as which the agent is drawn, which is a point there
 
 let compiled = null;
 let layout = null;
@@ -105,41 +98,51 @@ function bytesOf(kind, sizes) {
 
 /** A run in a machine of its own: its parameters derived, all else at 0. */
 function newRun({ parameters: choices, world, steps, bin_steps }) {
-  const { maps, nodes, desires, learning } = choices;
+  const { maps, nodes, axes, desires, learning, push } = choices;
   const sizes = {
-    maps: maps.resolution.length, nodes: nodes.vector.length, landmarks: nodes.landmark.length,
-    desires: desires.source.length, trace: learning.trace, things: world.n_creeps, bins: Math.ceil(steps / bin_steps),
+    maps: maps.resolution.length, map_axes: mapAxes(choices), nodes: nodes.follows.length,
+    node_axes: axes.what.length, boundaries: axes.boundary.length, landmarks: nodes.landmark.length,
+    desires: desires.source.length, coordinates: choices.coordinates, trace: learning.trace, actions: push.length,
+    axes: push[0].length, things: world.things, obstacles: world.rules.arena.obstacle?.length ?? 0,
+    kinds: world.kinds.length, bins: Math.ceil(steps / bin_steps),
   };
   const draft = new Machine(2 ** 20 + bytesOf("Parameters", sizes)); // what a run needs follows from its parameters
   const derived = draft.tuple("Parameters", sizes, choices);
-  draft.call("derive", sizes, { parameters: derived, n_things: world.n_creeps });
+  draft.call("derive", sizes, { parameters: derived, n_things: sizes.things });
   const last = (name) => Number(derived.maps[name].at(-1));
   Object.assign(sizes, { values: last("first_value"), cells: last("first_cell"), tracks: last("first_track") });
   sizes.traces = learning.memory_retained > 0 ? last("first_trace") : 0;
-  sizes.trace_rows = 8 * sizes.traces;
+  sizes.trace_rows = 2 * sizes.actions * sizes.traces;
 
   const bytes = 2 ** 20 + 8 * sizes.bins + bytesOf("Parameters", sizes) + bytesOf("State", sizes)
-    + bytesOf("State", { ...sizes, values: 0 }) + 3 * bytesOf("WaterWorldState", sizes);
+    + bytesOf("State", { ...sizes, values: 0 }) + 3 * bytesOf("EitherState", sizes) + bytesOf("EitherRules", sizes);
   const machine = new Machine(bytes);
   const state = machine.tuple("State", sizes);
-  const board = machine.tuple("WaterWorldState", sizes);
-  const shared = Object.fromEntries(Object.entries(board).filter(([name]) => !OWN.includes(name)));
+  const worldState = machine.tuple("EitherState", sizes);
+  const { position, velocity, ...shared } = worldState.scene;
   const { q, goal_range } = state.values;
   const made = {
-    machine, sizes, world, steps, bin_steps, choices, state, board, rules: world.rules, step: 0, reward: 0,
+    machine, sizes, world, steps, bin_steps, choices, state, world_state: worldState, scene: worldState.scene,
+    rules: machine.tuple("EitherRules", sizes, world.rules), step: 0, reward: 0,
     parameters: machine.tuple("Parameters", sizes, choices),
-    contacts: machine.put("int8", [world.n_creeps]),
     clock: machine.put("int64", [1]),
     rewards: machine.put("float32", [sizes.bins]),
-    hits: machine.put("int16", [sizes.bins, 2]),
+    hits: machine.put("int16", [sizes.bins, sizes.kinds]),
     elsewhere: machine.tuple("State", sizes, { values: { q, goal_range } }),
-    there: machine.tuple("WaterWorldState", sizes, { ...shared, agent_velocity: board.agent_velocity }),
-    second: machine.tuple("WaterWorldState", sizes, shared),
+    there: machine.tuple("Scene", sizes, { ...shared, velocity }),
+    second: machine.tuple("Scene", sizes, shared), // a second body in the same tank
     player: null, slice: 16,
   };
-  machine.call("derive", sizes, { parameters: made.parameters, n_things: world.n_creeps });
+  machine.call("derive", sizes, { parameters: made.parameters, n_things: sizes.things });
   return made;
 }
+
+/** How many axes all maps have together. */
+function mapAxes({ nodes: { first_map, first_axis, follows } }) {
+  return follows.reduce((sum, _, n) =>
+    sum + (first_map[n + 1] - first_map[n]) * (first_axis[n + 1] - first_axis[n]), 0);
+}
+
 
 const call = (name, more = {}) => run.machine.call(name, { ...run.sizes, ...more }, { ...run, ...more });
 
@@ -148,14 +151,14 @@ function begin(request) {
   run = newRun(request);
   run.changes = [...(request.changes ?? [])];
   const { seed, run: index } = request;
-  for (const [key, stream] of [[[index], run.board.stream], [[index, 0], run.state.stream]]) {
+  for (const [key, stream] of [[[index], run.world_state.stream], [[index, 0], run.state.stream]]) {
     const words = run.machine.put("uint64", [4 + key.length]);
     words.set([seed, 0, 0, 0, ...key].map(BigInt));
     run.machine.call("start_stream", { words: words.length }, { words, stream });
   }
-  call("reset_board");
+  call("reset", { state: run.world_state });
   call("clear_goal_ranges");
-  call("begin_tracks");
+  call("begin");
   lookAt({ map: request.map, goal: null, field: request.field });
   return frame();
 }
@@ -182,14 +185,27 @@ const nameOf = (enumeration, number) =>
 
 /** The map that is looked at, as it is drawn, and the way to the goal that is chosen in it. */
 function seen(m) {
-  const { parameters: { maps, nodes } } = run;
-  const n = nodeOf(run.choices.nodes.first_map, m);
+  const { follows } = run.choices.nodes;
   return {
-    name: look.map, vector: nameOf("Vector", nodes.vector[n]), tuning: nameOf("Tuning", nodes.tuning[n]),
-    columns: Number(maps.columns[m]), rows: Number(maps.rows[m]), low_u: maps.low_u[m], scale_u: maps.scale_u[m],
-    low_v: maps.low_v[m], scale_v: maps.scale_v[m], reach: [nodes.high[2 * n], nodes.high[2 * n + 1]],
+    name: look.map, vector: nameOf("Vector", follows[nodeOf(run.choices.nodes.first_map, m)]), axes: axesOf(m),
     goal: look.goal, ways: look.goal === null ? null : valueFunction(m, look.goal),
   };
+}
+
+/** How a map cuts the axes of the vector that its node follows: the others have no place in the world. */
+function axesOf(m) {
+  const { choices: { nodes, axes }, parameters: { grid, maps } } = run;
+  const n = nodeOf(nodes.first_map, m);
+  const [first, end] = [nodes.first_axis[n], nodes.first_axis[n + 1]];
+  return axes.what.slice(first, end).flatMap(([vector, feature, along, cut], axis) => {
+    const row = 5 * (Number(maps.first_grid[m]) + axis);
+    const [low, scale, last, , stride] = grid.slice(row, row + 5);
+    const inner = axes.boundary.slice(axes.first_boundary[first + axis], axes.first_boundary[first + axis + 1]);
+    const borders = nameOf("Cut", cut) === "boundaries" ? [axes.low[first + axis], ...inner, axes.high[first + axis]]
+      : Array.from({ length: last + 2 }, (_, index) => low + index / scale);
+    if (vector !== nodes.follows[n]) return [];
+    return [{ feature: nameOf("Feature", feature), along, stride, borders, high: axes.high[first + axis] }];
+  });
 }
 
 /** Go on as another agent, as `Run.change` does: a map that both have stays as it is, the desires of before do not. */
@@ -203,19 +219,27 @@ function become(choices) {
     for (const each of Object.values(run.state.desires)) each.fill(0);
   } else {
     run = newRun({ ...old, parameters: choices });
-    for (const name of Object.keys(old.board)) run.board[name].set(old.board[name]);
-    for (const name of OWN) run.second[name].set(old.second[name]);
-    for (const name of ["stream", "last_event", "activity", "attended"]) run.state[name].set(old.state[name]);
+    copy(run.world_state, old.world_state);
+    copy(run.second, old.second);
     run.rewards.set(old.rewards);
     run.clock.set(old.clock);
     const { step, reward, player, changes } = old;
     Object.assign(run, { step, reward, player, changes });
     call("clear_goal_ranges");
-    call("begin_tracks");
+    call("begin");
+    for (const name of ["stream", "last_event", "activity", "attended"]) run.state[name].set(old.state[name]);
     const oldKeys = mapKeys(old.choices);
     keys.forEach((key, m) => oldKeys.includes(key) && keepMap(old, oldKeys.indexOf(key), m));
     const isKept = keys.includes(oldKeys[mapNames(old.choices).indexOf(look.map)]);
     lookAt({ goal: isKept ? look.goal : null });
+  }
+}
+
+/** Copy the arrays of a named tuple, and of those within. */
+function copy(to, from) {
+  for (const [name, value] of Object.entries(to)) {
+    if (ArrayBuffer.isView(value)) value.set(from[name]);
+    else copy(value, from[name]);
   }
 }
 
@@ -229,10 +253,12 @@ function take(parameters, choices) {
   }
 }
 
-function mapKeys({ names, maps, nodes, learning }) {
+function mapKeys({ names, maps, nodes, axes, learning }) {
   return maps.resolution.map((each, m) => {
     const n = nodeOf(nodes.first_map, m);
-    const space = ["vector", "tuning", "low", "high"].map((name) => nodes[name][n]);
+    const [first, end] = [nodes.first_axis[n], nodes.first_axis[n + 1]];
+    const space = ["what", "low", "high"].map((name) => axes[name].slice(first, end));
+    space.push(axes.boundary.slice(axes.first_boundary[first], axes.first_boundary[end]));
     const landmarks = nodes.landmark.slice(nodes.first_landmark[n], nodes.first_landmark[n + 1]);
     return JSON.stringify([names[n], each, learning.trace, learning.memory_retained > 0, space, landmarks]);
   });
@@ -240,10 +266,10 @@ function mapKeys({ names, maps, nodes, learning }) {
 
 /** Take over all that an old run knows of a map, and what led to its active cells. */
 function keepMap(old, from, to) {
-  for (const [firsts, fields] of Object.entries(OF_A_MAP)) {
+  for (const [firsts, fields] of Object.entries(layout.of_a_map)) {
     const [ofOld, ofNew] = [old.parameters.maps[firsts], run.parameters.maps[firsts]];
     const [begin, end] = [ofOld[from], ofOld[from + 1]].map(Number);
-    for (const [part, name] of fields) {
+    for (const [part, name] of fields.map((field) => field.split("."))) {
       const kept = old.state[part][name];
       const width = kept.length / Number(ofOld.at(-1));
       run.state[part][name].set(kept.subarray(begin * width, end * width), Number(ofNew[to]) * width);
@@ -261,7 +287,7 @@ function advance({ steps, budget }) {
     const before = performance.now();
     run.reward = call("rollout", { last_step: next, total: run.reward });
     run.step = next;
-    if (run.player) run.player.reward += call("step_second", { action: run.player.action });
+    if (run.player) run.player.reward += stepSecond(run.player.action);
     else if (performance.now() - before < SLICE_MS / 2) run.slice *= 2;
     else if (performance.now() - before > SLICE_MS && run.slice > 1) run.slice /= 2;
   }
@@ -273,36 +299,43 @@ function play({ action }) {
   else if (run.player) run.player.action = action;
   else {
     run.player = { action, reward: 0 };
-    run.second.agent_position.set([0.1 * run.rules.width, 0.1 * run.rules.width]);
-    run.second.agent_velocity.fill(0);
+    run.second.position.fill(0.1 * run.rules.waterworld.width);
+    run.second.velocity.fill(0);
   }
   return frame();
 }
 
+function stepSecond(action) {
+  return call("step_second", { board: run.world_state, rules: run.rules.waterworld, action });
+}
+
 function drag({ creep, x, y }) {
-  const { width, radius } = run.rules;
+  const { width, radius } = run.rules.waterworld;
   const inside = [x, y].map((each) => Math.min(width - radius, Math.max(radius, each * width)));
-  run.board.creep_position.set(inside, 2 * creep);
-  call("begin_tracks"); // a leap by another's hand is nothing to learn from
+  run.scene.things.set(inside, 2 * creep);
+  call("begin"); // a leap by another's hand is nothing to learn from
   return frame();
 }
 
 function frame(steps = 0) {
-  const { state, board, second, player, rules, parameters, choices } = run;
-  const body = ({ agent_position: at, agent_velocity: moving }) =>
-    ({ x: at[0] / rules.width, y: at[1] / rules.width, vx: moving[0] / rules.width, vy: moving[1] / rules.width });
-  const { creep_position: at, creep_direction: direction } = board;
-  const creeps = Array.from(board.creep_speed, (speed, i) => ({
-    x: at[2 * i] / rules.width, y: at[2 * i + 1] / rules.width, green: Boolean(board.creep_is_green[i]),
-    vx: (speed * direction[2 * i]) / rules.width, vy: (speed * direction[2 * i + 1]) / rules.width,
+  const { state, scene, world, world_state: { direction, speed }, second, player, rules, parameters, choices } = run;
+  const size = choices.size;
+  const body = ({ position: at, velocity: moving }) =>
+    ({ x: at[0] / size, y: at[1] / size, vx: moving[0] / size, vy: moving[1] / size });
+  const things = Array.from(scene.kinds, (kind, i) => ({
+    x: scene.things[2 * i] / size, y: scene.things[2 * i + 1] / size, kind: world.kinds[kind],
+    vx: (speed[i] * direction[2 * i]) / size, vy: (speed[i] * direction[2 * i + 1]) / size, // 0 in the arena
   }));
-  const agent = body(board);
+  const radius = rules.in_arena ? rules.arena.radius : rules.waterworld.radius / size; // of things
+  const agent = body(scene);
   const maps = mapNames(choices);
   const m = maps.indexOf(look.map);
   const [from, to] = [parameters.maps.first_track[m], parameters.maps.first_track[m + 1]].map(Number);
   return {
     type: "frame", step: run.step, ended: run.step >= run.steps, reward: run.reward, rewards: run.rewards.slice(),
-    maps, seen: seen(m), steps, agent, radius: rules.radius / rules.width, creeps,
+    maps, seen: seen(m), steps, agent, things, radius, body: rules.in_arena ? BODY_IN_ARENA : radius,
+    round: Boolean(rules.in_arena && rules.arena.round),
+    obstacles: rules.in_arena ? Array.from(rules.arena.obstacle) : [],
     player: player && { ...body(second), reward: player.reward },
     active: Array.from(state.tracks.cell.subarray(from, to), Number),
     nodes: choices.names.map((name, n) => ({ name, ...desire(n) })),

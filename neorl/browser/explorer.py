@@ -19,15 +19,18 @@ from anywidget import AnyWidget
 
 from neorl import checks
 from neorl.agents import papers
-from neorl.agents.agent import Agent, Node
-from neorl.agents.compile import chosen
+from neorl.agents.agent import Agent, Desire, Learning, Node, Policy
+from neorl.agents.compile import chosen, constants_of
 from neorl.browser import wasm
-from neorl.core.modality import MODALITIES
+from neorl.browser.worlds import rules_of
+from neorl.core.kernel import is_tuple
+from neorl.core.modality import MODALITIES, PLACE_CELL, axis_parameters
 from neorl.evidence.priors import TO_THE_LETTER as LETTER
 from neorl.evidence.reading import networks
 from neorl.evidence.statistics import tolerance_band
 from neorl.experiments.run import bin_steps
 from neorl.experiments.simulation import Result
+from neorl.worlds.arena import Arena
 from neorl.worlds.waterworld import WaterWorld
 
 CALIBRATED = {  # the defaults of the package
@@ -39,10 +42,13 @@ TO_THE_LETTER = {
     "Object-vector cells, to the letter": papers.object_vector_cells(**LETTER.agents),
     "Place and object-vector cells, to the letter": papers.multimodal(place_gain=LETTER.place_gain, **LETTER.agents),
     "Network D, to the letter": networks(LETTER)["D"]}
-AGENTS = CALIBRATED | TO_THE_LETTER
+IN_THE_ARENA = {  # a platform that never moves shakes nobody out of a dead end, so half of all actions are drawn
+    "Place cells in the water maze": Agent(
+        [Node("PC", PLACE_CELL, [5, 9, 13])], [Desire("platform", "PC", 1.0)],
+        Learning(learning_rate=0.05, discount=0.8, memory=2.0, memory_value="discounted"), Policy(exploration=0.5))}
+AGENTS = CALIBRATED | TO_THE_LETTER | IN_THE_ARENA
 STEPS = 300_000  # of a run, where the page has no condition
 CURVE_BINS = 50
-MODALITY_FIELDS = ("vector", "tuning", "low", "high", "first_landmark", "landmark")  # of a node's parameters
 SCRIPTS = ("settings.js", "drawing.js", "page.js", "controls.js", "hands.js", "widget.js")
 
 
@@ -53,8 +59,9 @@ def _text(*names):
 class Explorer(AnyWidget):
     """A neoRL agent to watch, change and play against; in JupyterLab and, from its stored state, in a static page.
 
-    conditions: {name: `Result`}, the conditions of the page, whose bands and runs it shows. Each of their agents has
-        the same resolutions in every node, one valence of red and one of recursion.
+    conditions: {name: `Result`}, the conditions of the page, in WaterWorld or the arena, whose bands and runs it shows.
+        Each of their agents has the same resolutions in every node, one valence of red and one of recursion, and no
+        kernels of the user's own.
     preset: the name of a condition or of one of `neorl.browser.explorer.AGENTS`; by default the first condition or
         agent.
     traits: any of those below, to begin with.
@@ -62,10 +69,11 @@ class Explorer(AnyWidget):
     Traits: resolutions (1 … 90 each), modality (the name of one, with the ranges of the preset if it is that of the
     preset; "" if the preset has more than one node or a modality of its own), recursion (None if there is none),
     valence_red, gains (one a node), learning_rate and discount (0 … 1), memory (≥ 0, in the unit of the preset; 0 if it
-    has a trace or learns at every step), n_creeps (1 … 20), seed (below 2³²), run, speed (times real time, 0 for as
-    fast as it goes), playing.
+    has a trace or learns at every step), n_creeps (1 … 20; None in the arena), seed (below 2³²), run, speed (times real
+    time, 0 for as fast as it goes), playing.
     Choosing a preset sets those that it determines. An agent that is no condition lives in the tank of the first
-    condition, or else in one of 3 creeps; one to the letter at the letter's steps a second, and with its contacts.
+    condition that has one, or else in one of 3 creeps; one to the letter at the letter's steps a second, and with its
+    contacts; those in the arena in `neorl.Arena()`.
     seconds and score follow the run, about once a second.
 
     Raises ValueError for a condition that cannot be shown, TraitError for a bad trait, RuntimeError if the WebAssembly
@@ -89,7 +97,7 @@ class Explorer(AnyWidget):
     learning_rate = traitlets.Float(min=0, max=1).tag(sync=True)
     discount = traitlets.Float(min=0, max=1).tag(sync=True)
     memory = traitlets.Float(min=0).tag(sync=True)
-    n_creeps = traitlets.Int(min=1, max=20).tag(sync=True)
+    n_creeps = traitlets.Int(min=1, max=20, allow_none=True).tag(sync=True)
     seed = traitlets.Int(min=0, max=2**32 - 1).tag(sync=True)
     run = traitlets.Int(min=0, max=2**32 - 1).tag(sync=True)
     speed = traitlets.Float(20.0, min=0).tag(sync=True)
@@ -102,9 +110,11 @@ class Explorer(AnyWidget):
         for name, result in conditions.items():
             _check_condition(name, result)
         first = next(iter(conditions.values()), None)
-        tank = first.world if first else WaterWorld()
+        tanks = [result.world for result in conditions.values() if isinstance(result.world, WaterWorld)]
+        tank = tanks[0] if tanks else WaterWorld()
         as_printed = replace(tank, fps=LETTER.fps, contact=LETTER.contact)
-        agents = {name: (agent, as_printed if name in TO_THE_LETTER else tank) for name, agent in AGENTS.items()}
+        agents = {name: (agent, as_printed if name in TO_THE_LETTER else Arena() if name in IN_THE_ARENA else tank)
+                  for name, agent in AGENTS.items()}
         own = {name: (result.agent, result.world) for name, result in conditions.items()}
         self._lives = own | agents | own  # a condition stands before an agent, and for one of its name
         presets = {name: _preset(name, agent, world, conditions.get(name)) | {"place": place}
@@ -133,11 +143,11 @@ class Explorer(AnyWidget):
 
     @property
     def world(self):
-        """The `WaterWorld` that it lives in."""
-        _, tank = self._lives[self.preset]
-        return replace(tank, n_creeps=self.n_creeps)
+        """The `WaterWorld` or `Arena` that it lives in."""
+        _, world = self._lives[self.preset]
+        return replace(world, n_creeps=self.n_creeps) if isinstance(world, WaterWorld) else world
 
-    @traitlets.validate("preset", "modality", "recursion", "valence_red", "gains", "memory")
+    @traitlets.validate("preset", "modality", "recursion", "valence_red", "gains", "memory", "n_creeps")
     def _check(self, proposal):
         name, value = proposal["trait"].name, proposal["value"]
         try:
@@ -145,7 +155,10 @@ class Explorer(AnyWidget):
                 return checks.one_of(name, value, tuple(self._presets))
             if name == "modality":
                 return checks.one_of(name, value, ("", *self._modalities))
-            nodes = len(self._lives[self.preset][0].nodes)
+            agent, world = self._lives[self.preset]
+            if name == "n_creeps" and value is not None and not isinstance(world, WaterWorld):
+                raise ValueError(f"n_creeps is {value!r}, allowed in the arena is None")
+            nodes = len(agent.nodes)
             if name == "gains" and len(value) != nodes:
                 raise ValueError(f"gains is {value!r}, allowed is one for each of the {nodes} nodes")
             if name == "memory" and value and not self._presets[self.preset]["can_remember"]:
@@ -174,6 +187,12 @@ def _check_condition(name, result):
         if len(values) > 1:
             raise ValueError(f"condition {name} has different {what}, {values}, allowed are the same throughout")
     checks.integer(f"seed of condition {name}", result.seed, at_least=0, at_most=2**32 - 1)
+    if not isinstance(result.world, WaterWorld | Arena):
+        raise ValueError(f"condition {name} is in {result.world!r}, allowed in the Explorer are WaterWorld and Arena")
+    for each in (agent, *(later for _, later in result.changes)):
+        if constants_of(each, result.world) != wasm.CONSTANTS:
+            raise ValueError(f"condition {name} has kernels of its own, for an axis, the credit or the choice of an "
+                             "action, allowed in the Explorer are those compiled for the page, with the greedy choice")
 
 
 def _settings(preset):
@@ -192,15 +211,17 @@ def _preset(name, agent, world, result):
     learning = agent.learning
     return {
         "label": name, "nodes": names,
-        "group": "On this page" if result else "To the letter" if name in TO_THE_LETTER else "Calibrated",
+        "group": ("On this page" if result else "To the letter" if name in TO_THE_LETTER else
+                  "In the arena" if name in IN_THE_ARENA else "Calibrated"),
         "resolutions": list(agent.nodes[0].resolutions),
         "modality": _named(modality) if len(names) == 1 else "",
         "gains": [node.gain for node in agent.nodes], "learning_rate": learning.learning_rate,
         "discount": learning.discount, "memory": learning.memory,
         "can_remember": learning.update_on == "cell" and learning.trace == 1,
         "valence_red": agent.desires[red[0]].valence if red else 0.0,
-        "recursion": agent.desires[recurring[0]].valence if recurring else None, "n_creeps": world.n_creeps,
-        "world": {"fps": world.fps, "rules": world.rules._asdict()}, "steps": steps, "red": red, "recurring": recurring,
+        "recursion": agent.desires[recurring[0]].valence if recurring else None,
+        "n_creeps": world.n_creeps if isinstance(world, WaterWorld) else None, "world": _world(world),
+        "steps": steps, "red": red, "recurring": recurring,
         "seed": result.seed if result else 0, "runs": result.runs if result else 0,
         "band": _band(result) if result else None, "totals": result.totals.tolist() if result else [],
         "changes": [{"step": step, "parameters": _parameters(later, world)}
@@ -208,21 +229,35 @@ def _preset(name, agent, world, result):
         "parameters": _parameters(agent, world)}
 
 
+def _world(world):
+    """A world as the page takes it; of the arena's rules in WaterWorld, where there are none, only the numbers."""
+    rules = _as_json(rules_of(world))
+    if not rules["in_arena"]:
+        rules["arena"] = {name: value for name, value in rules["arena"].items() if not isinstance(value, list)}
+    return {"fps": world.fps, "kinds": list(world.kinds), "things": world.things, "rules": rules}
+
+
 def _named(modality):
     """The name of a modality, if it is one of `MODALITIES` but for its ranges, or else ""."""
-    known = [(each.name, each.vector, each.tuning, each.landmarks) for each in MODALITIES]
-    return modality.name if (modality.name, modality.vector, modality.tuning, modality.landmarks) in known else ""
+    return modality.name if _without_ranges(modality) in map(_without_ranges, MODALITIES) else ""
+
+
+def _without_ranges(modality):
+    return modality.name, modality.landmarks, [(each.of, each.feature, each.along, each.closed, each.intervals,
+                                                each.boundaries) for each in modality.axes]
 
 
 def _parameters(agent, world):
     """The chosen parameters, ready for JSON, and the names that the page shows."""
-    choices, _ = chosen(agent, world)
-    edges = [{"source": each.source if each.between_nodes else "", "target": each.target, "of": list(each.of)}
+    choices, sizes = chosen(agent, world)
+    edges = [{"source": each.source if agent.comes_from_node(each) else "", "target": each.target, "of": list(each.of)}
              for each in agent.desires]
-    return _as_json(choices) | {"names": [node.name for node in agent.nodes], "edges": edges}
+    return _as_json(choices) | {"names": [node.name for node in agent.nodes], "edges": edges,
+                                "coordinates": sizes["coordinates"]}
 
 
 def _as_json(values):
+    values = values._asdict() if is_tuple(values) else values
     if isinstance(values, dict):
         return {name: _as_json(value) for name, value in values.items()}
     return values.tolist() if isinstance(values, np.ndarray | np.generic) else values
@@ -242,6 +277,5 @@ def _band(result):
 
 def _modalities():
     """For each modality the parameters of a node that has it."""
-    nodes = {each.name: chosen(Agent((Node("", each, (1,)),)), WaterWorld())[0]["nodes"]
-             for each in MODALITIES if each.takes_places}
-    return {name: {field: of[field].tolist() for field in MODALITY_FIELDS} for name, of in nodes.items()}
+    return {each.name: _as_json(axis_parameters([each], WaterWorld.actions.axes)[0])
+            for each in MODALITIES if each.takes_places}

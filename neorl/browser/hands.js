@@ -3,7 +3,7 @@
 class Hands extends Controls {
   placeHandles() {
     const { elements, selected, life: { frame } } = this;
-    const creeps = frame?.creeps ?? [];
+    const creeps = this.hasCreeps() ? frame?.things ?? [] : []; // places stay where they are
     const [grips, marks] = [this.part(".grips"), this.part(".marks")];
     grow(grips, creeps.length, () => "<span class='grip'></span>");
     grow(marks, elements.length, () => "<button type='button' class='interest'></button>");

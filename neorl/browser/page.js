@@ -11,7 +11,7 @@ const KEYS = { ArrowUp: [0, 0, -1], ArrowDown: [1, 0, 1], ArrowRight: [2, 1, 0],
 const NEW_RUN = ["preset", "memory", "resolutions", "modality", "n_creeps", "seed", "run"];
 const ALLOWED = "Resolutions are whole numbers from 1 to 90, such as 3, 5, 7.";
 const STOPPED = "The simulation has stopped. Reset begins it again.";
-const HINT = "Click a cell: how to get there. Double-click: drop an element of interest. Drag the creeps.";
+const HINT = "Click a cell: how to get there. Double-click: drop an element of interest.";
 
 const slide = (name, label, least, most, step) => `<label class="slide"><span>${label}</span><input type="range"
   name="${name}" min="${least}" max="${most}" step="${step}"><output></output></label>`;
@@ -26,10 +26,10 @@ const PAGE = `<p role="alert" hidden></p>
   <div class="bar">${choice("preset", "Agent")}<div class="buttons">${press("play", "Play")}${press("step", "Step")}
     ${press("reset", "Reset")}</div>${slide("speed", "Speed", 0, SPEEDS.length - 1, 1)}</div>
   <div class="columns"><div class="board">
-    <div class="arena"><canvas tabindex="0" role="application" aria-label="The tank. Arrow keys move a cursor, Enter
+    <div class="arena"><canvas tabindex="0" role="application" aria-label="The world. Arrow keys move a cursor, Enter
       chooses the cell under it, Escape lets go of it."></canvas><div class="grips"></div><div class="marks"></div>
       <div class="pad" hidden>${["Up ↑", "Left ←", "Down ↓", "Right →"].map(pad).join("")}</div></div>
-    <p class="said">${HINT}</p>
+    <p class="said"></p>
     <div class="element" hidden>${slide("element-valence", "It is worth", -2, 2, 0.1)}
       ${press("delete", "Delete")}</div>
     <div class="buttons">${press("drop", "Drop an element")}${press("game", "Play against it")}</div>

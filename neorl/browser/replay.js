@@ -14,8 +14,8 @@ function frameOf({ agent, creeps, green, radius, fineness }, at) {
     const [x, y, vx, vy] = numbers.map((number) => number / fineness);
     return { x, y, vx, vy };
   };
-  return { agent: mover(agent[at]), creeps: creeps[at].map((each, index) => ({ ...mover(each), green: green[at][index] })),
-    radius, player: null, nodes: [], landings: [] };
+  const things = creeps[at].map((each, index) => ({ ...mover(each), kind: green[at][index] ? "green" : "red" }));
+  return { agent: mover(agent[at]), things, radius, body: radius, player: null, nodes: [], landings: [] };
 }
 
 class Replay {

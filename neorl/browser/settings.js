@@ -16,11 +16,14 @@ function initialSettings(presets, key) {
 function chosenParameters(layout, presets, modalities, settings, elements = []) {
   const preset = presets[settings.preset];
   const parameters = structuredClone(preset.parameters);
-  const { names, maps, nodes, desires, learning } = parameters;
+  const { names, maps, nodes, axes, desires, learning } = parameters;
   maps.resolution = names.flatMap(() => settings.resolutions);
   nodes.first_map = [0, ...names.map((_, n) => (n + 1) * settings.resolutions.length)];
   if (names.length === 1 && settings.modality !== preset.modality) { // the preset's may have ranges of its own
-    Object.assign(nodes, modalities[settings.modality]);
+    Object.assign(nodes, modalities[settings.modality].nodes);
+    Object.assign(axes, modalities[settings.modality].axes);
+    parameters.coordinates = Math.max(parameters.push[0].length, axes.what.length);
+    desires.at = desires.at.map((at) => padded(at, parameters.coordinates));
   }
   nodes.gain = [...settings.gains];
   learning.learning_rate = Math.fround(settings.learning_rate);
@@ -36,23 +39,32 @@ function chosenParameters(layout, presets, modalities, settings, elements = []) 
   return parameters;
 }
 
-function addElement({ names, edges, desires }, target, source, { x, y, valence }) {
+/** A point with so many coordinates, 0 where it has none. */
+function padded(point, coordinates) {
+  return Array.from({ length: coordinates }, (_, axis) => point[axis] ?? 0);
+}
+
+function addElement({ names, edges, desires, coordinates }, target, source, { x, y, valence }) {
   const name = names[target];
   desires.elements.forEach((row, e) => row.push(edges[e].source === name && edges[e].of.length === 0));
   desires.elements.push(desires.elements.length ? desires.elements[0].map(() => false) : [false]);
   edges.push({ source: "", target: name, of: [] });
-  const desire = { source, target, valence, sums_valence: false, scale: 1, signed: false, at: [x, y] };
+  const desire = { source, kind: -1, target, valence, sums_valence: false, scale: 1, signed: false,
+    at: padded([x, y], coordinates) };
   for (const [field, value] of Object.entries(desire)) desires[field].push(value);
 }
 
-/** The condition of the page, if it has one, whose agent these settings are. */
+/** The condition of the page, if it has one, whose agent and world these settings are. */
 function conditionOf(layout, presets, modalities, settings) {
   const chosen = JSON.stringify(chosenParameters(layout, presets, modalities, settings));
+  const world = JSON.stringify(worldOf(presets, settings));
   // Conditions that differ only in what they become later are told apart by the preset.
   return [settings.preset, ...orderedKeys(presets)].find((key) => presets[key].totals.length > 0
-    && presets[key].n_creeps === settings.n_creeps && JSON.stringify(presets[key].parameters) === chosen) ?? null;
+    && JSON.stringify(presets[key].world) === world && JSON.stringify(presets[key].parameters) === chosen) ?? null;
 }
 
+/** The world of the preset, with as many creeps as are set if it has any. */
 function worldOf(presets, settings) {
-  return { ...presets[settings.preset].world, n_creeps: settings.n_creeps };
+  const { world } = presets[settings.preset];
+  return { ...world, things: settings.n_creeps ?? world.things };
 }

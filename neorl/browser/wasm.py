@@ -1,7 +1,8 @@
 """The kernels as a WebAssembly module, so that a page without Python runs what the figures were made with.
 
-Numba's LLVM code of each kernel is compiled again for WebAssembly by llvmlite and linked by LLD. Nothing is written
-twice: the arguments of an exported function follow from the annotations of its kernel, in their order,
+Numba's LLVM code of each kernel is compiled for WebAssembly by llvmlite, all in one module, so that what several call
+is there once, and linked by LLD. Nothing is written twice: the arguments of an exported function follow from the
+annotations of its kernel, in their order,
 
 1. the sizes of its arrays, by name, as int32;
 2. each argument, a named tuple field by field, and so the tuples within it: a pointer for an array, int32 for integers
@@ -11,7 +12,8 @@ before them a pointer to the result, and 0. Its own result is 0. Memory is the o
 begins at the exported global __heap_base.
 
 A module is kept on disk under a digest of all source that it comes from. It is built in a process of its own, for a
-generic processor, so that it does not depend on where it was built.
+generic processor, so that it does not depend on where it was built, and in which numba leaves it to this module to
+optimise: what is rarely called is kept out of those who call it, and small.
 """
 
 import hashlib
@@ -29,21 +31,32 @@ import numba
 import numpy as np
 from numba import carray, cfunc, types
 
-from neorl.core.choices import Action, Source, Tuning, Vector
+from neorl.agents.learner import OF_A_MAP
+from neorl.browser.worlds import EITHER, EitherRules, EitherState
+from neorl.core import life, parameters
+from neorl.core.choices import Action, Cut, Feature, Source, Vector
+from neorl.core.constants import Constants, no_credit, no_feature
 from neorl.core.kernel import fields, is_tuple
 from neorl.core.parameters import Parameters, derive
+from neorl.core.policy import greedy
+from neorl.core.scene import CARDINAL
 from neorl.core.state import State, clear_goal_ranges
+from neorl.core.steps import steps_with
 from neorl.core.stream import start_stream
 from neorl.experiments import cache
-from neorl.worlds import probe
-from neorl.worlds.rollout import begin_tracks, rollout
-from neorl.worlds.waterworld import Rules, WaterWorldState, reset_board
+from neorl.worlds import arena, waterworld
+from neorl.worlds.probe import probes_with
+from neorl.worlds.rollout import rollout_in
+from neorl.worlds.waterworld import WaterWorldState
 
-EXPORTS = (start_stream, derive, clear_goal_ranges, reset_board, begin_tracks, rollout, probe.survey,
-           probe.cell_seen_at, probe.step_second)
-TUPLES = (Parameters, State, Rules, WaterWorldState)
-ENUMERATIONS = (Action, Source, Tuning, Vector)
+CONSTANTS = Constants(no_feature, no_credit, greedy, tuple(range(len(CARDINAL.names))), tuple(range(CARDINAL.axes)))
+EXPORTS = (start_stream, derive, clear_goal_ranges, EITHER.reset, steps_with(CONSTANTS).begin,
+           rollout_in(EITHER, CONSTANTS), *probes_with(CONSTANTS))
+TUPLES = (Parameters, State, EitherState, EitherRules, WaterWorldState)
+ENUMERATIONS = (Action, Cut, Feature, Source, Vector)
 SCALARS = {bool: "bool", int: "int64", float: "float64", np.float32: "float32"}
+HOT = "rollout"  # of the exports; the others are called once in a picture or less
+RARE = (life.begin, waterworld.reset, waterworld.draw_creep, arena.reset, parameters.cut_axes, parameters.find_inputs)
 TRIPLE = "wasm32-unknown-unknown"
 LAYOUT = "e-m:e-p:32:32-p10:8:8-p20:8:8-i64:64-i128:128-n32:64-S128-ni:1:10:20"
 LINK = ("--no-entry", "--allow-undefined", "--import-memory", "--gc-sections", "--strip-all", "-O2",
@@ -51,7 +64,7 @@ LINK = ("--no-entry", "--allow-undefined", "--import-memory", "--gc-sections", "
 
 
 def module():
-    """The WebAssembly module: bytes. Built if it is not on disk, which takes half a minute.
+    """The WebAssembly module: bytes. Built if it is not on disk, which takes a minute.
 
     Raises RuntimeError if that needs something that is not installed.
     """
@@ -62,7 +75,7 @@ def module():
             raise RuntimeError("WebAssembly needs LLD, a linker that the package ziglang brings: pip install ziglang")
         environment = {name: value for name, value in os.environ.items() if name != "NUMBA_DISABLE_JIT"}
         built = subprocess.run([sys.executable, "-m", "neorl.browser.wasm"], capture_output=True,
-                               env=environment | {"NUMBA_CPU_NAME": "generic"})
+                               env=environment | {"NUMBA_CPU_NAME": "generic", "NUMBA_OPT": "0"})
         if built.returncode:
             raise RuntimeError(f"the WebAssembly module was not built:\n{built.stderr.decode()}")
         content = built.stdout
@@ -75,14 +88,16 @@ def layout():
 
     "tuples": for each named tuple its fields, [name, kind], a kind being [dtype, shape], the shape of a scalar None, or
     the name of a tuple within. "exports": for each function its "sizes", its "arguments", [name, kind], and the dtype
-    of its "result". "enumerations": {name: {member: number}}.
+    of its "result". "enumerations": {name: {member: number}}. "of_a_map": what an agent's state has of each map, by the
+    field of its parameters that says where it begins.
     """
     return {"tuples": {kind.__name__: [[name, _described(each)] for name, each in fields(kind).items()]
                        for each in TUPLES for kind in _with_those_within(each)},
             "exports": {each.__name__: {"sizes": _sizes(each), "arguments": [[name, _described(field)] for name, field
                                                                             in _arguments(each).items()],
                                         "result": SCALARS.get(fields(each)["return"])} for each in EXPORTS},
-            "enumerations": {kind.__name__: {each.name: int(each) for each in kind} for kind in ENUMERATIONS}}
+            "enumerations": {kind.__name__: {each.name: int(each) for each in kind} for kind in ENUMERATIONS},
+            "of_a_map": OF_A_MAP}
 
 
 def _with_those_within(kind):
@@ -114,27 +129,54 @@ def _sizes(kernel):
 
 def _digest():
     versions = f"{cache.source_digest()} {numba.__version__} {llvmlite.__version__}"
-    return hashlib.sha256(versions.encode() + Path(__file__).read_bytes()).hexdigest()
+    here = [Path(__file__).with_name(name).read_bytes() for name in ("wasm.py", "worlds.py")]
+    return hashlib.sha256(b"".join([versions.encode(), *here])).hexdigest()
 
 
 def _build():
     """The module, for the processor that this process compiles for."""
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
+    for kernel in RARE:
+        kernel.targetoptions.pop("forceinline", None)
+    target = llvm.Target.from_triple(TRIPLE).create_target_machine(features="+simd128,+bulk-memory", opt=3)
+    together = _together([_code(kernel) for kernel in EXPORTS])
+    passes = llvm.create_pass_builder(target, llvm.create_pipeline_tuning_options(speed_level=3))
+    passes.getModulePassManager().run(together, passes)
     with tempfile.TemporaryDirectory() as folder:
-        objects = []
-        for kernel in EXPORTS:
-            objects.append(Path(folder) / f"{kernel.__name__}.o")
-            objects[-1].write_bytes(_object(kernel))
-        linked = Path(folder) / "module.wasm"
+        compiled, linked = Path(folder) / "module.o", Path(folder) / "module.wasm"
+        compiled.write_bytes(target.emit_object(together))
         exports = [f"--export={kernel.__name__}" for kernel in EXPORTS]
         linker = [sys.executable, "-m", "ziglang", "wasm-ld"]
-        subprocess.run([*linker, *LINK, *exports, *objects, "-o", linked], check=True)
+        subprocess.run([*linker, *LINK, *exports, compiled, "-o", linked], check=True)
         return linked.read_bytes()
 
 
-def _object(kernel):
-    """The object file of a kernel under its own name."""
+def _together(codes):
+    """One LLVM module of several, in which all but the exports can be changed and left out."""
+    module = llvm.parse_assembly(codes[0])
+    for code in codes[1:]:
+        module.link_in(llvm.parse_assembly(code))
+    exports, rare = {kernel.__name__ for kernel in EXPORTS}, [_mangled(kernel) for kernel in RARE]
+    for function in module.functions:
+        is_rare = any(name in function.name for name in rare)
+        if function.name not in exports and not function.is_declaration:
+            function.linkage = "internal"
+        if is_rare:
+            function.add_function_attribute("noinline")
+        if is_rare or function.name in exports - {HOT}:
+            function.add_function_attribute("optsize")
+    module.verify()
+    return module
+
+
+def _mangled(kernel):
+    """What numba's symbols of a kernel have in their names."""
+    return "".join(f"{len(each)}{each}" for each in f"{kernel.__module__}.{kernel.__name__}".split("."))
+
+
+def _code(kernel):
+    """The LLVM code of a kernel under its own name, with all that it calls."""
     entry = _entry(kernel)
     code = entry.inspect_llvm()
     code = re.sub(r"target datalayout = .*", f'target datalayout = "{LAYOUT}"', code)
@@ -145,13 +187,7 @@ def _object(kernel):
     for symbol in ("@cfunc.", "@NRT_incref(", "@NRT_decref("):
         code = _without(code, symbol)
     code += "".join(f"\ndefine internal void @NRT_{name}(ptr %array) {{ ret void }}\n" for name in ("incref", "decref"))
-    code = code.replace(f"@{entry.native_name.removeprefix('cfunc.')}(", f"@{kernel.__name__}(")
-    parsed = llvm.parse_assembly(code)
-    parsed.verify()
-    target = llvm.Target.from_triple(TRIPLE).create_target_machine(features="+simd128,+bulk-memory", opt=3)
-    passes = llvm.create_pass_builder(target, llvm.create_pipeline_tuning_options(speed_level=3))
-    passes.getModulePassManager().run(parsed, passes)
-    return target.emit_object(parsed)
+    return code.replace(f"@{entry.native_name.removeprefix('cfunc.')}(", f"@{kernel.__name__}(")
 
 
 def _without(code, symbol):
@@ -168,9 +204,9 @@ def _entry(kernel):
     """A function that takes pointers and sizes, and calls a kernel with arrays."""
     sizes, arguments = _sizes(kernel), _arguments(kernel).items()
     flat = [each for argument in arguments for each in _flat(*argument)]
-    parameters = [f"size_{name}" for name in sizes] + [name for name, *_ in flat]
+    names = [f"size_{name}" for name in sizes] + [name for name, *_ in flat]
     taken = ", ".join(_taken(*argument) for argument in arguments)
-    source = f"def entry({', '.join(parameters)}):\n    return kernel({taken})"
+    source = f"def entry({', '.join(names)}):\n    return kernel({taken})"
     tuples = {kind.__name__: kind for each in TUPLES for kind in _with_those_within(each)}
     scope = {"kernel": kernel, "carray": carray, "np": np, **tuples}
     exec(source, scope)

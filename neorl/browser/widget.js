@@ -315,7 +315,8 @@ function problemOf(presets, modalities, model) {
     resolutions: (value) => isList(value, isWhole(1, 90)), valence_red: isNumber, learning_rate: isNumber,
     modality: (value) => nodes.length > 1 || value === "" || Object.hasOwn(modalities, value), discount: isNumber,
     memory: (value) => value === 0 || (value > 0 && preset.can_remember),
-    gains: (value) => isList(value, isNumber) && value.length === nodes.length, n_creeps: isWhole(1, 20), seed: isPlace,
+    gains: (value) => isList(value, isNumber) && value.length === nodes.length, seed: isPlace,
+    n_creeps: (value) => (preset.n_creeps === null ? value === null : isWhole(1, 20)(value)),
     recursion: (value) => preset.recursion === null || isNumber(value), speed: (value) => value >= 0, run: isPlace };
   const wrong = Object.keys(allowed).find((name) => !allowed[name](model.get(name)));
   return wrong ? `The Explorer cannot run with ${wrong} = ${JSON.stringify(model.get(wrong))}.` : "";

@@ -2,16 +2,18 @@
 
 import base64
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from golden import learning
 
-from neorl import Explorer, Learning, NresMap, Run, WaterWorld, network_d, place_cells, simulate
-from neorl.browser.explorer import _parameters
+from neorl import Arena, Explorer, Learning, NresMap, Run, WaterWorld, network_d, place_cells, simulate
+from neorl.browser import wasm
+from neorl.browser.explorer import _parameters, _world
 from neorl.core.horde import as_vectors
 from neorl.core.kernel import execute, mapped
-from neorl.worlds import probe
+from neorl.worlds.probe import probes_with
 
 ENGINE = """
 const ask = (worker, request) => new Promise((resolve, reject) => {
@@ -28,6 +30,7 @@ async function answers(requests) {
   return JSON.parse(JSON.stringify(all.slice(1), (_, value) => ArrayBuffer.isView(value) ? [...value] : value));
 }
 """
+PROBES = probes_with(wasm.CONSTANTS)
 TANK = WaterWorld(n_creeps=4)
 AGENT = network_d([4, 5])
 STEPS, SEED, K = 3_000, 5, 2
@@ -46,10 +49,8 @@ def state():
 def ask(open_page, tmp_path, state):
     """`ask(request, …)` gives what the engine of a run that has just begun answers to each."""
     preset = state["_presets"]["D"]
-    world = preset["world"] | {"n_creeps": TANK.n_creeps}
-    begin = {"type": "begin", "parameters": preset["parameters"], "world": world, "seed": SEED, "run": K,
-             "steps": 10 * STEPS,
-             "bin_steps": 100}
+    begin = {"type": "begin", "parameters": preset["parameters"], "world": preset["world"], "seed": SEED, "run": K,
+             "steps": 10 * STEPS, "bin_steps": 100}
     script = f"const state = {json.dumps(state)};{ENGINE}".replace("</", r"<\/")
     (tmp_path / "page.html").write_text(f'<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">'
                                         f'<script>{script}</script>')
@@ -75,13 +76,13 @@ def test_a_frame_tells_what_the_run_holds(ask):
     assert begun["maps"] == ["PC N4", "PC N5", "OVC N4", "OVC N5"]
     assert (frame["seen"]["name"], frame["seen"]["goal"]) == ("OVC N5", goal)
 
-    width, state = TANK.width, run.world_state
-    assert [frame["agent"][name] for name in "xy"] == pytest.approx(state.agent_position / width)
-    assert [frame["agent"][name] for name in ("vx", "vy")] == pytest.approx(state.agent_velocity / width)
-    creeps = frame["creeps"]
-    assert [creep["green"] for creep in creeps] == state.creep_is_green.tolist()
-    assert np.array([(creep["x"], creep["y"]) for creep in creeps]) == pytest.approx(state.creep_position / width)
-    velocity = state.creep_direction * state.creep_speed[:, None] / width
+    width, state, scene = TANK.width, run.world_state, run.world_state.scene
+    assert [frame["agent"][name] for name in "xy"] == pytest.approx(scene.position / width)
+    assert [frame["agent"][name] for name in ("vx", "vy")] == pytest.approx(scene.velocity / width)
+    creeps = frame["things"]
+    assert [creep["kind"] for creep in creeps] == [TANK.kinds[kind] for kind in scene.kinds]
+    assert np.array([(creep["x"], creep["y"]) for creep in creeps]) == pytest.approx(scene.things / width)
+    velocity = state.direction * state.speed[:, None] / width
     assert np.array([(creep["vx"], creep["vy"]) for creep in creeps]) == pytest.approx(velocity)
     begin, end = run.parameters.maps.first_track[3:5]
     assert frame["active"] == run.state.tracks.cell[begin:end].tolist()
@@ -89,16 +90,41 @@ def test_a_frame_tells_what_the_run_holds(ask):
     for node in frame["nodes"]:
         output = run.output(node["name"])
         assert (node["x"], node["y"], node["valence"]) == pytest.approx((*output.desire, output.valence))
-    landings = run.state.desires.target[2:, :2] + state.agent_position / width
+    landings = run.state.desires.target[2:, :2] + scene.position / width
     assert np.array([(each["x"], each["y"]) for each in frame["landings"]]) == pytest.approx(landings)
     assert [each["valence"] for each in frame["landings"]] == run.state.desires.valence[2:].tolist()
     assert [each["recurs"] for each in frame["landings"]] == [False, False, True]
 
     assert np.array(frame["seen"]["ways"]).reshape(-1, 2) == pytest.approx(as_vectors(run.q(3)[:, :, goal]))
     values = np.zeros((81, 4))
-    execute(probe.survey, run._parameters, run._state, mapped(np.copy, run._state),
-            state._replace(agent_position=np.zeros(2)), 9, values)
+    execute(PROBES.survey, run._parameters, run._state, mapped(np.copy, run._state),
+            scene._replace(position=np.zeros(2)), 9, values)
     assert np.array(frame["field"]).reshape(-1, 2) == pytest.approx(as_vectors(values), rel=1e-6)
+
+
+MAZES = [Arena(), Arena(places=[("food", 0.8, 0.2), ("shock", 0.3, 0.7)], pay=[1.0, -2.0], ends=False, radius=0.2,
+                        shape="square", obstacles=[(0.4, 0.0, 0.5, 0.6)], motion="steps", trial_seconds=20.0)]
+
+
+@pytest.mark.parametrize("maze", MAZES, ids=["pool", "walls"])
+def test_a_life_in_the_arena_is_that_of_python_to_the_last_bit(ask, maze):
+    agent, goal = place_cells([4, 5]), 9
+    agent = replace(agent, desires=[replace(agent.desires[0], source=kind) for kind in maze.kinds])
+    finer = replace(agent, nodes=[replace(agent.nodes[0], resolutions=[5, 6])])
+    look = {"type": "look", "map": "PC N5", "goal": goal, "field": 9}
+    frame = ask(advance(STEPS), {"type": "change", "parameters": _parameters(finer, maze)}, advance(STEPS), look,
+                parameters=_parameters(agent, maze), world=_world(maze))[-1]
+    run = Run(agent, maze, SEED, K)
+    reward = run.advance(STEPS)
+    run.change(finer)
+    assert frame["reward"] == reward + run.advance(STEPS) != 0
+    assert np.reshape(frame["seen"]["ways"], (-1, 2)).tolist() == learned(run, 0, goal)
+    assert [frame["agent"][name] for name in ("x", "y", "vx", "vy")] == [
+        *run.world_state.scene.position, *run.world_state.scene.velocity]
+    assert [(each["kind"], each["x"], each["y"]) for each in frame["things"]] == list(maze.places)
+    assert (frame["round"], frame["radius"]) == (maze.shape == "round", maze.radius)
+    assert np.reshape(frame["obstacles"], (-1, 4)).tolist() == [list(each) for each in maze.obstacles]
+    assert np.count_nonzero(frame["field"]) > 20
 
 
 RULES = [
@@ -148,23 +174,22 @@ def test_a_second_agent_does_what_it_is_told_on_the_same_creeps(ask):
                                   for each in ({"type": "play", "action": action}, advance(1))))[-1]
     run = Run(AGENT, TANK, SEED, K)
     run.advance(STEPS)
-    second = run.world_state._replace(agent_position=np.full(2, 0.1 * TANK.width), agent_velocity=np.zeros(2))
-    contacts, paid, touched = np.zeros(TANK.n_creeps, np.int8), 0.0, 0
+    second = run.world_state.scene._replace(position=np.full(2, 0.1 * TANK.width), velocity=np.zeros(2))
+    paid, touched = 0.0, 0
     for action in actions:
         run.advance(1)
-        paid += execute(probe.step_second, run._parameters, run._state, TANK.rules, run.world_state, second, contacts,
-                        action)
-        touched += np.abs(contacts).sum()
+        paid += execute(PROBES.step_second, run._parameters, run._state, run.world_state, TANK.rules, second, action)
+        touched += np.count_nonzero(second.met)
     assert touched > 2 and frame["player"]["reward"] == paid
-    assert [frame["player"][name] for name in "xy"] == pytest.approx(second.agent_position / TANK.width)
-    assert [frame["agent"][name] for name in "xy"] == pytest.approx(run.world_state.agent_position / TANK.width)
+    assert [frame["player"][name] for name in "xy"] == pytest.approx(second.position / TANK.width)
+    assert [frame["agent"][name] for name in "xy"] == pytest.approx(run.world_state.scene.position / TANK.width)
 
 
 def test_a_place_is_found_in_the_cell_that_it_lies_in(ask):
     places = [(0.1, 0.9), (0.55, 0.3), (0.99, 0.01)]
     found = ask(*({"type": "look", "map": name, "goal": None, "at": {"x": x, "y": y}}
                   for name in ("PC N5", "OVC N4") for x, y in places))[1:]
-    agent = Run(AGENT, TANK, SEED, K).world_state.agent_position / TANK.width
+    agent = Run(AGENT, TANK, SEED, K).world_state.scene.position / TANK.width
     place, objects = (node.modality for node in AGENT.nodes)
     expected = [*NresMap(5, place).encode(places), *NresMap(4, objects).encode(places - agent)]
     assert [each["seen"]["goal"] for each in found] == expected
@@ -174,9 +199,9 @@ def test_a_place_is_found_in_the_cell_that_it_lies_in(ask):
 
 def test_the_map_that_is_looked_at_stays_and_its_goal_with_it_if_it_has_the_same_cells(ask, state):
     parameters = state["_presets"]["D"]["parameters"]
-    nodes = parameters["nodes"]
+    axes = parameters["axes"]
     finer = parameters | {"maps": {"resolution": [5, 6, 5, 6]}}
-    other = finer | {"nodes": nodes | {"low": [[0.1, 0.1], *nodes["low"][1:]]}}
+    other = finer | {"axes": axes | {"low": [0.1, *axes["low"][1:]]}}
     without = parameters | {"maps": {"resolution": [6, 9, 6, 9]}}
     frames = ask({"type": "look", "map": "PC N5", "goal": 24}, *({"type": "change", "parameters": each} for each in (
         finer, other, without)))[1:]
@@ -186,7 +211,7 @@ def test_the_map_that_is_looked_at_stays_and_its_goal_with_it_if_it_has_the_same
 
 def test_a_creep_is_put_where_it_is_dragged_but_inside_the_tank(ask):
     frames = ask({"type": "drag", "creep": 1, "x": 0.3, "y": 0.6}, {"type": "drag", "creep": 1, "x": -2, "y": 3})
-    at = [(frame["creeps"][1]["x"], frame["creeps"][1]["y"]) for frame in frames[1:]]
+    at = [(frame["things"][1]["x"], frame["things"][1]["y"]) for frame in frames[1:]]
     radius = TANK.radius / TANK.width
     assert at[0] == pytest.approx((0.3, 0.6)) and at[1] == pytest.approx((radius, 1 - radius))
 

@@ -10,15 +10,25 @@ import pytest
 from traitlets import TraitError
 
 import neorl
-from neorl import (Agent, Desire, Explorer, Learning, Node, Policy, WaterWorld, multimodal, network_d,
+from neorl import (Agent, Arena, Desire, Explorer, Learning, Node, Policy, WaterWorld, multimodal, network_d,
                    object_vector_cells, place_cells, simulate)
-from neorl.browser.explorer import AGENTS, CURVE_BINS
+from neorl.browser.explorer import AGENTS, CURVE_BINS, IN_THE_ARENA
 from neorl.core import modality
 from neorl.evidence.priors import TO_THE_LETTER as LETTER
 from neorl.evidence.reading import Reading, networks
 
 TANK = WaterWorld(n_creeps=8, win_reward=5.0)
 SIZE = {"steps": 12_345, "runs": 12, "seed": 5, "progress": False}
+
+
+@neorl.kernel
+def half(count, steps, last, activity):
+    return 0.5
+
+
+@neorl.kernel
+def distance(scene, point):
+    return scene.position[0]
 
 
 @pytest.fixture(scope="module")
@@ -31,7 +41,7 @@ def conditions():
 def test_the_traits_of_a_preset_describe_its_agent(name):
     explorer = Explorer(preset=name)
     assert explorer.agent == AGENTS[name]
-    assert explorer.world == WaterWorld()
+    assert explorer.world == (Arena() if name in IN_THE_ARENA else WaterWorld())
 
 
 def test_the_menu_has_the_agents_of_both_readings():
@@ -39,7 +49,7 @@ def test_the_menu_has_the_agents_of_both_readings():
     assert AGENTS["Network D"] == calibrated == networks(Reading())["D"]
     assert AGENTS["Network D, to the letter"] == letter != calibrated
     groups = [(each["group"], name) for name, each in Explorer()._presets.items()]
-    assert [group for group, _ in groups] == 7 * ["Calibrated"] + 4 * ["To the letter"]
+    assert [group for group, _ in groups] == 7 * ["Calibrated"] + 4 * ["To the letter"] + ["In the arena"]
     assert all(name.endswith(", to the letter") == (group == "To the letter") for group, name in groups)
 
 
@@ -145,6 +155,26 @@ def test_an_agent_of_other_ways_keeps_them():
     explorer.modality = "border cell"
     explorer.modality = "place cell"
     assert explorer.agent == agent
+
+
+def test_a_condition_in_the_arena_stands_beside_one_in_a_tank(conditions):
+    maze, (agent,) = Arena(shape="square", obstacles=[(0.4, 0.4, 0.6, 0.6)]), IN_THE_ARENA.values()
+    explorer = Explorer({"maze": simulate(agent, maze, steps=10, runs=1, progress=False)} | conditions)
+    assert (explorer.agent, explorer.world, explorer.n_creeps) == (agent, maze, None)
+    with pytest.raises(TraitError, match="n_creeps is 3, allowed in the arena is None"):
+        explorer.n_creeps = 3
+    explorer.preset = "Network D"
+    assert explorer.world == TANK
+
+
+@pytest.mark.parametrize("agent", [
+    place_cells([3], policy=Policy(choose=neorl.softmax(0.1))),
+    place_cells([3], learning=Learning(credit=half)),
+    Agent([Node("PC", modality.Modality("own", [modality.Axis(distance)]), [3])]),
+])
+def test_kernels_of_ones_own_cannot_be_shown(agent):
+    with pytest.raises(ValueError, match="condition X has kernels of its own, .*, allowed in the Explorer are"):
+        Explorer({"X": simulate(agent, TANK, steps=10, runs=1, progress=False)})
 
 
 @pytest.mark.parametrize("rule", [Learning(trace=3, memory=0.0), Learning(update_on="step")])

@@ -7,8 +7,10 @@ import pytest
 from explorer_page import write_page
 from playwright.sync_api import expect
 
-from neorl import Desire, Explorer, Learning, Place, Run, WaterWorld, multimodal, network_d, place_cells, simulate
-from neorl.core.modality import OBJECT_VECTOR_CELL
+from neorl import (Arena, Desire, Explorer, Learning, Place, Run, WaterWorld, multimodal, network_d, place_cells,
+                   simulate)
+from neorl.browser.explorer import IN_THE_ARENA, STEPS
+from neorl.core.modality import BOUNDARY_VECTOR_CELL, OBJECT_VECTOR_CELL
 
 SIZE = {"steps": 30_000, "runs": 12, "seed": 3, "progress": False}
 TANK = WaterWorld()
@@ -260,6 +262,49 @@ def test_arrow_keys_play_against_the_agent_and_both_scores_are_shown(open_page, 
     assert page.evaluate("scrollY") == scrolled
     page.keyboard.press("Escape")
     expect(explorer).not_to_contain_text("You: ")
+
+
+def test_in_the_arena_it_lives_the_run_that_python_lives_and_offers_nothing_of_creeps(open_page, site):
+    ((name, agent),) = IN_THE_ARENA.items()
+    page = open_page(*site(name))
+    explorer_of(page)
+    page.locator("summary").click()
+    for control in ("n_creeps", "valence_red"):
+        expect(page.locator(f'[name="{control}"]')).to_be_hidden()
+    expect(page.locator('[data-action="game"]')).to_be_disabled()
+    expect(page.locator(".grip")).to_have_count(0)
+    expect(page.locator(".said")).not_to_contain_text("creeps")
+    assert play_to_the_end(page) == lived(agent, Arena(), steps=STEPS)
+    page.locator('[name="preset"]').select_option("both")
+    expect(page.locator(".grip")).to_have_count(TANK.n_creeps)
+    for control in ("n_creeps", "valence_red"):
+        expect(page.locator(f'[name="{control}"]')).to_be_visible()
+    expect(page.locator('[data-action="game"]')).to_be_enabled()
+    assert play_to_the_end(page) == lived(BOTH)
+
+
+def test_a_condition_in_another_maze_is_not_the_one_that_is_seen(open_page, tmp_path):
+    ((name, agent),) = IN_THE_ARENA.items()
+    walls = simulate(agent, Arena(obstacles=[(0.4, 0.4, 0.6, 0.6)]), steps=500, runs=2, progress=False)
+    write_page(tmp_path, [Explorer({"walls": walls}, playing=False, speed=0.0)])
+    page = open_page(tmp_path, "page.html")
+    assert explorer_of(page).get_attribute("data-condition") == "walls"
+    assert play_to_the_end(page) == walls.totals[0]
+    page.locator('[name="preset"]').select_option(name)
+    wait(page, "paused|running")
+    assert explorer_of(page).get_attribute("data-condition") == ""
+
+
+def test_what_is_dropped_into_the_arena_draws_the_agent_there(open_page, site):
+    ((name, agent),) = IN_THE_ARENA.items()
+    page = open_page(*site(name))
+    explorer_of(page)
+    press(page, "drop")
+    page.locator('[name="modality"]').select_option("boundary-vector cell")
+    dropped = Desire(Place(0.5, 0.5), "PC", 1.0)
+    node = replace(agent.nodes[0], modality=BOUNDARY_VECTOR_CELL)
+    assert play_to_the_end(page) == lived(replace(agent, nodes=[node], desires=(*agent.desires, dropped)), Arena(),
+                                          steps=STEPS)
 
 
 def test_it_rests_out_of_sight_and_in_a_hidden_tab(open_page, site):

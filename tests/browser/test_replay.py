@@ -8,6 +8,7 @@ from playwright.sync_api import expect
 from neorl import Run, WaterWorld, place_cells
 from neorl.browser.replay import Replay
 from neorl.experiments.recording import record
+from neorl.worlds.waterworld import GREEN
 
 AGENT, TANK = place_cells([3]), WaterWorld(n_creeps=12)
 
@@ -24,11 +25,11 @@ def test_a_recording_holds_every_step_of_its_run(recordings):
         if step:
             run.advance(1, np.zeros(100, np.float32), hits)
         agent, creeps = recordings[1].agent[step], recordings[1].creeps[step]
-        assert np.allclose(agent, np.concatenate([run.world_state.agent_position,
-                                                  run.world_state.agent_velocity]) / 250, atol=1e-6)
-        assert np.allclose(creeps[:, :2], run.world_state.creep_position / 250, atol=1e-6)
-        assert np.allclose(np.hypot(*creeps[:, 2:].T), run.world_state.creep_speed / 250, atol=1e-6)
-        assert recordings[1].green[step].tolist() == run.world_state.creep_is_green.tolist()
+        scene = run.world_state.scene
+        assert np.allclose(agent, np.concatenate([scene.position, scene.velocity]) / 250, atol=1e-6)
+        assert np.allclose(creeps[:, :2], scene.things / 250, atol=1e-6)
+        assert np.allclose(np.hypot(*creeps[:, 2:].T), run.world_state.speed / 250, atol=1e-6)
+        assert recordings[1].green[step].tolist() == (scene.kinds == GREEN).tolist()
         assert recordings[1].hits[step].tolist() == hits.sum(axis=0).tolist()
     assert hits.sum() > 0
 

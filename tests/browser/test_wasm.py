@@ -9,17 +9,17 @@ import pytest
 from webassembly import Machine, compiled, copied, sizes_of
 
 import neorl
-from neorl import (Agent, Desire, Learning, Node, Place, Run, WaterWorld, multimodal, network_a, network_b, network_c,
-                   network_d, object_vector_cells, place_cells)
+from neorl import (Agent, Arena, Desire, Learning, Node, Place, Policy, Run, WaterWorld, multimodal, network_a,
+                   network_b, network_c, network_d, object_vector_cells, place_cells)
 from neorl.agents.compile import chosen
 from neorl.browser import wasm
+from neorl.browser.worlds import EitherState, rules_of
 from neorl.core import modality
 from neorl.core.kernel import arrays, execute, mapped, new_tuple
 from neorl.core.parameters import Parameters
 from neorl.core.state import State
 from neorl.experiments import cache
-from neorl.worlds import probe
-from neorl.worlds.waterworld import WaterWorldState
+from neorl.worlds.probe import probes_with
 
 STEPS = 50_000
 LAYERS = (10, 30, 50, 70, 90, 3, 7, 23)
@@ -31,6 +31,10 @@ MEMORIES = {
     "activity": Learning(credit="activity", absent_decay=0.2, absent_form="away", terminal=False, attention="wanted",
                          capture="silent"),
 }
+CONJUNCTIVE = modality.Modality("place and head direction", (*modality.PLACE_CELL.axes,
+                                                             *modality.HEAD_DIRECTION_CELL.axes))
+UNEVEN = modality.Modality("uneven", [modality.Axis("objects", boundaries=[-1.0, -0.2, 0.1, 1.0]),
+                                      modality.Axis("objects", along=1, closed=True, intervals=3)])
 PAPERS = {
     "Brownian": (neorl.brownian(), 8),
     **{f"A, N{n}": (place_cells([n]), 8) for n in LAYERS},
@@ -44,11 +48,19 @@ PAPERS = {
                              [*(Desire("green", each.name, 1.0) for each in modality.MODALITIES if each.takes_places),
                               Desire(Place(0.2, 0.9), "object-vector cell", -1.0),
                               Desire((0.3, 0.3), "place cell", 0.4)]), 4),
+    "axes of several kinds": (Agent([Node("PC × HD", CONJUNCTIVE, [3]), Node("uneven", UNEVEN, [4])],
+                                    [Desire("green", "PC × HD", 1.0), Desire("red", "uneven", -1.0)]), 3),
+}
+MAZES = {
+    "Morris": Arena(),
+    "walls": Arena(places=[("food", 0.8, 0.2), ("shock", 0.3, 0.7), ("food", 0.1, 0.1)], pay=[1.0, -2.0], ends=False,
+                   obstacles=[(0.4, 0.0, 0.5, 0.6), (0.6, 0.5, 0.7, 1.0)], shape="square", motion="steps",
+                   start=(0.2, 0.2), trial_seconds=20.0),
 }
 
 
 def assert_equal_to(run, arguments):
-    for own, name in ((run.state, "state"), (run.world_state, "board")):
+    for own, name in ((run.state, "state"), (run.world_state, "world_state")):
         views = arrays(viewed(arguments[name]))
         for field, array in arrays(own).items():
             assert np.array_equal(views[field], array, equal_nan=True), (name, field)
@@ -64,31 +76,54 @@ def viewed(values):
 def test_a_run_equals_a_native_run_to_the_last_bit(name):
     agent, creeps = PAPERS[name]
     run = Run(agent, WaterWorld(n_creeps=creeps, win_reward=5.0 if creeps == 8 else 0.0), seed=1, run=4)
+    assert_lives_alike(run)
+    assert name == "Brownian" or run.state.values.q.any()
+
+
+@pytest.mark.parametrize("name", MAZES)
+def test_a_run_in_the_arena_equals_a_native_run_to_the_last_bit(name):
+    world = MAZES[name]
+    cells = modality.PLACE_CELL, modality.CARTESIAN_OBJECT_VECTOR_CELL, modality.HEAD_DIRECTION_CELL
+    agent = Agent([Node(each.name, each, [3, 7]) for each in cells],
+                  [Desire(kind, each.name, 1.0) for kind in world.kinds for each in cells],
+                  policy=Policy(exploration=0.3))
+    run = Run(agent, world, seed=3, run=1)
+    assert assert_lives_alike(run) != 0
+    assert run.state.values.q.any()
+
+
+def assert_lives_alike(run):
+    """Let a run live, in the module and natively. Returns what it is paid."""
     machine, sizes, arguments = copied(run)
     for last_step in range(STEPS // 5, STEPS + 1, STEPS // 5):
         arguments["total"] = machine.call("rollout", sizes, last_step=last_step, bin_steps=2 * STEPS, **arguments)
     assert arguments["total"] == run.advance(STEPS)
-    assert name == "Brownian" or run.state.values.q.any()
     assert_equal_to(run, arguments)
+    return arguments["total"]
 
 
-@pytest.mark.parametrize("name", ["A, cells", "B, multimodal", "C, network_d", "every modality"])
+BEGINNINGS = {name: (PAPERS[name][0], WaterWorld(n_creeps=PAPERS[name][1]))
+              for name in ("A, cells", "B, multimodal", "C, network_d", "every modality", "axes of several kinds")}
+BEGINNINGS["water maze"] = Agent([Node("PC", modality.PLACE_CELL, [5])], [Desire("platform", "PC", 1.0)]), Arena()
+
+
+@pytest.mark.parametrize("name", BEGINNINGS)
 def test_a_run_begins_as_in_python_without_any_python(name):
-    agent, creeps = PAPERS[name]
-    run = Run(agent, WaterWorld(n_creeps=creeps), seed=2**32 - 1, run=17)
+    agent, world = BEGINNINGS[name]
+    run = Run(agent, world, seed=2**32 - 1, run=17)
     machine, sizes = Machine(), sizes_of(run)
     choices, _ = chosen(agent, run.world)
     parameters = machine.put_tuple(new_tuple(Parameters, sizes, choices))
-    machine.call("derive", sizes, parameters=parameters, n_things=creeps)
-    board = machine.put_tuple(new_tuple(WaterWorldState, sizes, {}))
+    machine.call("derive", sizes, parameters=parameters, n_things=world.things)
+    world_state = machine.put_tuple(new_tuple(EitherState, sizes, {}))
     state = machine.put_tuple(new_tuple(State, sizes, {}))
-    for words, stream in (([2**32 - 1, 0, 0, 0, 17], board.stream), ([2**32 - 1, 0, 0, 0, 17, 0], state.stream)):
+    for words, stream in (([2**32 - 1, 0, 0, 0, 17], world_state.stream), ([2**32 - 1, 0, 0, 0, 17, 0], state.stream)):
         machine.call("start_stream", sizes | {"words": len(words)}, words=machine.put(np.array(words, np.uint64)),
                      stream=stream)
-    machine.call("reset_board", sizes, board=board, rules=run.world.rules)
+    machine.call("reset", sizes, state=world_state, rules=machine.put_tuple(rules_of(world)))
     machine.call("clear_goal_ranges", sizes, parameters=parameters, state=state)
-    machine.call("begin_tracks", sizes, parameters=parameters, state=state, board=board)
-    assert_equal_to(run, {"state": state, "board": board})
+    machine.call("begin", sizes, parameters=parameters, state=state, scene=world_state.scene)
+    assert_equal_to(run, {"state": state, "world_state": world_state})
     derived = arrays(viewed(parameters))
     for field, array in arrays(run.parameters).items():
         assert np.array_equal(derived[field], array), field
@@ -99,37 +134,38 @@ def test_looking_and_joining_in_equal_native_calls():
     run.advance(20_000)
     machine, sizes, arguments = copied(run)
     agent, rules, board = (run._parameters, run._state), run.world.rules, run.world_state
-    contacts = np.zeros(6, np.int8)
+    probes, scene = probes_with(wasm.CONSTANTS), board.scene
 
-    there, elsewhere = board._replace(agent_position=np.zeros(2)), mapped(np.copy, run._state)
+    there, elsewhere = scene._replace(position=np.zeros(2)), mapped(np.copy, run._state)
     values = np.zeros((81, 4))
-    copies = {"there": arguments["board"]._replace(agent_position=machine.put(np.zeros(2))),
+    copies = {"there": arguments["scene"]._replace(position=machine.put(np.zeros(2))),
               "elsewhere": machine.put_tuple(elsewhere), "values": machine.put(values)}
-    execute(probe.survey, *agent, elsewhere, there, 9, values)
+    execute(probes.survey, *agent, elsewhere, there, 9, values)
     machine.call("survey", sizes | {"tiles": 81}, side=9, **arguments, **copies)
     assert values.any() and np.array_equal(copies["values"][1], values)
 
     for m, x, y in ((0, 0.1, 0.9), (3, 0.6, 0.2)):
-        cell = machine.call("cell_seen_at", sizes, m=m, x=x, y=y, **arguments)
-        assert cell == execute(probe.cell_seen_at, run._parameters, board, m, x, y)
+        cell = machine.call("cell_seen_at", sizes, m=m, x=x, y=y, **arguments, **copies)
+        assert cell == execute(probes.cell_seen_at, run._parameters, elsewhere, scene, m, x, y)
 
-    second = board._replace(agent_position=np.array([10.0, 10.0]), agent_velocity=np.zeros(2))
-    second_copy = arguments["board"]._replace(agent_position=machine.put(second.agent_position),
-                                              agent_velocity=machine.put(second.agent_velocity))
+    second = scene._replace(position=np.array([10.0, 10.0]), velocity=np.zeros(2))
+    second_copy = arguments["scene"]._replace(position=machine.put(second.position),
+                                              velocity=machine.put(second.velocity))
+    game = arguments | {"board": arguments["world_state"], "rules": rules}
     met = 0
     for step, action in enumerate(np.random.default_rng(0).integers(0, 5, 1_000).tolist()):
         run.advance(1)
         machine.call("rollout", sizes, last_step=step + 1, bin_steps=10_000, **arguments)
-        paid = execute(probe.step_second, *agent, rules, board, second, contacts, action)
-        assert machine.call("step_second", sizes, second=second_copy, action=action, **arguments) == paid
-        met += contacts.any()
+        paid = execute(probes.step_second, *agent, board, rules, second, action)
+        assert machine.call("step_second", sizes, second=second_copy, action=action, **game) == paid
+        met += second.met.any()
     assert met > 10
     assert_equal_to(run, arguments)
 
 
 def test_the_module_is_small_and_asks_for_memory_alone():
     _, module = compiled()
-    assert len(wasm.module()) < 84_000
+    assert len(wasm.module()) <= 64_000
     assert [each.name for each in module.imports] == ["memory"]
     assert {each.name for each in module.exports} == {"__heap_base", *wasm.layout()["exports"]}
 
