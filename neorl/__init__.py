@@ -1,8 +1,8 @@
 """neorl: agents that navigate by neural representations of Euclidean space, and the experiments of their thesis.
 
 An `Agent` is a network of `Node`s and `Desire`s, a node tiles the space of a `Modality`, and `simulate` lets agents
-live in `WaterWorld`, an `Arena` or another `World`; `sweep` does many `Condition`s at a time. A `Learner` is an agent in
-a loop of the user's own. The agents of the papers are values of these types.
+live in `WaterWorld`, an `Arena` or another `World`; `sweep` does many `Condition`s at a time. A `Learner` is an agent
+in a loop of the user's own. The agents of the papers are values of these types.
 
 The package is built in rooms, and a module imports only from its own room and from those below:
 

@@ -58,7 +58,7 @@ def chosen(agent, world):
         "policy": {"exploration": agent.policy.exploration,
                    "indifferent_is_no_op": agent.policy.when_indifferent == "no-op"}}
     return choices, sizes | {
-        "maps": len(agent.maps), "map_axes": sum(len(node.resolutions) * len(node.modality.axes) for node in agent.nodes),
+        "maps": len(agent.maps), "map_axes": sum(len(nres_map.intervals) for nres_map in agent.maps),
         "desires": len(agent.desires), "actions": len(world.actions.names), "axes": n_axes, "coordinates": coordinates}
 
 

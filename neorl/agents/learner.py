@@ -20,7 +20,7 @@ from neorl.agents.description import described, restored
 from neorl.agents.memory import fitting_runs, kept_apart, read_only
 from neorl.core.binding import bound
 from neorl.core.horde import as_vectors
-from neorl.core.kernel import array, arrays, execute, kernel, mapped, new_tuple
+from neorl.core.kernel import arrays, execute, kernel, mapped, new_tuple
 from neorl.core.scene import ABSENT, CARDINAL, Actions, Scene
 from neorl.core.state import new_state
 from neorl.core.steps import steps_with
@@ -181,8 +181,8 @@ class Individual:
         except (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile) as error:
             raise ValueError(f"{path} is damaged, or was not written by neorl: {error}") from error
         if (about.get("format"), about.get("is")) != (FORMAT, cls.__name__) or digest != _digest(kept):
-            raise ValueError(f"{path} holds a {about.get('is')} of format {about.get('format')}, or is damaged; allowed "
-                             f"is a {cls.__name__} of format {FORMAT}")
+            raise ValueError(f"{path} holds a {about.get('is')} of format {about.get('format')}, or is damaged; "
+                             f"allowed is a {cls.__name__} of format {FORMAT}")
         try:
             loaded = cls._of(restored(about["agent"]), restored(about["world"]))
             loaded._progress = about["progress"]

@@ -90,6 +90,6 @@ def _share(name, value):
 def _covering(share, modality):
     """The modality with the ranges of its axes cut down to a share about their middle."""
     margin = (1 - share) / 2
-    axes = [axis if axis.closed else replace(axis, low=axis.low + margin * (axis.high - axis.low),
-                                             high=axis.high - margin * (axis.high - axis.low)) for axis in modality.axes]
-    return replace(modality, axes=axes)
+    cut = [margin * (axis.high - axis.low) for axis in modality.axes]
+    return replace(modality, axes=[replace(axis, low=axis.low + each, high=axis.high - each)
+                                   for axis, each in zip(modality.axes, cut)])

@@ -16,7 +16,7 @@ class Constants(NamedTuple):
     feature: Kernel  # (number, scene, point) → the coordinate along an axis of the user's own
     credit: Kernel  # (count, steps, last, activity) → ψ of an event, if the credit is `choices.Credit.own`
     choose: Kernel  # (value, stream) → the action
-    actions: tuple  # their numbers; the length of a tuple is part of its type, so that it is known where loops are compiled
+    actions: tuple  # their numbers; the length of a tuple is part of its type, and so known where loops are compiled
     axes: tuple  # the numbers of the world's axes
 
 

@@ -5,9 +5,9 @@ in units of the world's size (a second, for velocity); a direction is in turns, 
 the second. A map cuts each axis into intervals, and the intervals that hold the coordinates make the one active cell
 (`cell_of`). Without a direction, as at rest, the coordinate is not a number, and the interval stays as it was.
 
-A node *follows* one vector (`parameters.NodeParameters`): the agent's own, or that of each of several points. An element
-of interest is *placed* along the axes of that vector, but in a contact keeps the direction that it is in; along the axes
-of other vectors it is everywhere. In this order they make the number of a cell.
+A node *follows* one vector (`parameters.NodeParameters`): the agent's own, or that of each of several points. An
+element of interest is *placed* along the axes of that vector, but in a contact keeps the direction that it is in; along
+the axes of other vectors it is everywhere. In this order they make the number of a cell.
 """
 
 import math
@@ -24,8 +24,8 @@ TAN_15_DEGREES = 2.0 - SQRT_3
 TERMS = 14  # of the series of the arctangent, so that it is exact to the last few bits
 
 
-# What an axis is: its `choices.Vector`; its `choices.Feature`; the axis of the world that it is along, or the number of a
-# feature of the user's own; how it is cut (`choices.Cut`); and its own number of intervals, or 0 for the map's resolution.
+# What an axis is: its `choices.Vector`; its `choices.Feature`; the axis of the world that it is along, or the number of
+# a feature of the user's own; how it is cut (`choices.Cut`); its own number of intervals, or 0 for the resolution.
 VECTOR, FEATURE, ALONG, CUT, INTERVALS = range(5)
 
 
@@ -39,8 +39,8 @@ class AxisParameters(NamedTuple):
     boundary: array("float64", "boundaries")  # between unequal intervals
 
 
-# How a map cuts an axis: where the first interval begins, intervals a unit, the number of the last, that of the one that
-# lies beyond (the last, or the first if the axis closes), and by how much an interval more raises the number of the cell.
+# How a map cuts an axis: where the first interval begins, intervals a unit, the number of the last, that of the one
+# that lies beyond (the last, or the first if the axis closes), and by how much one more raises the number of the cell.
 LOW, SCALE, LAST, BEYOND, STRIDE = range(5)
 
 
@@ -88,7 +88,7 @@ def component(parameters, constants, scene, n, vector, point, axis):
         return scene.things[point, axis] / parameters.size - own
     if vector == Vector.landmarks:
         return parameters.nodes.landmark[parameters.nodes.first_landmark[n] + point, axis] - own
-    if point % len(constants.axes) != axis:  # the nearest point of a wall: first where each axis begins, then where it ends
+    if point % len(constants.axes) != axis:  # of the walls: first those where each axis begins, then where it ends
         return 0.0
     return -own if point < len(constants.axes) else 1.0 - own
 
@@ -104,7 +104,8 @@ def locate(parameters, constants, scene, n, point, given, offset, coordinates):
     followed_has, all_have, follows, first = True, True, nodes.follows[n], nodes.first_axis[n]
     if nodes.is_cartesian[n]:
         for axis in range(np.uint64(nodes.first_axis[n + 1] - first)):
-            coordinates[axis] = offset[axis] if given else component(parameters, constants, scene, n, follows, point, axis)
+            coordinates[axis] = (offset[axis] if given else
+                                 component(parameters, constants, scene, n, follows, point, axis))
         return True, True
     for axis in range(first, nodes.first_axis[n + 1]):
         vector, feature, along = axes.what[axis, VECTOR], axes.what[axis, FEATURE], axes.what[axis, ALONG]
@@ -180,7 +181,7 @@ def with_kept_directions(grid, g, coordinates, n_axes, cell, before):
 
 @inlined_kernel
 def contact_cell(maps, m, cell):
-    """Where a thing that is in a cell arrives when it meets the agent: at distance 0, in the direction that it is in."""
+    """Where a thing that is in a cell arrives when it meets the agent: at distance 0, in the same direction."""
     if maps.placed[m] == maps.cells[m]:
         return maps.contact[m]
     return cell - cell % maps.placed[m] + maps.contact[m]

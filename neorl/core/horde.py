@@ -42,8 +42,8 @@ def learn(q, cell_tm1, cell_t, credit, learning_rate=0.03, discount=0.8, termina
 def superpose(q, cell, goals, valences, own_cell="counts"):
     """The value of each action in a cell: float64 (actions,) (thesis eq. 4.3 and 4.4).
 
-    q: float32 (cells, actions, cells). cell: where the agent is. goals: the cells of the elements of interest; valences:
-    their weights, as many. own_cell: whether an element in `cell` itself is "silent" or "counts".
+    q: float32 (cells, actions, cells). cell: where the agent is. goals: the cells of the elements of interest;
+    valences: their weights, as many. own_cell: whether an element in `cell` itself is "silent" or "counts".
     Raises ValueError for anything else.
     """
     cells, actions = _check_q(q)

@@ -75,7 +75,8 @@ def learn_transition(parameters, constants, state, m, point, cell_t, caused):
     if remembers:
         tracks.remembered_count[track] = fade(
             trace_of(parameters, tracks, m, point), tracks.remembered_count[track],
-            retained_since(learning, constants, tracks, track), learning.discount if learning.memory_discounts else UNIT)
+            retained_since(learning, constants, tracks, track),
+            learning.discount if learning.memory_discounts else UNIT)
     if not caused:
         return
     values = values_of(parameters, state, m)

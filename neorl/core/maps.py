@@ -1,10 +1,10 @@
 """NRES maps: neural representation of a Euclidean space by cells with mutually exclusive receptive fields.
 
 An N-map cuts each axis of a modality's space into N equal intervals, unless the axis has its own, so that exactly one
-cell is active for any point (one-hot; thesis section 4.1.2, paper B section 2.1). Cells are counted along the first axis
-first: a map of places row by row from the upper left. An interval holds its lower end and not its upper one. A point
-beyond the range of the map belongs to the cell at the end of the range; a direction closes on itself, its first interval
-centred on east.
+cell is active for any point (one-hot; thesis section 4.1.2, paper B section 2.1). Cells are counted along the first
+axis first: a map of places row by row from the upper left. An interval holds its lower end and not its upper one. A
+point beyond the range of the map belongs to the cell at the end of the range; a direction closes on itself, its first
+interval centred on east.
 """
 
 import math

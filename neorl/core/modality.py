@@ -10,8 +10,8 @@ table 1):
   middle of the board;
 - *length*, and *direction*.
 
-A direction runs from east (0) by way of south, since y points down, and closes on itself. A vector of length 0 has none:
-by itself it is taken to be east, and in the life of an agent it keeps the direction that it had (see
+A direction runs from east (0) by way of south, since y points down, and closes on itself. A vector of length 0 has
+none: by itself it is taken to be east, and in the life of an agent it keeps the direction that it had (see
 `neorl.core.life`).
 
 Axes of several vectors make *conjunctive* cells, such as of place and head direction: `PLACE_CELL.axes +
@@ -25,14 +25,14 @@ import numpy as np
 
 from neorl import checks
 from neorl.core.choices import Cut, Feature, Vector
-from neorl.core.geometry import TAU, AxisParameters, locate
+from neorl.core.geometry import TAU, locate
 from neorl.core.constants import Constants, features, no_credit, no_feature
 from neorl.core.kernel import array, check_kernel, execute, kernel, new_tuple
 from neorl.core.parameters import SpaceParameters, cut_axes
 from neorl.core.scene import Scene
 
 VECTORS = ("position", "velocity", "objects", "boundaries", "landmarks")
-SEVERAL = ("objects", "boundaries", "landmarks")  # of these there may be several points, and a modality follows one kind
+SEVERAL = ("objects", "boundaries", "landmarks")  # there may be several of these, and a modality follows one kind
 FEATURES = tuple(Feature.__members__)
 SEEN_FROM_AGENT = "centred on the agent, allocentric direction"
 FRAMES = {"position": "allocentric", "velocity": "allocentric direction"}

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl.core.choices import Cut, Feature, Source, Vector
+from neorl.core.choices import Cut, Feature, Vector
 from neorl.core.geometry import (ALONG, BEYOND, CUT, FEATURE, INTERVALS, LAST, LOW, SCALE, STRIDE, VECTOR,
                                  AxisParameters, in_range, interval_at)
 from neorl.core.kernel import array, inlined_kernel, kernel
@@ -47,7 +47,7 @@ class NodeParameters(NamedTuple):
     landmark: array("float64", "landmarks", "axes")
     # derived
     points: array("int64", "nodes")  # how many it follows
-    is_cartesian: array("bool", "nodes")  # whether its coordinates are the components of what it follows, in their order
+    is_cartesian: array("bool", "nodes")  # whether its coordinates are the components of what it follows
     first_input: array("int64", "nodes + 1")  # where in `inputs` its desires begin
     inputs: array("int64", "desires")  # desires, those of one node after those of the other
 

@@ -45,7 +45,7 @@ class Actions(checks.Final):
             raise ValueError(f"names is {self.names!r}, allowed are one or more, each once, and others than idle, "
                              f"{self.idle!r}")
         if len(pushes) != len(names) or len({len(each) for each in pushes}) != 1 or not pushes[0]:
-            raise ValueError(f"pushes is {self.pushes!r}, allowed are as many as names, each of the same number of axes")
+            raise ValueError(f"pushes is {self.pushes!r}, allowed are as many as names, all of as many axes")
         if self.idle is not None:
             checks.instance("idle", self.idle, str)
         checks.assign(self, names=names, pushes=pushes)

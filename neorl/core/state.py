@@ -19,7 +19,7 @@ class TrackState(NamedTuple):
     """The tracks of all maps, one map after the other."""
 
     cell: array("int64", "tracks")  # the active cell, or ABSENT
-    events: array("int64", "tracks", "actions + 1")  # steps on which each was taken since the cell was entered, idle last
+    events: array("int64", "tracks", "actions + 1")  # steps on which each was taken in the cell, idle last
     trace_cell: array("int64", "tracks", "trace")  # cells left, a ring
     trace_rates: array("float32", "tracks", "trace", "actions")  # the rates of their events
     trace_count: array("int64", "tracks")  # cells left since the track started

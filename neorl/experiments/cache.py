@@ -1,8 +1,8 @@
 """Finished conditions on disk, so that nothing is computed twice.
 
 A condition is kept under a key of all that determines it: agent, world, steps, runs, seed, and the source of every
-module that takes part in a run, and of every kernel of the user's own. A file is complete or absent, whatever moment the process is killed at, and carries a
-digest of its content: one that is damaged is noticed and computed again.
+module that takes part in a run, and of every kernel of the user's own. A file is complete or absent, whatever moment
+the process is killed at, and carries a digest of its content: one that is damaged is noticed and computed again.
 
 The files lie in the folder that the environment variable ``NEORL_CACHE`` names, or in the user's cache folder; all of
 it may be deleted at any time.
@@ -101,7 +101,8 @@ def folder():
 def source_digest():
     """A digest of the source of every module that takes part in a run."""
     package = Path(__file__).parents[1]
-    paths = [package / "checks.py", package / "files.py", *(path for room in ROOMS for path in sorted((package / room).rglob("*.py")))]
+    paths = [package / "checks.py", package / "files.py",
+             *(path for room in ROOMS for path in sorted((package / room).rglob("*.py")))]
     return hashlib.sha256(b"".join(path.read_bytes() for path in paths)).hexdigest()
 
 

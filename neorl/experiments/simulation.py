@@ -130,6 +130,6 @@ def checked_changes(changes, steps):
 
 
 def usable_threads(agent, world):
-    """How many runs of an agent in a world go side by side: a core each, within nine tenths of the memory that is free."""
+    """How many runs of an agent in a world go side by side: a core each, within nine tenths of free memory."""
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
     return min(fitting_runs(agent, world), cores)

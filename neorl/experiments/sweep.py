@@ -36,7 +36,8 @@ def sweep(conditions, executor=None, progress=True):
     for condition in conditions:
         checks.instance("condition", condition, Condition)
     waiting = [condition for condition in dict.fromkeys(conditions) if read_checked(condition.path) is None]
-    waiting.sort(key=lambda condition: -n_values(condition.agent, condition.world))  # the large ones take over each other's memory
+    # The large ones come first and take over each other's memory.
+    waiting.sort(key=lambda condition: -n_values(condition.agent, condition.world))
     total = sum(condition.steps * condition.runs for condition in waiting)
     with tqdm(total=total, unit="step", unit_scale=True, desc="sweep", leave=False, disable=not progress) as bar:
         for _ in range(ATTEMPTS):

@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl import checks
-from neorl.core.kernel import Kernel, arrays, execute, fields, is_tuple, length, new_tuple
+from neorl.core.kernel import Kernel, execute, fields, is_tuple, length, new_tuple
 from neorl.core.stream import new_stream
 
 

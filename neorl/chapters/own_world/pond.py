@@ -1,4 +1,4 @@
-"""A pond with a lily pad: an agent in a square takes plain steps, and begins anew somewhere when it has found the pad."""
+"""A pond with a lily pad: an agent takes plain steps in a square, and starts again elsewhere when it finds the pad."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
