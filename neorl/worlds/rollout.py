@@ -19,10 +19,11 @@ from neorl.core.state import State
 def rollout_in(dynamics, constants):
     """The kernel `rollout` of agents with certain `Constants` in a world with certain `Dynamics`."""
     (reset, step), (feature, credit, choose, actions, axes) = dynamics, constants
-    world, reset, step = fields(reset), inlined(reset), inlined(step)
+    world_type, rules_type = fields(reset)["state"], fields(reset)["rules"]
+    step = inlined(step)
 
     @kernel
-    def rollout(parameters: Parameters, state: State, world_state: world["state"], rules: world["rules"],
+    def rollout(parameters: Parameters, state: State, world_state: world_type, rules: rules_type,
                 clock: array("int64", 1), last_step: int, total: float, bin_steps: int,
                 rewards: array("float32", "bins"), hits: array("int16", "bins", "kinds")) -> float:
         """Take the steps clock[0] … last_step − 1, adding what they pay to the bins of `rewards` and `hits`.

@@ -28,8 +28,8 @@ def trials(name, finds, steps):
 
 def speeds(python_seconds, kernel_seconds, steps, kernel_steps):
     """A sentence on what a step costs in either form."""
-    return (f"A step of the loop took {1e6 * python_seconds / steps:.0f} microseconds. As kernels, on all cores, it took "
-            f"{1e9 * kernel_seconds / kernel_steps:.0f} nanoseconds.")
+    return (f"A step of the loop took {1e6 * python_seconds / steps:.0f} microseconds. As kernels, on all cores, it "
+            f"took {1e9 * kernel_seconds / kernel_steps:.0f} nanoseconds.")
 
 
 def table(results):
