@@ -42,7 +42,7 @@ TO_THE_LETTER = {
     "Object-vector cells, to the letter": papers.object_vector_cells(**LETTER.agents),
     "Place and object-vector cells, to the letter": papers.multimodal(place_gain=LETTER.place_gain, **LETTER.agents),
     "Network D, to the letter": networks(LETTER)["D"]}
-IN_THE_ARENA = {  # a platform that never moves shakes nobody out of a dead end, so half of all actions are drawn
+IN_THE_ARENA = {  # since the platform never moves, only exploration gets an agent out of a deadlock
     "Place cells in the water maze": Agent(
         [Node("PC", PLACE_CELL, [5, 9, 13])], [Desire("platform", "PC", 1.0)],
         Learning(learning_rate=0.05, discount=0.8, memory=2.0, memory_value="discounted"), Policy(exploration=0.5))}

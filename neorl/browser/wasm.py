@@ -64,7 +64,7 @@ LINK = ("--no-entry", "--allow-undefined", "--import-memory", "--gc-sections", "
 
 
 def module():
-    """The WebAssembly module: bytes. Built if it is not on disk, which takes a minute.
+    """The WebAssembly module: bytes. Built if it is not on disk, which takes one to two minutes.
 
     Raises RuntimeError if that needs something that is not installed.
     """
