@@ -200,7 +200,7 @@ def test_only_the_actions_of_a_world_can_be_taken():
     ((("a", "b"), ((1,), (2,)), "b"), "names is .*, and others than idle, 'b'"),
     ((("a", 5), ((1,), (2,))), "names is 5, allowed is a str"), (("ab", ((1,), (2,))), "names is 'ab'"),
     ((("a", "b"), ((1,),)), "pushes is .*, allowed are as many as names"),
-    ((("a", "b"), ((1,), (2, 3))), "pushes is .*, each of the same number of axes"),
+    ((("a", "b"), ((1,), (2, 3))), "pushes is .*, all of as many axes"),
     ((("a",), ((),)), "pushes is .*"), ((("a",), ((np.nan,),)), "pushes is nan"), ((("a",), (1,)), "pushes is 1"),
     ((("a",), ((1,),), 5), "idle is 5, allowed is a str"),
 ])
