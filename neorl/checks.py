@@ -31,6 +31,14 @@ def real(name, value, at_least=-math.inf, at_most=math.inf):
     raise ValueError(f"{name} is {value!r}, allowed are {bounds}")
 
 
+def positive(name, value):
+    """`value` as a float, if it is a finite number above 0."""
+    number = real(name, value)
+    if number > 0:
+        return number
+    raise ValueError(f"{name} is {value!r}, allowed are numbers above 0")
+
+
 def one_of(name, value, allowed):
     """The one of `allowed` that `value` is."""
     for each in allowed:

@@ -8,7 +8,7 @@ import numpy as np
 
 from neorl.agents.agent import Place
 from neorl.core.choices import Attention, Capture, Credit, Source, UpdateOn, Weighting
-from neorl.core.constants import Constants, features, no_credit, no_feature
+from neorl.core.constants import Constants, features, no_credit
 from neorl.core.kernel import execute, new_tuple
 from neorl.core.modality import as_turns, axis_parameters, firsts, integers
 from neorl.core.parameters import Parameters, derive
@@ -29,7 +29,7 @@ def constants_of(agent, world):
     """The `Constants` of an agent in a world."""
     own = tuple(function for node in agent.nodes for function in node.modality.functions)
     credit = agent.learning.credit if callable(agent.learning.credit) else no_credit
-    return Constants(features(*own) if own else no_feature, credit, agent.policy.choose,
+    return Constants(features(*own), credit, agent.policy.choose,
                      tuple(range(len(world.actions.names))), tuple(range(world.actions.axes)))
 
 

@@ -13,15 +13,15 @@ def described(value):
     """A value as plain data. Raises ValueError for a kernel that no module has."""
     if is_dataclass(value):
         kind = type(value)
-        return {"is": _name(kind), **{each.name: described(getattr(value, each.name)) for each in fields(kind)}}
+        return {"is": name_of(kind), **{each.name: described(getattr(value, each.name)) for each in fields(kind)}}
     if isinstance(value, tuple | list):
         return [described(each) for each in value]
     if callable(value):
         origin, arguments = getattr(value, "origin", (value, None))
-        if _find(_name(origin)) is not origin:
+        if _find(name_of(origin)) is not origin:
             raise ValueError(f"{value!r} cannot be saved, allowed are kernels that a module defines or that a "
                              "neorl.kernel_maker has made")
-        return {"kernel": _name(origin)} | ({} if arguments is None else {"of": described(arguments)})
+        return {"kernel": name_of(origin)} | ({} if arguments is None else {"of": described(arguments)})
     return value
 
 
@@ -41,7 +41,8 @@ def restored(data):
     return getattr(found, "of_fields", found)(**{name: restored(each) for name, each in data.items() if name != "is"})
 
 
-def _name(value):
+def name_of(value):
+    """The name of a class or function, with that of its module."""
     return f"{value.__module__}:{value.__qualname__}"
 
 

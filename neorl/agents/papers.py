@@ -73,18 +73,11 @@ def _creeps(node, valence_green=1.0, valence_red=-1.0):
 
 def _network(nodes, resolutions, desires, choices):
     weighting = choices.pop("weighting", Node.weighting)
-    tiled_fraction = _share("tiled_fraction", choices.pop("tiled_fraction", TILED_FRACTION))
-    of_objects = _share("object_tiled_fraction", choices.pop("object_tiled_fraction", tiled_fraction))
+    tiled_fraction = checks.positive("tiled_fraction", choices.pop("tiled_fraction", TILED_FRACTION))
+    of_objects = checks.positive("object_tiled_fraction", choices.pop("object_tiled_fraction", tiled_fraction))
     nodes = tuple(Node(name, _covering(tiled_fraction if modality is PLACE_CELL else of_objects, modality), resolutions,
                        weighting, gain) for name, modality, gain in nodes)
     return Agent(nodes, desires, **choices)
-
-
-def _share(name, value):
-    share = checks.real(name, value)
-    if share <= 0:
-        raise ValueError(f"{name} is {value!r}, allowed are numbers above 0")
-    return share
 
 
 def _covering(share, modality):

@@ -4,8 +4,8 @@ What it needs is in its state, so it works in a page without Python: the kernels
 its *presets* (agents as parameters, with the band of the runs that a page has of them), and its traits, which are the
 controls.
 
-- `settings.js` makes parameters of a preset and of the traits, `engine.js` runs them in a worker, and nothing else
-  decides a run: run k of a seed is the run that `neorl.Run` makes of it.
+- `settings.js` makes parameters of a preset and of the traits, `engine.js` runs them in a worker, in the memory of
+  `machine.js`, and nothing else decides a run: run k of a seed is the run that `neorl.Run` makes of it.
 - `drawing.js` draws; `page.js`, `controls.js`, `hands.js` and `widget.js` are what the reader sees and turns.
 """
 
@@ -82,7 +82,7 @@ class Explorer(AnyWidget):
 
     _esm = _text(*SCRIPTS)
     _css = _text("widget.css")
-    _engine = traitlets.Unicode(_text("engine.js")).tag(sync=True)
+    _engine = traitlets.Unicode(_text("machine.js", "engine.js")).tag(sync=True)
     _wasm = traitlets.Bytes().tag(sync=True)
     _layout = traitlets.Dict().tag(sync=True)
     _presets = traitlets.Dict().tag(sync=True)

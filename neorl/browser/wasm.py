@@ -31,15 +31,14 @@ import numba
 import numpy as np
 from numba import carray, cfunc, types
 
-from neorl.agents.learner import OF_A_MAP
+from neorl.agents.compile import constants_of
+from neorl.agents.individual import OF_A_MAP
+from neorl.agents.papers import brownian
 from neorl.browser.worlds import EITHER, EitherRules, EitherState
 from neorl.core import life, parameters
 from neorl.core.choices import Action, Cut, Feature, Source, Vector
-from neorl.core.constants import Constants, no_credit, no_feature
 from neorl.core.kernel import fields, is_tuple
 from neorl.core.parameters import Parameters, derive
-from neorl.core.policy import greedy
-from neorl.core.scene import CARDINAL
 from neorl.core.state import State, clear_goal_ranges
 from neorl.core.steps import steps_with
 from neorl.core.stream import start_stream
@@ -47,9 +46,9 @@ from neorl.experiments import cache
 from neorl.worlds import arena, waterworld
 from neorl.worlds.probe import probes_with
 from neorl.worlds.rollout import rollout_in
-from neorl.worlds.waterworld import WaterWorldState
+from neorl.worlds.waterworld import WaterWorld, WaterWorldState
 
-CONSTANTS = Constants(no_feature, no_credit, greedy, tuple(range(len(CARDINAL.names))), tuple(range(CARDINAL.axes)))
+CONSTANTS = constants_of(brownian(), WaterWorld())  # those of every agent without kernels of the user's own
 EXPORTS = (start_stream, derive, clear_goal_ranges, EITHER.reset, steps_with(CONSTANTS).begin,
            rollout_in(EITHER, CONSTANTS), *probes_with(CONSTANTS))
 TUPLES = (Parameters, State, EitherState, EitherRules, WaterWorldState)

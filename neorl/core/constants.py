@@ -26,21 +26,20 @@ def no_credit(count, steps, last, activity):
     return 0.0
 
 
-@kernel
-def no_feature(number, scene, point):
-    """The feature of an agent that has none of the user's own."""
-    return np.nan
-
-
 @kernel_maker
 def features(*kernels):
-    """One kernel (number, scene, point) for several kernels (scene, point)."""
-    first, others = kernels[0], features(*kernels[1:]) if kernels[1:] else no_feature
+    """One kernel (number, scene, point) for any number of kernels (scene, point)."""
+    if not kernels:
+        @kernel
+        def feature(number, scene, point):
+            return np.nan
+    else:
+        first, others = kernels[0], features(*kernels[1:])
 
-    @kernel
-    def feature(number, scene, point):
-        if number == 0:
-            return first(scene, point)
-        return others(number - 1, scene, point)
+        @kernel
+        def feature(number, scene, point):
+            if number == 0:
+                return first(scene, point)
+            return others(number - 1, scene, point)
 
     return feature

@@ -123,7 +123,7 @@ def locate(parameters, constants, scene, n, point, given, offset, coordinates):
                 value = offset[each] if replaced else component(parameters, constants, scene, n, vector, point, each)
                 coordinate += value * value
                 x, y = value if each == 0 else x, value if each == 1 else y
-            coordinate = math.sqrt(abs(coordinate))  # abs() tells the compiler that the root needs no library
+            coordinate = math.sqrt(abs(coordinate))  # abs() spares the compiler a library that takes negative ones
             if feature == Feature.direction:
                 has_direction = x != 0.0 or y != 0.0
                 all_have = all_have and has_direction
@@ -156,13 +156,11 @@ def interval_at(cut, coordinate):
 @kernel
 def in_range(axes, axis, coordinate):
     """A coordinate along an axis that closes on itself, in its range; among boundaries, the number of its interval."""
-    if coordinate != coordinate:
+    if coordinate != coordinate or axes.what[axis, CUT] == Cut.equal:
         return coordinate
     if axes.what[axis, CUT] == Cut.closed:
         low, length = axes.low[axis], axes.high[axis] - axes.low[axis]
         return coordinate - length * np.floor((coordinate - low) / length)
-    if axes.what[axis, CUT] == Cut.equal:
-        return coordinate
     interval = 0.0
     for at in range(axes.first_boundary[axis], axes.first_boundary[axis + 1]):
         interval += coordinate >= axes.boundary[at]

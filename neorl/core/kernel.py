@@ -68,7 +68,12 @@ def inlined_kernel(function):
 
 def inlined(kernel):
     """The same kernel for other kernels alone, into each of which it is inlined."""
-    return inlined_kernel(kernel.py_func) if isinstance(kernel, Kernel) else kernel
+    return inlined_kernel(function_of(kernel))
+
+
+def function_of(kernel):
+    """The Python function that a kernel is made of, or anything else as it is."""
+    return getattr(kernel, "py_func", kernel)
 
 
 def _compiled(function, options):

@@ -26,7 +26,7 @@ import numpy as np
 from neorl import checks
 from neorl.core.choices import Cut, Feature, Vector
 from neorl.core.geometry import TAU, locate
-from neorl.core.constants import Constants, features, no_credit, no_feature
+from neorl.core.constants import Constants, features, no_credit
 from neorl.core.kernel import array, check_kernel, execute, kernel, new_tuple
 from neorl.core.parameters import SpaceParameters, cut_axes
 from neorl.core.scene import Scene
@@ -184,7 +184,7 @@ class Modality(checks.Final):
         n_axes = len(scene.position)
         points = {"objects": len(scene.things), "boundaries": 2 * n_axes, "landmarks": len(self.landmarks)}
         found = np.zeros((points.get(self.follows, 1), len(self.axes)))
-        execute(_locate_in(self.functions, n_axes), space_of(self, 1, n_axes, size), scene, found)
+        self._locate(size, scene, False, np.zeros((len(found), n_axes)), found)
         return as_radians(self, found)
 
     def tune(self, vectors):
@@ -199,9 +199,15 @@ class Modality(checks.Final):
             raise ValueError(f"vectors has the shape {vectors.shape}, allowed are (…, {self.least_axes}) or more")
         n_axes = vectors.shape[-1]
         found = np.zeros((*vectors.shape[:-1], len(self.axes)))
-        execute(_tune_in(n_axes), space_of(self, 1, n_axes), _empty_scene(n_axes), vectors.reshape(-1, n_axes),
-                found.reshape(-1, len(self.axes)))
+        scene = new_tuple(Scene, {"axes": n_axes, "things": 0}, {})
+        self._locate(1.0, scene, True, vectors.reshape(-1, n_axes), found.reshape(-1, len(self.axes)))
         return as_radians(self, found)
+
+    def _locate(self, size, scene, given, vectors, found):
+        """Put the coordinates of all points into `found`; given: by their vectors, and not by the scene."""
+        axes = tuple(range(len(scene.position)))
+        constants = Constants(features(*self.functions), no_credit, no_credit, (0,), axes)
+        execute(_locate_with(constants), space_of(self, 1, len(axes), size), scene, given, vectors, found)
 
     @property
     def least_axes(self):
@@ -229,7 +235,7 @@ def space_of(modality, resolution, n_axes=None, size=1.0):
     n_axes = n_axes or modality.least_axes
     given, sizes = axis_parameters([modality], n_axes)
     given["nodes"]["first_map"] = integers([0, 1])
-    sizes |= {"maps": 1, "map_axes": len(modality.axes), "actions": 0, "axes": n_axes, "desires": 0, "coordinates": 0}
+    sizes |= {"maps": 1, "map_axes": len(modality.axes), "axes": n_axes, "desires": 0}
     space = new_tuple(SpaceParameters, sizes, given | {"size": float(size), "maps": {
         "resolution": np.array([resolution])}})
     execute(cut_axes, space, 0, 0)
@@ -271,35 +277,15 @@ def firsts(counts):
     return np.concatenate([[0], np.cumsum(integers(counts))]).astype(np.int64)
 
 
-def _empty_scene(n_axes):
-    return new_tuple(Scene, {"axes": n_axes, "things": 0}, {})
-
-
 @functools.cache
-def _locate_in(functions, n_axes):
-    feature, axes = features(*functions) if functions else no_feature, tuple(range(n_axes))
-
+def _locate_with(constants):
     @kernel
-    def locate_all(space: SpaceParameters, scene: Scene, found: array("float64", "points", "coordinates")) -> None:
+    def locate_all(space: SpaceParameters, scene: Scene, given: bool, vectors: array("float64", "points", "axes"),
+                   found: array("float64", "points", "coordinates")) -> None:
         for point in range(found.shape[0]):
-            locate(space, Constants(feature, no_credit, no_credit, (0,), axes), scene, 0, point, False, scene.position,
-                   found[point])
+            locate(space, constants, scene, 0, point, given, vectors[point], found[point])
 
     return locate_all
-
-
-@functools.cache
-def _tune_in(n_axes):
-    axes = tuple(range(n_axes))
-
-    @kernel
-    def tune(space: SpaceParameters, scene: Scene, vectors: array("float64", "points", "axes"),
-             found: array("float64", "points", "coordinates")) -> None:
-        for point in range(found.shape[0]):
-            locate(space, Constants(no_feature, no_credit, no_credit, (0,), axes), scene, 0, 0, True, vectors[point],
-                   found[point])
-
-    return tune
 
 
 # O'Keefe and Dostrovsky 1971; Solstad et al. 2008; Høydal et al. 2019 and, in its Cartesian emulation, paper B,

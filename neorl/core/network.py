@@ -59,17 +59,19 @@ def evaluate(parameters, constants, state, scene):
 def project(parameters, constants, desires, e):
     """Where the desire of a node lands, and its valence, into desires.target."""
     chosen, valence = parameters.desires, 0.0
+    for i in range(chosen.source.shape[0]):
+        if chosen.elements[e, i]:
+            valence += desires.valence[i]
+    desires.target[e, len(constants.axes)] = valence if chosen.sums_valence[e] else chosen.valence[e]
     for axis in range(len(constants.axes)):
-        total, valence = 0.0, 0.0
+        total = 0.0
         for i in range(chosen.source.shape[0]):
             if chosen.elements[e, i]:
                 pushed = 0.0
                 for action in range(len(constants.actions)):
                     pushed += parameters.push[action, axis] * desires.q[i, action]
                 total += pushed if chosen.signed[e] or desires.valence[i] > 0.0 else -pushed
-                valence += desires.valence[i]
         desires.target[e, axis] = chosen.scale[e] * total
-    desires.target[e, len(constants.axes)] = valence if chosen.sums_valence[e] else chosen.valence[e]
 
 
 @inlined_kernel
@@ -117,15 +119,12 @@ def add_element(parameters, constants, state, scene, n, valence, q):
     if nodes.follows[n] == Vector.position:
         for axis in range(len(constants.axes)):
             state.offset[axis] += state.here[axis]
-    coordinates, has_direction = state.offset, True
-    if not nodes.is_cartesian[n]:
-        coordinates = state.coordinates
-        has_direction, _ = locate(parameters, constants, scene, n, 0, True, state.offset, coordinates)
+    has_direction, _ = locate(parameters, constants, scene, n, 0, True, state.offset, state.coordinates)
     of_agent = nodes.follows[n] == Vector.position or nodes.follows[n] == Vector.velocity
     if of_agent and not has_direction:
         return
     for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
-        cell = cell_of(parameters, coordinates, n, m)
+        cell = cell_of(parameters, state.coordinates, n, m)
         if of_agent:
             add_goals(parameters, constants, state, m, state.tracks.cell[maps.first_track[m]], cell, valence, q)
         else:

@@ -100,12 +100,10 @@ class SpaceParameters(NamedTuple):
     """What a modality alone is compiled to, without an agent; the part of `Parameters` that finds cells."""
 
     size: float
-    push: array("float64", "actions", "axes")
     maps: MapParameters
-    grid: array("float64", "map_axes", 5)  # of each map how it cuts each axis of its node, see `geometry.LOW`
+    grid: array("float64", "map_axes", 5)
     nodes: NodeParameters
     axes: AxisParameters
-    desires: DesireParameters
 
 
 class Parameters(NamedTuple):
@@ -191,8 +189,7 @@ def cut_axes(parameters, n, m):
 @inlined_kernel
 def interval_in(axes, axis, cut, coordinate):
     """The interval of a map that holds a coordinate along an axis."""
-    coordinate = coordinate if axes.what[axis, CUT] == Cut.equal else in_range(axes, axis, coordinate)
-    return interval_at(cut, coordinate)
+    return interval_at(cut, in_range(axes, axis, coordinate))
 
 
 @kernel

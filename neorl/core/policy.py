@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from neorl import checks
-from neorl.core.kernel import kernel, kernel_maker
+from neorl.core.kernel import inlined_kernel, kernel, kernel_maker
 from neorl.core.stream import randint, uniform
 
 LN_2 = math.log(2.0)
@@ -17,13 +17,19 @@ LN_2_HIGH, LN_2_LOW = 6.93147180369123816490e-01, 1.90821492927058770002e-10  # 
 TERMS = 20  # of the series of the exponential function, so that it is exact to the last few bits
 
 
-@kernel
-def greedy(value, stream):
-    """The action of highest value, ties broken at random."""
+@inlined_kernel
+def highest(value):
+    """The value of the best action."""
     best = value[0]
     for action in range(1, value.shape[0]):
         best = max(best, value[action])
-    ties = 0
+    return best
+
+
+@kernel
+def greedy(value, stream):
+    """The action of highest value, ties broken at random."""
+    best, ties = highest(value), 0
     for action in range(value.shape[0]):
         ties += value[action] == best
     skip = randint(stream, ties) if ties > 1 else 0
@@ -40,15 +46,11 @@ def softmax(temperature):
 
     temperature: > 0, in units of value. Raises ValueError for anything else.
     """
-    if checks.real("temperature", temperature, 0) == 0:
-        raise ValueError(f"temperature is {temperature!r}, allowed are numbers above 0")
+    checks.positive("temperature", temperature)
 
     @kernel
     def choose(value, stream):
-        best = value[0]
-        for action in range(1, value.shape[0]):
-            best = max(best, value[action])
-        total = 0.0
+        best, total = highest(value), 0.0
         for action in range(value.shape[0]):
             total += exponential((value[action] - best) / temperature)
         rest = uniform(stream) * total

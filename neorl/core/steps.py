@@ -7,7 +7,6 @@ import functools
 from typing import NamedTuple
 
 from neorl.core import life
-from neorl.core.constants import Constants
 from neorl.core.kernel import Kernel, kernel
 from neorl.core.parameters import Parameters
 from neorl.core.scene import Scene
@@ -24,19 +23,18 @@ class Steps(NamedTuple):
 
 @functools.cache
 def steps_with(constants):
-    """The `Steps` of agents with certain `Constants`."""
-    feature, credit, choose, actions, axes = constants
+    """The `Steps` of agents with certain `neorl.core.constants.Constants`."""
 
     @kernel
     def begin(parameters: Parameters, state: State, scene: Scene) -> None:
-        life.begin(parameters, Constants(feature, credit, choose, actions, axes), state, scene)
+        life.begin(parameters, constants, state, scene)
 
     @kernel
     def act(parameters: Parameters, state: State, scene: Scene) -> int:
-        return life.act(parameters, Constants(feature, credit, choose, actions, axes), state, scene)
+        return life.act(parameters, constants, state, scene)
 
     @kernel
     def observe(parameters: Parameters, state: State, scene: Scene) -> None:
-        life.observe(parameters, Constants(feature, credit, choose, actions, axes), state, scene)
+        life.observe(parameters, constants, state, scene)
 
     return Steps(begin, act, observe)

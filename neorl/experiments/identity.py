@@ -9,6 +9,8 @@ from types import ModuleType
 
 import numpy as np
 
+from neorl.agents.description import name_of
+from neorl.core.kernel import function_of
 from neorl.worlds.world import World
 
 OURS = "neorl."
@@ -23,7 +25,7 @@ def identity(value):
         of_fields = [f"{each.name}={identity(getattr(value, each.name))}" for each in fields(value)]
         if isinstance(value, World) and not type(value).__module__.startswith(OURS):
             of_fields += [_source(type(value)), *map(identity, value.dynamics)]
-        return f"{_name(type(value))}({', '.join(of_fields)})"
+        return f"{name_of(type(value))}({', '.join(of_fields)})"
     if isinstance(value, tuple | list):
         return f"({', '.join(map(identity, value))})"
     if isinstance(value, np.ndarray):
@@ -34,18 +36,14 @@ def identity(value):
 
 
 def _of_function(value):
-    function = getattr(value, "py_func", value)
+    function = function_of(value)
     if not inspect.isfunction(function) or function.__module__.startswith(OURS):
         _, arguments = getattr(value, "origin", (None, ()))
-        return f"{_name(function)}{identity(arguments)}"
+        return f"{name_of(function)}{identity(arguments)}"
     used = inspect.getclosurevars(function)
     constants = {**used.nonlocals, **used.globals}
     of_constants = [f"{name}={identity(each)}" for name, each in constants.items() if each is not value]
     return f"{_source(function)}({', '.join(of_constants)})"
-
-
-def _name(value):
-    return f"{value.__module__}.{value.__qualname__}"
 
 
 def _source(value):

@@ -11,7 +11,7 @@ import numpy as np
 from neorl import checks
 from neorl.agents.agent import Agent
 from neorl.agents.compile import constants_of
-from neorl.agents.learner import Individual
+from neorl.agents.individual import Individual
 from neorl.agents.memory import kept_apart, on_lines_of_its_own
 from neorl.core.kernel import arrays, execute
 from neorl.core.steps import steps_with
@@ -43,7 +43,7 @@ class Run(Individual):
         if after is not None:
             checks.instance("after", after, Run)
         self._world_state = kept_apart(world.reset(sequence))
-        self._live(agent, world, new_stream(sequence.spawn(1)[0]), self._world_state.scene, after)
+        self._live(agent, world, new_stream(sequence.spawn(1)[0]), after)
         self._progress = 0
         execute(steps_with(constants_of(agent, world)).begin, self._parameters, self._state, self._scene)
         self._bind()
@@ -52,8 +52,11 @@ class Run(Individual):
     def _of(cls, agent, world):
         return cls(agent, world)
 
+    @property
+    def _scene(self):
+        return self._world_state.scene
+
     def _bind(self):
-        self._scene = self._world_state.scene
         self._rollout = rollout_in(self.world.dynamics, constants_of(self.agent, self.world))
 
     @property

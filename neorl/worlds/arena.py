@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl import checks
-from neorl.core.kernel import array, execute, inlined_kernel, kernel
+from neorl.core.kernel import array, function_of, inlined_kernel, kernel
 from neorl.core.scene import CARDINAL, Scene
 from neorl.core.stream import randint
 from neorl.worlds.waterworld import DRAG
@@ -50,7 +50,7 @@ class ArenaRules(NamedTuple):
     last_step: int
     n_starts: int
     start: array("float64", 4, 2)
-    push: array("float64", 4, 2)
+    push: array("float64", 5, 2)
     place: array("float64", "things", 2)
     kind: array("int64", "things")
     pay: array("float64", "things")
@@ -109,7 +109,7 @@ class Arena(World, checks.Final):
                 raise ValueError(f"obstacles is {self.obstacles!r}, allowed are (left, top, right, bottom) each")
         if len(self.start) not in (0, 2):
             raise ValueError(f"start is {self.start!r}, allowed are () and a place (x, y)")
-        if any(execute(is_blocked, self.rules, x, y) for x, y in self.rules.start):
+        if any(function_of(is_blocked)(self.rules, x, y) for x, y in self.rules.start):
             raise ValueError(f"start is {self.start!r}, allowed are places outside of walls and obstacles")
 
     @property
@@ -141,7 +141,7 @@ class Arena(World, checks.Final):
         return ArenaRules(
             self.size, 1.0 / self.fps, self.shape == "round", self.step_length if self.motion == "steps" else 0.0,
             self.radius, self.ends, max(1, round(self.trial_seconds * self.fps)), 1 if self.start else 4,
-            np.array(starts, float), np.array(self.actions.pushes, float),
+            np.array(starts, float), self.actions.table,
             np.array([at for _, *at in self.places], float).reshape(-1, 2),
             np.array([self.kinds.index(kind) for kind, *_ in self.places], np.int64),
             np.array([pay[kind] for kind, *_ in self.places], float), np.array(self.obstacles, float).reshape(-1, 4))
@@ -181,11 +181,10 @@ def step(state: ArenaState, rules: ArenaRules, action: int):
 def move(scene, rules, action):
     """Move the agent, along one axis after the other."""
     for axis in range(2):
-        push = rules.push[action, axis] if action < rules.push.shape[0] else 0.0
         if rules.stride > 0.0:
-            scene.velocity[axis] = push * rules.stride / rules.dt
+            scene.velocity[axis] = rules.push[action, axis] * rules.stride / rules.dt
         else:
-            scene.velocity[axis] += PUSH * push
+            scene.velocity[axis] += PUSH * rules.push[action, axis]
         before = scene.position[axis]
         scene.position[axis] += scene.velocity[axis] * rules.dt
         if is_blocked(rules, scene.position[0], scene.position[1]):

@@ -5,7 +5,6 @@ from typing import NamedTuple
 
 from neorl.core import life
 from neorl.core.choices import Vector
-from neorl.core.constants import Constants
 from neorl.core.geometry import cell_of, locate
 from neorl.core.kernel import Kernel, array, kernel
 from neorl.core.network import evaluate
@@ -27,8 +26,7 @@ class Probes(NamedTuple):
 
 @functools.cache
 def probes_with(constants):
-    """The `Probes` of agents with certain `Constants`, of a plane."""
-    feature, credit, choose, actions, axes = constants
+    """The `Probes` of agents with certain `neorl.core.constants.Constants`, of a plane."""
 
     @kernel
     def survey(parameters: Parameters, state: State, elsewhere: State, there: Scene, side: int,
@@ -37,17 +35,16 @@ def probes_with(constants):
 
         elsewhere: a state to work in, with the agent's q and goal_range. there: the scene, with a position to work in.
         """
-        own = Constants(feature, credit, choose, actions, axes)
         for tile in range(side * side):
             there.position[0] = (tile % side + 0.5) / side * parameters.size
             there.position[1] = (tile // side + 0.5) / side * parameters.size
-            life.begin(parameters, own, elsewhere, there)
+            life.begin(parameters, constants, elsewhere, there)
             for e in range(state.desires.valence.shape[0]):  # recursion takes the agent's own of the step before
                 elsewhere.desires.valence[e] = state.desires.valence[e]
-                for action in range(len(actions)):
+                for action in range(len(constants.actions)):
                     elsewhere.desires.q[e, action] = state.desires.q[e, action]
-            evaluate(parameters, own, elsewhere, there)
-            for action in range(len(actions)):
+            evaluate(parameters, constants, elsewhere, there)
+            for action in range(len(constants.actions)):
                 values[tile, action] = elsewhere.action_value[action]
 
     @kernel
@@ -62,12 +59,11 @@ def probes_with(constants):
             n += 1
         offset[0], offset[1] = x, y
         if nodes.follows[n] != Vector.position:
-            for axis in range(len(axes)):
+            for axis in range(len(constants.axes)):
                 offset[axis] -= scene.position[axis] / parameters.size
                 if nodes.follows[n] == Vector.velocity:
                     offset[axis] /= HALF_SECOND
-        locate(parameters, Constants(feature, credit, choose, actions, axes), scene, n, 0, True, offset,
-               elsewhere.coordinates)
+        locate(parameters, constants, scene, n, 0, True, offset, elsewhere.coordinates)
         return cell_of(parameters, elsewhere.coordinates, n, m)
 
     @kernel
@@ -76,9 +72,8 @@ def probes_with(constants):
         """Let a second agent on the same board do an action, and return what it is paid.
 
         second: the scene of the board, with a position and a velocity of its own. A creep that it takes is one that
-        the first agent has not met: what its maps follow instead starts anew, and nothing is learned from the leap.
+        the first agent has not met: what its maps follow instead starts afresh, and nothing is learned from the leap.
         """
-        own = Constants(feature, credit, choose, actions, axes)
         move_agent(second, rules, action)
         reward, done = touch_creeps(WaterWorldState(second, board.direction, board.speed, board.jitter, board.stream),
                                     rules)
@@ -86,10 +81,10 @@ def probes_with(constants):
             if parameters.nodes.follows[n] == Vector.objects:
                 for creep in range(second.met.shape[0]):
                     if second.met[creep] != 0:
-                        life.begin_point(parameters, own, state, board.scene, n, creep)
+                        life.begin_point(parameters, constants, state, board.scene, n, creep)
         if done:
             reset(board, rules)
-            life.begin(parameters, own, state, board.scene)
+            life.begin(parameters, constants, state, board.scene)
         return reward
 
     return Probes(survey, cell_seen_at, step_second)

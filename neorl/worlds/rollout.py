@@ -9,7 +9,6 @@ import functools
 import numpy as np
 
 from neorl.core import life
-from neorl.core.constants import Constants
 from neorl.core.kernel import array, fields, inlined, kernel
 from neorl.core.parameters import Parameters
 from neorl.core.state import State
@@ -17,10 +16,9 @@ from neorl.core.state import State
 
 @functools.cache
 def rollout_in(dynamics, constants):
-    """The kernel `rollout` of agents with certain `Constants` in a world with certain `Dynamics`."""
-    (reset, step), (feature, credit, choose, actions, axes) = dynamics, constants
+    """The kernel `rollout` of agents with certain `neorl.core.constants.Constants` in a world of certain `Dynamics`."""
+    reset, step = dynamics.reset, inlined(dynamics.step)
     world_type, rules_type = fields(reset)["state"], fields(reset)["rules"]
-    step = inlined(step)
 
     @kernel
     def rollout(parameters: Parameters, state: State, world_state: world_type, rules: rules_type,
@@ -30,11 +28,11 @@ def rollout_in(dynamics, constants):
 
         total: reward so far, to which theirs is added and returned. hits: things met of each kind.
         """
-        own, scene = Constants(feature, credit, choose, actions, axes), world_state.scene
+        scene = world_state.scene
         for now in range(clock[0], last_step):
-            action = life.act(parameters, own, state, scene)
+            action = life.act(parameters, constants, state, scene)
             reward, done = step(world_state, rules, action)
-            life.observe(parameters, own, state, scene)
+            life.observe(parameters, constants, state, scene)
             total += reward
             interval = now // bin_steps
             rewards[interval] += np.float32(reward)
@@ -43,7 +41,7 @@ def rollout_in(dynamics, constants):
                     hits[interval, scene.met[thing] - 1] += 1
             if done:
                 reset(world_state, rules)
-                life.begin(parameters, own, state, scene)
+                life.begin(parameters, constants, state, scene)
         clock[0] = last_step
         return total
 

@@ -55,7 +55,7 @@ def test_a_notebook_opens_from_the_repository_that_is_set(make_book):
 
 
 def test_without_a_repository_there_are_no_buttons_and_docstrings_become_lists_with_links(make_book):
-    page, reference = make_book(modules=["neorl.agents.learner", "neorl.experiments.run",
+    page, reference = make_book(modules=["neorl.agents.individual", "neorl.experiments.run",
                                          "neorl.experiments.simulation", "neorl.experiments.cache"])
     assert "mybinder" not in page and "colab" not in page and "fa-github" not in page
     text = re.sub(r"<[^>]+>", "", reference)

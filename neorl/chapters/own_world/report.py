@@ -1,4 +1,4 @@
-"""What the page "Bring your own world" counts in its runs, and how it tells it."""
+"""What the page "Bring your own world" counts in its runs, and how it reports that."""
 
 import numpy as np
 

@@ -7,6 +7,7 @@ from IPython import get_ipython
 from IPython.display import HTML, Markdown, display
 
 from neorl import checks
+from neorl.core.kernel import function_of
 from neorl.drawing import figures
 from neorl.evidence.claims import RUNS_FOR_A_VERDICT
 
@@ -40,5 +41,5 @@ def injected_names():
 
 def source(*values):
     """The source of modules, classes or kernels, to be read: Markdown."""
-    sources = [inspect.getsource(getattr(each, "py_func", each)) for each in values]
+    sources = [inspect.getsource(function_of(each)) for each in values]
     return Markdown("\n".join(["```python", *sources, "```"]))

@@ -1,0 +1,90 @@
+// The memory in which the engine's kernels work: arrays, named tuples of them, and calls with these.
+//
+// What tuples consist of and what kernels take is in `layout`; nothing here knows what any of it means.
+
+const ARRAYS = {
+  float64: Float64Array, float32: Float32Array, int64: BigInt64Array, uint64: BigUint64Array, int16: Int16Array,
+  int8: Int8Array, bool: Uint8Array,
+};
+const PAGE = 65536;
+const MOST_GIGABYTES = 3;
+
+let compiled = null;
+let layout = null;
+
+/** An error that the reader can mend, as a sentence. The words of all others are kept from the page. */
+class Refusal extends Error {}
+
+/** Arrays in a WebAssembly memory, and the kernels that work on them. */
+class Machine {
+  constructor(bytes) {
+    const gigabytes = bytes / 2 ** 30;
+    if (gigabytes > MOST_GIGABYTES) {
+      throw new Refusal(`These maps need ${gigabytes.toFixed(1)} GB of memory, and a page can have ${MOST_GIGABYTES}.`
+        + " Choose coarser ones.");
+    }
+    try {
+      this.memory = new WebAssembly.Memory({ initial: Math.ceil(bytes / PAGE) });
+    } catch {
+      throw new Refusal("This device has not enough memory for these maps. Choose coarser ones.");
+    }
+    this.exports = new WebAssembly.Instance(compiled, { env: { memory: this.memory } }).exports;
+    this.end = this.exports.__heap_base.value;
+    this.result = this.put("float64", [1]);
+  }
+
+  put(dtype, shape, values) {
+    const count = shape.reduce((product, each) => product * each, 1);
+    const at = Math.ceil(this.end / 64) * 64;
+    this.end = at + count * ARRAYS[dtype].BYTES_PER_ELEMENT;
+    const array = new ARRAYS[dtype](this.memory.buffer, at, count);
+    if (values) fill(array, values);
+    return array;
+  }
+
+  /** A named tuple: its scalars are given, and so may arrays be, in another tuple or in JSON; all else is 0. */
+  tuple(kind, sizes, given = {}) {
+    return Object.fromEntries(layout.tuples[kind].map(([name, field]) => {
+      if (typeof field === "string") return [name, this.tuple(field, sizes, given[name])];
+      const [dtype, shape] = field;
+      if (shape === null || ArrayBuffer.isView(given[name])) return [name, given[name]];
+      return [name, this.put(dtype, shape.map((each) => lengthOf(each, sizes)), given[name])];
+    }));
+  }
+
+  call(name, sizes, given) {
+    const { sizes: wanted, arguments: kinds, result } = layout.exports[name];
+    const passed = wanted.map((each) => sizes[each]);
+    for (const [argument, kind] of kinds) passed.push(...flat(kind, given[argument]));
+    if (this.exports[name](this.result.byteOffset, 0, ...passed) !== 0) throw new Error(`The kernel ${name} failed.`);
+    const { buffer, byteOffset } = this.result;
+    return result === "int64" ? Number(new BigInt64Array(buffer, byteOffset, 1)[0]) : this.result[0];
+  }
+}
+
+/** An argument as the numbers that the module takes: those of a tuple field by field, an array's address. */
+function flat(kind, value) {
+  if (value === undefined) throw new Error(`Something of kind ${kind} is missing.`);
+  if (typeof kind === "string") return layout.tuples[kind].flatMap(([name, field]) => flat(field, value[name]));
+  return [ArrayBuffer.isView(value) ? value.byteOffset : Number(value)];
+}
+
+function lengthOf(dimension, sizes) {
+  if (typeof dimension === "number") return dimension;
+  const [name, more] = dimension.split(" + ");
+  return sizes[name] + Number(more || 0);
+}
+
+function fill(array, values) {
+  const flat = values.flat();
+  array.set(array instanceof BigInt64Array ? flat.map(BigInt) : flat);
+}
+
+function bytesOf(kind, sizes) {
+  return layout.tuples[kind].reduce((sum, [, field]) => {
+    if (typeof field === "string") return sum + bytesOf(field, sizes);
+    const [dtype, shape] = field;
+    if (shape === null) return sum;
+    return sum + 64 + shape.reduce((product, each) => product * lengthOf(each, sizes), ARRAYS[dtype].BYTES_PER_ELEMENT);
+  }, 0);
+}
