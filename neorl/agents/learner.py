@@ -33,7 +33,8 @@ class Surroundings(checks.Final):
             raise ValueError(f"kinds is {kinds!r}, allowed is each name once")
         checks.instance("actions", self.actions, Actions)
         checks.assign(self, things=checks.integer("things", self.things, at_least=0, at_most=2**20), kinds=kinds,
-                     size=checks.positive("size", self.size), fps=checks.positive("fps", self.fps))
+                     size=checks.positive("size", checks.real("size", self.size)),
+                     fps=checks.positive("fps", checks.real("fps", self.fps)))
 
 
 class Learner(Individual):
