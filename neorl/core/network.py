@@ -58,20 +58,22 @@ def evaluate(parameters, constants, state, scene):
 @inlined_kernel
 def project(parameters, constants, desires, e):
     """Where the desire of a node lands, and its valence, into desires.target."""
-    chosen, valence = parameters.desires, 0.0
+    chosen, target, n_axes = parameters.desires, desires.target, len(constants.axes)
+    for axis in range(n_axes):
+        target[e, axis] = 0.0
+    valence = 0.0
     for i in range(chosen.source.shape[0]):
         if chosen.elements[e, i]:
             valence += desires.valence[i]
-    desires.target[e, len(constants.axes)] = valence if chosen.sums_valence[e] else chosen.valence[e]
-    for axis in range(len(constants.axes)):
-        total = 0.0
-        for i in range(chosen.source.shape[0]):
-            if chosen.elements[e, i]:
+            towards = chosen.signed[e] or desires.valence[i] > 0.0
+            for axis in range(n_axes):
                 pushed = 0.0
                 for action in range(len(constants.actions)):
                     pushed += parameters.push[action, axis] * desires.q[i, action]
-                total += pushed if chosen.signed[e] or desires.valence[i] > 0.0 else -pushed
-        desires.target[e, axis] = chosen.scale[e] * total
+                target[e, axis] += pushed if towards else -pushed
+    for axis in range(n_axes):
+        target[e, axis] *= chosen.scale[e]
+    target[e, n_axes] = valence if chosen.sums_valence[e] else chosen.valence[e]
 
 
 @inlined_kernel
@@ -90,6 +92,7 @@ def evaluate_desire(parameters, constants, state, scene, n, e):
                 if state.tracks.cell[track] >= 0:
                     add_value(parameters, constants, state, m, state.tracks.cell[track], chosen.goal[e, m], valence, q)
         return
+    of_place = parameters.nodes.follows[n] == Vector.position
     sees_things = source == Source.kind and parameters.nodes.follows[n] == Vector.objects
     for thing in range(scene.kinds.shape[0] if source == Source.kind else 1):
         if source == Source.kind:
@@ -104,31 +107,33 @@ def evaluate_desire(parameters, constants, state, scene, n, e):
         for axis in range(n_axes):
             here = state.here[axis]
             if source == Source.node:
-                state.offset[axis] = desires.target[e, axis]
+                offset = desires.target[e, axis]
             elif source == Source.place:
-                state.offset[axis] = chosen.at[e, axis] - here
+                offset = chosen.at[e, axis] - here
             else:
-                state.offset[axis] = scene.things[thing, axis] / parameters.size - here
+                offset = scene.things[thing, axis] / parameters.size - here
+            state.offset[axis] = offset + here if of_place else offset
         add_element(parameters, constants, state, scene, n, valence, q)
 
 
 @inlined_kernel
 def add_element(parameters, constants, state, scene, n, valence, q):
-    """Add the values, in every map of a node, of an element at state.offset from the agent."""
+    """Add the values, in every map of a node, of an element for which the vector that the node follows is state.offset."""
     maps, nodes = parameters.maps, parameters.nodes
-    if nodes.follows[n] == Vector.position:
-        for axis in range(len(constants.axes)):
-            state.offset[axis] += state.here[axis]
-    has_direction, _ = locate(parameters, constants, scene, n, 0, True, state.offset, state.coordinates)
+    has_direction, coordinates = True, state.offset
+    if not nodes.is_cartesian[n]:
+        has_direction, _ = locate(parameters, constants, scene, n, 0, True, state.offset, state.coordinates)
+        coordinates = state.coordinates
     of_agent = nodes.follows[n] == Vector.position or nodes.follows[n] == Vector.velocity
     if of_agent and not has_direction:
         return
     for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
-        cell = cell_of(parameters, state.coordinates, n, m)
+        goal = cell_of(parameters, coordinates, n, m)
         if of_agent:
-            add_goals(parameters, constants, state, m, state.tracks.cell[maps.first_track[m]], cell, valence, q)
+            cell = state.tracks.cell[maps.first_track[m]]
         else:
-            add_goals(parameters, constants, state, m, cell, contact_cell(maps, m, cell), valence, q)
+            cell, goal = goal, contact_cell(maps, m, goal)
+        add_goals(parameters, constants, state, m, cell, goal, valence, q)
 
 
 @inlined_kernel
