@@ -173,8 +173,9 @@ def test_a_condition_in_the_arena_stands_beside_one_in_a_tank(conditions):
     Agent([Node("PC", modality.Modality("own", [modality.Axis(distance)]), [3])]),
 ])
 def test_kernels_of_ones_own_cannot_be_shown(agent):
+    result = replace(simulate(place_cells([3]), TANK, steps=10, runs=1, progress=False), agent=agent)
     with pytest.raises(ValueError, match="condition X has kernels of its own, .*, allowed in the Explorer are"):
-        Explorer({"X": simulate(agent, TANK, steps=10, runs=1, progress=False)})
+        Explorer({"X": result})
 
 
 @pytest.mark.parametrize("rule", [Learning(trace=3, memory=0.0), Learning(update_on="step")])
