@@ -200,13 +200,13 @@ def learn_all_goals(values, rule, cell_tm1, cell_t, rates):
         third, fourth = row + min(event + 2, last) * cells, row + min(event + 3, last) * cells
         one, two, three, four = (q[first : first + count], q[second : second + count], q[third : third + count],
                                  q[fourth : fourth + count])
-        for goal in range(count):  # comparisons instead of max(), so that the loop compiles to vector instructions
-            left = one[goal] if one[goal] > two[goal] else two[goal]
-            right = three[goal] if three[goal] > four[goal] else four[goal]
-            best = left if left > right else right
-            if event > 0:
-                best = best if best > target[goal] else target[goal]
-            target[goal] = factor * best
+        if event == 0:
+            for goal in range(count):
+                target[goal] = factor * higher(higher(one[goal], two[goal]), higher(three[goal], four[goal]))
+        else:
+            for goal in range(count):
+                best = higher(higher(one[goal], two[goal]), higher(three[goal], four[goal]))
+                target[goal] = factor * higher(best, target[goal])
     target[cell_t - begin] = UNIT if rule.terminal else UNIT + target[cell_t - begin]
     highest = UNIT if rule.terminal else UNIT / (UNIT - rule.discount)
     for event in range(values.actions):
@@ -223,6 +223,12 @@ def learn_all_goals(values, rule, cell_tm1, cell_t, rates):
             for goal in range(count):
                 new = value[goal] - rule.absent_rate * value[goal]
                 value[goal] = new if new > SMALLEST else ZERO
+
+
+@inlined_kernel
+def higher(one, other):
+    """The higher of two values: by a comparison, and not by max(), so that loops compile to vector instructions."""
+    return one if one > other else other
 
 
 @kernel
