@@ -136,6 +136,12 @@ def locate(parameters, constants, scene, n, point, given, offset, coordinates):
 
 
 @inlined_kernel
+def maps_of(nodes, n):
+    """The numbers of the maps of a node; unsigned, since an index that may be negative costs more."""
+    return range(np.uint64(nodes.first_map[n]), np.uint64(nodes.first_map[n + 1]))
+
+
+@inlined_kernel
 def cell_of(parameters, coordinates, n, m):
     """The cell of a point in a map of a node; no direction counts as 0."""
     cell, first = 0.0, np.uint64(parameters.maps.first_grid[m])  # unsigned, an index cannot count from the end

@@ -68,7 +68,7 @@ class Trace(NamedTuple):
 def learn_transition(parameters, constants, state, m, point, cell_t, caused):
     """Learn from a track's change of cell; one that the agent has not caused only lets what is remembered fade."""
     learning, tracks = parameters.learning, state.tracks
-    track = parameters.maps.first_track[m] + point
+    track = np.uint64(parameters.maps.first_track[m] + point)
     cell_tm1 = tracks.cell[track]
     rule = Rule(learning.discount, learning.terminal, learning.learning_rate * learning.absent_decay, learning.away)
     remembers = learning.memory_retained > ZERO
@@ -167,7 +167,7 @@ def trace_of(parameters, tracks, m, point):
 @inlined_kernel
 def start_track(parameters, constants, tracks, m, point, cell):
     """Start the track of a point in a cell."""
-    track = parameters.maps.first_track[m] + point
+    track = np.uint64(parameters.maps.first_track[m] + point)
     enter(constants, tracks, track, cell)
     tracks.trace_count[track] = 0
     if tracks.remembered_count[track] > 0:

@@ -16,7 +16,7 @@
 import numpy as np
 
 from neorl.core.choices import Attention, Capture, Credit, UpdateOn, Vector
-from neorl.core.geometry import cell_of, contact_cell, locate, with_kept_directions
+from neorl.core.geometry import cell_of, contact_cell, locate, maps_of, with_kept_directions
 from neorl.core.kernel import inlined_kernel
 from neorl.core.learning import UNIT, ZERO, enter, learn_transition, start_track
 from neorl.core.network import choose
@@ -58,8 +58,8 @@ def perceive(parameters, constants, state, scene, n, point):
     breaks = not attended or absent or met and learning.capture != Capture.leap
     _, all_have_directions = locate(parameters, constants, scene, n, point, False, state.offset, state.coordinates)
     looked_alone = False
-    for m in range(parameters.nodes.first_map[n], parameters.nodes.first_map[n + 1]):
-        track = parameters.maps.first_track[m] + point
+    for m in maps_of(parameters.nodes, n):
+        track = np.uint64(parameters.maps.first_track[m] + point)
         cell_tm1, cell = tracks.cell[track], cell_of(parameters, state.coordinates, n, m)
         ends = breaks or cell_tm1 < 0
         if not (all_have_directions or ends):
@@ -129,6 +129,6 @@ def begin_point(parameters, constants, state, scene, n, point):
     """Start the tracks of a point where it is now."""
     locate(parameters, constants, scene, n, point, False, state.offset, state.coordinates)
     absent = parameters.nodes.follows[n] == Vector.objects and scene.kinds[point] < 0
-    for m in range(parameters.nodes.first_map[n], parameters.nodes.first_map[n + 1]):
+    for m in maps_of(parameters.nodes, n):
         cell = cell_of(parameters, state.coordinates, n, m)
         start_track(parameters, constants, state.tracks, m, point, ABSENT if absent else cell)

@@ -13,8 +13,10 @@
 `scene` is what the agent perceives of its world (`neorl.core.scene.Scene`).
 """
 
+import numpy as np
+
 from neorl.core.choices import Source, Vector
-from neorl.core.geometry import cell_of, contact_cell, locate
+from neorl.core.geometry import cell_of, contact_cell, locate, maps_of
 from neorl.core.kernel import inlined_kernel
 from neorl.core.stream import randint, uniform
 
@@ -48,11 +50,12 @@ def evaluate(parameters, constants, state, scene):
         inputs = nodes.inputs[nodes.first_input[n] : nodes.first_input[n + 1]]
         for i in range(inputs.shape[0]):  # all before any is renewed, because recursion takes those of the last step
             if parameters.desires.source[inputs[i]] == Source.node:
-                project(parameters, constants, desires, inputs[i])
+                project(parameters, constants, desires, np.uint64(inputs[i]))
         for i in range(inputs.shape[0]):
-            evaluate_desire(parameters, constants, state, scene, n, inputs[i])
+            e = np.uint64(inputs[i])
+            evaluate_desire(parameters, constants, state, scene, n, e)
             for action in range(len(constants.actions)):
-                state.action_value[action] += nodes.gain[n] * desires.q[inputs[i], action]
+                state.action_value[action] += nodes.gain[n] * desires.q[e, action]
 
 
 @inlined_kernel
@@ -87,7 +90,7 @@ def evaluate_desire(parameters, constants, state, scene, n, e):
         valence = desires.target[e, n_axes]
     desires.valence[e] = 0.0 if source == Source.kind else valence
     if source == Source.point:
-        for m in range(parameters.nodes.first_map[n], parameters.nodes.first_map[n + 1]):
+        for m in maps_of(parameters.nodes, n):
             for track in range(parameters.maps.first_track[m], parameters.maps.first_track[m + 1]):
                 if state.tracks.cell[track] >= 0:
                     add_value(parameters, constants, state, m, state.tracks.cell[track], chosen.goal[e, m], valence, q)
@@ -100,8 +103,8 @@ def evaluate_desire(parameters, constants, state, scene, n, e):
                 continue
             desires.valence[e] += valence
         if sees_things:
-            for m in range(parameters.nodes.first_map[n], parameters.nodes.first_map[n + 1]):
-                cell = state.tracks.cell[parameters.maps.first_track[m] + thing]
+            for m in maps_of(parameters.nodes, n):
+                cell = state.tracks.cell[np.uint64(parameters.maps.first_track[m] + thing)]
                 add_goals(parameters, constants, state, m, cell, contact_cell(parameters.maps, m, cell), valence, q)
             continue
         for axis in range(n_axes):
@@ -127,10 +130,10 @@ def add_element(parameters, constants, state, scene, n, valence, q):
     of_agent = nodes.follows[n] == Vector.position or nodes.follows[n] == Vector.velocity
     if of_agent and not has_direction:
         return
-    for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
+    for m in maps_of(nodes, n):
         goal = cell_of(parameters, coordinates, n, m)
         if of_agent:
-            cell = state.tracks.cell[maps.first_track[m]]
+            cell = state.tracks.cell[np.uint64(maps.first_track[m])]
         else:
             cell, goal = goal, contact_cell(maps, m, goal)
         add_goals(parameters, constants, state, m, cell, goal, valence, q)
@@ -154,4 +157,4 @@ def add_value(parameters, constants, state, m, cell, goal, valence, q):
     if goal != cell or parameters.own_cell_counts:
         weight, index = maps.weight[m] * valence, maps.first_value[m] + cell * actions * maps.cells[m] + goal
         for action in range(actions):
-            q[action] += weight * state.values.q[index + action * maps.cells[m]]
+            q[action] += weight * state.values.q[np.uint64(index + action * maps.cells[m])]
