@@ -25,7 +25,7 @@ from papermill.exceptions import PapermillExecutionError
 from traitlets.config import Config
 
 from neorl.evidence import report
-from neorl.experiments import cache
+from neorl.files import cache_folder
 
 ROOT = Path(__file__).resolve().parent.parent
 CHAPTERS = ROOT / "book" / "chapters"
@@ -120,7 +120,7 @@ def compute(notebook, parameters):
         cell.source = link_terms(cell.source).replace("](../book/", "](../")
     save_figures(executed)
     save_widgets(executed)
-    claims = cache.folder() / "claims" / f"{notebook.stem}.json"
+    claims = cache_folder() / "claims" / f"{notebook.stem}.json"
     if claims.exists():
         shutil.copy(claims, CHAPTERS / f"{notebook.stem}.claims.json")
     nbformat.write(executed, work / notebook.name)

@@ -1,8 +1,22 @@
-"""Files that are complete or absent, whatever moment the process is killed at."""
+"""Files that are complete or absent, whatever moment the process is killed at, and the folder of those that may go.
 
+What takes long to make is kept in the folder that the environment variable ``NEORL_CACHE`` names, or in the user's
+cache folder; all of it may be deleted at any time.
+"""
+
+import hashlib
 import os
 import tempfile
 from pathlib import Path
+
+import platformdirs
+
+DIGEST_BYTES = hashlib.sha256().digest_size
+
+
+def cache_folder():
+    """Where what may be deleted is kept: a `pathlib.Path`."""
+    return Path(os.environ.get("NEORL_CACHE") or platformdirs.user_cache_path("neorl-companion"))
 
 
 def write_whole(path, content):
@@ -14,3 +28,17 @@ def write_whole(path, content):
         file.flush()
         os.fsync(file.fileno())
     os.replace(file.name, path)
+
+
+def write_checked(path, content):
+    """Write bytes to a file, after a digest of them."""
+    write_whole(path, hashlib.sha256(content).digest() + content)
+
+
+def read_checked(path):
+    """What `write_checked` has written, or None if there is no such file or it is damaged."""
+    try:
+        content = path.read_bytes()
+    except OSError:
+        return None
+    return content[DIGEST_BYTES:] if hashlib.sha256(content[DIGEST_BYTES:]).digest() == content[:DIGEST_BYTES] else None

@@ -11,6 +11,8 @@ from hypothesis import settings
 from matplotlib import pyplot as plt
 from playwright.sync_api import Error, sync_playwright
 
+from neorl import files
+
 # No deadline: a kernel compiles on its first call. Derandomised: a test that fails here fails everywhere.
 settings.register_profile("neorl", deadline=None, derandomize=True)
 settings.load_profile("neorl")
@@ -30,7 +32,10 @@ def closed():
 
 @pytest.fixture
 def cache_folder(tmp_path, monkeypatch):
-    """An empty folder for what is kept, in place of the user's."""
+    """An empty folder for what is kept, but for compiled kernels, in place of the user's."""
+    compiled = files.cache_folder() / "compiled"
+    compiled.mkdir(parents=True, exist_ok=True)
+    (tmp_path / "compiled").symlink_to(compiled)
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
     return tmp_path
 

@@ -8,6 +8,8 @@ So what it describes can be made again wherever these modules can be imported.
 import importlib
 from dataclasses import fields, is_dataclass
 
+from neorl.core.identity import name_of
+
 
 def described(value):
     """A value as plain data. Raises ValueError for a kernel that no module has."""
@@ -39,11 +41,6 @@ def restored(data):
     if not is_dataclass(found):
         raise ValueError(f"{data['is']} is {found!r}, allowed are dataclasses")
     return getattr(found, "of_fields", found)(**{name: restored(each) for name, each in data.items() if name != "is"})
-
-
-def name_of(value):
-    """The name of a class or function, with that of its module."""
-    return f"{value.__module__}:{value.__qualname__}"
 
 
 def _find(name):

@@ -31,6 +31,7 @@ import numba
 import numpy as np
 from numba import carray, cfunc, types
 
+from neorl import files
 from neorl.agents.compile import constants_of
 from neorl.agents.individual import OF_A_MAP
 from neorl.agents.papers import brownian
@@ -42,7 +43,7 @@ from neorl.core.parameters import Parameters, derive
 from neorl.core.state import State, clear_goal_ranges
 from neorl.core.steps import steps_with
 from neorl.core.stream import start_stream
-from neorl.experiments import cache
+from neorl.experiments.cache import source_digest
 from neorl.worlds import arena, waterworld
 from neorl.worlds.probe import probes_with
 from neorl.worlds.rollout import rollout_in
@@ -67,8 +68,8 @@ def module():
 
     Raises RuntimeError if that needs something that is not installed.
     """
-    path = cache.folder() / "wasm" / _digest()
-    content = cache.read_checked(path)
+    path = files.cache_folder() / "wasm" / _digest()
+    content = files.read_checked(path)
     if content is None:
         if importlib.util.find_spec("ziglang") is None:
             raise RuntimeError("WebAssembly needs LLD, a linker that the package ziglang brings: pip install ziglang")
@@ -78,7 +79,7 @@ def module():
         if built.returncode:
             raise RuntimeError(f"the WebAssembly module was not built:\n{built.stderr.decode()}")
         content = built.stdout
-        cache.write_checked(path, content)
+        files.write_checked(path, content)
     return content
 
 
@@ -127,7 +128,7 @@ def _sizes(kernel):
 
 
 def _digest():
-    versions = f"{cache.source_digest()} {numba.__version__} {llvmlite.__version__}"
+    versions = f"{source_digest()} {numba.__version__} {llvmlite.__version__}"
     here = [Path(__file__).with_name(name).read_bytes() for name in ("wasm.py", "worlds.py")]
     return hashlib.sha256(b"".join([versions.encode(), *here])).hexdigest()
 

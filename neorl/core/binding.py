@@ -9,9 +9,10 @@ import functools
 import numba
 import numpy as np
 from numba import carray, from_dtype, types
+from numba.core.registry import CPUDispatcher
 from numba.extending import intrinsic
 
-from neorl.core.kernel import Kernel, execute, fields, is_tuple
+from neorl.core.kernel import Kernel, execute, fields, is_tuple, kernel_maker
 
 
 def bound(called, *arguments):
@@ -22,9 +23,10 @@ def bound(called, *arguments):
     for each in arguments:
         _enter(each, table, numbers)
     entry, table, numbers = _entry(called), np.array(table, np.int64), np.array(numbers, np.float64)
+    run = functools.partial(CPUDispatcher.__call__, entry, table, numbers)
 
     def call(kept_alive=arguments):
-        return entry(table, numbers)
+        return run()
 
     return call
 
@@ -41,14 +43,16 @@ def _enter(values, table, numbers):
             numbers.append(value)
 
 
-@functools.cache
+@kernel_maker
 def _entry(called):
     """The compiled function (table, numbers) that calls a kernel."""
-    scope, place = {"called": called, "carray": carray, "np": np}, [0, 0]
+    scope, place = {"__name__": __name__, "called": called, "carray": carray, "np": np}, [0, 0]
     kinds = [kind for name, kind in fields(called).items() if name != "return"]
     source = f"def entry(table, numbers):\n    return called({', '.join(_taken(kind, scope, place) for kind in kinds)})"
     exec(source, scope)
-    return numba.njit(error_model="numpy", nogil=True)(scope["entry"])
+    entry = numba.njit(error_model="numpy", nogil=True)(scope["entry"])
+    entry.__class__ = Kernel  # though not one in all: an array of an address needs the memory runtime
+    return entry
 
 
 def _taken(kind, scope, place):

@@ -15,8 +15,7 @@ refuses to be called from Python, and a public function that has checked every a
 Annotations say what the arrays of a named tuple hold, and what a kernel takes that is called from outside Python
 (`neorl.browser.wasm`); numba does not read them.
 
-Nothing that is compiled is kept on disk: numba notices a change in a kernel's own file, but not in the files of the
-kernels that it calls, and a result must never come from code that is no longer there.
+What is compiled for a call from Python is kept on disk (`neorl.core.compile_cache`).
 """
 
 import functools
@@ -25,7 +24,10 @@ from typing import Annotated, get_args, get_type_hints
 
 import numba
 import numpy as np
+from numba.core.caching import NullCache
 from numba.core.registry import CPUDispatcher
+
+from neorl.core.compile_cache import CompileCache
 
 # Without numba's memory runtime (_nrt) a kernel cannot allocate, and counts no references to the arrays it is handed.
 OPTIONS = {"error_model": "numpy", "nogil": True, "_nrt": False}
@@ -46,6 +48,11 @@ class Kernel(CPUDispatcher):
     def __repr__(self):
         made_by, arguments = getattr(self, "origin", (self, ""))
         return f"<kernel {made_by.__module__}.{made_by.__qualname__}{arguments}>"
+
+    def _compile_for_args(self, *arguments, **by_name):
+        if isinstance(self._cache, NullCache):  # only what Python calls is kept, with all that is inlined into it
+            self._cache = CompileCache(self)
+        return super()._compile_for_args(*arguments, **by_name)
 
     def __call__(self, *arguments):
         raise TypeError(f"{self.__module__}.{self.__name__} is a kernel, which checks nothing: call it by "

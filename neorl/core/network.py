@@ -121,7 +121,7 @@ def evaluate_desire(parameters, constants, state, scene, n, e):
 
 @inlined_kernel
 def add_element(parameters, constants, state, scene, n, valence, q):
-    """Add the values, in every map of a node, of an element for which the vector that the node follows is state.offset."""
+    """Add the values, in every map of a node, of an element: state.offset is the vector that the node follows."""
     maps, nodes = parameters.maps, parameters.nodes
     has_direction, coordinates = True, state.offset
     if not nodes.is_cartesian[n]:

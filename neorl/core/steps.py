@@ -1,6 +1,6 @@
 """The life of an agent in single steps, for worlds that are not made of kernels: `begin`, `act`, `observe`.
 
-Each combination of an agent's constants is compiled once in a process.
+Each combination of an agent's constants is compiled once (`neorl.core.compile_cache`).
 """
 
 import functools

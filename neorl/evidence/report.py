@@ -13,7 +13,8 @@ from neorl.evidence.errata import ERRATA
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 from neorl.evidence.statistics import Estimate
 from neorl.evidence.verdict import VERDICTS
-from neorl.experiments.cache import folder, source_digest, write_whole
+from neorl.experiments.cache import source_digest
+from neorl.files import cache_folder, write_whole
 
 SIGNS = dict(zip(VERDICTS, "●◐○––"))
 OPEN, NOT_COMPUTED = "open", "not computed in this build"
@@ -81,12 +82,12 @@ def save(page, claims=(), shares=None, letter=()):
     """
     content = {"page": page, "source": source_digest(), "claims": _kept(claims), "letter": _kept(letter),
                "shares": shares or {}}
-    write_whole(folder() / "claims" / f"{page}.json", json.dumps(content, indent=1, allow_nan=False).encode())
+    write_whole(cache_folder() / "claims" / f"{page}.json", json.dumps(content, indent=1, allow_nan=False).encode())
 
 
 def load(paths=None):
     """The records in JSON files, as one: {"claims": {name: …}, "letter": …, "shares": …}. By default all kept."""
-    paths = sorted((folder() / "claims").glob("*.json")) if paths is None else paths
+    paths = sorted((cache_folder() / "claims").glob("*.json")) if paths is None else paths
     records = [json.loads(path.read_text(encoding="utf-8")) for path in paths]
     return {part: {name: found for record in records for name, found in record.get(part, {}).items()}
             for part in PARTS}

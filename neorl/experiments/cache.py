@@ -5,28 +5,22 @@ module that takes part in a run, and of every kernel of the user's own. A file i
 the process is killed at, and carries a digest of its content: one that is damaged is noticed and computed again.
 
 The files lie in the folder that the environment variable ``NEORL_CACHE`` names, or in the user's cache folder; all of
-it may be deleted at any time.
+it may be deleted at any time (`neorl.files`).
 """
 
-import functools
 import hashlib
 import io
-import os
 from dataclasses import dataclass, fields
-from pathlib import Path
 
 import numpy as np
-import platformdirs
 
-from neorl import checks
+from neorl import checks, files
 from neorl.agents.agent import Agent
-from neorl.experiments.identity import identity
+from neorl.core.identity import digest_of_source, identity
 from neorl.experiments.simulation import Result, checked_changes, simulate
-from neorl.files import write_whole
 from neorl.worlds.world import World
 
-ROOMS = ("core", "worlds", "agents", "experiments")  # all that a run is made of, beside `neorl.checks`
-DIGEST_BYTES = hashlib.sha256().digest_size
+PARTS = ("checks", "files", "core", "worlds", "agents", "experiments")  # all that a run is made of
 
 
 def simulate_once(agent, world, *, steps, runs, seed=0, changes=(), progress=True):
@@ -73,12 +67,17 @@ class Condition:
     @property
     def path(self):
         """Where its result is kept."""
-        return folder() / "conditions" / self.key
+        return files.cache_folder() / "conditions" / self.key
+
+
+def source_digest():
+    """A digest of the source of every module that takes part in a run."""
+    return digest_of_source(*PARTS)
 
 
 def load(condition):
     """The `Result` of a condition if it is on disk, or else None."""
-    content = read_checked(condition.path)
+    content = files.read_checked(condition.path)
     if content is None:
         return None
     arrays = np.load(io.BytesIO(content))
@@ -89,32 +88,4 @@ def save(condition, result):
     """Write the `Result` of a condition to disk."""
     content = io.BytesIO()
     np.savez_compressed(content, rewards=result.rewards, hits=result.hits)
-    write_checked(condition.path, content.getvalue())
-
-
-def folder():
-    """Where finished conditions and claims are kept: a `pathlib.Path`."""
-    return Path(os.environ.get("NEORL_CACHE") or platformdirs.user_cache_path("neorl-companion"))
-
-
-@functools.cache
-def source_digest():
-    """A digest of the source of every module that takes part in a run."""
-    package = Path(__file__).parents[1]
-    paths = [package / "checks.py", package / "files.py",
-             *(path for room in ROOMS for path in sorted((package / room).rglob("*.py")))]
-    return hashlib.sha256(b"".join(path.read_bytes() for path in paths)).hexdigest()
-
-
-def read_checked(path):
-    """What `write_checked` has written, or None if there is no such file or it is damaged."""
-    try:
-        content = path.read_bytes()
-    except OSError:
-        return None
-    return content[DIGEST_BYTES:] if hashlib.sha256(content[DIGEST_BYTES:]).digest() == content[:DIGEST_BYTES] else None
-
-
-def write_checked(path, content):
-    """Write bytes to a file, after a digest of them."""
-    write_whole(path, hashlib.sha256(content).digest() + content)
+    files.write_checked(condition.path, content.getvalue())

@@ -14,8 +14,9 @@ from tqdm import tqdm
 
 from neorl import checks
 from neorl.agents.compile import n_values
-from neorl.experiments.cache import Condition, read_checked, save, simulate_once, source_digest
+from neorl.experiments.cache import Condition, save, simulate_once, source_digest
 from neorl.experiments.simulation import simulate, usable_threads
+from neorl.files import read_checked
 
 ATTEMPTS = 3
 

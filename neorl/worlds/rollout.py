@@ -1,7 +1,7 @@
 """The rollout of an agent in a world: choose, act, let the world move on, perceive and learn, step after step.
 
 The kernels of the world and of the agent's own functions are constants of the compiled code, so a world or a policy of
-one's own runs as fast as those of the package. Each combination is compiled once in a process.
+one's own runs as fast as those of the package. Each combination is compiled once (`neorl.core.compile_cache`).
 """
 
 import functools

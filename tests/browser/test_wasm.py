@@ -18,7 +18,7 @@ from neorl.core import modality
 from neorl.core.kernel import arrays, execute, mapped, new_tuple
 from neorl.core.parameters import Parameters
 from neorl.core.state import State
-from neorl.experiments import cache
+from neorl import files
 from neorl.worlds.probe import probes_with
 
 STEPS = 50_000
@@ -174,7 +174,7 @@ def test_a_module_on_disk_is_taken_and_a_damaged_one_is_not(tmp_path, monkeypatc
     content = wasm.module()
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
     path = tmp_path / "wasm" / wasm._digest()
-    cache.write_checked(path, content)
+    files.write_checked(path, content)
     monkeypatch.setattr(subprocess, "run", lambda *_, **__: pytest.fail("it was built again"))
     assert wasm.module() == content
     path.write_bytes(path.read_bytes()[:-1])

@@ -11,7 +11,7 @@ import grimp
 import numpy as np
 import pytest
 
-from neorl import Condition, Learning, Policy, WaterWorld, place_cells, simulate_once, softmax
+from neorl import Condition, Learning, Policy, WaterWorld, files, place_cells, simulate_once, softmax
 from neorl.experiments import cache
 
 AGENT, WORLD = place_cells([3]), WaterWorld()
@@ -53,7 +53,7 @@ def test_the_key_tells_all_that_determines_a_result_apart(monkeypatch):
 def test_the_source_digest_covers_every_module_that_a_run_imports():
     imported = grimp.build_graph("neorl", cache_dir=None).find_upstream_modules("neorl.experiments.cache")
     assert {"neorl.core.horde", "neorl.worlds.world"} < imported
-    assert {name.split(".")[1] for name in imported} == {"checks", "files", *cache.ROOMS}
+    assert {name.split(".")[1] for name in imported} == set(cache.PARTS)
 
 
 @pytest.mark.parametrize("damage", [
@@ -83,7 +83,7 @@ def test_a_killed_process_leaves_whole_conditions_behind(cache_folder):
     process.wait()
     left = finished(cache_folder)
     assert len(left) >= 3
-    assert all(cache.read_checked(path) is not None for path in left)
+    assert all(files.read_checked(path) is not None for path in left)
     written = {path: path.stat().st_mtime_ns for path in left}
     subprocess.run([sys.executable, "-c", work], check=True)
     assert len(finished(cache_folder)) == 12
@@ -96,8 +96,8 @@ def finished(cache_folder):
 
 def test_without_the_variable_the_cache_is_the_users(monkeypatch):
     monkeypatch.delenv("NEORL_CACHE")
-    assert cache.folder().name == "neorl-companion"
-    assert os.fspath(cache.folder()).startswith(os.path.expanduser("~"))
+    assert files.cache_folder().name == "neorl-companion"
+    assert os.fspath(files.cache_folder()).startswith(os.path.expanduser("~"))
 
 
 @pytest.mark.parametrize("change, message", [

@@ -1,0 +1,85 @@
+"""Compiled kernels on disk, so that a process need not compile what another has compiled.
+
+A kernel that is called from Python is kept with all that is inlined into it, under a key of all that its code was made
+from: the source of the rooms `core` and `worlds`, the source and constants of every kernel of the user's own, the types
+that it takes, numba, LLVM and the processor. So nothing needs to be cleared after a change, and what is deleted is
+compiled again. A file is whole or absent; one that is damaged, or cannot be read or written, is as good as absent.
+"""
+
+import hashlib
+import pickle
+import sys
+
+import llvmlite
+import numba
+from numba import types
+from numba.core.caching import _Cache
+from numba.core.compiler import CompileResult
+from numba.core.sigutils import normalize_signature
+
+from neorl import files
+from neorl.core.identity import digest_of_source, identity, name_of
+
+
+SETTINGS = ("BOUNDSCHECK", "LOOP_VECTORIZE", "OPT", "SLP_VECTORIZE")  # of numba, that change compiled code
+
+
+class CompileCache(_Cache):
+    """What numba asks for the compiled code of one kernel."""
+
+    def __init__(self, kernel):
+        self._kernel = kernel
+
+    @property
+    def cache_path(self):
+        """The folder of all kernels."""
+        return str(files.cache_folder() / "compiled")
+
+    def load_overload(self, sig, target_context):
+        """The compiled code for a signature, or None."""
+        target_context.refresh()
+        path = self._path(sig, target_context.codegen())
+        content = path and files.read_checked(path)
+        if not content:
+            return None
+        try:
+            return CompileResult._rebuild(target_context, *pickle.loads(content))
+        except (ImportError, AttributeError):  # a type that is not where it was
+            return None
+
+    def save_overload(self, sig, data):
+        """Keep what was compiled for a signature."""
+        path = self._path(sig, data.codegen)
+        if path is None:
+            return
+        try:
+            files.write_checked(path, pickle.dumps(data._reduce()))
+        except (OSError, pickle.PicklingError, AttributeError):  # no room, no permission, or a type without a name
+            return
+
+    def _path(self, sig, codegen):
+        try:
+            code = identity(self._kernel)
+        except ValueError:
+            return None
+        made_of = (code, digest_of_source("core", "worlds"), [_name_of(each) for each in normalize_signature(sig)[0]],
+                   self._kernel.targetoptions, numba.__version__, llvmlite.__version__, sys.version,
+                   codegen.magic_tuple(), [getattr(numba.config, name) for name in SETTINGS])
+        return files.cache_folder() / "compiled" / hashlib.sha256(repr(made_of).encode()).hexdigest()
+
+    def enable(self):
+        """Nothing: it is always on."""
+
+    def disable(self):
+        """Nothing: it is always on."""
+
+    def flush(self):
+        """Nothing: what is there is never out of date."""
+
+
+def _name_of(kind):
+    """The name of a type of numba, for a named tuple with those of its fields."""
+    if not isinstance(kind, types.BaseNamedTuple):
+        return str(kind)
+    of_fields = [f"{name}: {_name_of(each)}" for name, each in zip(kind.fields, kind)]
+    return f"{name_of(kind.instance_class)}({', '.join(of_fields)})"
