@@ -49,7 +49,7 @@ def one_of(name, value, allowed):
 
 def several(name, values):
     """`values` as a tuple, if they are a list, a tuple, a range or an array."""
-    if isinstance(values, list | tuple | range | np.ndarray):
+    if isinstance(values, list | tuple | range) or isinstance(values, np.ndarray) and values.ndim:
         return tuple(values)
     raise ValueError(f"{name} is {values!r}, allowed are lists and tuples")
 
@@ -78,7 +78,7 @@ def instance(name, value, kind):
     """`value`, if it is of the kind."""
     if isinstance(value, kind):
         return value
-    article = "an" if kind.__name__[0] in "AEIOU" else "a"
+    article = "an" if kind.__name__[0] in "AEIOU" or kind is np.ndarray else "a"
     raise ValueError(f"{name} is {value!r}, allowed is {article} {kind.__name__}")
 
 

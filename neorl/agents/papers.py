@@ -5,15 +5,16 @@
 beyond belongs to the outermost ones. `object_tiled_fraction` is that of object-vector cells, if they have another.
 """
 
-from dataclasses import replace
+from dataclasses import fields, replace
 
 from neorl import checks
-from neorl.agents.agent import Agent, Desire, Node, Policy
+from neorl.agents.agent import Agent, Desire, Learning, Node, Policy
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL
 
 LAYERS = (3, 7, 23)  # the resolutions of paper A's last experiment, and of paper C as its figures have them
 PRIMES = (2, 3, 5, 7, 11, 13)  # the resolutions of paper B
 TILED_FRACTION = 1.0
+OF_NODES = ("weighting", "tiled_fraction", "object_tiled_fraction")  # of choices, those that are not of the agent
 
 
 def place_cells(resolutions=PRIMES, valence_green=1.0, valence_red=-1.0, **choices):
@@ -72,6 +73,11 @@ def _creeps(node, valence_green=1.0, valence_red=-1.0):
 
 
 def _network(nodes, resolutions, desires, choices):
+    for name in set(choices) - {*OF_NODES, *(each.name for each in fields(Agent)[2:])}:
+        of = next((f", it is a field of {kind.__name__}: {field}={kind.__name__}({name}=…)"
+                   for field, kind in (("learning", Learning), ("policy", Policy))
+                   if name in (each.name for each in fields(kind))), "")
+        raise TypeError(f"{name} is no choice of this agent{of}")
     weighting = choices.pop("weighting", Node.weighting)
     tiled_fraction = checks.positive("tiled_fraction", choices.pop("tiled_fraction", TILED_FRACTION))
     of_objects = checks.positive("object_tiled_fraction", choices.pop("object_tiled_fraction", tiled_fraction))

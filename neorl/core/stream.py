@@ -6,6 +6,7 @@ A stream is four unsigned 64-bit integers, seeded as NumPy's `SeedSequence` does
 
 import numpy as np
 
+from neorl import checks
 from neorl.core.kernel import array, execute, kernel
 
 NOTHING, ONE, U3, U11, U16, U24, U32, U40 = (np.uint64(value) for value in (0, 1, 3, 11, 16, 24, 32, 40))
@@ -21,7 +22,13 @@ WARM_UP = 12  # draws that a fresh stream leaves out
 
 
 def new_stream(seed_sequence):
-    """The stream at its start: uint64 (4,), the words of ``np.random.SFC64(seed_sequence)``."""
+    """The stream at its start: uint64 (4,), the words of ``np.random.SFC64(seed_sequence)``.
+
+    Raises ValueError if the pool of the seed sequence is not of 4 words, as it is by default.
+    """
+    checks.instance("seed_sequence", seed_sequence, np.random.SeedSequence)
+    if seed_sequence.pool_size != POOL:
+        raise ValueError(f"pool_size of seed_sequence is {seed_sequence.pool_size}, allowed is {POOL}")
     stream = np.zeros(4, np.uint64)
     execute(start_stream, np.array(_entropy(seed_sequence), np.uint64), stream)
     return stream

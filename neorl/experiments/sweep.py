@@ -36,6 +36,8 @@ def sweep(conditions, executor=None, progress=True):
     conditions = checks.several("conditions", conditions)
     for condition in conditions:
         checks.instance("condition", condition, Condition)
+    if not hasattr(executor, "submit") and executor is not None:
+        raise ValueError(f"executor is {executor!r}, allowed are executors of concurrent.futures and None")
     waiting = [condition for condition in dict.fromkeys(conditions) if read_checked(condition.path) is None]
     # The large ones come first and take over each other's memory.
     waiting.sort(key=lambda condition: -n_values(condition.agent, condition.world))

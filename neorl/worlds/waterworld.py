@@ -61,6 +61,7 @@ class WaterWorld(World, checks.Final):
     n_creeps: creeps in the tank at any time, 1 … 2²⁰.
     fps: steps in a simulated second, 1 … 2³¹. An action works per step, so this changes the task.
     win_reward: paid on top when the last green creep is taken: 5 in the original and in paper A, 0 in papers B and C.
+        From −10³⁰ to 10³⁰, so that the rewards of a bin do not overflow.
     contact: whether positions are "rounded" to whole pixels before they are compared, as in pygame 2, or "truncated",
         as in pygame 1.9.
 
@@ -82,7 +83,7 @@ class WaterWorld(World, checks.Final):
             raise ValueError(f"width is {self.width}, allowed are 11 pixels or more: a creep's radius is 4.7 % of it")
         checks.assign(self, n_creeps=checks.integer("n_creeps", self.n_creeps, at_least=1, at_most=2**20),
                      fps=checks.integer("fps", self.fps, at_least=1, at_most=2**31),
-                     win_reward=checks.real("win_reward", self.win_reward),
+                     win_reward=checks.real("win_reward", self.win_reward, -1e30, 1e30),
                      contact=checks.one_of("contact", self.contact, CONTACTS))
 
     @property

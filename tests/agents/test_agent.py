@@ -76,6 +76,21 @@ def test_a_bad_choice_is_refused(make, message):
         make()
 
 
+@pytest.mark.parametrize("name, message", [
+    ("discount", r"discount is no choice of this agent, it is a field of Learning: learning=Learning\(discount=…\)"),
+    ("exploration", r"exploration is no choice of this agent, it is a field of Policy: policy=Policy\(exploration=…\)"),
+    ("colour", "colour is no choice of this agent$")])
+def test_what_is_no_choice_of_an_agent_is_refused_and_its_place_is_named(name, message):
+    with pytest.raises(TypeError, match=message):
+        network_d([3], **{name: 0.9})
+
+
+def test_resolutions_may_be_numbers_of_numpy_but_not_a_single_one():
+    assert place_cells(np.array([3, 5])) == place_cells([np.int8(3), np.array(5)])
+    with pytest.raises(ValueError, match=r"resolutions is array\(5\), allowed are lists and tuples"):
+        place_cells(np.array(5))
+
+
 @pytest.mark.parametrize("desires, message", [
     ([Desire("blue", "PC")], "valence .* 'blue' → 'PC' is None, .* another node, 'PC', 'OVC', 'HD', 'speed'"),
     ([Desire("green", "PC")], "valence of the desire 'green' → 'PC' is None"),

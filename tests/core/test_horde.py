@@ -81,7 +81,7 @@ def test_an_element_in_the_own_cell_counts_unless_it_is_silent():
 
 @pytest.mark.parametrize("change, message", [
     ({"q": np.zeros((4, 4, 5), np.float32)}, "q is"),
-    ({"q": np.zeros((4, 4, 4))}, "q is float64"),
+    ({"q": np.zeros((4, 4, 4))}, "q is float64"), ({"q": [[1]]}, r"q is \[\[1\]\], allowed is an ndarray"),
     ({"cell_tm1": 4}, "cell_tm1 is 4, allowed are integers from 0 to 3"),
     ({"cell_t": -1}, "cell_t is -1"),
     ({"credit": [1, 0, 0]}, "credit has 3 values"),

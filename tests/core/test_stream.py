@@ -1,6 +1,7 @@
 """The stream of random numbers against NumPy's own."""
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -14,6 +15,11 @@ def test_every_draw_equals_that_of_numpy(seed, spawn_key):
     numpy = np.random.Generator(np.random.SFC64(sequence))
     stream = new_stream(sequence)
     assert [execute(uniform, stream) for _ in range(100)] == numpy.random(100).tolist()
+
+
+def test_a_seed_sequence_with_another_pool_is_refused():
+    with pytest.raises(ValueError, match="pool_size of seed_sequence is 8, allowed is 4"):
+        new_stream(np.random.SeedSequence(5, pool_size=8))
 
 
 def test_randint_draws_every_integer_equally_often():

@@ -63,6 +63,11 @@ def test_nothing_is_a_sweep():
     assert list(sweep([], progress=False)) == []
 
 
+def test_what_is_no_executor_is_refused():
+    with pytest.raises(ValueError, match="executor is 4, allowed are executors of concurrent.futures and None"):
+        sweep(CONDITIONS, 4)
+
+
 @pytest.mark.parametrize("conditions, message", [
     ("all", "conditions is 'all'"), ([CONDITIONS[0], 3], "condition is 3, allowed is a Condition")])
 def test_what_is_no_list_of_conditions_is_refused(conditions, message):

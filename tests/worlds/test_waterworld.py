@@ -121,7 +121,7 @@ def test_met_is_of_this_step_alone():
 
 @pytest.mark.parametrize("argument, value", [
     ("width", 10), ("width", 0), ("width", 250.5), ("n_creeps", 0), ("n_creeps", 2.5), ("fps", 0), ("fps", -50),
-    ("win_reward", np.nan), ("win_reward", "5"),
+    ("win_reward", np.nan), ("win_reward", 10**31), ("win_reward", "5"),
 ])
 def test_a_bad_rule_is_refused(argument, value):
     with pytest.raises(ValueError, match=f"{argument} is {value!r}, allowed are"):
