@@ -4,7 +4,7 @@ import ast
 import inspect
 
 from IPython import get_ipython
-from IPython.display import HTML, Markdown, display
+from IPython.display import Markdown, display
 
 from neorl import checks
 from neorl.core.kernel import function_of
@@ -27,8 +27,8 @@ def begin(runs, steps, seed, fewest_steps=1, **others):
             raise ValueError(f"parameter {name} is unknown, allowed are {', '.join(known)}")
     figures.use_style()
     if runs < RUNS_FOR_A_VERDICT:
-        display(HTML(f'<div class="admonition warning"><p class="admonition-title">{runs} runs: no verdicts</p>'
-                     f"<p>This page is a first look. Verdicts need {RUNS_FOR_A_VERDICT} runs or more.</p></div>"))
+        display(Markdown(f"> **{runs} runs: no verdicts.** This page is a first look. Verdicts need "
+                         f"{RUNS_FOR_A_VERDICT} runs or more."))
 
 
 def injected_names():
