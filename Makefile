@@ -18,7 +18,7 @@ book: .venv/ready
 	$(BIN)/python book/build.py --runs $(RUNS) $(if $(STEPS),--steps $(STEPS))
 
 test: .venv/ready
-	$(BIN)/python -m pytest --numprocesses auto --dist loadfile $(ARGS)
+	$(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist loadfile $(ARGS)
 
 lab: .venv/ready
 	$(BIN)/jupyter lab --notebook-dir notebooks
