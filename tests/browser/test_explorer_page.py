@@ -275,11 +275,16 @@ def test_in_the_arena_it_lives_the_run_that_python_lives_and_offers_nothing_of_c
     expect(page.locator(".grip")).to_have_count(0)
     expect(page.locator(".said")).not_to_contain_text("creeps")
     assert play_to_the_end(page) == lived(agent, Arena(), steps=STEPS)
+    page.evaluate("""() => {  // for the run may be over, and the button disabled again, before a test can look
+        const game = document.querySelector('[data-action="game"]');
+        new MutationObserver(() => { window.offered ||= !game.disabled; }).observe(game, { attributes: true });
+    }""")
     page.locator('[name="preset"]').select_option("both")
     expect(page.locator(".grip")).to_have_count(TANK.n_creeps)
     for control in ("n_creeps", "valence_red"):
         expect(page.locator(f'[name="{control}"]')).to_be_visible()
     assert play_to_the_end(page) == lived(BOTH)
+    assert page.evaluate("window.offered")
 
 
 def test_a_condition_in_another_maze_is_not_the_one_that_is_seen(open_page, tmp_path):

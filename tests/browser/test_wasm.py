@@ -9,8 +9,8 @@ import pytest
 from webassembly import Machine, compiled, copied, sizes_of
 
 import neorl
-from neorl import (Agent, Arena, Desire, Learning, Node, Place, Policy, Run, WaterWorld, multimodal, network_a,
-                   network_b, network_c, network_d, object_vector_cells, place_cells)
+from neorl import (Agent, Arena, Desire, Learning, Node, Place, Policy, Run, WaterWorld, files, multimodal,
+                   network_a, network_b, network_c, network_d, object_vector_cells, place_cells)
 from neorl.agents.compile import chosen
 from neorl.browser import wasm
 from neorl.browser.worlds import EitherState, rules_of
@@ -18,7 +18,6 @@ from neorl.core import modality
 from neorl.core.kernel import arrays, execute, mapped, new_tuple
 from neorl.core.parameters import Parameters
 from neorl.core.state import State
-from neorl import files
 from neorl.worlds.probe import probes_with
 
 STEPS = 50_000
