@@ -13,7 +13,7 @@ import sys
 import llvmlite
 import numba
 from numba import types
-from numba.core.caching import _Cache
+from numba.core.caching import NullCache
 from numba.core.compiler import CompileResult
 from numba.core.sigutils import normalize_signature
 
@@ -24,7 +24,7 @@ from neorl.core.identity import digest_of_source, identity, name_of
 SETTINGS = ("BOUNDSCHECK", "LOOP_VECTORIZE", "OPT", "SLP_VECTORIZE")  # of numba, that change compiled code
 
 
-class CompileCache(_Cache):
+class CompileCache(NullCache):
     """What numba asks for the compiled code of one kernel."""
 
     def __init__(self, kernel):
@@ -66,15 +66,6 @@ class CompileCache(_Cache):
                    self._kernel.targetoptions, numba.__version__, llvmlite.__version__, sys.version,
                    codegen.magic_tuple(), [getattr(numba.config, name) for name in SETTINGS])
         return files.cache_folder() / "compiled" / hashlib.sha256(repr(made_of).encode()).hexdigest()
-
-    def enable(self):
-        """Nothing: it is always on."""
-
-    def disable(self):
-        """Nothing: it is always on."""
-
-    def flush(self):
-        """Nothing: what is there is never out of date."""
 
 
 def _name_of(kind):

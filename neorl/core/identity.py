@@ -10,7 +10,7 @@ import hashlib
 import inspect
 from dataclasses import fields, is_dataclass
 from pathlib import Path
-from types import ModuleType
+from types import CodeType, ModuleType
 
 import numpy as np
 
@@ -65,7 +65,7 @@ def _of_function(value):
         if module.__name__.split(".")[0] not in WITHOUT_SOURCE:
             found |= {f"{module.__name__}.{name}": getattr(module, name) for name in sorted(used.unbound)
                       if hasattr(module, name)}
-    return f"{_source(function)}({_named(found)})"
+    return f"{_source(function)}{_code(function.__code__)}({_named(found)})"
 
 
 def _named(values):
@@ -75,6 +75,12 @@ def _named(values):
 def _constants(kind):
     return {name: value for name, value in vars(kind).items()
             if not name.startswith("__") and isinstance(value, int | float | str | tuple)}
+
+
+def _code(code):
+    """What a function does, for its file may have changed since it was read."""
+    constants = [_code(each) if isinstance(each, CodeType) else repr(each) for each in code.co_consts]
+    return f"{code.co_code.hex()}({', '.join(constants)})"
 
 
 def _source(value):

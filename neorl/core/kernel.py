@@ -50,7 +50,7 @@ class Kernel(CPUDispatcher):
         return f"<kernel {made_by.__module__}.{made_by.__qualname__}{arguments}>"
 
     def _compile_for_args(self, *arguments, **by_name):
-        if isinstance(self._cache, NullCache):  # only what Python calls is kept, with all that is inlined into it
+        if type(self._cache) is NullCache:  # only what Python calls is kept, with all that is inlined into it
             self._cache = CompileCache(self)
         return super()._compile_for_args(*arguments, **by_name)
 

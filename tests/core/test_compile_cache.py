@@ -89,6 +89,13 @@ def test_a_change_in_anything_that_a_kernel_is_made_of_compiles_it_again(module,
     assert called(module(**changed)) == (answer, False) and len(kept()) == 2
 
 
+def test_a_file_that_changes_after_it_was_read_does_not_lend_its_source_to_older_code(module, tmp_path):
+    own, changed = module(), SOURCE.replace("2.0 * x", "4.0 * x")
+    (tmp_path / "own.py").write_text(changed)
+    assert called(own) == (4.0, False)
+    assert called(module(changed)) == (10.0, False)
+
+
 def test_another_processor_or_compiler_compiles_again(module, monkeypatch):
     called(module())
     monkeypatch.setattr("numba.__version__", "0.0")
