@@ -34,6 +34,7 @@ from neorl.worlds.arena import Arena
 from neorl.worlds.waterworld import WaterWorld
 from neorl.worlds.world import World
 
+__version__ = "0.1.0"
 __all__ = ["Actions", "Agent", "Arena", "Axis", "CARDINAL", "Condition", "Desire", "Learner", "Learning",
            "Modality", "Node", "NresMap", "Place", "Policy", "Result", "Run", "Scene", "WaterWorld", "World",
            "greedy", "kernel", "kernel_maker", "learn", "simulate", "simulate_once", "softmax", "superpose",

@@ -1,7 +1,6 @@
 """The memory of an agent's arrays: whether they fit, and how they lie."""
 
 import numpy as np
-import psutil
 
 from neorl.agents.compile import n_values
 from neorl.core.kernel import mapped
@@ -12,6 +11,8 @@ PAGE = 4_096
 
 def fitting_runs(agent, world):
     """How many runs of an agent fit into nine tenths of the free memory. Raises MemoryError if there is none."""
+    import psutil
+
     free = psutil.virtual_memory().available
     needed = 4 * n_values(agent, world)
     if needed > 0.9 * free:

@@ -11,25 +11,21 @@ annotations of its kernel, in their order,
 before them a pointer to the result, and 0. Its own result is 0. Memory is the only import; the caller's part of it
 begins at the exported global __heap_base.
 
-A module is kept on disk under a digest of all source that it comes from. It is built in a process of its own, for a
-generic processor, so that it does not depend on where it was built, and in which numba leaves it to this module to
-optimise: what is rarely called is kept out of those who call it, and small.
+The module ships with a wheel, beside a digest of all source that it comes from; elsewhere it is built once and kept on
+disk. It is built in a process of its own, for a generic processor, so that it does not depend on where it was built,
+and in which numba leaves it to this module to optimise: what is rarely called is kept out of line, and small.
 """
 
 import hashlib
-import importlib.util
 import os
 import re
 import subprocess
 import sys
 import tempfile
+import warnings
 from pathlib import Path
 
-import llvmlite
-import llvmlite.binding as llvm
-import numba
 import numpy as np
-from numba import carray, cfunc, types
 
 from neorl import files
 from neorl.agents.compile import constants_of
@@ -44,6 +40,7 @@ from neorl.core.state import State, clear_goal_ranges
 from neorl.core.steps import steps_with
 from neorl.core.stream import start_stream
 from neorl.experiments.cache import source_digest
+from neorl.extras import require
 from neorl.worlds import arena, waterworld
 from neorl.worlds.probe import probes_with
 from neorl.worlds.rollout import rollout_in
@@ -57,6 +54,7 @@ ENUMERATIONS = (Action, Cut, Feature, Source, Vector)
 SCALARS = {bool: "bool", int: "int64", float: "float64", np.float32: "float32"}
 HOT = "rollout"  # of the exports; the others are called once in a picture or less
 RARE = (life.begin, waterworld.reset, waterworld.draw_creep, arena.reset, parameters.cut_axes, parameters.find_inputs)
+SHIPPED = Path(__file__).with_name("kernels.wasm")  # in a wheel
 TRIPLE = "wasm32-unknown-unknown"
 LAYOUT = "e-m:e-p:32:32-p10:8:8-p20:8:8-i64:64-i128:128-n32:64-S128-ni:1:10:20"
 LINK = ("--no-entry", "--allow-undefined", "--import-memory", "--gc-sections", "--strip-all", "-O2",
@@ -64,23 +62,29 @@ LINK = ("--no-entry", "--allow-undefined", "--import-memory", "--gc-sections", "
 
 
 def module():
-    """The WebAssembly module: bytes. Built if it is not on disk, which takes one to two minutes.
+    """The WebAssembly module: bytes. Built if it is neither shipped nor on disk, which takes about a minute.
 
-    Raises RuntimeError if that needs something that is not installed.
+    Raises ImportError if that needs a package that is not installed, RuntimeError if it fails.
     """
-    path = files.cache_folder() / "wasm" / _digest()
+    shipped = files.read_checked(SHIPPED) or b""
+    digest, path = _digest(), files.cache_folder() / "wasm" / _digest().hex()
+    if shipped[: len(digest)] == digest:
+        return shipped[len(digest) :]
     content = files.read_checked(path)
     if content is None:
-        if importlib.util.find_spec("ziglang") is None:
-            raise RuntimeError("WebAssembly needs LLD, a linker that the package ziglang brings: pip install ziglang")
-        environment = {name: value for name, value in os.environ.items() if name != "NUMBA_DISABLE_JIT"}
-        built = subprocess.run([sys.executable, "-m", "neorl.browser.wasm"], capture_output=True,
-                               env=environment | {"NUMBA_CPU_NAME": "generic", "NUMBA_OPT": "0"})
-        if built.returncode:
-            raise RuntimeError(f"the WebAssembly module was not built:\n{built.stderr.decode()}")
-        content = built.stdout
-        files.write_checked(path, content)
+        content = _built_in_a_process_of_its_own()
+        try:
+            files.write_checked(path, content)
+        except OSError as error:
+            warnings.warn(f"the WebAssembly module cannot be kept in {path.parent}, and will be built again: {error}",
+                          RuntimeWarning, stacklevel=2)
     return content
+
+
+def ship(package):
+    """Write the module into a folder that becomes the package of a wheel."""
+    target = Path(package) / SHIPPED.relative_to(Path(__file__).parents[1])
+    files.write_checked(target, _digest() + _built_in_a_process_of_its_own())
 
 
 def layout():
@@ -128,17 +132,29 @@ def _sizes(kernel):
 
 
 def _digest():
-    versions = f"{source_digest()} {numba.__version__} {llvmlite.__version__}"
+    """Of the sources alone: by the rules of `neorl.core.kernel`, no version of a compiler changes what they compute."""
     here = [Path(__file__).with_name(name).read_bytes() for name in ("wasm.py", "worlds.py")]
-    return hashlib.sha256(b"".join([versions.encode(), *here])).hexdigest()
+    return hashlib.sha256(b"".join([source_digest().encode(), *here])).digest()
+
+
+def _built_in_a_process_of_its_own():
+    require("ziglang", extra="wasm")
+    environment = {name: value for name, value in os.environ.items() if name != "NUMBA_DISABLE_JIT"}
+    built = subprocess.run([sys.executable, "-m", "neorl.browser.wasm"], capture_output=True,
+                           env=environment | {"NUMBA_CPU_NAME": "generic", "NUMBA_OPT": "0"})
+    if built.returncode:
+        raise RuntimeError(f"the WebAssembly module was not built:\n{built.stderr.decode()}")
+    return built.stdout
 
 
 def _build():
     """The module, for the processor that this process compiles for."""
+    import llvmlite.binding as llvm
+
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
     for kernel in RARE:
-        kernel.targetoptions.pop("forceinline", None)
+        kernel.dispatcher.targetoptions.pop("forceinline", None)
     target = llvm.Target.from_triple(TRIPLE).create_target_machine(features="+simd128,+bulk-memory", opt=3)
     together = _together([_code(kernel) for kernel in EXPORTS])
     passes = llvm.create_pass_builder(target, llvm.create_pipeline_tuning_options(speed_level=3))
@@ -154,6 +170,8 @@ def _build():
 
 def _together(codes):
     """One LLVM module of several, in which all but the exports can be changed and left out."""
+    import llvmlite.binding as llvm
+
     module = llvm.parse_assembly(codes[0])
     for code in codes[1:]:
         module.link_in(llvm.parse_assembly(code))
@@ -202,6 +220,8 @@ def _without(code, symbol):
 
 def _entry(kernel):
     """A function that takes pointers and sizes, and calls a kernel with arrays."""
+    from numba import carray, cfunc, types
+
     sizes, arguments = _sizes(kernel), _arguments(kernel).items()
     flat = [each for argument in arguments for each in _flat(*argument)]
     names = [f"size_{name}" for name in sizes] + [name for name, *_ in flat]
@@ -217,8 +237,10 @@ def _entry(kernel):
 
 def _passed(dtype, shape):
     """The type that stands for a value in the signature."""
+    from numba import from_dtype, types
+
     if shape is not None:
-        return types.CPointer(numba.from_dtype(np.dtype(dtype)))
+        return types.CPointer(from_dtype(np.dtype(dtype)))
     return types.int32 if dtype in ("bool", "int64") else getattr(types, dtype)
 
 

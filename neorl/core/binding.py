@@ -6,11 +6,7 @@ are put into a table once, and a compiled entry finds them there.
 
 import functools
 
-import numba
 import numpy as np
-from numba import carray, from_dtype, types
-from numba.core.registry import CPUDispatcher
-from numba.extending import intrinsic
 
 from neorl.core.kernel import Kernel, execute, fields, is_tuple, kernel_maker
 
@@ -23,7 +19,7 @@ def bound(called, *arguments):
     for each in arguments:
         _enter(each, table, numbers)
     entry, table, numbers = _entry(called), np.array(table, np.int64), np.array(numbers, np.float64)
-    run = functools.partial(CPUDispatcher.__call__, entry, table, numbers)
+    run = functools.partial(entry.for_python, table, numbers)
 
     def call(kept_alive=arguments):
         return run()
@@ -46,13 +42,13 @@ def _enter(values, table, numbers):
 @kernel_maker
 def _entry(called):
     """The compiled function (table, numbers) that calls a kernel."""
+    from numba import carray
+
     scope, place = {"__name__": __name__, "called": called, "carray": carray, "np": np}, [0, 0]
     kinds = [kind for name, kind in fields(called).items() if name != "return"]
     source = f"def entry(table, numbers):\n    return called({', '.join(_taken(kind, scope, place) for kind in kinds)})"
     exec(source, scope)
-    entry = numba.njit(error_model="numpy", nogil=True)(scope["entry"])
-    entry.__class__ = Kernel  # though not one in all: an array of an address needs the memory runtime
-    return entry
+    return Kernel(scope["entry"], {"error_model": "numpy", "nogil": True})  # an array of an address needs _nrt
 
 
 def _taken(kind, scope, place):
@@ -77,6 +73,9 @@ def _taken(kind, scope, place):
 @functools.cache
 def _pointer_to(dtype):
     """A function of compiled code from an address to the pointer to an array."""
+    from numba import from_dtype, types
+    from numba.extending import intrinsic
+
     kind = types.CPointer(from_dtype(np.dtype(dtype)))
 
     @intrinsic

@@ -63,7 +63,7 @@ class CompileCache(NullCache):
         except ValueError:
             return None
         made_of = (code, digest_of_source("core", "worlds"), [_name_of(each) for each in normalize_signature(sig)[0]],
-                   self._kernel.targetoptions, numba.__version__, llvmlite.__version__, sys.version,
+                   self._kernel.options, numba.__version__, llvmlite.__version__, sys.version,
                    codegen.magic_tuple(), [getattr(numba.config, name) for name in SETTINGS])
         return files.cache_folder() / "compiled" / hashlib.sha256(repr(made_of).encode()).hexdigest()
 

@@ -19,23 +19,28 @@ What is compiled for a call from Python is kept on disk (`neorl.core.compile_cac
 """
 
 import functools
+import os
 import sys
+import threading
 from typing import Annotated, get_args, get_type_hints
 
-import numba
 import numpy as np
-from numba.core.caching import NullCache
-from numba.core.registry import CPUDispatcher
-
-from neorl.core.compile_cache import CompileCache
 
 # Without numba's memory runtime (_nrt) a kernel cannot allocate, and counts no references to the arrays it is handed.
 OPTIONS = {"error_model": "numpy", "nogil": True, "_nrt": False}
 INLINED = {"forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+_making = threading.RLock()
 
 
-class Kernel(CPUDispatcher):
-    """A compiled function that only other kernels and `execute` can call."""
+class Kernel:
+    """A compiled function that only other kernels and `execute` can call.
+
+    numba takes longer to import than all else, so it is imported when a kernel is first compiled.
+    """
+
+    def __init__(self, function, options):
+        functools.update_wrapper(self, function)
+        self.py_func, self.options = function, options
 
     def __reduce__(self):
         if hasattr(self, "origin"):
@@ -43,20 +48,38 @@ class Kernel(CPUDispatcher):
         module = sys.modules.get(self.__module__)
         if getattr(module, self.__name__, None) is self:
             return self.__name__  # what a module defines is the same kernel in another process
-        return super().__reduce__()
+        return Kernel, (self.py_func, self.options)
 
     def __repr__(self):
         made_by, arguments = getattr(self, "origin", (self, ""))
         return f"<kernel {made_by.__module__}.{made_by.__qualname__}{arguments}>"
 
-    def _compile_for_args(self, *arguments, **by_name):
-        if type(self._cache) is NullCache:  # only what Python calls is kept, with all that is inlined into it
-            self._cache = CompileCache(self)
-        return super()._compile_for_args(*arguments, **by_name)
-
     def __call__(self, *arguments):
         raise TypeError(f"{self.__module__}.{self.__name__} is a kernel, which checks nothing: call it by "
                         "neorl.core.kernel.execute, with arrays that fit")
+
+    @property
+    def dispatcher(self):
+        """What numba compiles it with, the same one for all threads."""
+        with _making:
+            if "_dispatcher" not in vars(self):
+                import numba
+
+                self._dispatcher = numba.njit(**self.options)(self.py_func)
+            return self._dispatcher
+
+    @property
+    def _numba_type_(self):
+        """What a kernel is for the kernels that call it, which numba asks for."""
+        return self.dispatcher._numba_type_
+
+    @functools.cached_property
+    def for_python(self):
+        """The dispatcher of a kernel that Python calls: only such a one is kept, with all that is inlined into it."""
+        from neorl.core.compile_cache import CompileCache
+
+        self.dispatcher._cache = CompileCache(self)
+        return self.dispatcher
 
 
 def kernel(function):
@@ -84,15 +107,19 @@ def function_of(kernel):
 
 
 def _compiled(function, options):
-    compiled = numba.njit(**options)(function)
-    if isinstance(compiled, CPUDispatcher):  # and not the function itself, as with NUMBA_DISABLE_JIT
-        compiled.__class__ = Kernel
-    return compiled
+    return function if jit_is_off() else Kernel(function, options)
+
+
+def jit_is_off():
+    """Whether kernels stay functions of Python: by ``NUMBA_DISABLE_JIT=1``, or as numba says once it is imported."""
+    if "numba" in sys.modules:
+        return bool(sys.modules["numba"].config.DISABLE_JIT)
+    return os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0")
 
 
 def check_kernel(name, value):
     """`value`, if it is a kernel. Raises ValueError for anything else, such as a function that is not decorated."""
-    if isinstance(value, Kernel) or numba.config.DISABLE_JIT and callable(value):
+    if isinstance(value, Kernel) or jit_is_off() and callable(value):
         return value
     raise ValueError(f"{name} is {value!r}, allowed is a function that is decorated by neorl.kernel")
 
@@ -115,9 +142,9 @@ def execute(kernel, *arguments):
     if not isinstance(kernel, Kernel):
         with np.errstate(over="ignore"):  # as in the compiled code, where streams of random numbers overflow
             return kernel(*arguments)
-    if "no_cpython_wrapper" in kernel.targetoptions:
+    if "no_cpython_wrapper" in kernel.options:
         raise TypeError(f"{kernel.__module__}.{kernel.__name__} is only inlined into other kernels")
-    return CPUDispatcher.__call__(kernel, *arguments)
+    return kernel.for_python(*arguments)
 
 
 def array(dtype, *shape):

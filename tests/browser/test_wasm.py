@@ -1,6 +1,5 @@
 """The WebAssembly module: what it needs, how large it is, and that it lives the same runs as native code."""
 
-import importlib.util
 import subprocess
 import sys
 
@@ -169,24 +168,50 @@ def test_the_module_is_small_and_asks_for_memory_alone():
     assert {each.name for each in module.exports} == {"__heap_base", *wasm.layout()["exports"]}
 
 
-def test_a_module_on_disk_is_taken_and_a_damaged_one_is_not(tmp_path, monkeypatch):
+@pytest.fixture
+def content(tmp_path, monkeypatch):
+    """The module, which is not on disk any more and cannot be built."""
     content = wasm.module()
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
-    path = tmp_path / "wasm" / wasm._digest()
-    files.write_checked(path, content)
     monkeypatch.setattr(subprocess, "run", lambda *_, **__: pytest.fail("it was built again"))
+    return content
+
+
+def test_a_module_on_disk_is_taken_and_a_damaged_one_is_not(content, tmp_path):
+    path = tmp_path / "wasm" / wasm._digest().hex()
+    files.write_checked(path, content)
     assert wasm.module() == content
     path.write_bytes(path.read_bytes()[:-1])
     with pytest.raises(pytest.fail.Exception, match="built again"):
         wasm.module()
 
 
+def test_a_wheel_ships_the_module_of_its_own_sources(content, tmp_path, monkeypatch):
+    monkeypatch.setattr(wasm, "_built_in_a_process_of_its_own", lambda: content)
+    wasm.ship(tmp_path / "neorl")
+    monkeypatch.undo()
+    monkeypatch.setenv("NEORL_CACHE", str(tmp_path / "empty"))
+    monkeypatch.setattr(wasm, "SHIPPED", tmp_path / "neorl" / "browser" / "kernels.wasm")
+    assert wasm.module() == content
+    monkeypatch.setattr(wasm, "_built_in_a_process_of_its_own", lambda: b"of other sources")
+    monkeypatch.setattr(wasm, "source_digest", lambda: "other sources")
+    assert wasm.module() == b"of other sources"
+
+
 def test_without_a_linker_the_error_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
-    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
-    with pytest.raises(RuntimeError, match="pip install ziglang"):
+    monkeypatch.setitem(sys.modules, "ziglang", None)
+    with pytest.raises(ImportError, match=r"ziglang: pip install 'neorl-companion\[wasm\]'"):
         wasm.module()
     assert Run(place_cells([3]), WaterWorld()).advance(10) is not None
+
+
+def test_a_module_that_cannot_be_kept_is_built_with_a_warning(content, tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("NEORL_CACHE", str(tmp_path / "file"))
+    monkeypatch.setattr(wasm, "_built_in_a_process_of_its_own", lambda: content)
+    with pytest.warns(RuntimeWarning, match="cannot be kept"):
+        assert wasm.module() == content
 
 
 def test_what_goes_wrong_in_a_build_is_told(tmp_path, monkeypatch):

@@ -10,7 +10,7 @@ from neorl import Agent, Arena, Node, Policy, Run, WaterWorld, network_d, place_
 from neorl.agents.compile import constants_of
 from neorl.core import geometry, learning, life, maps, network, parameters, policy, state, stream
 from neorl.core.compile_cache import CompileCache
-from neorl.core.kernel import execute, inlined_kernel, kernel
+from neorl.core.kernel import Kernel, execute, inlined_kernel, kernel
 from neorl.core.modality import HEAD_DIRECTION_CELL
 from neorl.core.steps import steps_with
 from neorl.worlds import arena, probe, waterworld
@@ -21,7 +21,7 @@ AGENTS = {TANK: place_cells([3]),
           POOL: Agent((Node("HD", HEAD_DIRECTION_CELL, [8]),), policy=Policy(choose=softmax(0.5)))}
 MODULES = (arena, geometry, learning, life, maps, network, parameters, policy, probe, state, stream, waterworld)
 KERNELS = {f"{value.__module__}.{value.__name__}": value for module in MODULES
-           for value in vars(module).values() if isinstance(value, numba.core.dispatcher.Dispatcher)}
+           for value in vars(module).values() if isinstance(value, Kernel)}
 MADE = {f"{type(world).__name__}: {made.__name__}": made for world, agent in AGENTS.items()
         for made in (rollout_in(world.dynamics, constants_of(agent, world)), *steps_with(constants_of(agent, world)))}
 MADE["softmax"] = softmax(0.5)
@@ -36,23 +36,23 @@ def compiled():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(CompileCache, "load_overload", lambda *_: None)
         for each in {**KERNELS, **MADE}.values():
-            if each.stats.cache_hits:
-                each.recompile()
+            if each.dispatcher.stats.cache_hits:
+                each.dispatcher.recompile()
 
 
 def test_the_kernels_are_found():
     assert {"neorl.core.learning.learn_all_goals", "neorl.core.stream.uniform", "neorl.worlds.waterworld.step",
             "neorl.worlds.arena.step"} <= set(KERNELS)
     assert {"WaterWorld: rollout", "Arena: rollout", "WaterWorld: observe", "softmax"} <= set(MADE)
-    assert all(rollout.signatures for name, rollout in MADE.items() if name.endswith("rollout"))
+    assert all(rollout.dispatcher.signatures for name, rollout in MADE.items() if name.endswith("rollout"))
 
 
 @pytest.mark.parametrize("name", [*KERNELS, *MADE])
 def test_a_kernel_has_the_options_of_all_and_calls_no_library(name):
     tested = (KERNELS | MADE)[name]
-    assert tested.targetoptions in [each(lambda: None).targetoptions for each in (kernel, inlined_kernel)]
-    assert "fastmath" not in tested.targetoptions
-    for code in tested.inspect_llvm().values():
+    assert tested.dispatcher.targetoptions in [each(lambda: None).dispatcher.targetoptions for each in (kernel, inlined_kernel)]
+    assert "fastmath" not in tested.dispatcher.targetoptions
+    for code in tested.dispatcher.inspect_llvm().values():
         calls = [line for line in code.splitlines() if " call " in line and "@" in line]
         called = {line.split("@", 1)[1].split("(")[0] for line in calls}
         # What is left are other kernels (_ZN…), LLVM's own, and the wrapper that Python calls.
@@ -69,7 +69,7 @@ def test_a_kernel_that_allocates_does_not_compile():
 
 
 def test_the_goal_loop_compiles_to_vector_instructions():
-    code = "".join(learning.learn_all_goals.inspect_llvm().values())
+    code = "".join(learning.learn_all_goals.dispatcher.inspect_llvm().values())
     assert "x float> " in code and "fmul <" in code
 
 
@@ -80,7 +80,7 @@ def test_agents_of_any_network_share_one_compilation():
             Run(agent, world, seed=0).advance(10)
             rollouts.add(rollout_in(world.dynamics, constants_of(agent, world)))
     (rollout,) = rollouts
-    assert len(rollout.signatures) == 1
+    assert len(rollout.dispatcher.signatures) == 1
 
 
 @pytest.mark.parametrize("name", KERNELS)
@@ -89,7 +89,7 @@ def test_a_kernel_called_from_python_refuses_instead_of_ending_the_interpreter(n
         KERNELS[name](1, 2, 3)
 
 
-@pytest.mark.parametrize("name", [name for name in KERNELS if "no_cpython_wrapper" in KERNELS[name].targetoptions])
+@pytest.mark.parametrize("name", [name for name in KERNELS if "no_cpython_wrapper" in KERNELS[name].options])
 def test_a_kernel_that_is_inlined_cannot_even_be_executed(name):
     with pytest.raises(TypeError, match=f"{re.escape(name)} is only inlined into other kernels"):
         execute(KERNELS[name], 1, 2, 3)
