@@ -1,8 +1,12 @@
 """Sphinx extension: the buttons that lead to the repository, and to its notebooks on Binder and Colab.
 
-``repository.url`` in _config.yml is their one setting; while it is empty there are none. The book shows notebooks as
-they were computed, in chapters/, and readers run them as they lie in the repository, in notebooks/.
+``Repository`` in pyproject.toml's ``[project.urls]`` is their one setting, which the package's metadata have as well;
+without it there are none. The book shows notebooks as they were computed, in chapters/, and readers run them as they
+lie in the repository, in notebooks/.
 """
+
+import tomllib
+from pathlib import Path
 
 
 def setup(app):
@@ -13,9 +17,10 @@ def setup(app):
 
 def follow_setting(app, config):
     """Show buttons if there is a repository, and none if there is not."""
-    options = config.html_theme_options
-    if options.get("repository_url"):
-        options["use_repository_button"] = True
+    options, project = config.html_theme_options, Path(app.srcdir).parent / "pyproject.toml"
+    urls = tomllib.loads(project.read_text(encoding="utf-8"))["project"].get("urls", {})
+    if "Repository" in urls:
+        options |= {"repository_url": urls["Repository"], "use_repository_button": True}
     else:
         options.pop("launch_buttons", None)
 

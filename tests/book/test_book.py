@@ -8,7 +8,6 @@ from pathlib import Path
 
 import nbformat
 import pytest
-import yaml
 
 ROOT = Path(__file__).parents[2]
 PUBLIC = sorted(".".join(path.relative_to(ROOT / "neorl").with_suffix("").parts).removesuffix(".__init__")
@@ -25,9 +24,8 @@ def make_book(tmp_path):
         chapters.mkdir(parents=True)
         for name in ("launch.py", "api_links.py", "references.bib", "vendor"):
             (tmp_path / "book" / name).symlink_to(ROOT / "book" / name)
-        settings = yaml.safe_load((ROOT / "_config.yml").read_text())
-        settings["repository"]["url"] = url
-        (tmp_path / "_config.yml").write_text(yaml.safe_dump(settings))
+        shutil.copy(ROOT / "_config.yml", tmp_path)
+        (tmp_path / "pyproject.toml").write_text(f'[project.urls]\nRepository = "{url}"' if url else "[project]")
         toc = "format: jb-book\nroot: index\nchapters:\n  - file: chapters/page\n"
         (tmp_path / "book" / "_toc.yml").write_text(toc)
         reference = "\n\n".join(f".. automodule:: {module}" for module in modules)
