@@ -1,0 +1,84 @@
+"""A neoRL agent in RatInABox: its scenes are read from the rates of simulated place and object-vector cells.
+
+RatInABox (George et al. 2024) simulates how an animal moves and how its neurons fire. A neuron's rate is a graded
+measure of how well its preferred place, or the preferred vector to an object, fits; the mean of all preferred values,
+weighted by the rates, is the population's estimate (Georgopoulos et al. 1986). A `neorl.Scene` made of such estimates
+is all that an agent needs. Its actions become the drift that RatInABox adds to the animal's own random motion.
+"""
+
+import numpy as np
+
+from neorl.agents.learner import Learner
+from neorl.core.scene import Scene
+from neorl.extras import require
+
+STEP_SECONDS = 0.1
+SPEED = 0.3  # metres per second, of the drift
+OBJECT = (0.75, 0.3)
+
+
+def decode_place(cells):
+    """The place that RatInABox's `PlaceCells` signal, in metres: float64 (2,)."""
+    return _weighted_mean(cells.firingrate, cells.place_cell_centres)
+
+
+def decode_vector(cells):
+    """The vector from the animal to an object that RatInABox's `ObjectVectorCells` signal, in metres: float64 (2,).
+
+    None while no cell fires.
+    """
+    along = np.column_stack([np.cos(cells.tuning_angles), np.sin(cells.tuning_angles)])
+    if not np.any(cells.firingrate):
+        return None
+    return _weighted_mean(cells.firingrate, cells.tuning_distances[:, None] * along)
+
+
+def scene_of(places, vectors):
+    """The scene that the two populations signal: where the animal is, and where the one object is, if it is felt."""
+    position, vector = decode_place(places), decode_vector(vectors)
+    kind = "object" if vector is not None else None
+    return Scene(position, things=[position + (0 if vector is None else vector)], kinds=[kind])
+
+
+def forage(agent, steps, seed=0, n_cells=200):
+    """How far an animal steered by a neoRL agent is from an object after each step, in metres: float64 (steps,).
+
+    agent: a `neorl.Agent` that desires "object", or None for RatInABox's own random motion. n_cells: of each population.
+    Raises ImportError if ratinabox is not installed.
+    """
+    require("ratinabox", extra="book")
+    from ratinabox import Agent, Environment
+    from ratinabox.Neurons import ObjectVectorCells, PlaceCells
+
+    np.random.seed(seed)  # RatInABox draws from NumPy's global stream
+    box = Environment()
+    box.add_object(OBJECT)
+    animal = Agent(box, params={"dt": STEP_SECONDS, "save_history": False})
+    cells = [kind(animal, params={"n": n_cells, "save_history": False}) for kind in (PlaceCells, ObjectVectorCells)]
+    learner = Learner(agent, things=1, kinds=["object"], seed=seed, fps=1 / STEP_SECONDS) if agent else None
+    distances = np.empty(steps)
+    for step in range(steps):
+        for each in cells:
+            each.update()
+        if learner is None:
+            animal.update()
+        else:
+            learner.begin(scene_of(*cells)) if step == 0 else learner.observe(scene_of(*cells))
+            push = learner.world.actions.pushes[learner.act()]
+            animal.update(drift_velocity=SPEED * np.array(push), drift_to_random_strength_ratio=3)
+        distances[step] = np.linalg.norm(animal.pos - OBJECT)
+    return distances
+
+
+def smoothed(distances, seconds=10.0):
+    """Means of stretches of time, as `neorl.drawing.draw_curves` takes them: (seconds, {name: float64 (1, points)})."""
+    stretch = round(seconds / STEP_SECONDS)
+    curves = {name: each[: len(each) // stretch * stretch].reshape(-1, stretch).mean(axis=1)[None]
+              for name, each in distances.items()}
+    points = next(iter(curves.values())).shape[1]
+    return seconds * (np.arange(points) + 0.5), curves
+
+
+def _weighted_mean(rates, values):
+    rates = np.asarray(rates)
+    return (rates[:, None] * values).sum(axis=0) / rates.sum()
