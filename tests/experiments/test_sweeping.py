@@ -2,7 +2,6 @@
 
 import os
 import signal
-import sys
 import threading
 import time
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
@@ -13,10 +12,9 @@ import pytest
 from distributed import Client, LocalCluster
 
 from neorl import Condition, WaterWorld, multimodal, place_cells, sweep
-from neorl.experiments import cache
+from neorl.experiments import cache, sweeping
 from neorl.experiments.simulation import simulate
 
-sweep_module = sys.modules["neorl.experiments.sweep"]  # `neorl.sweep` is the function
 WORLD = WaterWorld()
 CONDITIONS = [Condition(place_cells([n]), WORLD, 2_000, 2, seed) for n in (2, 3) for seed in (0, 1)]
 CONDITIONS.append(Condition(place_cells([3]), WORLD, 2_000, 2, changes=[(1_000, multimodal([3]))]))
@@ -25,16 +23,11 @@ pytestmark = pytest.mark.usefixtures("cache_folder")
 
 @pytest.fixture
 def lived(monkeypatch):
-    """The conditions that workers in this process have computed."""
-    conditions = []
-    original = sweep_module.simulate
-    monkeypatch.setattr(sweep_module, "simulate",
-                        lambda **choices: conditions.append(Condition(**trimmed(choices))) or original(**choices))
-    return conditions
-
-
-def trimmed(choices):
-    return {name: value for name, value in choices.items() if name not in ("threads", "progress")}
+    """The tasks that workers in this process have computed: (condition, runs)."""
+    tasks = []
+    original = sweeping._live
+    monkeypatch.setattr(sweeping, "_live", lambda *task: tasks.append(task[:2]) or original(*task))
+    return tasks
 
 
 def assert_the_same(results, conditions=CONDITIONS):
@@ -50,7 +43,7 @@ def assert_the_same(results, conditions=CONDITIONS):
 
 def test_a_sweep_brings_what_its_conditions_bring_alone_and_in_order(lived):
     assert_the_same(sweep(CONDITIONS, progress=False))
-    assert sorted(map(repr, lived)) == sorted(map(repr, CONDITIONS))
+    assert sorted(map(repr, lived)) == sorted(repr((each, [0, 1])) for each in CONDITIONS)
 
 
 def test_what_is_on_disk_or_asked_for_twice_is_computed_once(lived):
@@ -75,48 +68,44 @@ def test_what_is_no_list_of_conditions_is_refused(conditions, message):
         sweep(conditions)
 
 
-def test_a_condition_that_fails_is_run_again_after_the_others(lived, monkeypatch):
-    failing = {CONDITIONS[1]: 2}
-    original = sweep_module.simulate
+def fails(monkeypatch, fails_now):
+    """Let a task fail when its work is done, if `fails_now(condition, runs)`."""
+    original = sweeping._live
 
-    def simulate_with_failures(**choices):
-        condition = Condition(**trimmed(choices))
-        result = original(**choices)
-        if failing.get(condition, 0):
-            failing[condition] -= 1
+    def live(condition, runs, *others):
+        brought = original(condition, runs, *others)
+        if fails_now(condition, runs):
             raise MemoryError("for now")
-        return result
+        return brought
 
-    monkeypatch.setattr(sweep_module, "simulate", simulate_with_failures)
+    monkeypatch.setattr(sweeping, "_live", live)
+
+
+def test_a_condition_that_fails_is_run_again_after_the_others(lived, monkeypatch):
+    failures = [CONDITIONS[1]] * 2
+    fails(monkeypatch, lambda condition, runs: condition in failures and not failures.remove(condition))
     assert_the_same(sweep(CONDITIONS, progress=False))
-    assert lived[-1] == CONDITIONS[1] and len(lived) == len(CONDITIONS) + 2
+    assert lived[-1][0] == CONDITIONS[1] and len(lived) == len(CONDITIONS) + 2
 
 
 def test_a_condition_that_fails_always_is_told_after_the_others_are_kept(monkeypatch):
-    original = sweep_module.simulate
-
-    def simulate_with_failures(**choices):
-        if choices["seed"] == 1:
-            raise MemoryError("never")
-        return original(**choices)
-
-    monkeypatch.setattr(sweep_module, "simulate", simulate_with_failures)
+    fails(monkeypatch, lambda condition, runs: condition.seed == 1)
     with pytest.raises(RuntimeError, match="2 of 5 conditions have failed 3 times, such as Condition.*MemoryError"):
         sweep(CONDITIONS, progress=False)
     assert [cache.load(condition) is not None for condition in CONDITIONS] == [True, False, True, False, True]
 
 
 def test_a_worker_with_other_sources_is_refused(monkeypatch):
-    monkeypatch.setattr(sweep_module, "ATTEMPTS", 1)
+    monkeypatch.setattr(sweeping, "ATTEMPTS", 1)
     calls = iter(["the sweep's"] + ["the worker's"] * 100)
-    monkeypatch.setattr(sweep_module, "source_digest", lambda: next(calls))
+    monkeypatch.setattr(sweeping, "source_digest", lambda: next(calls))
     with pytest.raises(RuntimeError, match="has other sources of neorl than the sweep"):
         sweep(CONDITIONS[:1], ThreadPoolExecutor(1), progress=False)
     assert cache.load(CONDITIONS[0]) is None
 
 
 def test_an_interrupted_sweep_keeps_what_is_finished_and_gives_up_the_rest(monkeypatch, cache_folder):
-    original, finished = sweep_module.save, []
+    original, finished = cache.save, []
 
     def keep_one(condition, result):
         if finished:
@@ -124,15 +113,55 @@ def test_an_interrupted_sweep_keeps_what_is_finished_and_gives_up_the_rest(monke
         finished.append(condition)
         original(condition, result)
 
-    monkeypatch.setattr(sweep_module, "save", keep_one)
+    monkeypatch.setattr(cache, "save", keep_one)
     with pytest.raises(KeyboardInterrupt):
-        sweep(CONDITIONS * 1, progress=False)
+        sweep(CONDITIONS, progress=False)
     assert cache.load(finished[0]) is not None and len(list((cache_folder / "conditions").iterdir())) == 1
+    assert len(list((cache_folder / "runs").iterdir())) == 1  # those of the second, whose result was not written
 
 
 def test_progress_tells_the_time_that_is_left(capsys):
-    sweep(CONDITIONS[:1])
-    assert "sweep:" in capsys.readouterr().err
+    sweep(CONDITIONS[:2])
+    sweep(CONDITIONS[2:3])
+    printed = capsys.readouterr().err
+    assert "sweep:" in printed and "PC N3:" in printed
+
+
+@pytest.mark.parametrize("executor", [None, ThreadPoolExecutor(2)])
+def test_the_bar_moves_by_runs_and_ends_at_their_number(monkeypatch, executor):
+    """One condition of many runs is split over all workers."""
+    moves, original = [], sweeping.tqdm.update
+    monkeypatch.setattr(sweeping.tqdm, "update", lambda bar, steps: moves.append(steps) or original(bar, steps))
+    condition = Condition(place_cells([3]), WORLD, sweeping.TASK_STEPS // 2, 10)
+    results = sweep([condition], executor)
+    assert sum(moves) == 10 * condition.steps and len(moves) >= 5
+    assert_the_same(results, [condition])
+
+
+@pytest.mark.parametrize("workers", [1, 2, 10**9])
+def test_any_number_of_workers_brings_the_same(workers, lived):
+    assert_the_same(sweep(CONDITIONS, workers=workers, progress=False))
+    assert len(lived) == len(CONDITIONS)
+
+
+def test_workers_are_threads_at_most_so_many(monkeypatch):
+    asked, original = [], sweeping.ThreadPoolExecutor
+    monkeypatch.setattr(sweeping, "usable_threads", lambda agent, world: 3)
+    monkeypatch.setattr(sweeping, "ThreadPoolExecutor", lambda count: asked.append(count) or original(count))
+    for seed, workers in enumerate([None, 1, 2, 9]):
+        sweep([Condition(place_cells([3]), WORLD, 100, 1, seed)], workers=workers, progress=False)
+    assert asked == [3, 1, 2, 3]
+
+
+@pytest.mark.parametrize("workers", [0, -1, 1.5, True, "2"])
+def test_what_is_no_number_of_workers_is_refused(workers):
+    with pytest.raises(ValueError, match="workers is .*, allowed are integers ≥ 1"):
+        sweep(CONDITIONS, workers=workers)
+
+
+def test_workers_beside_an_executor_are_refused():
+    with ThreadPoolExecutor(1) as pool, pytest.raises(ValueError, match="workers is 2 beside an executor"):
+        sweep(CONDITIONS, pool, workers=2)
 
 
 def test_any_executor_will_do(lived):
@@ -178,7 +207,7 @@ def test_a_cluster_of_worker_processes_brings_the_same(cluster, lived):
 def test_a_killed_worker_of_a_cluster_loses_no_more_than_what_it_was_at(cluster, monkeypatch):
     """One of two workers is killed as soon as the first condition is kept; the others are lived again or elsewhere."""
     conditions = [Condition(place_cells([3]), WORLD, 200_000, 1, seed) for seed in range(20, 28)]
-    original, kept_after = sweep_module.save, []
+    original, kept_after = cache.save, []
 
     def keep_and_kill(condition, result):
         original(condition, result)
@@ -186,7 +215,7 @@ def test_a_killed_worker_of_a_cluster_loses_no_more_than_what_it_was_at(cluster,
             os.kill(next(iter(client.run(os.getpid).values())), signal.SIGKILL)
         kept_after.append(condition)
 
-    monkeypatch.setattr(sweep_module, "save", keep_and_kill)
+    monkeypatch.setattr(cache, "save", keep_and_kill)
     with Client(cluster) as client:
         results = sweep(conditions, client.get_executor(), progress=False)
     assert len(kept_after) == len(conditions)  # each once
