@@ -1,5 +1,6 @@
 """Imports run downwards only, as the contracts in pyproject.toml have it, and never in a circle."""
 
+import importlib
 import subprocess
 import sys
 from pathlib import Path
@@ -24,3 +25,11 @@ def test_no_modules_import_each_other_in_a_circle():
     for module in graph.modules:
         for imported in graph.find_modules_directly_imported_by(module):
             assert not graph.chain_exists(importer=imported, imported=module), (module, imported)
+
+
+def test_no_name_shadows_a_module():
+    """`import neorl.core.kernel as k` gives the module, though `neorl.kernel` is a function."""
+    for name in grimp.build_graph("neorl", cache_dir=None).modules:
+        parent, _, last = name.rpartition(".")
+        if parent:
+            assert getattr(importlib.import_module(parent), last, None) in (None, importlib.import_module(name))

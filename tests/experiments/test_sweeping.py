@@ -1,11 +1,18 @@
 """Sweeps: the same results on threads, on processes and on a cluster, with workers that fail, die and come too late."""
 
+import importlib.util
 import os
+import re
+import shutil
 import signal
+import subprocess
+import sys
 import threading
 import time
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
+from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -120,6 +127,30 @@ def test_an_interrupted_sweep_keeps_what_is_finished_and_gives_up_the_rest(monke
     assert len(list((cache_folder / "runs").iterdir())) == 1  # those of the second, whose result was not written
 
 
+class Hung:
+    """An executor whose workers never come back."""
+
+    def __init__(self):
+        self.futures = []
+
+    def submit(self, *task):
+        self.futures.append(Future())
+        return self.futures[-1]
+
+
+def test_a_sweep_that_waits_for_a_worker_that_hangs_can_be_interrupted_and_says_what_it_waits_for():
+    before, executor = signal.signal(signal.SIGINT, signal.default_int_handler), Hung()
+    try:
+        threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        with pytest.raises(KeyboardInterrupt) as interruption:
+            sweep(CONDITIONS, executor, progress=False)
+    finally:
+        signal.signal(signal.SIGINT, before)
+    (note,) = interruption.value.__notes__
+    assert "5 tasks were left, such as runs [0, 1] of Condition(agent=Agent(" in note
+    assert all(future.cancelled() for future in executor.futures)
+
+
 def test_progress_tells_the_time_that_is_left(capsys):
     sweep(CONDITIONS[:2])
     sweep(CONDITIONS[2:3])
@@ -220,3 +251,39 @@ def test_a_killed_worker_of_a_cluster_loses_no_more_than_what_it_was_at(cluster,
         results = sweep(conditions, client.get_executor(), progress=False)
     assert len(kept_after) == len(conditions)  # each once
     assert_the_same(results, conditions)
+
+
+PAGE = Path(__file__).parents[2] / "book" / "running.md"
+RECIPES = re.findall("```python\n(.*?)```", PAGE.read_text("utf-8"), re.S)
+
+
+def small(recipe):
+    return recipe.replace("steps=150_000, runs=100", "steps=1_000, runs=3").replace("range(2, 30)", "(2, 3)")
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_the_recipe_for_dask_runs(cluster, monkeypatch):
+    """With a cluster of this machine in place of the queue's."""
+    asked = {}
+
+    def submitted(**job):
+        asked.update(job)
+        return cluster
+
+    monkeypatch.setattr(cluster, "scale", asked.update)
+    monkeypatch.setitem(sys.modules, "dask_jobqueue", SimpleNamespace(SLURMCluster=submitted))
+    made = {}
+    exec(small(RECIPES[0]), made)
+    assert set(asked) == {"cores", "processes", "memory", "walltime", "jobs"} and len(made["results"]) == 2
+    assert_the_same(made["results"].values(), made["conditions"])
+
+
+@pytest.mark.skipif(not (importlib.util.find_spec("mpi4py") and shutil.which("mpiexec")), reason="no MPI")
+def test_the_recipe_for_mpi_runs(tmp_path):
+    script = tmp_path / "experiment.py"
+    script.write_text(small(RECIPES[1]) + "    print([float(each.totals.sum()) for each in results.values()])\n")
+    command = ["mpiexec", "--oversubscribe", "-n", "3", sys.executable, "-m", "mpi4py.futures", script]
+    printed = subprocess.run(command, check=True, capture_output=True, text=True, env=os.environ | {
+        "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}).stdout
+    alone = [simulate(place_cells([n]), WORLD, steps=1_000, runs=3, progress=False) for n in (2, 3)]
+    assert printed == f"{[float(each.totals.sum()) for each in alone]}\n"
