@@ -26,10 +26,10 @@ from neorl.core.maps import NresMap
 from neorl.core.modality import Axis, Modality
 from neorl.core.policy import greedy, softmax
 from neorl.core.scene import CARDINAL, Actions, Scene
-from neorl.experiments.cache import Condition, simulate_once
+from neorl.experiments.cache import Condition
 from neorl.experiments.run import Run
 from neorl.experiments.simulation import Result, simulate
-from neorl.experiments.sweep import sweep
+from neorl.experiments.sweeping import simulate_once, sweep
 from neorl.worlds.arena import Arena
 from neorl.worlds.waterworld import WaterWorld
 from neorl.worlds.world import World

@@ -1,17 +1,22 @@
 """Files that are complete or absent, whatever moment the process is killed at, and the folder of those that may go.
 
 What takes long to make is kept in the folder that the environment variable ``NEORL_CACHE`` names, or in the user's
-cache folder; all of it may be deleted at any time.
+cache folder; all of it may be deleted at any time. What a killed process was writing is removed by a later one.
 """
 
+import contextlib
+import functools
 import hashlib
 import os
 import tempfile
+import time
 from pathlib import Path
 
 import platformdirs
 
 DIGEST_BYTES = hashlib.sha256().digest_size
+UNFINISHED = (".neorl-", ".tmp")  # how the name of a file that is being written begins and ends
+STALE_SECONDS = 3_600  # since its last byte: no process writes on after that
 
 
 def cache_folder():
@@ -20,14 +25,31 @@ def cache_folder():
 
 
 def write_whole(path, content):
-    """Write bytes to a file that others see complete or not at all."""
+    """Write bytes to a file that others see complete or not at all. Raises OSError, and leaves nothing behind then."""
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.NamedTemporaryFile(dir=path.parent, prefix=".", delete=False) as file:
-        file.write(content)
-        file.flush()
-        os.fsync(file.fileno())
-    os.replace(file.name, path)
+    _remove_stale(path.parent)
+    prefix, suffix = UNFINISHED
+    file = tempfile.NamedTemporaryFile(dir=path.parent, prefix=prefix, suffix=suffix, delete=False)
+    try:
+        with file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(file.name, path)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            os.unlink(file.name)
+        raise
+
+
+@functools.cache  # a look at every name in the folder, so once a process is enough
+def _remove_stale(folder):
+    """Remove what killed processes have left half-written in a folder."""
+    with contextlib.suppress(OSError):
+        for path in folder.glob("*".join(UNFINISHED)):
+            if time.time() - path.stat().st_mtime > STALE_SECONDS:
+                path.unlink()
 
 
 def write_checked(path, content):

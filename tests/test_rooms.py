@@ -6,6 +6,8 @@ from pathlib import Path
 
 import grimp
 
+import neorl  # noqa: F401, all that its users get
+
 ROOT = Path(__file__).parents[1]
 
 
@@ -24,3 +26,11 @@ def test_no_modules_import_each_other_in_a_circle():
     for module in graph.modules:
         for imported in graph.find_modules_directly_imported_by(module):
             assert not graph.chain_exists(importer=imported, imported=module), (module, imported)
+
+
+def test_no_name_shadows_a_module():
+    """`import neorl.core.kernel as k` gives the module, though `neorl.kernel` is a function."""
+    modules = [(name.rpartition("."), module) for name, module in sys.modules.items() if name.startswith("neorl.")]
+    assert len(modules) > 30
+    for (parent, _, name), module in modules:
+        assert getattr(sys.modules[parent], name) is module

@@ -15,7 +15,7 @@ from neorl.evidence.priors import BEYOND, TO_THE_LETTER, WITHIN
 from neorl.evidence.reading import PAPER_FPS, conditions, judge
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.statistics import difference, estimate
-from neorl.experiments.sweep import sweep
+from neorl.experiments.sweeping import sweep
 
 CHEAP = ("layers", "modal", "networks", "revaluing", "resolutions")  # of `neorl.evidence.reading.GROUPS`
 EXPENSIVE = ("single", "pace")

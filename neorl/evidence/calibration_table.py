@@ -16,7 +16,7 @@ import numpy as np
 from neorl import checks
 from neorl.evidence.calibration_targets import GROUPS, TARGETS, Measure, distance, held, measure, tested
 from neorl.evidence.reading import Reading, conditions as all_conditions
-from neorl.experiments.sweep import sweep
+from neorl.experiments.sweeping import sweep
 
 SHIPPED = resources.files("neorl.evidence") / "calibration.csv"
 OWN = ("wave", "seed", "runs", "steps")

@@ -2,7 +2,8 @@
 
 A condition is kept under a key of all that determines it: agent, world, steps, runs, seed, and the source of every
 module that takes part in a run, and of every kernel of the user's own. A file is complete or absent, whatever moment
-the process is killed at, and carries a digest of its content: one that is damaged is noticed and computed again.
+the process is killed at, and carries a digest of its content: one that is damaged, or was not written by this version,
+is as good as absent. Single runs of a condition that takes long are kept, too, until all of it is.
 
 The files lie in the folder that the environment variable ``NEORL_CACHE`` names, or in the user's cache folder; all of
 it may be deleted at any time (`neorl.files`).
@@ -10,6 +11,7 @@ it may be deleted at any time (`neorl.files`).
 
 import hashlib
 import io
+import zipfile
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -17,20 +19,11 @@ import numpy as np
 from neorl import checks, files
 from neorl.agents.agent import Agent
 from neorl.core.identity import digest_of_source, identity
-from neorl.experiments.simulation import Result, checked_changes, simulate
+from neorl.experiments.run import bin_steps
+from neorl.experiments.simulation import Result, checked_changes
 from neorl.worlds.world import World
 
 PARTS = ("checks", "files", "core", "worlds", "agents", "experiments")  # all that a run is made of
-
-
-def simulate_once(agent, world, *, steps, runs, seed=0, changes=(), progress=True):
-    """`simulate`, unless the same condition is on disk already; then what was computed is read. Returns a `Result`."""
-    condition = Condition(agent, world, steps, runs, seed, changes)
-    result = load(condition)
-    if result is None:
-        result = simulate(**condition.choices, progress=progress)
-        save(condition, result)
-    return result
 
 
 @dataclass(frozen=True)
@@ -77,15 +70,60 @@ def source_digest():
 
 def load(condition):
     """The `Result` of a condition if it is on disk, or else None."""
-    content = files.read_checked(condition.path)
-    if content is None:
-        return None
-    arrays = np.load(io.BytesIO(content))
-    return Result(**condition.choices, rewards=arrays["rewards"], hits=arrays["hits"])
+    arrays = _read(condition.path, condition)
+    return None if arrays is None else Result(**condition.choices, **arrays)
 
 
 def save(condition, result):
-    """Write the `Result` of a condition to disk."""
+    """Write the `Result` of a condition to disk. Raises OSError if there is no room or no permission."""
     content = io.BytesIO()
     np.savez_compressed(content, rewards=result.rewards, hits=result.hits)
     files.write_checked(condition.path, content.getvalue())
+
+
+def load_runs(condition):
+    """The single runs of a condition that are on disk: {run: (rewards, hits)}."""
+    lived = {}
+    for path in _parts(condition):
+        arrays = _read(path, condition, "runs")
+        if arrays is not None:
+            lived |= zip(arrays["runs"].tolist(), zip(arrays["rewards"], arrays["hits"]))
+    return lived
+
+
+def save_runs(condition, lived):
+    """Write some runs of a condition to a file of their own. Raises OSError if there is no room or no permission."""
+    content = io.BytesIO()
+    np.savez(content, runs=np.array(list(lived)), rewards=np.stack([rewards for rewards, _ in lived.values()]),
+             hits=np.stack([hits for _, hits in lived.values()]))
+    files.write_checked(_part_folder() / f"{condition.key}-{min(lived)}", content.getvalue())
+
+
+def remove_runs(condition):
+    """Remove the single runs of a condition from disk, as all of it is kept."""
+    for path in _parts(condition):
+        path.unlink(missing_ok=True)
+
+
+def _part_folder():
+    return files.cache_folder() / "runs"
+
+
+def _parts(condition):
+    return list(_part_folder().glob(f"{condition.key}-*"))
+
+
+def _read(path, condition, *beside):
+    """The arrays in a file, if they are those of runs of a condition, or else None."""
+    content = files.read_checked(path)
+    if content is None:
+        return None
+    try:
+        with np.load(io.BytesIO(content)) as file:
+            arrays = {name: file[name] for name in ("rewards", "hits", *beside)}
+    except (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile):  # another kind of file
+        return None
+    runs, bins = arrays["runs"].size if beside else condition.runs, -(-condition.steps // bin_steps(condition.world))
+    expected = {"rewards": (np.float32, (runs, bins)), "hits": (np.int16, (runs, bins, len(condition.world.kinds))),
+                "runs": (np.int64, (runs,))}
+    return arrays if all((each.dtype, each.shape) == expected[name] for name, each in arrays.items()) else None

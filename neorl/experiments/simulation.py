@@ -2,7 +2,7 @@
 
 import os
 import threading
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import CancelledError, ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -93,29 +93,49 @@ def simulate(agent, world, *, steps, runs, seed=0, changes=(), threads=None, pro
     usable = min(usable_threads(each, world) for each in (agent, *(later for _, later in changes)))
     threads = usable if threads is None else checks.integer("threads", threads, at_least=1)
     rewards, hits = new_bins(world, runs, steps)
-    label = ", ".join(f"{node.name} {'+'.join(f'N{n}' for n in node.resolutions)}" for node in agent.nodes)
     stop, before = threading.Event(), threading.local()
+    with tqdm(total=runs * steps, desc=label(agent), unit="step", unit_scale=True, leave=False,
+              disable=not progress) as bar:
 
-    def live_one(k, bar):
-        run = before.run = Run(agent, world, seed, k, after=getattr(before, "run", None))
-        for until, later in (*changes, (steps, None)):
-            while run.step < until and not stop.is_set():
-                slice_steps = min(SLICE, until - run.step)
-                run.advance(slice_steps, rewards[k], hits[k])
-                bar.update(slice_steps)
-            if later:
-                run.change(later)
+        def each_slice(lived):
+            if stop.is_set():
+                raise CancelledError
+            bar.update(lived)
 
-    with tqdm(total=runs * steps, desc=label, unit="step", unit_scale=True, leave=False, disable=not progress) as bar:
+        def live_one(k):
+            before.run = live(agent, world, steps, seed, k, changes, rewards[k], hits[k], each_slice,
+                              getattr(before, "run", None))
+
         with ThreadPoolExecutor(min(threads, runs)) as pool:
             try:
-                for finished in [pool.submit(live_one, k, bar) for k in range(runs)]:
+                for finished in [pool.submit(live_one, k) for k in range(runs)]:
                     finished.result()
             except BaseException:
                 stop.set()
                 pool.shutdown(cancel_futures=True)
                 raise
     return Result(agent, world, steps, runs, seed, rewards, hits, changes)
+
+
+def live(agent, world, steps, seed, k, changes, rewards, hits, each_slice, after=None):
+    """Let run k live, and return it. Its rewards and hits come into arrays for its bins.
+
+    each_slice: called with the number of steps after every slice; what it raises ends the run. after: see `Run`.
+    """
+    run = Run(agent, world, seed, k, after=after)
+    for until, later in (*changes, (steps, None)):
+        while run.step < until:
+            slice_steps = min(SLICE, until - run.step)
+            run.advance(slice_steps, rewards, hits)
+            each_slice(slice_steps)
+        if later:
+            run.change(later)
+    return run
+
+
+def label(agent):
+    """An agent in a few words, for a progress bar."""
+    return ", ".join(f"{node.name} {'+'.join(f'N{n}' for n in node.resolutions)}" for node in agent.nodes)
 
 
 def checked_changes(changes, steps):

@@ -58,7 +58,7 @@ def test_without_a_repository_there_are_no_buttons_and_docstrings_become_lists_w
     assert "mybinder" not in page and "colab" not in page and "fa-github" not in page
     text = re.sub(r"<[^>]+>", "", reference)
     assert "Raises" in text and "ValueError" in text
-    of_store = reference.split('id="neorl.experiments.cache.simulate_once"')[1].split("</article>")[0]
+    of_store = reference.split('id="neorl.experiments.sweeping.simulate_once"')[1].split("</article>")[0]
     assert re.search(r'href="#neorl.experiments.simulation.Result"[^>]*><code[^>]*><span class="pre">Result', of_store)
     assert "float64 (actions,): the value of each action" in text  # a comment beside a field
     assert "Alias for field number" not in text

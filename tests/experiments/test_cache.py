@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from neorl import Condition, Learning, Policy, WaterWorld, files, place_cells, simulate_once, softmax
-from neorl.experiments import cache
+from neorl.experiments import cache, sweeping
 
 AGENT, WORLD = place_cells([3]), WaterWorld()
 SIZE = {"steps": 500, "runs": 2, "progress": False}
@@ -23,8 +23,8 @@ pytestmark = pytest.mark.usefixtures("cache_folder")
 def computed(monkeypatch):
     """Counts how often a condition is computed."""
     calls = []
-    original = cache.simulate
-    monkeypatch.setattr(cache, "simulate", lambda *args, **kwargs: calls.append(args) or original(*args, **kwargs))
+    original = sweeping._live
+    monkeypatch.setattr(sweeping, "_live", lambda *args: calls.append(args) or original(*args))
     return calls
 
 
@@ -51,7 +51,7 @@ def test_the_key_tells_all_that_determines_a_result_apart(monkeypatch):
 
 
 def test_the_source_digest_covers_every_module_that_a_run_imports():
-    imported = grimp.build_graph("neorl", cache_dir=None).find_upstream_modules("neorl.experiments.cache")
+    imported = grimp.build_graph("neorl", cache_dir=None).find_upstream_modules("neorl.experiments.sweeping")
     assert {"neorl.core.horde", "neorl.worlds.world"} < imported
     assert {name.split(".")[1] for name in imported} == set(cache.PARTS)
 

@@ -15,7 +15,7 @@ from neorl.chapters.shared.wording import table
 from neorl.evidence import claims
 from neorl.evidence.reading import conditions
 from neorl.evidence.statistics import estimate
-from neorl.experiments.sweep import sweep
+from neorl.experiments.sweeping import sweep
 
 CHANGES, BROWNIAN = "changes of cell", "Brownian motion"
 STAYS = (1, 10, 50)  # steps

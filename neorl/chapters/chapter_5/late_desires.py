@@ -12,7 +12,7 @@ import numpy as np
 from neorl.agents import papers
 from neorl.evidence.statistics import difference, estimate
 from neorl.evidence.verdict import EARLY, FINAL
-from neorl.experiments.cache import simulate_once
+from neorl.experiments.sweeping import simulate_once
 from neorl.worlds.waterworld import WaterWorld
 
 BEFORE, AFTER = (0.4, 0.5), (0.5, 0.6)  # half-time, a tenth of the run each

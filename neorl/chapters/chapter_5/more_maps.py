@@ -10,7 +10,7 @@ import numpy as np
 from neorl.agents import papers
 from neorl.evidence.statistics import difference, estimate
 from neorl.evidence.verdict import FINAL
-from neorl.experiments.cache import simulate_once
+from neorl.experiments.sweeping import simulate_once
 from neorl.worlds.waterworld import WaterWorld
 
 COUNTS = (1, 2, 4, 6)

@@ -15,7 +15,7 @@ from neorl.agents import papers
 from neorl.agents.agent import Desire, Node, Place, Policy
 from neorl.core.modality import PLACE_CELL
 from neorl.evidence.reading import PRIMES
-from neorl.experiments.cache import simulate_once
+from neorl.experiments.sweeping import simulate_once
 from neorl.experiments.run import Run, bin_steps
 from neorl.experiments.simulation import usable_threads
 from neorl.worlds.waterworld import WaterWorld

@@ -11,7 +11,7 @@ from neorl.evidence.priors import BEYOND, WITHIN
 from neorl.evidence.reading import judge
 from neorl.evidence.report import SIGNS
 from neorl.evidence.verdict import RUNS_FOR_A_VERDICT, VERDICTS
-from neorl.experiments.sweep import sweep
+from neorl.experiments.sweeping import sweep
 
 
 def few(runs):

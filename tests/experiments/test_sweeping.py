@@ -1,0 +1,289 @@
+"""Sweeps: the same results on threads, on processes and on a cluster, with workers that fail, die and come too late."""
+
+import importlib.util
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+import time
+from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
+from multiprocessing import get_context
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from distributed import Client, LocalCluster
+
+from neorl import Condition, WaterWorld, multimodal, place_cells, sweep
+from neorl.experiments import cache, sweeping
+from neorl.experiments.simulation import simulate
+
+WORLD = WaterWorld()
+CONDITIONS = [Condition(place_cells([n]), WORLD, 2_000, 2, seed) for n in (2, 3) for seed in (0, 1)]
+CONDITIONS.append(Condition(place_cells([3]), WORLD, 2_000, 2, changes=[(1_000, multimodal([3]))]))
+pytestmark = pytest.mark.usefixtures("cache_folder")
+
+
+@pytest.fixture
+def lived(monkeypatch):
+    """The tasks that workers in this process have computed: (condition, runs)."""
+    tasks = []
+    original = sweeping._live
+    monkeypatch.setattr(sweeping, "_live", lambda *task: tasks.append(task[:2]) or original(*task))
+    return tasks
+
+
+def assert_the_same(results, conditions=CONDITIONS):
+    results = list(results)
+    assert len(results) == len(conditions)
+    for result, condition in zip(results, conditions):
+        alone = simulate(**condition.choices, progress=False)
+        np.testing.assert_array_equal(result.rewards, alone.rewards)
+        np.testing.assert_array_equal(result.hits, alone.hits)
+        assert (result.agent, result.seed, result.changes) == (alone.agent, alone.seed, alone.changes)
+    assert any(result.rewards.any() for result in results)
+
+
+def test_a_sweep_brings_what_its_conditions_bring_alone_and_in_order(lived):
+    assert_the_same(sweep(CONDITIONS, progress=False))
+    assert sorted(map(repr, lived)) == sorted(repr((each, [0, 1])) for each in CONDITIONS)
+
+
+def test_what_is_on_disk_or_asked_for_twice_is_computed_once(lived):
+    list(sweep(CONDITIONS[:2], progress=False))
+    assert_the_same(sweep([*CONDITIONS, CONDITIONS[0]], progress=False), [*CONDITIONS, CONDITIONS[0]])
+    assert len(lived) == len(CONDITIONS)
+
+
+def test_nothing_is_a_sweep():
+    assert list(sweep([], progress=False)) == []
+
+
+def test_what_is_no_executor_is_refused():
+    with pytest.raises(ValueError, match="executor is 4, allowed are executors of concurrent.futures and None"):
+        sweep(CONDITIONS, 4)
+
+
+@pytest.mark.parametrize("conditions, message", [
+    ("all", "conditions is 'all'"), ([CONDITIONS[0], 3], "condition is 3, allowed is a Condition")])
+def test_what_is_no_list_of_conditions_is_refused(conditions, message):
+    with pytest.raises(ValueError, match=message):
+        sweep(conditions)
+
+
+def fails(monkeypatch, fails_now):
+    """Let a task fail when its work is done, if `fails_now(condition, runs)`."""
+    original = sweeping._live
+
+    def live(condition, runs, *others):
+        brought = original(condition, runs, *others)
+        if fails_now(condition, runs):
+            raise MemoryError("for now")
+        return brought
+
+    monkeypatch.setattr(sweeping, "_live", live)
+
+
+def test_a_condition_that_fails_is_run_again_after_the_others(lived, monkeypatch):
+    failures = [CONDITIONS[1]] * 2
+    fails(monkeypatch, lambda condition, runs: condition in failures and not failures.remove(condition))
+    assert_the_same(sweep(CONDITIONS, progress=False))
+    assert lived[-1][0] == CONDITIONS[1] and len(lived) == len(CONDITIONS) + 2
+
+
+def test_a_condition_that_fails_always_is_told_after_the_others_are_kept(monkeypatch):
+    fails(monkeypatch, lambda condition, runs: condition.seed == 1)
+    with pytest.raises(RuntimeError, match="2 of 5 conditions have failed 3 times, such as Condition.*MemoryError"):
+        sweep(CONDITIONS, progress=False)
+    assert [cache.load(condition) is not None for condition in CONDITIONS] == [True, False, True, False, True]
+
+
+def test_a_worker_with_other_sources_is_refused(monkeypatch):
+    monkeypatch.setattr(sweeping, "ATTEMPTS", 1)
+    calls = iter(["the sweep's"] + ["the worker's"] * 100)
+    monkeypatch.setattr(sweeping, "source_digest", lambda: next(calls))
+    with pytest.raises(RuntimeError, match="has other sources of neorl than the sweep"):
+        sweep(CONDITIONS[:1], ThreadPoolExecutor(1), progress=False)
+    assert cache.load(CONDITIONS[0]) is None
+
+
+def test_an_interrupted_sweep_keeps_what_is_finished_and_gives_up_the_rest(monkeypatch, cache_folder):
+    original, finished = cache.save, []
+
+    def keep_one(condition, result):
+        if finished:
+            raise KeyboardInterrupt
+        finished.append(condition)
+        original(condition, result)
+
+    monkeypatch.setattr(cache, "save", keep_one)
+    with pytest.raises(KeyboardInterrupt):
+        sweep(CONDITIONS, progress=False)
+    assert cache.load(finished[0]) is not None and len(list((cache_folder / "conditions").iterdir())) == 1
+    assert len(list((cache_folder / "runs").iterdir())) == 1  # those of the second, whose result was not written
+
+
+class Hung:
+    """An executor whose workers never come back."""
+
+    def __init__(self):
+        self.futures = []
+
+    def submit(self, *task):
+        self.futures.append(Future())
+        return self.futures[-1]
+
+
+def test_a_sweep_that_waits_for_a_worker_that_hangs_can_be_interrupted_and_says_what_it_waits_for():
+    before, executor = signal.signal(signal.SIGINT, signal.default_int_handler), Hung()
+    try:
+        threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        with pytest.raises(KeyboardInterrupt) as interruption:
+            sweep(CONDITIONS, executor, progress=False)
+    finally:
+        signal.signal(signal.SIGINT, before)
+    (note,) = interruption.value.__notes__
+    assert "5 tasks were left, such as runs [0, 1] of Condition(agent=Agent(" in note
+    assert all(future.cancelled() for future in executor.futures)
+
+
+def test_progress_tells_the_time_that_is_left(capsys):
+    sweep(CONDITIONS[:2])
+    sweep(CONDITIONS[2:3])
+    printed = capsys.readouterr().err
+    assert "sweep:" in printed and "PC N3:" in printed
+
+
+@pytest.mark.parametrize("executor", [None, ThreadPoolExecutor(2)])
+def test_the_bar_moves_by_runs_and_ends_at_their_number(monkeypatch, executor):
+    """One condition of many runs is split over all workers."""
+    moves, original = [], sweeping.tqdm.update
+    monkeypatch.setattr(sweeping.tqdm, "update", lambda bar, steps: moves.append(steps) or original(bar, steps))
+    condition = Condition(place_cells([3]), WORLD, sweeping.TASK_STEPS // 2, 10)
+    results = sweep([condition], executor)
+    assert sum(moves) == 10 * condition.steps and len(moves) >= 5
+    assert_the_same(results, [condition])
+
+
+@pytest.mark.parametrize("workers", [1, 2, 10**9])
+def test_any_number_of_workers_brings_the_same(workers, lived):
+    assert_the_same(sweep(CONDITIONS, workers=workers, progress=False))
+    assert len(lived) == len(CONDITIONS)
+
+
+def test_workers_are_threads_at_most_so_many(monkeypatch):
+    asked, original = [], sweeping.ThreadPoolExecutor
+    monkeypatch.setattr(sweeping, "usable_threads", lambda agent, world: 3)
+    monkeypatch.setattr(sweeping, "ThreadPoolExecutor", lambda count: asked.append(count) or original(count))
+    for seed, workers in enumerate([None, 1, 2, 9]):
+        sweep([Condition(place_cells([3]), WORLD, 100, 1, seed)], workers=workers, progress=False)
+    assert asked == [3, 1, 2, 3]
+
+
+@pytest.mark.parametrize("workers", [0, -1, 1.5, True, "2"])
+def test_what_is_no_number_of_workers_is_refused(workers):
+    with pytest.raises(ValueError, match="workers is .*, allowed are integers ≥ 1"):
+        sweep(CONDITIONS, workers=workers)
+
+
+def test_workers_beside_an_executor_are_refused():
+    with ThreadPoolExecutor(1) as pool, pytest.raises(ValueError, match="workers is 2 beside an executor"):
+        sweep(CONDITIONS, pool, workers=2)
+
+
+def test_any_executor_will_do(lived):
+    class Slow(ThreadPoolExecutor):
+        def submit(self, *task):
+            submitted.append(task)
+            return super().submit(*task)
+
+    submitted = []
+    with Slow(2) as executor:
+        assert_the_same(sweep(CONDITIONS, executor, progress=False))
+        assert isinstance(executor.submit(time.sleep, 0), Future)  # it is left open
+    assert len(submitted) == len(CONDITIONS) + 1
+
+
+def test_a_process_pool_that_breaks_is_replaced_by_the_cores_of_this_machine():
+    """A killed worker breaks a pool of processes as a whole: all that it had not finished is lost to it."""
+    conditions = [Condition(place_cells([3]), WORLD, 3_000_000, 1, seed) for seed in range(4)]
+    with ProcessPoolExecutor(2, get_context("spawn")) as pool:
+        pool.submit(os.getpid).result()
+        killer = threading.Timer(1.0, lambda: os.kill(next(iter(pool._processes)), signal.SIGKILL))
+        killer.start()
+        with pytest.warns(RuntimeWarning, match="is broken; this machine's cores do the rest"):
+            results = sweep(conditions, pool, progress=False)
+    assert_the_same(results, conditions)
+
+
+@pytest.fixture(scope="module")
+def cluster():
+    with LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster:
+        yield cluster
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_cluster_of_worker_processes_brings_the_same(cluster, lived):
+    with Client(cluster) as client:
+        assert_the_same(sweep(CONDITIONS, client.get_executor(), progress=False))
+        assert len(client.run(os.getpid)) == 2 and os.getpid() not in client.run(os.getpid).values()
+    assert lived == []  # in this process
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_killed_worker_of_a_cluster_loses_no_more_than_what_it_was_at(cluster, monkeypatch):
+    """One of two workers is killed as soon as the first condition is kept; the others are lived again or elsewhere."""
+    conditions = [Condition(place_cells([3]), WORLD, 200_000, 1, seed) for seed in range(20, 28)]
+    original, kept_after = cache.save, []
+
+    def keep_and_kill(condition, result):
+        original(condition, result)
+        if not kept_after:
+            os.kill(next(iter(client.run(os.getpid).values())), signal.SIGKILL)
+        kept_after.append(condition)
+
+    monkeypatch.setattr(cache, "save", keep_and_kill)
+    with Client(cluster) as client:
+        results = sweep(conditions, client.get_executor(), progress=False)
+    assert len(kept_after) == len(conditions)  # each once
+    assert_the_same(results, conditions)
+
+
+PAGE = Path(__file__).parents[2] / "book" / "running.md"
+RECIPES = re.findall("```python\n(.*?)```", PAGE.read_text("utf-8"), re.S)
+
+
+def small(recipe):
+    return recipe.replace("steps=150_000, runs=100", "steps=1_000, runs=3").replace("range(2, 30)", "(2, 3)")
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_the_recipe_for_dask_runs(cluster, monkeypatch):
+    """With a cluster of this machine in place of the queue's."""
+    asked = {}
+
+    def submitted(**job):
+        asked.update(job)
+        return cluster
+
+    monkeypatch.setattr(cluster, "scale", asked.update)
+    monkeypatch.setitem(sys.modules, "dask_jobqueue", SimpleNamespace(SLURMCluster=submitted))
+    made = {}
+    exec(small(RECIPES[0]), made)
+    assert set(asked) == {"cores", "processes", "memory", "walltime", "jobs"} and len(made["results"]) == 2
+    assert_the_same(made["results"].values(), made["conditions"])
+
+
+@pytest.mark.skipif(not (importlib.util.find_spec("mpi4py") and shutil.which("mpiexec")), reason="no MPI")
+def test_the_recipe_for_mpi_runs(tmp_path):
+    script = tmp_path / "experiment.py"
+    script.write_text(small(RECIPES[1]) + "    print([float(each.totals.sum()) for each in results.values()])\n")
+    command = ["mpiexec", "--oversubscribe", "-n", "3", sys.executable, "-m", "mpi4py.futures", script]
+    printed = subprocess.run(command, check=True, capture_output=True, text=True, env=os.environ | {
+        "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}).stdout
+    alone = [simulate(place_cells([n]), WORLD, steps=1_000, runs=3, progress=False) for n in (2, 3)]
+    assert printed == f"{[float(each.totals.sum()) for each in alone]}\n"
