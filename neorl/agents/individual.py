@@ -1,7 +1,7 @@
 """An agent with all that it knows, in a world: what a `neorl.Learner` and a `neorl.Run` have in common.
 
 Parameters, state and values are views that cannot be written to. A saved file holds every array, and the agent and its
-world as plain data (`neorl.agents.description`), with a digest by which damage is noticed.
+world as plain data (`neorl.core.description`), with a digest by which damage is noticed.
 """
 
 import hashlib
@@ -16,8 +16,8 @@ import numpy as np
 from neorl import checks
 from neorl.agents.agent import Agent
 from neorl.agents.compile import compiled, constants_of
-from neorl.agents.description import described, restored
 from neorl.agents.memory import fitting_runs, kept_apart, read_only
+from neorl.core.description import described, restored
 from neorl.core.horde import as_vectors
 from neorl.core.kernel import arrays, execute, mapped
 from neorl.core.state import new_state
@@ -155,7 +155,7 @@ class Individual:
 
         Raises ValueError for an agent with a kernel that no module has.
         """
-        about = {"format": FORMAT, "is": type(self).__name__, "agent": described(self.agent),
+        about = {"format": FORMAT, "is": type(self).__name__, "agent": described(self.agent, Agent),
                  "world": described(self.world), "progress": self._progress}
         kept = {f"{name}.{each}": values for name in self._kept
                 for each, values in arrays(getattr(self, name)).items()}
@@ -181,7 +181,7 @@ class Individual:
             raise ValueError(f"{path} holds a {about.get('is')} of format {about.get('format')}, or is damaged; "
                              f"allowed is a {cls.__name__} of format {FORMAT}")
         try:
-            loaded = cls._of(restored(about["agent"]), restored(about["world"]))
+            loaded = cls._of(restored(about["agent"], Agent), restored(about["world"]))
             loaded._progress = about["progress"]
         except (ValueError, KeyError, TypeError, AttributeError) as error:
             raise ValueError(f"{path} describes no agent in a world of this version of neorl: {error!r}") from error

@@ -16,11 +16,12 @@ import numpy as np
 
 from neorl import checks, files
 from neorl.agents.agent import Agent
+from neorl.core.description import Described
 from neorl.core.identity import digest_of_source, identity
 from neorl.experiments.simulation import Result, checked_changes, simulate
 from neorl.worlds.world import World
 
-PARTS = ("checks", "files", "core", "worlds", "agents", "experiments")  # all that a run is made of
+PARTS = ("checks", "extras", "files", "core", "worlds", "agents", "experiments")  # all that a run is made of
 
 
 def simulate_once(agent, world, *, steps, runs, seed=0, changes=(), progress=True):
@@ -34,7 +35,7 @@ def simulate_once(agent, world, *, steps, runs, seed=0, changes=(), progress=Tru
 
 
 @dataclass(frozen=True)
-class Condition:
+class Condition(Described):
     """All that determines a `Result`: the arguments of `simulate` of the same names.
 
     Raises ValueError for what `simulate` would refuse.
