@@ -213,7 +213,7 @@ def _constant(name, options, path):
 def checked(value, hint, path=""):
     """`value`, if it is of the type that a hint says, as far as that can be seen; else raises ValueError."""
     options = _options(hint)
-    if any(_is_of(value, each) for each in options) or callable(value) and str in options:  # a kernel in place of a word
+    if any(_is_of(value, each) for each in options) or callable(value) and str in options:  # a kernel
         for i, (each, inner) in enumerate(_members(value, hint) if isinstance(value, tuple | list) else ()):
             checked(each, inner, f"{path}[{i}]")
         return value
