@@ -18,6 +18,7 @@ from neorl import checks, files
 from neorl.agents.agent import Agent
 from neorl.core.description import Described
 from neorl.core.identity import digest_of_source, identity
+from neorl.experiments.exchange import note
 from neorl.experiments.simulation import Result, checked_changes, simulate
 from neorl.worlds.world import World
 
@@ -88,5 +89,5 @@ def load(condition):
 def save(condition, result):
     """Write the `Result` of a condition to disk."""
     content = io.BytesIO()
-    np.savez_compressed(content, rewards=result.rewards, hits=result.hits)
+    np.savez_compressed(content, about=note(condition, source_digest()), rewards=result.rewards, hits=result.hits)
     files.write_checked(condition.path, content.getvalue())

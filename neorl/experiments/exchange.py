@@ -36,6 +36,15 @@ def about(condition):
     return {"neorl": version(), **described(given, Condition)}
 
 
+def note(condition, source):
+    """A text in JSON that says what is kept of a condition: the digest of its source, and all that determines it."""
+    try:
+        known = about(condition)
+    except ValueError:  # no name finds its agent or its world again, but it was run, and is kept
+        known = {"neorl": version(), **{name: getattr(condition, name) for name in OF_A_CONDITION}}
+    return np.array(json.dumps({"source": source, **known}, default=repr))
+
+
 def to_frame(result):
     """See `neorl.Result.to_frame`."""
     runs, bins = result.rewards.shape
