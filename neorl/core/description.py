@@ -225,7 +225,8 @@ def _is_of(value, option):
     if kind in (int, float):
         return isinstance(value, (int, kind)) and not isinstance(value, bool)
     try:
-        return isinstance(value, kind)
+        inner = get_args(option)
+        return isinstance(value, kind) and (kind is not tuple or ... in inner or len(value) == len(inner) or not inner)
     except TypeError:  # a hint that only a checker of types understands
         return True
 

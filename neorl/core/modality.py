@@ -79,7 +79,7 @@ class Axis(checks.Final):
                 raise ValueError(f"boundaries is {self.boundaries!r}, allowed are two numbers or more that increase")
             checks.assign(self, low=self.boundaries[0], high=self.boundaries[-1], intervals=len(self.boundaries) - 1)
         checks.assign(self, low=checks.real("low", self.low), high=checks.real("high", self.high),
-                     closed=checks.flag("closed", self.closed or self.is_direction))
+                     closed=checks.flag("closed", self.closed) or self.is_direction)
         if self.intervals is not None:
             checks.assign(self, intervals=checks.integer("intervals", self.intervals, at_least=1))
         if self.low >= self.high:

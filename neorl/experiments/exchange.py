@@ -9,12 +9,16 @@ from importlib import metadata
 
 import numpy as np
 
-from neorl.core.description import described
+from neorl import checks
+from neorl.agents.agent import Agent
+from neorl.core.description import checked, described, restored
 from neorl.experiments.run import bin_steps
 from neorl.extras import require
 from neorl.files import read_arrays, write_arrays
+from neorl.worlds.world import World
 
-OF_A_CONDITION = ("agent", "world", "steps", "runs", "seed", "changes")
+OF_A_CONDITION = {"agent": Agent, "world": World, "steps": int, "runs": int, "seed": int,
+                  "changes": tuple[tuple[int, Agent], ...]}
 
 
 def version():
@@ -26,14 +30,12 @@ def version():
 
 
 def about(condition):
-    """What determines a condition or a `Result`, as plain data.
+    """What determines a `neorl.Condition` or `neorl.Result`, as plain data.
 
     Raises ValueError for an agent or a world that no name finds again.
     """
-    from neorl.experiments.cache import Condition  # which keeps this beside what it keeps
-
-    given = Condition(**{name: getattr(condition, name) for name in OF_A_CONDITION})
-    return {"neorl": version(), **described(given, Condition)}
+    return {"neorl": version(), **{name: described(getattr(condition, name), kind, name)
+                                   for name, kind in OF_A_CONDITION.items()}}
 
 
 def note(condition, source):
@@ -74,17 +76,21 @@ def save(result, path):
 
 def load(path):
     """The fields of the `neorl.Result` in a file, see `neorl.Result.load`."""
-    from neorl.experiments.cache import Condition
-
     known, arrays = read_arrays(path, "Result")
     try:
-        condition = Condition.from_dict({name: known[name] for name in OF_A_CONDITION if name in known})
+        fields = {name: checked(restored(known.get(name), kind, name), kind, name)
+                  for name, kind in OF_A_CONDITION.items()}
+        steps, runs = (checks.integer(name, fields[name], at_least=1) for name in ("steps", "runs"))
+        checks.integer("seed", fields["seed"], at_least=0)
+        times = [0, *(step for step, _ in fields["changes"]), steps]
+        if times != sorted(times):
+            raise ValueError(f"changes is {fields['changes']}, allowed are pairs in order of time, within the run")
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from error
-    bins = -(-condition.steps // bin_steps(condition.world))
-    for name, dtype, shape in (("rewards", np.float32, (condition.runs, bins)),
-                               ("hits", np.int16, (condition.runs, bins, len(condition.world.kinds)))):
+    bins = -(-steps // bin_steps(fields["world"]))
+    for name, dtype, shape in (("rewards", np.float32, (runs, bins)),
+                               ("hits", np.int16, (runs, bins, len(fields["world"].kinds)))):
         found = arrays.get(name, np.empty(0))
         if (found.dtype, found.shape) != (dtype, shape):
             raise ValueError(f"{path} has {found.dtype} {found.shape} for {name}, allowed is {dtype.__name__} {shape}")
-    return condition.choices | {name: arrays[name] for name in ("rewards", "hits")}
+    return fields | {name: arrays[name] for name in ("rewards", "hits")}

@@ -102,8 +102,10 @@ def test_a_truncated_or_foreign_file_is_refused_by_name(saved, damage):
 @pytest.mark.parametrize("forge, message", [
     (lambda about, kept: about.update(format=2), "is of format 2, which a newer neorl has written"),
     (lambda about, kept: about.update({"is": "Run"}), "holds a Run of format 1.*allowed is a Result"),
-    (lambda about, kept: about.pop("agent"), ": agent is missing"),
+    (lambda about, kept: about.pop("agent"), ": agent is None"),
     (lambda about, kept: about.update(steps=-5), ": steps is -5"),
+    (lambda about, kept: about.update(changes=[[600, about["agent"]]]), ": changes is .* allowed are pairs in order"),
+    (lambda about, kept: about.update(changes=[[5]]), r": changes\[0\] is \(5,\)"),
     (lambda about, kept: about.update(runs=10**12), r"float32 \(3, 51\) for rewards, allowed is .* \(10{12}, 51\)"),
     (lambda about, kept: about["agent"].update(colour="red"), ": agent.colour is unknown"),
     (lambda about, kept: about["world"].update({"is": "no_such_module:Cave"}), ": world.is is 'no_such_module:Cave'"),
