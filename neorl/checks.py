@@ -24,8 +24,9 @@ def real(name, value, at_least=-math.inf, at_most=math.inf):
     """`value` as a float, if it is a finite number in the range."""
     number = value[()] if isinstance(value, np.ndarray) and value.ndim == 0 else value
     if isinstance(number, numbers.Real) and not isinstance(number, bool):
+        number = float(number)  # first, since the bounds may be beyond what a short number of NumPy's can hold
         if math.isfinite(number) and at_least <= number <= at_most:
-            return float(number)
+            return number
     bounds = f"numbers from {at_least:g} to {at_most:g}" if math.isfinite(at_most) else "finite numbers"
     bounds += f" ≥ {at_least:g}" if math.isinf(at_most) and math.isfinite(at_least) else ""
     raise ValueError(f"{name} is {value!r}, allowed are {bounds}")

@@ -7,16 +7,20 @@ cache folder; all of it may be deleted at any time. What a killed process was wr
 import contextlib
 import functools
 import hashlib
+import io
+import json
 import os
 import tempfile
 import time
 from pathlib import Path
 
+import numpy as np
 import platformdirs
 
 DIGEST_BYTES = hashlib.sha256().digest_size
 UNFINISHED = (".neorl-", ".tmp")  # how the name of a file that is being written begins and ends
 STALE_SECONDS = 3_600  # since its last byte: no process writes on after that
+FORMAT = 1  # of files of arrays
 
 
 def cache_folder():
@@ -64,3 +68,43 @@ def read_checked(path):
     except OSError:
         return None
     return content[DIGEST_BYTES:] if hashlib.sha256(content[DIGEST_BYTES:]).digest() == content[:DIGEST_BYTES] else None
+
+
+def write_arrays(path, kind, about, arrays, write=np.savez):
+    """Write arrays to an npz file, with a readable text about them in JSON, and a digest.
+
+    kind, about: what is written, and a dict about it. write: `numpy.savez` or `numpy.savez_compressed`.
+    """
+    about = {"format": FORMAT, "is": kind, **about, "digest": _digest(arrays)}
+    content = io.BytesIO()
+    write(content, about=np.array(json.dumps(about)), **arrays)
+    write_whole(path, content.getbuffer())
+
+
+def read_arrays(path, kind):
+    """What `write_arrays` has written: (about, arrays).
+
+    Raises OSError if there is no such file, ValueError if it is damaged, or of another kind or version.
+    """
+    with Path(path).open("rb") as opened:
+        try:
+            with np.load(opened, allow_pickle=False) as file:
+                arrays = {name: file[name] for name in file.files}
+            about = json.loads(str(arrays.pop("about")))
+            digest, known, holds = about["digest"], about.get("format"), about.get("is")
+        except Exception as error:  # whatever zip, NumPy and JSON make of the content of another file
+            raise ValueError(f"{path} is damaged, or was not written by neorl: {error!r}") from error
+    if isinstance(known, int) and known > FORMAT:
+        raise ValueError(f"{path} is of format {known}, which a newer neorl has written, allowed is {FORMAT}")
+    if (known, holds) != (FORMAT, kind) or digest != _digest(arrays):
+        raise ValueError(f"{path} holds a {holds} of format {known}, or is damaged; allowed is a {kind} of format "
+                         f"{FORMAT}")
+    return about, arrays
+
+
+def _digest(arrays):
+    digest = hashlib.sha256()
+    for name in sorted(arrays):
+        digest.update(f"{name} {arrays[name].dtype} {arrays[name].shape}".encode())
+        digest.update(np.ascontiguousarray(arrays[name]).data)
+    return digest.hexdigest()

@@ -14,6 +14,7 @@ from graphlib import CycleError, TopologicalSorter
 
 from neorl import checks
 from neorl.core.choices import Attention, Capture, Credit, UpdateOn, Weighting
+from neorl.core.description import Described
 from neorl.core.horde import OWN_CELL
 from neorl.core.kernel import check_kernel
 from neorl.core.maps import NresMap
@@ -159,9 +160,9 @@ class Node(checks.Final):
     gain: float = 1.0
 
     def __post_init__(self):
-        checks.instance("name", self.name, str)
         checks.instance("modality", self.modality, Modality)
-        checks.assign(self, resolutions=checks.several("resolutions", self.resolutions))
+        checks.assign(self, name=str(checks.instance("name", self.name, str)),
+                     resolutions=checks.several("resolutions", self.resolutions))
         if not self.resolutions:
             raise ValueError("resolutions is (), allowed are one integer or more")
         checks.assign(self, resolutions=tuple(each.resolution for each in self.maps),
@@ -226,10 +227,12 @@ class Desire(checks.Final):
         if not isinstance(self.source, str | Place):
             point = checks.several("source", self.source)
             checks.assign(self, source=tuple(checks.real("source", value) for value in point))
-        checks.instance("target", self.target, str)
+        elif isinstance(self.source, str):
+            checks.assign(self, source=str(self.source))
+        checks.assign(self, target=str(checks.instance("target", self.target, str)))
         if self.valence is not None:
             checks.assign(self, valence=checks.real("valence", self.valence))
-        checks.assign(self, of=tuple(checks.instance("of", each, str) for each in checks.several("of", self.of)),
+        checks.assign(self, of=tuple(str(checks.instance("of", each, str)) for each in checks.several("of", self.of)),
                      scale=checks.real("scale", self.scale, 0), signed=checks.flag("signed", self.signed))
 
     def __str__(self):
@@ -237,7 +240,7 @@ class Desire(checks.Final):
 
 
 @dataclass(frozen=True)
-class Agent(checks.Final):
+class Agent(Described, checks.Final):
     """One neoRL agent: a network of nodes. Its value of an action is the sum of those of its nodes, times their gains.
 
     nodes: one `Node` or more, each name once. desires: any number of `Desire`.

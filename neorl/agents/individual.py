@@ -1,14 +1,9 @@
 """An agent with all that it knows, in a world: what a `neorl.Learner` and a `neorl.Run` have in common.
 
 Parameters, state and values are views that cannot be written to. A saved file holds every array, and the agent and its
-world as plain data (`neorl.agents.description`), with a digest by which damage is noticed.
+world as plain data (`neorl.core.description`), with a digest by which damage is noticed.
 """
 
-import hashlib
-import io
-import json
-import zipfile
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -16,13 +11,13 @@ import numpy as np
 from neorl import checks
 from neorl.agents.agent import Agent
 from neorl.agents.compile import compiled, constants_of
-from neorl.agents.description import described, restored
 from neorl.agents.memory import fitting_runs, kept_apart, read_only
+from neorl.core.description import described, restored
 from neorl.core.horde import as_vectors
 from neorl.core.kernel import arrays, execute, mapped
 from neorl.core.state import new_state
 from neorl.core.steps import steps_with
-from neorl.files import write_whole
+from neorl.files import read_arrays, write_arrays
 
 # What `State` has of each map, by the array that says where it begins.
 OF_A_MAP = {"first_value": ("values.q",), "first_cell": ("values.goal_range",),
@@ -30,7 +25,6 @@ OF_A_MAP = {"first_value": ("values.q",), "first_cell": ("values.goal_range",),
                             "tracks.trace_count", "tracks.remembered_count"),
             "first_trace": ("tracks.remembered", "tracks.remembered_at", "tracks.strength", "tracks.trace_weight",
                             "tracks.trace_worth")}
-FORMAT = 1  # of saved files
 
 
 class Output(NamedTuple):
@@ -155,14 +149,9 @@ class Individual:
 
         Raises ValueError for an agent with a kernel that no module has.
         """
-        about = {"format": FORMAT, "is": type(self).__name__, "agent": described(self.agent),
-                 "world": described(self.world), "progress": self._progress}
-        kept = {f"{name}.{each}": values for name in self._kept
-                for each, values in arrays(getattr(self, name)).items()}
-        about["digest"] = _digest(kept)
-        content = io.BytesIO()
-        np.savez(content, about=np.array(json.dumps(about)), **kept)
-        write_whole(path, content.getbuffer())
+        about = {"agent": described(self.agent, Agent), "world": described(self.world), "progress": self._progress}
+        write_arrays(path, type(self).__name__, about, {
+            f"{name}.{each}": values for name in self._kept for each, values in arrays(getattr(self, name)).items()})
 
     @classmethod
     def load(cls, path):
@@ -170,18 +159,9 @@ class Individual:
 
         Raises OSError if there is no such file, ValueError if it is damaged, or of another kind or version.
         """
+        about, kept = read_arrays(path, cls.__name__)
         try:
-            with Path(path).open("rb") as opened, np.load(opened, allow_pickle=False) as file:
-                kept = {name: file[name] for name in file.files}
-            about = json.loads(str(kept.pop("about")))
-            digest = about["digest"]
-        except (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile) as error:
-            raise ValueError(f"{path} is damaged, or was not written by neorl: {error}") from error
-        if (about.get("format"), about.get("is")) != (FORMAT, cls.__name__) or digest != _digest(kept):
-            raise ValueError(f"{path} holds a {about.get('is')} of format {about.get('format')}, or is damaged; "
-                             f"allowed is a {cls.__name__} of format {FORMAT}")
-        try:
-            loaded = cls._of(restored(about["agent"]), restored(about["world"]))
+            loaded = cls._of(restored(about["agent"], Agent), restored(about["world"]))
             loaded._progress = about["progress"]
         except (ValueError, KeyError, TypeError, AttributeError) as error:
             raise ValueError(f"{path} describes no agent in a world of this version of neorl: {error!r}") from error
@@ -198,11 +178,3 @@ class Individual:
 def _map_keys(agent):
     rule = agent.learning
     return [(node.name, each, rule.trace, rule.memory > 0) for node in agent.nodes for each in node.maps]
-
-
-def _digest(kept):
-    digest = hashlib.sha256()
-    for name in sorted(kept):
-        digest.update(f"{name} {kept[name].dtype} {kept[name].shape}".encode())
-        digest.update(np.ascontiguousarray(kept[name]).data)
-    return digest.hexdigest()

@@ -28,7 +28,7 @@ class Surroundings(checks.Final):
     fps: float
 
     def __post_init__(self):
-        kinds = tuple(checks.instance("kinds", each, str) for each in checks.several("kinds", self.kinds))
+        kinds = tuple(str(checks.instance("kinds", each, str)) for each in checks.several("kinds", self.kinds))
         if len(set(kinds)) < len(kinds):
             raise ValueError(f"kinds is {kinds!r}, allowed is each name once")
         checks.instance("actions", self.actions, Actions)

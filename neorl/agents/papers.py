@@ -6,6 +6,8 @@ beyond belongs to the outermost ones. `object_tiled_fraction` is that of object-
 """
 
 from dataclasses import fields, replace
+from inspect import Parameter, signature
+from typing import get_type_hints
 
 from neorl import checks
 from neorl.agents.agent import Agent, Desire, Learning, Node, Policy
@@ -15,40 +17,58 @@ LAYERS = (3, 7, 23)  # the resolutions of paper A's last experiment, and of pape
 PRIMES = (2, 3, 5, 7, 11, 13)  # the resolutions of paper B
 TILED_FRACTION = 1.0
 OF_NODES = ("weighting", "tiled_fraction", "object_tiled_fraction")  # of choices, those that are not of the agent
+CHOICES = (*OF_NODES, *(each.name for each in fields(Agent)[2:]))
 
 
+def paper_agent(function):
+    """Mark a function as one that a file may name for an agent (`neorl.core.description`)."""
+    own = list(signature(function).parameters.values())
+    names = [each.name for each in own if each.kind is not Parameter.VAR_KEYWORD]
+    names += CHOICES if len(names) < len(own) else ()
+    hints = get_type_hints(Agent)
+    function.makes, function.takes = Agent, {name: (hints.get(name, object), None) for name in names}
+    return function
+
+
+@paper_agent
 def place_cells(resolutions=PRIMES, valence_green=1.0, valence_red=-1.0, **choices):
     """The agent of paper A, and PC of paper B: one node of place cells that desires green creeps and fears red ones."""
     return _network([("PC", PLACE_CELL, 1.0)], resolutions, _creeps("PC", valence_green, valence_red), choices)
 
 
+@paper_agent
 def brownian():
     """The control: every action drawn (ε = 1), so the agent moves as in Brownian motion (paper A, fig. 6)."""
     return place_cells([1], policy=Policy(exploration=1.0))
 
 
+@paper_agent
 def object_vector_cells(resolutions=PRIMES, valence_green=1.0, valence_red=-1.0, **choices):
     """OVC of paper B (fig. 4B): one node of object-vector cells in the Cartesian emulation."""
     desires = _creeps("OVC", valence_green, valence_red)
     return _network([("OVC", CARTESIAN_OBJECT_VECTOR_CELL, 1.0)], resolutions, desires, choices)
 
 
+@paper_agent
 def multimodal(resolutions=PRIMES, place_gain=5.0, object_gain=1.0, **choices):
     """PC + OVC of paper B (fig. 5): both nodes see the creeps, and their values add."""
     return _network(_both(place_gain, object_gain), resolutions, _creeps("PC") + _creeps("OVC"), choices)
 
 
+@paper_agent
 def network_a(resolutions=LAYERS, scale=Desire.scale, signed=Desire.signed, **choices):
     """Agent A of paper C (fig. 4a): place cells make one desire of all creeps, object-vector cells act on it."""
     desires = (Desire("PC", "OVC", scale=scale, signed=signed),)
     return _network(_both(0.0, 1.0), resolutions, _creeps("PC") + desires, choices)
 
 
+@paper_agent
 def network_b(resolutions=LAYERS, scale=Desire.scale, signed=Desire.signed, **choices):
     """Agent B of paper C (fig. 4b): a desire of the green creeps, and one of the red."""
     return network_c(resolutions, scale, signed, place_gain=0.0, **choices)
 
 
+@paper_agent
 def network_c(resolutions=LAYERS, scale=Desire.scale, signed=Desire.signed, place_gain=1.0, object_gain=1.0,
               **choices):
     """Agent C of paper C (fig. 4c): as B, and the values of both nodes add."""
@@ -56,6 +76,7 @@ def network_c(resolutions=LAYERS, scale=Desire.scale, signed=Desire.signed, plac
     return _network(_both(place_gain, object_gain), resolutions, _creeps("PC") + desires, choices)
 
 
+@paper_agent
 def network_d(resolutions=LAYERS, recursion=-1.0, scale=Desire.scale, signed=Desire.signed, place_gain=1.0,
               object_gain=1.0, **choices):
     """Agent D of paper C (fig. 4d): as C, and the object-vector cells desire what they desired, with valence r."""
@@ -73,7 +94,7 @@ def _creeps(node, valence_green=1.0, valence_red=-1.0):
 
 
 def _network(nodes, resolutions, desires, choices):
-    for name in set(choices) - {*OF_NODES, *(each.name for each in fields(Agent)[2:])}:
+    for name in set(choices) - set(CHOICES):
         of = next((f", it is a field of {kind.__name__}: {field}={kind.__name__}({name}=…)"
                    for field, kind in (("learning", Learning), ("policy", Policy))
                    if name in (each.name for each in fields(kind))), "")

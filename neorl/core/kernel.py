@@ -125,16 +125,24 @@ def check_kernel(name, value):
 
 
 def kernel_maker(function):
-    """A function that makes kernels, the same one for the same arguments: a rule with parameters."""
+    """A function that makes kernels, the same one for the same arguments: a rule with parameters.
 
-    @functools.cache
-    def make(*arguments):
+    A number of NumPy's, or an array of no axis, counts as the Python number that it is.
+    """
+
+    @functools.lru_cache(maxsize=None, typed=True)  # an integer may make another kernel than the same number as a float
+    def made_of(*arguments):
         made = function(*arguments)
         made.origin = make, arguments
         return made
 
+    @functools.wraps(function)
+    def make(*arguments):
+        return made_of(*(each.item() if isinstance(each, np.generic | np.ndarray) and each.ndim == 0 else each
+                         for each in arguments))
+
     make.makes_kernels = True
-    return functools.wraps(function)(make)
+    return make
 
 
 def execute(kernel, *arguments):

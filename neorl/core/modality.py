@@ -69,8 +69,8 @@ class Axis(checks.Final):
     name: str = ""
 
     def __post_init__(self):
-        check_kernel("of", self.of) if callable(self.of) else checks.one_of("of", self.of, VECTORS)
-        checks.assign(self, feature=checks.one_of("feature", self.feature, FEATURES),
+        of = check_kernel("of", self.of) if callable(self.of) else checks.one_of("of", self.of, VECTORS)
+        checks.assign(self, of=of, feature=checks.one_of("feature", self.feature, FEATURES),
                      along=checks.integer("along", self.along, at_least=0),
                      boundaries=tuple(checks.real("boundaries", each)
                                       for each in checks.several("boundaries", self.boundaries)))
@@ -79,7 +79,7 @@ class Axis(checks.Final):
                 raise ValueError(f"boundaries is {self.boundaries!r}, allowed are two numbers or more that increase")
             checks.assign(self, low=self.boundaries[0], high=self.boundaries[-1], intervals=len(self.boundaries) - 1)
         checks.assign(self, low=checks.real("low", self.low), high=checks.real("high", self.high),
-                     closed=checks.flag("closed", self.closed or self.is_direction))
+                     closed=checks.flag("closed", self.closed) or self.is_direction)
         if self.intervals is not None:
             checks.assign(self, intervals=checks.integer("intervals", self.intervals, at_least=1))
         if self.low >= self.high:
@@ -88,7 +88,7 @@ class Axis(checks.Final):
             raise ValueError(f"a margin of {self.high!r} of {self.of!r}: allowed are margins of a position, up to 0.5")
         if self.boundaries and self.closed:
             raise ValueError(f"boundaries is {self.boundaries!r}, allowed for an axis that is closed is ()")
-        checks.assign(self, name=checks.instance("name", self.name, str) or self._name)
+        checks.assign(self, name=str(checks.instance("name", self.name, str)) or self._name)
 
     @property
     def is_direction(self):
@@ -132,7 +132,7 @@ class Modality(checks.Final):
     landmarks: tuple[tuple[float, ...], ...] = ()
 
     def __post_init__(self):
-        checks.instance("name", self.name, str)
+        checks.assign(self, name=str(checks.instance("name", self.name, str)))
         axes = tuple(checks.instance("axes", each, Axis) for each in checks.several("axes", self.axes))
         if not axes or len({axis.of for axis in axes if axis.of in SEVERAL}) > 1:
             raise ValueError(f"axes is {axes!r}, allowed are one or more, of {', '.join(SEVERAL)} one kind at most")

@@ -38,7 +38,7 @@ class Actions(checks.Final):
     idle: str | None = None
 
     def __post_init__(self):
-        names = tuple(checks.instance("names", each, str) for each in checks.several("names", self.names))
+        names = tuple(str(checks.instance("names", each, str)) for each in checks.several("names", self.names))
         pushes = tuple(tuple(checks.real("pushes", value) for value in checks.several("pushes", each))
                        for each in checks.several("pushes", self.pushes))
         if not names or len({*names, self.idle}) <= len(names):
@@ -47,7 +47,7 @@ class Actions(checks.Final):
         if len(pushes) != len(names) or len({len(each) for each in pushes}) != 1 or not pushes[0]:
             raise ValueError(f"pushes is {self.pushes!r}, allowed are as many as names, all of as many axes")
         if self.idle is not None:
-            checks.instance("idle", self.idle, str)
+            checks.assign(self, idle=str(checks.instance("idle", self.idle, str)))
         checks.assign(self, names=names, pushes=pushes)
 
     @property

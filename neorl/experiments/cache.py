@@ -18,16 +18,18 @@ import numpy as np
 
 from neorl import checks, files
 from neorl.agents.agent import Agent
+from neorl.core.description import Described
 from neorl.core.identity import digest_of_source, identity
+from neorl.experiments.exchange import note
 from neorl.experiments.run import bin_steps
 from neorl.experiments.simulation import Result, checked_changes
 from neorl.worlds.world import World
 
-PARTS = ("checks", "files", "core", "worlds", "agents", "experiments")  # all that a run is made of
+PARTS = ("checks", "extras", "files", "core", "worlds", "agents", "experiments")  # all that a run is made of
 
 
 @dataclass(frozen=True)
-class Condition:
+class Condition(Described):
     """All that determines a `Result`: the arguments of `simulate` of the same names.
 
     Raises ValueError for what `simulate` would refuse.
@@ -77,7 +79,7 @@ def load(condition):
 def save(condition, result):
     """Write the `Result` of a condition to disk. Raises OSError if there is no room or no permission."""
     content = io.BytesIO()
-    np.savez_compressed(content, rewards=result.rewards, hits=result.hits)
+    np.savez_compressed(content, about=note(condition, source_digest()), rewards=result.rewards, hits=result.hits)
     files.write_checked(condition.path, content.getvalue())
 
 

@@ -11,6 +11,7 @@ from tqdm import tqdm
 from neorl import checks
 from neorl.agents.agent import Agent
 from neorl.agents.memory import fitting_runs
+from neorl.experiments import exchange
 from neorl.experiments.run import SLICE, Run, bin_steps, new_bins
 from neorl.worlds.world import World
 
@@ -66,6 +67,41 @@ class Result:
         """float64 (runs, kinds): things met of each kind per simulated second between two shares, as in `rate`."""
         bins, seconds = self._stretch(begin, end)
         return self.hits[:, bins].sum(axis=1) / seconds
+
+    def to_frame(self):
+        """A `pandas.DataFrame` with a row for each run and bin, in this order.
+
+        Columns: "run", int64; "time", float64, when the bin ends, in simulated seconds; "reward", float32, the sum over
+        the bin; for each kind of thing "hits_…" with its name, int16, how many were met in the bin.
+        Raises ImportError without pandas.
+        """
+        return exchange.to_frame(self)
+
+    def to_xarray(self):
+        """An `xarray.Dataset` of dimensions run, time and kind, with these coordinates.
+
+        time: when each bin ends, in simulated seconds. rewards: float32 (run, time), the sum over the bin; hits: int16
+        (run, time, kind), how many things were met in the bin. Attributes: steps and runs; as texts in JSON agent,
+        world and changes (see `neorl.core.description`); as texts seed, and the version of neorl.
+        Raises ImportError without xarray, ValueError for an agent or a world that no name finds again.
+        """
+        return exchange.to_xarray(self)
+
+    def save(self, path):
+        """Write all to a file for NumPy, npz: the arrays rewards and hits, and the text about, a table in JSON.
+
+        Raises ValueError for an agent or a world that no name finds again (`neorl.core.description`).
+        """
+        exchange.save(self, path)
+
+    @classmethod
+    def load(cls, path):
+        """The result that `save` has written.
+
+        Raises OSError if there is no such file, ValueError if it is damaged, of another kind or a newer neorl, or if
+        its agent or world cannot be imported.
+        """
+        return cls(**exchange.load(path))
 
     def _stretch(self, begin, end):
         checks.real("begin", begin, 0, 1)

@@ -92,7 +92,8 @@ class Arena(World, checks.Final):
         if any(len(each) != 3 or not isinstance(each[0], str) for each in places):
             raise ValueError(f"places is {self.places!r}, allowed are (kind, x, y) each")
         checks.assign(
-            self, places=tuple((kind, *(checks.real("places", value, 0, 1) for value in at)) for kind, *at in places),
+            self, places=tuple((str(kind), checks.real("places", x, 0, 1), checks.real("places", y, 0, 1))
+                               for kind, x, y in places),
             pay=tuple(checks.real("pay", each) for each in checks.several("pay", self.pay)),
             obstacles=tuple(tuple(checks.real("obstacles", value, 0, 1) for value in checks.several("obstacles", each))
                             for each in checks.several("obstacles", self.obstacles)),

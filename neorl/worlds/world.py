@@ -18,6 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl import checks
+from neorl.core.description import Described
 from neorl.core.kernel import Kernel, execute, fields, is_tuple, length, new_tuple
 from neorl.core.stream import new_stream
 
@@ -29,7 +30,7 @@ class Dynamics(NamedTuple):
     step: Kernel  # (state, rules, action) → (reward, done)
 
 
-class World:
+class World(Described):
     """A world of kernels; see the module for what a subclass defines."""
 
     dynamics = None  # a `Dynamics`

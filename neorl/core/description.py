@@ -1,0 +1,296 @@
+"""Agents, worlds and conditions as plain data, ready for TOML and JSON, and back.
+
+- A frozen dataclass is a table of its fields, {field: value, …}. Where its place leaves open what it is, such as that
+  of a world, the table names it: {"is": "WaterWorld", …}. It may also name a function for an agent of the papers, and
+  what that takes: {"is": "place_cells", "resolutions": [3, 7]}.
+- A kernel is {"kernel": "module:name"}, or, if a function of the user's has made it (`neorl.kernel_maker`),
+  {"kernel": "module:name of the function", "of": arguments}.
+- A text where a table is expected is the name of a modality, "place cell", or of a constant, "module:NAME".
+- A tuple is a list. None is left out where it is the default, since TOML has no word for it.
+
+A name without a module is one of `neorl`'s. A module that is named is imported, so a file is as good as a program.
+"""
+
+import difflib
+import functools
+import importlib
+import json
+import tomllib
+from dataclasses import MISSING, fields, is_dataclass
+from pathlib import Path
+from types import UnionType
+from typing import Any, Union, get_args, get_origin, get_type_hints
+
+import numpy as np
+
+from neorl.core.identity import name_of
+from neorl.core.modality import MODALITIES
+from neorl.extras import require
+from neorl.files import write_whole
+
+SUFFIXES = (".toml", ".json")
+PLAIN = {bool: "true or false", int: "an integer", float: "a number", str: "a text", type(None): "None"}
+
+
+class Described:
+    """A frozen dataclass whose values can be written as plain data, and read again to an equal value of equal key."""
+
+    def to_dict(self):
+        """The value as plain data, see `neorl.core.description`.
+
+        Raises ValueError for what no name finds again, such as a kernel within a function, and what is no plain data.
+        """
+        return described(self)
+
+    @classmethod
+    def from_dict(cls, data):
+        """The value that plain data describe, as `to_dict` gives them; what has a default may be left out.
+
+        Raises ValueError for anything else, with the path to it, such as "nodes[0].resolutions is (), …".
+        """
+        try:
+            return checked(restored(data, cls), cls)
+        except RecursionError:
+            raise ValueError("the data are nested too deeply") from None
+
+    def save(self, path):
+        """Write the value to a file, path: a name that ends in .toml, which needs the package tomli-w, or .json.
+
+        Raises ValueError for another name, and for what `to_dict` refuses.
+        """
+        write_data(path, self.to_dict())
+
+    @classmethod
+    def load(cls, path):
+        """The value that a file describes, path: a name that ends in .toml or .json.
+
+        Raises OSError if there is no such file, ValueError for what `from_dict` refuses.
+        """
+        data = read_data(path)
+        try:
+            return cls.from_dict(data)
+        except ValueError as error:
+            raise ValueError(f"{path}: {error}") from error
+
+
+def read_data(path):
+    """The table in a TOML or JSON file: a dict. Raises OSError if it is not there, ValueError for anything else."""
+    suffix = _suffix(path)
+    try:
+        text = Path(path).read_text(encoding="utf-8")
+        data = tomllib.loads(text) if suffix == ".toml" else json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise ValueError(f"{path} is not written in {suffix[1:].upper()}: {error}") from error
+    if isinstance(data, dict):
+        return data
+    raise ValueError(f"{path} holds {data!r}, allowed is a table of fields")
+
+
+def write_data(path, data):
+    """Write a table to a TOML or JSON file. Raises ValueError for another name, and for what these cannot hold."""
+    if _suffix(path) == ".json":
+        text = json.dumps(data, indent=1, ensure_ascii=False, allow_nan=False)
+    else:
+        try:
+            text = require("tomli_w", extra="data").dumps(data)
+        except TypeError as error:  # None
+            raise ValueError(f"{path} cannot be written: {error}; allowed is a name that ends in .json") from error
+    write_whole(path, text.encode())
+
+
+def _suffix(path):
+    if Path(path).suffix in SUFFIXES:
+        return Path(path).suffix
+    raise ValueError(f"path is {str(path)!r}, allowed are names that end in {' or '.join(SUFFIXES)}")
+
+
+def described(value, expected=object, path=""):
+    """A value as plain data. expected: the type that its place has, which therefore need not be named.
+
+    Raises ValueError for what no name finds again, and what is no plain data.
+    """
+    if is_dataclass(value) and not isinstance(value, type):
+        kind = type(value)
+        named = {} if kind in _options(expected) else {"is": _name(kind, path)}
+        return named | {name: described(getattr(value, name), hint, _at(path, name))
+                        for name, (hint, default) in _taken(kind).items()
+                        if default is not None or getattr(value, name) is not None}
+    if isinstance(value, tuple | list):
+        return [described(each, hint, f"{path}[{i}]") for i, (each, hint) in enumerate(_members(value, expected))]
+    if callable(value):
+        origin, arguments = getattr(value, "origin", (value, None))
+        return {"kernel": _name(origin, path)} | ({} if arguments is None else {"of": described(arguments)})
+    if type(value) in PLAIN:
+        return value
+    raise ValueError(f"{path or 'the value'} is {value!r}, which cannot be saved, allowed are Python's own numbers, "
+                     "texts, tuples, dataclasses and kernels")
+
+
+def restored(data, expected=object, path=""):
+    """What plain data describe. expected: its type. Raises ValueError if that cannot be, with the path to it."""
+    if isinstance(data, np.generic) or isinstance(data, np.ndarray) and data.ndim == 0:
+        return data.item()
+    if isinstance(data, dict):
+        return _kernel(data, path) if "kernel" in data else _instance(data, expected, path)
+    if isinstance(data, list | tuple | np.ndarray):
+        values = [restored(each, hint, f"{path}[{i}]") for i, (each, hint) in enumerate(_members(data, expected))]
+        return values if list in map(get_origin, _options(expected)) else tuple(values)
+    options = _options(expected)
+    if isinstance(data, str) and str not in options and any(map(is_dataclass, options)):
+        return _constant(data, options, path)
+    if all(is_dataclass(each) or hasattr(each, "from_dict") for each in options):
+        return checked(data, expected, path)
+    return data
+
+
+def _instance(data, expected, path):
+    """The dataclass that a table describes."""
+    kind = _kind(data, expected, path)
+    taken = kind.takes if hasattr(kind, "takes") else _taken(kind)
+    for name in data:
+        if name != "is" and name not in taken:
+            raise ValueError(f"{_at(path, name)} is unknown, {_nearest(name, taken)}allowed are {', '.join(taken)}")
+    values = {name: restored(data[name], taken[name][0], _at(path, name)) for name in taken if name in data}
+    for name, (_, default) in taken.items():
+        if default is MISSING and name not in data:
+            raise ValueError(f"{_at(path, name)} is missing")
+    try:
+        made = getattr(kind, "of_fields", kind)(**values)
+    except (ValueError, TypeError) as error:
+        within = str(error).partition(" ")[0] in taken
+        raise ValueError(f"{path}{'.' if within else ': '}{error}" if path else str(error)) from error
+    if is_dataclass(kind):
+        for name, (hint, _) in taken.items():
+            checked(getattr(made, name), hint, _at(path, name))
+    return made
+
+
+def _kind(data, expected, path):
+    """What a table describes: a dataclass, or a function that makes one."""
+    options = [each for each in _options(expected) if isinstance(each, type) and each not in PLAIN]
+    allowed = " or ".join(each.__name__ for each in options) or _words(expected)
+    if "is" not in data:
+        dataclasses = [each for each in options if is_dataclass(each)]
+        if len(dataclasses) == 1:
+            return dataclasses[0]
+        if not options:
+            raise ValueError(f"{path} is {data!r}, allowed is {allowed}")
+        raise ValueError(f"{_at(path, 'is')} is missing, allowed is the name of a kind of {allowed}")
+    kind = _found(data["is"], _at(path, "is"))
+    made = getattr(kind, "makes", kind)
+    if isinstance(made, type) and is_dataclass(made) and issubclass(made, tuple(options)):
+        return kind
+    raise ValueError(f"{_at(path, 'is')} is {data['is']!r}, allowed is the name of a kind of {allowed}")
+
+
+def _kernel(data, path):
+    """The kernel that a table describes."""
+    found = _found(data["kernel"], _at(path, "kernel"))
+    for name in data.keys() - {"kernel", "of"}:
+        raise ValueError(f"{_at(path, name)} is unknown, allowed are kernel, of")
+    if "of" not in data:
+        return found
+    if not getattr(found, "makes_kernels", False):  # a file may name any function
+        raise ValueError(f"{_at(path, 'kernel')} is {data['kernel']!r}, allowed with of is a neorl.kernel_maker")
+    try:
+        return found(*restored(data["of"], object, _at(path, "of")))
+    except (ValueError, TypeError) as error:
+        raise ValueError(f"{_at(path, 'of')} is {data['of']!r}: {error}") from error
+
+
+def _constant(name, options, path):
+    """The value, of one of the types, that has a name."""
+    modalities = {each.name: each for each in MODALITIES if type(each) in options}
+    found = modalities.get(name)
+    if found is None and ":" in name:
+        found = _found(name, path)
+    if type(found) in options:
+        return found
+    known = "".join(f", {each!r}" for each in modalities)
+    raise ValueError(f"{path} is {name!r}, {_nearest(name, modalities)}allowed are a table, 'module:NAME'{known}")
+
+
+def checked(value, hint, path=""):
+    """`value`, if it is of the type that a hint says, as far as that can be seen; else raises ValueError."""
+    options = _options(hint)
+    if any(_is_of(value, each) for each in options) or callable(value) and str in options:  # a kernel
+        for i, (each, inner) in enumerate(_members(value, hint) if isinstance(value, tuple | list) else ()):
+            checked(each, inner, f"{path}[{i}]")
+        return value
+    raise ValueError(f"{path or 'data'} is {value!r}, allowed is {_words(hint)}")
+
+
+def _is_of(value, option):
+    kind = get_origin(option) or option
+    if kind in (int, float):
+        return isinstance(value, (int, kind)) and not isinstance(value, bool)
+    try:
+        inner = get_args(option)
+        return isinstance(value, kind) and (kind is not tuple or ... in inner or len(value) == len(inner) or not inner)
+    except TypeError:  # a hint that only a checker of types understands
+        return True
+
+
+def _words(hint):
+    return " or ".join(PLAIN.get(each) or getattr(get_origin(each) or each, "__name__", str(each))
+                       for each in _options(hint))
+
+
+def _options(hint):
+    """The types that a hint allows."""
+    if get_origin(hint) in (Union, UnionType):
+        return [each for option in get_args(hint) for each in _options(option)]
+    return [object if hint is Any else hint]
+
+
+def _members(values, hint):
+    """Each value of a list with its own hint."""
+    inner = next((get_args(each) for each in _options(hint) if get_origin(each)), ())
+    if inner[1:] in ((), (...,)):
+        inner = (inner or (object,))[:1] * len(values)
+    elif len(inner) != len(values):
+        inner = (object,) * len(values)
+    return zip(values, inner)
+
+
+@functools.cache
+def _taken(kind):
+    """What a dataclass takes: {name: (hint, default)}, the default MISSING where there is none."""
+    try:
+        hints = get_type_hints(kind)
+    except (NameError, TypeError):  # a hint that only a checker of types understands
+        hints = {}
+    return {each.name: (hints.get(each.name, object), each.default if each.default_factory is MISSING else ...)
+            for each in fields(kind) if each.init}
+
+
+def _nearest(name, names):
+    near = difflib.get_close_matches(str(name), names, 1)
+    return f"did you mean {near[0]!r}? " if near else ""
+
+
+def _at(path, name):
+    return f"{path}.{name}" if path else str(name)
+
+
+def _name(value, path):
+    """The name by which a class, kernel or function is found again."""
+    for name in (value.__qualname__, name_of(value)):
+        try:
+            if _found(name, path) is value:
+                return name
+        except ValueError:
+            continue
+    raise ValueError(f"{path or 'the value'} is {value!r}, which cannot be saved, allowed are kernels that a module "
+                     "defines or that a neorl.kernel_maker has made, and classes that a module defines")
+
+
+def _found(name, path):
+    """What a name stands for."""
+    module, _, inner = str(name).rpartition(":")
+    try:
+        return getattr(importlib.import_module(module or "neorl"), inner)
+    except Exception as error:  # whatever the module raises
+        hint = "" if module else _nearest(name, importlib.import_module("neorl").__all__)
+        raise ValueError(f"{path} is {name!r}, {hint}allowed are names of neorl, and 'module:name' of what can be "
+                         f"imported: {error}") from error

@@ -1,0 +1,98 @@
+"""The commands ``python -m neorl run experiment.toml`` and ``python -m neorl cache``."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from neorl import files
+from neorl.experiments import kept
+from neorl.experiments.exchange import about
+from neorl.experiments.experiment import read_experiment
+from neorl.experiments.sweep import sweep
+
+LAST_FIFTH = (0.8, 1.0)
+
+
+def main(arguments=None):
+    """Do what the arguments of a command line say, those of this process by default. Returns the exit status."""
+    parser = argparse.ArgumentParser(prog="python -m neorl", description="Run experiments, and see what is kept.")
+    commands = parser.add_subparsers(required=True, metavar="command")
+    run = commands.add_parser("run", help="run an experiment that a file describes",
+                              description="Run the conditions in a file, see neorl.experiments.experiment, unless they "
+                              "are kept already, and say what they earned.")
+    run.add_argument("file", help="a name that ends in .toml or .json")
+    run.add_argument("--save", metavar="results.npz", help="write the result there as well, for neorl.Result.load; "
+                     "of a file with variations one each, results-NAME.npz")
+    run.set_defaults(call=lambda given: run_file(given.file, given.save))
+    cache = commands.add_parser("cache", help="list what is kept on disk, or clear it",
+                                description="List what is kept in the folder that NEORL_CACHE names, or in the user's "
+                                "cache folder. All of it may be removed at any time, and is made again when needed.")
+    cache.add_argument("--clear", nargs="?", const="all", choices=kept.WHICH, help="remove all of it, only what is "
+                       "compiled, or only what is of older sources than these")
+    cache.set_defaults(call=lambda given: clear_cache(given.clear) if given.clear else list_cache())
+    given = parser.parse_args(arguments)
+    try:
+        given.call(given)
+    except (ValueError, OSError, ImportError, MemoryError, RuntimeError) as error:
+        print(f"neorl: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("neorl: interrupted; what is finished is kept, and the same command goes on there", file=sys.stderr)
+        return 130
+    return 0
+
+
+def run_file(path, save=None):
+    """Run the experiment in a file, and print what came of it. save: where to write results to, or None."""
+    conditions = read_experiment(path)
+    targets = [Path(save).with_stem(f"{Path(save).stem}-{name}") if name else Path(save) for name in conditions
+               ] if save else [None] * len(conditions)
+    results = sweep(list(conditions.values()), progress=sys.stderr.isatty())
+    for (name, condition), result, target in zip(conditions.items(), results, targets):
+        if target:
+            result.save(target)
+        print(f"{name}: {kept.in_words(about(condition))}" if name else kept.in_words(about(condition)))
+        late = f", {_rate(result, *LAST_FIFTH)} in the last fifth" if len(result.time) >= 5 else ""
+        spread = ", ± the standard deviation over runs" if result.runs > 1 else ""
+        print(f"  reward per second: {_rate(result)}{late}{spread}")
+        print(f"  kept in {target or condition.path}")
+
+
+def _rate(result, *shares):
+    """A rate of reward, and its standard deviation over runs if there are several."""
+    rate = result.rate(*shares)
+    return f"{rate.mean():.3f} ± {rate.std(ddof=1):.3f}" if result.runs > 1 else f"{rate.mean():.3f}"
+
+
+def list_cache():
+    """Print what neorl keeps on disk."""
+    print(files.cache_folder())
+    everything = kept.kept()
+    for kind, (words, _) in kept.KINDS.items():
+        some = [each for each in everything if each.kind == kind]
+        print(f"{words}: {_amount(some)}" if some else f"{words}: none")
+        if kind == "conditions":
+            lines = [(kept.in_words(each.about), each) for each in some if each.about]
+            for line, each in sorted(lines, key=lambda pair: pair[0]):
+                print(f"  {line}: {_bytes(each.size)}{', of older sources' * each.is_older}")
+            unknown = [each for each in some if not each.about]
+            if unknown:
+                print(f"  of versions that did not note what they are: {_amount(unknown)}")
+    older = [each for each in everything if each.is_older]
+    print(f"together: {_amount(everything)}, of them of older sources than these: {_amount(older)}")
+
+
+def clear_cache(which):
+    """Remove what neorl keeps on disk, and print how much it was. which: see `neorl.experiments.kept.clear`."""
+    print(f"removed from {files.cache_folder()}: {_amount(kept.clear(which))}")
+
+
+def _amount(some):
+    return f"{len(some)} file{'s' * (len(some) != 1)}, {_bytes(sum(each.size for each in some))}"
+
+
+def _bytes(size):
+    for unit in ("bytes", "kB", "MB", "GB"):
+        if size < 1000 or unit == "GB":
+            return f"{size:,.0f} {unit}" if unit == "bytes" or size >= 10 else f"{size:.1f} {unit}"
+        size /= 1000

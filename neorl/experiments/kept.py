@@ -1,0 +1,140 @@
+"""What neorl keeps on disk, in words, and its removal.
+
+A file counts as neorl's if its folder and its name are as neorl gives them, and a page's claims if they say what they
+are. No other file is listed, and none removed.
+
+*Older* is what these sources of neorl have not made: conditions and claims note which have, and of anything else it is
+what was written before the sources were.
+"""
+
+import io
+import json
+import re
+import zipfile
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from neorl import checks, files
+from neorl.agents.agent import Agent, Learning, Policy
+from neorl.core.description import described
+from neorl.experiments.cache import PARTS, source_digest
+from neorl.worlds.arena import Arena
+from neorl.worlds.waterworld import WaterWorld
+
+DIGEST = "[0-9a-f]{64}"
+KINDS = {"conditions": ("finished conditions", DIGEST),
+         "runs": ("single runs of conditions that are not finished", DIGEST + r"-\d+"),
+         "compiled": ("compiled kernels", DIGEST), "wasm": ("WebAssembly modules", DIGEST),
+         "claims": ("claims of pages of the book", r"[a-z0-9_]+\.json")}
+WHICH = ("all", "compiled", "older")
+USUAL = {"learning": described(Learning()), "policy": described(Policy()), "own_cell": Agent.own_cell}
+USUAL_WORLDS = {kind.__name__: described(kind()) for kind in (WaterWorld, Arena)}
+
+
+class Kept(NamedTuple):
+    """A file. about: what is noted in it of a condition, or of claims, if anything is."""
+
+    kind: str
+    path: Path
+    size: int  # bytes
+    about: dict | None
+    is_older: bool
+
+
+def kept():
+    """All files that neorl keeps, a list of `Kept`."""
+    found, sources = [], _sources_changed()
+    for kind, (_, pattern) in KINDS.items():
+        for path in sorted((files.cache_folder() / kind).glob("*")):
+            if not re.fullmatch(pattern, path.name) or not path.is_file():
+                continue
+            try:
+                about, status = NOTES[kind](path) if kind in NOTES else None, path.stat()
+            except FileNotFoundError:  # removed by another process since
+                continue
+            if kind == "claims" and not about:
+                continue
+            is_older = (about or {}).get("source") != source_digest() if kind in NOTES else status.st_mtime < sources
+            found.append(Kept(kind, path, status.st_size, about, is_older))
+    return found
+
+
+def clear(which="all"):
+    """Remove what neorl keeps: "all", what is "compiled" (kernels and WebAssembly), or what is "older".
+
+    Returns the list of `Kept` that were removed. Raises ValueError for anything else, OSError without permission.
+    """
+    checks.one_of("which", which, WHICH)
+    removed = [each for each in kept() if which == "all" or which == "older" and each.is_older
+               or which == "compiled" and each.kind in ("compiled", "wasm")]
+    for each in removed:
+        each.path.unlink(missing_ok=True)
+    return removed
+
+
+def in_words(about):
+    """What a condition is, in a line, from its plain data (`neorl.experiments.exchange.about`)."""
+    changes = "".join(f", from step {step:,} on {_agent(agent)}" for step, agent in about["changes"])
+    return (f"{_agent(about['agent'])} in {_world(about['world'])}{changes}, {about['steps']:,} steps, "
+            f"{about['runs']} run{'s' * (about['runs'] != 1)}, seed {about['seed']}")
+
+
+def _agent(data):
+    """An agent: its maps, and in what it differs from the defaults."""
+    if not isinstance(data, dict):
+        return str(data)
+    nodes = " and ".join(f"{node['name']} {'+'.join(f'N{n}' for n in node['resolutions'])}" for node in data["nodes"])
+    unusual = [f"{name} {_value(value)}" for table in ("learning", "policy") for name, value in data[table].items()
+               if value != USUAL[table].get(name)]
+    unusual += [f"own_cell {data['own_cell']}"] * (data["own_cell"] != USUAL["own_cell"])
+    return f"{nodes} ({', '.join(unusual)})" if unusual else nodes
+
+
+def _world(data):
+    """A world: its name, and in what it differs from the defaults, where they are known."""
+    if not isinstance(data, dict):
+        return str(data)
+    usual = USUAL_WORLDS.get(data["is"], {})
+    unusual = [f"{name} {_value(value)}" for name, value in data.items() if name != "is" and value != usual.get(name)]
+    name = data["is"].rpartition(":")[2]
+    return f"{name} ({', '.join(unusual)})" if unusual else name
+
+
+def _value(value):
+    if isinstance(value, dict) and "kernel" in value:
+        name = value["kernel"].rpartition(":")[2]
+        return f"{name}({', '.join(map(str, value['of']))})" if "of" in value else name
+    return str(value)
+
+
+def _about_condition(path):
+    """What is noted of a condition beside its arrays, or None: the file of a version that did not, or a damaged one."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            about = json.loads(str(np.load(io.BytesIO(archive.read("about.npy")))))
+        in_words(about)
+        return about
+    except FileNotFoundError:
+        raise
+    except Exception:  # whatever zip, NumPy and JSON make of it
+        return None
+
+
+def _about_claims(path):
+    try:
+        about = json.loads(path.read_text(encoding="utf-8"))
+    except ValueError:
+        return None
+    return about if isinstance(about, dict) and {"page", "source", "claims"} <= about.keys() else None
+
+
+NOTES = {"conditions": _about_condition, "claims": _about_claims}
+
+
+def _sources_changed():
+    """When the last source that a run is made of was written."""
+    package = Path(files.__file__).parent
+    return max(path.stat().st_mtime for part in PARTS
+               for path in [*package.glob(f"{part}.py"), *(package / part).rglob("*.py")])

@@ -1,0 +1,236 @@
+"""Agents, worlds and conditions as plain data: what is written is read again, what is wrong is named by its path."""
+
+import json
+import subprocess
+import sys
+import types
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from neorl import (Agent, Arena, Axis, Condition, Desire, Learning, Modality, Node, Place, Policy, WaterWorld, World,
+                   brownian, kernel, multimodal, network_a, network_b, network_c, network_d, object_vector_cells,
+                   place_cells, softmax)
+from neorl.core.description import described, read_data, restored
+from neorl.core.modality import HEAD_DIRECTION_CELL, LANDMARK_VECTOR_CELL, MODALITIES, PLACE_CELL
+
+PAPERS = (place_cells, object_vector_cells, multimodal, network_a, network_b, network_c, network_d)
+SHARES, UNITS = st.floats(0, 1), st.sampled_from(["cells", "seconds"])
+OWN = Modality("place × direction", PLACE_CELL.axes + HEAD_DIRECTION_CELL.axes)
+
+
+@kernel
+def of_a_module(count, steps, last, activity):
+    return 1.0 if last else 0.0
+
+
+@dataclass(frozen=True)
+class Cave(World):
+    """A world of the user's, which checks nothing."""
+
+    depth: float
+    rooms: tuple[tuple[str, int], ...] = ()
+    map: Modality | None = None
+    names: list[str] = field(default_factory=list)
+
+    dynamics = WaterWorld().dynamics
+
+
+learnings = st.one_of(
+    st.builds(Learning, learning_rate=SHARES, discount=SHARES, memory=st.floats(0, 1e9), terminal=st.booleans(),
+              credit=st.sampled_from(["share", "last", of_a_module]), memory_unit=UNITS),
+    st.builds(Learning, trace=st.integers(1, 2**70), memory=st.just(0.0)), st.just(Learning(update_on="step")))
+policies = st.builds(Policy, SHARES, choose=st.sampled_from([softmax(0.1), softmax(3), Policy().choose]))
+choices = st.fixed_dictionaries({"learning": learnings, "policy": policies}, optional={
+    "own_cell": st.sampled_from(["silent", "counts"]), "tiled_fraction": st.floats(0.1, 2.0),
+    "weighting": st.sampled_from(["equal", "cells"])})
+of_papers = st.builds(lambda make, resolutions, chosen: make(resolutions, **chosen), st.sampled_from(PAPERS),
+                      st.lists(st.integers(1, 30), min_size=1, max_size=3), choices)
+others = st.sampled_from([
+    brownian(), Agent([Node('"a"\n[b]', OWN, [2]), Node("é 𝄞", LANDMARK_VECTOR_CELL, [3])],
+                      [Desire(Place(0.1, 0.2), '"a"\n[b]', 1.0), Desire((0.1, 0.2, 3), '"a"\n[b]', -0.0)])])
+worlds = st.one_of(
+    st.builds(WaterWorld, width=st.integers(11, 2**31), n_creeps=st.integers(1, 9), win_reward=st.floats(-1e30, 1e30)),
+    st.builds(Arena, obstacles=st.sampled_from([(), [(0.1, 0.2, 0.3, 0.4)]]), pay=st.sampled_from([(), [2], [-0.5]])),
+    st.builds(Cave, st.floats(allow_nan=False, allow_infinity=False) | st.integers(),
+              st.sampled_from([(), (("hall", 3), ("nook", -1))]), st.sampled_from([None, OWN])))
+conditions = st.builds(Condition, of_papers | others, worlds, st.integers(5, 2**40), st.integers(1, 99),
+                       st.integers(0, 2**70), st.lists(st.tuples(st.just(4), of_papers), max_size=2))
+
+
+@settings(max_examples=60)
+@given(condition=conditions, suffix=st.sampled_from(["toml", "json"]))
+def test_a_condition_is_read_again_as_it_was_written(tmp_path_factory, condition, suffix):
+    assert Condition.from_dict(condition.to_dict()) == condition
+    if suffix == "toml":
+        pytest.importorskip("tomli_w")
+    path = tmp_path_factory.mktemp("written") / f"condition.{suffix}"
+    condition.save(path)
+    again = Condition.load(path)
+    assert again == condition and again.key == condition.key
+    assert type(again.world) is type(condition.world)
+
+
+@pytest.mark.parametrize("value", [network_d(), WaterWorld(n_creeps=5), Arena(), Cave(1.0, names=["a", "b"])])
+def test_agents_and_worlds_have_files_of_their_own(tmp_path, value):
+    value.save(tmp_path / "value.json")
+    kind = Agent if isinstance(value, Agent) else World
+    assert type(value).load(tmp_path / "value.json") == kind.load(tmp_path / "value.json") == value
+
+
+def test_an_experiment_can_be_written_by_hand(tmp_path):
+    path = tmp_path / "experiment.toml"
+    path.write_text("""
+        steps = 1_000
+        runs = 2
+        world = { is = "WaterWorld", n_creeps = 8 }
+
+        [agent]
+        is = "place_cells"
+        resolutions = [3, 7]
+        learning = { memory = 10 }
+        policy.choose = { kernel = "softmax", of = [0.5] }
+    """)
+    agent = place_cells([3, 7], learning=Learning(memory=10.0), policy=Policy(choose=softmax(0.5)))
+    assert Condition.load(path) == Condition(agent, WaterWorld(n_creeps=8), 1_000, 2)
+
+
+def test_modalities_and_kernels_go_by_name(monkeypatch):
+    module = types.ModuleType("my_modalities")
+    module.OWN = OWN
+    monkeypatch.setitem(sys.modules, "my_modalities", module)
+    for name, modality in ((each.name, each) for each in MODALITIES):
+        assert restored({"name": "X", "modality": name, "resolutions": [2]}, Node).modality is modality
+    assert Agent.from_dict({"nodes": [{"name": "X", "modality": "my_modalities:OWN", "resolutions": [2]}]}) == Agent(
+        [Node("X", OWN, [2])])
+    assert described(Policy())["choose"] == {"kernel": "greedy"}
+    assert described(Learning(credit=of_a_module))["credit"] == {"kernel": f"{__name__}:of_a_module"}
+
+
+def test_numbers_of_numpy_are_plain_numbers():
+    data = {"is": np.str_("WaterWorld"), "n_creeps": np.int64(3), "win_reward": np.array(0.5)}
+    assert repr(World.from_dict(data)) == repr(WaterWorld(n_creeps=3, win_reward=0.5))
+    node = restored({"name": "X", "modality": "place cell", "resolutions": np.array([2, 3])}, Node)
+    assert repr(node) == repr(Node("X", PLACE_CELL, (2, 3)))
+
+
+FINE = {"agent": {"is": "place_cells"}, "world": {"is": "WaterWorld"}, "steps": 100, "runs": 2}
+NODE = {"name": "PC", "modality": "place cell", "resolutions": [3]}
+
+
+@pytest.mark.parametrize("change, message", [
+    ({"stepps": 3}, r"^stepps is unknown, did you mean 'steps'\? allowed are agent, world, steps"),
+    ({"steps": "many"}, "^steps is 'many', allowed are integers ≥ 1"), ({"runs": True}, "^runs is True"),
+    ({"world": {}}, "^world.is is missing, allowed is the name of a kind of World"), ({"world": 3}, "^world is 3"),
+    ({"world": {"is": "WaterWorlds"}}, r"^world.is is 'WaterWorlds', did you mean 'WaterWorld'\?"),
+    ({"world": {"is": "place_cells"}}, "^world.is is 'place_cells', allowed is the name of a kind of World"),
+    ({"world": {"is": "Arena", "places": [["a", 0.1, {"kernel": "greedy"}]]}}, "^world.places is <kernel"),
+    ({"world": {"is": "Arena", "places": [["a", 0.1, "b"]]}}, "^world.places is 'b'"),
+    ({"world": {"is": f"{__name__}:Cave", "depth": "deep"}}, "^world.depth is 'deep', allowed is a number"),
+    ({"world": {"is": f"{__name__}:Cave", "depth": True}}, "^world.depth is True, allowed is a number"),
+    ({"world": {"is": f"{__name__}:Cave"}}, "^world.depth is missing"),
+    ({"world": {"is": f"{__name__}:Cave", "depth": 1, "rooms": [["a", 1], ["b", 0.5]]}}, r"^world.rooms\[1\]\[1\] is"),
+    ({"world": {"is": "no_such_module:Cave"}}, "^world.is is 'no_such_module:Cave', .* No module named"),
+    ({"agent": {"is": "os:system"}}, "^agent.is is 'os:system', allowed is the name of a kind of Agent"),
+    ({"agent": {"is": "place_cells", "learning": {"memry": 3}}}, "^agent.learning.memry is unknown, did you mean"),
+    ({"agent": {"is": "place_cells", "learning": {"memory": -1}}}, "^agent.learning.memory is -1"),
+    ({"agent": {"is": "place_cells", "resolution": [3]}}, r"^agent.resolution is unknown, did you mean 'resolutions'"),
+    ({"agent": {"is": "place_cells", "resolutions": 3}}, "^agent.resolutions is 3"),
+    ({"agent": {}}, "^agent.nodes is missing"), ({"agent": {"nodes": [3]}}, r"^agent.nodes\[0\] is 3, allowed is Node"),
+    ({"agent": {"nodes": [NODE, NODE]}}, "^agent.nodes are 'PC', 'PC'|^agent: nodes are 'PC', 'PC'"),
+    ({"agent": {"nodes": [NODE | {"modality": "place cel"}]}}, r"^agent.nodes\[0\].modality is 'place cel', did you"),
+    ({"agent": {"nodes": [NODE | {"modality": "os:path"}]}}, r"^agent.nodes\[0\].modality is 'os:path'"),
+    ({"agent": {"nodes": [NODE | {"resolutions": [3, 0]}]}}, r"^agent.nodes\[0\]: resolution is 0"),
+    ({"agent": {"nodes": [NODE], "desires": [{"source": {"coordinates": ["x"]}, "target": "PC"}]}},
+     r"^agent.desires\[0\].source.coordinates is 'x'"),
+    ({"agent": {"is": "place_cells", "policy": {"choose": {"kernel": "softmax", "of": [-1]}}}},
+     r"^agent.policy.choose.of is \[-1\]: temperature is -1"),
+    ({"agent": {"is": "place_cells", "policy": {"choose": {"kernel": "os:system", "of": ["exit 3"]}}}},
+     "^agent.policy.choose.kernel is 'os:system'"),
+    ({"agent": {"is": "place_cells", "policy": {"choose": {"kernel": "os:system"}}}}, "^agent.policy.choose is <built"),
+    ({"agent": {"is": "place_cells", "policy": {"choose": {"kernel": "greedy", "o": 1}}}}, "^agent.policy.choose.o "),
+    ({"changes": [[3, 5]]}, r"^changes\[0\]\[1\] is 5, allowed is Agent"), ({"changes": [[3]]}, "^changes has"),
+])
+def test_what_is_wrong_is_named_by_its_path(tmp_path, change, message):
+    with pytest.raises(ValueError, match=message):
+        Condition.from_dict(FINE | change)
+    (tmp_path / "condition.json").write_text(json.dumps(FINE | change))
+    with pytest.raises(ValueError, match=f"^{tmp_path / 'condition.json'}: {message.replace('^', '')}"):
+        Condition.load(tmp_path / "condition.json")
+
+
+@pytest.mark.parametrize("data", [None, 3, "x", [], [[]], {"kernel": "greedy"}, {"is": "WaterWorld"}, {1: 2}])
+def test_other_data_are_refused(data):
+    with pytest.raises(ValueError, match=" is "):
+        Agent.from_dict(data)
+
+
+def test_data_within_themselves_are_refused():
+    data = dict(NODE)
+    data["nodes"] = [data]
+    with pytest.raises(ValueError, match="is unknown|nested too deeply"):
+        Agent.from_dict(data)
+    deep = []
+    for _ in range(100_000):
+        deep = [deep]
+    with pytest.raises(ValueError, match="nested too deeply"):
+        Agent.from_dict({"nodes": deep})
+
+
+@pytest.mark.parametrize("name, content, message", [
+    ("a.toml", b"steps = ", "is not written in TOML"), ("a.json", b"{", "is not written in JSON"),
+    ("a.json", b"\xff\xfe", "is not written in JSON"), ("a.json", b"[1]", r"holds \[1\], allowed is a table"),
+    ("a.json", b"[" * 100_000, "is not written in JSON"), ("a.yaml", b"", "allowed are names that end in .toml"),
+])
+def test_other_files_are_refused_by_name(tmp_path, name, content, message):
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(ValueError, match=f"{tmp_path / name}.*{message}"):
+        read_data(tmp_path / name)
+    with pytest.raises(OSError, match="nowhere"):
+        read_data(tmp_path / "nowhere.toml")
+
+
+def test_what_cannot_be_found_again_is_not_written(tmp_path):
+    @kernel
+    def of_no_module(value, stream):
+        return 0
+
+    @dataclass(frozen=True)
+    class Hidden(World):
+        depth: float = 1.0
+
+    for value, message in ((place_cells([2], policy=Policy(choose=of_no_module)), "^policy.choose is <.*cannot be"),
+                           (Hidden(), "cannot be saved"), (Cave(np.float32(0.1)), "^depth is np.float32.*cannot"),
+                           (Cave(np.zeros(2)), "^depth is array.*cannot be saved"),
+                           (Cave({"a": 1}), "^depth is {'a': 1}, which cannot be saved")):
+        with pytest.raises(ValueError, match=message):
+            value.save(tmp_path / "value.json")
+    for value in (Cave(float("nan")), Cave(float("inf"))):
+        with pytest.raises(ValueError, match="not JSON compliant"):
+            value.save(tmp_path / "value.json")
+    assert not list(tmp_path.iterdir())
+
+
+def test_none_is_left_out_where_it_is_the_default_and_refused_by_toml_elsewhere(tmp_path):
+    pytest.importorskip("tomli_w")
+    assert "intervals" not in described(Axis("position")) and "map" not in described(Cave(1.0))
+    Cave(None).save(tmp_path / "cave.json")
+    with pytest.raises(ValueError, match="allowed is a name that ends in .json"):
+        Cave(None).save(tmp_path / "cave.toml")
+
+
+def test_without_the_package_that_writes_toml_the_extra_is_named(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "tomli_w", None)
+    with pytest.raises(ImportError, match=r"pip install 'neorl-companion\[data\]'"):
+        brownian().save(tmp_path / "agent.toml")
+
+
+def test_another_process_reads_the_same_key(tmp_path):
+    condition = Condition(replace(network_d(), policy=Policy(choose=softmax(0.5))), Arena(pay=[2]), 500, 3)
+    condition.save(tmp_path / "condition.json")
+    read = f"from neorl import Condition; print(Condition.load({str(tmp_path / 'condition.json')!r}).key)"
+    printed = subprocess.run([sys.executable, "-c", read], capture_output=True, check=True, text=True).stdout
+    assert printed.strip() == condition.key

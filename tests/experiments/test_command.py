@@ -1,0 +1,80 @@
+"""What the commands print, write and return."""
+
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from neorl import Condition, Result, WaterWorld, files, place_cells, simulate
+from neorl.experiments import command
+from neorl.experiments.command import main
+
+CONDITION = Condition(place_cells([3]), WaterWorld(), 600, 2)
+
+
+def test_a_file_is_run_said_in_words_and_saved(cache_folder, tmp_path, capsys):
+    CONDITION.save(tmp_path / "experiment.json")
+    assert main(["run", str(tmp_path / "experiment.json"), "--save", str(tmp_path / "results.npz")]) == 0
+    printed = capsys.readouterr().out.splitlines()
+    result = simulate(**CONDITION.choices, progress=False)
+    np.testing.assert_array_equal(Result.load(tmp_path / "results.npz").rewards, result.rewards)
+    rate, late = result.rate(), result.rate(0.8, 1.0)
+    assert printed == [
+        "PC N3 in WaterWorld, 600 steps, 2 runs, seed 0",
+        f"  reward per second: {rate.mean():.3f} ± {rate.std(ddof=1):.3f}, {late.mean():.3f} ± {late.std(ddof=1):.3f} "
+        "in the last fifth, ± the standard deviation over runs", f"  kept in {tmp_path / 'results.npz'}"]
+    assert CONDITION.path.exists()
+
+
+def test_variations_are_run_by_name(cache_folder, tmp_path, capsys):
+    (tmp_path / "experiment.toml").write_text(
+        "steps = 30\nruns = 1\nagent.is = 'place_cells'\nworld.is = 'WaterWorld'\nagent.resolutions = [3]\n"
+        "[variations]\nfine.agent.resolutions = [4]\nlater.seed = 1")
+    assert main(["run", str(tmp_path / "experiment.toml"), "--save", str(tmp_path / "r.npz")]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == "fine: PC N4 in WaterWorld, 30 steps, 1 run, seed 0" and lines[3].startswith("later: PC N3 in")
+    assert re.fullmatch(r"  reward per second: -?\d\.\d{3}", lines[1])
+    assert Result.load(tmp_path / "r-later.npz").seed == 1 and (tmp_path / "r-fine.npz").exists()
+
+
+def test_the_cache_is_listed_and_cleared(tmp_path, capsys, monkeypatch):
+    monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
+    files.write_checked(tmp_path / "compiled" / ("0f" * 32), b"x" * 2_000_000)
+    assert main(["cache"]) == 0
+    printed = capsys.readouterr().out
+    assert str(tmp_path) in printed and "compiled kernels: 1 file, 2.0 MB" in printed
+    assert "finished conditions: none" in printed and "together: 1 file, 2.0 MB" in printed
+    assert main(["cache", "--clear", "compiled"]) == 0
+    assert "1 file, 2.0 MB" in capsys.readouterr().out and not list((tmp_path / "compiled").iterdir())
+    assert main(["cache", "--clear"]) == 0 and "0 files, 0 bytes" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("content, message", [
+    (None, "nowhere.toml"), ("steps = ", "is not written in TOML"), ("steps = 3", "experiment.toml: agent is missing")])
+def test_what_is_wrong_is_said_in_a_line(tmp_path, capsys, content, message):
+    path = tmp_path / ("experiment.toml" if content else "nowhere.toml")
+    if content:
+        path.write_text(content)
+    assert main(["run", str(path)]) == 1
+    printed = capsys.readouterr()
+    assert printed.out == "" and printed.err.startswith("neorl: ") and printed.err.count("\n") == 1
+    assert message in printed.err
+
+
+def test_an_interruption_says_how_to_go_on(cache_folder, tmp_path, capsys, monkeypatch):
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    CONDITION.save(tmp_path / "experiment.json")
+    monkeypatch.setattr(command, "sweep", interrupted)
+    assert main(["run", str(tmp_path / "experiment.json")]) == 130
+    assert "the same command goes on there" in capsys.readouterr().err
+
+
+def test_python_finds_the_commands(tmp_path):
+    shown = subprocess.run([sys.executable, "-m", "neorl", "--help"], capture_output=True, check=True, text=True).stdout
+    assert "usage: python -m neorl" in shown and "run an experiment" in shown
+    wrong = subprocess.run([sys.executable, "-m", "neorl", "run", "nowhere.toml"], capture_output=True, text=True)
+    assert wrong.returncode == 1 and wrong.stderr == "neorl: [Errno 2] No such file or directory: 'nowhere.toml'\n"

@@ -1,0 +1,143 @@
+"""Results as data frames, datasets and files: every number where it says that it is, and nothing but whole files."""
+
+import io
+import json
+import zipfile
+
+import numpy as np
+import pytest
+
+from neorl import Agent, Arena, Desire, Node, Result, Run, WaterWorld, World, kernel, network_d, place_cells
+from neorl.agents.agent import Policy
+from neorl.core.modality import PLACE_CELL
+from neorl.experiments.run import new_bins
+
+ARENA = Arena(places=[("run", 0.3, 0.3), ("time", 0.6, 0.6), ("reward", 0.5, 0.5)])
+
+
+def made_up(agent, world, steps=503, runs=3, **more):
+    """A result that no run has brought, in which every number is another."""
+    rewards, hits = new_bins(world, runs, steps)
+    rewards.flat = np.arange(rewards.size) / 7
+    hits.flat = np.arange(hits.size)
+    return Result(agent, world, steps, runs, 2**70, rewards, hits, **more)
+
+
+RESULTS = [made_up(network_d(), WaterWorld(n_creeps=4), changes=((100, place_cells([2])),)),
+           made_up(Agent([Node("PC", PLACE_CELL, [3])], [Desire("run", "PC", 1.0)]), ARENA)]
+
+
+@pytest.mark.parametrize("result", RESULTS)
+def test_a_frame_has_a_row_for_each_run_and_bin(result):
+    frame = result.to_frame()
+    assert list(frame) == ["run", "time", "reward", *(f"hits_{kind}" for kind in result.world.kinds)]
+    assert len(frame) == result.rewards.size
+    row = frame[(frame["run"] == 2) & (frame["time"] == result.time[5])]
+    assert row["reward"].tolist() == [result.rewards[2, 5]]
+    assert [row[f"hits_{kind}"].item() for kind in result.world.kinds] == result.hits[2, 5].tolist()
+    np.testing.assert_allclose(frame.groupby("run")["reward"].sum(), result.totals, rtol=1e-6)
+    frame.loc[0, "reward"] = -1.0
+    assert result.rewards[0, 0] != -1.0
+
+
+@pytest.mark.parametrize("result", RESULTS)
+def test_a_dataset_has_dimensions_coordinates_and_what_determined_it(result):
+    dataset = result.to_xarray()
+    assert dict(dataset.sizes) == {"run": 3, "time": len(result.time), "kind": len(result.world.kinds)}
+    kind = result.world.kinds[1]
+    assert dataset["hits"].sel(run=1, kind=kind).isel(time=4).item() == result.hits[1, 4, 1]
+    np.testing.assert_array_equal(dataset["rewards"], result.rewards)
+    np.testing.assert_array_equal(dataset["time"], result.time)
+    assert dataset["time"].attrs["units"] == "s"
+    assert (dataset.attrs["steps"], dataset.attrs["seed"]) == (503, str(2**70))
+    assert Agent.from_dict(json.loads(dataset.attrs["agent"])) == result.agent
+    assert World.from_dict(json.loads(dataset.attrs["world"])) == result.world
+    assert all(isinstance(value, str | int) for value in dataset.attrs.values())  # what netCDF can hold
+
+
+@pytest.mark.parametrize("result", RESULTS)
+def test_a_saved_result_is_read_again(tmp_path, result):
+    result.save(tmp_path / "result.npz")
+    again = Result.load(tmp_path / "result.npz")
+    for name in ("agent", "world", "steps", "runs", "seed", "changes"):
+        assert getattr(again, name) == getattr(result, name)
+    for name in ("rewards", "hits"):
+        np.testing.assert_array_equal(getattr(again, name), getattr(result, name), strict=True)
+    with np.load(tmp_path / "result.npz") as file:  # without neorl
+        about = json.loads(str(file["about"]))
+        assert about["steps"] == 503 and about["world"]["is"] == type(result.world).__name__
+        assert file["rewards"].shape == result.rewards.shape
+
+
+@pytest.fixture
+def saved(tmp_path):
+    RESULTS[0].save(tmp_path / "result.npz")
+    return tmp_path / "result.npz"
+
+
+def as_npy(content):
+    file = io.BytesIO()
+    np.save(file, np.zeros(3))
+    return file.getvalue()
+
+
+def as_zip(content):
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w") as archive:
+        archive.writestr("letter.txt", "dear friend")
+    return file.getvalue()
+
+
+@pytest.mark.parametrize("damage", [
+    lambda content: b"", lambda content: content[:-20], lambda content: content[:500], lambda content: b"a letter",
+    lambda content: content[:900] + bytes([content[900] ^ 1]) + content[901:], as_npy, as_zip,
+    lambda content: b"\x89HDF\r\n\x1a\n" + content, lambda content: content[: len(content) // 2] + content[-200:],
+])
+def test_a_truncated_or_foreign_file_is_refused_by_name(saved, damage):
+    saved.write_bytes(damage(saved.read_bytes()))
+    with pytest.raises(ValueError, match=f"{saved} is damaged, or was not written by neorl"):
+        Result.load(saved)
+
+
+@pytest.mark.parametrize("forge, message", [
+    (lambda about, kept: about.update(format=2), "is of format 2, which a newer neorl has written"),
+    (lambda about, kept: about.update({"is": "Run"}), "holds a Run of format 1.*allowed is a Result"),
+    (lambda about, kept: about.pop("agent"), ": agent is None"),
+    (lambda about, kept: about.update(steps=-5), ": steps is -5"),
+    (lambda about, kept: about.update(changes=[[600, about["agent"]]]), ": changes is .* allowed are pairs in order"),
+    (lambda about, kept: about.update(changes=[[5]]), r": changes\[0\] is \(5,\)"),
+    (lambda about, kept: about.update(runs=10**12), r"float32 \(3, 51\) for rewards, allowed is .* \(10{12}, 51\)"),
+    (lambda about, kept: about["agent"].update(colour="red"), ": agent.colour is unknown"),
+    (lambda about, kept: about["world"].update({"is": "no_such_module:Cave"}), ": world.is is 'no_such_module:Cave'"),
+    (lambda about, kept: about.update(steps=600), r"has float32 \(3, 51\) for rewards, allowed is float32 \(3, 60\)"),
+    (lambda about, kept: kept["hits"].fill(1), "is damaged"), (lambda about, kept: kept.pop("rewards"), "is damaged"),
+])
+def test_a_file_of_another_making_is_refused_by_name(saved, forge, message):
+    with np.load(saved) as file:
+        kept = {name: file[name] for name in file.files}
+    about = json.loads(str(kept.pop("about")))
+    forge(about, kept)
+    with saved.open("wb") as file:
+        np.savez(file, about=np.array(json.dumps(about)), **kept)
+    with pytest.raises(ValueError, match=f"{saved}.*{message}"):
+        Result.load(saved)
+
+
+def test_other_files_are_refused(saved, tmp_path):
+    with pytest.raises(OSError, match="nowhere"):
+        Result.load(tmp_path / "nowhere.npz")
+    with pytest.raises(ValueError, match="holds a Result of format 1.*allowed is a Run"):
+        Run.load(saved)
+
+
+def test_an_agent_that_no_name_finds_is_not_saved_but_makes_a_frame(tmp_path):
+    @kernel
+    def of_no_module(value, stream):
+        return 0
+
+    result = made_up(place_cells([2], policy=Policy(choose=of_no_module)), WaterWorld())
+    assert len(result.to_frame())
+    for write in (result.to_xarray, lambda: result.save(tmp_path / "result.npz")):
+        with pytest.raises(ValueError, match="^agent.policy.choose is .* cannot be saved"):
+            write()
+    assert not list(tmp_path.iterdir())

@@ -1,0 +1,144 @@
+"""NumPy's numbers, and arrays of no axis, are taken wherever numbers are: to equal values, of equal keys."""
+
+from dataclasses import fields, is_dataclass, replace
+
+import numpy as np
+import pytest
+
+import neorl
+from neorl import (Actions, Agent, Arena, Axis, Condition, Desire, Learner, Learning, Modality, Node, NresMap, Place,
+                   Policy, Result, Run, Scene, WaterWorld, World)
+from neorl.core.identity import identity
+from neorl.core.modality import LANDMARK_VECTOR_CELL, PLACE_CELL, cartesian, polar
+
+AXIS = Axis("position", along=1, low=-1.0, high=2.0, intervals=3, name="y")
+NODE = Node("PC", PLACE_CELL, (3, 7), gain=0.5)
+VALUES = [  # of every public dataclass, with a number in every field that can hold one
+    Learning(memory=2.0), Learning(memory=0.0, trace=3), Policy(exploration=0.25), NODE, AXIS,
+    Axis("position", boundaries=(0.0, 0.25, 1.0)), LANDMARK_VECTOR_CELL, Place(0.5, 0.25), NresMap(4, PLACE_CELL),
+    Desire("green", "PC", valence=-1.0, scale=2.0), Desire((0.5, 0.25), "PC", 1.0), Agent((NODE,), own_cell="silent"),
+    Actions(("N", "S"), ((0.0, 1.0), (1.0, 0.0)), "no-op"), WaterWorld(n_creeps=4, win_reward=5.0),
+    Arena(pay=(2.0,), obstacles=((0.25, 0.25, 0.5, 0.5),), start=(0.75, 0.75)),
+    Condition(neorl.place_cells([3]), WaterWorld(), 100, 2, 7, ((50, neorl.place_cells([2])),))]
+NUMBERS = {int: [np.int64, np.uint16, np.array], float: [np.float64, np.float32, np.float16, np.array]}
+OF_BOUNDARIES = ("low", "high", "intervals")  # which say what these are
+CASES = [(value, each.name) for value in VALUES for each in fields(value)]
+
+
+def with_numbers(value, kind, make):
+    """A value, in lists too, with every number of a kind made one of NumPy's, and every text as well."""
+    if isinstance(value, tuple):
+        return tuple(with_numbers(each, kind, make) for each in value)
+    if type(value) is str:
+        return np.str_(value)
+    return make(value) if type(value) is kind else value
+
+
+def test_every_public_dataclass_is_here():
+    public = {each for each in vars(neorl).values() if isinstance(each, type) and is_dataclass(each)}
+    assert {type(value) for value in VALUES} == public - {Result}
+    assert {name for value, name in CASES if type(value) is Learning} == {each.name for each in fields(Learning)}
+
+
+@pytest.mark.parametrize("value, name", CASES, ids=[f"{type(value).__name__}.{name}" for value, name in CASES])
+def test_a_number_of_numpy_in_any_field_makes_the_same_value(value, name):
+    given = getattr(value, name)
+    for kind, makes in NUMBERS.items():
+        for make in makes:
+            changed = with_numbers(given, kind, make)
+            other = Place(*changed) if isinstance(value, Place) else replace(value, **{name: changed})
+            exact = make is not np.float32 and make is not np.float16
+            if exact or not has_inexact(given, make):
+                assert (other, repr(other), identity(other)) == (value, repr(value), identity(value))
+
+
+def has_inexact(given, make):
+    return any(has_inexact(each, make) for each in given) if isinstance(given, tuple) else (
+        type(given) is float and float(make(given)) != given)
+
+
+@pytest.mark.parametrize("value, name", [(value, name) for value, name in CASES
+                                         if type(getattr(value, name)) in (int, float)
+                                         and not (getattr(value, "boundaries", ()) and name in OF_BOUNDARIES)])
+def test_true_is_no_number(value, name):
+    for true in (True, np.True_, np.array(True)):
+        with pytest.raises(ValueError, match=f"^{name} is "):
+            replace(value, **{name: true})
+
+
+@pytest.mark.parametrize("value, name", [(value, name) for value, name in CASES if type(getattr(value, name)) is bool])
+def test_numpys_truths_are_truths_and_numbers_are_not(value, name):
+    given = getattr(value, name)
+    assert identity(replace(value, **{name: np.bool(given)})) == identity(value)
+    for number in (int(given), np.int64(given), float(given)):
+        with pytest.raises(ValueError, match=f"^{name} is "):
+            replace(value, **{name: number})
+
+
+def test_single_precision_is_another_number():
+    assert Policy(np.float32(0.1)) == Policy(float(np.float32(0.1))) != Policy(0.1)
+
+
+def test_equal_conditions_of_numpys_numbers_have_equal_keys():
+    plain = Condition(neorl.network_d([3]), WaterWorld(n_creeps=3), 100, 2, 5)
+    numpys = Condition(neorl.network_d(np.array([3]), recursion=np.array(-1), scale=np.float64(1)),
+                       WaterWorld(n_creeps=np.int64(3)), np.uint64(100), np.array(2), np.int8(5))
+    assert numpys == plain and numpys.key == plain.key and hash(numpys) == hash(plain)
+
+
+@pytest.mark.parametrize("first", [np.float64(0.123), np.array(0.123)])
+def test_a_kernel_maker_takes_numpys_numbers_for_the_same(first):
+    numpys, plain = (Policy(choose=neorl.softmax(each)) for each in (first, 0.123))
+    assert numpys == plain and identity(numpys) == identity(plain)
+    with pytest.raises(ValueError, match="temperature is True"):
+        neorl.softmax(True)
+
+
+def test_a_kernel_maker_tells_an_integer_from_the_same_number():
+    """One may loop as often as an integer says."""
+    @neorl.kernel_maker
+    def exact(number):
+        def choose(value, stream):
+            return number
+
+        return neorl.kernel(choose)
+
+    assert [exact(each).origin[1] for each in (1, 1.0, np.int32(1))] == [(1,), (1.0,), (1,)]
+    assert exact(1) is exact(np.int32(1)) is not exact(1.0)
+    assert type(exact(1.0).origin[1][0]) is float
+
+
+def numbers(make_int, make_float):
+    """What public functions and methods bring of numbers, each of which has come through one of these."""
+    tank = WaterWorld(n_creeps=make_int(2))
+    agent = neorl.place_cells([make_int(3), make_int(4)], make_float(1.0), make_float(-0.5),
+                              tiled_fraction=make_float(0.5))
+    run = Run(agent, tank, seed=make_int(3), run=make_int(1))
+    paid = run.advance(make_int(200))
+    q = np.zeros((4, 4, 4), np.float32)
+    neorl.learn(q, make_int(0), make_int(1), [make_float(0.5)] * 4, make_float(0.25), make_float(0.5))
+    value = neorl.superpose(q, make_int(0), [make_int(1)], [make_float(2.0)])
+    state = tank.reset(make_int(4))
+    stepped = tank.step(state, make_int(2))
+    learner = Learner(agent, make_int(1), ("green", "red"), seed=make_int(1), size=make_float(2.0), fps=make_int(50))
+    learner.begin(Scene([make_float(0.5), make_float(0.25)], None, [[make_float(1.0), make_float(0.5)]],
+                        np.array([make_int(0)])))
+    axes = [*cartesian("position", (make_float(0), make_float(1)), intervals=make_int(3)),
+            *polar("objects", make_float(1.0))]
+    result = neorl.simulate(agent, tank, steps=make_int(50), runs=make_int(2), seed=make_int(1), threads=make_int(1),
+                            changes=[(make_int(20), agent)], progress=False)
+    shares = result.rate(make_float(0.5), make_float(1.0)), result.hit_rate(make_float(0.5), make_float(1.0))
+    return [agent, paid, q, value, stepped, state.scene.things, learner.act(), learner.world, axes, result.rewards,
+            *shares, run.q(make_int(1)), run.step, NresMap(make_int(5)).encode([make_float(0.5), make_float(0.5)]),
+            Modality("m", axes[:1])]
+
+
+@pytest.mark.parametrize("make_int, make_float", [(np.int64, np.float64), (np.uint8, np.float32), (np.array, np.array)])
+def test_public_functions_take_numpys_numbers(make_int, make_float):
+    for plain, numpys in zip(numbers(int, float), numbers(make_int, make_float), strict=True):
+        np.testing.assert_equal(numpys, plain)
+        assert identity(numpys) == identity(plain)
+
+
+def test_a_world_of_a_users_own_is_read_with_plain_numbers():
+    assert repr(World.from_dict({"is": "Arena", "radius": np.float64(0.25)})) == repr(Arena(radius=0.25))
