@@ -92,7 +92,8 @@ class Batch:
     def _run(self, acts):
         row = execute(self.step_kernel, self.states, self.rules, self.task, self.slots, acts)
         if row >= 0:
-            raise ValueError(f"state of environment {row} is {self.state_of(row)}, allowed are finite numbers")
+            raise ValueError(f"environment {row} came into the state {self.state_of(row)}, or pays what is not finite; "
+                             "allowed are finite numbers")
 
     def state_of(self, row):
         """The state of one environment, views that cannot be written to."""

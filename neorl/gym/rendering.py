@@ -52,21 +52,24 @@ def draw_disc(picture, x, y, radius, colour):
 
 
 class Window:
-    """A window that shows pictures at so many a second."""
+    """A window that shows pictures at so many a second. Pygame has one at a time, which all environments share."""
 
     def __init__(self, fps):
         os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
         self._pygame, self._fps = require("pygame", extra="gym"), fps
-        self._pygame.display.init()
-        self._pygame.display.set_caption("neorl")
-        self._surface = self._pygame.display.set_mode((SIDE, SIDE))
         self._clock = self._pygame.time.Clock()
 
     def show(self, picture):
         """Show a picture, uint8 (500, 500, 3), when its time has come."""
+        display = self._pygame.display
+        if not display.get_init():
+            display.init()
+        if not display.get_surface():
+            display.set_caption("neorl")
+            display.set_mode((SIDE, SIDE))
         self._pygame.event.pump()
-        self._pygame.surfarray.blit_array(self._surface, picture.swapaxes(0, 1))
-        self._pygame.display.flip()
+        self._pygame.surfarray.blit_array(display.get_surface(), picture.swapaxes(0, 1))
+        display.flip()
         self._clock.tick(self._fps)
 
     def close(self):
