@@ -16,9 +16,9 @@ all else is not.
 **Info**: "met", int64 (kinds,), how many things of each kind were met in the step; "restarted", whether the world has
 begun an episode of its own in the step, so that the observation has nothing to do with the one before.
 
-**Seeds**: ``reset(seed=5)`` begins the world of ``neorl.Run(agent, world, seed=5)``, and ``reset(seed=5, options={"run":
-3})`` that of its run 3: the same actions lead to the same states, to the last bit. Without a seed the next episode
-draws on from the same stream of random numbers, as a run does.
+**Seeds**: ``reset(seed=5)`` begins the world of ``neorl.Run(agent, world, seed=5)``, and
+``reset(seed=5, options={"run": 3})`` that of its run 3: the same actions lead to the same states, to the last bit.
+Without a seed the next episode draws on from the same stream of random numbers, as a run does.
 """
 
 from collections.abc import Mapping

@@ -54,8 +54,8 @@ def play(agent, env, scene, *, steps, actions=None, commands=None, seed=0, **sur
     env: a `gymnasium.Env`. An episode that is over is followed by another.
     scene: a function of (observation, info) that returns the `Scene` which the agent perceives.
     steps: how many steps to take, ≥ 0.
-    actions: what the agent can do, an `Actions`; by default as many as the environment's Discrete space has, with pushes
-        of 0, which is all that an agent needs whose nodes' desires are not desires of other nodes.
+    actions: what the agent can do, an `Actions`; by default one for each command, with pushes of 0, which will do
+        unless a desire of the agent's is what a node wants.
     commands: what `env.step` takes for each of the actions, in the order of `Actions.all_names`, idleness last; by
         default the numbers of the Discrete space in their order.
     seed: integer ≥ 0, of the environment and of the agent's random numbers.

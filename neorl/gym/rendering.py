@@ -27,7 +27,8 @@ def frame(world, scene):
             picture[:] = WALL
             draw_disc(picture, 0.5, 0.5, 0.5, FLOOR)
         for left, top, right, bottom in world.obstacles:
-            rows, columns = (slice(round(low * SIDE), round(high * SIDE)) for low, high in ((top, bottom), (left, right)))
+            rows, columns = (slice(round(low * SIDE), round(high * SIDE))
+                             for low, high in ((top, bottom), (left, right)))
             picture[rows, columns] = WALL
     for place, kind in zip(scene.things, scene.kinds):
         if kind >= 0:

@@ -67,10 +67,12 @@ class VectorWorldEnv(vector.VectorEnv):
         """
         options = dict(options or {})
         chosen = self._mask(options.pop("reset_mask", np.ones(self.num_envs, bool)))
-        seeds = seed
-        if not isinstance(seed, list | tuple):
-            seeds = [None if seed is None else checks.integer("seed", seed, at_least=0) + i for i in range(self.num_envs)]
-            super().reset(seed=None if seed is None else int(seed))
+        if isinstance(seed, list | tuple):
+            seeds = seed
+        else:
+            first, _ = checked_seed(seed, options)
+            seeds = [None if seed is None else first + i for i in range(self.num_envs)]
+            super().reset(seed=first)
         if len(seeds) != self.num_envs:
             raise ValueError(f"seed is {seed!r}, allowed are an integer ≥ 0, None, or {self.num_envs} of them")
         checked = [checked_seed(each, options) for each in seeds]

@@ -55,14 +55,15 @@ def test_gymnasium_finds_nothing_to_warn_of(name, rules, mode, monkeypatch):
 def test_an_environment_is_the_world_of_a_run_to_the_bit(world):
     run, env, restarts = Run(WALKER, world, seed=3, run=2), WorldEnv(world, continuing=True), 0
     env.reset(seed=3, options={"run": 2})
-    for _ in range(2_000):
+    for step in range(2_000):
         paid = run.advance(1)
         _, reward, terminated, truncated, info = env.step(run.state.last_event[0])
         assert (reward, terminated, truncated) == (paid, False, False)
         restarts += info["restarted"]
-        theirs = arrays(env.world_state)
-        for name, mine in arrays(run.world_state).items():
-            np.testing.assert_array_equal(mine, theirs[name], name)
+        if info["restarted"] or step % 20 == 0:
+            theirs = arrays(env.world_state)
+            for name, mine in arrays(run.world_state).items():
+                np.testing.assert_array_equal(mine, theirs[name], name)
     assert restarts
 
 
