@@ -9,6 +9,7 @@ The package is built in rooms, and a module imports only from its own room and f
 - `neorl.chapters`: what the notebooks of the book run and draw;
 - `neorl.browser`: the kernels in a page, and the Explorer that runs them there;
 - `neorl.drawing`: figures;
+- `neorl.gym`: worlds as Gymnasium environments, and agents in those of others;
 - `neorl.evidence`: statistics, claims and their rules, readings of the thesis and their calibration;
 - `neorl.experiments`: runs, sweeps, and what is finished kept on disk;
 - `neorl.agents`: agents as data, and the `Learner`;

@@ -1,0 +1,32 @@
+"""neoRL and Gymnasium: the worlds of this package as environments, and its agents in anybody's.
+
+Importing this package registers three environments; before a colon, it is imported by Gymnasium::
+
+    env = gymnasium.make("neorl.gym:neorl/WaterWorld-v0", n_creeps=8)
+    env = gymnasium.make("neorl.gym:neorl/Arena-v0", places=[("platform", 0.65, 0.35)])
+    env = gymnasium.make("neorl.gym:neorl/World-v0", world=Pond())  # any `neorl.World`
+    envs = gymnasium.make_vec("neorl.gym:neorl/WaterWorld-v0", num_envs=64)
+
+They take the fields of the world, and the arguments of `WorldEnv`, or of `VectorWorldEnv` if they are many. An episode
+in WaterWorld is a minute, 3,000 steps, unless `max_episode_steps` says otherwise; one in an arena is a trial. `play`
+lets an agent of neorl live in any Gymnasium environment.
+
+The package needs gymnasium, and pygame to show an environment in a window: the extra `gym`. It uses `neorl.agents`,
+`neorl.worlds` and what lies below them.
+"""
+
+from neorl.extras import require
+from neorl.gym.environment import ArenaEnv, WaterWorldEnv, WorldEnv
+from neorl.gym.playing import Played, play
+from neorl.gym.vector import VectorWorldEnv, vector_arena, vector_waterworld
+
+__all__ = ["ArenaEnv", "Played", "VectorWorldEnv", "WaterWorldEnv", "WorldEnv", "play", "vector_arena",
+           "vector_waterworld"]
+
+MINUTE = 3_000  # steps
+
+register = require("gymnasium", extra="gym").register
+register("neorl/WaterWorld-v0", entry_point="neorl.gym:WaterWorldEnv", max_episode_steps=MINUTE,
+         vector_entry_point="neorl.gym:vector_waterworld")
+register("neorl/Arena-v0", entry_point="neorl.gym:ArenaEnv", vector_entry_point="neorl.gym:vector_arena")
+register("neorl/World-v0", entry_point="neorl.gym:WorldEnv", vector_entry_point="neorl.gym:VectorWorldEnv")

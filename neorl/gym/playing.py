@@ -1,0 +1,106 @@
+"""An agent of neorl in a Gymnasium environment.
+
+The agent perceives a `Scene`, which a function of the user's makes of an observation: where the agent is in some space,
+and where things are in it. Any space in which near means similar will do, such as the position and the velocity of a
+car. Rewards are recorded and not perceived: what the agent wants are its desires.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from neorl import checks
+from neorl.agents.agent import Agent
+from neorl.agents.learner import Learner
+from neorl.core.scene import Actions, Scene
+from neorl.extras import require
+
+gymnasium = require("gymnasium", extra="gym")
+
+
+@dataclass(frozen=True)
+class Played:
+    """What an agent did in an environment, and what it has become.
+
+    learner: the agent with all that it knows, a `neorl.Learner`. rewards: float64 (steps,). terminated, truncated: bool
+    (steps,), whether an episode was over after a step.
+    """
+
+    learner: Learner
+    rewards: np.ndarray
+    terminated: np.ndarray
+    truncated: np.ndarray
+
+    @property
+    def ends(self):
+        """int64 (episodes,): how many steps had been taken when each episode was over, except one that was cut off."""
+        return 1 + np.flatnonzero(self.terminated | self.truncated)
+
+    @property
+    def lengths(self):
+        """int64 (episodes,): the steps of each episode that was over."""
+        return np.diff(self.ends, prepend=0)
+
+    @property
+    def returns(self):
+        """float64 (episodes,): the sum of the rewards of each episode that was over."""
+        return np.diff(np.cumsum(self.rewards)[self.ends - 1], prepend=0.0)
+
+
+def play(agent, env, scene, *, steps, actions=None, commands=None, seed=0, **surroundings):
+    """Let an agent live and learn in a Gymnasium environment, and return what it `Played`.
+
+    agent: an `Agent`, which begins knowing nothing, or a `Learner`, which goes on from what it knows.
+    env: a `gymnasium.Env`. An episode that is over is followed by another.
+    scene: a function of (observation, info) that returns the `Scene` which the agent perceives.
+    steps: how many steps to take, ≥ 0.
+    actions: what the agent can do, an `Actions`; by default one for each command, with pushes of 0, which will do
+        unless a desire of the agent's is what a node wants.
+    commands: what `env.step` takes for each of the actions, in the order of `Actions.all_names`, idleness last; by
+        default the numbers of the Discrete space in their order.
+    seed: integer ≥ 0, of the environment and of the agent's random numbers.
+    surroundings: things, kinds, size and fps, as in `Learner`, for an `Agent`.
+
+    Raises ValueError for anything else, and for scenes that do not fit.
+    """
+    checks.instance("env", env, gymnasium.Env)
+    steps, seed = checks.integer("steps", steps, at_least=0), checks.integer("seed", seed, at_least=0)
+    if not callable(scene):
+        raise ValueError(f"scene is {scene!r}, allowed are functions of (observation, info) that return a Scene")
+    if commands is None and not isinstance(env.action_space, gymnasium.spaces.Discrete):
+        raise ValueError(f"commands is None, allowed with the action space {env.action_space} are the values that "
+                         "env.step takes, one for each action")
+    first = _seen(scene, *env.reset(seed=seed))
+    if commands is None:
+        commands = range(env.action_space.start, env.action_space.start + env.action_space.n)
+    commands = checks.several("commands", commands)
+    learner = _learner(agent, actions, len(commands), len(first.position), seed, surroundings)
+    names = learner.world.actions.all_names
+    if len(commands) != len(names):
+        raise ValueError(f"commands is {commands!r}, allowed are {len(names)}, one for each of {names}")
+    rewards, terminated, truncated = np.zeros(steps), np.zeros(steps, bool), np.zeros(steps, bool)
+    learner.begin(first)
+    for now in range(steps):
+        observation, rewards[now], terminated[now], truncated[now], info = env.step(commands[learner.act()])
+        learner.observe(_seen(scene, observation, info))
+        if (terminated[now] or truncated[now]) and now + 1 < steps:
+            learner.begin(_seen(scene, *env.reset()))
+    return Played(learner, rewards, terminated, truncated)
+
+
+def _learner(agent, actions, n_actions, axes, seed, surroundings):
+    """The `Learner` that `play` is given, or a new one."""
+    if isinstance(agent, Learner):
+        if actions is not None or surroundings:
+            raise ValueError("actions and surroundings are those of the Learner, allowed are none beside it")
+        return agent
+    if not isinstance(agent, Agent):
+        raise ValueError(f"agent is {agent!r}, allowed is an Agent or a Learner")
+    if actions is None:
+        actions = Actions([str(number) for number in range(n_actions)], [(0.0,) * axes] * n_actions)
+    return Learner(agent, actions=actions, seed=seed, **surroundings)
+
+
+def _seen(scene, observation, info):
+    """The scene of an observation."""
+    return checks.instance("scene(observation, info)", scene(observation, info), Scene)

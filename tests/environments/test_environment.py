@@ -1,0 +1,287 @@
+"""A world as a Gymnasium environment: Gymnasium's own checks, and to the bit what runs live in."""
+
+import copy
+import pickle
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+
+from neorl import Agent, Arena, Run, Scene, WaterWorld, World, brownian, kernel
+from neorl.chapters.own_world.pond import Pond
+from neorl.core.kernel import array, arrays, execute, mapped
+from neorl.core.scene import ABSENT, CARDINAL
+from neorl.gym import WorldEnv
+from neorl.gym.observation import observation_space, observe
+from neorl.gym.rendering import AGENT, KINDS, SIDE
+from neorl.worlds.world import Dynamics
+
+TANK = WaterWorld(width=60, n_creeps=2, win_reward=5.0)  # in which episodes end often
+POOL = Arena(places=[("platform", 0.65, 0.35), ("trap", 0.3, 0.4)], pay=[2.0, -1.0], trial_seconds=1.5)
+WALKER = Agent(brownian().nodes)
+
+
+def lived(env, actions, **options):
+    """All that an environment returns."""
+    returned = [env.reset(**options)]
+    for action in actions:
+        returned.append(env.step(action))
+        if returned[-1][2] or returned[-1][3]:
+            returned.append(env.reset())
+    return returned
+
+
+def random_actions(steps, seed=0):
+    return np.random.default_rng(seed).integers(0, 5, steps)
+
+
+@pytest.mark.parametrize("mode", [None, "rgb_array", "human"])
+@pytest.mark.parametrize("name, rules", [("WaterWorld-v0", {}), ("WaterWorld-v0", {"continuing": False, "n_creeps": 1}),
+                                         ("WaterWorld-v0", {"egocentric": False}), ("Arena-v0", {}),
+                                         ("Arena-v0", {"places": []}), ("World-v0", {"world": Pond()})])
+def test_gymnasium_finds_nothing_to_warn_of(name, rules, mode, monkeypatch):
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    env = gymnasium.make(f"neorl.gym:neorl/{name}", render_mode=mode, **rules)
+    check_env(env.unwrapped)
+    env.reset(seed=1)
+    env.step(env.action_space.sample())  # through Gymnasium's passive checker
+    env.close()
+
+
+@pytest.mark.parametrize("world", [TANK, POOL, Pond()], ids=["tank", "pool", "pond"])
+def test_an_environment_is_the_world_of_a_run_to_the_bit(world):
+    run, env, restarts = Run(WALKER, world, seed=3, run=2), WorldEnv(world, continuing=True), 0
+    env.reset(seed=3, options={"run": 2})
+    for step in range(2_000):
+        paid = run.advance(1)
+        _, reward, terminated, truncated, info = env.step(run.state.last_event[0])
+        assert (reward, terminated, truncated) == (paid, False, False)
+        restarts += info["restarted"]
+        if info["restarted"] or step % 20 == 0:
+            theirs = arrays(env.world_state)
+            for name, mine in arrays(run.world_state).items():
+                np.testing.assert_array_equal(mine, theirs[name], name)
+    assert restarts
+
+
+def test_a_seed_is_run_0_of_it_and_without_one_the_stream_goes_on():
+    env, state = WorldEnv(TANK), Run(WALKER, TANK, seed=8).world_state
+    first, _ = env.reset(seed=8)
+    np.testing.assert_array_equal(env.world_state.scene.things, state.scene.things)
+    second, _ = env.reset()
+    execute(TANK.dynamics.reset, state, TANK.rules)
+    np.testing.assert_array_equal(env.world_state.scene.things, state.scene.things)
+    assert (first != second).any()
+    np.testing.assert_array_equal(env.reset(seed=8)[0], first)
+    assert (WorldEnv(TANK).reset()[0] != WorldEnv(TANK).reset()[0]).any()  # which nobody seeds
+
+
+def as_written(world, scene, egocentric):
+    """The observation, from its description."""
+    found = [*scene.position / world.size, *scene.velocity / world.size]
+    seen = [(np.hypot(*(place - scene.position)), (place - egocentric * scene.position) / world.size, kind)
+            for place, kind in zip(scene.things, scene.kinds)]
+    for _, place, kind in sorted(seen, key=lambda each: each[0]) if egocentric else seen:
+        found += [*place, *np.eye(len(world.kinds))[kind]]
+    return np.array(found, np.float32)
+
+
+@pytest.mark.parametrize("egocentric", [True, False])
+@pytest.mark.parametrize("world", [WaterWorld(n_creeps=9), POOL], ids=["tank", "pool"])
+def test_an_observation_is_what_its_description_says(world, egocentric):
+    env = WorldEnv(world, egocentric=egocentric, continuing=True)
+    assert env.observation_space.shape == (4 + 4 * world.things,)
+    env.reset(seed=0)
+    for action in random_actions(500):
+        observation = env.step(action)[0]
+        np.testing.assert_allclose(observation, as_written(world, env.world_state.scene, egocentric), rtol=1e-6,
+                                   atol=1e-12)
+        assert observation in env.observation_space
+    if world is not POOL:
+        assert (observation.max(), observation.min() < 0) == (1.0, egocentric or observation[2:4].min() < 0)
+
+
+def observed(scene, egocentric, size=2.0, n_kinds=2):
+    things, axes = scene.things.shape
+    numbers = np.full(2 * axes + things * (axes + n_kinds), np.nan, np.float32)
+    finite = execute(observe, scene, size, n_kinds, egocentric, np.zeros(things), np.zeros(things, np.int64), numbers)
+    return finite, numbers.tolist()
+
+
+def test_absent_things_are_0_and_what_is_out_of_range_is_clipped():
+    scene = Scene(np.array([1.0, 4.0, 0.5]), np.array([-90.0, 90.0, 1.0]),
+                  np.array([[np.nan] * 3, [2.0, 4.0, -3.0], [1.0, 3.0, 0.5]]), np.array([ABSENT, 1, 0]),
+                  np.zeros(3, np.int64))
+    seen = [0.5, 1.0, 0.25, -10.0, 10.0, 0.5]
+    far, near, absent = [0.5, 0.0, -1.0, 0, 1], [0.0, -0.5, 0.0, 1, 0], [0.0] * 5
+    assert observed(scene, True) == (True, [*seen, *near, *far, *absent])
+    assert observed(scene, False) == (True, [*seen, *absent, 1.0, 1.0, 0.0, 0, 1, 0.5, 1.0, 0.25, 1, 0])
+    for name, index in [("position", 1), ("velocity", 2), ("things", (1, 2))]:
+        broken = mapped(np.copy, scene)
+        getattr(broken, name)[index] = np.nan
+        assert not observed(broken, True)[0] and not observed(broken, False)[0]
+
+
+def test_things_come_by_their_distance_and_equal_ones_by_their_number():
+    rng = np.random.default_rng(0)
+    for things in (0, 1, 2, 3, 10, 100):
+        places = rng.integers(0, 4, (things, 1)).astype(float)  # of which many are equally far
+        scene = Scene(np.zeros(1), np.zeros(1), places, rng.integers(0, 2, things), np.zeros(things, np.int64))
+        kinds = np.array(observed(scene, True, size=8.0)[1][2:]).reshape(-1, 3)[:, 2]
+        np.testing.assert_array_equal(kinds, scene.kinds[np.argsort(places[:, 0], kind="stable")])
+
+
+def test_an_environment_that_is_not_continuing_terminates_with_the_last_green_creep():
+    env, ends = WorldEnv(TANK, continuing=False), 0
+    env.reset(seed=1)
+    for action in random_actions(6_000):
+        _, reward, terminated, truncated, info = env.step(action)
+        assert not truncated and not info["restarted"] and terminated == (reward >= TANK.win_reward - 1)
+        if terminated:
+            assert info["met"][0] >= 1 and not (env.world_state.scene.kinds == 0).any()
+            with pytest.raises(gymnasium.error.ResetNeeded, match="step.. came before reset"):
+                env.step(0)
+            env.reset()
+            ends += 1
+    assert ends > 5
+
+
+def test_a_trial_in_an_arena_terminates_at_a_place_and_is_truncated_when_its_time_is_up():
+    returned = lived(WorldEnv(POOL), random_actions(5_000), seed=0)
+    over = [each for each in returned if len(each) == 5 and (each[2] or each[3])]
+    assert {(terminated, truncated) for _, _, terminated, truncated, _ in over} == {(True, False), (False, True)}
+    for _, reward, terminated, _, info in over:
+        assert terminated == info["met"].any() and reward == info["met"] @ (2.0, -1.0)
+    endless = lived(WorldEnv(Arena(ends=False, trial_seconds=1.0)), random_actions(5_000), seed=0)
+    assert all(not each[2] for each in endless if len(each) == 5)
+    assert sum(each[4]["met"].sum() for each in endless if len(each) == 5) > 0
+
+
+def test_an_episode_of_the_registered_tank_is_a_minute():
+    env = gymnasium.make("neorl/WaterWorld-v0")
+    returned = lived(env, [4] * 3_000, seed=0)
+    assert [each[3] for each in returned[1:3_001]] == [False] * 2_999 + [True]
+    assert env.unwrapped.world == WaterWorld() and env.spec.reward_threshold is None
+
+
+@pytest.mark.parametrize("again", [copy.deepcopy, lambda env: pickle.loads(pickle.dumps(env))], ids=["copy", "pickle"])
+@pytest.mark.parametrize("world", [TANK, POOL, Pond()], ids=["tank", "pool", "pond"])
+def test_a_copy_goes_on_by_itself_to_the_same_bits(world, again):
+    env = WorldEnv(world, continuing=True)
+    lived(env, random_actions(50), seed=0)
+    other, ways = again(env), []
+    for each in (env, other):
+        ways.append([each.step(action)[0] for action in random_actions(100, seed=1)])
+    np.testing.assert_array_equal(*ways)
+
+
+@pytest.mark.parametrize("call, message", [
+    (lambda: WorldEnv(None), "world is None, allowed is a World"),
+    (lambda: WorldEnv(TANK, "ansi"), "render_mode is 'ansi', allowed are None, 'human', 'rgb_array'"),
+    (lambda: WorldEnv(TANK, egocentric=2), "egocentric is 2"), (lambda: WorldEnv(TANK, continuing="no"), "continuing"),
+    (lambda: WorldEnv(TANK).reset(seed=-1), "seed is -1, allowed are integers ≥ 0"),
+    (lambda: WorldEnv(TANK).reset(seed=0.5), "seed is 0.5"),
+    (lambda: WorldEnv(TANK).reset(seed=0, options={"runs": 1}), "options is .*'runs': 1.*, allowed are None"),
+    (lambda: WorldEnv(TANK).reset(options={"run": 1}), "options is .*, allowed are None, and with a seed"),
+    (lambda: WorldEnv(TANK).reset(seed=0, options={"run": -1}), "run is -1"),
+    (lambda: WorldEnv(TANK).reset(options=3), "options is 3"),
+    (lambda: gymnasium.make("neorl/WaterWorld-v0", n_creeps=0), "n_creeps is 0, allowed are integers from 1"),
+])
+def test_bad_arguments_are_refused(call, message):
+    with pytest.raises(ValueError, match=message):
+        call()
+
+
+def test_bad_actions_are_refused_and_steps_before_the_first_reset():
+    env = WorldEnv(TANK, "rgb_array")
+    for call in (lambda: env.step(0), env.render):
+        with pytest.raises(gymnasium.error.ResetNeeded, match="came before reset"):
+            call()
+    env.reset(seed=0)
+    for action in (5, -1, "N", 1.0, None, np.array([1, 2])):
+        with pytest.raises(ValueError, match="action is .*, allowed are integers from 0 to 4"):
+            env.step(action)
+    for action in (np.int64(4), np.array(3), np.uint8(0)):
+        env.step(action)
+
+
+class BrokenState(NamedTuple):
+    scene: Scene
+    stream: array("uint64", 4)
+
+
+class BrokenRules(NamedTuple):
+    dt: float
+
+
+@kernel
+def begin_well(state: BrokenState, rules: BrokenRules) -> None:
+    state.scene.position[0] = 0.5
+
+
+@kernel
+def divide_by_nothing(state: BrokenState, rules: BrokenRules, action: int):
+    state.scene.position[0] /= state.scene.velocity[1]
+    return 0.0, False
+
+
+@dataclass(frozen=True)
+class Broken(World):
+    kinds, actions, things, size, fps = (), CARDINAL, 0, 1.0, 1
+    dynamics, rules = Dynamics(begin_well, divide_by_nothing), BrokenRules(1.0)
+
+
+def test_a_world_that_loses_its_numbers_says_so():
+    env = WorldEnv(Broken())
+    assert env.observation_space == observation_space(Broken(), True)
+    env.reset(seed=0)
+    with pytest.raises(ValueError, match="environment 0 came into the state .*inf, "):
+        env.step(0)
+
+
+def pixel(picture, place):
+    row, column = int(place[1] * SIDE), int(place[0] * SIDE)
+    return tuple(picture[row, column].tolist())
+
+
+def test_a_picture_shows_the_agent_and_the_things_where_they_are():
+    env = gymnasium.make("neorl/WaterWorld-v0", render_mode="rgb_array", n_creeps=6)
+    env.reset(seed=4)
+    picture, scene = env.render(), env.unwrapped.world_state.scene
+    assert picture.shape == (SIDE, SIDE, 3) and picture.dtype == np.uint8
+    assert pixel(picture, scene.position / 250) == AGENT
+    for place, kind in zip(scene.things, scene.kinds):
+        assert pixel(picture, place / 250) in (KINDS[kind], AGENT)
+    assert not (picture == env.render()).all() or (env.step(0), not (picture == env.render()).all())[1]
+
+
+def test_a_picture_of_an_arena_shows_walls_obstacles_and_places():
+    env = WorldEnv(Arena(obstacles=[(0.1, 0.45, 0.3, 0.55)], start=(0.5, 0.6)), "rgb_array")
+    env.reset(seed=0)
+    picture = env.render()
+    colours = [pixel(picture, place) for place in [(0.01, 0.01), (0.2, 0.5), (0.2, 0.6), (0.65, 0.35), (0.5, 0.6)]]
+    wall, obstacle, floor, platform, agent = colours
+    assert wall == obstacle != floor and platform == KINDS[0] and agent == AGENT
+
+
+def test_a_window_follows_every_step(monkeypatch):
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    import pygame
+
+    env = WorldEnv(WaterWorld(fps=1_000), "human")
+    env.reset(seed=0)
+    for action in random_actions(20):
+        env.step(action)
+    shown = pygame.surfarray.array3d(pygame.display.get_surface()).swapaxes(0, 1)
+    other = WorldEnv(WaterWorld(fps=1_000), "rgb_array")
+    lived(other, random_actions(20), seed=0)
+    np.testing.assert_array_equal(shown, other.render())
+    twin = copy.deepcopy(env)
+    env.close()
+    assert not pygame.display.get_init()
+    twin.step(0)
+    twin.close()
+    env.close()

@@ -1,0 +1,146 @@
+"""Agents of neorl in Gymnasium environments: to the bit a run where it is the same, and good at a task of others'."""
+
+import gymnasium
+import numpy as np
+import pytest
+
+from neorl import (CARDINAL, Actions, Agent, Arena, Axis, Desire, Learner, Learning, Modality, Node, Place, Policy,
+                   Run, Scene, WaterWorld, network_d, place_cells)
+from neorl.core.kernel import arrays
+from neorl.core.stream import new_stream
+from neorl.gym import WorldEnv, play
+
+TANK = WaterWorld(width=60, n_creeps=2, win_reward=5.0)
+MOVES = Actions(("up", "right", "down", "left"), ((0, -1), (1, 0), (0, 1), (-1, 0)))
+GRID = Modality("place cell", [Axis("position", along=0, intervals=12), Axis("position", along=1, intervals=4)])
+LEARNING = Learning(learning_rate=0.2, discount=0.9, bootstrap=True, memory=3.0, memory_unit="cells",
+                    memory_value="discounted")
+GOAL = Desire(Place(11.5 / 12, 3.5 / 4), "PC", 1.0)
+
+
+def square(observation, info):
+    """Where the agent of CliffWalking is."""
+    row, column = divmod(observation, 12)
+    return Scene(((column + 0.5) / 12, (row + 0.5) / 4))
+
+
+@pytest.mark.parametrize("world", [TANK, Arena(trial_seconds=2.0)], ids=["tank", "arena"])
+def test_an_agent_in_an_environment_of_ours_lives_a_run_to_the_bit(world):
+    agent = network_d([2, 5]) if world is TANK else Agent(place_cells([5]).nodes, [Desire("platform", "PC", 1.0)])
+    run = Run(agent, world, seed=4)
+    learner = Learner(agent, world.things, world.kinds, world.actions, size=world.size, fps=world.fps)
+    learner._state.stream[:] = new_stream(np.random.SeedSequence(4, spawn_key=(0,)).spawn(1)[0])
+    env = WorldEnv(world, continuing=False)
+    played = play(learner, env, lambda observation, info: env.world_state.scene, steps=5_000, seed=4)
+    paid = run.advance(5_000)
+    assert played.learner is learner and played.rewards.sum() == paid and len(played.returns) > 0
+    theirs = arrays(run.state)
+    for name, mine in arrays(learner.state).items():
+        np.testing.assert_array_equal(mine, theirs[name], name)
+
+
+def test_an_agent_learns_to_walk_beside_a_cliff():
+    env = gymnasium.make("CliffWalking-v1")
+    agent = Agent([Node("PC", GRID, [12])], [GOAL], LEARNING, Policy(0.05))
+    played = play(agent, env, square, steps=10_000, actions=MOVES)
+    aimless = play(Agent(agent.nodes, learning=LEARNING), env, square, steps=10_000, actions=MOVES)
+    assert played.rewards[-2_000:].sum() / 2 > -3_000 > -6_000 > aimless.rewards[-2_000:].sum()
+    assert played.returns.max() > -20  # the shortest way has 13 steps
+    assert played.terminated.sum() == len(played.returns) == len(played.lengths) and not played.truncated.any()
+    np.testing.assert_array_equal(played.returns, [each.sum() for each in np.split(played.rewards, played.ends)[:-1]])
+
+
+def test_it_goes_on_from_what_it_knows_and_from_a_desire_that_comes_later():
+    env = gymnasium.make("CliffWalking-v1")
+    latent = play(Agent([Node("PC", GRID, [12])], learning=LEARNING), env, square, steps=20_000, actions=MOVES)
+    latent.learner.change(Agent(latent.learner.agent.nodes, [GOAL], LEARNING, Policy(0.05)))
+    played = play(latent.learner, env, square, steps=1_000)
+    assert played.learner is latent.learner and len(played.lengths) > 20 and played.lengths[0] < 60
+
+
+class Cart(gymnasium.Env):
+    """A cart on a line that is pushed by a number; it has arrived at the right."""
+
+    observation_space, action_space = gymnasium.spaces.Box(0, 1, (1,)), gymnasium.spaces.Box(-1, 1, (1,))
+
+    def reset(self, *, seed=None, options=None):
+        super().reset(seed=seed)
+        self.x, self.clock = 0.15, 0
+        return np.array([self.x]), {}
+
+    def step(self, action):
+        self.x, self.clock = min(max(self.x + 0.1 * action[0], 0.0), 1.0), self.clock + 1
+        return np.array([self.x]), -1.0, self.x > 0.9, self.clock == 100, {}
+
+
+LINE = Agent([Node("PC", Modality("place cell", [Axis("position")]), [10])], [Desire(Place(0.95), "PC", 1.0)],
+             LEARNING, Policy(0.1))
+
+
+COMMANDS = {"actions": Actions(("left", "right"), ((-1,), (1,)), "none"),
+            "commands": [np.array([-1.0]), np.array([1.0]), np.array([0.0])]}
+
+
+def along(observation, info):
+    return Scene(observation)
+
+
+def test_commands_are_what_the_environment_takes_for_actions():
+    played = play(LINE, Cart(), along, steps=5_000, **COMMANDS)
+    assert played.lengths[-50:].mean() < 15 and played.learner.world.actions == COMMANDS["actions"]
+    mirrored = play(LINE, Cart(), along, steps=1_000, **COMMANDS | {"commands": [[0.0], [0.0], [0.0]]})
+    assert mirrored.truncated.sum() == 10 and not mirrored.terminated.any()
+
+
+def test_actions_have_the_numbers_of_the_environment_unless_told_otherwise():
+    unnamed = play(Agent([Node("PC", GRID, [12])]), gymnasium.make("CliffWalking-v1"), square, steps=100)
+    assert unnamed.learner.world.actions == Actions(("0", "1", "2", "3"), ((0, 0),) * 4)
+    counted = gymnasium.wrappers.TransformAction(gymnasium.make("CliffWalking-v1"), lambda action: int(action) - 3,
+                                                 gymnasium.spaces.Discrete(4, start=3))
+    named = play(Agent([Node("PC", GRID, [12])]), counted, square, steps=100, actions=MOVES)
+    np.testing.assert_array_equal(named.rewards, unnamed.rewards)
+
+
+def test_an_episode_that_is_cut_off_counts_in_no_total():
+    still = COMMANDS | {"commands": [[0.0]] * 3}
+    played = play(LINE, Cart(), along, steps=0, **still)
+    assert (played.returns.size, played.lengths.size, played.ends.size) == (0, 0, 0)
+    played = play(LINE, Cart(), along, steps=250, **still)
+    assert played.truncated.nonzero()[0].tolist() == [99, 199] and played.ends.tolist() == [100, 200]
+    assert played.returns.tolist() == [-100.0, -100.0] and played.lengths.tolist() == [100, 100]
+
+
+def test_the_same_seed_is_the_same_life():
+    lives = []
+    for seed in (1, 1, 2):
+        played = play(place_cells([3]), gymnasium.make("neorl.gym:neorl/WaterWorld-v0"), tank_scene, steps=500,
+                      seed=seed, actions=CARDINAL, things=3, kinds=("green", "red"))
+        lives.append(played.learner.state.stream.tolist())
+    assert lives[0] == lives[1] != lives[2]
+
+
+def tank_scene(observation, info):
+    """What neorl's agents perceive, of the observation that others learn from."""
+    things = observation[4:].reshape(3, 4)
+    return Scene(observation[:2], observation[2:4], observation[:2] + things[:, :2], things[:, 3].astype(int))
+
+
+@pytest.mark.parametrize("changes, message", [
+    ({"agent": None}, "agent is None, allowed is an Agent or a Learner"), ({"env": 3}, "env is 3, allowed is an Env"),
+    ({"scene": None}, "scene is None, allowed are functions of"), ({"steps": -1}, "steps is -1"),
+    ({"seed": -1}, "seed is -1"), ({"scene": lambda observation, info: observation}, r"scene\(observation, info\) is"),
+    ({"scene": lambda observation, info: Scene((np.nan, 0.0))}, "allowed are finite numbers"),
+    ({"scene": lambda observation, info: Scene((0.0,))}, "place cells need a world of 2 axes"),
+    ({"actions": 4}, "actions is 4, allowed is an Actions"),
+    ({"actions": Actions(("a", "b"), ((0, 0), (0, 0)))}, "commands is .*, allowed are 2, one for each of"),
+    ({"commands": 3}, "commands is 3, allowed are lists and tuples"), ({"commands": []}, "names is "),
+    ({"env": Cart()}, "commands is None, allowed with the action space Box.* are the values"),
+    ({"agent": Learner(place_cells([3]), 1, ("green", "red")), "things": 2}, "are those of the Learner, allowed are"),
+    ({"agent": Learner(place_cells([3]), 1, ("green", "red")), "actions": MOVES}, "are those of the Learner"),
+    ({"kinds": ("a", "a")}, "kinds is .*, allowed is each name once"), ({"fps": 0}, "fps is 0"),
+])
+def test_bad_arguments_are_refused(changes, message):
+    arguments = {"agent": Agent([Node("PC", GRID, [12])]), "env": gymnasium.make("CliffWalking-v1"), "scene": square,
+                 "steps": 1} | changes
+    with pytest.raises(ValueError, match=message):
+        play(**arguments)

@@ -1,0 +1,161 @@
+"""Many environments in one step: to the bit what Gymnasium makes of single ones, in each of its modes."""
+
+import copy
+import hashlib
+import json
+import os
+import pickle
+import subprocess
+import sys
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import data_equivalence
+from gymnasium.vector import AutoresetMode, SyncVectorEnv
+from gymnasium.wrappers import TimeLimit
+
+from neorl import Arena, WaterWorld
+from neorl.chapters.own_world.pond import Pond
+from neorl.gym import VectorWorldEnv, WorldEnv
+
+WORLDS = {"tank": WaterWorld(width=60, n_creeps=2, win_reward=5.0), "pond": Pond(),
+          "pool": Arena(places=[("platform", 0.65, 0.35), ("trap", 0.3, 0.4)], pay=[2.0, -1.0], trial_seconds=1.5)}
+MODES = list(AutoresetMode)
+
+
+def both(world, n, mode, limit, **choices):
+    """Our environments, and single ones that Gymnasium steps one after the other."""
+    def single():
+        env = WorldEnv(world, **choices)
+        return env if limit is None else TimeLimit(env, limit)
+
+    return (VectorWorldEnv(world, n, limit, mode, **choices), SyncVectorEnv([single] * n, autoreset_mode=mode))
+
+
+@pytest.mark.parametrize("mode", MODES, ids=[mode.value for mode in MODES])
+@pytest.mark.parametrize("continuing, limit", [(True, 37), (False, None), (False, 37)])
+@pytest.mark.parametrize("name", WORLDS)
+def test_they_return_what_single_environments_do_to_the_bit(name, continuing, limit, mode):
+    n, rng, over, restarted = 5, np.random.default_rng(0), np.zeros(5, bool), 0
+    ours, theirs = both(WORLDS[name], n, mode, limit, continuing=continuing)
+    assert ours.observation_space == theirs.observation_space and ours.action_space == theirs.action_space
+    assert ours.metadata["autoreset_mode"] == theirs.metadata["autoreset_mode"] == mode
+    returned = [envs.reset(seed=7, options={"run": 1}) for envs in (ours, theirs)]
+    assert data_equivalence(*returned, exact=True)
+    for _ in range(1_000):
+        if mode is AutoresetMode.DISABLED and over.any():
+            returned = [envs.reset(options={"reset_mask": over.copy()}) for envs in (ours, theirs)]
+            assert data_equivalence(*returned, exact=True)
+        actions = rng.integers(0, 5, n)
+        returned = [envs.step(actions) for envs in (ours, theirs)]
+        assert data_equivalence(*returned, exact=True)
+        over, restarted = returned[0][2] | returned[0][3], restarted + returned[0][4]["restarted"].sum()
+        assert returned[0][0] in ours.observation_space
+    assert restarted > 0 or mode is AutoresetMode.DISABLED
+
+
+def test_seeds_are_those_of_single_environments():
+    ours, theirs = both(WORLDS["tank"], 3, "NextStep", None)
+    assert data_equivalence(ours.reset(seed=[5, 9, 5]), theirs.reset(seed=[5, 9, 5]), exact=True)
+    assert data_equivalence(ours.reset(seed=[None, 9, None]), theirs.reset(seed=[None, 9, None]), exact=True)
+    assert data_equivalence(ours.reset(), theirs.reset(), exact=True)
+    observations, _ = VectorWorldEnv(WORLDS["tank"], 3).reset()
+    assert len({each.tobytes() for each in observations}) == 3
+
+
+def test_gymnasium_makes_them_by_their_names():
+    for mode in (None, "vector_entry_point"):
+        envs = gymnasium.make_vec("neorl.gym:neorl/WaterWorld-v0", num_envs=64, vectorization_mode=mode, n_creeps=4)
+        assert type(envs) is VectorWorldEnv and envs.num_envs == 64 and envs.world == WaterWorld(n_creeps=4)
+    envs.reset(seed=0)
+    for step in range(3_000):
+        _, _, _, truncated, _ = envs.step(np.full(64, 4))
+    assert truncated.all()  # after a minute
+    pools = gymnasium.make_vec("neorl/Arena-v0", num_envs=2, motion="steps", render_mode="rgb_array")
+    assert pools.world == Arena(motion="steps")
+    pools.reset(seed=0)
+    single = gymnasium.make("neorl/Arena-v0", motion="steps", render_mode="rgb_array")
+    single.reset(seed=1)
+    np.testing.assert_array_equal(pools.render()[1], single.render())
+    assert gymnasium.make_vec("neorl/World-v0", num_envs=2, world=Pond()).world == Pond()
+    singles = gymnasium.make_vec("neorl/WaterWorld-v0", num_envs=2, vectorization_mode="sync")
+    assert data_equivalence(singles.reset(seed=3), VectorWorldEnv(WaterWorld(), 2).reset(seed=3), exact=True)
+
+
+@pytest.mark.parametrize("again", [copy.deepcopy, lambda env: pickle.loads(pickle.dumps(env))], ids=["copy", "pickle"])
+def test_a_copy_goes_on_by_itself_to_the_same_bits(again):
+    envs = VectorWorldEnv(WORLDS["tank"], 3)
+    envs.reset(seed=0)
+    other, ways = again(envs), []
+    for each in (envs, other):
+        ways.append([each.step(np.full(3, step % 5))[0] for step in range(100)])
+    np.testing.assert_array_equal(*ways)
+
+
+def test_what_was_returned_is_not_written_to():
+    envs = VectorWorldEnv(WORLDS["tank"], 3, 2, "SameStep")
+    kept = [envs.reset(seed=0)] + [envs.step(np.zeros(3, int)) for _ in range(3)]
+    copies = copy.deepcopy(kept)
+    for _ in range(5):
+        envs.step(np.ones(3, int))
+    envs.reset(seed=1)
+    assert data_equivalence(kept, copies, exact=True)
+    with pytest.raises(ValueError, match="read-only"):
+        envs.world_states[0].scene.position[0] = 3.0
+
+
+@pytest.mark.parametrize("call, message", [
+    (lambda: VectorWorldEnv(None), "world is None, allowed is a World"),
+    (lambda: VectorWorldEnv(WaterWorld(), 0), "num_envs is 0, allowed are integers ≥ 1"),
+    (lambda: VectorWorldEnv(WaterWorld(), 2**40), "num_envs is 1099511627776, allowed are up to 16777216 of 16"),
+    (lambda: VectorWorldEnv(WaterWorld(), 2, 0), "max_episode_steps is 0"),
+    (lambda: VectorWorldEnv(WaterWorld(), autoreset_mode="never"), "'never' is not a valid AutoresetMode"),
+    (lambda: VectorWorldEnv(WaterWorld(), render_mode="human"), "render_mode is 'human', allowed are None"),
+    (lambda: VectorWorldEnv(Pond(), 2).reset(seed=[1]), r"seed is \[1\], allowed are an integer ≥ 0, None, or 2 of"),
+    (lambda: VectorWorldEnv(Pond(), 2).reset(seed=[1, -1]), "seed is -1"),
+    (lambda: VectorWorldEnv(Pond(), 2).reset(seed="a"), "seed is 'a'"),
+    (lambda: VectorWorldEnv(Pond(), 2).reset(options={"run": 2}), "options is .*, allowed are None, and with a seed"),
+    (lambda: VectorWorldEnv(Pond(), 2).reset(options={"reset_mask": [True, True]}), "reset_mask is .*, allowed is an"),
+    (lambda: VectorWorldEnv(Pond(), 2).reset(options={"reset_mask": np.zeros(2, bool)}), "not all False"),
+])
+def test_bad_arguments_are_refused(call, message):
+    with pytest.raises(ValueError, match=message):
+        call()
+
+
+def test_bad_actions_are_refused_and_steps_outside_of_episodes():
+    envs = VectorWorldEnv(Pond(), 2, 1, "Disabled", "rgb_array")
+    for call in (lambda: envs.step([0, 0]), envs.render):
+        with pytest.raises(gymnasium.error.ResetNeeded, match="came before reset"):
+            call()
+    envs.reset(options={"reset_mask": np.array([True, False])})
+    with pytest.raises(gymnasium.error.ResetNeeded, match="came before reset"):
+        envs.step([0, 0])
+    envs.reset(seed=0)
+    for actions in ([0, 5], [0, -1], [0], [[0, 1]], [0.0, 1.0], "NN", None, 3, [2**64 - 1, 0]):
+        with pytest.raises(ValueError, match=r"actions is .*, allowed are integers \(2,\) from 0 to 4"):
+            envs.step(actions)
+    envs.step(np.array([4, 0], np.uint8))
+    with pytest.raises(gymnasium.error.ResetNeeded, match="came before reset"):
+        envs.step([0, 0])
+
+
+def digest(name):
+    envs, rng = VectorWorldEnv(WORLDS[name], 3, 50, continuing=False), np.random.default_rng(0)
+    digest = hashlib.sha256(envs.reset(seed=0)[0].tobytes())
+    for _ in range(200):
+        returned = envs.step(rng.integers(0, 5, 3))
+        for each in (*returned[:4], returned[4]["met"]):
+            digest.update(each.tobytes())
+    return digest.hexdigest()
+
+
+def test_they_are_the_same_to_the_bit_without_the_compiler():
+    printed = subprocess.run([sys.executable, __file__], capture_output=True, check=True, env={
+        **os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": os.pathsep.join(sys.path)}).stdout
+    assert json.loads(printed) == {name: digest(name) for name in WORLDS}
+
+
+if __name__ == "__main__":
+    print(json.dumps({name: digest(name) for name in WORLDS}))
