@@ -121,7 +121,8 @@ def draw_curves(xs, curves, xlabel="", ylabel="", ax=None):
     """
     xs, checked = np.asarray(xs, float), {}
     for name, curve in by_name("curves", curves).items():
-        checked[name] = xs, np.asarray(curve, float)
+        curve = np.asarray(curve, float)
+        checked[name] = xs, curve
         if xs.ndim != 1 or curve.ndim != 2 or not curve.size or curve.shape[1] != len(xs):
             raise ValueError(f"curves[{name!r}] has the shape {curve.shape}, allowed are (runs, points) over xs, which "
                              f"has the shape {xs.shape}")
