@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from neorl import checks
-from neorl.drawing.boards import MARGIN, as_board, check_run_in_plane, draw_walls, draw_world
+from neorl.drawing.boards import MARGIN, as_board, check_run_in_plane, draw_world
 from neorl.drawing.style import INK
 from neorl.files import write_whole
 
@@ -51,19 +51,18 @@ def animate(run, path, seconds=10.0, fps=25, size=360, background="white"):
 
 
 def _pictures(run, frames, fps, size, background):
-    """The frames one by one, in the colours of the first: `PIL.Image.Image`."""
-    figure = Figure(figsize=(INCHES, INCHES * (1 + HEAD)), dpi=size / INCHES, facecolor=background)
+    """The frames one by one: `PIL.Image.Image`."""
+    figure = Figure(figsize=(INCHES, INCHES * (1 + HEAD)), dpi=size / INCHES, facecolor=background,
+                    layout="none")
     canvas = FigureCanvasAgg(figure)
     axes = figure.add_axes((0, 0, 1, 1 / (1 + HEAD)))
-    begin, paid, first = run.step, 0.0, None
+    begin, paid = run.step, 0.0
     for frame in range(frames):
         paid += run.advance(begin + round(frame * run.world.fps / fps) - run.step)
         axes.clear()
         as_board(axes)
-        draw_walls(run.world, draw_world(run.world, run.world_state, axes))
+        draw_world(run.world, run.world_state, axes)
         axes.text(0, -MARGIN, f"{run.step / run.world.fps:.1f} s", color=INK, va="center")
         axes.text(1, -MARGIN, f"reward {paid:+.0f}".replace("-", "−"), color=INK, va="center", ha="right")
         canvas.draw()
-        picture = Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3])
-        first = first or picture.quantize(64, dither=Image.Dither.NONE)
-        yield picture.quantize(palette=first, dither=Image.Dither.NONE) if frame else first
+        yield Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3])

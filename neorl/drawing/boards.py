@@ -1,6 +1,7 @@
 """Boards from above: the unit square with an agent and things in it, y downward, as in every world of the package.
 
 Each function draws into `ax`, or into a new board, and returns the axes. A board is drawn in units of the world's size.
+Axes whose limits are not set yet become a board.
 """
 
 import numpy as np
@@ -50,13 +51,15 @@ def as_board(ax, low=0.0):
 
 
 def board_or_new(ax, low=0.0):
-    """`ax`, or if it is None a new board."""
-    return new_board(low=low) if ax is None else axes_or_new(ax)
+    """`ax`, or if it is None a new board. Axes whose limits are not set yet become a board."""
+    if ax is None:
+        return new_board(low=low)
+    return as_board(ax, low) if axes_or_new(ax).get_autoscalex_on() else ax
 
 
 def draw_world(world, state, ax=None):
-    """A world of two axes from above: a `neorl.WaterWorld` as `draw_tank` does, an `Arena` with its walls and places,
-    any other as its agent and things.
+    """A world of two axes from above, within its walls: a `neorl.WaterWorld` as `draw_tank` has it, any other with its
+    agent, the agent's velocity over the coming half second, and its things.
 
     state: of that world. Raises ValueError if it is not, and for a world of other than two axes.
 
@@ -66,12 +69,10 @@ def draw_world(world, state, ax=None):
     if checks.instance("world", world, World).actions.axes != 2:
         raise ValueError(f"world has {world.actions.axes} axes, allowed are worlds of two")
     world.check_state(state)
+    axes = draw_walls(world, ax)
     if isinstance(world, WaterWorld):
-        return draw_tank(world, state, ax)
-    axes, radius = board_or_new(ax), RADIUS
-    if isinstance(world, Arena):
-        radius = world.radius
-        draw_walls(world, axes)
+        return draw_tank(world, state, axes)
+    radius = world.radius if isinstance(world, Arena) else RADIUS
     for place, kind in zip(state.scene.things / world.size, state.scene.kinds):
         if kind >= 0:
             axes.add_patch(Circle(place, radius, facecolor=(GREEN, *CURVES)[kind % 8], alpha=0.75, edgecolor="none"))

@@ -105,10 +105,11 @@ def draw_network(agent, ax=None):
         (axes,) = draw_networks({"": agent})
         return axes
     drawing = _laid_out(checks.instance("agent", agent, Agent))
-    box = axes_or_new(ax).get_window_extent()
-    high = 2 * HEAD + drawing.height
-    em = min(LARGEST, 72 / ax.figure.dpi * min(box.width / (drawing.width + 1), box.height / high))
-    _draw_into(ax, em, drawing, "", 72 / ax.figure.dpi * box.width / em, 72 / ax.figure.dpi * box.height / em)
+    axes_or_new(ax).axis("off")
+    ax.figure.canvas.figure.draw_without_rendering()  # so that the axes have their size
+    wide, high = 72 / ax.figure.dpi * ax.get_window_extent().size
+    em = min(LARGEST, wide / (drawing.width + 1), high / (drawing.height + 2 * HEAD))
+    _draw_into(ax, em, drawing, "", wide / em, high / em, head=(high / em - drawing.height) / 2)
     return ax
 
 
@@ -141,8 +142,8 @@ def draw_networks(agents, figure=None):
     return np.array(panels)
 
 
-def _draw_into(axes, em, drawing, name, width, height, head=HEAD):
-    """Draw a network into the middle of axes that are so many ems wide and high."""
+def _draw_into(axes, em, drawing, name, width, height, head):
+    """Draw a network into the middle of axes that are so many ems wide and high, `head` of them above it."""
     margin = (width - drawing.width) / 2
     axes.set(xlim=(-margin, drawing.width + margin), ylim=(height - head, -head))
     axes.axis("off")

@@ -7,7 +7,8 @@ cell was active. Nothing is smoothed, and places where the agent never was are e
 from typing import NamedTuple
 
 import numpy as np
-from matplotlib import pyplot as plt
+from matplotlib.colors import Normalize, PowerNorm
+from matplotlib.patches import Rectangle
 
 from neorl import checks
 from neorl.drawing.boards import as_board, check_run_in_plane
@@ -76,7 +77,9 @@ def rate_map(track, cell=None, bins=20):
 def draw_rate_map(track, cell=None, bins=20, ax=None):
     """Draw a `rate_map` over the board, with a scale beside it, into `ax` or a new figure; returns the axes.
 
-    track, cell, bins: as `rate_map` takes them.
+    track, cell, bins: as `rate_map` takes them. Seconds are coloured by their square root, so that places where the
+    agent rested do not darken all others. In WaterWorld a strip in the east and the south is empty: the agent's place
+    is its upper left corner.
 
     >>> run = neorl.Run(neorl.object_vector_cells([3]), neorl.WaterWorld())
     >>> seen = drawing.track(run, seconds=60)
@@ -85,9 +88,10 @@ def draw_rate_map(track, cell=None, bins=20, ax=None):
     rates = rate_map(track, cell, bins)
     axes = as_board(axes_or_new(ax))
     shown = np.where(rates > 0, rates, np.nan) if cell is None else rates
-    image = axes.imshow(shown, extent=(0, 1, 1, 0), cmap="viridis", vmin=0, interpolation="nearest")
+    norm = PowerNorm(0.5, vmin=0) if cell is None else Normalize(vmin=0)
+    image = axes.imshow(shown, extent=(0, 1, 1, 0), cmap="viridis", norm=norm, interpolation="nearest")
     axes.set(xlim=(-0.02, 1.02), ylim=(1.02, -0.02))
-    axes.add_patch(plt.Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
+    axes.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
     scale = axes.figure.colorbar(image, ax=axes, shrink=0.8,
                                  label="seconds" if cell is None else f"share of time with cell {cell} active")
     scale.outline.set_visible(False)

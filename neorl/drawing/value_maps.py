@@ -18,7 +18,7 @@ from neorl.core.scene import CARDINAL
 from neorl.drawing.boards import board_or_new, check_run_in_plane
 from neorl.drawing.style import AGENT, GREEN, INK, RED
 
-OPACITY = 0.6  # of the cell of the greatest value
+OPACITY = 0.45  # of the cell of the greatest value
 
 
 class _Fields(NamedTuple):
@@ -26,7 +26,7 @@ class _Fields(NamedTuple):
 
     patches: list[Patch]
     middles: np.ndarray  # float64 (cells, 2)
-    breadth: float  # of the narrowest, where its middle is
+    breadth: np.ndarray  # float64 (cells, 1): room for an arrow
     low: float  # where the board begins that they lie on
 
 
@@ -137,8 +137,8 @@ def _rectangles(nres_map):
     rows, columns = np.divmod(np.arange(nres_map.cells), nres_map.intervals[0])
     begin, end = (np.stack([x[columns + i], y[rows + i]], axis=1) for i in (0, 1))
     sides = end - begin
-    return _Fields([Rectangle(corner, *each) for corner, each in zip(begin, sides)], begin + sides / 2, sides.min(),
-                   low)
+    patches = [Rectangle(corner, *each) for corner, each in zip(begin, sides)]
+    return _Fields(patches, begin + sides / 2, np.full((len(sides), 1), sides.min()), low)
 
 
 def _sectors(nres_map):
@@ -151,4 +151,4 @@ def _sectors(nres_map):
                for hole, r, at in zip(inner, outer, angle)]
     middle = (inner + outer) / 2
     middles = middle[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
-    return _Fields(patches, middles, min((outer - inner).min(), 2 * half * middle.min()), -1)
+    return _Fields(patches, middles, np.minimum(outer - inner, 2 * half * middle)[:, None], -1)
