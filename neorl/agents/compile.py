@@ -83,8 +83,8 @@ def _check_meeting(agent, world):
             raise ValueError(f"desire {desire}: allowed in this world are places of {n_axes} coordinates")
         if isinstance(desire.source, Place) and isinstance(world, WaterWorld | Arena):
             if not all(0 <= coordinate <= 1 for coordinate in desire.source.coordinates):
-                raise ValueError(f"desire {desire}: the place is not on the board, allowed are coordinates from 0 to 1, "
-                                 "in units of its width")
+                raise ValueError(f"desire {desire}: the place is not on the board, allowed are coordinates from 0 to "
+                                 "1, in units of its width")
     if agent.policy.when_indifferent == "no-op" and world.actions.idle is None:
         raise ValueError("when_indifferent is 'no-op', allowed in a world without idleness is 'random'")
 

@@ -1,7 +1,7 @@
 """Figures of agents, networks, boards and curves, on matplotlib alone: ``pip install 'neorl-companion[plot]'``.
 
-    from neorl import drawing
-    axes = drawing.draw_proficiency({"N7": result})
+>>> from neorl import drawing
+>>> axes = drawing.draw_world(neorl.WaterWorld(), neorl.WaterWorld().reset(seed=0))
 
 A figure of one panel is drawn into ``ax``, or into a new figure if that is None, and its axes are returned. A figure of
 several panels is drawn into ``figure``, which may be one of `matplotlib.figure.Figure.subfigures`, and an array of axes
