@@ -46,9 +46,6 @@ __all__ = ["Actions", "Agent", "Arena", "Axis", "CARDINAL", "Condition", "Desire
 
 def __getattr__(name):
     if name == "Explorer":  # imported when asked for, since the rest of the package does without anywidget
-        try:
-            from neorl.browser.explorer import Explorer
-        except ModuleNotFoundError as error:
-            raise ImportError(f"neorl.Explorer needs {error.name}: pip install {error.name}") from error
+        from neorl.browser.explorer import Explorer
         return Explorer
     raise AttributeError(f"module 'neorl' has no attribute {name!r}")

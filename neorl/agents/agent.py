@@ -179,15 +179,17 @@ class Node(checks.Final):
 class Place(checks.Final):
     """A place in the world, an element of interest that stays where it is: `Place(x, y)` in the plane.
 
-    coordinates: a finite number for each axis of the world, in units of its size; in WaterWorld, board widths from the
-        upper left corner.
+    coordinates: a finite number for each axis of the world, in units of its size; in WaterWorld and the arena, board
+        widths from the upper left corner, 0 … 1.
 
-    Raises ValueError for anything else.
+    Raises ValueError for anything else; for a place that is not on the board, as soon as the world is known.
     """
 
     coordinates: tuple[float, ...]
 
     def __init__(self, *coordinates):
+        if not coordinates:
+            raise ValueError("coordinates is (), allowed are a number for each axis of the world")
         checks.assign(self, coordinates=tuple(checks.real("coordinates", each) for each in coordinates))
 
     @classmethod

@@ -12,6 +12,8 @@ from neorl.core.constants import Constants, features, no_credit
 from neorl.core.kernel import execute, new_tuple
 from neorl.core.modality import as_turns, axis_parameters, firsts, integers
 from neorl.core.parameters import Parameters, derive
+from neorl.worlds.arena import Arena
+from neorl.worlds.waterworld import WaterWorld
 
 
 def compiled(agent, world):
@@ -79,6 +81,10 @@ def _check_meeting(agent, world):
                              f"world's things, allowed are {', '.join(map(repr, kinds)) or 'none'}")
         if isinstance(desire.source, Place) and len(desire.source.coordinates) != n_axes:
             raise ValueError(f"desire {desire}: allowed in this world are places of {n_axes} coordinates")
+        if isinstance(desire.source, Place) and isinstance(world, WaterWorld | Arena):
+            if not all(0 <= coordinate <= 1 for coordinate in desire.source.coordinates):
+                raise ValueError(f"desire {desire}: the place is not on the board, allowed are coordinates from 0 to "
+                                 "1, in units of its width")
     if agent.policy.when_indifferent == "no-op" and world.actions.idle is None:
         raise ValueError("when_indifferent is 'no-op', allowed in a world without idleness is 'random'")
 

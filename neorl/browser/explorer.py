@@ -14,8 +14,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-import traitlets
-from anywidget import AnyWidget
 
 from neorl import checks
 from neorl.agents import papers
@@ -30,8 +28,12 @@ from neorl.evidence.reading import networks
 from neorl.evidence.statistics import tolerance_band
 from neorl.experiments.run import bin_steps
 from neorl.experiments.simulation import Result
+from neorl.extras import require
 from neorl.worlds.arena import Arena
 from neorl.worlds.waterworld import WaterWorld
+
+AnyWidget = require("anywidget", extra="wasm").AnyWidget
+traitlets = require("traitlets", extra="wasm")
 
 CALIBRATED = {  # the defaults of the package
     "Place cells": papers.place_cells(), "Object-vector cells": papers.object_vector_cells(),

@@ -4,11 +4,9 @@ It computes nothing: what it shows is in its state, and `replay.js` draws it as 
 """
 
 import numpy as np
-import traitlets
-from anywidget import AnyWidget
 
 from neorl import checks
-from neorl.browser.explorer import _text
+from neorl.browser.explorer import AnyWidget, _text, traitlets
 from neorl.experiments.recording import Recording
 
 FRAMES_A_SECOND = 25

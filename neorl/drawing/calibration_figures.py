@@ -1,12 +1,16 @@
 """The figures of the calibration: what remains of each choice and of pairs, which claims go together, how the search
-came nearer, and the thesis's figures as the readings that remain predict them."""
+came nearer, and the thesis's figures as the readings that remain predict them.
+
+A figure of one panel is drawn into `ax`, one of several into `figure`; by default into a new one. Each function returns
+its axes.
+"""
 
 import numpy as np
-from matplotlib import pyplot as plt
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from neorl.drawing.figures import AGENT, CURVES, INK, RED, name_ends
 from neorl.drawing.multiverse_figures import SHADES
+from neorl.drawing.style import AGENT, CURVES, INK, RED, axes_or_new, figure_or_new, name_ends, width_of_figures
 from neorl.evidence.calibration_results import binned, marginal, progress
 from neorl.evidence.claims import FINAL
 from neorl.evidence.curves import binned_rate, low_passed
@@ -21,7 +25,7 @@ MODALITIES = {"place": ("place", "all"), "objects": ("objects", "all"), "both": 
 NETWORKS = {name: ("network", name) for name in "ABCD"}
 
 
-def draw_marginals(remaining, nearest=None, names=tuple(WITHIN), columns=2):
+def draw_marginals(remaining, nearest=None, names=tuple(WITHIN), columns=2, figure=None):
     """Each choice before (outlines) and after (bars): the shares of its levels.
 
     remaining: a `Posterior`, the bars. nearest: another, whose shares are drawn as points.
@@ -29,9 +33,8 @@ def draw_marginals(remaining, nearest=None, names=tuple(WITHIN), columns=2):
     each = [marginal(name, remaining) for name in names]
     rows = [each[i : i + columns] for i in range(0, len(each), columns)]
     heights = [max(len(found.levels) for found in row) for row in rows]
-    width, _ = plt.rcParams["figure.figsize"]
-    figure, grid = plt.subplots(len(rows), columns, figsize=(width, sum(ROW * high + 0.42 for high in heights)),
-                                height_ratios=heights, squeeze=False)
+    figure = figure_or_new(figure, (width_of_figures(), sum(ROW * high + 0.42 for high in heights)))
+    grid = figure.subplots(len(rows), columns, height_ratios=heights, squeeze=False)
     for axes, name, found in zip(grid.flat, names, each):
         at = np.arange(len(found.levels))
         axes.barh(at, found.posterior, 0.8, color=AGENT, alpha=0.75)
@@ -48,18 +51,19 @@ def draw_marginals(remaining, nearest=None, names=tuple(WITHIN), columns=2):
     handles = [Patch(facecolor="none", edgecolor=INK), Patch(color=AGENT, alpha=0.75)]
     words = ["before", "after"]
     if nearest:
-        handles.append(plt.Line2D([], [], linestyle="none", marker="o", markersize=3, color=RED))
+        handles.append(Line2D([], [], linestyle="none", marker="o", markersize=3, color=RED))
         words.append("nearest readings")
     figure.legend(handles, words, loc="outside upper center", ncols=3, frameon=False, fontsize=8)
+    return grid
 
 
-def draw_pairs(remaining, names):
+def draw_pairs(remaining, names, figure=None):
     """Pairs of choices: how the posterior is shared out among the levels of two, and on the diagonal of one.
 
     remaining: a `Posterior`. names: of the choices, at least two.
     """
-    width, _ = plt.rcParams["figure.figsize"]
-    figure, grid = plt.subplots(len(names), len(names), figsize=(1.15 * width, 1.15 * width))
+    size = 1.15 * width_of_figures()
+    grid = figure_or_new(figure, (size, size)).subplots(len(names), len(names), squeeze=False)
     cut = [binned(name, remaining.readings) for name in names]
     for i, (below, _, down) in enumerate(cut):
         for j, (beside, _, across) in enumerate(cut):
@@ -83,15 +87,15 @@ def draw_pairs(remaining, names):
                                 rotation=90)
                 axes.set_xlabel(WITHIN[names[j]].label, fontsize=7)
             axes.tick_params(length=0)
+    return grid
 
 
-def draw_together(together):
+def draw_together(together, ax=None):
     """Which claims hold together: % of the readings with both measured in which both hold, on the diagonal each alone.
 
     together: a `Together`. A cross marks pairs that never do, although some would be expected by chance.
     """
-    width, _ = plt.rcParams["figure.figsize"]
-    axes = plt.figure(figsize=(width, width)).add_subplot()
+    axes = axes_or_new(ax, figsize=(width_of_figures(), width_of_figures()))
     share = np.divide(together.both, together.rows, out=np.zeros(together.both.shape), where=together.rows > 0)
     never = set(together.never)
     lower = np.where(np.tri(len(share), dtype=bool), share, np.nan)
@@ -106,11 +110,12 @@ def draw_together(together):
     axes.set_yticks(range(len(share)), together.claims, fontsize=8)
     axes.tick_params(length=0)
     axes.spines[:].set_visible(False)
+    return axes
 
 
-def draw_distances(table):
+def draw_distances(table, ax=None):
     """How near readings come to all targets, wave by wave: those with all groups measured, and the nearest so far."""
-    axes = plt.figure().add_subplot()
+    axes = axes_or_new(ax)
     complete = [row for row in table if row.complete]
     shift = np.random.default_rng(0).uniform(-0.3, 0.3, len(complete))  # apart, to be seen
     axes.plot([row.wave for row in complete] + shift, [row.distance for row in complete], linestyle="none", marker="o",
@@ -120,48 +125,58 @@ def draw_distances(table):
     axes.set(xlabel="wave", ylabel="distance to all targets", ylim=(0, None))
     axes.xaxis.get_major_locator().set_params(integer=True)
     name_ends(axes, [(list(nearest.values())[-1], "nearest", RED)])
+    return axes
 
 
-def draw_single(lives):
+def draw_single(lives, ax=None):
     """Figure 4.4, top: accumulated reward of single maps. lives: see `draw_modalities`."""
     def accumulated(result):
         edges = np.linspace(0, result.rewards.shape[1] - 1, POINTS).astype(int)
         return result.rewards.mean(axis=0).cumsum(dtype=float)[edges]
 
     curves = {name: [accumulated(life[key]) for life in lives] for name, key in SINGLE.items()}
-    _draw_curves(curves, lives[0]["single", 10].seconds).set_ylabel("accumulated reward")
+    axes = _draw_curves(curves, _minutes(lives, SINGLE), ax)
+    axes.set_ylabel("accumulated reward")
+    return axes
 
 
-def draw_layers(lives):
+def draw_layers(lives, ax=None):
     """Figure 4.4, bottom: three maps, each of them alone, and their sum. lives: see `draw_modalities`.
 
     A dashed line marks 3.5 times what N7 earns finally under the first reading.
     """
     curves = _smooth(lives, LAYERS)
     curves["sum"] = [sum(alone) for alone in zip(*(curves[name] for name in ("N3", "N7", "N23")))]
-    axes = _draw_curves(curves, lives[0]["layers"].seconds, [*CURVES[:len(LAYERS)], INK])
-    _mark_level(axes, 3.5 * lives[0]["layer", 7].rate(*FINAL).mean(), "3.5 × N7", INK)
+    axes = _draw_curves(curves, _minutes(lives, LAYERS), ax, [*CURVES[:len(LAYERS)], INK])
+    return _mark_level(axes, 3.5 * lives[0]["layer", 7].rate(*FINAL).mean(), "3.5 × N7", INK)
 
 
-def draw_modalities(lives):
+def draw_modalities(lives, ax=None):
     """Figure 4.5: place cells, object-vector cells, both; the thesis's levels and minutes are dashed and dotted.
 
     lives: {key of the condition: `Result`} of each reading, the first of which is drawn thick.
     """
-    seconds = lives[0]["both"].seconds
-    axes = _draw_curves(_smooth(lives, MODALITIES), seconds)
+    lengths = _minutes(lives, MODALITIES)
+    axes = _draw_curves(_smooth(lives, MODALITIES), lengths, ax)
     for level, minutes, colour in zip(LEVELS, MINUTES, (CURVES[0], CURVES[2])):
         _mark_level(axes, level, f"{level:.2f}", colour, at=0.45)
-        if minutes <= seconds / 60:
+        if minutes <= max(lengths):
             axes.axvline(minutes, color=colour, linewidth=0.9, linestyle=":")
             axes.annotate(f"{minutes} min", (minutes, 0.99), xycoords=("data", "axes fraction"), color=colour,
                           fontsize=8, va="top")
+    return axes
 
 
-def draw_networks(lives):
+def draw_networks(lives, ax=None):
     """Figure 4.7e: networks A to D. lives: see `draw_modalities`. A dashed line marks 1.5 times C's final level."""
-    axes = _draw_curves(_smooth(lives, NETWORKS), lives[0]["network", "C"].seconds)
-    _mark_level(axes, 1.5 * lives[0]["network", "C"].rate(*FINAL).mean(), "1.5 × C", INK)
+    axes = _draw_curves(_smooth(lives, NETWORKS), _minutes(lives, NETWORKS), ax)
+    return _mark_level(axes, 1.5 * lives[0]["network", "C"].rate(*FINAL).mean(), "1.5 × C", INK)
+
+
+def _minutes(lives, keys):
+    """How many minutes the runs of each reading are in one figure, for all of `keys` the same."""
+    key, *_ = keys.values()
+    return [life[key].seconds / 60 for life in lives]
 
 
 def _smooth(lives, keys):
@@ -170,18 +185,17 @@ def _smooth(lives, keys):
             for name, key in keys.items()}
 
 
-def _draw_curves(curves, seconds, colours=CURVES):
-    """Axes with curves {name: [(POINTS,) of each reading]}, the first of each thick."""
-    axes = plt.figure().add_subplot()
-    minutes = (np.arange(POINTS) + 0.5) / POINTS * seconds / 60
-    ends = []
+def _draw_curves(curves, lengths, ax, colours=CURVES):
+    """Axes with curves {name: [(POINTS,) of each reading]}, the first of each thick. lengths: in minutes, of each."""
+    axes, ends = axes_or_new(ax), []
+    middles = (np.arange(POINTS) + 0.5) / POINTS
     for (name, (first, *others)), colour in zip(curves.items(), colours):
-        for other in others:
-            axes.plot(minutes, other, color=colour, linewidth=0.6, alpha=0.45, zorder=2)
-        axes.plot(minutes, first, color=colour, linewidth=2.0, zorder=3)
+        for other, minutes in zip(others, lengths[1:]):
+            axes.plot(middles * minutes, other, color=colour, linewidth=0.6, alpha=0.45, zorder=2)
+        axes.plot(middles * lengths[0], first, color=colour, linewidth=2.0, zorder=3)
         ends.append((first[-POINTS // 10:].mean(), name, colour))
     axes.axhline(0, color=INK, linewidth=0.7, zorder=1)
-    axes.set(xlabel="simulated minutes", ylabel="reward per second", xlim=(0, seconds / 60), ylim=axes.get_ylim())
+    axes.set(xlabel="simulated minutes", ylabel="reward per second", xlim=(0, max(lengths)), ylim=axes.get_ylim())
     name_ends(axes, ends)
     return axes
 
@@ -192,3 +206,4 @@ def _mark_level(axes, level, words, colour, at=0.01):
     axes.set_ylim(low, max(high, 1.05 * level))
     axes.axhline(level, color=colour, linewidth=0.9, linestyle="--")
     axes.annotate(words, (at, level), xycoords=("axes fraction", "data"), color=colour, fontsize=8, va="bottom")
+    return axes

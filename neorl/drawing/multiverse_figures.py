@@ -4,12 +4,11 @@ hold, and which choices matter."""
 from textwrap import fill
 
 import numpy as np
-from matplotlib import pyplot as plt
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
-from neorl.drawing.figures import AGENT, INK, RED
+from neorl.drawing.style import AGENT, INK, RED, axes_or_new, figure_or_new, width_of_figures
 from neorl.evidence.multiverse import outcome
 from neorl.evidence.priors import WITHIN
 from neorl.evidence.statements import STATEMENTS
@@ -19,20 +18,20 @@ SHADES = LinearSegmentedColormap.from_list("shades", [AGENT + "10", AGENT + "ff"
 ROW = 0.2  # inches
 
 
-def draw_specification(readings, judged, name, choices=WITHIN):
+def draw_specification(readings, judged, name, choices=WITHIN, figure=None):
     """The specification curve of a claim: its number under every reading in order of size, and the choices below.
 
     readings: [Reading, …]. judged: {name: `Claim`} for each of them. choices: what is shown of them, as `design` takes
     it. Where a number is not finite, or off the middle 95 % of them, it stands at the edge.
+    figure: a figure or a part of one to fill, by default a new one. Returns the axes of the curve and of the choices.
     """
     claims = [each[name] for each in judged]
     here = np.array([claim.here for claim in claims])
     order = np.argsort(np.nan_to_num(here[:, 0], nan=-np.inf), kind="stable")
     shown = {key: choice for key, choice in choices.items() if name[0] in choice.papers}
-    width, _ = plt.rcParams["figure.figsize"]
     below = ROW * len(shown)
-    figure, (curve, strips) = plt.subplots(2, 1, figsize=(width, 2.4 + below), sharex=True,
-                                           height_ratios=(1.9, below))
+    figure = figure_or_new(figure, (width_of_figures(), 2.4 + below))
+    curve, strips = panels = figure.subplots(2, 1, sharex=True, height_ratios=(1.9, below))
     low, high = _limits(here[:, 0], STATEMENTS[name].borders)
     at = np.arange(len(order))
     value, bottom, top = np.clip(np.nan_to_num(here[order], nan=low, posinf=high, neginf=low), low, high).T
@@ -58,6 +57,7 @@ def draw_specification(readings, judged, name, choices=WITHIN):
     for axes in (strips, ends):
         axes.tick_params(length=0)
         axes.spines[:].set_visible(False)
+    return panels
 
 
 def _limits(values, borders):
@@ -68,15 +68,15 @@ def _limits(values, borders):
     return (low, high) if low < high else (low - 0.5, high + 0.5)
 
 
-def draw_standing(record, names):
+def draw_standing(record, names, ax=None):
     """The verdicts of claims, and the share of readings that they hold under: record as `neorl.evidence.report.load`
     has it.
 
     names: of the claims, from the top. Bars are short runs: what is undecided comes after what holds, in another
     colour. Points are runs as long as the papers', where there are any.
+    Returns the axes, `ax` or those of a new figure.
     """
-    width, _ = plt.rcParams["figure.figsize"]
-    axes = plt.figure(figsize=(width, 1.3 * ROW * len(names) + 0.7)).add_subplot()
+    axes = axes_or_new(ax, figsize=(width_of_figures(), 1.3 * ROW * len(names) + 0.7))
     for row, name in enumerate(names):
         share = record["shares"].get(name)
         if share:
@@ -97,15 +97,15 @@ def draw_standing(record, names):
     handles.append(Line2D([], [], color=INK, marker="D", markersize=5, linestyle="none"))
     axes.legend(handles, ["holds", "undecided", "agrees, in long runs"], frameon=False, fontsize=9, ncols=3,
                 labelcolor=INK, loc="lower left", bbox_to_anchor=(0, 1.0), borderpad=0)
+    return axes
 
 
-def draw_importance(importance, choices=WITHIN):
+def draw_importance(importance, choices=WITHIN, ax=None):
     """Which choices matter for which claim: {name of the claim: {name of the choice: importance}}, areas of discs.
 
-    choices: what was varied, as `design` takes it.
+    choices: what was varied, as `design` takes it. Returns the axes, `ax` or those of a new figure.
     """
-    width, _ = plt.rcParams["figure.figsize"]
-    figure, axes = plt.subplots(figsize=(width, ROW * 1.25 * len(choices) + 0.5))
+    axes = axes_or_new(ax, figsize=(width_of_figures(), ROW * 1.25 * len(choices) + 0.5))
     keys = list(choices)
     for column, shares in enumerate(importance.values()):
         for key, share in shares.items():
@@ -118,3 +118,4 @@ def draw_importance(importance, choices=WITHIN):
     axes.grid(color=INK, alpha=0.2, linewidth=0.5)
     axes.set_axisbelow(True)
     axes.spines[:].set_visible(False)
+    return axes

@@ -8,14 +8,16 @@ from dataclasses import dataclass
 from textwrap import wrap
 from typing import NamedTuple
 
-from matplotlib import pyplot as plt
+import numpy as np
 from matplotlib.font_manager import FontProperties
 from matplotlib.patches import Circle, FancyArrowPatch, FancyBboxPatch
 from matplotlib.path import Path
 from matplotlib.textpath import TextPath
 
-from neorl.agents.agent import Desire, Place
-from neorl.drawing.figures import AGENT, INK, desire_colour
+from neorl import checks
+from neorl.agents.agent import Agent, Desire, Place
+from neorl.drawing.boards import desire_colour
+from neorl.drawing.style import AGENT, INK, axes_or_new, by_name, figure_or_new, width_of_figures
 
 LARGEST = 11  # points an em
 SMALL = 0.92  # of an em: all letters but those of names
@@ -25,6 +27,7 @@ ARROW = 1.7  # what an arrow needs beside its label
 RADIUS = 0.65  # of an element
 CORNER = 0.45
 Q_WIDTH = 1.7
+HEAD = 0.4  # above a network, and below it
 
 
 @dataclass
@@ -89,30 +92,63 @@ class _Drawing(NamedTuple):
         return max(box.bottom for box in self.boxes.values())
 
 
-def draw_network(agent):
+def draw_network(agent, ax=None):
     """An agent as a network: nodes with their maps, desires with their valences, and the gains of nodes in its value.
 
-    A desire without a number has the sum of the valences that its vector comes from; "green: Σ w" tells which they are.
+    A desire without a number has the sum of the valences that its vector comes from; "green: Σ w" says which they are.
+    Returns the axes, `ax` or those of a new figure; in axes of the user's own the letters are as large as fits.
+    Raises ValueError unless it is a `neorl.Agent`.
+
+    >>> axes = drawing.draw_network(neorl.network_d())
     """
-    draw_networks({"": agent})
+    if ax is None:
+        (axes,) = draw_networks({"": agent})
+        return axes
+    drawing = _laid_out(checks.instance("agent", agent, Agent))
+    axes_or_new(ax).axis("off")
+    ax.figure.canvas.figure.draw_without_rendering()  # so that the axes have their size
+    wide, high = 72 / ax.figure.dpi * ax.get_window_extent().size
+    em = min(LARGEST, wide / (drawing.width + 1), high / (drawing.height + 2 * HEAD))
+    _draw_into(ax, em, drawing, "", wide / em, high / em, head=(high / em - drawing.height) / 2)
+    return ax
 
 
-def draw_networks(agents):
-    """Networks {name: agent}, one below the other, all in letters of one size."""
+def draw_networks(agents, figure=None):
+    """Networks {name: agent}, one below the other, all in letters of one size.
+
+    figure: a matplotlib figure or a part of one, which they fill; by default a new one. Returns an array of axes, one
+    for each. Raises ValueError for anything else.
+
+    >>> axes = drawing.draw_networks({"C": neorl.network_c(), "D": neorl.network_d()})
+    """
+    for name, agent in by_name("agents", agents).items():
+        checks.instance(f"agents[{name!r}]", agent, Agent)
     drawings = [_laid_out(agent) for agent in agents.values()]
-    head = 2.0 if any(agents) else 0.4
+    head = 2.0 if any(agents) else HEAD
     width = max(drawing.width for drawing in drawings)
-    heights = [head + 0.4 + drawing.height for drawing in drawings]
-    inches = plt.rcParams["figure.figsize"][0]
+    heights = [head + HEAD + drawing.height for drawing in drawings]
+    inches = width_of_figures()
     em = min(LARGEST, 72 * inches / (width + 1))
-    figure = plt.figure(figsize=(inches, em * sum(heights) / 72), layout="none")
-    margin = (72 * inches / em - width) / 2
+    if figure is not None:
+        box = figure_or_new(figure, None).bbox
+        inches = box.width / figure.dpi
+        em = min(LARGEST, 72 * inches / (width + 1), 72 / figure.dpi * box.height / sum(heights))
+    whole = figure_or_new(figure, (inches, em * sum(heights) / 72), layout="none")
+    panels = []
     for i, (name, drawing) in enumerate(zip(agents, drawings)):
-        axes = figure.add_axes((0, sum(heights[i + 1 :]) / sum(heights), 1, heights[i] / sum(heights)))
-        axes.set(xlim=(-margin, width + margin), ylim=(heights[i] - head, -head))
-        axes.axis("off")
-        _write(axes, em, 0, -1.1, name, ha="left", weight="bold")
-        _draw(axes, em, drawing)
+        axes = whole.add_axes((0, sum(heights[i + 1 :]) / sum(heights), 1, heights[i] / sum(heights)))
+        _draw_into(axes, em, drawing, name, 72 * inches / em, heights[i], head)
+        panels.append(axes)
+    return np.array(panels)
+
+
+def _draw_into(axes, em, drawing, name, width, height, head):
+    """Draw a network into the middle of axes that are so many ems wide and high, `head` of them above it."""
+    margin = (width - drawing.width) / 2
+    axes.set(xlim=(-margin, drawing.width + margin), ylim=(height - head, -head))
+    axes.axis("off")
+    _write(axes, em, 0, -1.1, name, ha="left", weight="bold")
+    _draw(axes, em, drawing)
 
 
 def _laid_out(agent):

@@ -4,10 +4,9 @@ The thesis's numbers are in grey and carry their value; what was found has a col
 """
 
 import numpy as np
-from matplotlib import pyplot as plt
 
 from neorl import checks
-from neorl.drawing.figures import CURVES, INK, name_ends
+from neorl.drawing.style import CURVES, INK, axes_or_new, by_name, name_ends, width_of_figures
 
 MARKERS = "osD^vP*"  # of readings, one for each colour
 ROW = 0.62  # inches
@@ -16,16 +15,18 @@ REACH = 0.5  # of the range of the numbers, beyond which intervals are cut off
 SMALL = 9  # points
 
 
-def draw_against_thesis(thesis, readings, xlabel=""):
+def draw_against_thesis(thesis, readings, xlabel="", ax=None):
     """Numbers of the thesis, each with what was found instead: a row for each, with dots and 95 % intervals.
 
     thesis: {label: number}, all in one unit, that of `xlabel`. readings: {name: {label: Estimate}}, with the same
     labels, at most 7; an estimate without bounds (NaN) is a dot alone. An interval that reaches far beyond all numbers
-    leaves the picture. Returns the axes.
+    leaves the picture. Returns the axes, `ax` or those of a new figure.
     Raises ValueError for no labels, for labels that differ, and for more readings.
+
+    >>> from neorl.evidence.statistics import Estimate
+    >>> axes = drawing.draw_against_thesis({"both": 0.55}, {"calibrated": {"both": Estimate(0.5, 0.4, 0.6)}})
     """
-    if not thesis:
-        raise ValueError("thesis is {}, allowed are one or more numbers by label")
+    by_name("thesis", thesis)
     if len(readings) > len(CURVES):
         raise ValueError(f"readings has {len(readings)}, allowed are at most {len(CURVES)}")
     for name, found in readings.items():
@@ -33,8 +34,7 @@ def draw_against_thesis(thesis, readings, xlabel=""):
             raise ValueError(f"readings[{name!r}] has {', '.join(found)}, allowed are the labels of thesis: "
                              f"{', '.join(thesis)}")
     rows = np.arange(len(thesis))
-    width, _ = plt.rcParams["figure.figsize"]
-    axes = plt.figure(figsize=(width, 1.1 + ROW * len(rows))).add_subplot()
+    axes = axes_or_new(ax, figsize=(width_of_figures(), 1.1 + ROW * len(rows)))
     numbers = [*thesis.values()]
     axes.vlines(numbers, rows - 0.36, rows + 0.36, color=INK, linewidth=2.2)
     for row, number in zip(rows, numbers):
@@ -58,8 +58,11 @@ def draw_against_thesis(thesis, readings, xlabel=""):
 def mark_levels(axes, levels):
     """Draw levels of the thesis into a figure of curves, as dashed lines with their names: levels {name: height}.
 
-    The axes reach as far as the levels, and names at the ends of curves move apart again.
+    The axes reach as far as the levels, and names at the ends of curves move apart again. Returns the axes.
     Raises ValueError for a height that is not finite.
+
+    >>> axes = drawing.draw_curves([0, 1], {"here": np.array([[0.1, 0.5]])})
+    >>> axes = drawing.mark_levels(axes, {"thesis": 0.55})
     """
     heights = [checks.real(f"levels[{name!r}]", height) for name, height in levels.items()]
     bottom, top = axes.get_ylim()
@@ -74,3 +77,4 @@ def mark_levels(axes, levels):
     for text in names:
         text.remove()
     name_ends(axes, [(text.xy[1], text.get_text(), text.get_color()) for text in names])
+    return axes

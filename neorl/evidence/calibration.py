@@ -27,13 +27,13 @@ from dataclasses import replace
 
 import numpy as np
 from scipy.stats import qmc
-from sklearn.ensemble import RandomForestRegressor
 
 from neorl import checks
 from neorl.evidence import calibration_table
 from neorl.evidence.calibration_table import Row
 from neorl.evidence.calibration_targets import GROUPS, TARGETS
 from neorl.evidence.priors import TO_THE_LETTER, WITHIN
+from neorl.extras import require
 
 RUNS, STEPS = 2, 600_000  # of a reading: the papers' own lengths
 DESIGN, IN_FULL = 512, 48  # readings in wave 0, a power of two, and how many of them are run in every group
@@ -151,7 +151,8 @@ class Emulator:
                 found = np.array([[row.statistics[name] for name in members.targets] for row in rows])
                 scaled = [_clipped(TARGETS[name], found[:, i, 0]) / TARGETS[name].scale
                           for i, name in enumerate(members.targets)]
-                forest = RandomForestRegressor(TREES, min_samples_leaf=LEAF, max_features=0.5, random_state=seed)
+                forest = require("sklearn.ensemble", extra="book").RandomForestRegressor(
+                    TREES, min_samples_leaf=LEAF, max_features=0.5, random_state=seed)
                 self.forests[group] = forest.fit(features([row.reading for row in rows]), np.transpose(scaled))
                 self.noise[group] = np.median(found[:, :, 1], axis=0)
 

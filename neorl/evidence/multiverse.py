@@ -15,13 +15,11 @@ from typing import NamedTuple
 import numpy as np
 from scipy import stats
 from scipy.stats import qmc
-from sklearn.ensemble import RandomForestRegressor
-from sklearn.inspection import permutation_importance
-from sklearn.model_selection import KFold
 
 from neorl import checks
 from neorl.evidence.priors import TO_THE_LETTER, WITHIN
 from neorl.evidence.statistics import Estimate, difference, estimate
+from neorl.extras import require
 
 PARTS = 5  # into which a prior without levels is cut; the middle one holds the reading to the letter
 
@@ -115,9 +113,11 @@ def importance(readings, judged, name, choices=WITHIN, seed=0):
     places = np.array([[choices[key].place(getattr(reading, key)) for key in chosen] for reading in readings])
     ranks = stats.rankdata([claims[name].here.value for claims in judged]) / len(judged)
     lost, explained = [], []
-    for learned, unseen in KFold(min(4, len(readings) // 2), shuffle=True, random_state=seed).split(places):
-        forest = RandomForestRegressor(50, random_state=seed).fit(places[learned], ranks[learned])
-        found = permutation_importance(forest, places[unseen], ranks[unseen], n_repeats=3, random_state=seed)
+    ensemble, inspection, selection = (require(f"sklearn.{each}", extra="book")
+                                       for each in ("ensemble", "inspection", "model_selection"))
+    for learned, unseen in selection.KFold(min(4, len(readings) // 2), shuffle=True, random_state=seed).split(places):
+        forest = ensemble.RandomForestRegressor(50, random_state=seed).fit(places[learned], ranks[learned])
+        found = inspection.permutation_importance(forest, places[unseen], ranks[unseen], n_repeats=3, random_state=seed)
         lost.append(found.importances_mean)
         explained.append(forest.score(places[unseen], ranks[unseen]))
     return dict(zip(chosen, np.mean(lost, axis=0))), float(np.mean(explained))

@@ -29,6 +29,7 @@ PAPERS = (place_cells, brownian, object_vector_cells, multimodal, network_a, net
     (lambda: Desire("red", "PC", np.nan), "valence is nan"),
     (lambda: Desire("PC", "OVC", "much"), "valence is 'much'"),
     (lambda: Place(0.5, float("nan")), "coordinates is nan, allowed are finite numbers"),
+    (lambda: Place(), r"coordinates is \(\), allowed are a number for each axis"),
     (lambda: Desire(0.5, "PC", 1.0), "source is 0.5, allowed are lists and tuples"),
     (lambda: Desire((0.5, np.nan), "PC", 1.0), "source is nan, allowed are finite numbers"),
     (lambda: Desire("PC", "OVC", of="green"), "of is 'green', allowed are lists and tuples"),
@@ -127,6 +128,7 @@ def test_a_network_that_cannot_be_evaluated_is_refused(desires, message):
     (PC, [Desire("blue", "PC", 1.0)], "'blue' → 'PC': 'blue' is neither a node .* nor a kind .* are 'green', 'red'"),
     (PC, [Desire(Place(0.5), "PC", 1.0)], r"desire Place\(0.5,\) → 'PC': allowed .* are places of 2 coordinates"),
     (PC, [Desire(Place(0.5, 0.5, 0.5), "PC", 1.0)], "allowed in this world are places of 2 coordinates"),
+    (PC, [Desire(Place(9, 9), "PC", 1.0)], r"Place\(9.0, 9.0\) → 'PC': the place is not on the board, .* from 0 to 1"),
     (Node("LVC", replace(LANDMARK_VECTOR_CELL, landmarks=((0.1, 0.2, 0.3),)), (3,)), [],
      "landmark-vector cells need a world of 3 axes or more, this one has 2"),
 ])

@@ -76,9 +76,17 @@ def test_a_notebook_has_one_cell_of_typed_parameters(cells):
 
 def test_every_figure_has_alt_text_and_a_caption(cells):
     for cell in cells:
-        if cell.cell_type == "code" and re.search(r"figures\.(draw|new)_", cell.source):
+        if cell.cell_type == "code" and re.search(r"(figures|drawing)\.(draw|new)_", cell.source):
             assert len(cell.metadata["mystnb"]["image"]["alt"]) > 40
             assert len(cell.metadata["mystnb"]["figure"]["caption"]) > 40
+
+
+def test_a_cell_that_ends_with_a_drawing_puts_out_nothing_but_the_figure(cells):
+    for cell in cells:
+        if cell.cell_type == "code" and cell.source:
+            last = ast.get_source_segment(cell.source, ast.parse(cell.source).body[-1])
+            if re.match(r"(drawing|figures|multiverse_figures)\.(draw|mark)_", last):
+                assert cell.source.endswith(";"), "the axes that it returns would be put out"
 
 
 def labels(page):

@@ -9,7 +9,7 @@ from neorl.chapters.chapter_3 import ensembles, hybrid_reward_figures
 from neorl.chapters.chapter_3.ensembles import (CHOOSERS, DYNA, LEARNERS, ROOMS, GridMaze, best_reward,
                                                       run_ensemble)
 from neorl.core.kernel import execute
-from neorl.drawing.figures import CURVES, INK
+from neorl.drawing.style import CURVES, INK
 from neorl.evidence.statistics import estimate
 
 

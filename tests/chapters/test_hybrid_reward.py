@@ -12,7 +12,7 @@ from neorl.chapters.chapter_3.hybrid_reward import KINDS, Game, Learner, play, s
 from neorl.chapters.shared.grid import Grid
 from neorl.core.kernel import execute
 from neorl.core.stream import new_stream
-from neorl.drawing.figures import CURVES
+from neorl.drawing.style import CURVES
 from neorl.evidence.statistics import probability_of_improvement
 
 JUNCTION = Grid(("o.....o", "###.###", "###.###", "###o###"))

@@ -8,7 +8,7 @@ from neorl.chapters.chapter_2 import psychology_figures
 from neorl.chapters.chapter_2.neuron import (REST, Neuron, action_potential, efficacy, firing_rate, gate_rates,
                                              gates_at_rest, integrate, peak, pulses_at_threshold, synaptic_current)
 from neorl.chapters.shared.grid import Grid
-from neorl.drawing import figures
+from neorl.drawing.style import LOW_PANEL, name_ends
 
 
 def test_an_axon_that_is_left_alone_stays_at_rest():
@@ -128,7 +128,7 @@ def test_the_four_parts_are_drawn_over_one_time():
 
 def test_names_beside_a_low_panel_keep_apart():
     axes = plt.figure().add_subplot(ylim=(0, 10))
-    figures.name_ends(axes, [(5.0, "a", "red"), (5.1, "b", "blue"), (0.0, "c", "green")], figures.LOW_PANEL)
+    name_ends(axes, [(5.0, "a", "red"), (5.1, "b", "blue"), (0.0, "c", "green")], LOW_PANEL)
     heights = {text.get_text(): text.xy[1] for text in axes.texts}
     assert heights["c"] == 0.0 and heights["b"] - heights["a"] == pytest.approx(1.7)
 

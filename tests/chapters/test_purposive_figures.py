@@ -8,13 +8,12 @@ from neorl.chapters.chapter_4 import potentials, purposive_figures
 from neorl.chapters.chapter_4.realtime import Pace
 from neorl.chapters.chapter_4.walks import expected_squared_displacement, walk
 from neorl.chapters.shared.grid import Grid
-from neorl.drawing.figures import CURVES, use_style
+from neorl.drawing.style import CURVES, use_style
 from neorl.evidence.statistics import Estimate
 
 
 @pytest.fixture(autouse=True)
-def style(monkeypatch):
-    monkeypatch.setattr("neorl.drawing.figures.set_matplotlib_formats", lambda _: None)
+def style():
     with plt.rc_context():
         use_style()
         yield

@@ -7,7 +7,7 @@ from matplotlib.colors import to_hex
 
 from neorl import NresMap, Result, WaterWorld, place_cells
 from neorl.chapters.paper_a import resolution_figures
-from neorl.drawing.figures import AGENT, GREEN, INK, RED
+from neorl.drawing.style import AGENT, GREEN, INK, RED
 from neorl.evidence.reading import LAYERS
 
 

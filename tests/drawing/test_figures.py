@@ -7,8 +7,9 @@ from matplotlib import pyplot as plt
 from neorl import NresMap, Result, Run, WaterWorld, brownian, network_b, object_vector_cells, place_cells, simulate
 from neorl.core.geometry import TAU
 from neorl.core.modality import HEAD_DIRECTION_CELL, MODALITIES, PLACE_CELL, Modality, cartesian
-from neorl.drawing import figures
-from neorl.drawing.figures import binned_rate, low_passed
+from neorl import drawing
+from neorl.drawing.style import name_ends
+from neorl.evidence.curves import binned_rate, low_passed
 from neorl.evidence.statistics import Estimate
 
 
@@ -27,7 +28,7 @@ def test_rates_over_stretches_add_up_to_the_total(results):
 
 def test_accumulated_curves_end_at_the_mean_total(results):
     control = simulate(brownian(), WaterWorld(n_creeps=8), steps=6_000, runs=3, progress=False)
-    figures.draw_accumulated(results, {"Brownian": control})
+    drawing.draw_accumulated(results, {"Brownian": control})
     lines = plt.gca().lines
     assert [line.get_ydata()[-1] for line in lines] == pytest.approx(
         [result.totals.mean() for result in [*results.values(), control]])
@@ -35,20 +36,20 @@ def test_accumulated_curves_end_at_the_mean_total(results):
 
 
 def test_proficiency_draws_the_sum_of_the_parts(results):
-    figures.draw_proficiency(results, total=("sum", list(results.values())), points=10)
+    drawing.draw_proficiency(results, total=("sum", list(results.values())), points=10)
     n3, n7, total, _ = (line.get_ydata() for line in plt.gca().lines)
     np.testing.assert_allclose(total, n3 + n7, rtol=1e-5)
 
 
 def test_the_control_is_drawn_in_ink(results):
-    figures.draw_accumulated(results, {"control": results["N3"]})
-    assert [line.get_color() for line in plt.gca().lines] == [*figures.CURVES[:2], figures.INK]
+    drawing.draw_accumulated(results, {"control": results["N3"]})
+    assert [line.get_color() for line in plt.gca().lines] == [*drawing.CURVES[:2], drawing.INK]
 
 
 def test_names_at_the_ends_keep_apart_and_near():
     axes = plt.figure().add_subplot()
     axes.set_ylim(0, 1)
-    figures.name_ends(axes, [(0.5, "b", "k"), (0.5, "c", "k"), (0.49, "a", "k"), (0.9, "d", "k")])
+    name_ends(axes, [(0.5, "b", "k"), (0.5, "c", "k"), (0.49, "a", "k"), (0.9, "d", "k")])
     heights = [text.xy[1] for text in axes.texts]
     assert np.all(np.diff(heights) >= 0.0749)
     assert np.mean(heights[:3]) == pytest.approx(1.49 / 3) and heights[3] == pytest.approx(0.9)
@@ -69,7 +70,7 @@ def linear(colours):
 
 @pytest.mark.parametrize("eyes", SEEN)
 def test_colours_of_curves_keep_apart(eyes):
-    light = np.clip(linear([*figures.CURVES, figures.INK]) @ np.array(SEEN[eyes]).T, 0, 1)
+    light = np.clip(linear([*drawing.CURVES, drawing.INK]) @ np.array(SEEN[eyes]).T, 0, 1)
     to_cones = [[0.4122, 0.5363, 0.0514], [0.2119, 0.6807, 0.1074], [0.0883, 0.2817, 0.6300]]  # Ottosson's Oklab
     to_lab = [[0.2105, 0.7936, -0.0041], [1.9780, -2.4286, 0.4506], [0.0259, 0.7828, -0.8087]]
     lab = np.cbrt(light @ np.array(to_cones).T) @ np.array(to_lab).T
@@ -79,8 +80,8 @@ def test_colours_of_curves_keep_apart(eyes):
 
 @pytest.mark.parametrize("ground", ["#ffffff", "#121212"])
 def test_colours_of_curves_stand_out_from_the_page(ground):
-    luminance = linear([ground, *figures.CURVES]) @ [0.2126, 0.7152, 0.0722] + 0.05
-    assert len(set(figures.CURVES)) == 7
+    luminance = linear([ground, *drawing.CURVES]) @ [0.2126, 0.7152, 0.0722] + 0.05
+    assert len(set(drawing.CURVES)) == 7
     assert np.maximum(luminance[0] / luminance[1:], luminance[1:] / luminance[0]).min() > 2.85
 
 
@@ -121,13 +122,13 @@ def test_the_filter_keeps_the_mean_and_follows_no_single_point_at_the_end():
 @pytest.mark.parametrize("runs, steps", [(3, 3_000), (1, 3_000), (4, 60_005)])
 def test_smoothed_curves(runs, steps):
     results = {f"N{n}": made_up(n, runs, steps, seed=n) for n in range(7)}
-    figures.draw_smoothed(results)
+    drawing.draw_smoothed(results)
     plt.gcf().draw_without_rendering()
     axes = plt.gca()
     smooth, raw = axes.lines[:7], axes.lines[8:]
     assert len(axes.lines) == 15 and len(axes.collections) == (7 if runs > 1 else 0)
     assert {text.get_text() for text in axes.texts} == set(results)
-    assert [line.get_color() for line in smooth] == [line.get_color() for line in raw] == list(figures.CURVES)
+    assert [line.get_color() for line in smooth] == [line.get_color() for line in raw] == list(drawing.CURVES)
     for front, behind, result in zip(smooth, raw, results.values()):
         assert len(front.get_ydata()) <= 400
         assert front.get_ydata().mean() == pytest.approx(result.rate().mean(), abs=0.1)
@@ -145,7 +146,7 @@ def test_a_last_bin_that_is_short_counts_as_short():
 def test_a_sweep_shows_values_and_intervals():
     estimates = {"D": [Estimate(0.1, 0.0, 0.3), Estimate(0.4, 0.3, 0.5)],
                  "single run": [Estimate(0.2, np.nan, np.nan)] * 2}
-    figures.draw_sweep([-1, 0.5], estimates, "r", "reward")
+    drawing.draw_sweep([-1, 0.5], estimates, "r", "reward")
     plt.gcf().draw_without_rendering()
     axes = plt.gca()
     np.testing.assert_array_equal(axes.lines[1].get_xydata(), [[-1, 0.1], [0.5, 0.4]])
@@ -155,10 +156,10 @@ def test_a_sweep_shows_values_and_intervals():
 
 
 def test_arrows_point_where_values_pull():
-    axes = figures.new_board()
+    axes = drawing.new_board()
     values = np.zeros((4, 4))
     values[1] = [0.0, 0.2, 0.0, 0.4]  # south, and more to the west
-    figures.draw_values(axes, NresMap(2), values)
+    drawing.draw_values(NresMap(2), values, ax=axes)
     (quiver,) = axes.collections
     assert len(quiver.U) == 1 and quiver.U[0] < 0 < quiver.V[0]
     assert quiver.U[0] == pytest.approx(-2 * quiver.V[0])
@@ -166,28 +167,28 @@ def test_arrows_point_where_values_pull():
 
 def test_a_board_shows_every_cell_agent_and_creep():
     world = WaterWorld(n_creeps=5)
-    axes = figures.new_board()
-    figures.draw_cells(axes, NresMap(3), fills={4: ("red", 0.5)})
-    figures.draw_tank(axes, world, world.reset(0))
+    axes = drawing.new_board()
+    drawing.draw_cells(NresMap(3), fills={4: ("red", 0.5)}, ax=axes)
+    drawing.draw_tank(world, world.reset(0), axes)
     assert len(axes.patches) == 9 + 1 + 6
 
 
 def test_cells_of_a_map_with_ranges_of_its_own():
-    axes = figures.new_board()
-    figures.draw_cells(axes, NresMap(2, Modality("", cartesian("position", (0, 1), (-1, 3)))))
+    axes = drawing.new_board()
+    drawing.draw_cells(NresMap(2, Modality("", cartesian("position", (0, 1), (-1, 3)))), ax=axes)
     boxes = [(*patch.get_xy(), patch.get_width(), patch.get_height()) for patch in axes.patches]
     assert boxes == [(0, -1, 0.5, 2), (0.5, -1, 0.5, 2), (0, 1, 0.5, 2), (0.5, 1, 0.5, 2)]
 
 
 def test_the_outermost_cells_of_a_map_reach_as_far_as_things_can_be():
-    axes = figures.new_board(low=-1)
+    axes = drawing.new_board(low=-1)
     for nres_map in (place_cells([2], tiled_fraction=0.5).maps[0],
                      object_vector_cells([2], tiled_fraction=0.5).maps[0]):
-        figures.draw_cells(axes, nres_map)
+        drawing.draw_cells(nres_map, ax=axes)
     boxes = [patch.get_bbox().extents.tolist() for patch in axes.patches]
     assert boxes[:4] == [[0, 0, 0.5, 0.5], [0.5, 0, 1, 0.5], [0, 0.5, 0.5, 1], [0.5, 0.5, 1, 1]]
     assert boxes[4:] == [[-1, -1, 0, 0], [0, -1, 1, 0], [-1, 0, 0, 1], [0, 0, 1, 1]]
-    figures.draw_cells(axes, place_cells([5], tiled_fraction=0.5).maps[0])
+    drawing.draw_cells(place_cells([5], tiled_fraction=0.5).maps[0], ax=axes)
     assert sorted({round(patch.get_width(), 9) for patch in axes.patches[8:]}) == [0.1, 0.35]
 
 
@@ -203,8 +204,8 @@ def moving_tank():
 @pytest.mark.parametrize("modality", MODALITIES, ids=lambda modality: modality.name)
 def test_the_active_receptive_fields_are_filled(modality, resolution):
     world, state = moving_tank()
-    nres_map, axes = NresMap(resolution, modality), figures.new_board()
-    figures.draw_receptive_fields(axes, nres_map, world, state)
+    nres_map, axes = NresMap(resolution, modality), drawing.new_board()
+    drawing.draw_receptive_fields(nres_map, world, state, axes)
     axes.figure.draw_without_rendering()
     active = set(nres_map.encode(modality.coordinates(state.scene, world.size)))
     fills = [fill for fill in axes.collections if fill.get_alpha()]
@@ -220,8 +221,8 @@ def test_the_active_receptive_fields_are_filled(modality, resolution):
 
 def test_place_cells_have_square_fields():
     world, state = moving_tank()
-    axes = figures.new_board()
-    figures.draw_receptive_fields(axes, NresMap(4, PLACE_CELL), world, state)
+    axes = drawing.new_board()
+    drawing.draw_receptive_fields(NresMap(4, PLACE_CELL), world, state, axes)
     columns, rows, fill = axes.collections
     for lines, coordinate in ((columns, 0), (rows, 1)):
         at = np.concatenate([path.vertices[:, coordinate] for path in lines.get_paths()])
@@ -232,8 +233,8 @@ def test_place_cells_have_square_fields():
 
 def test_head_directions_are_sectors_within_the_arena():
     world, state = moving_tank()
-    axes = figures.new_board()
-    figures.draw_receptive_fields(axes, NresMap(4, HEAD_DIRECTION_CELL), world, state)
+    axes = drawing.new_board()
+    drawing.draw_receptive_fields(NresMap(4, HEAD_DIRECTION_CELL), world, state, axes)
     rays, fill = axes.collections
     steps = np.array(rays.get_segments())[:, 1] - rays.get_segments()[0][0]
     np.testing.assert_allclose(np.abs(steps[:, 0]), np.abs(steps[:, 1]))  # diagonals: a cell is centred on east
@@ -243,13 +244,13 @@ def test_head_directions_are_sectors_within_the_arena():
 
 
 def test_curves_end_where_they_are_named():
-    figures.draw_curves(np.arange(20.0), {"one": np.ones((3, 20)), "two": np.full((1, 20), 2.0)}, "x", "y")
+    drawing.draw_curves(np.arange(20.0), {"one": np.ones((3, 20)), "two": np.full((1, 20), 2.0)}, "x", "y")
     assert {text.get_text(): text.xy[1] for text in plt.gca().texts} == pytest.approx({"one": 1.0, "two": 2.0})
     assert len(plt.gca().collections) == 1  # a single run has no interval
 
 
 def test_costs_stand_beside_their_sum():
-    figures.draw_costs(["a", "b"], [1.0, 2.1], np.array([1.0, 2.0]))
+    drawing.draw_costs(["a", "b"], [1.0, 2.1], np.array([1.0, 2.0]))
     predicted, measured = plt.gca().lines
     assert (list(predicted.get_ydata()), list(measured.get_ydata())) == ([1.0, 2.0], [1.0, 2.1])
 
@@ -257,15 +258,15 @@ def test_costs_stand_beside_their_sum():
 def test_desires_are_drawn_where_they_land():
     run = Run(network_b([3, 5]), WaterWorld(), seed=0)
     run.advance(20_000)
-    axes = figures.new_board()
-    figures.draw_desires(axes, run)
+    axes = drawing.new_board()
+    drawing.draw_desires(run, axes)
     landed = [line.get_xydata()[0] - run.world_state.scene.position / 250 for line in axes.lines]
     np.testing.assert_allclose(landed, run.state.desires.target[2:, :2])
-    assert [line.get_color() for line in axes.lines] == [figures.GREEN, figures.RED]
+    assert [line.get_color() for line in axes.lines] == [drawing.GREEN, drawing.RED]
 
 
 def test_boards_side_by_side():
-    boards = figures.new_boards(2, 3)
+    boards = drawing.new_boards(2, 3)
     assert len(boards) == 6 and all(axes.get_ylim()[0] > axes.get_ylim()[1] for axes in boards)
-    low, high = figures.new_board(low=-1).get_xlim()
+    low, high = drawing.new_board(low=-1).get_xlim()
     assert low < -1 and high > 1

@@ -11,7 +11,7 @@ from matplotlib.path import Path
 from neorl import (Agent, Desire, Node, Place, multimodal, network_a, network_b, network_c, network_d,
                    object_vector_cells, place_cells)
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL, OBJECT_VECTOR_CELL, PLACE_CELL
-from neorl.drawing.figures import GREEN, INK, RED
+from neorl.drawing.style import GREEN, INK, RED
 from neorl.drawing.network_figures import draw_network, draw_networks
 
 CREEPS = (Desire("green", "PC", 1.0), Desire("red", "PC", -1.0))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from neorl.drawing import figures
+from neorl import drawing
 from neorl.drawing.thesis_figures import draw_against_thesis, mark_levels
 from neorl.evidence.statistics import Estimate
 
@@ -56,7 +56,7 @@ def test_what_cannot_be_compared_is_refused(thesis, readings, message):
 
 
 def test_levels_are_marked_and_within_the_picture():
-    figures.draw_curves(np.arange(20.0), {"one": np.ones((3, 20)), "two": np.full((3, 20), 1.01)}, "x", "y")
+    drawing.draw_curves(np.arange(20.0), {"one": np.ones((3, 20)), "two": np.full((3, 20), 1.01)}, "x", "y")
     axes = plt.gca()
     mark_levels(axes, {"thesis 5": 5, "thesis −2": -2})
     *_, five, minus_two = axes.lines
@@ -70,7 +70,7 @@ def test_levels_are_marked_and_within_the_picture():
 
 
 def test_a_level_within_reach_leaves_the_axes_alone():
-    figures.draw_curves(np.arange(20.0), {"one": np.linspace(0, 1, 20) * np.ones((3, 1))}, "x", "y")
+    drawing.draw_curves(np.arange(20.0), {"one": np.linspace(0, 1, 20) * np.ones((3, 1))}, "x", "y")
     before = plt.gca().get_ylim()
     mark_levels(plt.gca(), {"half": 0.5})
     assert plt.gca().get_ylim() == before

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.patches import Circle
 
-from neorl.drawing.figures import AGENT, GREEN, INK, RED
+from neorl.drawing.style import AGENT, GREEN, INK, RED
 
 
 def draw_walls(axes):

@@ -3,7 +3,8 @@
 import numpy as np
 from matplotlib import pyplot as plt
 
-from neorl.drawing.figures import AGENT, CURVES, GREEN, INK, RED, draw_curves, name_ends
+from neorl.drawing.curves import draw_curves
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, name_ends
 from neorl.evidence.statistics import mean_band
 
 NAMES = {"throughout": "throughout", "never": "never", "delayed": "from day {}"}
@@ -55,9 +56,9 @@ def draw_errors(by_learner, first_reward):
 def draw_known(known_by_learner, first_reward):
     """The share of choices known after each day: {learner: (animals, days)}, with 95 % intervals."""
     days = np.arange(next(iter(known_by_learner.values())).shape[1]) + 1
-    draw_curves(days, known_by_learner, "day", "share of choices known")
-    plt.gca().set(xlim=(1, days[-1]), xticks=days[::2])
-    plt.axvline(first_reward, color=INK, linewidth=1, linestyle=":")
+    axes = draw_curves(days, known_by_learner, "day", "share of choices known")
+    axes.set(xlim=(1, days[-1]), xticks=days[::2])
+    axes.axvline(first_reward, color=INK, linewidth=1, linestyle=":")
 
 
 def draw_settings(rows, labels):

@@ -5,15 +5,14 @@ from matplotlib import pyplot as plt
 
 from neorl.chapters.chapter_2.neuron import firing_rate
 from neorl.chapters.shared.grid_figures import draw_grid, draw_policy, new_grids
-from neorl.drawing import figures
-from neorl.drawing.figures import AGENT, CURVES, GREEN, INK, LOW_PANEL, RED
+from neorl.drawing.curves import POINTS, draw_curves
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, LOW_PANEL, RED, name_ends
 
 
 def draw_latencies(latencies, published):
     """Seconds to escape in each trial: {name: (runs, trials)} with bands, and times of an animal of old as points."""
     (_, trials), *_ = (each.shape for each in latencies.values())
-    figures.draw_curves(np.arange(trials) + 1, latencies, "trial", "seconds to escape")
-    axes = plt.gca()
+    axes = draw_curves(np.arange(trials) + 1, latencies, "trial", "seconds to escape")
     axes.plot(np.arange(len(published)) + 1, published, color=INK, linestyle="none", marker="o", markersize=5)
     axes.set_ylim(0, None)
 
@@ -21,8 +20,7 @@ def draw_latencies(latencies, published):
 def draw_sessions(curves, phases, ylabel):
     """A number a session, {name: (runs, sessions)}, with phases {name: the session it begins with, from 0}."""
     (_, sessions), *_ = (each.shape for each in curves.values())
-    figures.draw_curves(np.arange(sessions) + 1, curves, "session", ylabel)
-    axes = plt.gca()
+    axes = draw_curves(np.arange(sessions) + 1, curves, "session", ylabel)
     axes.set_ylim(-0.07 * axes.get_ylim()[1], None)  # room for the names of curves that end at 0
     ends = [*phases.values()][1:] + [sessions]
     for (name, begin), end in zip(phases.items(), ends):
@@ -52,25 +50,25 @@ def draw_action_potential(axon, reversals):
         top.axhline(level, color=INK, linewidth=0.8, linestyle=":")
     top.plot(axon.time, axon.potential, color=AGENT)
     top.set(ylabel="millivolts", ylim=(-90, 60))
-    figures.name_ends(top, [(level, name, INK) for name, level in reversals.items()])
+    name_ends(top, [(level, name, INK) for name, level in reversals.items()])
     names = {"m": "m: Na⁺ opens", "h": "h: Na⁺ not shut", "n": "n: K⁺ opens"}
     ends = []
     for (gate, name), colour in zip(names.items(), CURVES):
         bottom.plot(axon.time, getattr(axon, gate), color=colour)
         ends.append((getattr(axon, gate)[-1], name, colour))
     bottom.set(xlabel="milliseconds", ylabel="open", ylim=(0, 1), xlim=(0, axon.time[-1]))
-    figures.name_ends(bottom, ends)
+    name_ends(bottom, ends)
 
 
 def draw_firing_rates(currents, counted):
     """Spikes per second over the current, as counted in a simulation and as the closed form has them."""
     axes = plt.figure().add_subplot()
-    fine = np.linspace(currents[0], currents[-1], figures.POINTS)
+    fine = np.linspace(currents[0], currents[-1], POINTS)
     expected = firing_rate(fine)
     axes.plot(fine, expected, color=INK, linewidth=1.2)
     axes.plot(currents, counted, color=AGENT, linestyle="none", marker="o", markersize=5)
     axes.set(xlabel="current, nanoamperes", ylabel="spikes per second")
-    figures.name_ends(axes, [(counted[-1], "simulated", AGENT), (expected[-1], "closed form", INK)])
+    name_ends(axes, [(counted[-1], "simulated", AGENT), (expected[-1], "closed form", INK)])
 
 
 def draw_parts(time, inflow, potential, spikes, answers, threshold):
@@ -92,8 +90,8 @@ def draw_parts(time, inflow, potential, spikes, answers, threshold):
     for (name, answer), colour in zip(answers.items(), (GREEN, CURVES[4])):
         synapse.plot(time, answer, color=colour, linewidth=1.0)
         ends.append((answer[-1], name, colour))
-    figures.name_ends(synapse, ends, line=LOW_PANEL)
-    figures.name_ends(soma, [(threshold, "threshold", INK)])
+    name_ends(synapse, ends, line=LOW_PANEL)
+    name_ends(soma, [(threshold, "threshold", INK)])
     titles = ("dendrite: current in, nA", "soma: potential, mV", "axon: spikes", "synapse: the next neuron, mV")
     for axes, title in zip(panels, titles):
         axes.set_title(title, fontsize=11, loc="left")
@@ -108,4 +106,4 @@ def draw_efficacies(minutes, efficacies):
         axes.plot(minutes, efficacy, color=colour)
         ends.append((efficacy[-1], name, colour))
     axes.set(xlabel="minutes", ylabel="efficacy of the synapse", ylim=(0, None), xlim=(0, minutes[-1]))
-    figures.name_ends(axes, ends)
+    name_ends(axes, ends)

@@ -5,8 +5,8 @@ from matplotlib import pyplot as plt
 from matplotlib.patches import Arc, Rectangle
 
 from neorl.chapters.chapter_2.tuning import cartesian, egocentric
-from neorl.drawing import figures
-from neorl.drawing.figures import AGENT, CURVES, GREEN, INK, LOW_PANEL, RED
+from neorl.drawing.boards import new_boards
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, LOW_PANEL, RED, name_ends
 
 
 def draw_frames(point, heading, distance, bearing):
@@ -73,7 +73,7 @@ def draw_landmark(seconds, places, heading, landmark, allocentric, seen):
         axes.set_title(title, fontsize=11, loc="left")
         axes.set_xlim(0, seconds[-1])
         ends = [(component[-1], name, colour) for component, name, colour in zip(vectors.T, names, CURVES)]
-        figures.name_ends(axes, ends, line=LOW_PANEL)
+        name_ends(axes, ends, line=LOW_PANEL)
     outer.tick_params(labelbottom=False)
     inner.set_xlabel("seconds")
 
@@ -83,7 +83,7 @@ def draw_rate_maps(trajectory, spikes, maps, objects):
 
     spikes: at each step of the trajectory. objects: their places in the box, drawn as squares.
     """
-    path, *panels = figures.new_boards(2, (len(maps) + 2) // 2)
+    path, *panels = new_boards(2, (len(maps) + 2) // 2)
     path.plot(*trajectory.position.T, color=INK, linewidth=0.4, alpha=0.6)
     path.plot(*trajectory.position[spikes > 0].T, color=RED, linestyle="none", marker=".", markersize=3)
     path.set_title(f"path, spikes of {next(iter(maps))}", fontsize=11)
@@ -119,4 +119,4 @@ def draw_tuning_curves(direction, speed, fastest):
         along.plot(middles, rate, color=colour)
         ends.append((rate[~np.isnan(rate)][-1], name, colour))
     along.set(xlabel="speed, box widths a second", ylabel="spikes a second", ylim=(0, None), xlim=(0, fastest))
-    figures.name_ends(along, ends)
+    name_ends(along, ends)

@@ -7,7 +7,7 @@ from matplotlib.ticker import MultipleLocator
 
 from neorl.chapters.shared.grid import WALL
 from neorl.chapters.shared.grid_figures import draw_grid, draw_policy
-from neorl.drawing.figures import AGENT, CURVES, GREEN, INK, RED, name_ends
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, name_ends
 from neorl.evidence.statistics import mean_band
 
 

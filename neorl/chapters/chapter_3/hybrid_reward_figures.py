@@ -7,7 +7,7 @@ from matplotlib.patches import Circle, Wedge
 from neorl.chapters.chapter_3.ensembles import LEARNERS
 from neorl.chapters.chapter_3.hybrid_reward import settled_values
 from neorl.chapters.shared.grid_figures import draw_grid, draw_policy, new_grids
-from neorl.drawing.figures import AGENT, CURVES, GREEN, INK, RED
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED
 from neorl.evidence.statistics import estimate, mean_band
 
 

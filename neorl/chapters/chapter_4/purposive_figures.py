@@ -9,7 +9,8 @@ from neorl.chapters.chapter_4.credit import ROLES
 from neorl.chapters.chapter_4.potentials import misled
 from neorl.chapters.chapter_4.walks import expected_squared_displacement
 from neorl.chapters.shared.grid_figures import draw_grid, draw_policy, new_grids
-from neorl.drawing.figures import AGENT, CURVES, GREEN, INK, RED, add_estimates, name_ends
+from neorl.drawing.curves import add_estimates
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, name_ends
 from neorl.evidence.statistics import mean_band
 
 

@@ -1,11 +1,12 @@
 """Drawings of paper A: maps over one board, the field of elements of interest, and maps alone and together."""
 
-from matplotlib import pyplot as plt
-
 from neorl.chapters.paper_a.experiments import layers
 from neorl.chapters.paper_a.findings import REWARD, THESIS
-from neorl.drawing.figures import AGENT, GREEN, INK, RED, draw_cells, draw_proficiency, draw_values, new_board
+from neorl.drawing.boards import new_board
+from neorl.drawing.curves import draw_proficiency
+from neorl.drawing.style import AGENT, GREEN, INK, RED
 from neorl.drawing.thesis_figures import mark_levels
+from neorl.drawing.value_maps import draw_cells, draw_values
 from neorl.evidence.verdict import FINAL
 
 
@@ -15,9 +16,9 @@ def draw_together(results):
     A dashed line lies where the thesis has all three: at 3.5 times what N7 finally earns here.
     """
     alone = layers(results)
-    draw_proficiency(alone | {"all three": results["layers"]}, ("sum of the three", [*alone.values()]))
+    axes = draw_proficiency(alone | {"all three": results["layers"]}, ("sum of the three", [*alone.values()]))
     level = THESIS[REWARD] * results["layer", 7].rate(*FINAL).mean()
-    mark_levels(plt.gca(), {f"thesis: {THESIS[REWARD]} × N7": level})
+    mark_levels(axes, {f"thesis: {THESIS[REWARD]} × N7": level})
 
 
 def draw_elements(nres_map, places, valences, values):
@@ -27,9 +28,8 @@ def draw_elements(nres_map, places, valences, values):
     """
     fills = {goal: (GREEN if valence > 0 else RED, 0.6 * abs(valence))
              for goal, valence in zip(nres_map.encode(places), valences)}
-    axes = new_board()
-    draw_cells(axes, nres_map, fills=fills)
-    draw_values(axes, nres_map, values)
+    axes = draw_cells(nres_map, fills=fills)
+    draw_values(nres_map, values, ax=axes)
     for (x, y), valence in zip(places, valences):
         axes.text(x - 0.08, y - 0.05, f"{valence:+g}", weight="bold")
 
@@ -38,4 +38,4 @@ def draw_maps(maps):
     """The receptive fields of three maps over one board, in lines that get thinner from map to map."""
     axes = new_board()
     for nres_map, colour, width in zip(maps, (RED, AGENT, INK), (3.2, 1.8, 0.7)):
-        draw_cells(axes, nres_map, colour, width=width)
+        draw_cells(nres_map, colour, width=width, ax=axes)

@@ -1,12 +1,14 @@
 """Drawings of paper B: beside the thesis's numbers, the cells of every modality, and what trials have shown."""
 
 import numpy as np
-from matplotlib import pyplot as plt
 
 from neorl.chapters.paper_b.trials import SECONDS_A_MOVE
 from neorl.core.maps import NresMap
 from neorl.core.modality import MODALITIES
-from neorl.drawing.figures import INK, draw_curves, draw_receptive_fields, draw_sweep, draw_tank, new_boards
+from neorl.drawing.boards import draw_tank, new_boards
+from neorl.drawing.curves import draw_curves, draw_sweep
+from neorl.drawing.receptive_fields import draw_receptive_fields
+from neorl.drawing.style import INK
 from neorl.drawing.thesis_figures import draw_against_thesis
 from neorl.evidence.reading import PRIMES
 from neorl.evidence.statistics import estimate
@@ -27,16 +29,16 @@ def draw_agents(thesis, found, xlabel):
 def draw_modalities(world, state):
     """The receptive fields of a map of each modality over a tank, those of its active cells filled."""
     for axes, modality in zip(new_boards(2, 4), MODALITIES):
-        draw_receptive_fields(axes, NresMap(7, modality), world, state)
-        draw_tank(axes, world, state)
+        draw_receptive_fields(NresMap(7, modality), world, state, axes)
+        draw_tank(world, state, axes)
         axes.set_title(modality.name)
 
 
 def draw_revaluing(minutes, curves):
     """Red creeps a minute over the run, {reading: (runs, stretches)}, with a line at half-time, when they are revalued.
     """
-    draw_curves(minutes, curves, "simulated minutes", "red creeps a minute")
-    plt.gca().axvline((minutes[0] + minutes[-1]) / 2, color=INK, linewidth=0.7)
+    axes = draw_curves(minutes, curves, "simulated minutes", "red creeps a minute")
+    axes.axvline((minutes[0] + minutes[-1]) / 2, color=INK, linewidth=0.7)
 
 
 def draw_distances(watched):
@@ -52,8 +54,7 @@ def draw_time_scale(watched):
     finest_first = PRIMES[::-1]
     widths = [1 / n for n in finest_first]
     stays = {name: [estimate(np.mean, stay) for stay in each.stays.T[::-1]] for name, each in watched.items()}
-    draw_sweep(widths, stays, "width of a receptive field, share of the range", "seconds in a cell")
-    axes = plt.gca()
+    axes = draw_sweep(widths, stays, "width of a receptive field, share of the range", "seconds in a cell")
     axes.set(xscale="log", yscale="log", ylim=(None, None))
     axes.set_xticks(widths, ["" if n == 11 else f"1/{n}" for n in finest_first])
     axes.minorticks_off()

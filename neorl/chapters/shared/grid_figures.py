@@ -5,7 +5,7 @@ from matplotlib import pyplot as plt
 from matplotlib.patches import Rectangle
 
 from neorl.chapters.shared.grid import MOVES, WALL
-from neorl.drawing.figures import AGENT, INK
+from neorl.drawing.style import AGENT, INK
 
 
 def new_grids(grid, columns=1, rows=1, size=None):

@@ -5,10 +5,11 @@ import inspect
 
 from IPython import get_ipython
 from IPython.display import Markdown, display
+from matplotlib_inline.backend_inline import set_matplotlib_formats
 
 from neorl import checks
 from neorl.core.kernel import function_of
-from neorl.drawing import figures
+from neorl.drawing.style import use_style
 from neorl.evidence.claims import RUNS_FOR_A_VERDICT
 
 
@@ -25,7 +26,8 @@ def begin(runs, steps, seed, fewest_steps=1, **others):
     for name in injected_names():
         if name not in known:
             raise ValueError(f"parameter {name} is unknown, allowed are {', '.join(known)}")
-    figures.use_style()
+    set_matplotlib_formats("svg")
+    use_style()
     if runs < RUNS_FOR_A_VERDICT:
         display(Markdown(f"> **{runs} runs: no verdicts.** This page is a first look. Verdicts need "
                          f"{RUNS_FOR_A_VERDICT} runs or more."))

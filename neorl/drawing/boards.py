@@ -1,0 +1,157 @@
+"""Boards from above: the unit square with an agent and things in it, y downward, as in every world of the package.
+
+Each function draws into `ax`, or into a new board, and returns the axes. A board is drawn in units of the world's size.
+Axes whose limits are not set yet become a board.
+"""
+
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.patches import Circle, Rectangle
+
+from neorl import checks
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, axes_or_new, width_of_figures
+from neorl.experiments.run import Run
+from neorl.worlds import waterworld
+from neorl.worlds.arena import Arena
+from neorl.worlds.probe import HALF_SECOND
+from neorl.worlds.waterworld import WaterWorld
+from neorl.worlds.world import World
+
+MARGIN = 0.06  # around a board
+RADIUS = 0.025  # of an agent, where the world has none for it
+
+
+def new_board(size=3.6, low=0.0):
+    """Axes of a new figure, `size` inches wide, over the unit board, or from `low` to 1 on either side.
+
+    >>> axes = drawing.new_board(low=-1)
+    """
+    figure = plt.figure(figsize=(size, size), layout="none")
+    return as_board(figure.add_axes((0.01, 0.01, 0.98, 0.98)), low)
+
+
+def new_boards(columns, rows):
+    """Axes over that many unit boards, row by row: a list.
+
+    >>> left, right = drawing.new_boards(columns=2, rows=1)
+    """
+    width = width_of_figures()
+    figure, grid = plt.subplots(rows, columns, squeeze=False, figsize=(width, 1.1 * width * rows / columns),
+                                layout="constrained")
+    return [as_board(axes) for axes in grid.flat]
+
+
+def as_board(ax, low=0.0):
+    """Make a board of any axes: from `low` to 1 on either side, y downward, without ticks. Returns them."""
+    margin = MARGIN * (1 - low)
+    axes = axes_or_new(ax)
+    axes.set(xlim=(low - margin, 1 + margin), ylim=(1 + margin, low - margin), aspect="equal")
+    axes.axis("off")
+    return axes
+
+
+def board_or_new(ax, low=0.0):
+    """`ax`, or if it is None a new board. Axes whose limits are not set yet become a board."""
+    if ax is None:
+        return new_board(low=low)
+    return as_board(ax, low) if axes_or_new(ax).get_autoscalex_on() else ax
+
+
+def draw_world(world, state, ax=None):
+    """A world of two axes from above, within its walls: a `neorl.WaterWorld` as `draw_tank` has it, any other with its
+    agent, the agent's velocity over the coming half second, and its things.
+
+    state: of that world. Raises ValueError if it is not, and for a world of other than two axes.
+
+    >>> arena = neorl.Arena()
+    >>> axes = drawing.draw_world(arena, arena.reset(seed=0))
+    """
+    if checks.instance("world", world, World).actions.axes != 2:
+        raise ValueError(f"world has {world.actions.axes} axes, allowed are worlds of two")
+    world.check_state(state)
+    axes = draw_walls(world, ax)
+    if isinstance(world, WaterWorld):
+        return draw_tank(world, state, axes)
+    radius = world.radius if isinstance(world, Arena) else RADIUS
+    for place, kind in zip(state.scene.things / world.size, state.scene.kinds):
+        if kind >= 0:
+            axes.add_patch(Circle(place, radius, facecolor=(GREEN, *CURVES)[kind % 8], alpha=0.75, edgecolor="none"))
+    axes.add_patch(Circle(state.scene.position / world.size, RADIUS, facecolor=AGENT, edgecolor="none"))
+    _draw_velocity(axes, state.scene.position / world.size, state.scene.velocity / world.size)
+    return axes
+
+
+def draw_walls(world, ax=None):
+    """The walls and obstacles of a `neorl.Arena`, or the border of another world's board.
+
+    >>> axes = drawing.draw_walls(neorl.Arena(obstacles=[(0.4, 0.4, 0.6, 0.5)]))
+    """
+    axes = board_or_new(ax)
+    border = {"fill": False, "edgecolor": INK, "linewidth": 1.4}
+    is_round = isinstance(world, Arena) and world.shape == "round"
+    axes.add_patch(Circle((0.5, 0.5), 0.5, **border) if is_round else Rectangle((0, 0), 1, 1, **border))
+    for left, top, right, bottom in world.obstacles if isinstance(world, Arena) else ():
+        axes.add_patch(Rectangle((left, top), right - left, bottom - top, facecolor=INK, alpha=0.55, edgecolor=INK))
+    return axes
+
+
+def draw_tank(world, state, ax=None):
+    """Agent and creeps of a `neorl.WaterWorld`, each with its velocity over the coming half second; creeps carry their
+    sign.
+
+    state: of that tank. Raises ValueError for anything else.
+
+    >>> tank = neorl.WaterWorld()
+    >>> axes = drawing.draw_tank(tank, tank.reset(seed=0))
+    """
+    checks.instance("world", world, WaterWorld).check_state(state)
+    axes, radius = board_or_new(ax), world.radius / world.width
+    scene, creep_velocity = state.scene, state.direction * state.speed[:, None]
+    movers = [(scene.position, scene.velocity, AGENT, "")]
+    movers += [(position, velocity, GREEN if green else RED, "+" if green else "−") for position, velocity, green
+               in zip(scene.things, creep_velocity, scene.kinds == waterworld.GREEN)]
+    for position, velocity, colour, sign in movers:
+        x, y = position / world.width
+        axes.add_patch(Circle((x, y), radius, facecolor=colour, edgecolor="none"))
+        axes.text(x, y, sign, color="white", ha="center", va="center_baseline", weight="bold")
+        _draw_velocity(axes, (x, y), velocity / world.width)
+    return axes
+
+
+def _draw_velocity(axes, place, velocity):
+    (x, y), (dx, dy) = place, HALF_SECOND * np.asarray(velocity)
+    axes.annotate("", (x + dx, y + dy), (x, y), zorder=0,
+                  arrowprops={"arrowstyle": "->", "color": INK, "linewidth": 1.4, "shrinkA": 0, "shrinkB": 0})
+
+
+def draw_desires(run, ax=None):
+    """Where the desires between the nodes of a run's agent land, as seen from its agent.
+
+    run: a `neorl.Run` in a world of two axes. Raises ValueError for anything else.
+
+    >>> run = neorl.Run(neorl.network_b([3, 5]), neorl.WaterWorld())
+    >>> paid = run.advance(1_000)
+    >>> axes = drawing.draw_desires(run, drawing.draw_world(run.world, run.world_state))
+    """
+    check_run_in_plane(run)
+    axes = board_or_new(ax)
+    start = run.world_state.scene.position / run.world.size
+    for desire, landing in zip(run.agent.desires, run.state.desires.target[:, :2]):
+        if run.agent.comes_from_node(desire):
+            colour = desire_colour(desire)
+            axes.annotate("", start + landing, start, annotation_clip=False, arrowprops={
+                "arrowstyle": "->", "color": colour, "linestyle": "--", "linewidth": 1.6, "shrinkA": 8, "shrinkB": 3})
+            axes.plot(*(start + landing), marker="s", markersize=7, color=colour, clip_on=False)
+    return axes
+
+
+def check_run_in_plane(run):
+    """Raise ValueError unless it is a `neorl.Run` in a world of two axes."""
+    if checks.instance("run", run, Run).world.actions.axes != 2:
+        raise ValueError(f"run is in a world of {run.world.actions.axes} axes, allowed are worlds of two")
+
+
+def desire_colour(desire):
+    """The colour of the creeps that a desire comes from, if it comes from those of one colour alone."""
+    (source,) = desire.of if len(desire.of) == 1 else (desire.source,)
+    return {"green": GREEN, "red": RED}.get(source, INK)

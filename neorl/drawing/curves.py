@@ -1,0 +1,188 @@
+"""Curves of what agents earn: over a run, over several runs, and over a number that is varied.
+
+Each function draws any number of curves by name into `ax`, or into a new figure, and returns the axes. Curves over a
+run are drawn to scale: one of 2 minutes ends at 2 minutes, beside one of 20.
+"""
+
+import numpy as np
+
+from neorl import checks
+from neorl.drawing.style import CURVES, INK, axes_or_new, by_name, looks, name_ends
+from neorl.evidence.curves import CUTOFF_PERIODS, binned_rate, low_passed
+from neorl.evidence.statistics import mean_band, tolerance_band
+from neorl.experiments.simulation import Result
+
+POINTS = 400  # of a curve; more cannot be seen
+
+
+def draw_accumulated(results, control=None, ax=None):
+    """Accumulated reward over steps with its tolerance band.
+
+    results: {name: `neorl.Result`}. control: another such dict, drawn in grey.
+    Raises ValueError for anything else, or if there is none.
+
+    >>> results = {"N7": neorl.simulate(neorl.place_cells([7]), neorl.WaterWorld(), steps=5_000, runs=4)}
+    >>> axes = drawing.draw_accumulated(results)
+    """
+    results, control = _checked(results), _checked(control, "control") if control else {}
+    axes, ends, last = axes_or_new(ax), [], 0.0
+    for (name, result), (colour, dashes) in zip([*results.items(), *control.items()], _looks(results, control)):
+        points = np.linspace(0, result.rewards.shape[1] - 1, POINTS).astype(int)
+        curves = result.rewards.cumsum(axis=1, dtype=float)[:, points]
+        steps = result.time[points] * result.world.fps / 1000
+        axes.plot(steps, curves.mean(axis=0), color=colour, linestyle=dashes)
+        axes.fill_between(steps, *tolerance_band(curves), color=colour, alpha=0.18, linewidth=0)
+        ends.append((curves[:, -1].mean(), name, colour))
+        last = max(last, steps[-1])
+    axes.set(xlabel="steps, in thousands", ylabel="accumulated reward", xlim=(0, last))
+    name_ends(axes, ends)
+    return axes
+
+
+def draw_proficiency(results, total=None, points=50, ax=None):
+    """Mean reward per second over the run with the 95 % interval of the mean.
+
+    results: {name: `neorl.Result`}. points: of a curve, integer ≥ 1.
+    total: (name, [Result, …]), drawn as the sum of the rewards of its results, run by run.
+    Raises ValueError for anything else, or for a sum of results of different lengths.
+
+    >>> results = {"N7": neorl.simulate(neorl.place_cells([7]), neorl.WaterWorld(), steps=5_000, runs=4)}
+    >>> axes = drawing.draw_proficiency(results, points=10)
+    """
+    points = checks.integer("points", points, at_least=1)
+    curves = {name: _rates(result, points) for name, result in _checked(results).items()}
+    if total:
+        name, parts = total
+        if len({(part.seconds, part.rewards.shape) for part in parts}) != 1:
+            raise ValueError(f"total has results of {', '.join(f'{part.runs} × {part.seconds:g} s' for part in parts)}"
+                             ", allowed are one or more, all of as many runs and seconds")
+        rates = [_rates(part, points) for part in parts]
+        curves[name] = rates[0][0], sum(rate for _, rate in rates)
+    longest = max([*results.values(), *(total[1] if total else ())], key=lambda result: result.seconds)
+    return _draw_rates(curves, longest.seconds, _looks(results, curves.keys() - results.keys()), ax)
+
+
+def draw_smoothed(results, ax=None):
+    """Mean reward per second over the run as paper B shows it, low-passed, with the 95 % interval of the mean.
+
+    results: {name: `neorl.Result`}. The mean before the filter lies thin behind it, cut off where it leaves the
+    picture. Raises ValueError for anything else, and for runs of 40 bins (8 s) or fewer, which are too short to smooth.
+
+    >>> results = {"N7": neorl.simulate(neorl.place_cells([7]), neorl.WaterWorld(), steps=5_000, runs=4)}
+    >>> axes = drawing.draw_smoothed(results)
+    """
+    for name, result in _checked(results).items():
+        if result.rewards.shape[1] <= 2 * CUTOFF_PERIODS:
+            raise ValueError(f"results[{name!r}] has {result.rewards.shape[1]} bins, allowed are more than "
+                             f"{2 * CUTOFF_PERIODS}")
+    curves = {name: _rates(result, POINTS) for name, result in results.items()}
+    styles = looks(len(curves))
+    longest = max(result.seconds for result in results.values())
+    axes = _draw_rates({name: (minutes, low_passed(rate)) for name, (minutes, rate) in curves.items()}, longest, styles,
+                       ax)
+    axes.set_ylim(axes.get_ylim())
+    for (minutes, rate), (colour, _) in zip(curves.values(), styles):
+        axes.plot(minutes, rate.mean(axis=0), color=colour, linewidth=0.5, alpha=0.4, zorder=1)
+    return axes
+
+
+def _checked(results, what="results"):
+    for name, result in by_name(what, results).items():
+        checks.instance(f"{what}[{name!r}]", result, Result)
+    return results
+
+
+def _looks(results, grey):
+    """The looks of results, and after them grey for each of the others."""
+    return looks(len(results)) + [(INK, "-")] * len(grey)
+
+
+def _rates(result, points):
+    """Minutes (points,) and reward per second (runs, points), of as many points as there are bins or fewer."""
+    points = min(points, result.rewards.shape[1])
+    return (np.arange(points) + 0.5) / points * result.seconds / 60, binned_rate(result, points)
+
+
+def _draw_rates(curves, seconds, styles, ax):
+    axes = _draw_means(curves, "simulated minutes", "reward per second", styles, ax)
+    axes.set_xlim(0, seconds / 60)
+    axes.axhline(0, color=INK, linewidth=0.7, zorder=1)
+    return axes
+
+
+def draw_curves(xs, curves, xlabel="", ylabel="", ax=None):
+    """Means over runs with their 95 % intervals.
+
+    xs: (points,), from 0 on. curves: {name: (runs, points)}; where they are not a number there is a gap.
+    Raises ValueError for curves of other shapes, or without a number.
+
+    >>> rng = np.random.default_rng(0)
+    >>> axes = drawing.draw_curves(np.arange(20), {"luck": rng.random((8, 20)).cumsum(axis=1)}, "days", "gold")
+    """
+    xs, checked = np.asarray(xs, float), {}
+    for name, curve in by_name("curves", curves).items():
+        curve = np.asarray(curve, float)
+        checked[name] = xs, curve
+        if xs.ndim != 1 or curve.ndim != 2 or not curve.size or curve.shape[1] != len(xs):
+            raise ValueError(f"curves[{name!r}] has the shape {curve.shape}, allowed are (runs, points) over xs, which "
+                             f"has the shape {xs.shape}")
+    return _draw_means(checked, xlabel, ylabel, looks(len(checked)), ax)
+
+
+def _draw_means(curves, xlabel, ylabel, styles, ax):
+    """Axes with curves {name: (xs (points,), ys (runs, points))}."""
+    axes, ends = axes_or_new(ax), []
+    for (name, (xs, curve)), (colour, dashes) in zip(curves.items(), styles):
+        mean = curve.mean(axis=0)
+        numbers = mean[np.isfinite(mean)]
+        if not len(numbers):
+            raise ValueError(f"curves[{name!r}] is nowhere finite, allowed are curves with a number or more")
+        axes.plot(xs, mean, color=colour, linestyle=dashes)
+        if len(curve) > 1:
+            axes.fill_between(xs, *mean_band(curve), color=colour, alpha=0.2, linewidth=0)
+        ends.append((numbers[-max(1, len(xs) // 10):].mean(), name, colour))
+    axes.set(xlabel=xlabel, ylabel=ylabel, xlim=(0, max(xs[-1] for xs, _ in curves.values())))
+    name_ends(axes, ends)
+    return axes
+
+
+def draw_sweep(xs, estimates_by_name, xlabel="", ylabel="reward per second", ax=None):
+    """A reward against a number, with 95 % intervals.
+
+    xs: (points,). estimates_by_name: {name: [`neorl.evidence.statistics.Estimate` for each of xs]}.
+    Raises ValueError for anything else.
+
+    >>> from neorl.evidence.statistics import Estimate
+    >>> axes = drawing.draw_sweep([3, 7], {"place cells": [Estimate(0.1, 0.0, 0.2), Estimate(0.3, 0.2, 0.5)]}, "N")
+    """
+    for name, estimates in by_name("estimates_by_name", estimates_by_name).items():
+        if np.shape(estimates) != (len(xs), 3):
+            raise ValueError(f"estimates_by_name[{name!r}] has the shape {np.shape(estimates)}, allowed is an Estimate "
+                             f"for each of the {len(xs)} of xs")
+    axes = axes_or_new(ax)
+    axes.axhline(0, color=INK, linewidth=0.7)
+    axes.set(xlabel=xlabel, ylabel=ylabel)
+    add_estimates(axes, xs, estimates_by_name, linewidth=0.8)
+    return axes
+
+
+def add_estimates(axes, xs, estimates_by_name, linewidth):
+    """Points with their 95 % intervals, joined by lines of that width: {name: [Estimate for each of xs]}."""
+    ends = []
+    for (name, estimates), (colour, dashes) in zip(estimates_by_name.items(), looks(len(estimates_by_name))):
+        value, low, high = np.array(estimates).T
+        axes.plot(xs, value, color=colour, linewidth=linewidth, linestyle=dashes, marker="o", markersize=5)
+        axes.vlines(xs, low, high, color=colour, linewidth=1.8)
+        ends.append((value[-1], name, colour))
+    name_ends(axes, ends)
+
+
+def draw_costs(labels, measured, predicted, ax=None):
+    """Microseconds a step of an agent that gets one map (label) after the other, and the sum of what each costs."""
+    axes = axes_or_new(ax)
+    axes.plot(labels, predicted, color=INK, linewidth=1.2)
+    axes.plot(labels, measured, color=CURVES[0], linestyle="none", marker="o", markersize=5)
+    axes.set(ylabel="microseconds a step", ylim=(0, None))
+    axes.tick_params(axis="x", rotation=60)
+    name_ends(axes, [(measured[-1], "measured", CURVES[0]), (predicted[-1], "sum", INK)])
+    return axes

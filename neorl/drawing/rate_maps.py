@@ -1,0 +1,98 @@
+"""Rate maps: how active a cell is by where the agent is, as neuroscience draws it (O'Keefe and Dostrovsky 1971).
+
+A cell of a map is active or not, so its rate is the share of the time that the agent spent at a place during which the
+cell was active. Nothing is smoothed, and places where the agent never was are empty.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.colors import Normalize, PowerNorm
+from matplotlib.patches import Rectangle
+
+from neorl import checks
+from neorl.drawing.boards import as_board, check_run_in_plane
+from neorl.drawing.style import INK, axes_or_new
+
+LOOKS = 50  # a second, or once a step if there are fewer
+MOST_LOOKS = 10_000_000
+
+
+class Track(NamedTuple):
+    """Where the agent of a run was, and which cells of one map were active."""
+
+    position: np.ndarray  # float64 (looks, 2), in units of the world's size
+    cells: np.ndarray  # int64 (looks, points): one for each thing or other point that the map follows
+    step: float  # seconds from one look to the next
+
+
+def track(run, seconds, index=0):
+    """Let a run go on, and look at it up to 50 times a second: a `Track`.
+
+    run: a `neorl.Run` in a world of two axes, which is advanced. seconds: simulated, > 0.
+    index: of the map in `Agent.maps`. Raises ValueError for anything else.
+
+    >>> run = neorl.Run(neorl.place_cells([5]), neorl.WaterWorld())
+    >>> drawing.track(run, seconds=10).position.shape
+    (500, 2)
+    """
+    check_run_in_plane(run)
+    index = checks.integer("index", index, at_least=0, at_most=len(run.agent.maps) - 1)
+    every = max(1, round(run.world.fps / LOOKS))
+    looks = max(1, round(checks.positive("seconds", seconds) * run.world.fps / every))
+    if looks > MOST_LOOKS:
+        raise ValueError(f"seconds is {seconds!r}, allowed are at most {MOST_LOOKS} looks at the run, here {looks}")
+    first, end = run.parameters.maps.first_track[index : index + 2]
+    active, position = run.state.tracks.cell[first:end], run.world_state.scene.position
+    places, cells = np.empty((looks, 2)), np.empty((looks, end - first), np.int64)
+    for look in range(looks):
+        run.advance(every)
+        places[look], cells[look] = position, active
+    return Track(places / run.world.size, cells, every / run.world.fps)
+
+
+def rate_map(track, cell=None, bins=20):
+    """The rate of a cell by place, or without one the seconds that the agent spent there: float64 (bins, bins).
+
+    track: a `Track`. cell: of its map, 0 … cells − 1. bins: a side, integer from 1 to 1000, of the unit board, row by
+    row from the upper left; what lies beyond belongs to those at the edge. The rate is in 0 … 1, and NaN where the
+    agent never was. Raises ValueError for anything else.
+
+    >>> run = neorl.Run(neorl.place_cells([2]), neorl.WaterWorld())
+    >>> drawing.rate_map(drawing.track(run, seconds=60), cell=0, bins=2)[0, 0]
+    np.float64(1.0)
+    """
+    checks.instance("track", track, Track)
+    bins = checks.integer("bins", bins, at_least=1, at_most=1000)
+    column, row = np.clip((track.position * bins).astype(np.int64), 0, bins - 1).T
+    place = row * bins + column
+    looks = np.bincount(place, minlength=bins**2).reshape(bins, bins)
+    if cell is None:
+        return looks * track.step
+    active = np.any(track.cells == checks.integer("cell", cell, at_least=0), axis=1)
+    found = np.bincount(place, active, minlength=bins**2).reshape(bins, bins)
+    return np.divide(found, looks, out=np.full((bins, bins), np.nan), where=looks > 0)
+
+
+def draw_rate_map(track, cell=None, bins=20, ax=None):
+    """Draw a `rate_map` over the board, with a scale beside it, into `ax` or a new figure; returns the axes.
+
+    track, cell, bins: as `rate_map` takes them. Seconds are coloured by their square root, so that places where the
+    agent rested do not darken all others. In WaterWorld a strip in the east and the south is empty: the agent's place
+    is its upper left corner.
+
+    >>> run = neorl.Run(neorl.object_vector_cells([3]), neorl.WaterWorld())
+    >>> seen = drawing.track(run, seconds=60)
+    >>> axes = drawing.draw_rate_map(seen, cell=4)
+    """
+    rates = rate_map(track, cell, bins)
+    axes = as_board(axes_or_new(ax))
+    shown = np.where(rates > 0, rates, np.nan) if cell is None else rates
+    norm = PowerNorm(0.5, vmin=0) if cell is None else Normalize(vmin=0)
+    image = axes.imshow(shown, extent=(0, 1, 1, 0), cmap="viridis", norm=norm, interpolation="nearest")
+    axes.set(xlim=(-0.02, 1.02), ylim=(1.02, -0.02))
+    axes.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
+    scale = axes.figure.colorbar(image, ax=axes, shrink=0.8,
+                                 label="seconds" if cell is None else f"share of time with cell {cell} active")
+    scale.outline.set_visible(False)
+    return axes

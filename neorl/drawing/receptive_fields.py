@@ -1,0 +1,87 @@
+"""The receptive fields of maps of any modality, as they lie over a board while an agent is somewhere on it."""
+
+from dataclasses import replace
+
+import numpy as np
+from matplotlib.collections import LineCollection
+from matplotlib.patches import Rectangle
+
+from neorl import checks
+from neorl.core.geometry import TAU
+from neorl.core.maps import NresMap
+from neorl.drawing.boards import board_or_new
+from neorl.drawing.style import AGENT, INK
+from neorl.worlds.probe import HALF_SECOND
+from neorl.worlds.world import World
+
+RASTER = 121  # places a side at which receptive fields are looked up
+
+
+def draw_receptive_fields(nres_map, world, state, ax=None):
+    """The receptive fields of a map over the board, those of its active cells filled, into `ax` or a new board.
+
+    A place stands for itself, for a thing there as the agent would see it, or for the velocity that takes the agent
+    there in half a second.
+
+    nres_map: a `neorl.NresMap` of a modality of one vector. world: of two axes; state: of that world.
+    Returns the axes. Raises ValueError for anything else.
+
+    >>> tank = neorl.WaterWorld()
+    >>> axes = drawing.draw_receptive_fields(neorl.NresMap(5), tank, tank.reset(seed=0))
+    """
+    modality = _of_raw_coordinates(checks.instance("nres_map", nres_map, NresMap).modality)
+    if checks.instance("world", world, World).actions.axes != 2:
+        raise ValueError(f"world has {world.actions.axes} axes, allowed are worlds of two")
+    world.check_state(state)
+    agent = state.scene.position / world.size
+    side = np.linspace(0, 1, RASTER)
+    places = np.stack(np.meshgrid(side, side), axis=-1)
+    vectors = {"position": places, "velocity": (places - agent) / HALF_SECOND}.get(modality.follows, places - agent)
+    at = _in_intervals(nres_map, modality.tune(vectors))
+    axes = board_or_new(ax)
+    arena = axes.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
+    thin = {"linewidths": 0.8, "colors": INK, "zorder": -1}
+    for i, (axis, n) in enumerate(zip(modality.axes, nres_map.intervals)):
+        borders = np.arange(1, n)
+        borders = borders[(at[..., i].min() < borders) & (borders < at[..., i].max())]
+        if axis.is_direction and n > 1:
+            directions = TAU * (np.arange(n) - 0.5) / n
+            beyond = agent + 2 * np.stack([np.cos(directions), np.sin(directions)], axis=1)
+            rays = axes.add_collection(LineCollection([(agent, end) for end in beyond], **thin), autolim=False)
+            rays.set_clip_path(arena)
+        elif len(borders):
+            axes.contour(side, side, at[..., i], borders, **thin)
+    for cell in np.unique(nres_map.encode(modality.coordinates(state.scene, world.size))):
+        intervals = np.unravel_index(cell, nres_map.intervals, order="F")
+        inside = np.min([_depth(at[..., i], interval, nres_map.intervals[i], modality.axes[i].closed)
+                         for i, interval in enumerate(intervals)], axis=0)
+        axes.contourf(side, side, inside, [0, np.inf], colors=[AGENT], alpha=0.35, zorder=-2)
+    return axes
+
+
+def _of_raw_coordinates(modality):
+    """A modality without given boundaries: with them, its coordinates would be the numbers of intervals."""
+    return replace(modality, axes=[replace(axis, boundaries=()) for axis in modality.axes])
+
+
+def _in_intervals(nres_map, coordinates):
+    """Coordinates (…, axes) in intervals of a map: on each axis interval i spans i … i + 1."""
+    at = np.empty(coordinates.shape)
+    for i, (axis, n) in enumerate(zip(nres_map.modality.axes, nres_map.intervals)):
+        low, high = (-0.5 * TAU / n, TAU - 0.5 * TAU / n) if axis.is_direction else (axis.low, axis.high)
+        if axis.boundaries:
+            within = np.interp(coordinates[..., i], axis.boundaries, np.arange(n + 1))
+            beyond = coordinates[..., i] - np.clip(coordinates[..., i], low, high)
+            at[..., i] = within + n * beyond / (high - low)
+        else:
+            at[..., i] = n * (coordinates[..., i] - low) / (high - low)
+    return at + 1e-9  # An interval holds its lower end, a contour leaves what lies on it to those below.
+
+
+def _depth(at, interval, n, closed):
+    """How deep inside one of n intervals each coordinate lies, in intervals; negative outside."""
+    if closed and n > 1:
+        return 0.5 - np.abs((at - interval - 0.5 + n / 2) % n - n / 2)
+    above = at - interval if interval > 0 else np.ones_like(at)
+    below = interval + 1 - at if interval < n - 1 else np.ones_like(at)
+    return np.minimum(above, below)

@@ -1,0 +1,79 @@
+"""The style of all figures: colours that serve a light page and a dark one, on a transparent ground.
+
+Colours keep apart for colour-blind readers, and never stand alone: a curve carries its name, a creep its sign.
+"""
+
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure, SubFigure
+from scipy.optimize import isotonic_regression
+
+from neorl import checks
+
+INK = "#808080"
+AGENT, GREEN, RED = "#3b8ad9", "#12946d", "#d9622b"
+CURVES = ("#3e6ad1", "#b02d45", "#ac990f", "#01a7bf", "#85488f", "#b46411", "#9c86fd")
+DASHES = ("-", "--", ":", "-.")  # of curves: one for each time that the colours have gone round
+LOW_PANEL = 0.17  # of the height of a panel, for the name of a curve
+LEAST_LETTERS = 6  # points, of the names of many curves
+STYLE = {
+    "figure.facecolor": "none", "axes.facecolor": "none", "savefig.facecolor": "none", "figure.figsize": (4.9, 3.5),
+    "font.size": 11, "text.color": INK, "axes.labelcolor": INK, "axes.edgecolor": INK, "xtick.color": INK,
+    "ytick.color": INK, "axes.spines.top": False, "axes.spines.right": False, "lines.linewidth": 1.8,
+    "figure.constrained_layout.use": True, "svg.hashsalt": "neorl",
+}
+
+
+def use_style():
+    """Set matplotlib to the style of the book; ``with plt.rc_context(drawing.STYLE):`` does so for some figures."""
+    plt.rcParams.update(STYLE)
+
+
+def axes_or_new(ax, figsize=None, **options):
+    """`ax`, or if it is None the axes of a new figure, with these options. Raises ValueError for anything else."""
+    if ax is None:
+        return plt.figure(figsize=figsize, layout="constrained").add_subplot(**options)
+    return checks.instance("ax", ax, Axes)
+
+
+def figure_or_new(figure, figsize, layout="constrained"):
+    """`figure`, a figure or a part of one, or if it is None a new one. Raises ValueError for anything else."""
+    if figure is None:
+        return plt.figure(figsize=figsize, layout=layout)
+    return figure if isinstance(figure, SubFigure) else checks.instance("figure", figure, Figure)
+
+
+def width_of_figures():
+    """The usual width of a figure in inches."""
+    return plt.rcParams["figure.figsize"][0]
+
+
+def by_name(name, values):
+    """`values`, if they are a dict of one or more. Raises ValueError for anything else."""
+    if isinstance(values, dict) and values:
+        return values
+    found = repr(values) if isinstance(values, dict) else f"of type {type(values).__name__}"
+    raise ValueError(f"{name} is {found}, allowed is a dict with one entry or more, by name")
+
+
+def looks(count):
+    """Colours and dashes of so many curves: 28 differ, in colour first."""
+    return [(CURVES[i % len(CURVES)], DASHES[i // len(CURVES) % len(DASHES)]) for i in range(count)]
+
+
+def name_ends(axes, ends, line=0.075):
+    """Write the names of curves beside their ends (height, name, colour), moved apart where they would overlap.
+
+    line: the room that a name needs, as a share of the height of the axes; more in a low panel. Many names are written
+    the smaller, so that they have room.
+    """
+    low, high = axes.get_ylim()
+    ends = sorted(ends)
+    share = min(1.0, 1.0 / (line * len(ends))) if ends else 1.0
+    apart = share * line * (high - low) * np.arange(len(ends))
+    heights = apart + isotonic_regression([height for height, *_ in ends] - apart).x
+    letters = max(LEAST_LETTERS, share * plt.rcParams["font.size"])
+    for at, (_, name, colour) in zip(heights, ends):
+        axes.annotate(name, (1.02, at), xycoords=("axes fraction", "data"), color=colour, va="center",
+                      fontsize=letters, annotation_clip=False)

@@ -1,0 +1,154 @@
+"""Maps from above: their cells, the values of actions in each, and what a run has come to know of its goals.
+
+A map of two components is drawn in rectangles over the board, or over what lies around the agent. A polar map, of a
+distance and a direction, is drawn in sectors of rings around the agent, and one of directions in sectors. Each function
+draws into `ax`, or into a new board, and returns the axes.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.patches import Patch, Rectangle, Wedge
+
+from neorl import checks
+from neorl.core.geometry import TAU
+from neorl.core.horde import as_vectors
+from neorl.core.maps import NresMap
+from neorl.core.scene import CARDINAL
+from neorl.drawing.boards import board_or_new, check_run_in_plane
+from neorl.drawing.style import AGENT, GREEN, INK, RED
+
+OPACITY = 0.45  # of the cell of the greatest value
+
+
+class _Fields(NamedTuple):
+    """The receptive fields of a map in the plane."""
+
+    patches: list[Patch]
+    middles: np.ndarray  # float64 (cells, 2)
+    breadth: np.ndarray  # float64 (cells, 1): room for an arrow
+    low: float  # where the board begins that they lie on
+
+
+def draw_cells(nres_map, colour=INK, fills=None, width=1.0, ax=None):
+    """The receptive fields of a map, some of them filled.
+
+    nres_map: a `neorl.NresMap` of two components of one vector, of its length and direction, or of the direction alone.
+    fills: {cell: (colour, opacity)}. width: of the lines, in points.
+    Raises ValueError for anything else.
+
+    >>> axes = drawing.draw_cells(neorl.NresMap(5), fills={12: (drawing.GREEN, 0.5)})
+    """
+    fields = _fields(nres_map)
+    axes, fills = board_or_new(ax, fields.low), fills or {}
+    for cell, patch in enumerate(fields.patches):
+        patch.set(facecolor="none", edgecolor=colour, linewidth=width)
+        axes.add_patch(patch)
+    inside = _fields(nres_map).patches if fills else ()
+    for cell, (fill, opacity) in fills.items():
+        cell = checks.integer("cell of fills", cell, at_least=0, at_most=nres_map.cells - 1)
+        inside[cell].set(facecolor=fill, alpha=opacity, edgecolor="none")
+        axes.add_patch(inside[cell])
+    return axes
+
+
+def draw_values(nres_map, values, actions=CARDINAL, ax=None):
+    """An arrow in every cell for the values of actions there: the sum of the actions' pushes, times their values.
+
+    nres_map: as in `draw_cells`. values: float (cells, actions). actions: the world's `neorl.Actions`, of two axes.
+    Arrows grow with the fourth root of the values, so that small ones can be seen.
+    Raises ValueError for anything else.
+
+    >>> values = np.array([[0.0, 0.0, 1.0, 0.0]] * 9)  # east is best everywhere
+    >>> axes = drawing.draw_values(neorl.NresMap(3), values, ax=drawing.draw_cells(neorl.NresMap(3)))
+    """
+    fields, values = _fields(nres_map), checks.finite("values", np.asarray(values, float))
+    if values.shape != (nres_map.cells, len(actions.names)) or actions.axes != 2:
+        raise ValueError(f"values has the shape {values.shape}, allowed is {(nres_map.cells, len(actions.names))} with "
+                         f"actions along two axes, here {actions.axes}")
+    axes = board_or_new(ax, fields.low)
+    vector = as_vectors(values, actions)
+    length = np.linalg.norm(vector, axis=1, keepdims=True)
+    arrow = fields.breadth * 0.8 * vector / np.where(length > 0, length, 1)
+    arrow *= (length / max(length.max(), 1e-30)) ** 0.25
+    shown = length[:, 0] > 0
+    start = (fields.middles - arrow / 2)[shown]
+    axes.quiver(start[:, 0], start[:, 1], arrow[shown, 0], arrow[shown, 1], color=AGENT, angles="xy",
+                scale_units="xy", scale=1, width=0.009)
+    return axes
+
+
+def draw_value_map(run, goals, valences=None, index=0, ax=None):
+    """What a run knows of goals: each cell the more opaque the more its best action is worth, red where that is less
+    than 0, and an arrow for the values of all actions. The cells of the goals have a bold edge.
+
+    run: a `neorl.Run` in a world of two axes. goals: (goals, coordinates), points of the map's modality, such as places
+    in board widths, or distances and directions in radians. valences: their weights, by default 1.
+    index: of the map in `Agent.maps`, one that `draw_cells` can draw.
+    Raises ValueError for anything else.
+
+    >>> run = neorl.Run(neorl.place_cells([5]), neorl.WaterWorld())
+    >>> paid = run.advance(20_000)
+    >>> axes = drawing.draw_value_map(run, goals=[(0.7, 0.7)])
+    """
+    check_run_in_plane(run)
+    q = run.q(index)
+    nres_map = run.agent.maps[index]
+    cells = np.atleast_1d(nres_map.encode(goals))
+    valences = [1.0] * len(cells) if valences is None else [
+        checks.real("valences", each) for each in checks.several("valences", valences)]
+    if cells.ndim != 1 or not len(cells) or len(valences) != len(cells):
+        raise ValueError(f"valences has {len(valences)} values, allowed is one for each of {cells.size} goals, of one "
+                         "or more")
+    values = q[:, :, cells].astype(float) @ np.array(valences)
+    best = values.max(axis=1)
+    most = max(np.abs(best).max(), 1e-30)
+    fills = {cell: (AGENT if worth > 0 else RED, OPACITY * abs(worth) / most) for cell, worth in enumerate(best)}
+    axes = draw_cells(nres_map, width=0.6, fills=fills, ax=ax)
+    patches = _fields(nres_map).patches
+    for cell, valence in zip(cells, valences):
+        patches[cell].set(facecolor="none", edgecolor=GREEN if valence > 0 else RED, linewidth=2.5, zorder=3)
+        axes.add_patch(patches[cell])
+    return draw_values(nres_map, values, run.world.actions, axes)
+
+
+def _fields(nres_map):
+    axes = checks.instance("nres_map", nres_map, NresMap).modality.axes
+    vectors, features = {axis.of for axis in axes}, [axis.feature for axis in axes]
+    if len(vectors) == 1 and not callable(axes[0].of):
+        if features == ["component"] * 2 and (axes[0].along, axes[1].along) == (0, 1):
+            return _rectangles(nres_map)
+        if features in (["length", "direction"], ["direction"]):
+            return _sectors(nres_map)
+    raise ValueError(f"nres_map is of {nres_map.modality.name}s, allowed are maps of the components x and y of one "
+                     "vector, of its length and direction, or of its direction")
+
+
+def _borders(axis, n, nearest, furthest):
+    """Where the n intervals of an axis begin and end; the outermost as far as things can be, since they hold them."""
+    borders = np.array(axis.boundaries or np.linspace(axis.low, axis.high, n + 1))
+    borders[0], borders[-1] = min(borders[0], nearest), max(borders[-1], furthest)
+    return borders
+
+
+def _rectangles(nres_map):
+    low = 0 if nres_map.modality.follows == "position" else -1
+    x, y = (_borders(axis, n, low, 1) for axis, n in zip(nres_map.modality.axes, nres_map.intervals))
+    rows, columns = np.divmod(np.arange(nres_map.cells), nres_map.intervals[0])
+    begin, end = (np.stack([x[columns + i], y[rows + i]], axis=1) for i in (0, 1))
+    sides = end - begin
+    patches = [Rectangle(corner, *each) for corner, each in zip(begin, sides)]
+    return _Fields(patches, begin + sides / 2, np.full((len(sides), 1), sides.min()), low)
+
+
+def _sectors(nres_map):
+    *length, directions = nres_map.intervals
+    rings = _borders(nres_map.modality.axes[0], *length, 0, 1) if length else np.array([0.0, 1.0])
+    number, ring = np.divmod(np.arange(nres_map.cells), len(rings) - 1)
+    inner, outer, angle = rings[ring], rings[ring + 1], TAU * number / directions
+    half = TAU / directions / 2
+    patches = [Wedge((0, 0), r, *np.degrees((at - half, at + half)), width=r - hole)
+               for hole, r, at in zip(inner, outer, angle)]
+    middle = (inner + outer) / 2
+    middles = middle[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    return _Fields(patches, middles, np.minimum(outer - inner, 2 * half * middle)[:, None], -1)

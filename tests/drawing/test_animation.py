@@ -1,0 +1,59 @@
+"""Films of runs."""
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from neorl import Agent, Arena, Desire, Node, Run, WaterWorld, drawing, place_cells
+from neorl.core.modality import PLACE_CELL
+
+
+@pytest.fixture
+def run():
+    return Run(place_cells([3]), WaterWorld())
+
+
+def frames(path):
+    with Image.open(path) as film:
+        for number in range(film.n_frames):
+            film.seek(number)
+            yield film.info["duration"], np.asarray(film.convert("RGB"))
+
+
+def test_a_film_is_as_long_and_as_large_as_it_was_asked_for_and_advances_the_run(run, tmp_path):
+    run.advance(123)
+    path = drawing.animate(run, tmp_path / "run.gif", seconds=0.4, fps=10, size=150, background="#121212")
+    durations, pictures = zip(*frames(path))
+    assert durations == (100,) * 4 and run.step == 123 + 15
+    assert {picture.shape for picture in pictures} == {(162, 150, 3)}
+    assert all(np.all(picture[0, 0] == 0x12) for picture in pictures)
+    assert not np.array_equal(pictures[0], pictures[-1])
+
+
+def test_the_film_shows_the_run_as_it_would_have_been_without(run, tmp_path):
+    other = run.copy()
+    drawing.animate(run, tmp_path / "run.gif", seconds=0.3, fps=10, size=64)
+    other.advance(run.step)
+    np.testing.assert_array_equal(run.world_state.scene.position, other.world_state.scene.position)
+
+
+def test_a_slow_world_repeats_frames_and_an_arena_is_filmed(tmp_path):
+    arena = Arena(fps=5)
+    run = Run(Agent([Node("PC", PLACE_CELL, [3])], [Desire("platform", "PC", 1.0)]), arena)
+    path = drawing.animate(run, tmp_path / "arena.GIF", seconds=0.5, fps=20, size=64)
+    assert run.step == 2 and sum(duration for duration, _ in frames(path)) == 500
+
+
+@pytest.mark.parametrize("change, message", [
+    ({"run": "run"}, "run is 'run', allowed is a Run"), ({"path": "run.mp4"}, "path is 'run.mp4', allowed are"),
+    ({"seconds": 0}, "seconds is 0, allowed are numbers above 0"), ({"seconds": float("nan")}, "seconds is nan"),
+    ({"seconds": 1e6}, "seconds is 1000000.0, allowed are 5000 frames or fewer, at 25 a second 200 s"),
+    ({"fps": 0}, "fps is 0, allowed are integers from 1 to 50"), ({"fps": 2**80}, "fps is 1208925819614629174706176"),
+    ({"fps": 12.5}, "fps is 12.5"), ({"size": 10}, "size is 10, allowed are integers from 64 to 2000"),
+    ({"background": "a dark one"}, "background is 'a dark one', allowed are colours of matplotlib's"),
+])
+def test_a_film_that_cannot_be_made_is_refused_before_the_run_goes_on(run, tmp_path, monkeypatch, change, message):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(ValueError, match=message):
+        drawing.animate(**{"run": run, "path": "run.gif"} | change)
+    assert run.step == 0 and not list(tmp_path.iterdir())

@@ -1,0 +1,209 @@
+"""Figures as a library: into axes of the user's own, on matplotlib alone, of any number of curves, drawn to scale."""
+
+import doctest
+import importlib
+import inspect
+import pkgutil
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from matplotlib import pyplot as plt
+
+import neorl
+from neorl import Arena, NresMap, Result, Run, WaterWorld, drawing, network_d, place_cells
+from neorl.evidence.statistics import Estimate
+
+MODULES = [importlib.import_module(f"neorl.drawing.{each.name}") for each in pkgutil.iter_modules(drawing.__path__)]
+TANK = WaterWorld()
+ESTIMATES = {"D": [Estimate(0.1, 0.0, 0.3), Estimate(0.4, 0.3, 0.5)]}
+
+
+def made_up(minutes, runs=3, reward=0.1):
+    steps = int(minutes * 60 * 50)
+    rewards = np.full((runs, -(-steps // 10)), reward, np.float32)
+    return Result(place_cells([2]), TANK, steps, runs, 0, rewards, np.zeros((*rewards.shape, 2), np.int16))
+
+
+@pytest.fixture(scope="module")
+def run():
+    run = Run(place_cells([3]), TANK)
+    run.advance(1_000)
+    return run
+
+
+def figures_of_one_panel(run):
+    curves = {"one": np.ones((3, 4))}
+    return {
+        drawing.draw_accumulated: ({"N2": made_up(1)},), drawing.draw_proficiency: ({"N2": made_up(1)},),
+        drawing.draw_smoothed: ({"N2": made_up(1)},), drawing.draw_curves: (np.arange(4), curves),
+        drawing.draw_sweep: ([1, 2], ESTIMATES), drawing.draw_costs: (["a", "b"], [1.0, 2.1], np.array([1.0, 2.0])),
+        drawing.draw_against_thesis: ({"a": 0.5}, {"here": {"a": Estimate(0.4, 0.3, 0.5)}}),
+        drawing.draw_network: (network_d(),), drawing.draw_cells: (NresMap(3),),
+        drawing.draw_values: (NresMap(3), np.ones((9, 4)) * [0, 1, 0, 0]),
+        drawing.draw_value_map: (run, [(0.5, 0.5)]), drawing.draw_world: (TANK, run.world_state),
+        drawing.draw_tank: (TANK, run.world_state), drawing.draw_walls: (TANK,), drawing.draw_desires: (run,),
+        drawing.draw_receptive_fields: (NresMap(3), TANK, run.world_state),
+        drawing.draw_rate_map: (drawing.Track(np.full((5, 2), 0.5), np.zeros((5, 1), int), 0.02),)}
+
+
+def test_a_figure_of_one_panel_is_drawn_into_the_axes_that_are_given_and_into_no_other(run):
+    functions = figures_of_one_panel(run)
+    assert {each.__name__ for each in functions} == {
+        name for name in drawing.__all__ if name.startswith("draw_")} - {"draw_networks"}
+    for draw, arguments in functions.items():
+        figure, (left, right) = plt.subplots(1, 2)
+        assert draw(*arguments, ax=right) is right
+        assert right.has_data() or right.texts or right.patches or draw is drawing.draw_desires, draw
+        assert not left.has_data() and not left.patches and plt.get_fignums() == [figure.number], draw
+        plt.close(figure)
+        assert draw(*arguments).figure.number == plt.gcf().number  # a figure of its own
+        plt.close("all")
+
+
+@pytest.mark.parametrize("module", MODULES, ids=lambda module: module.__name__)
+def test_every_figure_can_be_placed(module):
+    for name, function in inspect.getmembers(module, inspect.isfunction):
+        if name.startswith("draw_") and function.__module__ == module.__name__:
+            assert {"ax", "figure"} & set(inspect.signature(function).parameters), name
+
+
+@pytest.mark.parametrize("module", [drawing, *MODULES], ids=lambda module: module.__name__)
+def test_the_examples_in_docstrings_run(module, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    names = {"neorl": neorl, "drawing": drawing, "np": np}
+    for example in doctest.DocTestFinder(exclude_empty=True).find(module, extraglobs=names):
+        if example.name.startswith(module.__name__):
+            assert doctest.DocTestRunner().run(example).failed == 0, example.name
+            plt.close("all")
+
+
+def test_every_public_function_has_an_example():
+    for name in drawing.__all__:
+        if inspect.isfunction(getattr(drawing, name)) and name not in ("draw_costs", "use_style"):
+            assert ">>> " in getattr(drawing, name).__doc__, name
+
+
+def test_axes_become_a_board_unless_their_limits_are_set(run):
+    fresh, own = plt.figure().subplots(1, 2)
+    own.set(xlim=(0.2, 0.4), ylim=(0.4, 0.2))
+    for axes in (fresh, own):
+        drawing.draw_tank(TANK, run.world_state, axes)
+    assert fresh.get_ylim()[0] > fresh.get_ylim()[1] and not fresh.axison
+    assert own.get_xlim() == (0.2, 0.4) and own.axison
+
+
+def test_networks_fill_a_part_of_a_figure():
+    left, right = plt.figure(figsize=(8, 3)).subfigures(1, 2)
+    panels = drawing.draw_networks({"C": neorl.network_c(), "D": network_d()}, right)
+    assert [axes.figure for axes in panels] == [right, right] and not left.axes
+    letters = {text.get_fontsize() for axes in panels for text in axes.texts}
+    assert max(letters) < 8  # smaller than in a figure of their own, so that they fit
+
+
+@pytest.mark.parametrize("draw", [drawing.draw_accumulated, drawing.draw_proficiency, drawing.draw_smoothed])
+def test_runs_of_different_lengths_are_drawn_to_scale(draw):
+    for results in ({"long": made_up(20), "short": made_up(2)}, {"short": made_up(2), "long": made_up(20)}):
+        axes = draw(results)
+        ends = dict(zip(results, (line.get_xdata()[-1] for line in axes.lines)))
+        assert ends["long"] == pytest.approx(10 * ends["short"], rel=0.03)
+        assert axes.get_xlim()[1] == pytest.approx(ends["long"], rel=0.02)
+
+
+def test_a_sum_of_runs_of_different_lengths_is_refused():
+    with pytest.raises(ValueError, match="total has results of 3 × 1200 s, 3 × 120 s, allowed are .* all of as many"):
+        drawing.draw_proficiency({"a": made_up(1)}, total=("sum", [made_up(20), made_up(2)]))
+
+
+def test_a_run_shorter_than_the_points_of_a_curve_has_a_point_a_bin():
+    line, _ = drawing.draw_proficiency({"short": made_up(1 / 60)}).lines
+    np.testing.assert_allclose(line.get_ydata(), [0.5] * 5)
+    np.testing.assert_allclose(line.get_xdata(), (np.arange(5) + 0.5) / 5 / 60)
+
+
+@pytest.mark.parametrize("count", [8, 20, 28])
+def test_any_number_of_curves_is_drawn_and_told_apart(count):
+    axes = drawing.draw_curves(np.arange(9), {f"agent {i}": np.full((1, 9), float(i)) for i in range(count)})
+    assert len({(line.get_color(), line.get_linestyle()) for line in axes.lines}) == len(axes.lines) == count
+    axes.figure.draw_without_rendering()
+    extents = sorted((text.get_window_extent().y0, text.get_window_extent().y1) for text in axes.texts)
+    assert len(extents) == count
+    assert all(above > below - 1 for (_, below), (above, _) in zip(extents, extents[1:]))  # a pixel is none
+
+
+def test_the_grey_of_a_control_comes_after_any_number_of_curves():
+    axes = drawing.draw_accumulated({f"N{n}": made_up(1) for n in range(9)}, {"control": made_up(1)})
+    assert [line.get_color() for line in axes.lines] == [*drawing.CURVES, *drawing.CURVES[:2], drawing.INK]
+
+
+def test_a_curve_with_gaps_is_named_where_it_ends():
+    curve = np.array([[1.0, 2.0, np.nan, np.nan]])
+    axes = drawing.draw_curves(np.arange(4), {"gone": curve})
+    assert [text.xy[1] for text in axes.texts] == [2.0]
+
+
+@pytest.mark.parametrize("draw, message", [
+    (lambda: drawing.draw_curves([0, 1], {}), r"curves is \{\}, allowed is a dict with one entry or more, by name"),
+    (lambda: drawing.draw_proficiency({}), r"results is \{\}, allowed is a dict"),
+    (lambda: drawing.draw_accumulated({}), r"results is \{\}"), (lambda: drawing.draw_smoothed({}), r"results is \{\}"),
+    (lambda: drawing.draw_sweep([1], {}), r"estimates_by_name is \{\}"),
+    (lambda: drawing.draw_networks({}), r"agents is \{\}"),
+    (lambda: drawing.draw_proficiency(made_up(1)), "results is of type Result, allowed is a dict"),
+    (lambda: drawing.draw_proficiency({"N2": 5}), r"results\['N2'\] is 5, allowed is a Result"),
+    (lambda: drawing.draw_proficiency({"N2": made_up(1)}, points=0), "points is 0, allowed are integers ≥ 1"),
+    (lambda: drawing.draw_smoothed({"N2": made_up(0.1)}), r"results\['N2'\] has 30 bins, allowed are more than 40"),
+    (lambda: drawing.draw_curves(np.arange(4), {"a": np.ones((3, 5))}),
+     r"curves\['a'\] has the shape \(3, 5\), allowed are \(runs, points\) over xs, which has the shape \(4,\)"),
+    (lambda: drawing.draw_curves(np.arange(4), {"a": np.ones(4)}), r"curves\['a'\] has the shape \(4,\)"),
+    (lambda: drawing.draw_curves(np.arange(2), {"a": np.full((1, 2), np.nan)}), r"curves\['a'\] is nowhere finite"),
+    (lambda: drawing.draw_sweep([1, 2, 3], ESTIMATES), r"estimates_by_name\['D'\] has the shape \(2, 3\)"),
+    (lambda: drawing.draw_curves([0, 1], {"a": np.ones((1, 2))}, ax=5), "ax is 5, allowed is an Axes"),
+    (lambda: drawing.draw_networks({"D": network_d()}, figure="1"), "figure is '1', allowed is a Figure"),
+    (lambda: drawing.draw_network("D"), "agent.* is 'D', allowed is an Agent"),
+    (lambda: drawing.draw_tank(Arena(), Arena().reset(0)), "world is Arena.*, allowed is a WaterWorld"),
+    (lambda: drawing.draw_world(TANK, Arena().reset(0)), "(?s)state is .*, allowed is a WaterWorldState"),
+    (lambda: drawing.draw_receptive_fields(5, TANK, TANK.reset(0)), "nres_map is 5, allowed is a NresMap"),
+])
+def test_what_cannot_be_drawn_is_refused(draw, message):
+    with pytest.raises(ValueError, match=message):
+        draw()
+
+
+# Stands for an environment in which only the packages of the core and what matplotlib brings are installed.
+HIDE = """
+import importlib.abc, sys
+class Hidden(importlib.abc.MetaPathFinder):
+    def find_spec(self, name, path, target=None):
+        if name.split(".")[0] in {hidden!r}:
+            raise ModuleNotFoundError(f"No module named {{name!r}}", name=name)
+sys.meta_path.insert(0, Hidden())
+"""
+OF_THE_BOOK = ("IPython", "ipykernel", "ipywidgets", "anywidget", "traitlets", "matplotlib_inline", "pandas", "xarray",
+               "sklearn", "ziglang", "gymnasium", "distributed", "papermill", "nbformat")
+
+
+def python(code, hidden, folder):
+    return subprocess.run([sys.executable, "-c", HIDE.format(hidden=hidden) + code], capture_output=True, text=True,
+                          env=None, cwd=folder)
+
+
+def test_matplotlib_is_enough(tmp_path, monkeypatch):
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    code = """
+import importlib, pkgutil, neorl
+assert "matplotlib" not in sys.modules
+from neorl import drawing
+for each in pkgutil.iter_modules(drawing.__path__):
+    importlib.import_module("neorl.drawing." + each.name)
+drawing.use_style()
+drawing.draw_network(neorl.network_d()).figure.savefig("network.svg")
+"""
+    done = python(code, OF_THE_BOOK, tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "network.svg").read_text().startswith("<?xml")
+
+
+def test_without_matplotlib_the_extra_is_named(tmp_path):
+    done = python("import neorl; neorl.simulate; from neorl.drawing import draw_curves", ("matplotlib",), tmp_path)
+    assert "ImportError: this needs matplotlib: pip install 'neorl-companion[plot]'" in done.stderr

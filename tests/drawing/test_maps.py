@@ -1,0 +1,174 @@
+"""Maps of values, of receptive fields and of rates: the numbers that they show."""
+
+import numpy as np
+import pytest
+from matplotlib.patches import Wedge
+from matplotlib.transforms import Affine2D
+
+from neorl import Agent, Arena, Axis, Desire, Modality, Node, NresMap, Run, WaterWorld, drawing, place_cells
+from neorl.core.geometry import TAU
+from neorl.core.modality import (BORDER_CELL, HEAD_DIRECTION_CELL, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL,
+                                 cartesian, polar)
+
+TANK = WaterWorld()
+UNEQUAL = (0.0, 0.1, 0.25, 0.7, 1.0)
+UNEQUAL_POLAR = Modality("", [Axis("objects", "length", boundaries=(0, 0.1, 0.3, 0.8)),
+                              Axis("objects", "direction", intervals=5)])
+UNEQUAL_PLACES = Modality("", [Axis("position", along=0, boundaries=UNEQUAL), Axis("position", along=1)])
+
+
+def wedges(axes):
+    return [patch for patch in axes.patches if isinstance(patch, Wedge)]
+
+
+@pytest.mark.parametrize("modality", [OBJECT_VECTOR_CELL, UNEQUAL_POLAR, HEAD_DIRECTION_CELL,
+                                      Modality("", polar("objects", 0.5))])
+def test_the_sectors_of_a_polar_map_hold_what_the_map_puts_into_them(modality):
+    nres_map = NresMap(4, modality)
+    patches = wedges(drawing.draw_cells(nres_map))
+    assert len(patches) == nres_map.cells
+    angles, radii = np.random.default_rng(0).random((2, 500)) * [[TAU], [0.99]]
+    places = radii[:, None] * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    points = np.stack([radii, angles], axis=1)[:, -len(modality.axes):]
+    large = Affine2D().scale(1_000)  # since paths are searched to within a pixel
+    for place, cell in zip(places, nres_map.encode(points)):
+        assert patches[cell].get_path().transformed(large).contains_point(1_000 * place, radius=1e-6)
+
+
+def test_arrows_of_a_polar_map_lie_in_its_sectors_and_point_where_values_pull():
+    nres_map = NresMap(3, OBJECT_VECTOR_CELL)
+    values = np.zeros((9, 4))
+    values[:, 2] = 1.0  # east
+    axes = drawing.draw_values(nres_map, values)
+    (quiver,) = axes.collections
+    np.testing.assert_allclose(quiver.V, 0, atol=1e-12)
+    assert np.all(quiver.U > 0)
+    middles = np.stack([quiver.X + quiver.U / 2, quiver.Y + quiver.V / 2], axis=1)
+    for cell, patch in enumerate(wedges(drawing.draw_cells(nres_map))):
+        assert patch.get_path().contains_point(middles[cell])
+
+
+@pytest.mark.parametrize("modality", [BORDER_CELL, SPEED_CELL, Modality("", (*PLACE_CELL.axes,
+                                                                            *HEAD_DIRECTION_CELL.axes))])
+def test_maps_of_other_spaces_are_refused(modality):
+    with pytest.raises(ValueError, match="nres_map is of .*s, allowed are maps of the components x and y"):
+        drawing.draw_cells(NresMap(2, modality))
+
+
+def learned(modality, resolution):
+    run = Run(Agent([Node("node", modality, [resolution])], [Desire("green", "node", 1.0)]), TANK)
+    run.advance(20_000)
+    return run
+
+
+@pytest.mark.parametrize("modality, goal", [(PLACE_CELL, (0.7, 0.7)), (OBJECT_VECTOR_CELL, (0.1, 0.0))])
+def test_a_value_map_is_the_more_opaque_the_more_the_best_action_is_worth(modality, goal):
+    run = learned(modality, 3)
+    axes = drawing.draw_value_map(run, [goal], valences=[2.0])
+    best = run.q()[:, :, run.agent.maps[0].encode(goal)].max(axis=1)
+    filled = axes.patches[9:18]
+    np.testing.assert_allclose([patch.get_alpha() for patch in filled], 0.45 * best / best.max(), rtol=1e-6)
+    assert len(axes.patches) == 19 and axes.patches[-1].get_linewidth() > 2
+    shunned = drawing.draw_value_map(run, [goal], valences=[-1.0])
+    assert {patch.get_facecolor()[:3] for patch in shunned.patches[9:18] if patch.get_alpha()} <= {
+        tuple(int(drawing.RED[i : i + 2], 16) / 255 for i in (1, 3, 5))}
+
+
+@pytest.mark.parametrize("change, message", [
+    ({"run": 5}, "run is 5, allowed is a Run"), ({"goals": [(0.5,)]}, "points has the shape"),
+    ({"valences": [1.0, 2.0]}, "valences has 2 values, allowed is one for each of 1 goals"),
+    ({"goals": np.empty((0, 2))}, "of 0 goals, of one or more"), ({"index": 3}, "index is 3"),
+    ({"valences": [np.nan]}, "valences is nan"),
+])
+def test_a_value_map_of_what_there_is_not_is_refused(change, message):
+    given = {"run": Run(place_cells([3]), TANK), "goals": [(0.5, 0.5)]} | change
+    with pytest.raises(ValueError, match=message):
+        drawing.draw_value_map(**given)
+
+
+@pytest.mark.parametrize("modality", [UNEQUAL_PLACES, UNEQUAL_POLAR, Modality("", [
+    Axis("velocity", "component", 0, boundaries=(-1, -0.2, 0.1, 1)), Axis("velocity", "component", 1, -1, 1)])])
+def test_receptive_fields_lie_where_their_boundaries_are(modality):
+    state = TANK.reset(3)
+    state.scene.position[:] = np.array([0.61, 0.43]) * TANK.width
+    state.scene.velocity[:] = np.array([-0.3, 0.13]) * TANK.width
+    nres_map = NresMap(3, modality)
+    axes = drawing.draw_receptive_fields(nres_map, TANK, state)
+    agent = state.scene.position / TANK.width
+
+    def encode(vectors):
+        """As the map has it, by the vectors themselves."""
+        if modality is UNEQUAL_POLAR:
+            vectors = np.stack([np.hypot(*vectors.T), np.arctan2(vectors[:, 1], vectors[:, 0])], axis=1)
+        return nres_map.encode(vectors)
+
+    places = np.random.default_rng(0).random((300, 2))
+    seen = {"position": places, "velocity": (places - agent) / 0.5}.get(modality.follows, places - agent)
+    perceived = {"position": agent[None], "velocity": state.scene.velocity[None] / TANK.width}.get(
+        modality.follows, state.scene.things / TANK.width - agent)
+    fills = [fill for fill in axes.collections if fill.get_alpha()]
+    filled = np.any([[fill.get_paths()[0].contains_point(place) for place in places] for fill in fills], axis=0)
+    assert np.mean(filled == np.isin(encode(seen), encode(perceived))) > 0.97  # but for the rounding of corners
+
+
+def test_unequal_fields_are_cut_at_their_boundaries():
+    axes = drawing.draw_receptive_fields(NresMap(2, UNEQUAL_PLACES), TANK, TANK.reset(0))
+    columns, *_ = axes.collections
+    at = np.concatenate([path.vertices[:, 0] for path in columns.get_paths()])
+    assert set(np.round(at, 2)) == {0.1, 0.25, 0.7}
+
+
+def test_a_track_is_what_the_run_went_through():
+    seen, run, alone = Run(place_cells([4]), TANK), Run(place_cells([4]), TANK), []
+    track = drawing.track(seen, seconds=2)
+    for _ in range(100):
+        run.advance(1)
+        alone.append(run.world_state.scene.position / TANK.width)
+    np.testing.assert_array_equal(track.position, alone)
+    np.testing.assert_array_equal(track.cells[:, 0], NresMap(4).encode(alone))
+    assert (seen.step, track.step) == (100, 0.02)
+    few = drawing.track(Run(place_cells([4]), WaterWorld(fps=500)), seconds=2)
+    assert few.position.shape == (100, 2) and few.step == pytest.approx(0.02)
+
+
+def test_the_rate_of_a_place_cell_is_its_field_and_where_the_agent_never_was_is_empty():
+    position = np.array([[0.1, 0.1], [0.1, 0.1], [0.9, 0.1], [0.1, 0.9], [1.2, 0.9]])
+    cells = np.array([[0, 7], [3, 0], [0, 5], [3, 3], [0, 0]])
+    track = drawing.Track(position, cells, 0.02)
+    np.testing.assert_array_equal(drawing.rate_map(track, cell=0, bins=2), [[1, 1], [0, 1]])
+    np.testing.assert_array_equal(drawing.rate_map(track, cell=3, bins=2), [[0.5, 0], [1, 0]])
+    np.testing.assert_allclose(drawing.rate_map(track, bins=2), [[0.04, 0.02], [0.02, 0.02]])
+    assert np.isnan(drawing.rate_map(track, cell=0, bins=3)[1, 1])
+    assert drawing.rate_map(track, bins=7).sum() == pytest.approx(5 * 0.02)
+
+
+def test_a_rate_map_is_drawn_as_it_is_with_a_scale():
+    track = drawing.Track(np.array([[0.1, 0.1], [0.9, 0.6]]), np.array([[2], [0]]), 0.02)
+    axes = drawing.draw_rate_map(track, cell=2, bins=2)
+    np.testing.assert_array_equal(axes.images[0].get_array().filled(-1), [[1, -1], [-1, 0]])
+    assert axes.images[0].get_extent() == [0, 1, 1, 0]
+    assert [each.get_ylabel() for each in axes.figure.axes] == ["", "share of time with cell 2 active"]
+
+
+@pytest.mark.parametrize("look, message", [
+    (lambda: drawing.track(5, 1), "run is 5, allowed is a Run"),
+    (lambda: drawing.track(Run(place_cells([2]), TANK), 0), "seconds is 0, allowed are numbers above 0"),
+    (lambda: drawing.track(Run(place_cells([2]), TANK), 1e9), r"seconds is 1000000000.0, allowed are at most .* looks"),
+    (lambda: drawing.track(Run(place_cells([2]), TANK), 1, index=1), "index is 1"),
+    (lambda: drawing.rate_map(np.ones(3)), "track is .*, allowed is a Track"),
+    (lambda: drawing.rate_map(drawing.Track(np.ones((1, 2)), np.ones((1, 1)), 1.0), bins=0), "bins is 0"),
+    (lambda: drawing.rate_map(drawing.Track(np.ones((1, 2)), np.ones((1, 1)), 1.0), cell=-1), "cell is -1"),
+])
+def test_rates_of_what_there_is_not_are_refused(look, message):
+    with pytest.raises(ValueError, match=message):
+        look()
+
+
+def test_an_arena_is_drawn_with_its_walls_places_and_agent():
+    arena = Arena(obstacles=[(0.4, 0.4, 0.6, 0.5)], places=[("platform", 0.65, 0.35), ("trap", 0.3, 0.6)])
+    axes = drawing.draw_world(arena, arena.reset(0))
+    wall, obstacle, platform, trap, agent = axes.patches
+    assert wall.get_radius() == 0.5 and obstacle.get_xy() == (0.4, 0.4)
+    np.testing.assert_allclose([platform.center, trap.center], [(0.65, 0.35), (0.3, 0.6)])
+    assert platform.get_facecolor() != trap.get_facecolor()
+    assert Modality("", cartesian("position", (0, 1), (0, 1))).axes == PLACE_CELL.axes
