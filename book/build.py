@@ -32,9 +32,10 @@ CHAPTERS = ROOT / "book" / "chapters"
 HTML = ROOT / "_build" / "html" / "index.html"
 CONCLUSION = "chapter_5"  # reads what all others have found
 # Notebooks of one round are computed two at a time, since much of each keeps one core busy alone: compiling, drawing.
-# All but the first read the shares of readings. The papers keep all cores busy, and paper B measures times.
+# All but the first read the shares of readings. The papers keep all cores busy, and paper B measures times. The last
+# page measures nothing else, and what the others took.
 ROUNDS = (("assumptions", "chapter_1", "chapter_2", "chapter_3"), ("calibration", "chapter_4", "own_world"),
-          ("paper_a",), ("paper_b",), ("paper_c",), (CONCLUSION,))
+          ("paper_a",), ("paper_b",), ("paper_c",), (CONCLUSION,), ("performance",))
 WIDGET_STATE = "application/vnd.jupyter.widget-state+json"
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 

@@ -193,10 +193,10 @@ def test_links_into_the_glossary_become_references_to_its_terms():
     assert build.link_terms("[lost](../book/glossary.md#lost)") == "{term}`lost <lost>`"  # which Sphinx complains about
 
 
-def test_papers_come_after_the_shares_that_they_read_and_the_conclusion_last():
-    names = ["assumptions", "another", "chapter_1", "chapter_5", "paper_a", "paper_b"]
+def test_papers_come_after_the_shares_that_they_read_and_the_conclusion_after_all_that_finds():
+    names = ["assumptions", "another", "chapter_1", "chapter_5", "paper_a", "paper_b", "performance"]
     order = [path.stem for path in sorted(sorted(map(Path, names)), key=build.turn)]
-    assert order == ["another", "assumptions", "chapter_1", "paper_a", "paper_b", "chapter_5"]
+    assert order == ["another", "assumptions", "chapter_1", "paper_a", "paper_b", "chapter_5", "performance"]
     found = {path.stem for path in (ROOT / "notebooks").glob("*.ipynb")}
     assert found == {name for names in build.ROUNDS for name in names}
 

@@ -1,0 +1,155 @@
+"""The least that a step can take: the world's own step, and the bytes that learning moves at the machine's bandwidth.
+
+What an update must move, in each map for each change of cell that it learns from, with A actions:
+
+1. Learning all goals (bootstrapping) reads the A rows of the cell entered, and reads and writes those of the cell left
+   whose events have a rate. A row has 4 bytes for each goal that the cells may know of.
+2. A memory of k cells reads and writes A values of each. They lie far apart in a large map, so each moves its line of
+   64 bytes; in a map that fits into the cache nearest to the processor it moves 4.
+3. What is remembered fades at every change of cell: of each cell 2 A weights, as many worths and a strength, all read
+   and written, 4 bytes each. To learn, a cell's number is read, and its range of goals read and written: 8 and 2 × 16.
+
+Choosing and seeing move nothing that learning does not, and count for nothing. The *working set* is all lines of values
+that learning touches in the stretch that is timed.
+"""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from neorl.agents.agent import Learning
+from neorl.agents.papers import multimodal, place_cells
+from neorl.chapters.performance.bandwidth import LINE
+from neorl.chapters.performance.timing import again, always, in_turns
+from neorl.core.kernel import array, execute, kernel
+from neorl.core.stream import new_stream, randint
+from neorl.evidence.statistics import estimate
+from neorl.experiments.run import Run
+from neorl.worlds.waterworld import Rules, WaterWorld, WaterWorldState, reset, step
+
+NEAREST_CACHE = 2**15  # bytes, on most processors of the last decade
+ALL_GOALS = Learning(bootstrap=True, memory=0.0)
+AGENTS = {"N23, all goals": place_cells([23], learning=ALL_GOALS), "N23, memory": place_cells([23]),
+          "twelve maps, all goals": multimodal(learning=ALL_GOALS), "twelve maps, memory": multimodal()}
+LIVED = 20_000  # steps before an agent is timed
+STRETCH = 5_000  # steps that are timed, at most
+
+
+class Moved(NamedTuple):
+    """What learning moved in a stretch of a run."""
+
+    ordered: float  # bytes a step that lie side by side
+    scattered: float  # bytes a step of lines for a value each
+    working_set: int  # bytes
+    changes: float  # changes of cell a step that something was learned from
+    remembered: float  # cells remembered at such a change, in the mean
+
+
+class Loop(NamedTuple):
+    """One agent's loop, world and agent together, beside its bound. Seconds a step, each (rounds,)."""
+
+    moved: Moved
+    world: np.ndarray
+    loop: np.ndarray
+
+    def moving(self, bandwidths, scattered="copied"):
+        """The seconds a step that the bytes take. scattered: at which bandwidth those lines move that lie apart."""
+        size = self.moved.working_set
+        return self.moved.ordered / bandwidths.at(size) + self.moved.scattered / bandwidths.at(size, scattered)
+
+    def ratio(self, bandwidths, scattered="copied"):
+        """How many times its bound the loop takes, as an `Estimate` over repetitions."""
+        moving = self.moving(bandwidths, scattered)
+        return estimate(lambda loop, world, axis: loop.min(axis) / (world.min(axis) + moving), self.loop, self.world)
+
+
+def measure(steps, rounds, seed=0, agents=AGENTS):
+    """The loops of the agents in a tank of three creeps, all in turn: {name: `Loop`}."""
+    world, steps = WaterWorld(), min(steps, STRETCH)
+    runs = {name: Run(agent, world, seed) for name, agent in agents.items()}
+    for run in runs.values():
+        run.advance(LIVED)
+    timed = {"": bare(world, steps, seed), **{name: again(run, steps) for name, run in runs.items()}}
+    seconds = in_turns(timed, rounds)
+    return {name: Loop(moved(run.copy(), steps), seconds[""] / steps, seconds[name] / steps)
+            for name, run in runs.items()}
+
+
+def spent(steps, rounds, seed=0, agents=AGENTS):
+    """Where the seconds of a step go, in the mean over random movement: {name: {part: seconds}}.
+
+    The agents are made indifferent, so that they draw their actions and all move alike. Then parts are taken away: what
+    they learn, and what they desire. What is left beside the world's step is to see which cells are active.
+    """
+    world, steps = WaterWorld(), min(steps, STRETCH)
+    lives = {}
+    for name, agent in agents.items():
+        blank = replace(agent, learning=Learning(learning_rate=0.0, memory=0.0))
+        indifferent = [replace(desire, valence=0.0) for desire in agent.desires]
+        for part, less in (("all", replace(agent, desires=indifferent)),
+                           ("desires", replace(blank, desires=indifferent)), ("seeing", replace(blank, desires=()))):
+            lives[name, part] = Run(less, world, seed)
+            lives[name, part].advance(LIVED)
+    times = in_turns({"": bare(world, steps, seed), **{key: again(run, steps) for key, run in lives.items()}}, rounds)
+    least = {key: each.min() / steps for key, each in times.items()}
+    return {name: {"world": least[""], "seeing": least[name, "seeing"] - least[""],
+                   "choosing": least[name, "desires"] - least[name, "seeing"],
+                   "learning": least[name, "all"] - least[name, "desires"]} for name in agents}
+
+
+def bare(world, steps, seed=0):
+    """What `in_turns` takes to time the steps of a world without an agent, whose actions are drawn."""
+    state, stream = world.reset(seed), new_stream(np.random.SeedSequence(seed))
+    return always(execute, drawn_steps, state, world.rules, stream, steps)
+
+
+@kernel
+def drawn_steps(state: WaterWorldState, rules: Rules, stream: array("uint64", 4), steps: int) -> float:
+    """So many steps of WaterWorld. Returns the reward."""
+    total = 0.0
+    for _ in range(steps):
+        reward, done = step(state, rules, randint(stream, 4))
+        total += reward
+        if done:
+            reset(state, rules)
+    return total
+
+
+def moved(run, steps):
+    """What learning moves in the coming steps of a `Run`, which takes them: `Moved`."""
+    maps, state, learning = run.parameters.maps, run.state, run.agent.learning
+    tracks, actions = state.tracks, run.parameters.push.shape[0]
+    touched = np.zeros(-(-state.values.q.nbytes // LINE), bool)
+    map_of = np.repeat(np.arange(len(maps.cells)), np.diff(maps.first_track))
+    ordered = scattered = changes = remembered = 0
+    for _ in range(steps):
+        before, learned_before = tracks.cell.copy(), tracks.trace_count.copy()
+        run.advance(1)
+        for track in np.flatnonzero(tracks.cell != before):
+            m, left, entered = map_of[track], before[track], tracks.cell[track]
+            cells, first, count = maps.cells[m], maps.first_value[m], tracks.remembered_count[track]
+            ordered += count * 4 * 2 * (4 * actions + 1)  # fades
+            if tracks.trace_count[track] <= learned_before[track]:
+                continue
+            changes += 1
+            remembered += count
+            if learning.bootstrap:
+                begin, end = state.values.goal_range[maps.first_cell[m] + left]
+                rates = tracks.trace_rates[track, (tracks.trace_count[track] - 1) % learning.trace]
+                written = actions if learning.absent_decay > 0 else np.count_nonzero(rates)
+                ordered += 4 * (end - begin) * (actions + 2 * written)
+                for row in np.add.outer([left, entered], np.zeros(actions, int)).ravel() * actions * cells + first + (
+                        np.tile(np.arange(actions), 2) * cells):
+                    touched[4 * (row + begin) // LINE : 4 * (row + end - 1) // LINE + 1] = True
+            if learning.memory > 0:
+                ordered += count * (8 + 2 * 16)
+                known = tracks.remembered[maps.first_trace[m] + (track - maps.first_track[m]) * cells:][:count]
+                values = first + np.add.outer(known * actions, np.arange(actions)) * cells + entered
+                touched[4 * values.ravel() // LINE] = True
+                if 4 * actions * cells**2 > NEAREST_CACHE:
+                    scattered += 2 * LINE * values.size
+                else:
+                    ordered += 2 * 4 * values.size
+    return Moved(ordered / steps, scattered / steps, LINE * int(touched.sum()), changes / steps,
+                 remembered / max(1, changes))

@@ -1,0 +1,148 @@
+"""How cost grows with what an agent is made of, beside what the algorithm says that it must.
+
+The agents of a series see and evaluate everything, but desire it with valence 0, so they draw their actions and all
+move alike. Predictions follow from the code, for what is large enough to outweigh the rest:
+
+- values ∝ N⁴: a map has N² cells, and a value for each cell, action and goal;
+- learning all goals once ∝ N²: it goes through the rows of two cells, which have a value for each goal;
+- learning all goals in life ∝ N³, at most: changes of cell are N times as many, until each step is one;
+- maps ∝ 1: each map costs the same again;
+- creeps ∝ 1, at most: each is moved, seen and evaluated, beside what does not depend on them;
+- runs ∝ 1: they share nothing;
+- memory ∝ 1, at most: each cell that is remembered learns, and a path that crosses itself leaves fewer.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from neorl.agents.agent import Learning
+from neorl.agents.papers import place_cells
+from neorl.chapters.performance.bound import ALL_GOALS, LIVED, STRETCH
+from neorl.chapters.performance.timing import again, always, exponent, in_turns
+from neorl.core.kernel import array, execute, kernel
+from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
+from neorl.experiments.run import Run
+from neorl.experiments.simulation import simulate
+from neorl.worlds.waterworld import WaterWorld
+
+INDIFFERENT = {"valence_green": 0.0, "valence_red": 0.0}
+LEARNS_NOTHING = Learning(learning_rate=0.0, memory=0.0)
+WITHOUT_A_MAP = place_cells([1], learning=LEARNS_NOTHING, **INDIFFERENT)
+RESOLUTIONS = (21, 26, 32, 39, 48)
+MAPS = (1, 2, 3, 4, 6, 8, 12)
+CREEPS = (16, 32, 64, 128, 256)
+RUNS = (1, 2, 4, 8)
+MEMORIES = (0.5, 1.0, 2.0, 4.0, 8.0, 16.0)  # seconds
+UPDATES = 300
+RATES = np.full(4, 0.01, np.float32)
+
+
+class Series(NamedTuple):
+    """What one number makes of a cost."""
+
+    of: str  # what the number counts
+    cost: str
+    unit: str
+    xs: np.ndarray  # (points,)
+    costs: np.ndarray  # (points,)
+    predicted: int  # the exponent
+    at_most: bool  # whether it is a bound
+
+    @property
+    def exponent(self):
+        """That of the costs: an `Estimate`."""
+        return exponent(self.xs, self.costs)
+
+
+def measure(steps, rounds, seed=0):
+    """Every `Series`. steps: that are timed of a run that has lived, `STRETCH` at most."""
+    steps = min(steps, STRETCH)
+    return [values(), update(rounds, seed), learning(steps, rounds, seed), maps(steps, rounds, seed),
+            creeps(steps, rounds, seed), runs(LIVED, rounds, seed), memory(steps, rounds, seed)]
+
+
+def values():
+    """The memory that the values of a map take, which is counted."""
+    sizes = [Run(place_cells([n]), WaterWorld()).q().nbytes for n in RESOLUTIONS]
+    return _series("N", "values of a map", "bytes", RESOLUTIONS, sizes, 4)
+
+
+def update(rounds, seed=0):
+    """Learning all goals once, of cells that know all of them, along a random walk."""
+    preparations, rule = {}, Rule(np.float32(0.9), True, ZERO, False)
+    for n in RESOLUTIONS:
+        cells, rng = n**2, np.random.default_rng(seed)
+        path = np.clip(np.cumsum(rng.choice([-1, 1, -n, n], UPDATES + 1)) + cells // 2, 0, cells - 1)
+        every_goal = np.tile([0, cells], (cells, 1))
+        map_values = MapValues(np.full(4 * cells**2, 0.1, np.float32), 0, cells, 4, every_goal,
+                               np.empty(cells, np.float32))
+        preparations[n] = always(execute, learn_along, map_values, rule, path, RATES)
+    seconds = in_turns(preparations, rounds)
+    return _series("N", "learning all goals once", "seconds", RESOLUTIONS,
+                   [seconds[n].min() / UPDATES for n in RESOLUTIONS], 2)
+
+
+@kernel
+def learn_along(values: MapValues, rule: Rule, path: array("int64", "cells"), rates: array("float32", 4)) -> None:
+    """Learn all goals from each change of cell along a path."""
+    for change in range(path.shape[0] - 1):
+        learn_all_goals(values, rule, path[change], path[change + 1], rates)
+
+
+
+def learning(steps, rounds, seed=0):
+    """What learning all goals adds to a step, by N."""
+    agents = {n: place_cells([n], learning=ALL_GOALS, **INDIFFERENT) for n in RESOLUTIONS}
+    idle = {-n: place_cells([n], learning=LEARNS_NOTHING, **INDIFFERENT) for n in RESOLUTIONS}
+    found = _a_step({**agents, **idle}, steps, rounds, seed)
+    return _series("N", "learning all goals, a step", "seconds", RESOLUTIONS,
+                   [found[n] - found[-n] for n in RESOLUTIONS], 3, at_most=True)
+
+
+def maps(steps, rounds, seed=0):
+    """What maps of N11 add to a step, by how many there are."""
+    agents = {count: place_cells([11] * count, **INDIFFERENT) for count in MAPS}
+    found = _a_step({**agents, 0: WITHOUT_A_MAP}, steps, rounds, seed)
+    return _series("maps", "maps of N11, a step", "seconds", MAPS, [found[count] - found[0] for count in MAPS], 1)
+
+
+def creeps(steps, rounds, seed=0):
+    """A step of an agent with a map of N7 and its world, by how many creeps there are."""
+    found = _a_step({count: place_cells([7], **INDIFFERENT) for count in CREEPS}, steps, rounds, seed,
+                    {count: WaterWorld(n_creeps=count) for count in CREEPS})
+    return _series("creeps", "a step of world and agent", "seconds", CREEPS, [*found.values()], 1, at_most=True)
+
+
+def runs(steps, rounds, seed=0):
+    """All runs of a condition, one after the other, by how many there are."""
+    preparations = {count: always(_simulate, steps, count, seed) for count in RUNS}
+    return _series("runs", "a condition", "seconds", RUNS,
+                   [each.min() for each in in_turns(preparations, rounds).values()], 1)
+
+
+def memory(steps, rounds, seed=0):
+    """What learning adds to a step of an agent with a map of N23, by how long it remembers."""
+    agents = {seconds: place_cells([23], learning=Learning(memory=seconds), **INDIFFERENT) for seconds in MEMORIES}
+    idle = place_cells([23], learning=LEARNS_NOTHING, **INDIFFERENT)
+    found = _a_step({**agents, 0: idle}, steps, rounds, seed)
+    return _series("seconds remembered", "learning from memory, a step", "seconds", MEMORIES,
+                   [found[each] - found[0] for each in MEMORIES], 1, at_most=True)
+
+
+def _series(of, cost, unit, xs, costs, predicted, at_most=False):
+    return Series(of, cost, unit, np.array(xs, float), np.array(costs, float), predicted, at_most)
+
+
+def _a_step(agents, steps, rounds, seed, worlds=None):
+    """The least seconds a step of agents {name: `Agent`} that have lived: {name: float}."""
+    lives = {name: Run(agent, worlds[name] if worlds else WaterWorld(), seed) for name, agent in agents.items()}
+    for run in lives.values():
+        run.advance(LIVED)
+    seconds = in_turns({name: again(run, steps) for name, run in lives.items()}, rounds)
+    return {name: each.min() / steps for name, each in seconds.items()}
+
+
+def _simulate(steps, count, seed):
+    simulate(place_cells([7], **INDIFFERENT), WaterWorld(), steps=steps, runs=count, seed=seed, threads=1,
+             progress=False)

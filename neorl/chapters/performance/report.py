@@ -1,0 +1,105 @@
+"""What the page "Performance" says of its measurements, in Markdown.
+
+`python -m neorl.chapters.performance.report` measures them all and prints the page's main numbers.
+"""
+
+import sys
+
+from neorl.chapters.performance import bandwidth, bound, contest, growth
+from neorl.chapters.shared.wording import listed, number, table
+
+AIM = 2  # times the bound
+
+
+def summary(loops, bandwidths, rivals, worlds):
+    """The page's result in a paragraph."""
+    ratios = {name: loop.ratio(bandwidths).value for name, loop in loops.items()}
+    within = [name for name, ratio in ratios.items() if ratio <= AIM]
+    least, most = min(ratios.values()), max(ratios.values())
+    quickest, slowest = (of(loop.loop.min() for loop in loops.values()) for of in (min, max))
+    several = ", ".join(f"{_times(ratio.value)} by {name}" for name, ratio in rivals.ratios.items())
+    original = "".join(f" {name} takes {_times(ratio.value)} for a step of the world." for name, ratio in
+                       worlds.ratios.items())
+    return (f"**On this machine one core takes {_seconds(quickest)} to {_seconds(slowest)} for a step of world and "
+            f"agent. That is {least:.1f} to {most:.1f} times the least that world and memory allow; the aim of "
+            f"{AIM} is met by {listed(within)}. The agent's part with N23 takes as many times as long by "
+            f"other means: {several}.{original}**")
+
+
+def bound_table(loops, bandwidths):
+    """Each loop beside its bound."""
+    return table(
+        ["agent", "changes of cell a step", "bytes a step", "working set", "world", "bytes take", "loop",
+         "loop / bound"],
+        [[name, number(loop.moved.changes), f"{loop.moved.ordered + loop.moved.scattered:,.0f}",
+          f"{loop.moved.working_set / 2**20:.1f} MiB", _seconds(loop.world.min()), _seconds(loop.moving(bandwidths)),
+          _seconds(loop.loop.min()), _interval(loop.ratio(bandwidths))] for name, loop in loops.items()])
+
+
+def spent_table(spent):
+    """Where the time of a step goes, by what `neorl.chapters.performance.bound.spent` has found."""
+    parts = list(next(iter(spent.values())))
+    return table(["agent", *parts], [[name, *(_seconds(of[part]) for part in parts)] for name, of in spent.items()])
+
+
+def contest_table(*contests):
+    """What each way takes, and how many times as long as the package."""
+    rows = [[each.what, name, _seconds(seconds.min()), _interval(each.ratios[name]) if name in each.ratios else "1"]
+            for each in contests for name, seconds in each.seconds.items()]
+    return table(["what", "by", "takes", "times as long"], rows)
+
+
+def absent(*contests):
+    """Which rivals are not installed, as a sentence, or nothing."""
+    names = [name for each in contests for name in each.absent]
+    return f"Not installed here, and so not measured: {listed(names)}." if names else ""
+
+
+def growth_table(series):
+    """Exponents, predicted and fitted."""
+    return table(["cost", "grows with", "predicted exponent", "fitted"],
+                 [[each.cost, each.of, f"{'at most ' if each.at_most else ''}{each.predicted}", str(each.exponent)]
+                  for each in series])
+
+
+def minutes_table(pages):
+    """Where the minutes of the book go, or a sentence that there are none."""
+    if not pages:
+        return "No page of the book has been computed here, so there are no times of it to show."
+    parts = ("starting", "importing", "computing", "drawing", "total")
+    rows = [[page.page, *(f"{getattr(page, part):.0f}" for part in parts)] for page in pages]
+    sums = [f"{sum(getattr(page, part) for page in pages):.0f}" for part in parts]
+    return table(["page, seconds", *parts], [*rows, ["all pages", *sums]])
+
+
+def _times(ratio):
+    return f"{ratio:,.1f}" if ratio < 100 else f"{ratio:,.0f}"
+
+
+def _interval(ratio):
+    bounds = "" if ratio.low != ratio.low else f" [{_times(ratio.low)}, {_times(ratio.high)}]"
+    return f"{_times(ratio.value)}{bounds}"
+
+
+def _seconds(value):
+    """A time in the unit that suits it."""
+    for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)):
+        if value >= size:
+            return f"{value / size:.3g} {unit}"
+    return f"{value / 1e-9:.3g} ns" if value >= 1e-9 else "less than 1 ns"
+
+
+def main(rounds=20, steps=20_000):
+    """Print the page's main numbers."""
+    bandwidths, loops = bandwidth.measure(rounds), bound.measure(steps, rounds)
+    contests = contest.agents(steps, rounds), contest.worlds(steps, rounds)
+    series = growth.measure(steps, rounds)
+    for size, copied, scattered in zip(*bandwidths):
+        print(f"{size / 2**10:10,.0f} KiB   copied {copied / 1e9:6.1f} GB/s   scattered {scattered / 1e9:6.1f} GB/s")
+    for part in (summary(loops, bandwidths, *contests), bound_table(loops, bandwidths),
+                 spent_table(bound.spent(steps, rounds)), contest_table(*contests), growth_table(series)):
+        print(f"\n{part}")
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:]))

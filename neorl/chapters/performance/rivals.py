@@ -1,0 +1,180 @@
+"""The same agent in other hands: what one learner does in a recorded stretch of its life, computed by other means.
+
+The learner has one map of place cells. In each step it values every action by superposition of the goals where creeps
+are, takes the best, and learns all goals when it has changed cells (thesis eq. 4.3, 4.4 and 4.8). Where it was, what it
+perceived and at which rates it learned is recorded first, so that all compute the same numbers:
+
+- `by_kernel`: the kernel that agents learn by, and a loop around it;
+- `by_numpy`: array operations, a few for each step;
+- `by_heads`: an object for each goal with a table of its own, as published code of hybrid reward architectures has it;
+- `by_jax`: one compiled scan over the stretch, on the processor, if JAX is installed.
+
+Each returns the actions that it found best, int64 (steps,), and changes the values that it is handed.
+"""
+
+import importlib.util
+import os
+from typing import NamedTuple
+
+import numpy as np
+
+from neorl.agents.agent import Learning
+from neorl.agents.papers import place_cells
+from neorl.core.kernel import array, execute, kernel
+from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
+from neorl.experiments.run import Run
+from neorl.worlds.waterworld import GREEN, WaterWorld
+
+PLAIN = Learning(learning_rate=0.03, discount=0.8, credit="share", absent_decay=0.0, memory=0.0, bootstrap=True,
+                 causes="any", capture="contact", attention="each")
+
+
+class Stretch(NamedTuple):
+    """What a learner went through, and what it knew before."""
+
+    cells: array("int64", "steps + 1")  # where it was before each step, and in the end
+    learns: array("bool", "steps")  # whether it learns from what the step led to
+    rates: array("float32", "steps", 4)  # α ψ of each event
+    goals: array("int64", "steps", "things")  # the cells of the creeps before the step
+    valences: array("float64", "steps", "things")
+    q: array("float32", "cells", 4, "cells")  # q[state, action, goal] before the first step
+    goal_range: array("int64", "cells", 2)  # see `neorl.core.learning.MapValues`
+
+
+def record(resolution, steps, lived, seed=0):
+    """The `Stretch` of so many steps of a learner that has lived for some."""
+    world = WaterWorld()
+    run = Run(place_cells([resolution], learning=PLAIN), world, seed)
+    run.advance(lived)
+    (nres_map,), tracks, scene = run.agent.maps, run.state.tracks, run.world_state.scene
+    found = Stretch(np.empty(steps + 1, int), np.zeros(steps, bool), np.zeros((steps, 4), np.float32),
+                    np.empty((steps, world.things), int), np.empty((steps, world.things)), run.q().copy(),
+                    run.state.values.goal_range.copy())
+    for step in range(steps):
+        found.cells[step], count = tracks.cell[0], tracks.trace_count[0]
+        found.goals[step] = nres_map.encode(scene.things / world.size)
+        found.valences[step] = np.where(scene.kinds == GREEN, 1.0, -1.0)
+        run.advance(1)
+        if tracks.trace_count[0] > count:
+            found.learns[step], found.rates[step] = True, tracks.trace_rates[0, 0]
+    found.cells[steps] = tracks.cell[0]
+    return found
+
+
+def by_kernel(stretch, q, goal_range):
+    """The package's own way. q, goal_range: as in a `Stretch`, both changed."""
+    cells, best = len(q), np.empty(len(stretch.learns), int)
+    values = MapValues(q.reshape(-1), 0, cells, 4, goal_range, np.empty(cells, np.float32))
+    rule = Rule(np.float32(PLAIN.discount), PLAIN.terminal, ZERO, False)
+    execute(replay, values, rule, stretch.cells, stretch.learns, stretch.rates, stretch.goals, stretch.valences, best)
+    return best
+
+
+@kernel
+def replay(values, rule, cells, learns, rates, goals, valences, best):
+    for step in range(learns.shape[0]):
+        highest = -np.inf
+        for action in range(4):
+            value, row = 0.0, (cells[step] * 4 + action) * values.cells
+            for thing in range(goals.shape[1]):
+                value += valences[step, thing] * values.q[row + goals[step, thing]]
+            if value > highest:
+                best[step], highest = action, value
+        if learns[step]:
+            learn_all_goals(values, rule, cells[step], cells[step + 1], rates[step])
+
+
+def by_numpy(stretch, q):
+    """Array operations on q (cells, 4, cells)."""
+    best, discount = np.empty(len(stretch.learns), int), np.float32(PLAIN.discount)
+    for step, (left, entered) in enumerate(zip(stretch.cells[:-1], stretch.cells[1:])):
+        best[step] = np.argmax(q[left][:, stretch.goals[step]] @ stretch.valences[step])
+        if stretch.learns[step]:
+            target = discount * q[entered].max(axis=0)
+            target[entered] = 1
+            q[left] += stretch.rates[step][:, None] * (target - q[left])
+    return best
+
+
+class Head:
+    """The learner of one goal."""
+
+    def __init__(self, goal, q):
+        self.goal, self.q, self.discount = goal, q, np.float32(PLAIN.discount)
+
+    def values(self, cell):
+        """The value of each action in a cell."""
+        return self.q[cell]
+
+    def learn(self, left, entered, rates):
+        """Move the values in the cell left towards what the cell entered is worth."""
+        target = 1 if entered == self.goal else self.discount * self.q[entered].max()
+        self.q[left] += rates * (target - self.q[left])
+
+
+def heads_of(q):
+    """A `Head` for each goal of q (cells, 4, cells), with a copy of its values."""
+    return [Head(goal, q[:, :, goal].copy()) for goal in range(len(q))]
+
+
+def by_heads(stretch, heads):
+    """One object for each goal."""
+    best = np.empty(len(stretch.learns), int)
+    for step, (left, entered) in enumerate(zip(stretch.cells[:-1], stretch.cells[1:])):
+        value = np.zeros(4)
+        for goal, valence in zip(stretch.goals[step], stretch.valences[step]):
+            value += valence * heads[goal].values(left)
+        best[step] = np.argmax(value)
+        if stretch.learns[step]:
+            for head in heads:
+                head.learn(left, entered, stretch.rates[step])
+    return best
+
+
+def is_installed(module):
+    """Whether a package is there that this one does not need."""
+    return importlib.util.find_spec(module) is not None
+
+
+def by_jax(stretch):
+    """A function of q (cells, 4, cells) that returns (best, q), compiled for this stretch."""
+    import jax
+    import jax.numpy as jnp
+
+    def step(q, seen):
+        left, entered, learns, rates, goals, valences = seen
+        row = q[left]
+        best = jnp.argmax(row[:, goals] @ valences)
+        target = (PLAIN.discount * q[entered].max(axis=0)).at[entered].set(1.0)
+        return q.at[left].add(jnp.where(learns, rates, 0.0)[:, None] * (target - row)), best
+
+    seen = [jax.device_put(each, jax.devices("cpu")[0]) for each in (
+        stretch.cells[:-1], stretch.cells[1:], stretch.learns, stretch.rates, stretch.goals,
+        stretch.valences.astype(np.float32))]
+    scan = jax.jit(lambda q, seen: jax.lax.scan(step, q, seen), donate_argnums=0)
+
+    def run(q):
+        q, best = jax.block_until_ready(scan(q, seen))
+        return best, q
+
+    return run
+
+
+def ple_steps(width, creeps, steps, seed=0):
+    """A function that takes so many steps of WaterWorld as the PyGame Learning Environment has it, actions drawn."""
+    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+    from ple import PLE
+    from ple.games.waterworld import WaterWorld as Original
+
+    game = PLE(Original(width, width, creeps), fps=50, display_screen=False, rng=seed)
+    game.init()
+    actions = game.getActionSet()
+    drawn = np.random.default_rng(seed).integers(len(actions) - 1, size=steps)
+
+    def run():
+        for action in drawn:
+            game.act(actions[action])
+            if game.game_over():
+                game.reset_game()
+
+    return run
