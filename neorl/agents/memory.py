@@ -3,7 +3,7 @@
 import numpy as np
 import psutil
 
-from neorl.agents.compile import n_values
+from neorl.agents.compile import n_bytes
 from neorl.core.kernel import mapped
 
 CACHE_LINES = 128  # bytes; two lines, because processors fetch them in pairs
@@ -13,7 +13,7 @@ PAGE = 4_096
 def fitting_runs(agent, world):
     """How many runs of an agent fit into nine tenths of the free memory. Raises MemoryError if there is none."""
     free = psutil.virtual_memory().available
-    needed = 4 * n_values(agent, world)
+    needed = n_bytes(agent, world)
     if needed > 0.9 * free:
         raise MemoryError(f"a run of this agent needs {needed / 2**30:.1f} GiB of memory, {free / 2**30:.1f} are free")
     return int(0.9 * free // needed)

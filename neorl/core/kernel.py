@@ -19,18 +19,23 @@ What is compiled for a call from Python is kept on disk (`neorl.core.compile_cac
 """
 
 import functools
+import inspect
 import sys
-from typing import Annotated, get_args, get_type_hints
+from collections.abc import Callable
+from typing import Annotated, Any, get_args, get_type_hints
 
 import numba
 import numpy as np
 from numba.core.caching import NullCache
+from numba.core.errors import NumbaError
 from numba.core.registry import CPUDispatcher
 
+from neorl import checks
 from neorl.core.compile_cache import CompileCache
 
 # Without numba's memory runtime (_nrt) a kernel cannot allocate, and counts no references to the arrays it is handed.
 OPTIONS = {"error_model": "numpy", "nogil": True, "_nrt": False}
+MOST_WORDS = 2_000  # of what numba says
 INLINED = {"forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 
@@ -52,15 +57,19 @@ class Kernel(CPUDispatcher):
     def _compile_for_args(self, *arguments, **by_name):
         if type(self._cache) is NullCache:  # only what Python calls is kept, with all that is inlined into it
             self._cache = CompileCache(self)
-        return super()._compile_for_args(*arguments, **by_name)
+        try:
+            return super()._compile_for_args(*arguments, **by_name)
+        except NumbaError as error:
+            raise TypeError(f"{self!r} cannot be compiled, with all kernels that it calls: {str(error)[:MOST_WORDS]}"
+                            ) from error
 
     def __call__(self, *arguments):
         raise TypeError(f"{self.__module__}.{self.__name__} is a kernel, which checks nothing: call it by "
                         "neorl.core.kernel.execute, with arrays that fit")
 
 
-def kernel(function):
-    """Compile a kernel."""
+def kernel(function: Callable) -> Any:
+    """Compile a kernel. Raises ValueError for anything but a Python function."""
     return _compiled(function, OPTIONS)
 
 
@@ -84,6 +93,8 @@ def function_of(kernel):
 
 
 def _compiled(function, options):
+    if not inspect.isfunction(function):
+        raise ValueError(f"function is {checks.shown(function)}, allowed are Python functions to make kernels of")
     compiled = numba.njit(**options)(function)
     if isinstance(compiled, CPUDispatcher):  # and not the function itself, as with NUMBA_DISABLE_JIT
         compiled.__class__ = Kernel
@@ -94,20 +105,40 @@ def check_kernel(name, value):
     """`value`, if it is a kernel. Raises ValueError for anything else, such as a function that is not decorated."""
     if isinstance(value, Kernel) or numba.config.DISABLE_JIT and callable(value):
         return value
-    raise ValueError(f"{name} is {value!r}, allowed is a function that is decorated by neorl.kernel")
+    raise ValueError(f"{name} is {checks.shown(value)}, allowed is a function that is decorated by neorl.kernel")
 
 
-def kernel_maker(function):
-    """A function that makes kernels, the same one for the same arguments: a rule with parameters."""
+def kernel_maker(function: Callable) -> Any:
+    """A function that makes kernels, the same one for the same arguments: a rule with parameters.
+
+    Raises ValueError for anything but a Python function. What it makes raises TypeError for arguments that cannot be
+    hashed, and ValueError if the function returns no kernel.
+    """
+    if not inspect.isfunction(function):
+        raise ValueError(f"function is {checks.shown(function)}, allowed are Python functions that make kernels")
+    signature = inspect.signature(function)
 
     @functools.cache
-    def make(*arguments):
-        made = function(*arguments)
+    def made_of(arguments):
+        made = check_kernel(f"what {function.__qualname__} returns", function(*arguments))
         made.origin = make, arguments
         return made
 
-    make.makes_kernels = True
-    return functools.wraps(function)(make)
+    @functools.wraps(function)
+    def make(*arguments, **by_name):
+        given = signature.bind(*arguments, **by_name)
+        given.apply_defaults()
+        values = tuple(map(checks.scalar, given.args))
+        try:
+            hash(values)
+        except TypeError:
+            function(*values)  # which may say more
+            raise TypeError(f"arguments of {function.__qualname__} are {checks.shown(values)}, allowed are values that "
+                            "can be hashed") from None
+        return made_of(values)
+
+    make.makes_kernels = True  # type: ignore[attr-defined]
+    return make
 
 
 def execute(kernel, *arguments):
