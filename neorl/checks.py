@@ -1,13 +1,42 @@
-"""Checks of what users pass in: each returns the value, or raises a ValueError that names argument, value and rule."""
+"""Checks of what users pass in: each returns the value, or raises a ValueError that names argument, value and rule.
+
+Numbers may be NumPy's and arrays of no axis. They are finite, and not above `LARGEST`, so that sums and products of
+several do not overflow; what they are divided by is not below `SMALLEST`.
+"""
 
 import math
 import numbers
 import operator
+import os
+import reprlib
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
+
+Kind = TypeVar("Kind")
+
+LARGEST, SMALLEST = 1e30, 1e-30
+MOST = 2**20  # values in a list
+LONGEST = 600  # characters of a value in a message
+
+_REPR = reprlib.Repr()
+_REPR.maxtuple = _REPR.maxlist = _REPR.maxdict = 50
+_REPR.maxstring = _REPR.maxother = _REPR.maxlong = 500
 
 
-def integer(name, value, at_least, at_most=None):
+def shown(value: object) -> str:
+    """The repr of a value for a message, cut short, or its type if there is none."""
+    try:
+        text = _REPR.repr(value)
+        return text if len(text) <= LONGEST else f"{text[:LONGEST // 2]}…{text[-LONGEST // 4:]}"
+    except Exception:  # a repr of the user's own, or that of an integer with too many digits
+        return f"a value of type {type(value).__name__}"
+
+
+def integer(name: str, value: Any, at_least: int, at_most: int | None = None) -> int:
     """`value` as an int, if it is an integer in the range (True and False are not integers here)."""
     try:
         number = operator.index(value)
@@ -17,83 +46,123 @@ def integer(name, value, at_least, at_most=None):
         if number >= at_least and (at_most is None or number <= at_most):
             return number
     allowed = f"integers ≥ {at_least}" if at_most is None else f"integers from {at_least} to {at_most}"
-    raise ValueError(f"{name} is {value!r}, allowed are {allowed}")
+    raise ValueError(f"{name} is {shown(value)}, allowed are {allowed}")
 
 
-def real(name, value, at_least=-math.inf, at_most=math.inf):
-    """`value` as a float, if it is a finite number in the range."""
-    number = value[()] if isinstance(value, np.ndarray) and value.ndim == 0 else value
+def real(name: str, value: Any, at_least: float = -LARGEST, at_most: float = LARGEST) -> float:
+    """`value` as a float, if it is a number in the range; −0.0 as 0.0, since equal values are the same in every way."""
+    number = scalar(value)
     if isinstance(number, numbers.Real) and not isinstance(number, bool):
-        number = float(number)  # first, since the bounds may be beyond what a short number of NumPy's can hold
-        if math.isfinite(number) and at_least <= number <= at_most:
-            return number
-    bounds = f"numbers from {at_least:g} to {at_most:g}" if math.isfinite(at_most) else "finite numbers"
-    bounds += f" ≥ {at_least:g}" if math.isinf(at_most) and math.isfinite(at_least) else ""
-    raise ValueError(f"{name} is {value!r}, allowed are {bounds}")
+        try:
+            number = float(number)
+        except OverflowError:
+            number = math.inf
+        if at_least <= number <= at_most:
+            return number + 0.0
+    kind = "finite numbers" if at_most == LARGEST else "numbers"
+    raise ValueError(f"{name} is {shown(value)}, allowed are {kind} from {at_least:g} to {at_most:g}")
 
 
-def positive(name, value):
-    """`value` as a float, if it is a finite number above 0."""
-    number = real(name, value)
-    if number > 0:
-        return number
-    raise ValueError(f"{name} is {value!r}, allowed are numbers above 0")
+def positive(name: str, value: Any) -> float:
+    """`value` as a float, if it is a number from `SMALLEST` on."""
+    return real(name, value, SMALLEST)
 
 
-def one_of(name, value, allowed):
+def one_of(name: str, value: Any, allowed: Iterable[Kind]) -> Kind:
     """The one of `allowed` that `value` is."""
     for each in allowed:
         if isinstance(value, type(each)) and value == each:
             return each
-    raise ValueError(f"{name} is {value!r}, allowed are {', '.join(map(repr, allowed))}")
+    raise ValueError(f"{name} is {shown(value)}, allowed are {', '.join(map(repr, allowed))}")
 
 
-def several(name, values):
-    """`values` as a tuple, if they are a list, a tuple, a range or an array."""
+def several(name: str, values: Any) -> tuple[Any, ...]:
+    """`values` as a tuple, if they are a list, a tuple, a range or an array of `MOST` values or fewer."""
     if isinstance(values, list | tuple | range) or isinstance(values, np.ndarray) and values.ndim:
-        return tuple(values)
-    raise ValueError(f"{name} is {values!r}, allowed are lists and tuples")
+        if _is_short(values):
+            return tuple(values)
+        raise ValueError(f"{name} is {shown(values)}, allowed are {MOST} values or fewer")
+    raise ValueError(f"{name} is {shown(values)}, allowed are lists and tuples")
 
 
-def flag(name, value):
+def flag(name: str, value: Any) -> bool:
     """`value` as a bool, if it is True or False."""
+    value = scalar(value)
     return one_of(name, bool(value) if isinstance(value, np.bool) else value, (True, False))
 
 
-def finite(name, array):
-    """`array`, if every number in it is finite."""
-    if np.all(np.isfinite(array)):
+def finite(name: str, array: NDArray) -> NDArray:
+    """`array`, if every number in it is from −`LARGEST` to `LARGEST`."""
+    if np.all(np.abs(array) <= LARGEST):
         return array
-    raise ValueError(f"{name} is {array!r}, allowed are finite numbers")
+    raise ValueError(f"{name} is {shown(array)}, allowed are finite numbers from {-LARGEST:g} to {LARGEST:g}")
 
 
-def points(name, values, axes):
+def doubles(name: str, values: Any) -> NDArray[np.float64]:
+    """`values` as a new array of doubles, if they are numbers, finite and in lists of equal lengths."""
+    try:
+        if isinstance(values, range) and not _is_short(values):
+            raise ValueError
+        array = np.asarray(values)
+        if array.dtype.kind == "O" and all(isinstance(each, numbers.Real) for each in array.flat):
+            array = array.astype(float)
+    except (TypeError, ValueError, OverflowError):
+        array = np.array(None)
+    if array.dtype.kind not in "fiub":
+        raise ValueError(f"{name} is {shown(values)}, allowed are numbers, in lists of equal lengths")
+    with np.errstate(over="ignore"):  # longer numbers than doubles, which are infinite then
+        return finite(name, np.array(array, float, order="C"))
+
+
+def points(name: str, values: Any, axes: Sequence[str]) -> NDArray[np.float64]:
     """`values` as an array (…, axes) of doubles, if they are finite and have a coordinate for each of the axes."""
-    array = finite(name, np.asarray(values, float))
+    array = doubles(name, values)
     if array.ndim == 0 or array.shape[-1] != len(axes):
         raise ValueError(f"{name} has the shape {array.shape}, allowed are (…, {len(axes)}): {', '.join(axes)}")
     return array
 
 
-def instance(name, value, kind):
+def instance(name: str, value: Any, kind: type[Kind]) -> Kind:
     """`value`, if it is of the kind."""
     if isinstance(value, kind):
         return value
     article = "an" if kind.__name__[0] in "AEIOU" or kind is np.ndarray else "a"
-    raise ValueError(f"{name} is {value!r}, allowed is {article} {kind.__name__}")
+    raise ValueError(f"{name} is {shown(value)}, allowed is {article} {kind.__name__}")
+
+
+def scalar(value):
+    """The number that an array of no axis holds, or anything else as it is."""
+    return value[()] if isinstance(value, np.ndarray) and value.ndim == 0 else value
+
+
+def _is_short(values):
+    try:
+        return len(values) <= MOST
+    except OverflowError:
+        return False
+
+
+def path(name: str, value: Any) -> Path:
+    """`value` as a `pathlib.Path`, if it is one, or a string that can name a file."""
+    try:
+        if b"\0" not in os.fsencode(Path(value)):
+            return Path(value)
+    except (TypeError, ValueError):
+        pass
+    raise ValueError(f"{name} is {shown(value)}, allowed are paths of files")
 
 
 class Final:
     """A class that kernels read by its fields alone, and that therefore has no subclasses."""
 
-    def __init_subclass__(cls, **keywords):
+    def __init_subclass__(cls, **keywords: Any) -> None:
         super().__init_subclass__(**keywords)
         if Final not in cls.__bases__:
             raise TypeError(f"{cls.__name__} cannot be a subclass of {cls.__bases__[0].__name__}: kernels read its "
                             "fields and would never call what a subclass overrides; give a neorl.kernel as a field")
 
 
-def assign(instance, **values):
+def assign(instance: object, **values: Any) -> None:
     """Put checked values into the fields of a frozen dataclass, so that equal values are the same in every way."""
     for name, value in values.items():
         object.__setattr__(instance, name, value)

@@ -8,7 +8,7 @@ leaves open is a field. Its default is that of the calibrated reading, which of 
 run came nearest to the thesis's numbers (see `neorl.evidence.calibration`). Nothing here runs.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from graphlib import CycleError, TopologicalSorter
 
@@ -28,6 +28,7 @@ ABSENT_FORMS = ("decay", "away")
 MEMORY_UNITS = ("cells", "seconds")
 MEMORY_VALUES = ("reached", "discounted")
 CAUSES = ("any", "own")
+MOST_PARTS = 4_096  # nodes, or desires, whose number squared is looked at
 WHEN_INDIFFERENT = ("random", "no-op")
 
 
@@ -71,7 +72,7 @@ class Learning(checks.Final):
     learning_rate: float = 0.0157
     discount: float = 0.9045
     update_on: str = "cell"
-    credit: str = "happened"
+    credit: str | Callable = "happened"
     activity: float = 3.331
     absent_decay: float = 0.1101
     absent_form: str = "away"
@@ -97,7 +98,7 @@ class Learning(checks.Final):
             absent_decay=checks.real("absent_decay", self.absent_decay, 0, 1),
             absent_form=checks.one_of("absent_form", self.absent_form, ABSENT_FORMS),
             terminal=checks.flag("terminal", self.terminal),
-            trace=checks.integer("trace", self.trace, at_least=1),
+            trace=checks.integer("trace", self.trace, at_least=1, at_most=checks.MOST),
             memory=checks.real("memory", self.memory, 0),
             memory_unit=checks.one_of("memory_unit", self.memory_unit, MEMORY_UNITS),
             memory_value=checks.one_of("memory_value", self.memory_value, MEMORY_VALUES),
@@ -127,7 +128,7 @@ class Policy(checks.Final):
     when_indifferent: what to do while every action is worth exactly 0: "random", that is to choose as ever, or "no-op",
         to be idle.
     choose: a `neorl.kernel` (value, stream) → action: `neorl.greedy`, `neorl.softmax` of a temperature, or the user's
-        own; see `neorl.core.policy`.
+        own; see `neorl.core.policy`. A number that is none of an action counts as the nearest that is.
 
     Raises ValueError for anything else.
     """
@@ -155,7 +156,7 @@ class Node(checks.Final):
 
     name: str
     modality: Modality
-    resolutions: tuple[int, ...]
+    resolutions: Sequence[int]
     weighting: str = "cells"
     gain: float = 1.0
 
@@ -170,7 +171,7 @@ class Node(checks.Final):
                      gain=checks.real("gain", self.gain))
 
     @property
-    def maps(self):
+    def maps(self) -> tuple[NresMap, ...]:
         """An `NresMap` for each resolution."""
         return tuple(NresMap(resolution, self.modality) for resolution in self.resolutions)
 
@@ -187,15 +188,15 @@ class Place(checks.Final):
 
     coordinates: tuple[float, ...]
 
-    def __init__(self, *coordinates):
+    def __init__(self, *coordinates: float) -> None:
         if not coordinates:
             raise ValueError("coordinates is (), allowed are a number for each axis of the world")
         checks.assign(self, coordinates=tuple(checks.real("coordinates", each) for each in coordinates))
 
     @classmethod
-    def of_fields(cls, coordinates):
-        """The place with these coordinates, in one tuple."""
-        return cls(*coordinates)
+    def of_fields(cls, coordinates: Sequence[float]) -> "Place":
+        """The place with these coordinates, in one tuple. Raises ValueError for anything else."""
+        return cls(*checks.several("coordinates", coordinates))
 
     def __repr__(self):
         return f"Place{self.coordinates}"
@@ -218,10 +219,10 @@ class Desire(checks.Final):
     Raises ValueError for anything else.
     """
 
-    source: str | Place | tuple[float, ...]
+    source: str | Place | Sequence[float]
     target: str
     valence: float | None = None
-    of: tuple[str, ...] = ()
+    of: Sequence[str] = ()
     scale: float = 1.0
     signed: bool = True
 
@@ -245,15 +246,16 @@ class Desire(checks.Final):
 class Agent(Described, checks.Final):
     """One neoRL agent: a network of nodes. Its value of an action is the sum of those of its nodes, times their gains.
 
-    nodes: one `Node` or more, each name once. desires: any number of `Desire`.
+    nodes: one `Node` or more, each name once. desires: any number of `Desire`. Of either 4,096 at most.
+    learning: how its maps learn, a `Learning`. policy: how it chooses, a `Policy`.
     own_cell: whether an element in the cell that it is to be reached from is "silent", its desire met, or "counts".
 
     Raises ValueError for anything else, and for a network that cannot be evaluated: a desire from or to a node that
     there is not, of elements that its node does not have, in a space where it has no meaning, or in a cycle of nodes.
     """
 
-    nodes: tuple[Node, ...]
-    desires: tuple[Desire, ...] = ()
+    nodes: Sequence[Node]
+    desires: Sequence[Desire] = ()
     learning: Learning = field(default_factory=Learning)
     policy: Policy = field(default_factory=Policy)
     own_cell: str = "counts"
@@ -263,8 +265,9 @@ class Agent(Described, checks.Final):
             checks.assign(self, **{name: checks.several(name, getattr(self, name))})
             for each in getattr(self, name):
                 checks.instance(name, each, kind)
-            if len(getattr(self, name)) < fewest:
-                raise ValueError(f"{name} is (), allowed are one {kind.__name__} or more")
+            if not fewest <= len(getattr(self, name)) <= MOST_PARTS:
+                raise ValueError(f"{name} are {len(getattr(self, name))}, allowed are {fewest} to {MOST_PARTS}, each a "
+                                 f"{kind.__name__}")
         names = [node.name for node in self.nodes]
         if len(set(names)) < len(names):
             raise ValueError(f"nodes are {', '.join(map(repr, names))}, allowed is each name once")
@@ -297,14 +300,18 @@ class Agent(Described, checks.Final):
             if source not in inputs:
                 raise ValueError(f"desire {desire}: {source!r} is no element of the node {desire.source!r}")
 
-    def comes_from_node(self, desire):
-        """Whether a desire comes from a node, and not from something in the world."""
+    def comes_from_node(self, desire: Desire) -> bool:
+        """Whether a `Desire` comes from a node, and not from something in the world.
+
+        desire: one of the agent's. Raises ValueError for anything but a `Desire`.
+        """
+        checks.instance("desire", desire, Desire)
         return any(desire.source == node.name for node in self.nodes)
 
     @property
-    def evaluation_order(self):
+    def evaluation_order(self) -> tuple[str, ...]:
         """The names of the nodes, each after those that it takes desires from."""
-        before = {node.name: [] for node in self.nodes}
+        before: dict[str, list[str]] = {node.name: [] for node in self.nodes}
         for desire in self.desires:
             if desire.source in before and desire.source != desire.target:
                 before[desire.target].append(desire.source)
@@ -316,6 +323,6 @@ class Agent(Described, checks.Final):
                              "allowed is recursion of a node to itself alone") from None
 
     @property
-    def maps(self):
+    def maps(self) -> tuple[NresMap, ...]:
         """The maps of all nodes, one node after the other."""
         return tuple(nres_map for node in self.nodes for nres_map in node.maps)

@@ -40,6 +40,18 @@ def n_values(agent, world):
     return sum(len(world.actions.names) * nres_map.cells**2 for nres_map in agent.maps)
 
 
+def n_bytes(agent, world):
+    """How many bytes the values of an agent in a world take, with all that is remembered of the cells it has left."""
+    rule, actions, axes = agent.learning, len(world.actions.names), world.actions.axes
+    total = 4 * n_values(agent, world)
+    for node in agent.nodes:
+        several = {"objects": world.things, "boundaries": 2 * axes, "landmarks": len(node.modality.landmarks)}
+        for nres_map in node.maps:
+            remembered = nres_map.cells * (20 + 16 * actions) if rule.memory > 0 else 0
+            total += several.get(node.modality.follows, 1) * (remembered + rule.trace * (8 + 4 * actions))
+    return total
+
+
 def chosen(agent, world):
     """The chosen `Parameters`, a dict for a tuple within, from which `derive` makes the others; and all sizes."""
     _check_meeting(agent, world)
@@ -70,11 +82,7 @@ def _check_meeting(agent, world):
         if node.name in kinds:
             raise ValueError(f"a node is called {node.name!r}, allowed are names other than the kinds of this world's "
                              f"things: {', '.join(map(repr, kinds))}")
-        if node.modality.least_axes > n_axes:
-            raise ValueError(f"{node.modality.name}s need a world of {node.modality.least_axes} axes or more, this one "
-                             f"has {n_axes}")
-        if node.modality.landmarks and len(node.modality.landmarks[0]) != n_axes:
-            raise ValueError(f"landmarks is {node.modality.landmarks!r}, allowed are places of {n_axes} coordinates")
+        node.modality.check_axes(n_axes)
     for desire in agent.desires:
         if isinstance(desire.source, str) and not agent.comes_from_node(desire) and desire.source not in kinds:
             raise ValueError(f"desire {desire}: {desire.source!r} is neither a node of the agent nor a kind of this "

@@ -4,9 +4,11 @@ Parameters, state and values are views that cannot be written to. A saved file h
 world as plain data (`neorl.core.description`), with a digest by which damage is noticed.
 """
 
-from typing import NamedTuple
+from os import PathLike
+from typing import Any, NamedTuple, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from neorl import checks
 from neorl.agents.agent import Agent
@@ -15,7 +17,8 @@ from neorl.agents.memory import fitting_runs, kept_apart, read_only
 from neorl.core.description import described, restored
 from neorl.core.horde import as_vectors
 from neorl.core.kernel import arrays, execute, mapped
-from neorl.core.state import new_state
+from neorl.core.parameters import Parameters
+from neorl.core.state import State, new_state
 from neorl.core.steps import steps_with
 from neorl.files import read_arrays, write_arrays
 
@@ -52,26 +55,26 @@ class Individual:
         self._state = kept_apart(new_state(self._parameters, stream, world.things, old))
 
     @property
-    def agent(self):
+    def agent(self) -> Agent:
         """The `Agent`."""
         return self._agent
 
     @property
-    def world(self):
+    def world(self) -> Any:
         """The world, or for a `Learner` what it knows of it."""
         return self._world
 
     @property
-    def parameters(self):
+    def parameters(self) -> Parameters:
         """The agent's `Parameters`, views that cannot be written to."""
         return mapped(read_only, self._parameters)
 
     @property
-    def state(self):
+    def state(self) -> State:
         """The agent's `State`, views that cannot be written to."""
         return mapped(read_only, self._state)
 
-    def q(self, index=0):
+    def q(self, index: int = 0) -> NDArray[np.float32]:
         """The values of one of the agent's maps: float32 (cells, actions, cells), q[state, action, goal], a view that
         cannot be written to.
 
@@ -82,7 +85,7 @@ class Individual:
         first, end = self._parameters.maps.first_value[index : index + 2]
         return read_only(self._state.values.q[first:end].reshape(maps[index].cells, -1, maps[index].cells))
 
-    def output(self, name):
+    def output(self, name: str) -> Output:
         """The `Output` of the node of that name. Raises ValueError if there is none."""
         checks.one_of("name", name, tuple(node.name for node in self.agent.nodes))
         inputs = [e for e, desire in enumerate(self.agent.desires) if desire.target == name]
@@ -90,7 +93,7 @@ class Individual:
         vectors = as_vectors(q, self.world.actions)
         return Output(q.sum(axis=0), np.sign(valence) @ vectors, float(valence.sum()))
 
-    def change(self, agent):
+    def change(self, agent: Agent) -> None:
         """Go on as another agent, which keeps what this one knows.
 
         A map keeps its values, its active cells and what led to them if both agents have it, in a node of the same
@@ -118,10 +121,10 @@ class Individual:
         vars(self).update(_agent=agent, _parameters=parameters, _state=state)  # at once, even if interrupted
         self._bind()
 
-    def transfer(self, other):
+    def transfer(self, other: "Individual") -> None:
         """Take over the values of another `Learner` or `Run`, and which goals its cells know of.
 
-        Raises ValueError unless it has the same maps and as many actions.
+        other: one with the same maps and as many actions. Raises ValueError for anything else.
         """
         maps = checks.instance("other", other, Individual).agent.maps
         if maps != self.agent.maps or len(other.world.actions.names) != len(self.world.actions.names):
@@ -130,7 +133,7 @@ class Individual:
         self._state.values.q[:] = other._state.values.q
         self._state.values.goal_range[:] = other._state.values.goal_range
 
-    def copy(self):
+    def copy(self) -> Self:
         """One that goes on by itself from here, to the same bits."""
         other = object.__new__(type(self))
         vars(other).update(vars(self))
@@ -144,21 +147,24 @@ class Individual:
     def __deepcopy__(self, memo):
         return self.copy()
 
-    def save(self, path):
+    def save(self, path: str | PathLike[str]) -> None:
         """Write all to a file, by which `load` goes on to the same bits.
 
-        Raises ValueError for an agent with a kernel that no module has.
+        path: of the file, a string or a `pathlib.Path`; what was there is replaced. Raises OSError if it cannot be
+        written, ValueError for anything else, and for an agent with a kernel that no module has.
         """
         about = {"agent": described(self.agent, Agent), "world": described(self.world), "progress": self._progress}
-        write_arrays(path, type(self).__name__, about, {
+        write_arrays(checks.path("path", path), type(self).__name__, about, {
             f"{name}.{each}": values for name in self._kept for each, values in arrays(getattr(self, name)).items()})
 
     @classmethod
-    def load(cls, path):
+    def load(cls, path: str | PathLike[str]) -> Self:
         """What `save` has written.
 
-        Raises OSError if there is no such file, ValueError if it is damaged, or of another kind or version.
+        path: of the file, a string or a `pathlib.Path`. Raises OSError if there is no such file, ValueError if it is
+        damaged, or of another kind or version.
         """
+        path = checks.path("path", path)
         about, kept = read_arrays(path, cls.__name__)
         try:
             loaded = cls._of(restored(about["agent"], Agent), restored(about["world"]))

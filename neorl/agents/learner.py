@@ -1,7 +1,8 @@
 """An agent in a loop of the user's own, step by step. What the kernels take is checked before they see it."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -16,13 +17,18 @@ from neorl.core.scene import ABSENT, CARDINAL, Actions, Scene
 from neorl.core.steps import steps_with
 from neorl.core.stream import new_stream
 
+LARGEST = checks.LARGEST
+
 
 @dataclass(frozen=True)
 class Surroundings(checks.Final):
-    """What an agent knows of a world that is not made of kernels; see `Learner` for the fields."""
+    """What an agent knows of a world that is not made of kernels.
+
+    things, kinds, actions, size, fps: as in `Learner`. Raises ValueError for anything else.
+    """
 
     things: int
-    kinds: tuple[str, ...]
+    kinds: Sequence[str]
     actions: Actions
     size: float
     fps: float
@@ -33,8 +39,8 @@ class Surroundings(checks.Final):
             raise ValueError(f"kinds is {kinds!r}, allowed is each name once")
         checks.instance("actions", self.actions, Actions)
         checks.assign(self, things=checks.integer("things", self.things, at_least=0, at_most=2**20), kinds=kinds,
-                     size=checks.positive("size", checks.real("size", self.size)),
-                     fps=checks.positive("fps", checks.real("fps", self.fps)))
+                     size=checks.positive("size", self.size),
+                     fps=checks.positive("fps", self.fps))
 
 
 class Learner(Individual):
@@ -51,7 +57,8 @@ class Learner(Individual):
 
     _kept = ("_state", "_scene")
 
-    def __init__(self, agent, things=0, kinds=(), actions=CARDINAL, seed=0, size=1.0, fps=50):
+    def __init__(self, agent: Agent, things: int = 0, kinds: Sequence[str] = (), actions: Actions = CARDINAL,
+                 seed: int = 0, size: float = 1.0, fps: float = 50) -> None:
         checks.instance("agent", agent, Agent)
         world = Surroundings(things, kinds, actions, size, fps)
         seed = checks.integer("seed", seed, at_least=0)
@@ -73,7 +80,7 @@ class Learner(Individual):
         self._numbers = {None: ABSENT, **{name: number for number, name in enumerate(self.world.kinds)},
                          **{number: number for number in range(ABSENT, len(self.world.kinds))}}
 
-    def begin(self, scene):
+    def begin(self, scene: Any) -> None:
         """Begin, or start afresh after a leap, such as at the start of an episode: nothing is learned from it.
 
         scene: a `neorl.Scene`, as in `observe`. Raises ValueError for one that does not fit.
@@ -82,7 +89,7 @@ class Learner(Individual):
         self._calls[0]()
         self._progress = "to act"
 
-    def act(self):
+    def act(self) -> int:
         """Choose an action, and return its number, 0 … actions − 1, or the number of actions for being idle.
 
         Raises RuntimeError before the first scene, or if what the last action has led to was not observed.
@@ -93,7 +100,7 @@ class Learner(Individual):
         self._progress = "twice"
         return action
 
-    def observe(self, scene):
+    def observe(self, scene: Any) -> None:
         """Perceive what the last action has led to, and learn from it.
 
         scene: a `neorl.Scene` of numbers, or anything with its fields: position and velocity, (axes,), if velocity is
@@ -111,25 +118,33 @@ class Learner(Individual):
 
     def _take(self, scene):
         """Check a scene, and copy it."""
-        offered, things = self._offered, self.world.things
-        _put("position", offered.position, scene.position)
-        if scene.velocity is None:
+        try:
+            position, velocity, things, kinds, met = (scene.position, scene.velocity, scene.things, scene.kinds,
+                                                      scene.met)
+        except AttributeError:
+            raise ValueError(f"scene is {checks.shown(scene)}, allowed is a neorl.Scene") from None
+        offered = self._offered
+        _put("position", offered.position, position)
+        if velocity is None:
             offered.velocity[:] = 0.0
         else:
-            _put("velocity", offered.velocity, scene.velocity)
-        if things or len(scene.things):
-            _put("things", offered.things, scene.things)
+            _put("velocity", offered.velocity, velocity)
+        if self.world.things or not _is_empty(things):
+            _put("things", offered.things, things)
             try:
-                _put("kinds", offered.kinds, [self._numbers[each] for each in scene.kinds])
+                if len(kinds) != len(offered.kinds):  # which may be too many to look at
+                    raise TypeError
+                offered.kinds[:] = [self._numbers[each] for each in kinds]
             except (KeyError, TypeError):
-                raise ValueError(f"scene.kinds is {scene.kinds!r}, allowed are {', '.join(map(repr, self._numbers))}"
-                                 ) from None
-            if len(scene.met):
-                _put("met", offered.met, scene.met)
-            else:
+                raise ValueError(f"scene.kinds is {checks.shown(kinds)}, allowed are {len(offered.kinds)} of "
+                                 f"{', '.join(map(repr, self._numbers))}") from None
+            if _is_empty(met):
                 offered.met[:] = 0
+            else:
+                _put("met", offered.met, met)
         if not self._accept():
-            raise ValueError(f"scene is {scene}, allowed are finite numbers")
+            raise ValueError(f"scene is {checks.shown(scene)}, allowed are finite numbers from {-checks.LARGEST:g} to "
+                             f"{checks.LARGEST:g}")
 
 
 class Offer(NamedTuple):
@@ -144,13 +159,13 @@ def accept(offer: Offer, scene: Scene) -> bool:
     """Take over a scene if its numbers are finite but for things that are absent; whether they are."""
     offered = offer.scene
     for axis in range(offered.position.shape[0]):
-        if not (abs(offered.position[axis]) < np.inf and abs(offered.velocity[axis]) < np.inf):
+        if not (abs(offered.position[axis]) <= LARGEST and abs(offered.velocity[axis]) <= LARGEST):
             return False
     for thing in range(offered.kinds.shape[0]):
         for axis in range(offered.position.shape[0]):
             if offered.kinds[thing] < 0:
                 offered.things[thing, axis] = 0.0
-            elif not abs(offered.things[thing, axis]) < np.inf:
+            elif not abs(offered.things[thing, axis]) <= LARGEST:
                 return False
     for axis in range(offered.position.shape[0]):
         scene.position[axis], scene.velocity[axis] = offered.position[axis], offered.velocity[axis]
@@ -162,8 +177,17 @@ def accept(offer: Offer, scene: Scene) -> bool:
     return True
 
 
+def _is_empty(given):
+    return isinstance(given, tuple | list | np.ndarray) and len(given) == 0
+
+
 def _put(name, mine, given):
-    values = np.asarray(given)
+    try:
+        values = np.asarray(checks.several(name, given) if isinstance(given, range) else given)
+    except ValueError:  # lists of unequal lengths
+        values = np.array(None)
     if values.shape != mine.shape or values.dtype.kind not in "fiub":
-        raise ValueError(f"scene.{name} is {given!r}, allowed are numbers of the shape {mine.shape}")
+        raise ValueError(f"scene.{name} is {checks.shown(given)}, allowed are numbers of the shape {mine.shape}")
+    if values.dtype.itemsize > 8 or values.dtype.kind == "f" and mine.dtype.kind != "f":
+        values = checks.doubles(f"scene.{name}", values)  # so that no number is cut off
     mine[...] = values

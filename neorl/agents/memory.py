@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from neorl.agents.compile import n_values
+from neorl.agents.compile import n_bytes
 from neorl.core.kernel import mapped
 
 CACHE_LINES = 128  # bytes; two lines, because processors fetch them in pairs
@@ -14,7 +14,7 @@ def fitting_runs(agent, world):
     import psutil
 
     free = psutil.virtual_memory().available
-    needed = 4 * n_values(agent, world)
+    needed = n_bytes(agent, world)
     if needed > 0.9 * free:
         raise MemoryError(f"a run of this agent needs {needed / 2**30:.1f} GiB of memory, {free / 2**30:.1f} are free")
     return int(0.9 * free // needed)

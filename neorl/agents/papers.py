@@ -3,11 +3,14 @@
 `choices` are other fields of `Agent` (learning, policy, own_cell) or, for all nodes, `weighting` of `Node` and
 `tiled_fraction`: the share of either axis's range, about its middle, that the maps cut into equal cells. What lies
 beyond belongs to the outermost ones. `object_tiled_fraction` is that of object-vector cells, if they have another.
+
+Every function raises ValueError for what `Agent` and its parts refuse, and TypeError for a choice that there is not.
 """
 
+from collections.abc import Sequence
 from dataclasses import fields, replace
 from inspect import Parameter, signature
-from typing import get_type_hints
+from typing import Any, get_type_hints
 
 from neorl import checks
 from neorl.agents.agent import Agent, Desire, Learning, Node, Policy
@@ -31,55 +34,82 @@ def paper_agent(function):
 
 
 @paper_agent
-def place_cells(resolutions=PRIMES, valence_green=1.0, valence_red=-1.0, **choices):
-    """The agent of paper A, and PC of paper B: one node of place cells that desires green creeps and fears red ones."""
+def place_cells(resolutions: Sequence[int] = PRIMES, valence_green: float = 1.0,
+                valence_red: float = -1.0, **choices: Any) -> Agent:
+    """The agent of paper A, and PC of paper B: one node of place cells that desires green creeps and fears red ones.
+
+    resolutions: integers ≥ 1. valence_green, valence_red: how much a creep matters. choices: see the module.
+    """
     return _network([("PC", PLACE_CELL, 1.0)], resolutions, _creeps("PC", valence_green, valence_red), choices)
 
 
 @paper_agent
-def brownian():
+def brownian() -> Agent:
     """The control: every action drawn (ε = 1), so the agent moves as in Brownian motion (paper A, fig. 6)."""
     return place_cells([1], policy=Policy(exploration=1.0))
 
 
 @paper_agent
-def object_vector_cells(resolutions=PRIMES, valence_green=1.0, valence_red=-1.0, **choices):
-    """OVC of paper B (fig. 4B): one node of object-vector cells in the Cartesian emulation."""
+def object_vector_cells(resolutions: Sequence[int] = PRIMES, valence_green: float = 1.0,
+                        valence_red: float = -1.0, **choices: Any) -> Agent:
+    """OVC of paper B (fig. 4B): one node of object-vector cells in the Cartesian emulation.
+
+    resolutions, valence_green, valence_red, choices: as in `place_cells`.
+    """
     desires = _creeps("OVC", valence_green, valence_red)
     return _network([("OVC", CARTESIAN_OBJECT_VECTOR_CELL, 1.0)], resolutions, desires, choices)
 
 
 @paper_agent
-def multimodal(resolutions=PRIMES, place_gain=5.0, object_gain=1.0, **choices):
-    """PC + OVC of paper B (fig. 5): both nodes see the creeps, and their values add."""
+def multimodal(resolutions: Sequence[int] = PRIMES, place_gain: float = 5.0, object_gain: float = 1.0,
+               **choices: Any) -> Agent:
+    """PC + OVC of paper B (fig. 5): both nodes see the creeps, and their values add.
+
+    resolutions, choices: as in `place_cells`. place_gain, object_gain: what the values of either node count.
+    """
     return _network(_both(place_gain, object_gain), resolutions, _creeps("PC") + _creeps("OVC"), choices)
 
 
 @paper_agent
-def network_a(resolutions=LAYERS, scale=Desire.scale, signed=Desire.signed, **choices):
-    """Agent A of paper C (fig. 4a): place cells make one desire of all creeps, object-vector cells act on it."""
+def network_a(resolutions: Sequence[int] = LAYERS, scale: float = Desire.scale, signed: bool = Desire.signed,
+              **choices: Any) -> Agent:
+    """Agent A of paper C (fig. 4a): place cells make one desire of all creeps, object-vector cells act on it.
+
+    resolutions, choices: as in `place_cells`. scale, signed: of the desire between the nodes, see `Desire`.
+    """
     desires = (Desire("PC", "OVC", scale=scale, signed=signed),)
     return _network(_both(0.0, 1.0), resolutions, _creeps("PC") + desires, choices)
 
 
 @paper_agent
-def network_b(resolutions=LAYERS, scale=Desire.scale, signed=Desire.signed, **choices):
-    """Agent B of paper C (fig. 4b): a desire of the green creeps, and one of the red."""
+def network_b(resolutions: Sequence[int] = LAYERS, scale: float = Desire.scale, signed: bool = Desire.signed,
+              **choices: Any) -> Agent:
+    """Agent B of paper C (fig. 4b): a desire of the green creeps, and one of the red.
+
+    resolutions, scale, signed, choices: as in `network_a`.
+    """
     return network_c(resolutions, scale, signed, place_gain=0.0, **choices)
 
 
 @paper_agent
-def network_c(resolutions=LAYERS, scale=Desire.scale, signed=Desire.signed, place_gain=1.0, object_gain=1.0,
-              **choices):
-    """Agent C of paper C (fig. 4c): as B, and the values of both nodes add."""
+def network_c(resolutions: Sequence[int] = LAYERS, scale: float = Desire.scale, signed: bool = Desire.signed,
+              place_gain: float = 1.0, object_gain: float = 1.0, **choices: Any) -> Agent:
+    """Agent C of paper C (fig. 4c): as B, and the values of both nodes add.
+
+    resolutions, scale, signed, choices: as in `network_a`. place_gain, object_gain: what the values of either count.
+    """
     desires = tuple(Desire("PC", "OVC", of=(colour,), scale=scale, signed=signed) for colour in ("green", "red"))
     return _network(_both(place_gain, object_gain), resolutions, _creeps("PC") + desires, choices)
 
 
 @paper_agent
-def network_d(resolutions=LAYERS, recursion=-1.0, scale=Desire.scale, signed=Desire.signed, place_gain=1.0,
-              object_gain=1.0, **choices):
-    """Agent D of paper C (fig. 4d): as C, and the object-vector cells desire what they desired, with valence r."""
+def network_d(resolutions: Sequence[int] = LAYERS, recursion: float = -1.0, scale: float = Desire.scale,
+              signed: bool = Desire.signed, place_gain: float = 1.0, object_gain: float = 1.0, **choices: Any) -> Agent:
+    """Agent D of paper C (fig. 4d): as C, and the object-vector cells desire what they desired, with valence r.
+
+    recursion: r, which is negative in the thesis. The others are as in `network_c`: resolutions, scale, signed,
+    place_gain, object_gain, choices.
+    """
     without = network_c(resolutions, scale, signed, place_gain, object_gain, **choices)
     recurring = Desire("OVC", "OVC", valence=recursion, scale=scale, signed=signed)
     return replace(without, desires=(*without.desires, recurring))

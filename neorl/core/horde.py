@@ -6,20 +6,24 @@ learning. *Superposition* (eq. 4.3, 4.4) turns it into behaviour: the value of a
 the cells that hold elements of interest, each weighted by the valence of its element.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from neorl import checks
 from neorl.core.kernel import execute
 from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
-from neorl.core.scene import CARDINAL
+from neorl.core.scene import CARDINAL, Actions
 
 OWN_CELL = ("silent", "counts")  # an element in the agent's own cell
 
 
-def learn(q, cell_tm1, cell_t, credit, learning_rate=0.03, discount=0.8, terminal=True):
+def learn(q: NDArray[np.float32], cell_tm1: int, cell_t: int, credit: Sequence[float], learning_rate: float = 0.03,
+          discount: float = 0.8, terminal: bool = True) -> None:
     """Learn every goal, in place, from the one transition cell_tm1 → cell_t (thesis eq. 4.8; eq. 4.6 with one event).
 
-    q: float32 (cells, actions, cells), C-contiguous. cell_tm1, cell_t: 0 … cells − 1.
+    q: float32 (cells, actions, cells), C-contiguous, finite. cell_tm1, cell_t: 0 … cells − 1.
     credit: (actions,), ψ of each event in [0, 1]. learning_rate α, discount γ: in [0, 1].
     terminal: a goal reached is worth 1, and not 1 + γ times what may follow.
     Raises ValueError for anything else.
@@ -29,17 +33,19 @@ def learn(q, cell_tm1, cell_t, credit, learning_rate=0.03, discount=0.8, termina
         raise ValueError("q is read-only, allowed are arrays that can be written to")
     cell_tm1 = checks.integer("cell_tm1", cell_tm1, at_least=0, at_most=cells - 1)
     cell_t = checks.integer("cell_t", cell_t, at_least=0, at_most=cells - 1)
-    credit = np.array([checks.real("credit", value, 0, 1) for value in checks.several("credit", credit)], np.float32)
-    if len(credit) != actions:
-        raise ValueError(f"credit has {len(credit)} values, allowed are {actions}")
-    rates = np.float32(checks.real("learning_rate", learning_rate, 0, 1)) * credit
+    psi = np.array([checks.real("credit", value, 0, 1) for value in checks.several("credit", credit)], np.float32)
+    if len(psi) != actions:
+        raise ValueError(f"credit has {len(psi)} values, allowed are {actions}")
+    checks.finite("q", q[[cell_tm1, cell_t]])
+    rates = np.float32(checks.real("learning_rate", learning_rate, 0, 1)) * psi
     rule = Rule(np.float32(checks.real("discount", discount, 0, 1)), checks.flag("terminal", terminal), ZERO, False)
     every_goal = np.tile([0, cells], (cells, 1))
     execute(learn_all_goals, MapValues(q.reshape(-1), 0, cells, actions, every_goal, np.empty(cells, np.float32)), rule,
             cell_tm1, cell_t, rates)
 
 
-def superpose(q, cell, goals, valences, own_cell="counts"):
+def superpose(q: NDArray[np.float32], cell: int, goals: Sequence[int], valences: Sequence[float],
+              own_cell: str = "counts") -> NDArray[np.float64]:
     """The value of each action in a cell: float64 (actions,) (thesis eq. 4.3 and 4.4).
 
     q: float32 (cells, actions, cells). cell: where the agent is. goals: the cells of the elements of interest;
@@ -53,6 +59,7 @@ def superpose(q, cell, goals, valences, own_cell="counts"):
     if len(goals) != len(valences):
         raise ValueError(f"valences has {len(valences)} values, allowed is one for each of the {len(goals)} goals")
     checks.one_of("own_cell", own_cell, OWN_CELL)
+    checks.finite("q", q[cell][:, goals])
     value = np.zeros(actions)
     for goal, valence in zip(goals, valences):
         if goal != cell or own_cell == "counts":
@@ -60,17 +67,19 @@ def superpose(q, cell, goals, valences, own_cell="counts"):
     return value
 
 
-def as_vectors(values, actions=CARDINAL):
-    """Action values (n, actions) as vectors in the world (n, axes): the sum of the pushes times the values.
+def as_vectors(values: ArrayLike, actions: Actions = CARDINAL) -> NDArray[np.float64]:
+    """Action values (…, actions) as vectors in the world (…, axes): the sum of the pushes times the values.
 
-    actions: the world's `neorl.core.scene.Actions`; by default (E − W, S − N).
+    actions: the world's `neorl.core.scene.Actions`; by default (E − W, S − N). Raises ValueError for anything else.
     """
-    return values @ np.array(actions.pushes)
+    pushes = np.array(checks.instance("actions", actions, Actions).pushes)
+    return checks.points("values", values, actions.names) @ pushes
 
 
 def _check_q(q):
     checks.instance("q", q, np.ndarray)
     cells, actions = q.shape[:2] if q.ndim == 3 else (0, 0)
-    if q.dtype != np.float32 or q.shape != (cells, actions, cells) or not q.size or not q.flags.c_contiguous:
+    if (q.dtype != np.float32 or not q.dtype.isnative or q.shape != (cells, actions, cells) or not q.size
+            or not q.flags.c_contiguous):
         raise ValueError(f"q is {q.dtype} {q.shape}, allowed are C-contiguous float32 arrays (cells, actions, cells)")
     return cells, actions

@@ -19,16 +19,21 @@ What is compiled for a call from Python is kept on disk (`neorl.core.compile_cac
 """
 
 import functools
+import inspect
 import os
 import sys
 import threading
-from typing import Annotated, get_args, get_type_hints
+from collections.abc import Callable
+from typing import Annotated, Any, get_args, get_type_hints
 
 import numpy as np
+
+from neorl import checks
 
 # Without numba's memory runtime (_nrt) a kernel cannot allocate, and counts no references to the arrays it is handed.
 OPTIONS = {"error_model": "numpy", "nogil": True, "_nrt": False}
 INLINED = {"forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+MOST_WORDS = 2_000  # of what numba says
 _making = threading.RLock()
 
 
@@ -79,11 +84,21 @@ class Kernel:
         from neorl.core.compile_cache import CompileCache
 
         self.dispatcher._cache = CompileCache(self)
+        self.dispatcher._compile_for_args = self._compile
         return self.dispatcher
 
+    def _compile(self, *arguments, **by_name):
+        from numba.core.errors import NumbaError
 
-def kernel(function):
-    """Compile a kernel."""
+        try:
+            return type(self.dispatcher)._compile_for_args(self.dispatcher, *arguments, **by_name)
+        except NumbaError as error:
+            raise TypeError(f"{self!r} cannot be compiled, with all kernels that it calls: {str(error)[:MOST_WORDS]}"
+                            ) from error
+
+
+def kernel(function: Callable) -> Any:
+    """Compile a kernel. Raises ValueError for anything but a Python function."""
     return _compiled(function, OPTIONS)
 
 
@@ -107,6 +122,8 @@ def function_of(kernel):
 
 
 def _compiled(function, options):
+    if not inspect.isfunction(function):
+        raise ValueError(f"function is {checks.shown(function)}, allowed are Python functions to make kernels of")
     return function if jit_is_off() else Kernel(function, options)
 
 
@@ -121,27 +138,41 @@ def check_kernel(name, value):
     """`value`, if it is a kernel. Raises ValueError for anything else, such as a function that is not decorated."""
     if isinstance(value, Kernel) or jit_is_off() and callable(value):
         return value
-    raise ValueError(f"{name} is {value!r}, allowed is a function that is decorated by neorl.kernel")
+    raise ValueError(f"{name} is {checks.shown(value)}, allowed is a function that is decorated by neorl.kernel")
 
 
-def kernel_maker(function):
+def kernel_maker(function: Callable) -> Any:
     """A function that makes kernels, the same one for the same arguments: a rule with parameters.
 
-    A number of NumPy's, or an array of no axis, counts as the Python number that it is.
+    A number of NumPy's, or an array of no axis, counts as the Python number that it is. Raises ValueError for anything
+    but a Python function. What it makes raises TypeError for arguments that cannot be hashed, and ValueError if the
+    function returns no kernel.
     """
+    if not inspect.isfunction(function):
+        raise ValueError(f"function is {checks.shown(function)}, allowed are Python functions that make kernels")
+    signature = inspect.signature(function)
 
     @functools.lru_cache(maxsize=None, typed=True)  # an integer may make another kernel than the same number as a float
     def made_of(*arguments):
-        made = function(*arguments)
+        made = check_kernel(f"what {function.__qualname__} returns", function(*arguments))
         made.origin = make, arguments
         return made
 
     @functools.wraps(function)
-    def make(*arguments):
-        return made_of(*(each.item() if isinstance(each, np.generic | np.ndarray) and each.ndim == 0 else each
-                         for each in arguments))
+    def make(*arguments, **by_name):
+        given = signature.bind(*arguments, **by_name)
+        given.apply_defaults()
+        values = tuple(each.item() if isinstance(each, np.generic | np.ndarray) and each.ndim == 0 else each
+                       for each in given.args)
+        try:
+            hash(values)
+        except TypeError:
+            function(*values)  # which may say more
+            raise TypeError(f"arguments of {function.__qualname__} are {checks.shown(values)}, allowed are values that "
+                            "can be hashed") from None
+        return made_of(*values)
 
-    make.makes_kernels = True
+    make.makes_kernels = True  # type: ignore[attr-defined]
     return make
 
 

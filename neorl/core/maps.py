@@ -11,21 +11,20 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from neorl import checks
 from neorl.core.geometry import cell_of, in_range
 from neorl.core.kernel import array, execute, kernel
-from neorl.core.modality import PLACE_CELL, Modality, as_turns, space_of
+from neorl.core.modality import MOST_CELLS, PLACE_CELL, Modality, as_turns, space_of
 from neorl.core.parameters import SpaceParameters
-
-MOST_CELLS = 2**31 - 1
 
 
 @dataclass(frozen=True)
 class NresMap(checks.Final):
     """A map of one modality.
 
-    resolution: N, intervals an axis, at least 1; there can be `MOST_CELLS` cells.
+    resolution: N, intervals an axis, at least 1; there can be `neorl.core.modality.MOST_CELLS` cells.
 
     Raises ValueError for anything else.
     """
@@ -34,22 +33,22 @@ class NresMap(checks.Final):
     modality: Modality = PLACE_CELL
 
     def __post_init__(self):
-        checks.assign(self, resolution=checks.integer("resolution", self.resolution, at_least=1))
+        checks.assign(self, resolution=checks.integer("resolution", self.resolution, 1, MOST_CELLS))
         checks.instance("modality", self.modality, Modality)
         if self.cells > MOST_CELLS:
             raise ValueError(f"resolution is {self.resolution}, allowed are maps of at most {MOST_CELLS} cells")
 
     @property
-    def intervals(self):
+    def intervals(self) -> tuple[int, ...]:
         """The number of intervals along each axis: a tuple."""
         return tuple(axis.intervals or self.resolution for axis in self.modality.axes)
 
     @property
-    def cells(self):
+    def cells(self) -> int:
         """The number of cells: the intervals of all axes, multiplied."""
         return math.prod(self.intervals)
 
-    def encode(self, points):
+    def encode(self, points: ArrayLike) -> NDArray[np.int64]:
         """The active cell for each point.
 
         points: float (…, axes), coordinates of the modality. Returns int64 (…), 0 … cells − 1.
@@ -60,8 +59,11 @@ class NresMap(checks.Final):
         execute(encode, space_of(self.modality, self.resolution), as_turns(self.modality, points), cells.reshape(-1))
         return cells
 
-    def covers(self, points):
-        """Whether each point lies in the range of the map, so that encoding it clamps nothing: bool (…)."""
+    def covers(self, points: ArrayLike) -> NDArray[np.bool]:
+        """Whether each point lies in the range of the map, so that encoding it clamps nothing: bool (…).
+
+        points: float (…, axes), coordinates of the modality. Raises ValueError for anything else.
+        """
         points = checks.points("points", points, self.modality.names)
         open_axes = [i for i, axis in enumerate(self.modality.axes) if not axis.closed]
         low, high = (np.array([getattr(self.modality.axes[i], end) for i in open_axes]) for end in ("low", "high"))

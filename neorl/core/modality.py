@@ -19,9 +19,11 @@ HEAD_DIRECTION_CELL.axes`.
 """
 
 import functools
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from neorl import checks
 from neorl.core.choices import Cut, Feature, Vector
@@ -29,10 +31,11 @@ from neorl.core.geometry import TAU, locate
 from neorl.core.constants import Constants, features, no_credit
 from neorl.core.kernel import array, check_kernel, execute, kernel, new_tuple
 from neorl.core.parameters import SpaceParameters, cut_axes
-from neorl.core.scene import Scene
+from neorl.core.scene import MOST_AXES, Scene, checked_scene
 
 VECTORS = ("position", "velocity", "objects", "boundaries", "landmarks")
 SEVERAL = ("objects", "boundaries", "landmarks")  # there may be several of these, and a modality follows one kind
+MOST_CELLS = 2**31 - 1  # of a map
 FEATURES = tuple(Feature.__members__)
 SEEN_FROM_AGENT = "centred on the agent, allocentric direction"
 FRAMES = {"position": "allocentric", "velocity": "allocentric direction"}
@@ -58,20 +61,20 @@ class Axis(checks.Final):
     Raises ValueError for anything else.
     """
 
-    of: str
+    of: str | Callable[..., float]
     feature: str = "component"
     along: int = 0
     low: float = 0.0
     high: float = 1.0
     closed: bool = False
     intervals: int | None = None
-    boundaries: tuple[float, ...] = ()
+    boundaries: Sequence[float] = ()
     name: str = ""
 
     def __post_init__(self):
         of = check_kernel("of", self.of) if callable(self.of) else checks.one_of("of", self.of, VECTORS)
         checks.assign(self, of=of, feature=checks.one_of("feature", self.feature, FEATURES),
-                     along=checks.integer("along", self.along, at_least=0),
+                     along=checks.integer("along", self.along, at_least=0, at_most=MOST_AXES - 1),
                      boundaries=tuple(checks.real("boundaries", each)
                                       for each in checks.several("boundaries", self.boundaries)))
         if self.boundaries:
@@ -81,8 +84,8 @@ class Axis(checks.Final):
         checks.assign(self, low=checks.real("low", self.low), high=checks.real("high", self.high),
                      closed=checks.flag("closed", self.closed) or self.is_direction)
         if self.intervals is not None:
-            checks.assign(self, intervals=checks.integer("intervals", self.intervals, at_least=1))
-        if self.low >= self.high:
+            checks.assign(self, intervals=checks.integer("intervals", self.intervals, 1, MOST_CELLS))
+        if self.high - self.low < checks.SMALLEST:
             raise ValueError(f"low is {self.low!r}, allowed are numbers below high, here {self.high!r}")
         if self.feature == "margin" and (self.of != "position" or not 0 < self.high <= 0.5):
             raise ValueError(f"a margin of {self.high!r} of {self.of!r}: allowed are margins of a position, up to 0.5")
@@ -91,7 +94,7 @@ class Axis(checks.Final):
         checks.assign(self, name=str(checks.instance("name", self.name, str)) or self._name)
 
     @property
-    def is_direction(self):
+    def is_direction(self) -> bool:
         """Whether the coordinate is a direction, in radians."""
         return not callable(self.of) and self.feature == "direction"
 
@@ -105,14 +108,23 @@ class Axis(checks.Final):
             "distance" if self.feature == "length" else "direction")
 
 
-def cartesian(of, *ranges, intervals=None):
-    """Axes for the components of a vector, each with its range (low, high): a tuple of `Axis`."""
+def cartesian(of: str, *ranges: Sequence[float], intervals: int | None = None) -> tuple[Axis, ...]:
+    """Axes for the components of a vector: a tuple of `Axis`.
+
+    of, intervals: as in `Axis`. ranges: (low, high) for each component. Raises ValueError for anything else.
+    """
+    pairs = [checks.several("ranges", each) for each in ranges]
+    if any(len(pair) != 2 for pair in pairs):
+        raise ValueError(f"ranges is {checks.shown(ranges)}, allowed are (low, high) each")
     return tuple(Axis(of, "component", along, low, high, intervals=intervals)
-                 for along, (low, high) in enumerate(ranges))
+                 for along, (low, high) in enumerate(pairs))
 
 
-def polar(of, reach, intervals=None):
-    """Axes for the length of a vector in the plane, from 0 to `reach`, and its direction: a tuple of `Axis`."""
+def polar(of: str, reach: float, intervals: int | None = None) -> tuple[Axis, ...]:
+    """Axes for the length of a vector in the plane, from 0 to `reach`, and its direction: a tuple of `Axis`.
+
+    of, intervals: as in `Axis`. Raises ValueError for anything else, such as a reach that is not above 0.
+    """
     return Axis(of, "length", high=reach, intervals=intervals), Axis(of, "direction", intervals=intervals)
 
 
@@ -128,8 +140,8 @@ class Modality(checks.Final):
     """
 
     name: str
-    axes: tuple[Axis, ...]
-    landmarks: tuple[tuple[float, ...], ...] = ()
+    axes: Sequence[Axis]
+    landmarks: Sequence[Sequence[float]] = ()
 
     def __post_init__(self):
         checks.assign(self, name=str(checks.instance("name", self.name, str)))
@@ -147,56 +159,62 @@ class Modality(checks.Final):
         if bool(landmarks) != (self.follows == "landmarks") or len({len(each) for each in landmarks}) > 1:
             raise ValueError(f"landmarks is {self.landmarks!r}, allowed are places where an axis is of landmarks, and "
                              "() elsewhere")
+        if landmarks and len(landmarks[0]) < self.least_axes:
+            raise ValueError(f"landmarks is {landmarks!r}, allowed are places of {self.least_axes} coordinates or more")
 
     @property
-    def follows(self):
+    def follows(self) -> str:
         """The vector that elements of interest have a place in: that of several points, or else of the agent."""
         vectors = [axis.of for axis in self.axes if not callable(axis.of)]
         several = [each for each in vectors if each in SEVERAL]
         return several[0] if several else "position" if "position" in vectors or not vectors else "velocity"
 
     @property
-    def names(self):
+    def names(self) -> tuple[str, ...]:
         """The names of the coordinates; a direction is in radians."""
         return tuple(axis.name for axis in self.axes)
 
     @property
-    def frame(self):
+    def frame(self) -> str:
         """The reference frame; a length alone has none."""
         lengths = {axis.feature for axis in self.axes} == {"length"}
         return "–" if lengths else FRAMES.get(self.follows, SEEN_FROM_AGENT)
 
     @property
-    def takes_places(self):
+    def takes_places(self) -> bool:
         """Whether an element of interest at a place in the world has a meaning here."""
         return self.follows != "velocity" or [axis.feature for axis in self.axes] == ["direction"]
 
     @property
-    def functions(self):
+    def functions(self) -> tuple[Callable[..., float], ...]:
         """The kernels of the user's own among its axes: a tuple."""
         return tuple(axis.of for axis in self.axes if callable(axis.of))
 
-    def coordinates(self, scene, size):
+    def coordinates(self, scene: Scene, size: float) -> NDArray[np.float64]:
         """Where everything that the modality follows is in a `Scene`: float64 (points, axes), directions in radians.
 
-        size: of the world, its unit of length.
+        size: of the world, its unit of length. Raises ValueError for a scene that does not fit.
         """
+        scene, size = checked_scene(scene), checks.positive("size", size)
         n_axes = len(scene.position)
+        self.check_axes(n_axes)
         points = {"objects": len(scene.things), "boundaries": 2 * n_axes, "landmarks": len(self.landmarks)}
         found = np.zeros((points.get(self.follows, 1), len(self.axes)))
         self._locate(size, scene, False, np.zeros((len(found), n_axes)), found)
         return as_radians(self, found)
 
-    def tune(self, vectors):
+    def tune(self, vectors: ArrayLike) -> NDArray[np.float64]:
         """The coordinates that vectors (…, axes of the world) have for these cells: float64 (…, axes).
 
         Raises ValueError if a vector is not finite or not of two components or more, or for conjunctive cells.
         """
-        vectors = checks.finite("vectors", np.asarray(vectors, float))
+        vectors = checks.doubles("vectors", vectors)
         if any(axis.of != self.follows for axis in self.axes):
             raise ValueError(f"{self.name}s have axes of several vectors, allowed are modalities with one")
-        if vectors.ndim == 0 or vectors.shape[-1] < self.least_axes:
-            raise ValueError(f"vectors has the shape {vectors.shape}, allowed are (…, {self.least_axes}) or more")
+        if vectors.ndim == 0 or not self.least_axes <= vectors.shape[-1] <= MOST_AXES:
+            raise ValueError(f"vectors has the shape {vectors.shape}, allowed are (…, {self.least_axes}) to "
+                             f"(…, {MOST_AXES})")
+        self.check_axes(vectors.shape[-1])
         n_axes = vectors.shape[-1]
         found = np.zeros((*vectors.shape[:-1], len(self.axes)))
         scene = new_tuple(Scene, {"axes": n_axes, "things": 0}, {})
@@ -209,8 +227,15 @@ class Modality(checks.Final):
         constants = Constants(features(*self.functions), no_credit, no_credit, (0,), axes)
         execute(_locate_with(constants), space_of(self, 1, len(axes), size), scene, given, vectors, found)
 
+    def check_axes(self, n_axes: int) -> None:
+        """Raise ValueError unless these cells have a meaning in a world of so many axes."""
+        if self.least_axes > n_axes:
+            raise ValueError(f"{self.name}s need a world of {self.least_axes} axes or more, this one has {n_axes}")
+        if self.landmarks and len(self.landmarks[0]) != n_axes:
+            raise ValueError(f"landmarks is {self.landmarks!r}, allowed are places of {n_axes} coordinates")
+
     @property
-    def least_axes(self):
+    def least_axes(self) -> int:
         """How many axes a world has at least where these cells have a meaning."""
         least = [2 if axis.feature == "direction" else axis.along + 1 for axis in self.axes if not callable(axis.of)]
         return max([1, *least, *(len(each) for each in self.landmarks)])

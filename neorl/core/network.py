@@ -34,7 +34,8 @@ def choose(parameters, constants, state, scene):
             wanted += value[action] != 0.0
         if wanted == 0:
             return len(constants.actions)
-    return constants.choose(value, state.stream)
+    action = constants.choose(value, state.stream)
+    return min(max(action, 0), len(constants.actions))  # a policy of the user's own may return any number
 
 
 @inlined_kernel

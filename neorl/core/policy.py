@@ -5,6 +5,7 @@ each action; stream, of random numbers, is drawn from by `neorl.core.stream.unif
 """
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -41,12 +42,12 @@ def greedy(value, stream):
 
 
 @kernel_maker
-def softmax(temperature):
+def softmax(temperature: float) -> Callable:
     """The policy that draws an action a with a probability proportional to exp(value[a] / temperature).
 
     temperature: > 0, in units of value. Raises ValueError for anything else.
     """
-    checks.positive("temperature", temperature)
+    temperature = checks.positive("temperature", temperature)
 
     @kernel
     def choose(value, stream):

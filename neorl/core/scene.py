@@ -1,13 +1,16 @@
 """What an agent knows of a world: the `Scene` that it perceives, and the `Actions` that it can take."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from neorl import checks
 from neorl.core.kernel import array
 
+MOST_AXES, MOST_ACTIONS = 8, 1_024  # of a world; kernels are compiled for their numbers
 ABSENT = -1  # in place of the number of a kind
 
 
@@ -19,6 +22,31 @@ class Scene(NamedTuple):
     things: array("float64", "things", "axes") = ()  # where they are
     kinds: array("int64", "things") = ()  # the number of each one's kind, or ABSENT
     met: array("int64", "things") = ()  # 0, or 1 + the kind of a thing met in this step, whose slot is a fresh one's
+
+
+def checked_scene(scene):
+    """A scene as arrays that kernels take.
+
+    A velocity of None is rest; things without kinds have none, and none are met unless `met` says so.
+    Raises ValueError for a scene whose arrays are not numbers, or do not fit one another.
+    """
+    checks.instance("scene", scene, Scene)
+    position = checks.doubles("scene.position", scene.position)
+    things, kinds, met = (checks.doubles(f"scene.{name}", getattr(scene, name)) for name in ("things", "kinds", "met"))
+    if position.ndim != 1 or not 1 <= len(position) <= MOST_AXES:
+        raise ValueError(f"scene.position is {checks.shown(scene.position)}, allowed is a number for each of 1 to "
+                         f"{MOST_AXES} axes")
+    velocity = np.zeros(len(position)) if scene.velocity is None else checks.doubles("scene.velocity", scene.velocity)
+    things = np.zeros((0, len(position))) if things.size == 0 else things
+    if things.ndim != 2:
+        raise ValueError(f"scene.things is {checks.shown(scene.things)}, allowed are places, one a row")
+    kinds = np.full(len(things), ABSENT) if kinds.size == 0 else np.clip(kinds, ABSENT, 2**31)
+    met = np.zeros(len(things)) if met.size == 0 else met != 0
+    for name, values, shape in (("velocity", velocity, position.shape), ("kinds", kinds, (len(things),)),
+                                ("met", met, (len(things),)), ("things", things, (len(things), len(position)))):
+        if values.shape != shape:
+            raise ValueError(f"scene.{name} has the shape {values.shape}, allowed is {shape}")
+    return Scene(*map(np.ascontiguousarray, (position, velocity, things)), kinds.astype(np.int64), met.astype(np.int64))
 
 
 @dataclass(frozen=True)
@@ -33,37 +61,41 @@ class Actions(checks.Final):
     Raises ValueError for anything else.
     """
 
-    names: tuple[str, ...]
-    pushes: tuple[tuple[float, ...], ...]
+    names: Sequence[str]
+    pushes: Sequence[Sequence[float]]
     idle: str | None = None
 
     def __post_init__(self):
         names = tuple(str(checks.instance("names", each, str)) for each in checks.several("names", self.names))
         pushes = tuple(tuple(checks.real("pushes", value) for value in checks.several("pushes", each))
                        for each in checks.several("pushes", self.pushes))
-        if not names or len({*names, self.idle}) <= len(names):
-            raise ValueError(f"names is {self.names!r}, allowed are one or more, each once, and others than idle, "
-                             f"{self.idle!r}")
-        if len(pushes) != len(names) or len({len(each) for each in pushes}) != 1 or not pushes[0]:
-            raise ValueError(f"pushes is {self.pushes!r}, allowed are as many as names, all of as many axes")
         if self.idle is not None:
             checks.assign(self, idle=str(checks.instance("idle", self.idle, str)))
+        if not names or len({*names, self.idle}) <= len(names):
+            raise ValueError(f"names is {checks.shown(self.names)}, allowed are one or more, each once, and "
+                             f"others than idle, {self.idle!r}")
+        if len(pushes) != len(names) or len({len(each) for each in pushes}) != 1 or not pushes[0]:
+            raise ValueError(f"pushes is {checks.shown(self.pushes)}, allowed are as many as names, all of as "
+                             "many axes")
+        if len(pushes[0]) > MOST_AXES or len(names) > MOST_ACTIONS:
+            raise ValueError(f"pushes is {checks.shown(self.pushes)}, allowed are {MOST_AXES} axes and {MOST_ACTIONS} "
+                             "actions or fewer")
         checks.assign(self, names=names, pushes=pushes)
 
     @property
-    def axes(self):
+    def axes(self) -> int:
         """The number of axes of the world."""
         return len(self.pushes[0])
 
     @property
-    def table(self):
+    def table(self) -> NDArray[np.float64]:
         """The pushes of all actions in the order of their numbers, idleness last: float64 (actions, axes)."""
         return np.array([*self.pushes, *[(0.0,) * self.axes] * (self.idle is not None)], float)
 
     @property
-    def all_names(self):
+    def all_names(self) -> tuple[str, ...]:
         """The names of all actions in the order of their numbers, idleness last."""
-        return self.names if self.idle is None else (*self.names, self.idle)
+        return tuple(self.names) if self.idle is None else (*self.names, self.idle)
 
 
 # North is up on a page: towards a smaller y.

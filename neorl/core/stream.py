@@ -5,6 +5,7 @@ A stream is four unsigned 64-bit integers, seeded as NumPy's `SeedSequence` does
 """
 
 import numpy as np
+from numpy.typing import NDArray
 
 from neorl import checks
 from neorl.core.kernel import array, execute, kernel
@@ -21,7 +22,7 @@ MIX, MIX_IN = np.uint64(0xCA01F9DD), np.uint64(2**32 - 0x4973F715)
 WARM_UP = 12  # draws that a fresh stream leaves out
 
 
-def new_stream(seed_sequence):
+def new_stream(seed_sequence: np.random.SeedSequence) -> NDArray[np.uint64]:
     """The stream at its start: uint64 (4,), the words of ``np.random.SFC64(seed_sequence)``.
 
     Raises ValueError if the pool of the seed sequence is not of 4 words, as it is by default.

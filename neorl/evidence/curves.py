@@ -1,27 +1,41 @@
 """Curves of reward per second over a run, in equal stretches, and smoothed as the thesis smooths."""
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.signal import butter, sosfiltfilt
+
+from neorl import checks
+from neorl.experiments.simulation import Result
 
 # Paper B smooths its curves "by a Butterworth low-pass filter" (section 3). The thesis states neither of these.
 FILTER_ORDER = 4
 CUTOFF_PERIODS = 20  # in a run: what repeats more often is taken out
 
 
-def binned_rate(result, points):
-    """Reward per second (runs, points) over equal stretches of the run."""
-    edges = np.linspace(0, result.rewards.shape[1], points + 1).astype(int)
+def binned_rate(result: Result, points: int) -> NDArray[np.float64]:
+    """Reward per second over equal stretches of the run: float64 (runs, points).
+
+    result: a `Result`. points: integer, 1 … its bins. Raises ValueError for anything else.
+    """
+    bins = checks.instance("result", result, Result).rewards.shape[1]
+    points = checks.integer("points", points, at_least=1, at_most=bins)
+    edges = np.linspace(0, bins, points + 1).astype(int)
     sums = np.add.reduceat(result.rewards, edges[:-1], axis=1)
     return sums / np.diff(result.edges[edges])
 
 
-def low_passed(rates):
+def low_passed(rates: ArrayLike) -> NDArray[np.float64]:
     """Curves (runs, points) through the filter forwards and backwards, so that nothing shifts in time.
 
     Before and after it a curve goes on as its image in the point where a straight line through its first or last cutoff
     period ends: the one at its very end would be as noisy as a curve that nobody filtered.
-    Raises ValueError if there are no more than 2 `CUTOFF_PERIODS` points.
+    rates: (runs, points). Raises ValueError for anything but finite numbers, or if there are no more than 2
+    `CUTOFF_PERIODS` points.
     """
+    rates = checks.doubles("rates", rates)
+    if rates.ndim != 2 or rates.shape[1] <= 2 * CUTOFF_PERIODS or not len(rates):
+        raise ValueError(f"rates has the shape {rates.shape}, allowed are (runs, points), with more than "
+                         f"{2 * CUTOFF_PERIODS} points")
     points = rates.shape[1]
     sections = butter(FILTER_ORDER, 2 * CUTOFF_PERIODS / points, output="sos")
     near = points // CUTOFF_PERIODS

@@ -4,14 +4,21 @@ Intervals are percentile bootstraps of `scipy.stats`, tolerance bands are pairs 
 bootstrap draws from, a `numpy.random.Generator` or the seed of one; by default it draws the same each time.
 """
 
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy import stats
 
 from neorl import checks
+from neorl.experiments.simulation import Result
+from neorl.worlds.waterworld import WaterWorld
 
 RESAMPLES = 1_000
+Results = Result | Sequence[Result]
+Rng = int | np.random.Generator
+MOST_RUNS = 2**31
 RECENT = 1 / 40  # of a run: the window in which reward per second is said to have come to a level
 
 
@@ -27,12 +34,16 @@ class Estimate(NamedTuple):
         return f"{self.value:z.2f}{bounds}".replace("-", "−")
 
 
-def estimate(statistic, *samples, rng=0):
+def estimate(statistic: Callable, *samples: ArrayLike, rng: Rng = 0) -> Estimate:
     """A statistic of one or several independent samples (each (runs,)), with its bootstrap interval.
 
     statistic: takes the samples, and `axis`, along which the runs lie. A sample of a single run has no interval: its
-    bounds are NaN.
+    bounds are NaN. rng: see the module. Raises ValueError for a sample that is empty, or not of finite numbers.
     """
+    if not callable(statistic) or not samples:
+        raise ValueError(f"statistic is {checks.shown(statistic)} of {len(samples)} samples, allowed are functions of "
+                         "one sample or more")
+    samples, rng = [_sample("samples", each) for each in samples], _generator(rng)
     value = float(statistic(*map(np.asarray, samples), axis=-1))
     if min(len(sample) for sample in samples) < 2:
         return Estimate(value, np.nan, np.nan)
@@ -82,12 +93,14 @@ def rank_correlation(*samples, axis):
     return quotient((off * place).sum(axis), spread)
 
 
-def probability_of_improvement(better, worse, rng=0):
+def probability_of_improvement(better: ArrayLike, worse: ArrayLike, rng: Rng = 0) -> Estimate:
     """How probably a run of `better` beats one of `worse`, a tie counting half, as an `Estimate`.
 
     Mann-Whitney's U a pair of runs (Agarwal et al. 2021, Deep reinforcement learning at the edge of the statistical
-    precipice).
+    precipice). better, worse: (runs,). rng: see the module. Raises ValueError for a sample that is empty, or not of
+    finite numbers.
     """
+    better, worse = _sample("better", better), _sample("worse", worse)
     return estimate(_share_of_pairs, better, worse, rng=rng)
 
 
@@ -96,31 +109,37 @@ def _share_of_pairs(better, worse, axis):
     return stats.mannwhitneyu(better, worse, axis=axis, method="asymptotic").statistic / pairs
 
 
-def points(result):
-    """float64 (runs,): the green creeps that each run took, less the red ones."""
+def points(result: Result) -> NDArray[np.float64]:
+    """float64 (runs,): the green creeps that each run took, less the red ones.
+
+    result: a `Result` in `WaterWorld`. Raises ValueError for anything else.
+    """
+    _in_waterworld(result)
     return (result.hits[..., 0].sum(axis=1) - result.hits[..., 1].sum(axis=1)).astype(float)
 
 
-def resets(result):
+def resets(result: Result) -> NDArray[np.float64]:
     """float64 (runs,): how often each run reset the board, by taking the last green creep.
 
-    It follows from the rewards. Raises ValueError where that creep brings no reward of its own.
+    result: a `Result` in `WaterWorld`, of whose rewards it follows. Raises ValueError where that creep brings no reward
+    of its own.
     """
+    _in_waterworld(result)
     if result.world.win_reward == 0:
         raise ValueError("win_reward of the world is 0.0, allowed are worlds where a reset shows in the reward")
     return np.rint((result.totals - points(result)) / result.world.win_reward)
 
 
-def tolerance_band(curves, share=0.75, confidence=0.95):
+def tolerance_band(curves: ArrayLike, share: float = 0.75, confidence: float = 0.95) -> NDArray[np.float64]:
     """The band between two order statistics that holds a share of all runs there could be, at each point: (low, high).
 
     curves: (runs, points). It is the narrowest such band, with as many runs above as below, that holds `share` of them
     with `confidence`, whatever their distribution (Wilks 1941). Where there are too few runs, fewer than 18 by default,
-    it is their whole range, and holds less: `tolerated_share` tells how much.
-    Raises ValueError unless both are numbers from 0 to 1.
+    it is their whole range, and holds less, by as much as `tolerated_share` says.
+    Raises ValueError unless both are numbers from 0 to 1, and the curves finite, of one run or more.
     """
-    checks.real("share", share, 0, 1)
-    checks.real("confidence", confidence, 0, 1)
+    share, confidence = checks.real("share", share, 0, 1), checks.real("confidence", confidence, 0, 1)
+    curves = _curves(curves)
     runs = len(curves)
     beyond = 1
     while 2 * (beyond + 1) <= runs and tolerated_share(runs, beyond + 1, confidence) >= share:
@@ -129,17 +148,30 @@ def tolerance_band(curves, share=0.75, confidence=0.95):
     return ordered[[beyond - 1, -beyond]]
 
 
-def tolerated_share(runs, beyond=1, confidence=0.95):
-    """The share of all runs there could be that, with `confidence`, lies between the `beyond`-th runs from the ends."""
+def tolerated_share(runs: int, beyond: int = 1, confidence: float = 0.95) -> float:
+    """The share of all runs there could be that, with `confidence`, lies between the `beyond`-th runs from the ends.
+
+    runs: integer ≥ 0. beyond: integer ≥ 1. confidence: a number from 0 to 1. Raises ValueError for anything else.
+    """
+    runs, beyond = checks.integer("runs", runs, 0, MOST_RUNS), checks.integer("beyond", beyond, 1, MOST_RUNS)
+    confidence = checks.real("confidence", confidence, 0, 1)
     return float(stats.beta.ppf(1 - confidence, runs + 1 - 2 * beyond, 2 * beyond)) if runs >= 2 * beyond else 0.0
 
 
-def time_to_level(result, level):
+def time_to_level(result: Result, level: ArrayLike) -> NDArray[np.float64]:
     """When each run first earns a level of reward per second: float64 (runs,), in simulated seconds.
 
-    level: a number, or one for each run. It is earned when the mean over the fortieth of the run just past reaches it;
-    a run that never earns it counts as the whole run.
+    result: a `Result`. level: a number, or one for each run. It is earned when the mean over the fortieth of the run
+    just past reaches it; a run that never earns it counts as the whole run. Raises ValueError for anything else.
     """
+    runs = checks.instance("result", result, Result).runs
+    level = checks.doubles("level", level)
+    if level.shape not in ((), (runs,)):
+        raise ValueError(f"level has the shape {level.shape}, allowed is one number, or {runs}")
+    return _time_to_level(result, level)
+
+
+def _time_to_level(result, level):
     rates, ends = _recent_rates(result)
     return _first(rates >= np.reshape(level, (-1, 1)), ends, result.seconds)
 
@@ -157,14 +189,21 @@ def _first(made, ends, never):
     return np.where(made.any(axis=-1), ends[made.argmax(axis=-1)], never)
 
 
-def minutes_sooner(quick, slow, level):
+def minutes_sooner(quick: Results, slow: Results, level: float) -> Estimate:
     """By how many simulated minutes the runs of `quick` earn a level sooner than those of `slow`, as an `Estimate`.
 
     quick, slow: a `Result` each, or a sequence of them, of runs of one length, whose rewards add up. level: reward per
     second. It is earned when the mean over runs in the fortieth of the run just past first reaches it, to about a
     two-hundredth of the run; where it is never earned, that counts as the whole run.
+    Raises ValueError for anything else.
     """
+    level = checks.real("level", level)
     groups = [group if isinstance(group, list | tuple) else [group] for group in (quick, slow)]
+    for name, group in zip(("quick", "slow"), groups):
+        for result in group:
+            checks.instance(name, result, Result)
+        if len({(result.steps, result.world.fps) for result in (*groups[0], *group)}) != 1 or not group:
+            raise ValueError(f"{name} has {len(group)} results, allowed are one or more, all of runs of one length")
     thinned = [[_thinned(*_recent_rates(result)) for result in group] for group in groups]
 
     def lead(*chosen, axis):
@@ -189,21 +228,47 @@ def _mean_of_runs(rates, chosen):
     return (counts @ rates / runs).reshape(*chosen.shape[:-1], -1)
 
 
-def time_to_final_level(result, share=0.9):
+def time_to_final_level(result: Result, share: float = 0.9) -> NDArray[np.float64]:
     """When each run first makes `share` of its final level: float64 (runs,), in simulated seconds, see `time_to_level`.
 
-    The final level is a run's own reward per second in its last fifth. A run whose final level is not positive never
-    makes it.
+    result: a `Result`. The final level is a run's own reward per second in its last fifth. A run whose final level is
+    not positive never makes it. Raises ValueError for a share that is not from 0 to 1.
     """
-    final = result.rate(0.8, 1.0)
-    return time_to_level(result, np.where(final > 0, share * final, np.inf))
+    final, share = checks.instance("result", result, Result).rate(0.8, 1.0), checks.real("share", share, 0, 1)
+    return _time_to_level(result, np.where(final > 0, share * final, np.inf))
 
 
-def mean_band(curves, rng=0):
-    """The interval of the mean over runs at each point of curves (runs, points): (low, high), as `estimate` has it."""
+def mean_band(curves: ArrayLike, rng: Rng = 0) -> Any:
+    """The interval of the mean over runs at each point of curves (runs, points): (low, high), as `estimate` has it.
+
+    rng: see the module. Raises ValueError for curves that are not finite, or of no run.
+    """
+    curves, rng = _curves(curves), _generator(rng)
     if len(curves) < 2:
         return np.full((2, curves.shape[1]), np.nan)
     return _bootstrapped((curves,), np.mean, rng, axis=0)
+
+
+def _sample(name, values):
+    sample = checks.doubles(name, values)
+    if sample.ndim != 1 or not len(sample):
+        raise ValueError(f"{name} is {checks.shown(values)}, allowed is a number for each run, of one run or more")
+    return np.asarray(values) if np.asarray(values).dtype.kind == "i" else sample  # numbers of runs stay integers
+
+
+def _curves(values):
+    curves = checks.doubles("curves", values)
+    if curves.ndim != 2 or not curves.size:
+        raise ValueError(f"curves has the shape {curves.shape}, allowed are (runs, points), at least one of each")
+    return curves
+
+
+def _generator(rng):
+    return rng if isinstance(rng, np.random.Generator) else checks.integer("rng", rng, at_least=0)
+
+
+def _in_waterworld(result):
+    checks.instance("world of result", checks.instance("result", result, Result).world, WaterWorld)
 
 
 def _bootstrapped(samples, statistic, rng, axis=-1):

@@ -11,6 +11,7 @@
 The origin is the upper left corner; the pool, if round, touches all four sides.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -72,15 +73,15 @@ class Arena(World, checks.Final):
     Raises ValueError for anything else, and for a start that is not free.
     """
 
-    places: tuple[tuple[str, float, float], ...] = (("platform", 0.65, 0.35),)
-    pay: tuple[float, ...] = ()
-    obstacles: tuple[tuple[float, float, float, float], ...] = ()
+    places: Sequence[tuple[str, float, float]] = (("platform", 0.65, 0.35),)
+    pay: Sequence[float] = ()
+    obstacles: Sequence[tuple[float, float, float, float]] = ()
     shape: str = "round"
     motion: str = "inertia"
     step_length: float = 0.02
     radius: float = 0.06
     ends: bool = True
-    start: tuple[float, ...] = ()
+    start: Sequence[float] = ()
     trial_seconds: float = 60.0
     fps: int = 50
 
@@ -90,7 +91,7 @@ class Arena(World, checks.Final):
     def __post_init__(self):
         places = tuple(checks.several("places", each) for each in checks.several("places", self.places))
         if any(len(each) != 3 or not isinstance(each[0], str) for each in places):
-            raise ValueError(f"places is {self.places!r}, allowed are (kind, x, y) each")
+            raise ValueError(f"places is {checks.shown(self.places)}, allowed are (kind, x, y) each")
         checks.assign(
             self, places=tuple((str(kind), checks.real("places", x, 0, 1), checks.real("places", y, 0, 1))
                                for kind, x, y in places),
@@ -107,34 +108,35 @@ class Arena(World, checks.Final):
             raise ValueError(f"pay is {self.pay!r}, allowed are {len(self.kinds)} numbers, one for each kind")
         for left, top, right, bottom, *more in (each + (0,) * (4 - len(each)) for each in self.obstacles):
             if more or not (left < right and top < bottom):
-                raise ValueError(f"obstacles is {self.obstacles!r}, allowed are (left, top, right, bottom) each")
+                raise ValueError(f"obstacles is {checks.shown(self.obstacles)}, allowed are (left, top, right, "
+                                 "bottom) each")
         if len(self.start) not in (0, 2):
             raise ValueError(f"start is {self.start!r}, allowed are () and a place (x, y)")
         if any(function_of(is_blocked)(self.rules, x, y) for x, y in self.rules.start):
             raise ValueError(f"start is {self.start!r}, allowed are places outside of walls and obstacles")
 
     @property
-    def dynamics(self):
+    def dynamics(self) -> Dynamics:
         """The kernels."""
         return Dynamics(reset, step)
 
     @property
-    def kinds(self):
+    def kinds(self) -> tuple[str, ...]:
         """The kinds of its places."""
         return tuple(dict.fromkeys(kind for kind, *_ in self.places))
 
     @property
-    def things(self):
+    def things(self) -> int:
         """How many places there are."""
         return len(self.places)
 
     @property
-    def sizes(self):
+    def sizes(self) -> dict[str, int]:
         """The sizes of the arrays in a state and in the rules, by name."""
         return super().sizes | {"obstacles": len(self.obstacles)}
 
     @property
-    def rules(self):
+    def rules(self) -> ArenaRules:
         """The rules as the kernels take them."""
         pay = dict(zip(self.kinds, (*self.pay, *[1.0] * len(self.kinds))))
         near, far = RIM, 1.0 - RIM

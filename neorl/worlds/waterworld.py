@@ -87,36 +87,38 @@ class WaterWorld(World, checks.Final):
                      contact=checks.one_of("contact", self.contact, CONTACTS))
 
     @property
-    def dynamics(self):
+    def dynamics(self) -> Dynamics:
         """The kernels."""
         return Dynamics(reset, step)
 
     @property
-    def size(self):
+    def size(self) -> int:
         """The width, the unit of length in which agents see the tank."""
         return self.width
 
     @property
-    def things(self):
+    def things(self) -> int:
         """The number of creeps."""
         return self.n_creeps
 
     @property
-    def radius(self):
+    def radius(self) -> int:
         """The radius of agent and creeps in whole pixels."""
         return round(0.047 * self.width)
 
     @property
-    def rules(self):
+    def rules(self) -> Rules:
         """The rules as the kernels take them."""
         return Rules(float(self.width), float(self.radius), 1.0 / self.fps, float(self.win_reward),
                      0.5 if self.contact == "rounded" else 0.0)
 
-    def check_state(self, state):
+    def check_state(self, state: WaterWorldState) -> None:
         """Raise ValueError unless a state has the creeps of the world, and is finite."""
         super().check_state(state)
-        if not np.any(state.direction, axis=1).all():
-            raise ValueError(f"state.direction is {state.direction!r}, allowed are vectors of length 1")
+        if not np.all(np.abs(np.linalg.norm(state.direction, axis=1) - 1.0) < 1e-6):
+            raise ValueError(f"state.direction is {checks.shown(state.direction)}, allowed are vectors of length 1")
+        if not np.all((0.0 <= state.jitter) & (state.jitter <= 1.0)):
+            raise ValueError(f"state.jitter is {checks.shown(state.jitter)}, allowed are numbers from 0 to 1")
 
 
 @kernel

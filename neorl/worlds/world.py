@@ -13,9 +13,10 @@ A world is a frozen dataclass, its fields what is chosen of it, with a `State`, 
    ``things`` is how many things there are.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from neorl import checks
 from neorl.core.description import Described
@@ -33,21 +34,25 @@ class Dynamics(NamedTuple):
 class World(Described):
     """A world of kernels; see the module for what a subclass defines."""
 
-    dynamics = None  # a `Dynamics`
-    kinds = ()
-    actions = None
+    dynamics: Any = None  # a `Dynamics`
+    kinds: Any = ()
+    actions: Any = None
+    things: Any
+    size: Any
+    fps: Any
+    rules: Any
 
     @property
-    def State(self):
+    def State(self) -> type:
         """The type of its states."""
         return fields(self.dynamics.reset)["state"]
 
     @property
-    def sizes(self):
+    def sizes(self) -> dict[str, int]:
         """The sizes of the arrays in a state, by name."""
         return {"things": self.things, "axes": self.actions.axes}
 
-    def reset(self, seed):
+    def reset(self, seed: int | np.random.SeedSequence) -> Any:
         """A state at the beginning of an episode.
 
         seed: an integer ≥ 0 or a `numpy.random.SeedSequence`. Raises ValueError for anything else.
@@ -58,7 +63,7 @@ class World(Described):
         execute(self.dynamics.reset, state, self.rules)
         return state
 
-    def step(self, state, action):
+    def step(self, state: Any, action: int | str) -> tuple[float, NDArray[np.bool], bool]:
         """Advance `state` in place by one step.
 
         action: the number of an action, or its name.
@@ -73,13 +78,14 @@ class World(Described):
         reward, done = execute(self.dynamics.step, state, self.rules, action)
         return float(reward), state.scene.met != 0, bool(done)
 
-    def check_state(self, state):
+    def check_state(self, state: Any) -> None:
         """Raise ValueError unless the arrays of a state fit this world, and are finite."""
         checks.instance("state", state, self.State)
         check_arrays("state", state, self.sizes)
         kinds = state.scene.kinds
         if kinds.size and not (-1 <= kinds.min() and kinds.max() < len(self.kinds)):
-            raise ValueError(f"state.scene.kinds is {kinds!r}, allowed are −1 and the numbers of {self.kinds}")
+            raise ValueError(f"state.scene.kinds is {checks.shown(kinds)}, allowed are −1 and the numbers of "
+                             f"{self.kinds}")
 
 
 def check_arrays(name, values, sizes):
@@ -91,8 +97,8 @@ def check_arrays(name, values, sizes):
             continue
         dtype, shape = kind
         expected = tuple(length(each, sizes) for each in shape)
-        if (not isinstance(value, np.ndarray) or (value.dtype, value.shape) != (np.dtype(dtype), expected)
+        if (type(value) is not np.ndarray or (value.dtype, value.shape) != (np.dtype(dtype), expected)
                 or not value.flags.c_contiguous or not value.flags.writeable):
-            found = f"{value.dtype} {value.shape}" if isinstance(value, np.ndarray) else repr(value)
+            found = f"{value.dtype} {value.shape}" if isinstance(value, np.ndarray) else checks.shown(value)
             raise ValueError(f"{path} is {found}, allowed is {dtype} {expected}, contiguous and writeable")
         checks.finite(path, value)

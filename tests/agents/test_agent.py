@@ -35,7 +35,7 @@ PAPERS = (place_cells, brownian, object_vector_cells, multimodal, network_a, net
     (lambda: Desire("PC", "OVC", of="green"), "of is 'green', allowed are lists and tuples"),
     (lambda: Desire("PC", "OVC", scale=-1), "scale is -1"),
     (lambda: Desire("PC", "OVC", signed=2), "signed is 2, allowed are True, False"),
-    (lambda: Agent(()), r"nodes is \(\), allowed are one Node or more"),
+    (lambda: Agent(()), r"nodes are 0, allowed are 1 to 4096, each a Node"),
     (lambda: Agent(PC), "nodes is Node.*, allowed are lists and tuples"),
     (lambda: Agent((NresMap(5),)), "nodes is NresMap.*, allowed is a Node"),
     (lambda: Agent((PC,), ("green",)), "desires is 'green', allowed is a Desire"),
@@ -169,7 +169,7 @@ def test_object_vectors_may_have_a_range_of_their_own():
     assert object_vector_cells([3], tiled_fraction=0.2,
                                object_tiled_fraction=1).nodes[0].modality == CARTESIAN_OBJECT_VECTOR_CELL
     for name in ("tiled_fraction", "object_tiled_fraction"):
-        with pytest.raises(ValueError, match=f"{name} is 0, allowed are numbers above 0"):
+        with pytest.raises(ValueError, match=f"{name} is 0, allowed are finite numbers from 1e-30"):
             multimodal([3], **{name: 0})
     assert brownian().policy == Policy(exploration=1.0)
 

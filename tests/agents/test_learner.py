@@ -278,8 +278,8 @@ def test_a_bad_learner_is_refused(arguments, message):
 
 
 @pytest.mark.parametrize("choice, message", [
-    ({"seed": -1}, "seed is -1"), ({"size": 0}, "size is 0.0, allowed are numbers above 0"),
-    ({"size": np.nan}, "size is nan"), ({"fps": -50}, "fps is -50.0, allowed are numbers above 0")])
+    ({"seed": -1}, "seed is -1"), ({"size": 0}, "size is 0, allowed are finite numbers from 1e-30"),
+    ({"size": np.nan}, "size is nan"), ({"fps": -50}, "fps is -50, allowed are finite numbers from 1e-30")])
 def test_a_bad_choice_of_a_learner_is_refused(choice, message):
     with pytest.raises(ValueError, match=message):
         Learner(multimodal([3]), 2, ("green", "red"), **choice)

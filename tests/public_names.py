@@ -1,0 +1,401 @@
+"""What users call, each with what it takes: the table of `test_fuzzing.py`, where every public name has to be.
+
+Of an entry only one argument at a time is replaced by something hostile. `then` uses what was made, as an agent is used
+by letting it live.
+"""
+
+import inspect
+import pathlib
+import tempfile
+
+import numpy as np
+from fuzzing import entry
+from hypothesis import strategies as st
+
+import neorl
+from neorl import (CARDINAL, Actions, Agent, Arena, Axis, Condition, Desire, Learner, Learning, Modality, Node, NresMap,
+                   Place, Policy, Result, Run, Scene, WaterWorld, greedy, softmax)
+from neorl.agents import agent, learner, papers
+from neorl.agents.description import described, restored
+from neorl.agents.individual import Individual
+from neorl.core import horde, kernel, maps, modality, policy, scene, stream
+from neorl.core.identity import identity
+from neorl.core.kernel import arrays
+from neorl.core.modality import (CARTESIAN_OBJECT_VECTOR_CELL, MODALITIES, OBJECT_VECTOR_CELL,
+                                 PLACE_CELL, cartesian, polar)
+from neorl.core.stream import new_stream
+from neorl.evidence import curves, statistics
+from neorl.worlds import arena, waterworld, world
+
+MODULES = (neorl, agent, learner, papers, horde, kernel, maps, modality, policy, scene, stream, arena, waterworld,
+           world, curves, statistics)
+# Classes that kernels, or the package itself, make and hand out; kernels themselves refuse to be called.
+MADE_INSIDE = {f"neorl.{name}" for name in (
+    "agents.learner.Offer", "core.kernel.Kernel", "core.scene.Scene", "evidence.statistics.Estimate",
+    "experiments.simulation.Result", "worlds.arena.ArenaRules", "worlds.arena.ArenaState", "worlds.waterworld.Rules",
+    "worlds.waterworld.WaterWorldState", "worlds.world.Dynamics", "worlds.world.World")}
+# What authors of kernels and of worlds call, with types and sizes of their own: it checks nothing, for it is hot or
+# runs at import.
+FOR_AUTHORS = {f"neorl.{name}" for name in (
+    *(f"core.kernel.{name}" for name in (
+        "array", "arrays", "check_kernel", "execute", "fields", "function_of", "inlined", "inlined_kernel", "is_tuple",
+        "length", "mapped", "new_tuple")),
+    *(f"core.modality.{name}" for name in (
+        "Modality.check_axes", "as_radians", "as_turns", "axis_parameters", "firsts", "integers", "space_of")),
+    *(f"evidence.statistics.{name}" for name in (  # what `estimate` calls
+        "difference", "lead_over_best", "lead_over_sum", "least_of_most", "quotient", "rank_correlation", "ratio")),
+    "core.scene.checked_scene", "worlds.world.check_arrays")}
+
+
+def public_names():
+    """The callables that need an entry: functions and classes of `MODULES`, and methods that take arguments."""
+    found = set()
+    for module in MODULES:
+        for name, value in vars(module).items():
+            ours = name in neorl.__all__ if module is neorl else getattr(value, "__module__", "") == module.__name__
+            if ours and not name.startswith("_") and callable(value) and not isinstance(value, kernel.Kernel):
+                full = f"{value.__module__}.{value.__qualname__}"
+                found.add(full)
+                if inspect.isclass(value):
+                    found |= {f"{full}.{method}" for method in methods(value)}
+    return found - MADE_INSIDE - FOR_AUTHORS
+
+
+def methods(kind):
+    for base in kind.__mro__:
+        for name, value in vars(base).items():
+            value = getattr(value, "__func__", value)
+            if base.__module__.startswith("neorl") and not name.startswith("_") and inspect.isfunction(value):
+                if len(inspect.signature(value).parameters) > 1:
+                    yield name
+
+
+def live(agent, world=WaterWorld(n_creeps=2), steps=60):
+    """All the numbers of an agent after a short life in a world, and of what keeps and names it."""
+    identity(agent), hash(agent), repr(agent)
+    assert restored(described(agent)) == agent
+    run = Run(agent, world)
+    paid = run.advance(steps)
+    return paid, [each for name, each in arrays(run.state).items() if name != "coordinates" and name != "alone"]
+
+
+def live_in(world):
+    identity(world), hash(world), repr(world)
+    assert restored(described(world)) == world
+    kinds = world.kinds[:1]
+    return live(Agent([Node("PC", PLACE_CELL, [3])], [Desire(each, "PC", 1.0) for each in kinds]), world)
+
+
+def tile(axis):
+    return use_modality(Modality("cell", [axis], [(0.1, 0.2)] if axis.of == "landmarks" else ()))
+
+
+def use_modality(cells):
+    identity(cells), hash(cells), repr(cells)
+    assert restored(described(cells)) == cells
+    board = WaterWorld(n_creeps=2)
+    return (NresMap(3, cells).encode(np.full((2, len(cells.axes)), 0.3)),
+            cells.coordinates(board.reset(0).scene, board.size) if cells.least_axes <= 2 else None, cells.frame)
+
+
+def want_it(desire):
+    nodes = [Node("PC", PLACE_CELL, [2]), Node("OVC", CARTESIAN_OBJECT_VECTOR_CELL, [3])]
+    return live(Agent(nodes, [Desire("green", "PC", 1.0), desire]))
+
+
+def in_a_loop(learner):
+    axes, things = learner.world.actions.axes, learner.world.things
+    here = Scene(np.zeros(axes), None, np.zeros((things, axes)), [None] * things, ())
+    learner.begin(here)
+    for _ in range(3):
+        learner.act()
+        learner.observe(here)
+    return list(arrays(learner.state).values())
+
+
+def new_learner():
+    return Learner(neorl.place_cells([3]), 2, ("green", "red"))
+
+
+def acted():
+    one = new_learner()
+    one.begin(SCENE)
+    one.act()
+    return one
+
+
+def result_of(world, runs=3, bins=40):
+    rng = np.random.default_rng(0)
+    return Result(neorl.place_cells([3]), world, 10 * bins, runs, 0, rng.normal(size=(runs, bins)).astype(np.float32),
+                  rng.integers(0, 3, (runs, bins, 2)).astype(np.int16))
+
+
+SCENE = Scene((0.5, 0.25), (0.0, 0.1), [(0.1, 0.2), (0.3, 0.4)], ("green", None), (0, 1))
+SCENES = st.sampled_from([SCENE, SCENE._replace(velocity=None, met=()), Scene(
+    np.array([0.5, 0.5]), np.zeros(2), np.ones((2, 2)), np.array([0, 1]), np.array([True, False]))])
+BOARD, POOL = WaterWorld(n_creeps=2), Arena()
+RESULT = result_of(WaterWorld(win_reward=5.0))
+SAMPLE = np.array([0.1, 0.5, 0.2, 0.9])
+CURVES = np.random.default_rng(0).normal(size=(5, 60))
+COUNTS = [1.0, 0.5, 0]
+reals = st.floats(-2, 2)
+shares = st.floats(0, 1)
+seeds = st.integers(0, 2**70)
+resolutions = st.sampled_from([(2, 3), [4], range(1, 3), np.array([2, 3])])
+q = st.sampled_from([0.0, 0.5]).map(lambda value: np.full((4, 2, 4), value, np.float32))
+states = st.integers(0, 5).map(BOARD.reset)
+agents = st.sampled_from([neorl.place_cells([3]), neorl.network_d([2])])
+paths = st.sampled_from(["run.npz"]).map(lambda name: str(pathlib.Path(tempfile.gettempdir()) / name))
+of_paper = {"learning": [Learning()], "policy": [Policy()], "own_cell": ["counts", "silent"], "weighting": ["cells"],
+            "tiled_fraction": st.floats(0.1, 2), "object_tiled_fraction": st.floats(0.1, 2)}
+
+
+def paper(function, **arguments):
+    return entry(function, **(of_paper | arguments), resolutions=resolutions, then=live,
+                 also=("resolution", "gain", "valence", "low", "high"))
+
+
+def method(function, subject):
+    """A method as a function of its arguments, on a fresh subject each time."""
+    def call(**arguments):
+        return function(subject(), **arguments)
+    return call
+
+
+def scene_then(function, subject):
+    def call(**fields):
+        one = subject()
+        function(one, Scene(**fields))
+        return in_the_scene(one)
+    return call
+
+
+def in_the_scene(one):
+    one.act()
+    return list(arrays(one.state).values()), list(arrays(one._scene).values())
+
+
+def step_with(**fields):
+    state = BOARD.reset(0)
+    scene = Scene(**{name: fields.pop(name) for name in Scene._fields})
+    return BOARD.step(state._replace(scene=scene, **fields), 1), state
+
+
+def fields_of(state):
+    found = {**state._asdict(), **state.scene._asdict()}
+    return {name: [each] for name, each in found.items() if name != "scene"}
+
+
+def live_in_state(**fields):
+    run = Run(neorl.place_cells([3]), BOARD)
+    scene = Scene(**{name: fields.pop(name) for name in Scene._fields})
+    run.world_state = run.world_state._replace(scene=scene, **fields)
+    return run.advance(50), list(arrays(run.world_state).values())
+
+
+def saved(path):
+    run = Run(neorl.place_cells([3]), BOARD)
+    run.save(path)
+    return Run.load(path).step
+
+
+def make_with(function):
+    made = kernel.kernel_maker(function)
+    return made(1.0)
+
+
+TABLE = {
+    "neorl.core.modality.Axis": entry(
+        Axis, of=["position", "objects", "landmarks"], feature=["component", "length"], along=[0, 1],
+        low=st.floats(-1, 0), high=st.floats(0.1, 1), closed=[False, True], intervals=[None, 2], boundaries=[()],
+        name=["", "x"], then=tile, also=("margin", "kernel")),
+    "neorl.core.modality.Axis, cut": entry(
+        Axis, of=["position"], boundaries=[(0, 0.2, 0.9), [0, 1]], also="low", then=tile),
+    "neorl.core.modality.Modality": entry(
+        Modality, name=["cell"], axes=[cartesian("position", (0, 1), (0, 1)), polar("objects", 1)],
+        landmarks=[()], then=use_modality),
+    "neorl.core.modality.Modality, of landmarks": entry(
+        Modality, name=["cell"], axes=[polar("landmarks", 1)], landmarks=[[(0.1, 0.2)], ((0, 1), (1, 1))],
+        then=use_modality),
+    "neorl.core.modality.Modality.tune": entry(
+        OBJECT_VECTOR_CELL.tune, vectors=[np.ones((3, 2)), [1, 2], ((0.5, 0.5),)]),
+    "neorl.core.modality.Modality.coordinates": entry(
+        PLACE_CELL.coordinates, scene=[Scene(np.array([0.5, 0.5]))], size=st.floats(0.1, 10)),
+    "neorl.core.modality.cartesian": entry(
+        lambda of, first, second, intervals: cartesian(of, first, second, intervals=intervals), of=["position"],
+        first=[(0, 1)], second=[(-1, 1), [0.5, 3]], intervals=[None, 4], also=("ranges", "low", "high"),
+        then=lambda axes: use_modality(Modality("cell", axes))),
+    "neorl.core.modality.polar": entry(
+        polar, of=["objects", "boundaries"], reach=st.floats(0.1, 3), intervals=[None, 4], also=("high", "resolution"),
+        then=lambda axes: use_modality(Modality("cell", axes))),
+    "neorl.core.maps.NresMap": entry(
+        NresMap, resolution=st.integers(1, 50), modality=st.sampled_from(MODALITIES),
+        then=lambda nres_map: nres_map.encode(np.zeros(len(nres_map.intervals)))),
+    "neorl.core.maps.NresMap.encode": entry(
+        NresMap(5).encode, points=[np.full((2, 3, 2), 0.5), [0.1, 0.9], [(0, 0), (-1, 2)], np.zeros((0, 2))]),
+    "neorl.core.maps.NresMap.covers": entry(
+        NresMap(5).covers, points=[np.full((2, 3, 2), 0.5), [0.1, 0.9], [(0, 0), (-1, 2)], np.zeros((0, 2))]),
+    "neorl.core.horde.learn": entry(
+        lambda **each: (horde.learn(**each), each["q"][each["cell_tm1"]]), q=q, cell_tm1=st.integers(0, 3),
+        cell_t=st.integers(0, 3),
+        credit=[(0.5, 0.5), [1, 0]], learning_rate=shares, discount=shares, terminal=[True, False]),
+    "neorl.core.horde.superpose": entry(
+        horde.superpose, q=q, cell=st.integers(0, 3), goals=[(1, 2), [3, 3]], valences=[(1, -1), [0.5, 2]],
+        own_cell=["counts", "silent"]),
+    "neorl.core.horde.as_vectors": entry(
+        horde.as_vectors, values=[np.ones((3, 4)), np.zeros(4), [1, 2, 3, 4]],
+        actions=[CARDINAL]),
+    "neorl.core.kernel.kernel": entry(
+        lambda function: live(neorl.place_cells([3], policy=Policy(choose=kernel.kernel(function)))),
+        function=[lambda value, stream: 1], also="kernel"),
+    "neorl.core.kernel.kernel_maker": entry(make_with, function=[lambda t: kernel.kernel(lambda value, stream: 1)]),
+    "neorl.core.policy.softmax": entry(
+        softmax, temperature=st.floats(0.01, 5),
+        then=lambda choose: live(neorl.place_cells([3], policy=Policy(choose=choose)))),
+    "neorl.core.scene.Actions": entry(
+        Actions, names=[("left", "right"), ["a", "b"]], pushes=[((-1, 0), (1, 0)), [[0.5], [1]]],
+        idle=[None, "stay"], then=lambda actions: in_a_loop(Learner(Agent([Node("X", Modality("x", cartesian(
+            "position", (0, 1))), [3])]), actions=actions))),
+    "neorl.core.stream.new_stream": entry(
+        new_stream, seed_sequence=[np.random.SeedSequence(3), np.random.SeedSequence(2**70, spawn_key=(1,)),
+                                   np.random.SeedSequence(5, pool_size=8)], also="pool_size"),
+    "neorl.worlds.waterworld.WaterWorld": entry(
+        WaterWorld, width=st.integers(11, 500), n_creeps=st.integers(1, 9), fps=st.integers(1, 100),
+        win_reward=reals, contact=["rounded", "truncated"], then=live_in),
+    "neorl.worlds.arena.Arena": entry(
+        Arena, places=[(("food", 0.3, 0.4),), [("a", 0, 1), ("b", 0.2, 0.2)], ()], pay=[(), (1.5,)][:1],
+        obstacles=[(), [(0.1, 0.1, 0.2, 0.2)]], shape=["round", "square"], motion=["inertia", "steps"],
+        step_length=st.floats(0.001, 0.5), radius=st.floats(0.01, 1), ends=[True, False], start=[(), (0.5, 0.5)],
+        trial_seconds=st.floats(0.1, 99), fps=st.integers(1, 100), then=live_in),
+    "neorl.worlds.arena.Arena, pay": entry(
+        Arena, places=[[("a", 0.5, 0.5), ("b", 0.2, 0.2)]], pay=[(), (1.5,), [2, 3]], start=[(0.4, 0.4)], also="pay",
+        then=live_in),
+    "neorl.worlds.world.World.reset": entry(BOARD.reset, seed=seeds, then=lambda state: list(arrays(state).values())),
+    "neorl.worlds.world.World.step": entry(
+        BOARD.step, state=states, action=["N", 0, "no-op", np.int8(4)]),
+    "neorl.worlds.waterworld.WaterWorld.reset": entry(BOARD.reset, seed=seeds),
+    "neorl.worlds.waterworld.WaterWorld.step": entry(BOARD.step, state=states, action=["N", 0]),
+    "neorl.worlds.arena.Arena.reset": entry(POOL.reset, seed=seeds, then=lambda state: list(arrays(state).values())),
+    "neorl.worlds.arena.Arena.step": entry(POOL.step, state=st.integers(0, 5).map(POOL.reset), action=["N", 0]),
+    "neorl.worlds.world.World.step, fields": entry(step_with, **fields_of(BOARD.reset(0)), also="state"),
+    "neorl.worlds.world.World.check_state": entry(BOARD.check_state, state=states),
+    "neorl.worlds.waterworld.WaterWorld.check_state": entry(BOARD.check_state, state=states),
+    "neorl.worlds.arena.Arena.check_state": entry(POOL.check_state, state=st.integers(0, 5).map(POOL.reset)),
+    "neorl.agents.agent.Learning": entry(
+        Learning, learning_rate=shares, discount=shares, update_on=["cell"], credit=["happened", "activity", "share"],
+        activity=st.floats(0, 9), absent_decay=shares, absent_form=["decay", "away"], terminal=[True, False],
+        trace=[1], memory=st.floats(0, 9), memory_unit=["cells", "seconds"], memory_value=["reached", "discounted"],
+        bootstrap=[True, False], causes=["any", "own"], capture=["contact", "leap", "silent"],
+        attention=["each", "nearest", "wanted"],
+        then=lambda learning: live(neorl.multimodal([3], learning=learning))),
+    "neorl.agents.agent.Learning, traces": entry(
+        Learning, trace=st.integers(1, 9), memory=[0], discount=shares, update_on=["cell"],
+        then=lambda learning: live(neorl.multimodal([3], learning=learning))),
+    "neorl.agents.agent.Policy": entry(
+        Policy, exploration=shares, when_indifferent=["random", "no-op"],
+        choose=st.sampled_from([greedy, softmax(1.0)]),
+        then=lambda policy: live(neorl.multimodal([3], policy=policy)), also="kernel"),
+    "neorl.agents.agent.Node": entry(
+        Node, name=["PC"], modality=st.sampled_from([PLACE_CELL, OBJECT_VECTOR_CELL]), resolutions=resolutions,
+        weighting=["equal", "cells"], gain=reals, also="resolution",
+        then=lambda node: live(Agent([node], [Desire("green", node.name, 1.0)]))),
+    "neorl.agents.agent.Place": entry(
+        lambda x, y: Place(x, y), x=reals, y=reals, also="coordinates",
+        then=lambda place: want_it(Desire(place, "PC", 1.0))),
+    "neorl.agents.agent.Place.of_fields": entry(
+        Place.of_fields, coordinates=[(0.5, 0.5), [1, 0]], then=lambda place: want_it(Desire(place, "PC", 1.0))),
+    "neorl.agents.agent.Desire": entry(
+        Desire, source=st.sampled_from(["red", Place(0.5, 0.5), (0.3, 0.4)]), target=["PC"], valence=reals, of=[()],
+        scale=st.floats(0, 3), signed=[True, False], then=want_it, also=("desire", "node", "coordinates", "name")),
+    "neorl.agents.agent.Desire, of a node": entry(
+        Desire, source=["PC"], target=["OVC"], valence=[None, 0.5], of=[(), ("green",), ["green"]],
+        scale=st.floats(0, 3), signed=[True, False], then=want_it, also=("desire", "node", "coordinates")),
+    "neorl.agents.agent.Agent": entry(
+        Agent, nodes=[(Node("PC", PLACE_CELL, [3]),)], desires=[[Desire("green", "PC", 1.0)], ()],
+        learning=[Learning()], policy=[Policy()], own_cell=["counts", "silent"], then=live, also="node"),
+    "neorl.agents.agent.Agent.comes_from_node": entry(
+        neorl.place_cells([3]).comes_from_node, desire=[Desire("green", "PC", 1.0)]),
+    "neorl.agents.learner.Surroundings": entry(
+        learner.Surroundings, things=st.integers(0, 5), kinds=[(), ("a",)], actions=[CARDINAL],
+        size=st.floats(0.1, 9), fps=st.floats(1, 99)),
+    "neorl.agents.learner.Learner": entry(
+        Learner, agent=agents, things=st.integers(0, 5), kinds=[("green", "red"), ["green", "red", "blue"]],
+        actions=[CARDINAL], seed=seeds, size=st.floats(0.1, 9), fps=st.floats(1, 99), then=in_a_loop,
+        also=("kind", "axes")),
+    "neorl.agents.learner.Learner.begin": entry(method(Learner.begin, new_learner), scene=SCENES),
+    "neorl.agents.learner.Learner.begin, fields": entry(
+        scene_then(Learner.begin, new_learner), **SCENE._asdict() and {name: [each] for name, each in
+                                                                       SCENE._asdict().items()}, also="scene"),
+    "neorl.agents.learner.Learner.observe": entry(method(Learner.observe, acted), scene=SCENES),
+    "neorl.agents.learner.Learner.observe, fields": entry(
+        scene_then(Learner.observe, acted), **{name: [each] for name, each in SCENE._asdict().items()}, also="scene"),
+    **{f"neorl.{where}.{kind.__name__}.{name}": each for kind, where in (
+        (Learner, "agents.learner"), (Run, "experiments.run"), (Individual, "agents.individual"))
+       for name, each in {
+           "q": entry(method(Individual.q, new_learner), index=[0]),
+           "output": entry(method(Individual.output, new_learner), name=["PC"]),
+           "change": entry(method(Individual.change, acted), agent=agents),
+           "transfer": entry(method(Individual.transfer, new_learner), other=st.builds(new_learner), also="maps"),
+           "save": entry(saved, path=paths, errors=(OSError,)),
+           "load": entry(Run.load, path=paths, errors=(OSError,)),
+       }.items()},
+    "neorl.experiments.run.Run": entry(
+        lambda **each: Run(**each).advance(40), agent=agents, world=[BOARD], seed=seeds, run=st.integers(0, 9),
+        after=st.builds(lambda: Run(neorl.place_cells([3]), BOARD))),
+    "neorl.experiments.run.Run.advance": entry(
+        method(Run.advance, lambda: Run(neorl.place_cells([3]), BOARD)), steps=st.integers(0, 50), long=("steps",),
+        also="rewards",
+        rewards=st.just(0).map(lambda _: np.zeros(5, np.float32)),
+        hits=st.just(0).map(lambda _: np.zeros((5, 2), np.int16))),
+    "neorl.experiments.run.Run.world_state": entry(live_in_state, **fields_of(BOARD.reset(0)), also="state"),
+    "neorl.experiments.simulation.simulate": entry(
+        neorl.simulate, long=("steps", "runs", "threads"), agent=agents, world=[BOARD],
+        steps=st.integers(1, 60), runs=st.integers(1, 2), seed=seeds,
+        changes=[(), [(20, neorl.place_cells([2]))]], threads=[None, 1],
+        progress=[False], also=("change",)),
+    "neorl.experiments.cache.simulate_once": entry(
+        neorl.simulate_once, long=("steps", "runs"), agent=agents, world=[BOARD], steps=[60], runs=[1],
+        seed=[0], changes=[()], progress=[False]),
+    "neorl.experiments.cache.Condition": entry(
+        Condition, agent=agents, world=[BOARD], steps=st.integers(1, 60), runs=st.integers(1, 2), seed=seeds,
+        changes=[(), [(20, neorl.place_cells([2]))]], also=("change",),
+        then=lambda condition: (condition.key, repr(condition))),
+    "neorl.experiments.sweep.sweep": entry(
+        lambda **each: list(neorl.sweep(**each)), executor=[None], progress=[False],
+        conditions=[[Condition(neorl.place_cells([2]), BOARD, 40, 1)]], also="condition"),
+    "neorl.experiments.simulation.Result.rate": entry(RESULT.rate, begin=[0.0, 0.2], end=[0.5, 1.0]),
+    "neorl.experiments.simulation.Result.hit_rate": entry(RESULT.hit_rate, begin=[0.0, 0.2], end=[0.5, 1.0]),
+    "neorl.evidence.curves.binned_rate": entry(curves.binned_rate, result=[RESULT], points=st.integers(1, 40)),
+    "neorl.evidence.curves.low_passed": entry(curves.low_passed, rates=[CURVES, CURVES.tolist()]),
+    "neorl.evidence.statistics.estimate": entry(
+        lambda statistic, first, second, rng: statistics.estimate(statistic, first, second, rng=rng).value,
+        statistic=[statistics.difference, statistics.ratio], first=[SAMPLE, [1, 2]], second=[SAMPLE], rng=seeds,
+        also="samples"),
+    "neorl.evidence.statistics.probability_of_improvement": entry(
+        lambda **each: statistics.probability_of_improvement(**each).value, better=[SAMPLE, [1, 2]], worse=[SAMPLE],
+        rng=seeds),
+    "neorl.evidence.statistics.points": entry(statistics.points, result=[RESULT]),
+    "neorl.evidence.statistics.resets": entry(statistics.resets, result=[RESULT], also="win_reward"),
+    "neorl.evidence.statistics.tolerance_band": entry(
+        statistics.tolerance_band, curves=[CURVES], share=shares, confidence=shares),
+    "neorl.evidence.statistics.tolerated_share": entry(
+        statistics.tolerated_share, runs=st.integers(0, 99), beyond=st.integers(1, 9), confidence=shares),
+    "neorl.evidence.statistics.time_to_level": entry(
+        statistics.time_to_level, result=[RESULT], level=[0.1, [1, 2, 0], np.array(0.3)]),
+    "neorl.evidence.statistics.time_to_final_level": entry(
+        statistics.time_to_final_level, result=[RESULT], share=shares),
+    "neorl.evidence.statistics.minutes_sooner": entry(
+        lambda **each: statistics.minutes_sooner(**each).value, quick=[RESULT, [RESULT, RESULT]], slow=[RESULT],
+        level=reals),
+    "neorl.evidence.statistics.mean_band": entry(statistics.mean_band, curves=[CURVES], rng=seeds),
+    "neorl.agents.papers.place_cells": paper(neorl.place_cells, valence_green=reals, valence_red=reals),
+    "neorl.agents.papers.object_vector_cells": paper(neorl.object_vector_cells, valence_green=reals, valence_red=reals),
+    "neorl.agents.papers.multimodal": paper(neorl.multimodal, place_gain=reals, object_gain=reals),
+    "neorl.agents.papers.network_a": paper(neorl.network_a, scale=st.floats(0, 2), signed=[True, False]),
+    "neorl.agents.papers.network_b": paper(neorl.network_b, scale=st.floats(0, 2), signed=[True, False]),
+    "neorl.agents.papers.network_c": paper(neorl.network_c, scale=st.floats(0, 2), signed=[True, False],
+                                           place_gain=reals, object_gain=reals),
+    "neorl.agents.papers.network_d": paper(neorl.network_d, recursion=reals, scale=st.floats(0, 2),
+                                           signed=[True, False], place_gain=reals, object_gain=reals),
+}
+NOTHING_TO_REPLACE = {"neorl.agents.papers.brownian"}

@@ -1,0 +1,55 @@
+"""Docstrings and annotations of what users call: arguments named and annotated, errors said."""
+
+import dataclasses
+import importlib
+import inspect
+import re
+
+import pytest
+from public_names import NOTHING_TO_REPLACE, TABLE
+
+OTHERS = ("neorl.experiments", "neorl.drawing")  # rooms that are not looked at
+NAMES = sorted({name.partition(",")[0] for name in (*TABLE, *NOTHING_TO_REPLACE) if not name.startswith(OTHERS)})
+CHOICES = "choices"  # of a paper's agent: the docstring of the module says what they are
+
+
+def found(name):
+    """What a full name stands for, and the class that it is a method of, or None."""
+    module, inner = re.match(r"((?:[a-z_0-9]+[.])+)(.*)", name).groups()
+    for split in range(len(module.split(".")), 1, -1):
+        parts = name.split(".")
+        try:
+            value, owner = importlib.import_module(".".join(parts[:split])), None
+        except ImportError:
+            continue
+        for part in parts[split:]:
+            value, owner = getattr(value, part), value
+        return value, owner if inspect.isclass(owner) else None
+    raise LookupError(f"{name}: {inner}")
+
+
+def lacking(name):
+    value, owner = found(name)
+    if isinstance(getattr(owner, name.rpartition(".")[2], None), property):
+        return
+    text = inspect.getdoc(value) or ""
+    if not text:
+        yield "a docstring"
+    dataclass = dataclasses.is_dataclass(value)
+    parameters = inspect.signature(value).parameters
+    for parameter in parameters.values():
+        if parameter.name not in ("self", CHOICES) and not re.search(rf"\b{parameter.name}\b", text):
+            yield f"the argument {parameter.name} in the docstring"
+        if parameter.name != "self" and parameter.annotation is inspect.Parameter.empty:
+            yield f"an annotation of {parameter.name}"
+    if not inspect.isclass(value) and inspect.signature(value).return_annotation is inspect.Signature.empty:
+        yield "an annotation of what is returned"
+    source = inspect.getsource(value)
+    if re.search(r"checks[.](?!shown|LARGEST)|raise ValueError", source) and "Raise" not in text and (
+            dataclass or inspect.isfunction(value)):
+        yield "the errors raised in the docstring"
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_arguments_are_named_and_annotated_and_errors_said(name):
+    assert list(lacking(name)) == []
