@@ -8,7 +8,7 @@ from neorl import files
 from neorl.experiments import kept
 from neorl.experiments.exchange import about
 from neorl.experiments.experiment import read_experiment
-from neorl.experiments.sweep import sweep
+from neorl.experiments.sweeping import sweep
 
 LAST_FIFTH = (0.8, 1.0)
 

@@ -50,7 +50,8 @@ def test_the_kernels_are_found():
 @pytest.mark.parametrize("name", [*KERNELS, *MADE])
 def test_a_kernel_has_the_options_of_all_and_calls_no_library(name):
     tested = (KERNELS | MADE)[name]
-    assert tested.dispatcher.targetoptions in [each(lambda: None).dispatcher.targetoptions for each in (kernel, inlined_kernel)]
+    assert tested.dispatcher.targetoptions in [each(lambda: None).dispatcher.targetoptions
+                                               for each in (kernel, inlined_kernel)]
     assert "fastmath" not in tested.dispatcher.targetoptions
     for code in tested.dispatcher.inspect_llvm().values():
         calls = [line for line in code.splitlines() if " call " in line and "@" in line]

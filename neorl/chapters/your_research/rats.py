@@ -43,7 +43,8 @@ def scene_of(places, vectors):
 def forage(agent, steps, seed=0, n_cells=200):
     """How far an animal steered by a neoRL agent is from an object after each step, in metres: float64 (steps,).
 
-    agent: a `neorl.Agent` that desires "object", or None for RatInABox's own random motion. n_cells: of each population.
+    agent: a `neorl.Agent` that desires "object", or None for RatInABox's own random motion. n_cells: of each
+        population.
     Raises ImportError if ratinabox is not installed.
     """
     require("ratinabox", extra="book")
