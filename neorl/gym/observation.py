@@ -17,7 +17,7 @@ import numpy as np
 from neorl.core.kernel import inlined_kernel, kernel
 from neorl.extras import require
 
-spaces = require("gymnasium.spaces", extra="gym")
+gymnasium = require("gymnasium", extra="gym")
 
 FASTEST = 10.0  # sizes a second; in WaterWorld drag lets no velocity grow beyond 9.75
 
@@ -27,7 +27,7 @@ def observation_space(world, egocentric):
     axes, kinds = world.actions.axes, len(world.kinds)
     least = [0] * axes + [-FASTEST] * axes + ([-1 if egocentric else 0] * axes + [0] * kinds) * world.things
     most = [1] * axes + [FASTEST] * axes + [1] * (axes + kinds) * world.things
-    return spaces.Box(np.array(least, np.float32), np.array(most, np.float32))
+    return gymnasium.spaces.Box(np.array(least, np.float32), np.array(most, np.float32))
 
 
 @kernel

@@ -6,6 +6,8 @@ of a seed is that of seed + i; an environment whose episode is over begins the n
 ``infos["final_obs"]``), or when ``reset(options={"reset_mask": mask})`` asks for it (`DISABLED`).
 """
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from neorl import checks
@@ -18,11 +20,10 @@ from neorl.worlds.arena import Arena
 from neorl.worlds.waterworld import WaterWorld
 
 gymnasium = require("gymnasium", extra="gym")
-vector = require("gymnasium.vector", extra="gym")
-Mode = vector.AutoresetMode
+Mode = gymnasium.vector.AutoresetMode
 
 
-class VectorWorldEnv(vector.VectorEnv):
+class VectorWorldEnv(gymnasium.vector.VectorEnv):
     """Many environments of one world in one compiled step; see the module.
 
     world: a `neorl.World`. num_envs: how many environments, ≥ 1. max_episode_steps: after which an episode is
@@ -41,11 +42,12 @@ class VectorWorldEnv(vector.VectorEnv):
         self._batch = Batch(world, num_envs, egocentric, continuing, self._mode is Mode.SAME_STEP, max_episode_steps)
         self.render_mode = checks.one_of("render_mode", render_mode, (None, *self.metadata["render_modes"]))
         self.metadata = {**self.metadata, "render_fps": world.fps, "autoreset_mode": self._mode}
+        batch_space = gymnasium.vector.utils.batch_space
         self.num_envs = len(self._batch.slots.action)
         self.single_observation_space = observation_space(world, egocentric)
         self.single_action_space = gymnasium.spaces.Discrete(len(world.actions.all_names))
-        self.observation_space = vector.utils.batch_space(self.single_observation_space, self.num_envs)
-        self.action_space = vector.utils.batch_space(self.single_action_space, self.num_envs)
+        self.observation_space = batch_space(self.single_observation_space, self.num_envs)
+        self.action_space = batch_space(self.single_action_space, self.num_envs)
         self._begun = np.zeros(self.num_envs, bool)
 
     @property
@@ -65,7 +67,7 @@ class VectorWorldEnv(vector.VectorEnv):
         options: None, or {"run": k} as in `WorldEnv.reset`, and "reset_mask": bool (num_envs,), in which not all begin.
         Returns (observations: float32 (num_envs, numbers), infos). Raises ValueError for anything else.
         """
-        options = dict(options or {})
+        options = dict(checks.instance("options", {} if options is None else options, Mapping))
         chosen = self._mask(options.pop("reset_mask", np.ones(self.num_envs, bool)))
         if isinstance(seed, list | tuple):
             seeds = seed
@@ -146,7 +148,7 @@ class VectorWorldEnv(vector.VectorEnv):
 
 def vector_waterworld(num_envs=1, max_episode_steps=None, autoreset_mode=Mode.NEXT_STEP, render_mode=None,
                       egocentric=True, continuing=True, **rules):
-    """Many `neorl.WaterWorld`s: "neorl/WaterWorld-v0" of `gymnasium.make_vec`.
+    """Many tanks of `neorl.WaterWorld`: "neorl/WaterWorld-v0" of `gymnasium.make_vec`.
 
     rules: the fields of `WaterWorld`. The others are those of `VectorWorldEnv`, which it returns.
     """
@@ -156,7 +158,7 @@ def vector_waterworld(num_envs=1, max_episode_steps=None, autoreset_mode=Mode.NE
 
 def vector_arena(num_envs=1, max_episode_steps=None, autoreset_mode=Mode.NEXT_STEP, render_mode=None, egocentric=True,
                  continuing=False, **rules):
-    """Many `neorl.Arena`s: "neorl/Arena-v0" of `gymnasium.make_vec`.
+    """Many times `neorl.Arena`: "neorl/Arena-v0" of `gymnasium.make_vec`.
 
     rules: the fields of `Arena`. The others are those of `VectorWorldEnv`, which it returns.
     """

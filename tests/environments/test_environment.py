@@ -1,7 +1,10 @@
 """A world as a Gymnasium environment: Gymnasium's own checks, and to the bit what runs live in."""
 
 import copy
+import os
 import pickle
+import subprocess
+import sys
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -265,6 +268,17 @@ def test_a_picture_of_an_arena_shows_walls_obstacles_and_places():
     colours = [pixel(picture, place) for place in [(0.01, 0.01), (0.2, 0.5), (0.2, 0.6), (0.65, 0.35), (0.5, 0.6)]]
     wall, obstacle, floor, platform, agent = colours
     assert wall == obstacle != floor and platform == KINDS[0] and agent == AGENT
+
+
+def test_what_is_missing_is_named_with_the_extra_that_brings_it(monkeypatch):
+    env = WorldEnv(TANK, "human")
+    monkeypatch.setitem(sys.modules, "pygame", None)
+    with pytest.raises(ImportError, match=r"this needs pygame: pip install 'neorl-companion\[gym\]'"):
+        env.reset()
+    source = "import sys; sys.modules['gymnasium'] = None; import neorl.gym"
+    done = subprocess.run([sys.executable, "-c", source], capture_output=True, text=True,
+                          env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})
+    assert "ImportError: this needs gymnasium: pip install 'neorl-companion[gym]'" in done.stderr
 
 
 def test_a_window_follows_every_step(monkeypatch):

@@ -115,6 +115,7 @@ def test_what_was_returned_is_not_written_to():
     (lambda: VectorWorldEnv(Pond(), 2).reset(seed=[1]), r"seed is \[1\], allowed are an integer ≥ 0, None, or 2 of"),
     (lambda: VectorWorldEnv(Pond(), 2).reset(seed=[1, -1]), "seed is -1"),
     (lambda: VectorWorldEnv(Pond(), 2).reset(seed="a"), "seed is 'a'"),
+    (lambda: VectorWorldEnv(Pond(), 2).reset(options=5), "options is 5, allowed is a Mapping"),
     (lambda: VectorWorldEnv(Pond(), 2).reset(options={"run": 2}), "options is .*, allowed are None, and with a seed"),
     (lambda: VectorWorldEnv(Pond(), 2).reset(options={"reset_mask": [True, True]}), "reset_mask is .*, allowed is an"),
     (lambda: VectorWorldEnv(Pond(), 2).reset(options={"reset_mask": np.zeros(2, bool)}), "not all False"),
