@@ -34,8 +34,12 @@ def simulate_once(agent, world, *, steps, runs, seed=0, changes=(), progress=Tru
     """`neorl.simulate`, unless the same condition is on disk already; then what was computed is read.
 
     Returns a `Result`. If it is interrupted, the runs that are finished are kept, and the next call does the rest.
+    Raises what `simulate` does. Results that cannot be written to disk cost a warning.
     """
-    return next(sweep([Condition(agent, world, steps, runs, seed, changes)], progress=progress))
+    try:
+        return next(sweep([Condition(agent, world, steps, runs, seed, changes)], progress=progress))
+    except RuntimeError as failure:
+        raise failure.__cause__ or failure
 
 
 def sweep(conditions, executor=None, progress=True, *, workers=None):
@@ -158,8 +162,9 @@ def _collect(tasks, submit, keeper, finished=lambda task: None):
     except KeyboardInterrupt as interruption:
         if waiting:
             task = next((task for future, task in waiting.items() if future.running()), next(iter(waiting.values())))
-            interruption.add_note(f"{len(waiting)} tasks were left, such as runs {task.runs} of {task.condition}; what "
-                                  "is finished is kept, and the next call goes on there.")
+            interruption.add_note(f"{len(waiting)} tasks were left, such as runs {task.runs[0]} to "
+                                  f"{task.runs[-1]} of {task.condition}; what is finished is kept, and the next call "
+                                  "goes on there.")
         raise
     finally:
         for future in waiting:  # none, unless it was interrupted

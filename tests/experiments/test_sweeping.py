@@ -147,7 +147,7 @@ def test_a_sweep_that_waits_for_a_worker_that_hangs_can_be_interrupted_and_says_
     finally:
         signal.signal(signal.SIGINT, before)
     (note,) = interruption.value.__notes__
-    assert "5 tasks were left, such as runs [0, 1] of Condition(agent=Agent(" in note
+    assert "5 tasks were left, such as runs 0 to 1 of Condition(agent=Agent(" in note
     assert all(future.cancelled() for future in executor.futures)
 
 
