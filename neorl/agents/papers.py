@@ -21,6 +21,7 @@ PRIMES = (2, 3, 5, 7, 11, 13)  # the resolutions of paper B
 TILED_FRACTION = 1.0
 OF_NODES = ("weighting", "tiled_fraction", "object_tiled_fraction")  # of choices, those that are not of the agent
 CHOICES = (*OF_NODES, *(each.name for each in fields(Agent)[2:]))
+HINTS = get_type_hints(Agent)
 
 
 def paper_agent(function):
@@ -28,8 +29,7 @@ def paper_agent(function):
     own = list(signature(function).parameters.values())
     names = [each.name for each in own if each.kind is not Parameter.VAR_KEYWORD]
     names += CHOICES if len(names) < len(own) else ()
-    hints = get_type_hints(Agent)
-    function.makes, function.takes = Agent, {name: (hints.get(name, object), None) for name in names}
+    function.makes, function.takes = Agent, {name: (HINTS.get(name, object), None) for name in names}
     return function
 
 

@@ -15,7 +15,6 @@ import difflib
 import functools
 import importlib
 import json
-import tomllib
 from dataclasses import MISSING, fields, is_dataclass
 from pathlib import Path
 from types import UnionType
@@ -75,6 +74,8 @@ class Described:
 
 def read_data(path):
     """The table in a TOML or JSON file: a dict. Raises OSError if it is not there, ValueError for anything else."""
+    import tomllib  # not with the package, which is to be there at once
+
     suffix = _suffix(path)
     try:
         text = Path(path).read_text(encoding="utf-8")

@@ -1,6 +1,7 @@
 """The commands ``python -m neorl run experiment.toml`` and ``python -m neorl cache``."""
 
 import argparse
+import os
 import sys
 from pathlib import Path
 
@@ -33,6 +34,9 @@ def main(arguments=None):
     given = parser.parse_args(arguments)
     try:
         given.call(given)
+        sys.stdout.flush()
+    except BrokenPipeError:  # the reader of a pipe, such as head, has enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except (ValueError, OSError, ImportError, MemoryError, RuntimeError) as error:
         print(f"neorl: {error}", file=sys.stderr)
         return 1

@@ -1,22 +1,20 @@
-"""An experiment as a file: a condition, or several that differ in what the file says.
+"""An experiment as a file: a condition, or several that differ in what the file says::
 
-```toml
-steps = 150_000
-runs = 20
-seed = 0                                # what is left out is as by default
-world = { is = "WaterWorld", n_creeps = 8 }
+    steps = 150_000
+    runs = 20
+    seed = 0                                # what is left out is as by default
+    world = { is = "WaterWorld", n_creeps = 8 }
 
-[agent]
-is = "place_cells"                      # one of the papers', or its nodes and desires in full
-resolutions = [3, 7, 23]
-learning = { memory = 10.0 }
+    [agent]
+    is = "place_cells"                      # one of the papers', or its nodes and desires in full
+    resolutions = [3, 7, 23]
+    learning = { memory = 10.0 }
 
-[variations.coarse]                     # if there are any, each is a condition, and the file without them is none
-agent.resolutions = [3]
+    [variations.coarse]                     # if there are any, each is a condition, and the file without them is none
+    agent.resolutions = [3]
 
-[variations.forgetful]
-agent.learning.memory = 1.0
-```
+    [variations.forgetful]
+    agent.learning.memory = 1.0
 
 A variation is what it says, and else what the file says: tables are put together field by field, unless the variation
 names what the table is; all else takes the place of what was there. `neorl.core.description` says what tables can hold.

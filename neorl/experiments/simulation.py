@@ -72,7 +72,7 @@ class Result:
         """A `pandas.DataFrame` with a row for each run and bin, in this order.
 
         Columns: "run", int64; "time", float64, when the bin ends, in simulated seconds; "reward", float32, the sum over
-        the bin; for each kind of thing "hits_…" with its name, int16, how many were met in the bin.
+        the bin; and for each kind of thing such as ``hits_green``, int16, how many were met in the bin.
         Raises ImportError without pandas.
         """
         return exchange.to_frame(self)

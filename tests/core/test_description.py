@@ -234,3 +234,32 @@ def test_another_process_reads_the_same_key(tmp_path):
     read = f"from neorl import Condition; print(Condition.load({str(tmp_path / 'condition.json')!r}).key)"
     printed = subprocess.run([sys.executable, "-c", read], capture_output=True, check=True, text=True).stdout
     assert printed.strip() == condition.key
+
+
+WHOLE = Condition(replace(network_d(), policy=Policy(choose=softmax(0.5))), Arena(), 500, 3, changes=[(9, brownian())])
+JSON = st.recursive(st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=9) | st.sampled_from(
+    ["Agent", "Arena", "place_cells", "greedy", "softmax", "kernel", "place cell", "os:path", ":", "neorl:neorl"]),
+    lambda each: st.lists(each, max_size=3) | st.dictionaries(
+        st.sampled_from(["is", "kernel", "of", "nodes", "name", "steps"]) | st.text(max_size=5), each, max_size=3))
+
+
+@st.composite
+def damaged(draw):
+    """The data of a condition with anything in place of something."""
+    data = WHOLE.to_dict()
+    at, key = data, draw(st.sampled_from(sorted(data)))
+    while isinstance(at[key], dict | list) and at[key] and draw(st.integers(0, 5)):
+        at = at[key]
+        key = draw(st.sampled_from(sorted(at) if isinstance(at, dict) else range(len(at))))
+    at[key] = draw(JSON)
+    return data
+
+
+@settings(max_examples=300)
+@given(data=damaged() | JSON)
+def test_data_are_those_of_a_condition_or_refused(data):
+    try:
+        condition = Condition.from_dict(data)
+    except ValueError:
+        return
+    assert Condition.from_dict(condition.to_dict()) == condition

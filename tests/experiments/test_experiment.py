@@ -27,7 +27,7 @@ def test_a_file_is_a_condition(tmp_path):
 
 def test_the_file_in_the_documentation_is_as_it_says(tmp_path):
     path = tmp_path / "experiment.toml"
-    path.write_text(experiment.__doc__.split("```")[1].removeprefix("toml"))
+    path.write_text("\n".join(line for line in experiment.__doc__.splitlines() if line.startswith("    ")))
     tank, long = WaterWorld(n_creeps=8), Learning(memory=10.0)
     assert read_experiment(path) == {
         "coarse": Condition(place_cells([3], learning=long), tank, 150_000, 20),
