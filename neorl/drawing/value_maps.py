@@ -11,13 +11,15 @@ import numpy as np
 from matplotlib.patches import Patch, Rectangle, Wedge
 
 from neorl import checks
+from neorl.agents.individual import Individual
 from neorl.core.geometry import TAU
 from neorl.core.horde import as_vectors
 from neorl.core.maps import NresMap
 from neorl.core.scene import CARDINAL
-from neorl.drawing.boards import board_or_new, check_run_in_plane
+from neorl.drawing.boards import board_or_new
 from neorl.drawing.style import AGENT, GREEN, INK, RED
 
+MOST_CELLS = 20_000  # more cannot be seen
 OPACITY = 0.45  # of the cell of the greatest value
 
 
@@ -82,8 +84,9 @@ def draw_value_map(run, goals, valences=None, index=0, ax=None):
     """What a run knows of goals: each cell the more opaque the more its best action is worth, red where that is less
     than 0, and an arrow for the values of all actions. The cells of the goals have a bold edge.
 
-    run: a `neorl.Run` in a world of two axes. goals: (goals, coordinates), points of the map's modality, such as places
-    in board widths, or distances and directions in radians. valences: their weights, by default 1.
+    run: a `neorl.Run` or a `neorl.Learner` in a world of two axes. goals: (goals, coordinates), points of the map's
+    modality, such as places in board widths, or distances and directions in radians. valences: their weights, by
+    default 1.
     index: of the map in `Agent.maps`, one that `draw_cells` can draw.
     Raises ValueError for anything else.
 
@@ -91,7 +94,8 @@ def draw_value_map(run, goals, valences=None, index=0, ax=None):
     >>> paid = run.advance(20_000)
     >>> axes = drawing.draw_value_map(run, goals=[(0.7, 0.7)])
     """
-    check_run_in_plane(run)
+    if checks.instance("run", run, Individual).world.actions.axes != 2:
+        raise ValueError(f"run is in a world of {run.world.actions.axes} axes, allowed are worlds of two")
     q = run.q(index)
     nres_map = run.agent.maps[index]
     cells = np.atleast_1d(nres_map.encode(goals))
@@ -106,7 +110,7 @@ def draw_value_map(run, goals, valences=None, index=0, ax=None):
     fills = {cell: (AGENT if worth > 0 else RED, OPACITY * abs(worth) / most) for cell, worth in enumerate(best)}
     axes = draw_cells(nres_map, width=0.6, fills=fills, ax=ax)
     patches = _fields(nres_map).patches
-    for cell, valence in zip(cells, valences):
+    for cell, valence in dict(zip(cells.tolist(), valences)).items():
         patches[cell].set(facecolor="none", edgecolor=GREEN if valence > 0 else RED, linewidth=2.5, zorder=3)
         axes.add_patch(patches[cell])
     return draw_values(nres_map, values, run.world.actions, axes)
@@ -114,6 +118,8 @@ def draw_value_map(run, goals, valences=None, index=0, ax=None):
 
 def _fields(nres_map):
     axes = checks.instance("nres_map", nres_map, NresMap).modality.axes
+    if nres_map.cells > MOST_CELLS:
+        raise ValueError(f"nres_map has {nres_map.cells} cells, allowed to be drawn are {MOST_CELLS} or fewer")
     vectors, features = {axis.of for axis in axes}, [axis.feature for axis in axes]
     if len(vectors) == 1 and not callable(axes[0].of):
         if features == ["component"] * 2 and (axes[0].along, axes[1].along) == (0, 1):

@@ -55,6 +55,11 @@ def test_maps_of_other_spaces_are_refused(modality):
         drawing.draw_cells(NresMap(2, modality))
 
 
+def test_a_map_of_more_cells_than_can_be_seen_is_refused():
+    with pytest.raises(ValueError, match="nres_map has 1000000 cells, allowed to be drawn are 20000 or fewer"):
+        drawing.draw_cells(NresMap(1_000))
+
+
 def learned(modality, resolution):
     run = Run(Agent([Node("node", modality, [resolution])], [Desire("green", "node", 1.0)]), TANK)
     run.advance(20_000)
@@ -69,13 +74,13 @@ def test_a_value_map_is_the_more_opaque_the_more_the_best_action_is_worth(modali
     filled = axes.patches[9:18]
     np.testing.assert_allclose([patch.get_alpha() for patch in filled], 0.45 * best / best.max(), rtol=1e-6)
     assert len(axes.patches) == 19 and axes.patches[-1].get_linewidth() > 2
-    shunned = drawing.draw_value_map(run, [goal], valences=[-1.0])
+    shunned = drawing.draw_value_map(run, [goal, goal], valences=[-0.5, -0.5])
     assert {patch.get_facecolor()[:3] for patch in shunned.patches[9:18] if patch.get_alpha()} <= {
         tuple(int(drawing.RED[i : i + 2], 16) / 255 for i in (1, 3, 5))}
 
 
 @pytest.mark.parametrize("change, message", [
-    ({"run": 5}, "run is 5, allowed is a Run"), ({"goals": [(0.5,)]}, "points has the shape"),
+    ({"run": 5}, "run is 5, allowed is an Individual"), ({"goals": [(0.5,)]}, "points has the shape"),
     ({"valences": [1.0, 2.0]}, "valences has 2 values, allowed is one for each of 1 goals"),
     ({"goals": np.empty((0, 2))}, "of 0 goals, of one or more"), ({"index": 3}, "index is 3"),
     ({"valences": [np.nan]}, "valences is nan"),
