@@ -30,8 +30,8 @@ from neorl.worlds.waterworld import Rules, WaterWorld, WaterWorldState, reset, s
 
 NEAREST_CACHE = 2**15  # bytes, on most processors of the last decade
 ALL_GOALS = Learning(bootstrap=True, memory=0.0)
-AGENTS = {"N23, all goals": place_cells([23], learning=ALL_GOALS), "N23, memory": place_cells([23]),
-          "twelve maps, all goals": multimodal(learning=ALL_GOALS), "twelve maps, memory": multimodal()}
+AGENTS = {"N23 (all goals)": place_cells([23], learning=ALL_GOALS), "N23 (memory)": place_cells([23]),
+          "twelve maps (all goals)": multimodal(learning=ALL_GOALS), "twelve maps (memory)": multimodal()}
 LIVED = 20_000  # steps before an agent is timed
 STRETCH = 5_000  # steps that are timed, at most
 
