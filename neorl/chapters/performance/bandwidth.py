@@ -23,9 +23,9 @@ class Bandwidths(NamedTuple):
     copied: np.ndarray  # in order: float64 (sizes,)
     scattered: np.ndarray  # one value in each line, in no order; whole lines count
 
-    def at(self, working_set, name="copied"):
-        """The bandwidth of a working set, between those that were measured by their logarithms."""
-        return np.interp(np.log(working_set), np.log(self.working_sets), getattr(self, name))
+    def at(self, working_set):
+        """That of copying a working set, between those that were measured by their logarithms."""
+        return np.interp(np.log(working_set), np.log(self.working_sets), self.copied)
 
 
 def measure(rounds, largest=LARGEST, seed=0):

@@ -30,8 +30,8 @@ from neorl.worlds.waterworld import Rules, WaterWorld, WaterWorldState, reset, s
 
 NEAREST_CACHE = 2**15  # bytes, on most processors of the last decade
 ALL_GOALS = Learning(bootstrap=True, memory=0.0)
-AGENTS = {"N23, all goals": place_cells([23], learning=ALL_GOALS), "N23, memory": place_cells([23]),
-          "twelve maps, all goals": multimodal(learning=ALL_GOALS), "twelve maps, memory": multimodal()}
+AGENTS = {"N23 (all goals)": place_cells([23], learning=ALL_GOALS), "N23 (memory)": place_cells([23]),
+          "twelve maps (all goals)": multimodal(learning=ALL_GOALS), "twelve maps (memory)": multimodal()}
 LIVED = 20_000  # steps before an agent is timed
 STRETCH = 5_000  # steps that are timed, at most
 
@@ -53,14 +53,13 @@ class Loop(NamedTuple):
     world: np.ndarray
     loop: np.ndarray
 
-    def moving(self, bandwidths, scattered="copied"):
-        """The seconds a step that the bytes take. scattered: at which bandwidth those lines move that lie apart."""
-        size = self.moved.working_set
-        return self.moved.ordered / bandwidths.at(size) + self.moved.scattered / bandwidths.at(size, scattered)
+    def moving(self, bandwidths):
+        """The seconds a step that the bytes take where they are copied in order."""
+        return (self.moved.ordered + self.moved.scattered) / bandwidths.at(self.moved.working_set)
 
-    def ratio(self, bandwidths, scattered="copied"):
+    def ratio(self, bandwidths):
         """How many times its bound the loop takes, as an `Estimate` over repetitions."""
-        moving = self.moving(bandwidths, scattered)
+        moving = self.moving(bandwidths)
         return estimate(lambda loop, world, axis: loop.min(axis) / (world.min(axis) + moving), self.loop, self.world)
 
 

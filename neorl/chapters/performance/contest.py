@@ -10,7 +10,7 @@ from neorl.chapters.performance.bound import LIVED, bare
 from neorl.chapters.performance.timing import in_turns, times_as_long
 from neorl.worlds.waterworld import WaterWorld
 
-STRETCH = 2_000  # steps at most
+STRETCH = 1_000  # steps at most
 
 
 class Contest(NamedTuple):

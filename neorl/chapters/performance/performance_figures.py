@@ -17,9 +17,9 @@ def draw_bandwidths(bandwidths, loops):
     for speeds, colour in ways.values():
         axes.plot(bandwidths.working_sets, speeds / GIGA, color=colour, marker="o", markersize=3)
     axes.set(xscale="log", xlabel="working set", ylabel="gigabytes a second", ylim=(0, None))
-    for name, side in (("N23, memory", "left"), ("twelve maps, memory", "right")):
+    for name, side in (("N23 (memory)", "left"), ("twelve maps (memory)", "right")):
         axes.axvline(loops[name].moved.working_set, color=INK, linewidth=0.8, linestyle="--")
-        axes.annotate(name.split(",")[0], (loops[name].moved.working_set, 1), xycoords=("data", "axes fraction"),
+        axes.annotate(name.split(" (")[0], (loops[name].moved.working_set, 1), xycoords=("data", "axes fraction"),
                       xytext=(4 if side == "left" else -4, 0), textcoords="offset points", ha=side, va="top")
     _bytes(axes)
     name_ends(axes, [(speeds[-1] / GIGA, name, colour) for name, (speeds, colour) in ways.items()])
@@ -35,7 +35,7 @@ def draw_bounds(loops, bandwidths):
         axes.barh(place + 0.18, moving, 0.32, left=world, color=CURVES[1])
         axes.annotate(f"{loop.ratio(bandwidths).value:.1f} ×", (whole, place - 0.18), xytext=(4, 0),
                       textcoords="offset points", va="center")
-    axes.set(yticks=range(len(loops)), yticklabels=[name.replace(", ", "\n") for name in loops],
+    axes.set(yticks=range(len(loops)), yticklabels=[name.replace(" (", "\n(") for name in loops],
              xlabel="nanoseconds a step")
     axes.invert_yaxis()
     _legend(axes, {"loop": AGENT, "world": CURVES[2], "bytes": CURVES[1]})

@@ -12,7 +12,9 @@ perceived and at which rates it learned is recorded first, so that all compute t
 Each returns the actions that it found best, int64 (steps,), and changes the values that it is handed.
 """
 
+import contextlib
 import importlib.util
+import io
 import os
 from typing import NamedTuple
 
@@ -162,9 +164,11 @@ def by_jax(stretch):
 
 def ple_steps(width, creeps, steps, seed=0):
     """A function that takes so many steps of WaterWorld as the PyGame Learning Environment has it, actions drawn."""
-    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
-    from ple import PLE
-    from ple.games.waterworld import WaterWorld as Original
+    quiet = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PYGAME_HIDE_SUPPORT_PROMPT": "1"}
+    os.environ.update({name: value for name, value in quiet.items() if name not in os.environ})
+    with contextlib.redirect_stdout(io.StringIO()):  # it complains of games that are not installed
+        from ple import PLE
+        from ple.games.waterworld import WaterWorld as Original
 
     game = PLE(Original(width, width, creeps), fps=50, display_screen=False, rng=seed)
     game.init()
