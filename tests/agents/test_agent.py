@@ -23,7 +23,7 @@ PAPERS = (place_cells, brownian, object_vector_cells, multimodal, network_a, net
     (lambda: Node("PC", "place cell", (3,)), "modality is 'place cell', allowed is a Modality"),
     (lambda: Node("PC", PLACE_CELL, 5), "resolutions is 5, allowed are lists and tuples"),
     (lambda: Node("PC", PLACE_CELL, ()), r"resolutions is \(\), allowed are one integer or more"),
-    (lambda: Node("PC", PLACE_CELL, (3, 0)), "resolution is 0, allowed are integers ≥ 1"),
+    (lambda: Node("PC", PLACE_CELL, (3, 0)), "resolution is 0, allowed are integers from 1 to 2147483647"),
     (lambda: Node("PC", PLACE_CELL, (3,), "heavy"), "weighting is 'heavy', allowed are 'equal', 'resolution', 'cells'"),
     (lambda: Node("PC", PLACE_CELL, (3,), gain=np.inf), "gain is inf, allowed are finite numbers"),
     (lambda: Desire("red", "PC", np.nan), "valence is nan"),
