@@ -10,12 +10,15 @@ it may be deleted at any time (`neorl.files`).
 
 import hashlib
 import io
+import json
+import zipfile
 from dataclasses import dataclass, fields
 
 import numpy as np
 
 from neorl import checks, files
 from neorl.agents.agent import Agent
+from neorl.agents.description import described, restored
 from neorl.core.identity import digest_of_source, identity
 from neorl.experiments.simulation import Result, checked_changes, simulate
 from neorl.worlds.world import World
@@ -87,5 +90,26 @@ def load(condition):
 def save(condition, result):
     """Write the `Result` of a condition to disk."""
     content = io.BytesIO()
-    np.savez_compressed(content, rewards=result.rewards, hits=result.hits)
+    try:
+        about = json.dumps(described(condition))
+    except ValueError:  # a kernel that no module has
+        about = ""
+    np.savez_compressed(content, rewards=result.rewards, hits=result.hits, condition=np.array(about))
     files.write_checked(condition.path, content.getvalue())
+
+
+def kept():
+    """Every condition on disk that was computed with the present source and can be described, in a fixed order."""
+    found = [_condition_in(path) for path in sorted((files.cache_folder() / "conditions").glob("*"))]
+    return [condition for condition in found if condition is not None]
+
+
+def _condition_in(path):
+    content = files.read_checked(path)
+    if content is None:
+        return None
+    try:
+        condition = restored(json.loads(str(np.load(io.BytesIO(content))["condition"])))
+        return condition if condition.path == path else None
+    except (ValueError, KeyError, TypeError, AttributeError, EOFError, zipfile.BadZipFile):
+        return None  # foreign, not described, or of another version
