@@ -167,7 +167,8 @@ def attempt(notebook, parameters):
     try:
         compute(notebook, parameters)
     except PapermillExecutionError as error:
-        say("\n".join([*map(strip_color, error.traceback), f"{notebook.name}, In [{error.exec_count}]: {error.ename}: {error.evalue}\n"
+        say("\n".join([*map(strip_color, error.traceback),
+                        f"{notebook.name}, In [{error.exec_count}]: {error.ename}: {error.evalue}",
                         f"{CHAPTERS / f'.{notebook.stem}'} has it as far as it came"]))
     except Exception as error:
         say(f"{notebook.name}: {type(error).__name__}: {error}")

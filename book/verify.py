@@ -64,9 +64,9 @@ def compare(condition, k):
     if same.all():
         return None, same.size
     first = int(np.argmin(same))
-    return (f"{np.count_nonzero(~same)} of {same.size} bins differ, the first from {result.edges[first]:g} s on: "
-            f"kept are {result.rewards[k, first]!r} and {result.hits[k, first].tolist()}, lived again {rewards[0, first]!r} and "
-            f"{hits[0, first].tolist()}"), same.size
+    return (f"{np.count_nonzero(~same)} of {same.size} bins differ, the first from {result.edges[first]:g} s on: kept "
+            f"are {result.rewards[k, first]!r} and {result.hits[k, first].tolist()}, lived again "
+            f"{rewards[0, first]!r} and {hits[0, first].tolist()}"), same.size
 
 
 def bits(rewards):

@@ -2,7 +2,8 @@
 
 A worker's standard input is a pipe that its starter holds open. When that closes, however the starter has ended, the
 worker ends with all that it has started in turn. It is in a session of its own, so that an interruption at the keyboard
-reaches its starter alone, which then ends it. This file as a program is a worker that runs a script: ``python workers.py SCRIPT …``.
+reaches its starter alone, which then
+ends it. This file as a program is a worker that runs a script: ``python workers.py SCRIPT …``.
 """
 
 import os
@@ -20,7 +21,11 @@ PATIENCE = 10  # seconds, until a worker that should end is killed
 
 @dataclass(frozen=True)
 class Task:
-    """A worker to be. command: a script and its arguments. needs: names of tasks that must be done. alone: whether it measures times."""
+    """A worker to be.
+
+    command: a script and its arguments. needs: names of tasks that must be done before. alone: whether nothing may run
+    beside it, since it measures times.
+    """
 
     command: tuple
     needs: frozenset = frozenset()
