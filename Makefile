@@ -1,10 +1,15 @@
 # make book   compute every notebook and build the book   RUNS=10 runs a condition; 4 is a look, 100 the papers' scale
 # make test   run the tests
+# make exact  live the runs on record in every way that must bring the same bits, and print which do; PYTHONS="python3.13"
+# make verify lives a random sample of the runs behind the figures again and compares; SAMPLE=20 runs, SEED=of the sample
 # make lab    open the notebooks in JupyterLab
 # make readme write the claims of the last build into the README
 # make bench  measure the speed of the kernels
 # make clean  remove all that these made, and nothing else
 PYTHON ?= python3
+PYTHONS ?=
+SAMPLE ?= 20
+SEED ?=
 RUNS ?= 10
 STEPS ?=
 BIN := .venv/bin
@@ -12,13 +17,19 @@ export NEORL_CACHE := $(CURDIR)/.cache
 export PYTHONUNBUFFERED := 1
 
 .DEFAULT_GOAL := book
-.PHONY: book test lab readme bench clean
+.PHONY: book test exact verify lab readme bench clean
 
 book: .venv/ready
 	$(BIN)/python book/build.py --runs $(RUNS) $(if $(STEPS),--steps $(STEPS))
 
 test: .venv/ready
 	$(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist loadfile $(ARGS)
+
+exact: .venv/ready
+	$(BIN)/python tests/exactness.py $(PYTHONS)
+
+verify: .venv/ready
+	$(BIN)/python book/verify.py --sample $(SAMPLE) $(if $(SEED),--seed $(SEED))
 
 lab: .venv/ready
 	$(BIN)/jupyter lab --notebook-dir notebooks

@@ -1,10 +1,12 @@
 """Compute the notebooks and build the book: ``make book`` runs this, from the root of the repository.
 
 Each notebook runs through papermill into ``book/chapters``, where the book finds it, and is left alone while nothing
-that it depends on has changed. A file there is complete or absent, so the work can be stopped at any moment.
+that it depends on has changed, and what it made is there and whole. A page there is complete or absent, so the work can
+be stopped at any moment. One build at a time works in a tree.
 """
 
 import argparse
+import fcntl
 import hashlib
 import json
 import math
@@ -15,52 +17,125 @@ import subprocess
 import sys
 import tempfile
 import time
-from concurrent.futures import ProcessPoolExecutor
-from itertools import groupby
 from pathlib import Path
 
 import nbformat
 import papermill
-from papermill.exceptions import PapermillExecutionError
+import psutil
+import workers
+from nbclient.exceptions import DeadKernelError
+from papermill.exceptions import PapermillExecutionError, strip_color
 from traitlets.config import Config
 
 from neorl.evidence import report
-from neorl.files import cache_folder
+from neorl.files import cache_folder, write_whole
 
 ROOT = Path(__file__).resolve().parent.parent
 CHAPTERS = ROOT / "book" / "chapters"
-HTML = ROOT / "_build" / "html" / "index.html"
+BUILT = ROOT / "_build"
+HTML = BUILT / "html" / "index.html"
+SHARES = "assumptions"  # finds the shares of readings,
+READ_SHARES = ("calibration", "chapter_4", "own_world", "paper_a", "paper_b", "paper_c")  # which these read
 CONCLUSION = "chapter_5"  # reads what all others have found
-# Notebooks of one round are computed two at a time, since much of each keeps one core busy alone: compiling, drawing.
-# All but the first read the shares of readings. The papers keep all cores busy, and paper B measures times. The last
-# page measures nothing else, and what the others took.
-ROUNDS = (("assumptions", "chapter_1", "chapter_2", "chapter_3"), ("calibration", "chapter_4", "own_world"),
-          ("paper_a",), ("paper_b",), ("paper_c",), (CONCLUSION,), ("performance",))
+ALONE = ("paper_b", "performance")  # measure times
+ORDER = (SHARES, "chapter_2", "chapter_3", "chapter_1", *READ_SHARES)  # what others need, and what takes long, first
+# Much of a notebook keeps one core busy: compiling, drawing. The papers' tables of values take gigabytes.
+AT_ONCE, GIGABYTES_EACH = 2, 4
+STALL_SECONDS = 300  # a cell computes, and waits for nothing: one that takes no processor time for so long has hung
+CLAIMS_TABLE = "claims-table.md"
 WIDGET_STATE = "application/vnd.jupyter.widget-state+json"
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 
 
 def main():
     chosen = parse_arguments()
-    parameters = {name: value for name, value in vars(chosen).items() if value is not None}
-    notebooks = dict.fromkeys(sorted(sorted((ROOT / "notebooks").glob("*.ipynb")), key=turn), parameters)
-    notebooks[ROOT / "notebooks" / "assumptions.ipynb"] = parameters | {"points": points(chosen.runs)}
+    if chosen.notebook:
+        return attempt(chosen.notebook, json.loads(chosen.parameters))
+    if chosen.pages:
+        return make_pages()
+    parameters = {name: value for name, value in (("runs", chosen.runs), ("steps", chosen.steps)) if value is not None}
+    notebooks = dict.fromkeys(sorted((ROOT / "notebooks").glob("*.ipynb"), key=preference), parameters)
+    notebooks[ROOT / "notebooks" / f"{SHARES}.ipynb"] = parameters | {"points": points(chosen.runs)}
     for notebook, its_parameters in notebooks.items():
         check_parameters(notebook, its_parameters)
-    for _, some in groupby(notebooks.items(), key=lambda item: turn(item[0])):
-        with ProcessPoolExecutor(2) as pool:
-            errors = [error for error in pool.map(attempt, *zip(*some)) if error]
-        if errors:
-            sys.exit("\n" + "\n".join(errors))
-    write_claims()
-    build()
+    lock = the_only_build()  # until this process ends
+    try:
+        compute_all(notebooks)
+        write_claims()
+        build()
+    except KeyboardInterrupt:
+        sys.exit("\ninterrupted; make book goes on from here")
+    lock.close()
     print(f"the book is at {HTML.as_uri()}")
+
+
+def the_only_build():
+    """A locked file, after a look whether all folders can be written to. The lock ends with the process, however."""
+    for folder in (CHAPTERS, BUILT, cache_folder()):
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            tempfile.TemporaryFile(dir=folder).close()
+        except OSError as error:
+            sys.exit(f"{folder} cannot be written to: {error}")
+    file = (BUILT / ".lock").open("a+")
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        with file:
+            file.seek(0)
+            sys.exit(f"another make book is at work in this tree, {file.read()}: wait for its end, or end it")
+    file.truncate(0)
+    file.write(f"process {os.getpid()} since {time.strftime('%H:%M:%S')}")
+    file.flush()
+    return file
+
+
+def compute_all(notebooks):
+    """Compute notebooks, {path: parameters}, side by side where they may be and memory allows."""
+    tidy(notebooks)
+    restore_claims(notebooks)
+    names = {notebook.name for notebook in notebooks}
+    needs = {notebook.name: frozenset(names - {notebook.name} if notebook.stem == CONCLUSION else
+                                      names & {f"{SHARES}.ipynb"} if notebook.stem in READ_SHARES else ())
+             for notebook in notebooks}
+    tasks = {notebook.name: workers.Task((__file__, "--notebook", notebook, "--parameters",
+                                          json.dumps(parameters)), needs[notebook.name], notebook.stem in ALONE)
+             for notebook, parameters in notebooks.items()}
+    fit = psutil.virtual_memory().available // (GIGABYTES_EACH * 2**30)
+    failed = workers.work(tasks, max(1, min(AT_ONCE, os.cpu_count(), fit)), say)
+    if failed:
+        sys.exit(f"\nnot computed, see above: {', '.join(failed)}; all others are kept")
+    tidy(notebooks)
+
+
+def restore_claims(notebooks):
+    """Let the kept records of claims, which notebooks read, be those of the chapters and no others."""
+    folder = cache_folder() / "claims"
+    shutil.rmtree(folder, ignore_errors=True)
+    for notebook in notebooks:
+        path = CHAPTERS / f"{notebook.stem}.claims.json"
+        if path.name in (kept_record(notebook) or {}).get("outputs", ()) and is_whole(notebook):
+            write_whole(folder / f"{notebook.stem}.json", path.read_bytes())
+
+
+def tidy(notebooks):
+    """Remove from the chapters what no notebook has made, such as the pages of one that is gone."""
+    made = {CLAIMS_TABLE}
+    for notebook in notebooks:
+        made |= {f"{notebook.stem}.inputs.json", *(kept_record(notebook) or {"outputs": ()})["outputs"]}
+    for path in CHAPTERS.iterdir():
+        if path.name not in made:
+            shutil.rmtree(path) if path.is_dir() else path.unlink()
 
 
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--runs", type=whole_number, default=10, help="runs a condition (default 10)")
     parser.add_argument("--steps", type=whole_number, help="steps a run (by default the paper's)")
+    # For the processes that this one starts:
+    parser.add_argument("--notebook", type=Path, help=argparse.SUPPRESS)
+    parser.add_argument("--parameters", help=argparse.SUPPRESS)
+    parser.add_argument("--pages", action="store_true", help=argparse.SUPPRESS)
     return parser.parse_args()
 
 
@@ -75,60 +150,104 @@ def points(runs):
     return 2 ** max(2, int(math.log2(1.6 * runs)))
 
 
-def turn(notebook):
-    """In which round a notebook is computed. One that no round names is in the first."""
-    return next((place for place, names in enumerate(ROUNDS) if notebook.stem in names), 0)
+def preference(notebook):
+    """In which order notebooks are computed, as far as what they need allows: those without a place there go last."""
+    return (ORDER.index(notebook.stem) if notebook.stem in ORDER else len(ORDER), notebook.stem)
 
 
 def records(notebook):
-    """The records of claims that a notebook reads: first none, in the second round that of shares, then all."""
-    if turn(notebook) == 0:
-        return []
-    read = "*" if notebook.stem == CONCLUSION else "assumptions"
-    return sorted(set(CHAPTERS.glob(f"{read}.claims.json")) - {CHAPTERS / f"{notebook.stem}.claims.json"})
+    """The records of claims that a notebook reads: all, that of shares, or none."""
+    if notebook.stem == CONCLUSION:
+        return sorted(set(CHAPTERS.glob("*.claims.json")) - {CHAPTERS / f"{CONCLUSION}.claims.json"})
+    return sorted(CHAPTERS.glob(f"{SHARES}.claims.json")) if notebook.stem in READ_SHARES else []
 
 
 def attempt(notebook, parameters):
-    """`compute`, for a process of a pool: what went wrong, as text, or None."""
+    """`compute`, in a process of its own: 0, or 1 after a line on what went wrong."""
     try:
         compute(notebook, parameters)
     except PapermillExecutionError as error:
-        return str(error)
+        say("\n".join([*map(strip_color, error.traceback),
+                        f"{notebook.name}, In [{error.exec_count}]: {error.ename}: {error.evalue}",
+                        f"{CHAPTERS / f'.{notebook.stem}'} has it as far as it came"]))
+    except Exception as error:
+        say(f"{notebook.name}: {type(error).__name__}: {error}")
+    else:
+        return 0
+    return 1
 
 
 def compute(notebook, parameters):
-    """Run a notebook into the chapters, unless it is there already with the same parameters and sources."""
-    target, record = CHAPTERS / notebook.name, CHAPTERS / f"{notebook.stem}.inputs.json"
+    """Run a notebook into the chapters, unless it is there already with the same parameters and sources.
+
+    Raises PapermillExecutionError for a cell that raises, RuntimeError for a kernel that dies or hangs.
+    """
     inputs = [notebook, ROOT / "environment.txt", *sources(), *records(notebook)]
     wanted = {"parameters": parameters, "inputs": digest(inputs)}
-    if target.exists() and record.exists() and json.loads(record.read_text()) == wanted:
+    if is_whole(notebook) and wanted.items() <= kept_record(notebook).items():
         say(f"{notebook.name}: nothing has changed")
         return
     say(f"{notebook.name}: {', '.join(f'{name} {value}' for name, value in parameters.items())}")
     began = time.monotonic()
-    CHAPTERS.mkdir(parents=True, exist_ok=True)
-    record.unlink(missing_ok=True)
     work = CHAPTERS / f".{notebook.stem}"  # at a place of its own, so that what a killed process left is cleared
     shutil.rmtree(work, ignore_errors=True)
-    work.mkdir()
-    with tempfile.TemporaryDirectory() as sockets:  # over TCP the kernel warns that it is not encrypted
-        papermill.execute_notebook(
-            notebook, work / notebook.name, parameters, cwd=ROOT / "notebooks", request_save_on_cell_execute=False,
-            progress_bar=False,  # two of them would write over each other
-            config=Config(KernelManager={"transport": "ipc", "ip": f"{sockets}/kernel"}))
+    work.mkdir(parents=True)
+    claims = cache_folder() / "claims" / f"{notebook.stem}.json"
+    claims.unlink(missing_ok=True)
+    execute(notebook, work / notebook.name, parameters)
     executed = nbformat.read(work / notebook.name, nbformat.NO_CONVERT)
     for cell in executed.cells:  # links are written for notebooks/, and the page lies in book/chapters/
         cell.source = link_terms(cell.source).replace("](../book/", "](../")
-    save_figures(executed)
-    save_widgets(executed)
-    claims = cache_folder() / "claims" / f"{notebook.stem}.json"
+    save_figures(executed, work)
+    save_widgets(executed, work)
     if claims.exists():
-        shutil.copy(claims, CHAPTERS / f"{notebook.stem}.claims.json")
+        shutil.copy(claims, work / f"{notebook.stem}.claims.json")
     nbformat.write(executed, work / notebook.name)
-    os.replace(work / notebook.name, target)
+    wanted["outputs"] = {path.name: digest([path]) for path in sorted(work.iterdir())}
+    record_of(notebook).unlink(missing_ok=True)
+    for name in wanted["outputs"]:
+        os.replace(work / name, CHAPTERS / name)
     work.rmdir()
-    record.write_text(json.dumps(wanted))
+    write_whole(record_of(notebook), json.dumps(wanted).encode())
     say(f"{notebook.name}: {time.monotonic() - began:.0f} s")
+
+
+def execute(notebook, target, parameters):
+    """Run a notebook through papermill into a file."""
+    at = ["its start"]
+    with tempfile.TemporaryDirectory() as sockets, workers.Watch(STALL_SECONDS) as watch:
+        try:
+            papermill.execute_notebook(
+                notebook, target, parameters, cwd=ROOT / "notebooks", request_save_on_cell_execute=False,
+                progress_bar=False,  # two of them would write over each other
+                on_cell_start=lambda cell, cell_index: at.append(f"the cell that begins {cell.source[:60]!r}"),
+                # over TCP the kernel warns that it is not encrypted
+                config=Config(KernelManager={"transport": "ipc", "ip": f"{sockets}/kernel"}))
+        except (DeadKernelError, RuntimeError) as error:
+            why = (f"has hung: no processor time in {STALL_SECONDS} s" if watch.hung else
+                   f"has died, perhaps since there was not enough memory ({error})")
+            raise RuntimeError(f"its kernel {why}, in {at[-1]}") from error
+
+
+def record_of(notebook):
+    return CHAPTERS / f"{notebook.stem}.inputs.json"
+
+
+def kept_record(notebook):
+    """What a page was made of and with, {"parameters", "inputs", "outputs"}, or None if there is no such record."""
+    try:
+        kept = json.loads(record_of(notebook).read_bytes())
+        return kept if kept.keys() == {"parameters", "inputs", "outputs"} else None
+    except (OSError, ValueError, AttributeError):
+        return None
+
+
+def is_whole(notebook):
+    """Whether all that a notebook has made is there as it was made."""
+    try:
+        return all(digest([CHAPTERS / name]) == kept for name, kept in kept_record(notebook)["outputs"].items())
+    except (OSError, TypeError, AttributeError):
+        return False
 
 
 def say(line):
@@ -157,17 +276,17 @@ def terms():
     return {term.lower().replace(" ", "-"): term for term in re.findall(r"^\w.*", listed, re.MULTILINE)}
 
 
-def save_figures(notebook):
+def save_figures(notebook, folder):
     """Keep each named figure as a file of its own, so that other pages can show it."""
     for cell in notebook.cells:
         name = cell.metadata.get("mystnb", {}).get("figure", {}).get("name")
         for output in cell.get("outputs", []):
             image = output.get("data", {}).get("image/svg+xml")
             if name and image:
-                (CHAPTERS / f"{name}.svg").write_text(image)
+                (folder / f"{name}.svg").write_text(image)
 
 
-def save_widgets(notebook):
+def save_widgets(notebook, folder):
     """Keep each named widget as a file of its own, and in the notebook no state but that of the widgets it shows."""
     stored = notebook.metadata.get("widgets", {}).get(WIDGET_STATE, {"state": {}})
     kept = {}
@@ -182,7 +301,7 @@ def save_widgets(notebook):
             kept.update(records)
             if name:
                 tags = [script(WIDGET_STATE, {**stored, "state": records}), script(WIDGET_VIEW, view)]
-                (CHAPTERS / f"{name}.html").write_text("\n".join(tags) + "\n")
+                (folder / f"{name}.html").write_text("\n".join(tags) + "\n")
     stored["state"] = kept
 
 
@@ -206,24 +325,32 @@ def script(kind, content):
 def write_claims():
     """The table of all claims, from what the notebooks have found, for the page that includes it."""
     table = report.page(report.load(sorted(CHAPTERS.glob("*.claims.json"))))
-    target = CHAPTERS / "claims-table.md"
+    target = CHAPTERS / CLAIMS_TABLE
     if not target.exists() or target.read_text(encoding="utf-8") != table:
-        target.write_text(table, encoding="utf-8")
+        write_whole(target, table.encode())
 
 
 def build():
-    """Build the book, with warnings as errors."""
-    record = ROOT / "_build" / "inputs.txt"
-    pages = files(ROOT / "book")
-    wanted = digest([ROOT / "_config.yml", ROOT / "environment.txt", *sources(), *pages])
+    """Build the book, with warnings as errors, and put it in the place of the last one."""
+    record = BUILT / "inputs.txt"
+    wanted = digest([ROOT / "_config.yml", ROOT / "environment.txt", *sources(), *files(ROOT / "book")])
     if HTML.exists() and record.exists() and record.read_text() == wanted:
         return
     record.unlink(missing_ok=True)
-    command = [Path(sys.executable).with_name("jupyter-book"), "build", "book", "--config", "_config.yml",
-               "--path-output", ".", "--all", "--quiet", "--warningiserror", "--keep-going", "--nitpick"]
-    if subprocess.run(command, cwd=ROOT).returncode:
+    shutil.rmtree(BUILT / "next", ignore_errors=True)
+    if workers.run((__file__, "--pages")):
         sys.exit("the book was not built, see above")
-    record.write_text(wanted)
+    shutil.rmtree(HTML.parent, ignore_errors=True)
+    os.replace(BUILT / "next" / "_build" / "html", HTML.parent)
+    shutil.rmtree(BUILT / "next")
+    write_whole(record, wanted.encode())
+
+
+def make_pages():
+    """What the worker of `build` does; returns an exit code."""
+    command = [Path(sys.executable).with_name("jupyter-book"), "build", "book", "--config", "_config.yml",
+               "--path-output", BUILT / "next", "--all", "--quiet", "--warningiserror", "--keep-going", "--nitpick"]
+    return subprocess.run(command, cwd=ROOT, stdout=subprocess.DEVNULL).returncode  # which names a folder that goes
 
 
 def sources():
@@ -239,4 +366,4 @@ def digest(paths):
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -11,13 +11,13 @@ from pathlib import Path
 
 import numpy as np
 
-from neorl import (Agent, Desire, Learning, Node, Place, Policy, Run, WaterWorld, brownian, multimodal, network_a,
-                   network_b, network_c, network_d, object_vector_cells, place_cells)
+from neorl import (Agent, Arena, Desire, Learning, Node, Place, Policy, Run, WaterWorld, brownian, multimodal,
+                   network_a, network_b, network_c, network_d, object_vector_cells, place_cells, softmax)
 from neorl.core import modality
 
 RECORD = Path(__file__).parent / "golden.json"
 SHORT, LONG = 200, 6_000
-RUN = 3
+SEED, RUN = 7, 3
 PLAIN = {"learning_rate": 0.03, "discount": 0.8, "update_on": "cell", "credit": "share", "absent_decay": 0.0,
          "terminal": True,
          "trace": 1, "bootstrap": True, "memory": 0.0, "memory_unit": "cells", "memory_value": "reached",
@@ -44,6 +44,12 @@ def every_modality():
     return Agent(nodes, desires, each["learning"], each["policy"], each["own_cell"])
 
 
+def seeker(**choices):
+    """An agent that seeks the platform of the arena, by where it is and by where that lies."""
+    nodes = [Node("PC", modality.PLACE_CELL, [3, 7], "cells"), Node("OVC", modality.OBJECT_VECTOR_CELL, [4], "cells")]
+    return Agent(nodes, [Desire("platform", node.name, 1.0) for node in nodes], **choices)
+
+
 RULES = {
     "happened": {"credit": "happened"}, "last": {"credit": "last"}, "absence": {"absent_decay": 0.1},
     "not terminal": {"terminal": False}, "trace": {"trace": 12}, "no bootstrapping": {"bootstrap": False},
@@ -64,6 +70,7 @@ MEMORIES = {
     "calibrated": CALIBRATED,
 }
 BOOK = {"policy": Policy(0.0, "random"), "own_cell": "counts", "weighting": "cells"}
+MAZE = Arena(obstacles=[(0.4, 0.3, 0.6, 0.5)], trial_seconds=15.0)
 NETWORKS = {"A": network_a, "B": network_b, "C": network_c, "D": network_d}
 RUNS = {
     "Brownian": (brownian(), 8),
@@ -91,6 +98,10 @@ RUNS = {
     **{f"place N{n}, calibrated": (place_cells([n], **learning(**CALIBRATED) | BOOK), 8) for n in (10, 40)},
     **{f"network {name}, calibrated": (make([3, 7, 23], scale=1.0, signed=True, **learning(**CALIBRATED) | BOOK), 3)
        for name, make in NETWORKS.items()},
+    "arena": (seeker(learning=plain_rule(), policy=Policy(0.1, "no-op")), MAZE),
+    "arena, calibrated": (seeker(learning=plain_rule(**CALIBRATED), policy=Policy(0.0, "random")), MAZE),
+    "softmax": (multimodal([4], place_gain=1.0, **learning(credit="activity", memory=3.0)
+                           | {"policy": Policy(choose=softmax(0.2))}), 3),
 }
 CHANGES = {
     "joined by objects": ((LONG // 3, "both"),),
@@ -101,32 +112,49 @@ BEFORE = {"joined by objects": "place N7", "with a memory, moved": "network C, c
           "revalued and back": "network D"}
 
 
-def born(name):
-    """A run of that name, before its first step."""
-    agent, creeps = RUNS[BEFORE.get(name, name)]
-    return Run(agent, tank(creeps), seed=7, run=RUN)
+def world_of(name):
+    """The world of the run of that name: a tank of so many creeps, if it is a number."""
+    world = RUNS[BEFORE.get(name, name)][1]
+    return tank(world) if isinstance(world, int) else world
 
 
 def tank(creeps):
     return WaterWorld(width=250, n_creeps=creeps, fps=50, win_reward=5.0 if creeps == 8 else 0.0, contact="rounded")
 
 
+def agent_of(name):
+    """The agent that the run of that name begins as."""
+    return RUNS[BEFORE.get(name, name)][0]
+
+
+def changes_of(name):
+    """(step, agent) pairs: what the run of that name becomes when."""
+    return tuple((step, RUNS[later][0]) for step, later in CHANGES.get(name, ()))
+
+
+def born(name):
+    """A run of that name, before its first step."""
+    return Run(agent_of(name), world_of(name), SEED, RUN)
+
+
 def digest(name, steps):
-    """Reward and a digest of every value and of the tank: what is on record."""
+    """Reward and a digest of every value and of the world: what is on record."""
     run = born(name)
     reward = 0.0
-    for step, later in CHANGES.get(name, ()):
+    for step, later in changes_of(name):
         reward += run.advance(min(step, steps) - run.step)
         if step < steps:
-            run.change(RUNS[later][0])
+            run.change(later)
     reward += run.advance(steps - run.step)
-    return recorded(reward, run.state.values.q, run.world_state)
+    return recorded(name, reward, run.state.values.q, run.world_state)
 
 
-def recorded(reward, q, state):
+def recorded(name, reward, q, state):
+    """What is on record of a run, from what it was paid, its values and the state of its world."""
     scene = state.scene
-    arrays = (q, scene.position, scene.velocity, scene.things, state.direction, state.speed, scene.kinds == 0,
-              state.jitter, state.stream)
+    own = ((state.inside, state.clock) if isinstance(world_of(name), Arena) else
+           (state.direction, state.speed, scene.kinds == 0, state.jitter))
+    arrays = (q, scene.position, scene.velocity, scene.things, *own, state.stream)
     content = b"".join(np.ascontiguousarray(each).tobytes() for each in arrays)
     return f"{float(reward)} {hashlib.sha256(content).hexdigest()}"
 

@@ -16,7 +16,7 @@ import neorl
 from neorl import (CARDINAL, Actions, Agent, Arena, Axis, Condition, Desire, Learner, Learning, Modality, Node, NresMap,
                    Place, Policy, Result, Run, Scene, WaterWorld, greedy, softmax)
 from neorl.agents import agent, learner, papers
-from neorl.agents.description import described, restored
+from neorl.core.description import described, restored
 from neorl.agents.individual import Individual
 from neorl.core import horde, kernel, maps, modality, policy, scene, stream
 from neorl.core.identity import identity

@@ -19,7 +19,8 @@ import numpy as np
 from neorl import checks, files
 from neorl.agents.agent import Agent, Learning, Policy
 from neorl.core.description import described
-from neorl.experiments.cache import PARTS, source_digest
+from neorl.experiments.cache import PARTS, Condition, source_digest
+from neorl.experiments.exchange import OF_A_CONDITION
 from neorl.worlds.arena import Arena
 from neorl.worlds.waterworld import WaterWorld
 
@@ -58,6 +59,19 @@ def kept():
                 continue
             is_older = (about or {}).get("source") != source_digest() if kind in NOTES else status.st_mtime < sources
             found.append(Kept(kind, path, status.st_size, about, is_older))
+    return found
+
+
+def conditions():
+    """Every `Condition` that is kept whole, was computed with the present source, and can be described: a list."""
+    found = []
+    for each in kept():
+        if each.kind == "conditions" and each.about and not each.is_older:
+            try:
+                condition = Condition.from_dict({name: each.about[name] for name in OF_A_CONDITION})
+            except (ValueError, KeyError):  # a kernel that no module has
+                continue
+            found += [condition] if condition.path == each.path else []
     return found
 
 

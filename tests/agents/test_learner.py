@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from golden import every_modality, plain_rule
 
-from neorl import (Actions, Agent, Arena, Desire, Learner, Learning, Node, Policy, Run, Scene, WaterWorld, kernel,
+from neorl import (Actions, Agent, Desire, Learner, Learning, Node, Policy, Run, Scene, WaterWorld, kernel,
                    multimodal, network_d, place_cells, softmax)
 from neorl.core.kernel import arrays, execute, mapped
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL
@@ -58,24 +58,6 @@ def assert_equal(one, other):
         np.testing.assert_array_equal(mine, theirs[name], name)
 
 
-@pytest.mark.parametrize("world", [TANK, Arena(trial_seconds=2.0)], ids=["tank", "arena"])
-@pytest.mark.parametrize("name", AGENTS)
-def test_a_learner_in_a_loop_of_its_own_equals_a_run_to_the_bit(name, world):
-    agent, ends = AGENTS[name], 0
-    if world is not TANK:
-        agent = Agent(agent.nodes, [Desire("platform", agent.nodes[0].name, 1.0)], agent.learning, agent.policy)
-    run, (learner, state) = Run(agent, world, seed=3), newborn(agent, world, seed=3)
-    while run.step < 1_000 or not ends and run.step < 20_000:
-        action = learner.act()
-        run.advance(1)
-        assert action == run.state.last_event[0]
-        ends += take(learner, world, state, action)
-    assert ends and all(learner.q(m).any() for m, each in enumerate(agent.maps) if each.cells > 100)
-    assert_equal(learner, run)
-    for name, values in arrays(run.world_state).items():
-        np.testing.assert_array_equal(arrays(state)[name], values, name)
-
-
 def test_a_learner_draws_from_the_stream_of_its_seed():
     learner = Learner(place_cells([3]), 2, ("green", "red"), seed=5)
     np.testing.assert_array_equal(learner.state.stream, new_stream(np.random.SeedSequence(5)))
@@ -102,23 +84,6 @@ def test_a_learner_goes_on_from_a_copy_or_a_file_to_the_same_bit(name, half_way,
     assert lives[0] == lives[1] == lives[2]
     for other in others:
         assert_equal(learner, other)
-
-
-@pytest.mark.parametrize("world", [TANK, Arena()], ids=["tank", "arena"])
-def test_a_run_goes_on_from_a_copy_or_a_file_to_the_same_bit(world, tmp_path):
-    agent = AGENTS["softmax"] if world is TANK else Agent(AGENTS["softmax"].nodes, policy=Policy(0.3))
-    run = Run(agent, world, seed=4, run=2)
-    run.advance(1_234)
-    run.save(tmp_path / "run")
-    others = [run.copy(), Run.load(tmp_path / "run")]
-    knew = run.q().copy()
-    paid = [each.advance(2_000) for each in others]
-    np.testing.assert_array_equal(run.q(), knew)  # the others are others
-    assert run.step == 1_234 and paid == [run.advance(2_000)] * 2 and run.step == others[1].step == 3_234
-    for other in others:
-        assert_equal(run, other)
-        for name, values in arrays(other.world_state).items():
-            np.testing.assert_array_equal(arrays(run.world_state)[name], values, name)
 
 
 def test_a_learner_that_has_not_begun_is_kept_as_such(tmp_path):

@@ -48,8 +48,9 @@ def test_a_notebook_is_computed_when_something_has_changed_and_kept_when_not(not
     assert target.stat().st_mtime_ns == before
     assert "nothing has changed" in capsys.readouterr().out
 
-    with pytest.raises(build.PapermillExecutionError):
-        build.compute(notebook, {"runs": 13})
+    assert build.attempt(notebook, {"runs": 13}) == 1
+    said = capsys.readouterr().out
+    assert "page.ipynb, In [3]: AssertionError: " in said and "runs != 13" in said
     assert nbformat.read(target, 4).cells[-1].outputs[0].text == "3\n"  # a failure leaves the page alone
     assert (build.CHAPTERS / ".page" / "page.ipynb").exists()  # and shows how far it came
     build.compute(notebook, {"runs": 4})
@@ -97,7 +98,7 @@ def chapters(tmp_path, monkeypatch):
 def test_a_named_widget_is_saved_with_the_state_of_all_that_it_refers_to(chapters):
     page = page_of_widgets(("first", ["one"]), (None, ["four"]), ("last", ["four"]))
     stored = page.metadata.widgets[build.WIDGET_STATE].state.copy()
-    build.save_widgets(page)
+    build.save_widgets(page, build.CHAPTERS)
     assert contents("first") == ({model: stored[model] for model in ["one", "two", "three"]}, {"model_id": "one"})
     assert contents("last") == ({"four": stored["four"]}, {"model_id": "four"})
     assert sorted(path.name for path in chapters.iterdir()) == ["first.html", "last.html"]
@@ -106,10 +107,10 @@ def test_a_named_widget_is_saved_with_the_state_of_all_that_it_refers_to(chapter
 def test_the_state_of_widgets_that_a_page_does_not_show_is_dropped(chapters):
     for models, kept in [(["four"], {"four"}), (["one", "four"], {"one", "two", "three", "four"}), ([], set())]:
         page = page_of_widgets((None, models))
-        build.save_widgets(page)
+        build.save_widgets(page, build.CHAPTERS)
         assert set(page.metadata.widgets[build.WIDGET_STATE].state) == kept
     page = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell()])
-    build.save_widgets(page)
+    build.save_widgets(page, build.CHAPTERS)
     assert page.metadata == {}
     assert not list(chapters.iterdir())
 
@@ -118,11 +119,11 @@ def test_the_state_of_widgets_that_a_page_does_not_show_is_dropped(chapters):
 def test_a_named_cell_shows_one_widget(chapters, models):
     message = f"cell of widget first shows {len(models)} widgets, allowed is 1"
     with pytest.raises(ValueError, match=message):
-        build.save_widgets(page_of_widgets(("first", models)))
+        build.save_widgets(page_of_widgets(("first", models)), chapters)
 
 
 def test_a_saved_widget_lives_on_any_page(chapters, open_page):
-    build.save_widgets(page_of_widgets(("first", ["one"])))
+    build.save_widgets(page_of_widgets(("first", ["one"])), chapters)
     shutil.copy(ROOT / "book" / "vendor" / "widgets.js", chapters)
     head = '<!doctype html><link rel="icon" href="data:,"><script defer src="widgets.js"></script><body>'
     (chapters / "page.html").write_text(f"{head}{(chapters / 'first.html').read_text()}<p>The end.</p>")
@@ -193,26 +194,12 @@ def test_links_into_the_glossary_become_references_to_its_terms():
     assert build.link_terms("[lost](../book/glossary.md#lost)") == "{term}`lost <lost>`"  # which Sphinx complains about
 
 
-def test_papers_come_after_the_shares_that_they_read_and_the_conclusion_after_all_that_finds():
-    names = ["assumptions", "another", "chapter_1", "chapter_5", "paper_a", "paper_b", "performance"]
-    order = [path.stem for path in sorted(sorted(map(Path, names)), key=build.turn)]
-    assert order == ["another", "assumptions", "chapter_1", "paper_a", "paper_b", "chapter_5", "performance"]
-    found = {path.stem for path in (ROOT / "notebooks").glob("*.ipynb")}
-    assert found == {name for names in build.ROUNDS for name in names}
-
-
-@pytest.mark.filterwarnings("ignore")
-def test_what_went_wrong_in_a_process_is_told_as_text(notebook):
-    assert build.attempt(notebook, {"runs": 3}) is None
-    assert "Exception encountered" in build.attempt(notebook, {"runs": 13})
-
-
 def test_the_conclusion_reads_all_other_records_and_every_other_page_the_shares(chapters):
     for name in ("assumptions", "chapter_5", "paper_a"):
         (chapters / f"{name}.claims.json").write_text("{}")
     read = {page: [path.name.split(".")[0] for path in build.records(Path(f"{page}.ipynb"))]
-            for page in ("assumptions", "paper_a", "calibration", "chapter_5")}
-    assert read == {"assumptions": [], "paper_a": ["assumptions"], "calibration": ["assumptions"],
+            for page in ("assumptions", "chapter_1", "paper_a", "calibration", "chapter_5")}
+    assert read == {"assumptions": [], "chapter_1": [], "paper_a": ["assumptions"], "calibration": ["assumptions"],
                     "chapter_5": ["assumptions", "paper_a"]}
 
 
@@ -225,3 +212,85 @@ def test_the_conclusion_is_computed_again_when_a_claim_has_changed(notebook, cap
     (build.CHAPTERS / "paper_a.claims.json").write_text("{}")
     build.compute(conclusion, {"runs": 3})
     assert "nothing has changed" not in capsys.readouterr().out
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("damage", [
+    lambda chapters: (chapters / "page.ipynb").write_text((chapters / "page.ipynb").read_text()[:-9]),
+    lambda chapters: (chapters / "page.claims.json").write_bytes(b""),
+    lambda chapters: (chapters / "page.claims.json").unlink(),
+    lambda chapters: (chapters / "page.inputs.json").write_text('{"parameters": {"runs": 3}, "inp'),
+    lambda chapters: (chapters / "page.inputs.json").write_text('{"format": 9, "parameters": {"runs": 3}}'),
+    lambda chapters: (chapters / "page.inputs.json").write_text("[]"),
+])
+def test_what_is_damaged_or_of_another_version_is_made_anew(notebook, cache_folder, damage, capsys, monkeypatch):
+    def execute(source, target, parameters):
+        shutil.copy(source, target)
+        build.report.save("page")
+
+    monkeypatch.setattr(build, "execute", execute)
+    build.compute(notebook, {"runs": 3})
+    whole = {path.name: path.read_bytes() for path in build.CHAPTERS.iterdir()}
+    assert whole.keys() == {"page.ipynb", "page.claims.json", "page.inputs.json"}
+    damage(build.CHAPTERS)
+    build.compute(notebook, {"runs": 3})
+    assert {path.name: path.read_bytes() for path in build.CHAPTERS.iterdir()} == whole
+    assert "nothing has changed" not in capsys.readouterr().out
+
+
+def test_what_no_notebook_has_made_is_removed(notebook, chapters):
+    for name in ("gone.ipynb", "gone.claims.json", "figure.svg", "claims-table.md", "page.ipynb", "page.inputs.json"):
+        (chapters / name).write_text("{}")
+    (chapters / ".page").mkdir()
+    (chapters / "page.inputs.json").write_text('{"parameters": {}, "inputs": "", "outputs": {"page.ipynb": ""}}')
+    build.tidy([notebook])
+    assert {path.name for path in chapters.iterdir()} >= {"claims-table.md", "page.ipynb", "page.inputs.json"}
+    assert not {"gone.ipynb", "gone.claims.json", "figure.svg", ".page"} & {path.name for path in chapters.iterdir()}
+
+
+def test_notebooks_read_the_claims_of_the_chapters_and_no_others(notebook, chapters, cache_folder):
+    stray, mine = cache_folder / "claims" / "stray.json", cache_folder / "claims" / "page.json"
+    stray.parent.mkdir()
+    stray.write_text("trunc")
+    (chapters / "page.claims.json").write_text("{}")
+    outputs = {"page.claims.json": build.digest([chapters / "page.claims.json"])}
+    (chapters / "page.inputs.json").write_text(json.dumps({"parameters": {}, "inputs": "", "outputs": outputs}))
+    build.restore_claims([notebook])
+    assert not stray.exists() and mine.read_text() == "{}"
+    (chapters / "page.claims.json").write_text("{")
+    build.restore_claims([notebook])
+    assert not mine.exists()
+
+
+def cell_of(notebook, source):
+    page = nbformat.read(notebook, 4)
+    page.cells[2].source = source
+    nbformat.write(page, notebook)
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("source, message", [
+    ("import os, signal; os.kill(os.getpid(), signal.SIGKILL)", "its kernel has died, perhaps since there was not"),
+    ("import time; time.sleep(1000)", "its kernel has hung: no processor time in 3 s, in the cell that begins 'import"),
+])
+def test_a_kernel_that_dies_or_hangs_is_noticed(notebook, source, message, monkeypatch, capsys):
+    monkeypatch.setattr(build, "STALL_SECONDS", 3)
+    cell_of(notebook, source)
+    assert build.attempt(notebook, {"runs": 3}) == 1
+    assert f"page.ipynb: RuntimeError: {message}" in capsys.readouterr().out
+
+
+def test_one_build_at_a_time_works_in_a_tree(chapters, cache_folder, monkeypatch):
+    monkeypatch.setattr(build, "BUILT", chapters / "built")
+    lock = build.the_only_build()
+    with pytest.raises(SystemExit, match=r"another make book is at work in this tree, process \d+ since .*: wait"):
+        build.the_only_build()
+    lock.close()
+    build.the_only_build().close()
+
+
+def test_a_folder_that_cannot_be_written_to_is_named_before_anything_runs(chapters, cache_folder, monkeypatch):
+    (chapters / "built").write_text("a file")
+    monkeypatch.setattr(build, "BUILT", chapters / "built")
+    with pytest.raises(SystemExit, match="built cannot be written to: "):
+        build.the_only_build()

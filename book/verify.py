@@ -1,0 +1,77 @@
+"""Recompute a random sample of the runs behind the figures, and compare bit by bit: ``make verify`` runs this.
+
+The sample is drawn from the conditions that the last builds have kept, as far as they were computed with the present
+source. Each of its runs is lived again, alone, and its rewards and hits in every bin of 0.2 s must be those kept.
+"""
+
+import argparse
+import random
+import secrets
+import sys
+import time
+
+import numpy as np
+
+from neorl import Run
+from neorl.experiments import cache, kept
+from neorl.experiments.run import new_bins
+from neorl.files import cache_folder
+
+
+def main():
+    chosen = parse_arguments()
+    conditions = kept.conditions()
+    everything = [(condition, k) for condition in conditions for k in range(condition.runs)]
+    if not everything:
+        sys.exit(f"{cache_folder()} holds no condition that was computed with the present source: make book first")
+    sample = random.Random(chosen.seed).sample(everything, min(chosen.sample, len(everything)))
+    print(f"{len(sample)} of {len(everything)} runs of {len(conditions)} conditions in {cache_folder()}, seed {chosen.seed}")
+    began, bins, differing = time.monotonic(), 0, []
+    for condition, k in sample:
+        difference, compared = compare(condition, k)
+        bins += compared
+        if difference:
+            differing.append(condition)
+            print(f"run {k} of {condition}, kept in {condition.path}: {difference}", flush=True)
+    again = f"make verify SAMPLE={chosen.sample} SEED={chosen.seed}"
+    if differing:
+        sys.exit(f"{len(differing)} of {len(sample)} runs are not as kept; {again} compares the same ones again")
+    steps = sum(condition.steps for condition, _ in sample)
+    print(f"each was lived again alone, {steps:,} steps in all: the rewards and hits of {bins:,} bins of 0.2 s "
+          f"are the same to the last bit ({time.monotonic() - began:.0f} s)")
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--sample", type=int, default=20, help="how many runs (default 20)")
+    parser.add_argument("--seed", type=int, default=secrets.randbelow(10**6), help="of the sample (by default random)")
+    chosen = parser.parse_args()
+    if chosen.sample < 1:
+        parser.error(f"--sample is {chosen.sample}, allowed are integers ≥ 1")
+    return chosen
+
+
+def compare(condition, k):
+    """Where a run that is lived again differs from what is kept of it, as text or None, and how many bins it has."""
+    result = cache.load(condition)
+    rewards, hits = new_bins(condition.world, 1, condition.steps)
+    run = Run(condition.agent, condition.world, condition.seed, k)
+    for step, later in (*condition.changes, (condition.steps, None)):
+        run.advance(step - run.step, rewards[0], hits[0])
+        if later:
+            run.change(later)
+    same = (bits(result.rewards[k]) == bits(rewards[0])) & np.all(result.hits[k] == hits[0], axis=-1)
+    if same.all():
+        return None, same.size
+    first = int(np.argmin(same))
+    return (f"{np.count_nonzero(~same)} of {same.size} bins differ, the first from {result.edges[first]:g} s on: kept "
+            f"are {result.rewards[k, first]!r} and {result.hits[k, first].tolist()}, lived again "
+            f"{rewards[0, first]!r} and {hits[0, first].tolist()}"), same.size
+
+
+def bits(rewards):
+    return rewards.view(np.uint32)
+
+
+if __name__ == "__main__":
+    main()

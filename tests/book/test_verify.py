@@ -1,0 +1,70 @@
+"""What ``make verify`` compares, and that it notices a run that is not as it was kept."""
+
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from neorl import Condition, Policy, WaterWorld, files, kernel, multimodal, place_cells, simulate_once
+from neorl.experiments import cache
+from neorl.experiments import kept as kept_files
+from neorl.experiments.kept import conditions
+
+VERIFY = Path(__file__).parents[2] / "book" / "verify.py"
+KEPT = [Condition(place_cells([3]), WaterWorld(), 505, 3, 1),
+        Condition(place_cells([4]), WaterWorld(n_creeps=2), 400, 2, changes=[(100, multimodal([4]))])]
+pytestmark = pytest.mark.usefixtures("cache_folder")
+
+
+def verify(*arguments):
+    return subprocess.run([sys.executable, VERIFY, *arguments], capture_output=True, text=True, env={
+        **os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})
+
+
+@pytest.fixture
+def kept():
+    return [simulate_once(**condition.choices, progress=False) for condition in KEPT]
+
+
+def test_runs_that_are_as_kept_pass(kept):
+    done = verify("--sample", "100")
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("5 of 5 runs of 2 conditions in ")
+    assert "2,315 steps in all: the rewards and hits of 233 bins of 0.2 s are the same to the last bit" in done.stdout
+    assert verify("--sample", "2", "--seed", "4").stdout.splitlines()[0].startswith("2 of 5 runs of 2 conditions")
+
+
+@pytest.mark.parametrize("name", ["rewards", "hits"])
+def test_a_run_that_is_not_as_kept_is_named(kept, name):
+    values = getattr(kept[1], name).copy()
+    values[1, 7] += 1
+    cache.save(KEPT[1], replace(kept[1], **{name: values}))
+    done = verify("--sample", "5", "--seed", "2")
+    assert done.returncode == 1
+    assert f"run 1 of {KEPT[1]}, kept in {KEPT[1].path}: 1 of 40 bins differ, the first from 1.4 s on" in done.stdout
+    assert "1 of 5 runs are not as kept; make verify SAMPLE=5 SEED=2" in done.stderr
+
+
+def test_what_no_condition_of_the_present_source_is_kept_in_is_passed_over(kept, cache_folder, monkeypatch):
+    (cache_folder / "conditions" / "0").write_bytes(b"foreign")
+    files.write_checked(cache_folder / "conditions" / "1", b"foreign")
+    (cache_folder / "conditions" / "2").write_bytes(KEPT[0].path.read_bytes())
+
+    @kernel
+    def first(value, stream):
+        return 0
+
+    own = Condition(place_cells([3], policy=Policy(choose=first)), WaterWorld(), 50, 1)
+    cache.save(own, replace(kept[0], **own.choices))
+    assert own.path.exists() and cache.load(own) is not None
+    assert sorted(conditions(), key=KEPT.index) == KEPT
+    monkeypatch.setattr(kept_files, "source_digest", lambda: "another source")
+    assert conditions() == []
+
+
+def test_an_empty_cache_and_a_sample_of_nothing_are_refused():
+    assert "holds no condition that was computed with the present source: make book first" in verify().stderr
+    assert "--sample is 0, allowed are integers ≥ 1" in verify("--sample", "0").stderr

@@ -1,0 +1,233 @@
+"""The matrix of exactness: every run on record (`golden`), lived in every way that must bring the same bits.
+
+A way takes the name of a run and how many steps it lives, and returns what is on record of it, or None if the run
+cannot be lived so. `make exact` prints the matrix, a line a run and a column a way; `make test` lives a part of it.
+Other Pythons get an environment of the packages that the core needs, as ``environment.txt`` pins them, in the cache.
+"""
+
+import argparse
+import hashlib
+import itertools
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import tomllib
+from functools import partial
+from pathlib import Path
+from unittest.mock import patch
+
+import golden
+import numpy as np
+
+from neorl import Learner, Run, simulate
+from neorl.core.kernel import execute, is_tuple
+from neorl.core.stream import new_stream
+from neorl.experiments import simulation
+from neorl.files import cache_folder
+
+ROOT = Path(__file__).parents[1]
+RECORD = json.loads(golden.RECORD.read_text())
+OLDEST = 11  # minor version of Python
+HOLDS, FAILS, DOES_NOT_APPLY = "=", "≠", "·"
+
+
+def in_slices(name, steps):
+    """By slices of odd lengths, with an end at every change."""
+    run, reward = golden.born(name), 0.0
+    lengths = itertools.cycle([1, 2, 7, 333, 1_001])
+    for until, later in (*golden.changes_of(name), (steps, None)):
+        while run.step < min(until, steps):
+            reward += run.advance(min(next(lengths), min(until, steps) - run.step))
+        if later and until < steps:
+            run.change(later)
+    return golden.recorded(name, reward, run.state.values.q, run.world_state)
+
+
+def from_a_copy(name, steps, copied=Run.copy):
+    """By a copy that is made on the way, after which the original goes on by itself."""
+    run, reward = golden.born(name), 0.0
+    for until, later in (*golden.changes_of(name), (steps, None)):
+        until = min(until, steps)
+        reward += run.advance((until - run.step) // 2)
+        run, original = copied(run), run
+        original.advance(77)
+        reward += run.advance(until - run.step)
+        if later and until < steps:
+            run.change(later)
+    return golden.recorded(name, reward, run.state.values.q, run.world_state)
+
+
+def from_a_file(name, steps):
+    """By a run that is saved on the way and loaded again."""
+    with tempfile.TemporaryDirectory() as folder:
+        def through_a_file(run):
+            run.save(Path(folder) / "run")
+            return Run.load(Path(folder) / "run")
+        return from_a_copy(name, steps, through_a_file)
+
+
+def among_others(name, steps, runs, threads):
+    """By `simulate`, as one run of several, side by side or one in the room of the other."""
+    found = []
+
+    class Watched(Run):
+        """A run that leaves what it is at its end, before the next one takes its room."""
+
+        def __init__(self, agent, world, seed, number, after=None):
+            super().__init__(agent, world, seed, number, after)
+            self.number = number
+
+        def advance(self, *arguments):
+            super().advance(*arguments)
+            if (self.number, self.step) == (golden.RUN, steps):
+                found[:] = self.state.values.q.copy(), self.copy().world_state
+
+    changes = [change for change in golden.changes_of(name) if change[0] < steps]
+    with patch.object(simulation, "Run", Watched):
+        result = simulate(golden.agent_of(name), golden.world_of(name), steps=steps, runs=runs, seed=golden.SEED,
+                          changes=changes, threads=threads, progress=False)
+    return golden.recorded(name, result.totals[golden.RUN], *found)
+
+
+def by_a_learner(name, steps):
+    """By a `Learner` in a loop in Python."""
+    world, changes = golden.world_of(name), dict(golden.changes_of(name))
+    sequence = np.random.SeedSequence(golden.SEED, spawn_key=(golden.RUN,))
+    state, reward = world.reset(sequence), 0.0
+    learner = Learner(golden.agent_of(name), world.things, world.kinds, world.actions, size=world.size, fps=world.fps)
+    learner._state.stream[:] = new_stream(sequence.spawn(1)[0])
+    learner.begin(state.scene)
+    for step in range(steps):
+        if step in changes:
+            learner.change(changes[step])
+        paid, _, done = world.step(state, learner.act())
+        reward += paid
+        learner.observe(state.scene)
+        if done:
+            execute(world.dynamics.reset, state, world.rules)
+            learner.begin(state.scene)
+    return golden.recorded(name, reward, learner.state.values.q, state)
+
+
+def in_webassembly(name, steps):
+    """By the module of the browser, which has no kernels but the package's."""
+    from webassembly import copied
+
+    if golden.changes_of(name) or golden.agent_of(name).policy.choose is not golden.Policy().choose:
+        return None
+    machine, sizes, arguments = copied(golden.born(name))
+    reward = machine.call("rollout", sizes, last_step=steps, bin_steps=steps, **arguments)
+    return golden.recorded(name, reward, arguments["state"].values.q[1], views(arguments["world_state"]))
+
+
+def views(values):
+    """The arrays in a named tuple of (address, view) pairs."""
+    return type(values)(*(views(each) if is_tuple(each) else each[1] for each in values))
+
+
+WAYS = {
+    "in one go": golden.digest,
+    "in slices": in_slices,
+    "from a copy": from_a_copy,
+    "from a file": from_a_file,
+    "of 4, 1 thread": partial(among_others, runs=4, threads=1),
+    "of 9, 2 threads": partial(among_others, runs=9, threads=2),
+    "Learner": by_a_learner,
+    "WebAssembly": in_webassembly,
+}
+
+
+def in_a_process(names, steps, python=sys.executable, **settings):
+    """What is on record of runs that another interpreter lives, {name: record}."""
+    path = os.pathsep.join([str(ROOT), str(ROOT / "tests")])
+    printed = subprocess.run([python, golden.__file__, str(steps), *names], check=True, stdout=subprocess.PIPE,
+                             env={**os.environ, "PYTHONPATH": path, **settings}).stdout
+    return json.loads(printed)
+
+
+def interpreted(names):
+    """Runs with the compiler off: short ones, for they are hundreds of times slower."""
+    return in_a_process(names, golden.SHORT, NUMBA_DISABLE_JIT="1")
+
+
+def version_of(python):
+    """The version of an interpreter, such as "3.13.0", or None if it does not run."""
+    try:
+        return subprocess.run([python, "-c", "import platform; print(platform.python_version())"], check=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout.strip()
+    except (OSError, subprocess.CalledProcessError):
+        return None
+
+
+def other_pythons():
+    """The oldest and the newest Python on the path that this package allows, but for the one that runs this."""
+    mine = sys.version_info.minor
+    found = {minor: f"python3.{minor}" for minor in range(OLDEST, 30) if version_of(f"python3.{minor}")}
+    return [found[minor] for minor in sorted({min([mine, *found]), max([mine, *found])} - {mine})]
+
+
+def environments():
+    """The interpreters of the environments that were made for the present pins, {version: path}."""
+    return {ready.parent.name.split()[0]: ready.parent / "bin" / "python"
+            for ready in sorted((cache_folder() / "pythons").glob(f"*/{ready_name()}"))}
+
+
+def make_environment(python):
+    """The version of an interpreter, for which `environments` has one then. Raises ValueError if it does not run."""
+    version = version_of(python)
+    if version is None:
+        raise ValueError(f"python is {python!r}, allowed are interpreters of Python that run")
+    if version not in environments():
+        folder = cache_folder() / "pythons" / version
+        subprocess.run([python, "-m", "venv", "--clear", folder], check=True)
+        subprocess.run([folder / "bin" / "python", "-m", "pip", "install", "--quiet", "--no-deps", *pins()], check=True)
+        (folder / ready_name()).touch()
+    return version
+
+
+def ready_name():
+    return f"ready-{hashlib.sha256(' '.join(pins()).encode()).hexdigest()[:12]}"
+
+
+def pins():
+    """What ``environment.txt`` says of the packages that the core needs."""
+    needed = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["dependencies"]
+    names = {re.match(r"[\w-]+", each)[0] for each in needed} | {"llvmlite"}
+    return [line for line in (ROOT / "environment.txt").read_text().splitlines() if line.split("==")[0] in names]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("pythons", nargs="*", help="other interpreters; by default the oldest and the newest found")
+    versions = [make_environment(python) for python in parser.parse_args().pythons or other_pythons()]
+    names = list(RECORD)
+    elsewhere = {"interpreted": (interpreted(names), golden.SHORT),
+                 **{f"Python {version}": (in_a_process(names, golden.LONG, environments()[version]), golden.LONG)
+                    for version in versions}}
+    columns = [*WAYS, *elsewhere]
+    width = max(map(len, names))
+    print(f"{len(names)} runs of {golden.LONG} steps, interpreted {golden.SHORT}, on Python {sys.version.split()[0]}: "
+          f"{HOLDS} the bits on record, {FAILS} others, {DOES_NOT_APPLY} does not apply\n")
+    print(" " * width, *columns, sep="  ")
+    cells = []
+    for name in names:
+        found = {way: (live(name, golden.LONG), golden.LONG) for way, live in WAYS.items()}
+        found |= {way: (those[name], steps) for way, (those, steps) in elsewhere.items()}
+        signs = [sign(name, *found[way]) for way in columns]
+        cells += signs
+        print(name.ljust(width), *(each.center(len(way)) for way, each in zip(columns, signs)), sep="  ", flush=True)
+    failed = cells.count(FAILS)
+    print(f"\n{failed or 'none'} of {len(cells) - cells.count(DOES_NOT_APPLY)} differ")
+    return failed > 0
+
+
+def sign(name, found, steps):
+    """How a cell of the matrix is printed."""
+    return DOES_NOT_APPLY if found is None else HOLDS if found == RECORD[name][str(steps)] else FAILS
+
+
+if __name__ == "__main__":
+    sys.exit(main())

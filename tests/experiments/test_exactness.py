@@ -1,0 +1,72 @@
+"""The runs on record are the same to the last bit in every way that a run can be lived. `make exact` lives them all."""
+
+import exactness
+import golden
+import numpy as np
+import pytest
+
+from neorl import simulate
+from neorl.experiments.run import new_bins
+
+SPANNING = ["place N10, calibrated", "every modality", "both, memory of seconds", "both, silent captures", "no-op",
+            "both, step", "network D, calibrated", "arena, calibrated", "softmax", "with a memory, moved"]
+INTERPRETED = ["place N3", "place, long trace alone", "both, absence", "network D, signed", "every modality",
+               "network D, calibrated", "both, silent captures", "arena", "softmax"]
+
+
+def on_record(names, steps):
+    return {name: exactness.RECORD[name][str(steps)] for name in names}
+
+
+def test_every_run_is_on_record():
+    assert list(exactness.RECORD) == [*golden.RUNS, *golden.CHANGES] and len(exactness.RECORD) >= 40
+
+
+@pytest.mark.parametrize("name", exactness.RECORD)
+def test_a_run_is_as_on_record(name):
+    assert golden.digest(name, golden.LONG) == exactness.RECORD[name][str(golden.LONG)]
+
+
+@pytest.mark.parametrize("way", [way for way in exactness.WAYS if way != "in one go"])
+@pytest.mark.parametrize("name", SPANNING)
+def test_a_run_is_as_on_record_however_it_is_lived(name, way):
+    found = exactness.WAYS[way](name, golden.LONG)
+    if found is None:
+        pytest.skip("does not apply")
+    assert found == exactness.RECORD[name][str(golden.LONG)]
+
+
+def test_interpreted_runs_are_as_on_record():
+    assert exactness.interpreted(INTERPRETED) == on_record(INTERPRETED, golden.SHORT)
+
+
+def test_runs_are_as_on_record_in_the_pythons_that_make_exact_has_made_an_environment_for():
+    made = exactness.environments()
+    if not made:
+        pytest.skip("no other Python: run make exact")
+    for python in made.values():
+        assert exactness.in_a_process(SPANNING, golden.LONG, python) == on_record(SPANNING, golden.LONG)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize("name", ["place N23", "with a memory, moved", "arena"])
+def test_the_bins_of_a_run_among_others_are_those_of_it_alone(name, threads):
+    run = golden.born(name)
+    rewards, hits = new_bins(run.world, 1, golden.LONG)
+    for step, later in (*golden.changes_of(name), (golden.LONG, None)):
+        run.advance(step - run.step, rewards[0], hits[0])
+        if later:
+            run.change(later)
+    among = simulate(golden.agent_of(name), run.world, steps=golden.LONG, runs=golden.RUN + 3, seed=golden.SEED,
+                     changes=golden.changes_of(name), threads=threads, progress=False)
+    np.testing.assert_array_equal(among.rewards[golden.RUN], rewards[0])
+    np.testing.assert_array_equal(among.hits[golden.RUN], hits[0])
+    assert rewards.any() and hits.any()
+
+
+@pytest.mark.parametrize("way", exactness.WAYS)
+def test_the_matrix_shows_a_run_that_differs(way, monkeypatch):
+    """A run with another seed is another run."""
+    monkeypatch.setattr(golden, "SEED", 8)
+    name = "place N3"
+    assert exactness.sign(name, exactness.WAYS[way](name, golden.SHORT), golden.SHORT) == exactness.FAILS
