@@ -332,16 +332,16 @@ def learn_remembered(values, rule, trace, count, goal):
     """
     cells, stride, read = trace.cells, values.actions * values.cells, values.scratch
     for i in range(count):
-        widen(values.goal_range, cells[i], goal)
+        widen(values.goal_range, np.uint64(cells[i]), goal)
     for event in range(values.actions):
         column = values.first + event * values.cells + goal
         for i in range(count):
-            read[i] = values.q[column + cells[i] * stride]
+            read[i] = values.q[np.uint64(column + cells[i] * stride)]  # unsigned, since it cannot count from the end
         happened, absent = event * values.cells, (event + values.actions) * values.cells
         move(read, count, trace.weight[happened : happened + count], trace.goal_worth[happened : happened + count],
              trace.weight[absent : absent + count], trace.goal_worth[absent : absent + count], rule.away)
         for i in range(count):
-            values.q[column + cells[i] * stride] = read[i]
+            values.q[np.uint64(column + cells[i] * stride)] = read[i]
 
 
 @kernel
