@@ -25,7 +25,8 @@ def main():
     if not everything:
         sys.exit(f"{cache_folder()} holds no condition that was computed with the present source: make book first")
     sample = random.Random(chosen.seed).sample(everything, min(chosen.sample, len(everything)))
-    print(f"{len(sample)} of {len(everything)} runs of {len(conditions)} conditions in {cache_folder()}, seed {chosen.seed}")
+    print(f"{len(sample)} of {len(everything)} runs of {len(conditions)} conditions in {cache_folder()}, "
+          f"seed {chosen.seed}")
     began, bins, differing = time.monotonic(), 0, []
     for condition, k in sample:
         difference, compared = compare(condition, k)

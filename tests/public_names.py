@@ -360,7 +360,7 @@ TABLE = {
         Condition, agent=agents, world=[BOARD], steps=st.integers(1, 60), runs=st.integers(1, 2), seed=seeds,
         changes=[(), [(20, neorl.place_cells([2]))]], also=("change",),
         then=lambda condition: (condition.key, repr(condition))),
-    "neorl.experiments.sweep.sweep": entry(
+    "neorl.experiments.sweeping.sweep": entry(
         lambda **each: list(neorl.sweep(**each)), executor=[None], progress=[False],
         conditions=[[Condition(neorl.place_cells([2]), BOARD, 40, 1)]], also="condition"),
     "neorl.experiments.simulation.Result.rate": entry(RESULT.rate, begin=[0.0, 0.2], end=[0.5, 1.0]),

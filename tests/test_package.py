@@ -14,7 +14,7 @@ from neorl.extras import require
 ROOT = Path(__file__).parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 WHEN_USED = ("anywidget", "distributed", "gymnasium", "IPython", "matplotlib", "numba", "pandas", "psutil", "scipy",
-             "xarray")
+             "tqdm", "xarray")
 
 
 def test_import_neorl_imports_nothing_that_takes_long():

@@ -20,7 +20,7 @@ HEAD_DIRECTION_CELL.axes`.
 
 import functools
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -223,9 +223,10 @@ class Modality(checks.Final):
 
     def _locate(self, size, scene, given, vectors, found):
         """Put the coordinates of all points into `found`; given: by their vectors, and not by the scene."""
+        uncut = replace(self, axes=[replace(axis, boundaries=()) for axis in self.axes])
         axes = tuple(range(len(scene.position)))
         constants = Constants(features(*self.functions), no_credit, no_credit, (0,), axes)
-        execute(_locate_with(constants), space_of(self, 1, len(axes), size), scene, given, vectors, found)
+        execute(_locate_with(constants), space_of(uncut, 1, len(axes), size), scene, given, vectors, found)
 
     def check_axes(self, n_axes: int) -> None:
         """Raise ValueError unless these cells have a meaning in a world of so many axes."""

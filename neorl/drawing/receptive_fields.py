@@ -1,7 +1,5 @@
 """The receptive fields of maps of any modality, as they lie over a board while an agent is somewhere on it."""
 
-from dataclasses import replace
-
 import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.patches import Rectangle
@@ -29,7 +27,7 @@ def draw_receptive_fields(nres_map, world, state, ax=None):
     >>> tank = neorl.WaterWorld()
     >>> axes = drawing.draw_receptive_fields(neorl.NresMap(5), tank, tank.reset(seed=0))
     """
-    modality = _of_raw_coordinates(checks.instance("nres_map", nres_map, NresMap).modality)
+    modality = checks.instance("nres_map", nres_map, NresMap).modality
     if checks.instance("world", world, World).actions.axes != 2:
         raise ValueError(f"world has {world.actions.axes} axes, allowed are worlds of two")
     world.check_state(state)
@@ -57,11 +55,6 @@ def draw_receptive_fields(nres_map, world, state, ax=None):
                          for i, interval in enumerate(intervals)], axis=0)
         axes.contourf(side, side, inside, [0, np.inf], colors=[AGENT], alpha=0.35, zorder=-2)
     return axes
-
-
-def _of_raw_coordinates(modality):
-    """A modality without given boundaries: with them, its coordinates would be the numbers of intervals."""
-    return replace(modality, axes=[replace(axis, boundaries=()) for axis in modality.axes])
 
 
 def _in_intervals(nres_map, coordinates):

@@ -6,7 +6,6 @@ from concurrent.futures import CancelledError, ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
-from tqdm import tqdm
 
 from neorl import checks
 from neorl.agents.agent import Agent
@@ -130,8 +129,7 @@ def simulate(agent, world, *, steps, runs, seed=0, changes=(), threads=None, pro
     threads = usable if threads is None else checks.integer("threads", threads, at_least=1)
     rewards, hits = new_bins(world, runs, steps)
     stop, before = threading.Event(), threading.local()
-    with tqdm(total=runs * steps, desc=label(agent), unit="step", unit_scale=True, leave=False,
-              disable=not progress) as bar:
+    with progress_bar(runs * steps, label(agent), progress) as bar:
 
         def each_slice(lived):
             if stop.is_set():
@@ -167,6 +165,13 @@ def live(agent, world, steps, seed, k, changes, rewards, hits, each_slice, after
         if later:
             run.change(later)
     return run
+
+
+def progress_bar(steps, name, shown):
+    """A bar that moves by steps, with the time that is left at the pace so far."""
+    from tqdm import tqdm
+
+    return tqdm(total=steps, desc=name, unit="step", unit_scale=True, leave=False, disable=not shown)
 
 
 def label(agent):

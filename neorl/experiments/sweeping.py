@@ -17,14 +17,12 @@ import warnings
 from concurrent.futures import BrokenExecutor, CancelledError, ThreadPoolExecutor, as_completed
 from typing import NamedTuple
 
-from tqdm import tqdm
-
 from neorl import checks
 from neorl.agents.compile import n_values
 from neorl.experiments.cache import Condition, source_digest
 from neorl.experiments.keeping import Keeper
 from neorl.experiments.run import new_bins
-from neorl.experiments.simulation import label, live, usable_threads
+from neorl.experiments.simulation import label, live, progress_bar, usable_threads
 
 ATTEMPTS = 3
 TASK_STEPS = 100_000  # a tenth of a second of a typical agent's, against a millisecond for handing them over
@@ -75,7 +73,7 @@ def sweep(conditions, executor=None, progress=True, *, workers=None):
                for task in _tasks(condition, missing[condition])]
     total, errors = sum(task.steps for task in waiting), []
     name = label(next(iter(missing)).agent) if len(missing) == 1 else "sweep"
-    with tqdm(total=total, unit="step", unit_scale=True, desc=name, leave=False, disable=not progress) as bar:
+    with progress_bar(total, name, progress) as bar:
         try:
             for _ in range(ATTEMPTS):
                 errors = _run(waiting, executor, workers, keeper, bar) if waiting else []

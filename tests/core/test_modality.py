@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from neorl import Axis, Modality, Scene, WaterWorld, kernel
+from neorl import Axis, Modality, NresMap, Scene, WaterWorld, kernel
 from neorl.core.geometry import TAU, into_margin, turn
 from neorl.core.kernel import execute
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
@@ -249,7 +249,7 @@ def test_a_direction_is_in_the_plane_of_the_first_two_axes():
 def test_vectors_are_tuned_by_cells_of_one_vector_in_worlds_that_have_its_axes():
     with pytest.raises(ValueError, match="X's have axes of several vectors"):
         Modality("X'", PLACE_CELL.axes + HEAD_DIRECTION_CELL.axes).tune([0.1, 0.2])
-    with pytest.raises(ValueError, match=r"vectors has the shape \(1,\), allowed are \(…, 2\) or more"):
+    with pytest.raises(ValueError, match=r"vectors has the shape \(1,\), allowed are \(…, 2\) to \(…, 8\)"):
         HEAD_DIRECTION_CELL.tune([0.1])
 
 
@@ -262,3 +262,10 @@ def test_vectors_of_any_shape_are_tuned_and_those_that_are_not_finite_are_refuse
             OBJECT_VECTOR_CELL.tune(vector)
     with pytest.raises(ValueError, match="vectors has the shape"):
         OBJECT_VECTOR_CELL.tune(0.1)
+
+
+def test_coordinates_along_unequal_intervals_are_coordinates_which_a_map_encodes():
+    modality = Modality("uneven", [Axis("position", boundaries=(0, 0.2, 0.5, 1))])
+    assert modality.tune([[0.3, 0.0], [0.1, 0.0], [0.9, 0.0]]).tolist() == [[0.3], [0.1], [0.9]]
+    assert NresMap(3, modality).encode(modality.tune([[0.3, 0.0], [0.1, 0.0], [0.9, 0.0]])).tolist() == [1, 0, 2]
+    assert modality.coordinates(Scene((0.3, 0.7)), 1.0).tolist() == [[0.3]]

@@ -157,7 +157,7 @@ def test_a_rate_map_is_drawn_as_it_is_with_a_scale():
 
 @pytest.mark.parametrize("look, message", [
     (lambda: drawing.track(5, 1), "run is 5, allowed is a Run"),
-    (lambda: drawing.track(Run(place_cells([2]), TANK), 0), "seconds is 0, allowed are numbers above 0"),
+    (lambda: drawing.track(Run(place_cells([2]), TANK), 0), "seconds is 0, allowed are finite numbers from 1e-30"),
     (lambda: drawing.track(Run(place_cells([2]), TANK), 1e9), r"seconds is 1000000000.0, allowed are at most .* looks"),
     (lambda: drawing.track(Run(place_cells([2]), TANK), 1, index=1), "index is 1"),
     (lambda: drawing.rate_map(np.ones(3)), "track is .*, allowed is a Track"),
