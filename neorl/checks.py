@@ -71,7 +71,7 @@ def positive(name: str, value: Any) -> float:
 def one_of(name: str, value: Any, allowed: Iterable[Kind]) -> Kind:
     """The one of `allowed` that `value` is."""
     for each in allowed:
-        if isinstance(value, type(each)) and value == each:
+        if isinstance(value, type(each)) and type(each).__eq__(each, value) is True:  # whatever a subclass has for it
             return each
     raise ValueError(f"{name} is {shown(value)}, allowed are {', '.join(map(repr, allowed))}")
 

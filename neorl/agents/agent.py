@@ -224,7 +224,9 @@ class Desire(checks.Final):
     signed: bool = True
 
     def __post_init__(self):
-        if not isinstance(self.source, str | Place):
+        if isinstance(self.source, str):
+            checks.assign(self, source=str(self.source))  # and no subclass, such as NumPy's
+        elif not isinstance(self.source, Place):
             point = checks.several("source", self.source)
             checks.assign(self, source=tuple(checks.real("source", value) for value in point))
         checks.instance("target", self.target, str)
