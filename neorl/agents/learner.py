@@ -135,7 +135,7 @@ class Learner(Individual):
                 if len(kinds) != len(offered.kinds):  # which may be too many to look at
                     raise TypeError
                 offered.kinds[:] = [self._numbers[each] for each in kinds]
-            except (KeyError, TypeError):
+            except (KeyError, TypeError, OverflowError):
                 raise ValueError(f"scene.kinds is {checks.shown(kinds)}, allowed are {len(offered.kinds)} of "
                                  f"{', '.join(map(repr, self._numbers))}") from None
             if _is_empty(met):
