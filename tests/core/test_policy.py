@@ -36,7 +36,7 @@ def test_the_exponential_function_equals_that_of_the_library(x):
     assert abs(execute(exponential, x) - math.exp(x)) <= 4 * math.ulp(math.exp(x))
 
 
-@pytest.mark.parametrize("x", [-700.0, -1e30, -math.inf, math.nan])
+@pytest.mark.parametrize("x", [-700.0, -1e300, -math.inf, math.nan])
 def test_what_is_next_to_nothing_is_nothing(x):
     assert execute(exponential, x) == 0.0
 
@@ -53,7 +53,7 @@ def test_softmax_draws_equal_values_equally_often():
     assert drawn(softmax(0.5), [3.0], draws=10).tolist() == [1.0]
 
 
-@pytest.mark.parametrize("value", [[1e308, -1e308, 1e308], [-1e308, -1.7e308, -1e308], [1e30, 1e299, 1e300]])
+@pytest.mark.parametrize("value", [[1e308, -1e308, 1e308], [-1e308, -1.7e308, -1e308], [1e300, 1e299, 1e300]])
 def test_softmax_of_huge_values_draws_from_the_highest(value):
     assert_shares(drawn(softmax(1.0), value), [0.5, 0.0, 0.5])
 
