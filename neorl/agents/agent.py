@@ -295,8 +295,8 @@ class Agent(checks.Final):
         inputs = {other.source for other in self.desires if other.target == desire.source}
         for source in desire.of:
             if source not in inputs:
-                raise ValueError(f"desire {desire}: {source!r} is no element of the node {desire.source!r}, allowed are "
-                                 f"{', '.join(repr(each) for each in inputs) or 'none'}")
+                raise ValueError(f"desire {desire}: {source!r} is no element of the node {desire.source!r}, allowed "
+                                 f"are {', '.join(map(repr, inputs)) or 'none'}")
 
     def comes_from_node(self, desire: Desire) -> bool:
         """Whether a `Desire` comes from a node, and not from something in the world.
