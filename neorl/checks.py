@@ -9,6 +9,7 @@ import numbers
 import operator
 import os
 import reprlib
+import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
@@ -71,7 +72,7 @@ def positive(name: str, value: Any) -> float:
 def one_of(name: str, value: Any, allowed: Iterable[Kind]) -> Kind:
     """The one of `allowed` that `value` is."""
     for each in allowed:
-        if isinstance(value, type(each)) and value == each:
+        if isinstance(value, type(each)) and type(each).__eq__(each, value) is True:  # whatever a subclass has for it
             return each
     raise ValueError(f"{name} is {shown(value)}, allowed are {', '.join(map(repr, allowed))}")
 
@@ -91,15 +92,15 @@ def flag(name: str, value: Any) -> bool:
     return one_of(name, bool(value) if isinstance(value, np.bool) else value, (True, False))
 
 
-def finite(name: str, array: NDArray) -> NDArray:
-    """`array`, if every number in it is from −`LARGEST` to `LARGEST`."""
-    if np.all(np.abs(array) <= LARGEST):
+def finite(name: str, array: NDArray, at_most: float = LARGEST) -> NDArray:
+    """`array`, if every number in it is from −`at_most` to `at_most`."""
+    if np.all(np.abs(array) <= at_most):
         return array
-    raise ValueError(f"{name} is {shown(array)}, allowed are finite numbers from {-LARGEST:g} to {LARGEST:g}")
+    raise ValueError(f"{name} is {shown(array)}, allowed are finite numbers from {-at_most:g} to {at_most:g}")
 
 
-def doubles(name: str, values: Any) -> NDArray[np.float64]:
-    """`values` as a new array of doubles, if they are numbers, finite and in lists of equal lengths."""
+def doubles(name: str, values: Any, at_most: float = LARGEST) -> NDArray[np.float64]:
+    """`values` as a new array of doubles, if they are finite numbers, in lists of equal lengths."""
     try:
         if isinstance(values, range) and not _is_short(values):
             raise ValueError
@@ -111,12 +112,12 @@ def doubles(name: str, values: Any) -> NDArray[np.float64]:
     if array.dtype.kind not in "fiub":
         raise ValueError(f"{name} is {shown(values)}, allowed are numbers, in lists of equal lengths")
     with np.errstate(over="ignore"):  # longer numbers than doubles, which are infinite then
-        return finite(name, np.array(array, float, order="C"))
+        return finite(name, np.array(array, float, order="C"), at_most)
 
 
 def points(name: str, values: Any, axes: Sequence[str]) -> NDArray[np.float64]:
     """`values` as an array (…, axes) of doubles, if they are finite and have a coordinate for each of the axes."""
-    array = doubles(name, values)
+    array = doubles(name, values, sys.float_info.max)  # beyond the range of a map they are in the cell at its end
     if array.ndim == 0 or array.shape[-1] != len(axes):
         raise ValueError(f"{name} has the shape {array.shape}, allowed are (…, {len(axes)}): {', '.join(axes)}")
     return array

@@ -145,7 +145,7 @@ def altered_array(draw, value):
         warnings.simplefilter("ignore")
         try:
             return draw(st.sampled_from(forms))(value)
-        except (ValueError, TypeError):
+        except (ValueError, TypeError, IndexError):
             return None
 
 

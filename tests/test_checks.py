@@ -22,6 +22,13 @@ class Unprintable:
         raise RuntimeError("no repr")
 
 
+class Unequal(str):
+    def __eq__(self, other):
+        return np.array([True, False])
+
+    __hash__ = str.__hash__
+
+
 def learner():
     return Learner(place_cells([3]), 1, ("green", "red"))
 
@@ -46,6 +53,7 @@ def state_with(**fields):
     (lambda: checks.integer("x", 10**5000, 0, 9), "x is a value of type int, allowed are integers from 0 to 9"),
     (lambda: checks.integer("x", Unprintable(), 0), "x is <Unprintable instance at .*>, allowed are integers ≥ 0"),
     (lambda: checks.one_of("x", np.array(["a"]), ("a", "b")), "x is array.*, allowed are 'a', 'b'"),
+    (lambda: checks.one_of("x", Unequal("c"), ("a", "b")), "x is 'c', allowed are 'a', 'b'"),
     (lambda: checks.several("x", range(2**80)), "x is range.*, allowed are 1048576 values or fewer"),
     (lambda: checks.several("x", np.broadcast_to(0.0, (10**12,))), "allowed are 1048576 values or fewer"),
     (lambda: checks.doubles("x", ["1.5"]), "x is .*, allowed are numbers, in lists of equal lengths"),
@@ -96,6 +104,8 @@ def state_with(**fields):
     (lambda: learner().begin(scene(things=5)), "scene.things is 5, allowed are numbers of the shape"),
     (lambda: learner().begin(scene(kinds=None)), "scene.kinds is None, allowed are 1 of"),
     (lambda: learner().begin(scene(met=[np.nan])), "scene.met is .*nan.*, allowed are finite numbers"),
+    (lambda: learner().begin(scene(met=np.array(5))), "scene.met is array.5., allowed are numbers of the shape"),
+    (lambda: learner().begin(scene(met=np.array([2**70, 0], object))), "scene.met is .*, allowed are numbers"),
     (lambda: WORLD.step(state_with(direction=np.full((2, 2), 2.0)), 0), "state.direction is .*, allowed are vectors"),
     (lambda: WORLD.step(state_with(jitter=np.full(2, 1e300)), 0), "state.jitter is .*, allowed are"),
     (lambda: WORLD.step(state_with(speed=np.full(2, 1e308)), 0), "state.speed is .*, allowed are finite numbers"),

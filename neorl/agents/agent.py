@@ -227,7 +227,9 @@ class Desire(checks.Final):
     signed: bool = True
 
     def __post_init__(self):
-        if not isinstance(self.source, str | Place):
+        if isinstance(self.source, str):
+            checks.assign(self, source=str(self.source))  # and no subclass, such as NumPy's
+        elif not isinstance(self.source, Place):
             point = checks.several("source", self.source)
             checks.assign(self, source=tuple(checks.real("source", value) for value in point))
         elif isinstance(self.source, str):
@@ -298,7 +300,8 @@ class Agent(Described, checks.Final):
         inputs = {other.source for other in self.desires if other.target == desire.source}
         for source in desire.of:
             if source not in inputs:
-                raise ValueError(f"desire {desire}: {source!r} is no element of the node {desire.source!r}")
+                raise ValueError(f"desire {desire}: {source!r} is no element of the node {desire.source!r}, allowed "
+                                 f"are {', '.join(map(repr, inputs)) or 'none'}")
 
     def comes_from_node(self, desire: Desire) -> bool:
         """Whether a `Desire` comes from a node, and not from something in the world.

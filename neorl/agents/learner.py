@@ -135,7 +135,7 @@ class Learner(Individual):
                 if len(kinds) != len(offered.kinds):  # which may be too many to look at
                     raise TypeError
                 offered.kinds[:] = [self._numbers[each] for each in kinds]
-            except (KeyError, TypeError):
+            except (KeyError, TypeError, OverflowError):
                 raise ValueError(f"scene.kinds is {checks.shown(kinds)}, allowed are {len(offered.kinds)} of "
                                  f"{', '.join(map(repr, self._numbers))}") from None
             if _is_empty(met):
@@ -178,7 +178,7 @@ def accept(offer: Offer, scene: Scene) -> bool:
 
 
 def _is_empty(given):
-    return isinstance(given, tuple | list | np.ndarray) and len(given) == 0
+    return given.size == 0 if isinstance(given, np.ndarray) else isinstance(given, tuple | list) and not given
 
 
 def _put(name, mine, given):
@@ -188,6 +188,8 @@ def _put(name, mine, given):
         values = np.array(None)
     if values.shape != mine.shape or values.dtype.kind not in "fiub":
         raise ValueError(f"scene.{name} is {checks.shown(given)}, allowed are numbers of the shape {mine.shape}")
-    if values.dtype.itemsize > 8 or values.dtype.kind == "f" and mine.dtype.kind != "f":
+    if values.dtype.itemsize > 8:
         values = checks.doubles(f"scene.{name}", values)  # so that no number is cut off
+    if mine.dtype.kind == "i" and values.dtype.kind in "fu":
+        values = checks.doubles(f"scene.{name}", values) != 0
     mine[...] = values

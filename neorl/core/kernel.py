@@ -179,7 +179,7 @@ def kernel_maker(function: Callable) -> Any:
 def execute(kernel, *arguments):
     """Call a kernel from Python. Raises TypeError for one that is only inlined into others."""
     if not isinstance(kernel, Kernel):
-        with np.errstate(over="ignore"):  # as in the compiled code, where streams of random numbers overflow
+        with np.errstate(all="ignore"):  # as in the compiled code, where streams of random numbers overflow
             return kernel(*arguments)
     if "no_cpython_wrapper" in kernel.options:
         raise TypeError(f"{kernel.__module__}.{kernel.__name__} is only inlined into other kernels")

@@ -85,7 +85,7 @@ class Axis(checks.Final):
                      closed=checks.flag("closed", self.closed) or self.is_direction)
         if self.intervals is not None:
             checks.assign(self, intervals=checks.integer("intervals", self.intervals, 1, MOST_CELLS))
-        if self.high - self.low < checks.SMALLEST:
+        if self.low >= self.high or not np.isfinite(MOST_CELLS / (self.high - self.low)):
             raise ValueError(f"low is {self.low!r}, allowed are numbers below high, here {self.high!r}")
         if self.feature == "margin" and (self.of != "position" or not 0 < self.high <= 0.5):
             raise ValueError(f"a margin of {self.high!r} of {self.of!r}: allowed are margins of a position, up to 0.5")
@@ -212,8 +212,8 @@ class Modality(checks.Final):
         if any(axis.of != self.follows for axis in self.axes):
             raise ValueError(f"{self.name}s have axes of several vectors, allowed are modalities with one")
         if vectors.ndim == 0 or not self.least_axes <= vectors.shape[-1] <= MOST_AXES:
-            raise ValueError(f"vectors has the shape {vectors.shape}, allowed are (…, {self.least_axes}) to "
-                             f"(…, {MOST_AXES})")
+            raise ValueError(f"vectors has the shape {vectors.shape}, allowed are (…, {self.least_axes}) or more, "
+                             f"{MOST_AXES} axes at most")
         self.check_axes(vectors.shape[-1])
         n_axes = vectors.shape[-1]
         found = np.zeros((*vectors.shape[:-1], len(self.axes)))

@@ -71,13 +71,13 @@ def test_there_is_no_map_before_the_first_or_after_the_last(run, index):
 
 @pytest.mark.parametrize("make", [lambda: NresMap(4 * 10**9), lambda: place_cells([65_536]), lambda: NresMap(46_341)])
 def test_a_map_of_more_cells_than_can_be_counted_is_refused(make):
-    with pytest.raises(ValueError, match="resolution is .*, allowed are maps of at most 2147483647 cells"):
+    with pytest.raises(ValueError, match="resolution is .*, allowed are .* 2147483647"):
         make()
 
 
 def test_an_agent_that_does_not_fit_into_memory_is_refused_by_a_run_and_by_a_change(run):
     large = place_cells([2_000])
-    with pytest.raises(MemoryError, match="a run of this agent needs 238418.6 GiB of memory"):
+    with pytest.raises(MemoryError, match="a run of this agent needs 238418.9 GiB of memory"):
         Run(large, TANK)
     with pytest.raises(MemoryError, match="a run of this agent needs"):
         run.change(large)
