@@ -333,7 +333,8 @@ def write_claims():
 def build():
     """Build the book, with warnings as errors, and put it in the place of the last one."""
     record = BUILT / "inputs.txt"
-    wanted = digest([ROOT / "_config.yml", ROOT / "environment.txt", *sources(), *files(ROOT / "book")])
+    settings = [ROOT / name for name in ("_config.yml", "pyproject.toml", "environment.txt")]
+    wanted = digest([*settings, *sources(), *files(ROOT / "book")])
     if HTML.exists() and record.exists() and record.read_text() == wanted:
         return
     record.unlink(missing_ok=True)

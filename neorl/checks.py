@@ -131,6 +131,16 @@ def instance(name: str, value: Any, kind: type[Kind]) -> Kind:
     raise ValueError(f"{name} is {shown(value)}, allowed is {article} {kind.__name__}")
 
 
+def plain(value):
+    """A number as Python's own, such as one of NumPy's, an array of no axis or a fraction; anything else as it is."""
+    if isinstance(value, np.generic | np.ndarray) and value.ndim == 0:
+        return value.item()
+    try:
+        return float(value) if isinstance(value, numbers.Real) and not isinstance(value, int | float) else value
+    except OverflowError:
+        return value
+
+
 def scalar(value):
     """The number that an array of no axis holds, or anything else as it is."""
     return value[()] if isinstance(value, np.ndarray) and value.ndim == 0 else value

@@ -44,7 +44,7 @@ FOR_AUTHORS = {f"neorl.{name}" for name in (
         "Modality.check_axes", "as_radians", "as_turns", "axis_parameters", "firsts", "integers", "space_of")),
     *(f"evidence.statistics.{name}" for name in (  # what `estimate` calls
         "difference", "lead_over_best", "lead_over_sum", "least_of_most", "quotient", "rank_correlation", "ratio")),
-    "core.scene.checked_scene", "worlds.world.check_arrays")}
+    "agents.papers.paper_agent", "core.kernel.jit_is_off", "core.scene.checked_scene", "worlds.world.check_arrays")}
 
 
 def public_names():
@@ -135,6 +135,7 @@ SCENES = st.sampled_from([SCENE, SCENE._replace(velocity=None, met=()), Scene(
     np.array([0.5, 0.5]), np.zeros(2), np.ones((2, 2)), np.array([0, 1]), np.array([True, False]))])
 BOARD, POOL = WaterWorld(n_creeps=2), Arena()
 RESULT = result_of(WaterWorld(win_reward=5.0))
+CONDITION = Condition(neorl.place_cells([2]), BOARD, 40, 1)
 SAMPLE = np.array([0.1, 0.5, 0.2, 0.9])
 CURVES = np.random.default_rng(0).normal(size=(5, 60))
 COUNTS = [1.0, 0.5, 0]
@@ -146,6 +147,8 @@ q = st.sampled_from([0.0, 0.5]).map(lambda value: np.full((4, 2, 4), value, np.f
 states = st.integers(0, 5).map(BOARD.reset)
 agents = st.sampled_from([neorl.place_cells([3]), neorl.network_d([2])])
 paths = st.sampled_from(["run.npz"]).map(lambda name: str(pathlib.Path(tempfile.gettempdir()) / name))
+described_paths = st.sampled_from(["value.json", "value.toml"]).map(
+    lambda name: str(pathlib.Path(tempfile.gettempdir()) / name))
 of_paper = {"learning": [Learning()], "policy": [Policy()], "own_cell": ["counts", "silent"], "weighting": ["cells"],
             "tiled_fraction": st.floats(0.1, 2), "object_tiled_fraction": st.floats(0.1, 2)}
 
@@ -197,6 +200,14 @@ def saved(path):
     run = Run(neorl.place_cells([3]), BOARD)
     run.save(path)
     return Run.load(path).step
+
+
+def saved_as(value):
+    def save(path):
+        value.save(path)
+        return type(value).load(path)
+
+    return save
 
 
 def make_with(function):
@@ -339,6 +350,18 @@ TABLE = {
            "save": entry(saved, path=paths, errors=(OSError,)),
            "load": entry(Run.load, path=paths, errors=(OSError,)),
        }.items()},
+    **{f"neorl.{where}.{kind.__name__}.{name}": each for kind, value, where in (
+        (Agent, neorl.network_d([2]), "agents.agent"), (Condition, CONDITION, "experiments.cache"),
+        (Arena, Arena(), "worlds.arena"), (WaterWorld, BOARD, "worlds.waterworld"),
+        (world.World, BOARD, "worlds.world"))
+       for name, each in {
+           "from_dict": entry(kind.from_dict, data=[{"is": type(value).__name__} | value.to_dict()], then=identity,
+                              also=("is", *value.to_dict())),
+           "save": entry(saved_as(value), path=described_paths, errors=(OSError,)),
+           "load": entry(kind.load, path=described_paths, errors=(OSError,)),
+       }.items()},
+    "neorl.experiments.simulation.Result.save": entry(saved_as(RESULT), path=paths, errors=(OSError,)),
+    "neorl.experiments.simulation.Result.load": entry(Result.load, path=paths, errors=(OSError,)),
     "neorl.experiments.run.Run": entry(
         lambda **each: Run(**each).advance(40), agent=agents, world=[BOARD], seed=seeds, run=st.integers(0, 9),
         after=st.builds(lambda: Run(neorl.place_cells([3]), BOARD))),
@@ -353,7 +376,7 @@ TABLE = {
         steps=st.integers(1, 60), runs=st.integers(1, 2), seed=seeds,
         changes=[(), [(20, neorl.place_cells([2]))]], threads=[None, 1],
         progress=[False], also=("change",)),
-    "neorl.experiments.cache.simulate_once": entry(
+    "neorl.experiments.sweeping.simulate_once": entry(
         neorl.simulate_once, long=("steps", "runs"), agent=agents, world=[BOARD], steps=[60], runs=[1],
         seed=[0], changes=[()], progress=[False]),
     "neorl.experiments.cache.Condition": entry(

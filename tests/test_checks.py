@@ -129,7 +129,7 @@ def test_numbers_of_numpy_and_arrays_of_no_axis_are_numbers():
     assert checks.real("x", np.array(0.5)) == checks.real("x", np.float32(0.5)) == 0.5
     assert checks.integer("x", np.array(5), 0) == checks.integer("x", np.uint8(5), 0) == 5
     assert checks.flag("x", np.array(True)) is True
-    assert softmax(np.array(2.0)) is softmax(temperature=2.0) is softmax(2)
+    assert softmax(np.array(2.0)) is softmax(temperature=2.0) is softmax(np.float64(2))
 
 
 def test_zero_has_no_sign_so_that_equal_values_have_equal_keys():

@@ -7,15 +7,16 @@ beyond belongs to the outermost ones. `object_tiled_fraction` is that of object-
 Every function raises ValueError for what `Agent` and its parts refuse, and TypeError for a choice that there is not.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import fields, replace
 from inspect import Parameter, signature
-from typing import Any, get_type_hints
+from typing import Any, TypeVar, get_type_hints
 
 from neorl import checks
 from neorl.agents.agent import Agent, Desire, Learning, Node, Policy
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL
 
+Maker = TypeVar("Maker", bound=Callable[..., Agent])
 LAYERS = (3, 7, 23)  # the resolutions of paper A's last experiment, and of paper C as its figures have them
 PRIMES = (2, 3, 5, 7, 11, 13)  # the resolutions of paper B
 TILED_FRACTION = 1.0
@@ -24,12 +25,13 @@ CHOICES = (*OF_NODES, *(each.name for each in fields(Agent)[2:]))
 HINTS = get_type_hints(Agent)
 
 
-def paper_agent(function):
+def paper_agent(function: Maker) -> Maker:
     """Mark a function as one that a file may name for an agent (`neorl.core.description`)."""
     own = list(signature(function).parameters.values())
     names = [each.name for each in own if each.kind is not Parameter.VAR_KEYWORD]
     names += CHOICES if len(names) < len(own) else ()
-    function.makes, function.takes = Agent, {name: (HINTS.get(name, object), None) for name in names}
+    made: Any = function
+    made.makes, made.takes = Agent, {name: (HINTS.get(name, object), None) for name in names}
     return function
 
 

@@ -15,13 +15,16 @@ import difflib
 import functools
 import importlib
 import json
+from collections.abc import Mapping
 from dataclasses import MISSING, fields, is_dataclass
+from os import PathLike
 from pathlib import Path
 from types import UnionType
-from typing import Any, Union, get_args, get_origin, get_type_hints
+from typing import Any, Self, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
+from neorl import checks
 from neorl.core.identity import name_of
 from neorl.core.modality import MODALITIES
 from neorl.extras import require
@@ -34,7 +37,7 @@ PLAIN = {bool: "true or false", int: "an integer", float: "a number", str: "a te
 class Described:
     """A frozen dataclass whose values can be written as plain data, and read again to an equal value of equal key."""
 
-    def to_dict(self):
+    def to_dict(self) -> dict[str, Any]:
         """The value as plain data, see `neorl.core.description`.
 
         Raises ValueError for what no name finds again, such as a kernel within a function, and what is no plain data.
@@ -42,8 +45,10 @@ class Described:
         return described(self)
 
     @classmethod
-    def from_dict(cls, data):
-        """The value that plain data describe, as `to_dict` gives them; what has a default may be left out.
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """The value that plain data describe.
+
+        data: as `to_dict` gives them; what has a default may be left out.
 
         Raises ValueError for anything else, with the path to it, such as "nodes[0].resolutions is (), …".
         """
@@ -52,18 +57,19 @@ class Described:
         except RecursionError:
             raise ValueError("the data are nested too deeply") from None
 
-    def save(self, path):
-        """Write the value to a file, path: a name that ends in .toml, which needs the package tomli-w, or .json.
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the value to a file.
 
+        path: a name that ends in .toml, which needs the package tomli-w, or .json.
         Raises ValueError for another name, and for what `to_dict` refuses.
         """
         write_data(path, self.to_dict())
 
     @classmethod
-    def load(cls, path):
-        """The value that a file describes, path: a name that ends in .toml or .json.
+    def load(cls, path: str | PathLike[str]) -> Self:
+        """The value that a file describes.
 
-        Raises OSError if there is no such file, ValueError for what `from_dict` refuses.
+        path: a name that ends in .toml or .json. Raises OSError if there is no such file, ValueError for what `from_dict` refuses.
         """
         data = read_data(path)
         try:
@@ -84,7 +90,7 @@ def read_data(path):
         raise ValueError(f"{path} is not written in {suffix[1:].upper()}: {error}") from error
     if isinstance(data, dict):
         return data
-    raise ValueError(f"{path} holds {data!r}, allowed is a table of fields")
+    raise ValueError(f"{path} holds {checks.shown(data)}, allowed is a table of fields")
 
 
 def write_data(path, data):
@@ -100,9 +106,10 @@ def write_data(path, data):
 
 
 def _suffix(path):
-    if Path(path).suffix in SUFFIXES:
-        return Path(path).suffix
-    raise ValueError(f"path is {str(path)!r}, allowed are names that end in {' or '.join(SUFFIXES)}")
+    suffix = checks.path("path", path).suffix
+    if suffix in SUFFIXES:
+        return suffix
+    raise ValueError(f"path is {checks.shown(path)}, allowed are names that end in {' or '.join(SUFFIXES)}")
 
 
 def described(value, expected=object, path=""):
@@ -123,8 +130,8 @@ def described(value, expected=object, path=""):
         return {"kernel": _name(origin, path)} | ({} if arguments is None else {"of": described(arguments)})
     if type(value) in PLAIN:
         return value
-    raise ValueError(f"{path or 'the value'} is {value!r}, which cannot be saved, allowed are Python's own numbers, "
-                     "texts, tuples, dataclasses and kernels")
+    raise ValueError(f"{path or 'the value'} is {checks.shown(value)}, which cannot be saved, allowed are Python's own "
+                     "numbers, texts, tuples, dataclasses and kernels")
 
 
 def restored(data, expected=object, path=""):
@@ -152,9 +159,9 @@ def _instance(data, expected, path):
         if name != "is" and name not in taken:
             raise ValueError(f"{_at(path, name)} is unknown, {_nearest(name, taken)}allowed are {', '.join(taken)}")
     values = {name: restored(data[name], taken[name][0], _at(path, name)) for name in taken if name in data}
-    for name, (_, default) in taken.items():
+    for name, (hint, default) in taken.items():
         if default is MISSING and name not in data:
-            raise ValueError(f"{_at(path, name)} is missing")
+            raise ValueError(f"{_at(path, name)} is missing, allowed is {_words(hint)}")
     try:
         made = getattr(kind, "of_fields", kind)(**values)
     except (ValueError, TypeError) as error:
@@ -175,13 +182,13 @@ def _kind(data, expected, path):
         if len(dataclasses) == 1:
             return dataclasses[0]
         if not options:
-            raise ValueError(f"{path} is {data!r}, allowed is {allowed}")
+            raise ValueError(f"{path} is {checks.shown(data)}, allowed is {allowed}")
         raise ValueError(f"{_at(path, 'is')} is missing, allowed is the name of a kind of {allowed}")
     kind = _found(data["is"], _at(path, "is"))
     made = getattr(kind, "makes", kind)
     if isinstance(made, type) and is_dataclass(made) and issubclass(made, tuple(options)):
         return kind
-    raise ValueError(f"{_at(path, 'is')} is {data['is']!r}, allowed is the name of a kind of {allowed}")
+    raise ValueError(f"{_at(path, 'is')} is {checks.shown(data['is'])}, allowed is the name of a kind of {allowed}")
 
 
 def _kernel(data, path):
@@ -192,11 +199,12 @@ def _kernel(data, path):
     if "of" not in data:
         return found
     if not getattr(found, "makes_kernels", False):  # a file may name any function
-        raise ValueError(f"{_at(path, 'kernel')} is {data['kernel']!r}, allowed with of is a neorl.kernel_maker")
+        raise ValueError(f"{_at(path, 'kernel')} is {checks.shown(data['kernel'])}, allowed with of is a "
+                         "neorl.kernel_maker")
     try:
         return found(*restored(data["of"], object, _at(path, "of")))
     except (ValueError, TypeError) as error:
-        raise ValueError(f"{_at(path, 'of')} is {data['of']!r}: {error}") from error
+        raise ValueError(f"{_at(path, 'of')} is {checks.shown(data['of'])}: {error}") from error
 
 
 def _constant(name, options, path):
@@ -218,7 +226,7 @@ def checked(value, hint, path=""):
         for i, (each, inner) in enumerate(_members(value, hint) if isinstance(value, tuple | list) else ()):
             checked(each, inner, f"{path}[{i}]")
         return value
-    raise ValueError(f"{path or 'data'} is {value!r}, allowed is {_words(hint)}")
+    raise ValueError(f"{path or 'data'} is {checks.shown(value)}, allowed is {_words(hint)}")
 
 
 def _is_of(value, option):
@@ -282,8 +290,8 @@ def _name(value, path):
                 return name
         except ValueError:
             continue
-    raise ValueError(f"{path or 'the value'} is {value!r}, which cannot be saved, allowed are kernels that a module "
-                     "defines or that a neorl.kernel_maker has made, and classes that a module defines")
+    raise ValueError(f"{path or 'the value'} is {checks.shown(value)}, which cannot be saved, allowed are kernels that "
+                     "a module defines or that a neorl.kernel_maker has made, and classes that a module defines")
 
 
 def _found(name, path):

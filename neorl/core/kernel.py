@@ -162,8 +162,7 @@ def kernel_maker(function: Callable) -> Any:
     def make(*arguments, **by_name):
         given = signature.bind(*arguments, **by_name)
         given.apply_defaults()
-        values = tuple(each.item() if isinstance(each, np.generic | np.ndarray) and each.ndim == 0 else each
-                       for each in given.args)
+        values = tuple(map(checks.plain, given.args))
         try:
             hash(values)
         except TypeError:

@@ -192,7 +192,8 @@ def _first(made, ends, never):
 def minutes_sooner(quick: Results, slow: Results, level: float) -> Estimate:
     """By how many simulated minutes the runs of `quick` earn a level sooner than those of `slow`, as an `Estimate`.
 
-    quick, slow: a `Result` each, or a sequence of them, of runs of one length, whose rewards add up. level: reward per
+    quick, slow: a `Result` each, or a sequence of them, of runs of one length, whose
+    rewards add up. level: reward per
     second. It is earned when the mean over runs in the fortieth of the run just past first reaches it, to about a
     two-hundredth of the run; where it is never earned, that counts as the whole run.
     Raises ValueError for anything else.
@@ -202,7 +203,7 @@ def minutes_sooner(quick: Results, slow: Results, level: float) -> Estimate:
     for name, group in zip(("quick", "slow"), groups):
         for result in group:
             checks.instance(name, result, Result)
-        if len({(result.steps, result.world.fps) for result in (*groups[0], *group)}) != 1 or not group:
+        if len({(result.steps, result.world.fps) for result in group}) != 1:
             raise ValueError(f"{name} has {len(group)} results, allowed are one or more, all of runs of one length")
     thinned = [[_thinned(*_recent_rates(result)) for result in group] for group in groups]
 

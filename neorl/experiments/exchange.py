@@ -71,11 +71,13 @@ def to_xarray(result):
 
 def save(result, path):
     """See `neorl.Result.save`."""
-    write_arrays(path, "Result", about(result), {"rewards": result.rewards, "hits": result.hits}, np.savez_compressed)
+    arrays = {"rewards": result.rewards, "hits": result.hits}
+    write_arrays(checks.path("path", path), "Result", about(result), arrays, np.savez_compressed)
 
 
 def load(path):
     """The fields of the `neorl.Result` in a file, see `neorl.Result.load`."""
+    path = checks.path("path", path)
     known, arrays = read_arrays(path, "Result")
     try:
         fields = {name: checked(restored(known.get(name), kind, name), kind, name)

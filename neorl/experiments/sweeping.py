@@ -61,7 +61,7 @@ def sweep(conditions, executor=None, progress=True, *, workers=None):
     for condition in conditions:
         checks.instance("condition", condition, Condition)
     if not hasattr(executor, "submit") and executor is not None:
-        raise ValueError(f"executor is {executor!r}, allowed are executors of concurrent.futures and None")
+        raise ValueError(f"executor is {checks.shown(executor)}, allowed are executors of concurrent.futures and None")
     if workers is not None:
         checks.integer("workers", workers, at_least=1)
         if executor is not None:

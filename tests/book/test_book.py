@@ -54,7 +54,8 @@ def test_a_notebook_opens_from_the_repository_that_is_set(make_book):
 
 def test_without_a_repository_there_are_no_buttons_and_docstrings_become_lists_with_links(make_book):
     page, reference = make_book(modules=["neorl.agents.individual", "neorl.experiments.run",
-                                         "neorl.experiments.simulation", "neorl.experiments.cache"])
+                                         "neorl.experiments.simulation", "neorl.experiments.cache",
+                                         "neorl.experiments.sweeping"])
     assert "mybinder" not in page and "colab" not in page and "fa-github" not in page
     text = re.sub(r"<[^>]+>", "", reference)
     assert "Raises" in text and "ValueError" in text

@@ -4,10 +4,14 @@ import re
 import sys
 from pathlib import Path
 
+import matplotlib.pyplot as plt
+import pytest
+
 from neorl.evidence.claims import VERDICTS
 from neorl.evidence.report import NOT_COMPUTED, OPEN, in_short
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 
+EXAMPLES = re.compile(r"```python\n(.*?)```", re.DOTALL)
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "book"))
 import readme  # noqa: E402
@@ -28,3 +32,16 @@ def test_the_table_is_written_between_its_marks_and_nothing_else_is_touched():
     table = in_short({"claims": {}, "letter": {}, "shares": {}})
     assert readme.BETWEEN.sub(lambda _: table, text) == (
         f"before\n<!-- claims: make readme -->\n{table}<!-- end of claims -->\nafter | \\1\n")
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning:distributed", "ignore::ResourceWarning")
+def test_every_example_prints_what_stands_behind_its_arrow(tmp_path, monkeypatch, capsys):
+    names = {}
+    monkeypatch.chdir(tmp_path)
+    examples = EXAMPLES.findall((ROOT / "README.md").read_text(encoding="utf-8"))
+    for example in examples:
+        exec(example, names)
+    plt.close("all")
+    promised = re.findall(r"print\(.*# → (.*)", "\n".join(examples))
+    assert capsys.readouterr().out.splitlines() == promised
+    assert len(promised) == "\n".join(examples).count("print(")

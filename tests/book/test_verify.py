@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from neorl import Condition, Policy, WaterWorld, files, kernel, multimodal, place_cells, simulate_once
+from neorl import Condition, Policy, WaterWorld, files, kernel, multimodal, place_cells, simulate, simulate_once
 from neorl.experiments import cache
 from neorl.experiments import kept as kept_files
 from neorl.experiments.kept import conditions
@@ -58,7 +58,7 @@ def test_what_no_condition_of_the_present_source_is_kept_in_is_passed_over(kept,
         return 0
 
     own = Condition(place_cells([3], policy=Policy(choose=first)), WaterWorld(), 50, 1)
-    cache.save(own, replace(kept[0], **own.choices))
+    cache.save(own, simulate(**own.choices, progress=False))
     assert own.path.exists() and cache.load(own) is not None
     assert sorted(conditions(), key=KEPT.index) == KEPT
     monkeypatch.setattr(kept_files, "source_digest", lambda: "another source")

@@ -2,7 +2,6 @@
 
 import re
 
-import numba
 import numpy as np
 import pytest
 

@@ -44,7 +44,7 @@ def assert_whole(result, condition):
 
 
 def kept(cache_folder, folder):
-    return sorted(path.name for path in (cache_folder / folder).glob("*"))
+    return sorted(path.name for path in (cache_folder / folder).glob("[!.]*"))
 
 
 def interrupt_after(monkeypatch, count):

