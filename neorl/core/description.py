@@ -69,7 +69,8 @@ class Described:
     def load(cls, path: str | PathLike[str]) -> Self:
         """The value that a file describes.
 
-        path: a name that ends in .toml or .json. Raises OSError if there is no such file, ValueError for what `from_dict` refuses.
+        path: a name that ends in .toml or .json.
+        Raises OSError if there is no such file, ValueError for what `from_dict` refuses.
         """
         data = read_data(path)
         try:
