@@ -45,4 +45,6 @@ def test_reports_name_what_they_compare():
     assert report.same_bits("Values", np.ones(3), np.ones(3)) == "Values: the same to the last bit."
     assert report.same_bits("Values", np.ones(3), np.zeros(3)) == "Values: not the same."
     assert "neoRL 0.10 m, random 0.50 m" in report.distances({"neoRL": np.full(10, 0.1), "random": np.full(10, 0.5)})
-    assert "42 times and one without 7 times" in report.transfer(42.0, 7.0, 20_000)
+    assert report.transfer([(9, 5), (40, 7), (2, 8)], 20_000) == (
+        "In 20,000 steps agents with the values of another earned 9 (median), and those without 7; the former earned "
+        "more in 2 of 3 runs.")

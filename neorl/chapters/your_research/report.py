@@ -12,10 +12,12 @@ def last_fifth(results, unit="reward per second"):
     return "\n".join(rows)
 
 
-def transfer(taught, new, steps):
-    """A sentence on what an agent earns with and without what another has learned: rewards of as many steps each."""
-    return (f"In {steps:,} steps at the new place, the agent with the old values found the platform {taught:.0f} times "
-            f"and one without {new:.0f} times.")
+def transfer(found, steps):
+    """A sentence on what agents earn with and without what others have learned: [(with, without), …] a run each."""
+    taught, new = np.median(found, axis=0)
+    better = sum(one > other for one, other in found)
+    return (f"In {steps:,} steps agents with the values of another earned {taught:.0f} (median), and those without "
+            f"{new:.0f}; the former earned more in {better} of {len(found)} runs.")
 
 
 def same_bits(name, one, other):
