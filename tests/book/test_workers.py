@@ -73,7 +73,8 @@ subprocess.run([sys.executable, "-c", code], start_new_session=True)
 """)
     program = (f"import sys; sys.path.insert(0, {str(BOOK)!r}); import workers\n"
                f"workers.work({{'w': workers.Task(({str(tmp_path / 'worker.py')!r},))}}, 1, print)")
-    starter = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+    starter = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                               preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
     assert starter.stdout.readline() == b"up\n"
     offspring = psutil.Process(starter.pid).children(recursive=True)
     assert len(offspring) == 2

@@ -249,7 +249,7 @@ def test_a_direction_is_in_the_plane_of_the_first_two_axes():
 def test_vectors_are_tuned_by_cells_of_one_vector_in_worlds_that_have_its_axes():
     with pytest.raises(ValueError, match="X's have axes of several vectors"):
         Modality("X'", PLACE_CELL.axes + HEAD_DIRECTION_CELL.axes).tune([0.1, 0.2])
-    with pytest.raises(ValueError, match=r"vectors has the shape \(1,\), allowed are \(…, 2\) to \(…, 8\)"):
+    with pytest.raises(ValueError, match=r"vectors has the shape \(1,\), allowed are \(…, 2\) or more, 8 axes at most"):
         HEAD_DIRECTION_CELL.tune([0.1])
 
 
