@@ -1,4 +1,4 @@
-"""Drawings of decision processes and of what learners make of them, in the style of `neorl.drawing.figures`."""
+"""Drawings of decision processes and of what learners make of them, in the style of `neorl.drawing`."""
 
 import numpy as np
 from matplotlib import pyplot as plt
