@@ -12,9 +12,9 @@ import time
 
 import numpy as np
 
-from neorl import Run
 from neorl.experiments import cache, kept
 from neorl.experiments.run import new_bins
+from neorl.experiments.simulation import live
 from neorl.files import cache_folder
 
 
@@ -56,11 +56,8 @@ def compare(condition, k):
     """Where a run that is lived again differs from what is kept of it, as text or None, and how many bins it has."""
     result = cache.load(condition)
     rewards, hits = new_bins(condition.world, 1, condition.steps)
-    run = Run(condition.agent, condition.world, condition.seed, k)
-    for step, later in (*condition.changes, (condition.steps, None)):
-        run.advance(step - run.step, rewards[0], hits[0])
-        if later:
-            run.change(later)
+    live(condition.agent, condition.world, condition.steps, condition.seed, k, condition.changes, rewards[0], hits[0],
+         each_slice=lambda steps: None)
     same = (bits(result.rewards[k]) == bits(rewards[0])) & np.all(result.hits[k] == hits[0], axis=-1)
     if same.all():
         return None, same.size

@@ -9,25 +9,14 @@ from explorer_page import write_page
 
 from neorl import (Explorer, Run, WaterWorld, multimodal, network_a, network_b, network_c, network_d,
                    object_vector_cells, place_cells, simulate)
+from neorl.chapters.performance.bound import drawn_steps
 from neorl.core.kernel import execute, kernel
 from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
-from neorl.core.stream import new_stream, randint
-from neorl.worlds.waterworld import reset, step
+from neorl.core.stream import new_stream
 
 STEPS = 1_000_000
 RATES = np.float32(0.03) * np.array([0.4, 0.3, 0.2, 0.1], np.float32)
 DISCOUNT = np.float32(0.8)
-
-
-@kernel
-def random_steps(state, rules, stream, steps):
-    total = 0.0
-    for _ in range(steps):
-        reward, done = step(state, rules, randint(stream, 4))
-        total += reward
-        if done:
-            reset(state, rules)
-    return total
 
 
 @kernel
@@ -48,7 +37,7 @@ def updates_by_numpy(q, path):
 def test_steps(benchmark, n_creeps):
     world = WaterWorld(n_creeps=n_creeps)
     state, stream = world.reset(0), new_stream(np.random.SeedSequence(1))
-    benchmark.pedantic(execute, (random_steps, state, world.rules, stream, STEPS), warmup_rounds=1, rounds=10)
+    benchmark.pedantic(execute, (drawn_steps, state, world.rules, stream, STEPS), warmup_rounds=1, rounds=10)
 
 
 @pytest.mark.parametrize("by", ["kernel", "numpy"])

@@ -174,7 +174,7 @@ def entry(function, /, *, also=(), then=lambda value: value, errors=(), long=(),
                  (also,) if isinstance(also, str) else also, then, errors, long)
 
 
-def attempt(name, called, arguments, replaced, told):
+def attempt(name, called, arguments, replaced, shown):
     """Call it. Raises AssertionError unless the outcome is a clear error or a sound value."""
     try:
         value = called.then(called.function(**arguments))
@@ -183,11 +183,11 @@ def attempt(name, called, arguments, replaced, told):
         clear = (isinstance(error, (MemoryError, *called.errors))
                  or type(error) in ERRORS and any(word in message for word in (replaced, *called.also))
                  and any(word in message for word in ("allowed", "cannot", "no choice", "kernel")))
-        assert clear and len(message) < 5_000, f"{name}({told}): {type(error).__name__}: {message[:600]}"
+        assert clear and len(message) < 5_000, f"{name}({shown}): {type(error).__name__}: {message[:600]}"
     except Exception as error:
-        raise AssertionError(f"{name}({told}): {type(error).__name__}: {str(error)[:600]}") from error
+        raise AssertionError(f"{name}({shown}): {type(error).__name__}: {str(error)[:600]}") from error
     else:
-        assert not has_nan(value), f"{name}({told}) is {str(value)[:600]}"
+        assert not has_nan(value), f"{name}({shown}) is {str(value)[:600]}"
 
 
 def has_nan(value, depth=6):

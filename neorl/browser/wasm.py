@@ -67,7 +67,8 @@ def module():
     Raises ImportError if that needs a package that is not installed, RuntimeError if it fails.
     """
     shipped = files.read_checked(SHIPPED) or b""
-    digest, path = _digest(), files.cache_folder() / "wasm" / _digest().hex()
+    digest = _digest()
+    path = files.cache_folder() / "wasm" / digest.hex()
     if shipped[: len(digest)] == digest:
         return shipped[len(digest) :]
     content = files.read_checked(path)

@@ -1,11 +1,11 @@
 """A learner in a loop of the user's own: to the bit what a run is, kept and copied, and safe from what does not fit."""
 
 import copy
-import json
 
 import numpy as np
 import pytest
 from golden import every_modality, plain_rule
+from saved_files import rewrite
 
 from neorl import (Actions, Agent, Desire, Learner, Learning, Node, Policy, Run, Scene, WaterWorld, kernel,
                    multimodal, network_d, place_cells, softmax)
@@ -338,12 +338,7 @@ def test_a_damaged_file_is_refused(saved, damage):
     lambda about, kept: kept["_state.values.q"].fill(1.0),
 ])
 def test_a_file_of_another_version_or_making_is_refused(saved, forge):
-    with np.load(saved) as file:
-        kept = {name: file[name] for name in file.files}
-    about = json.loads(str(kept.pop("about")))
-    forge(about, kept)
-    with saved.open("wb") as file:
-        np.savez(file, about=np.array(json.dumps(about)), **kept)
+    rewrite(saved, forge)
     with pytest.raises(ValueError, match=str(saved)):
         Learner.load(saved)
 

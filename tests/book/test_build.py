@@ -223,7 +223,7 @@ def test_the_conclusion_is_computed_again_when_a_claim_has_changed(notebook, cap
     lambda chapters: (chapters / "page.inputs.json").write_text('{"format": 9, "parameters": {"runs": 3}}'),
     lambda chapters: (chapters / "page.inputs.json").write_text("[]"),
 ])
-def test_what_is_damaged_or_of_another_version_is_made_anew(notebook, cache_folder, damage, capsys, monkeypatch):
+def test_what_is_damaged_or_of_another_version_is_made_again(notebook, cache_folder, damage, capsys, monkeypatch):
     def execute(source, target, parameters):
         shutil.copy(source, target)
         build.report.save("page")

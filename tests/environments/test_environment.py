@@ -79,7 +79,7 @@ def test_a_seed_is_run_0_of_it_and_without_one_the_stream_goes_on():
     np.testing.assert_array_equal(env.world_state.scene.things, state.scene.things)
     assert (first != second).any()
     np.testing.assert_array_equal(env.reset(seed=8)[0], first)
-    assert (WorldEnv(TANK).reset()[0] != WorldEnv(TANK).reset()[0]).any()  # which nobody seeds
+    assert (WorldEnv(TANK).reset()[0] != WorldEnv(TANK).reset()[0]).any()  # without a seed
 
 
 def as_written(world, scene, egocentric):

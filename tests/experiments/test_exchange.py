@@ -6,6 +6,7 @@ import zipfile
 
 import numpy as np
 import pytest
+from saved_files import rewrite
 
 from neorl import Agent, Arena, Desire, Node, Result, Run, WaterWorld, World, kernel, network_d, place_cells
 from neorl.agents.agent import Policy
@@ -113,12 +114,7 @@ def test_a_truncated_or_foreign_file_is_refused_by_name(saved, damage):
     (lambda about, kept: kept["hits"].fill(1), "is damaged"), (lambda about, kept: kept.pop("rewards"), "is damaged"),
 ])
 def test_a_file_of_another_making_is_refused_by_name(saved, forge, message):
-    with np.load(saved) as file:
-        kept = {name: file[name] for name in file.files}
-    about = json.loads(str(kept.pop("about")))
-    forge(about, kept)
-    with saved.open("wb") as file:
-        np.savez(file, about=np.array(json.dumps(about)), **kept)
+    rewrite(saved, forge)
     with pytest.raises(ValueError, match=f"{saved}.*{message}"):
         Result.load(saved)
 
