@@ -13,9 +13,10 @@ from fuzzing import entry
 from hypothesis import strategies as st
 
 import neorl
-from neorl import (CARDINAL, Actions, Agent, Arena, Axis, Condition, Desire, Learner, Learning, Modality, Node, NresMap,
-                   Place, Policy, Result, Run, Scene, WaterWorld, greedy, softmax)
-from neorl.agents import agent, learner, papers
+from neorl import (CARDINAL, Actions, Agent, Arena, Axis, Condition, Contacts, Desire, Learner, Learning, Modality,
+                   Node, NresMap, Place, Policy, Result, Run, Scene, WaterWorld, greedy, softmax)
+from neorl.agents import agent, beyond, learner, papers
+from neorl.agents.beyond import forager, foveated_cells
 from neorl.core.description import described, restored
 from neorl.agents.individual import Individual
 from neorl.core import horde, kernel, maps, modality, policy, scene, stream
@@ -27,8 +28,8 @@ from neorl.core.stream import new_stream
 from neorl.evidence import curves, statistics
 from neorl.worlds import arena, waterworld, world
 
-MODULES = (neorl, agent, learner, papers, horde, kernel, maps, modality, policy, scene, stream, arena, waterworld,
-           world, curves, statistics)
+MODULES = (neorl, agent, beyond, learner, papers, horde, kernel, maps, modality, policy, scene, stream, arena,
+           waterworld, world, curves, statistics)
 # Classes that kernels, or the package itself, make and hand out; kernels themselves refuse to be called.
 MADE_INSIDE = {f"neorl.{name}" for name in (
     "agents.learner.Offer", "core.kernel.Kernel", "core.scene.Scene", "evidence.statistics.Estimate",
@@ -302,6 +303,16 @@ TABLE = {
     "neorl.agents.agent.Learning, traces": entry(
         Learning, trace=st.integers(1, 9), memory=[0], discount=shares, update_on=["cell"],
         then=lambda learning: live(neorl.multimodal([3], learning=learning))),
+    "neorl.agents.agent.Contacts": entry(
+        Contacts, horizon=st.floats(0.01, 9), learning_rate=shares, familiarity=st.floats(0, 99), first_value=shares,
+        trace_rate=shares, caution=st.floats(0, 9), fear=["avoidance", "approach"], rivals=["highest", "add"],
+        then=lambda contacts: live(forager([3, 5], contacts=contacts))),
+    "neorl.agents.beyond.forager": entry(
+        forager, resolutions=[(3,), (3, 5)], valence_green=[1.0, "learned"], valence_red=[-1.0, "learned"],
+        contacts=[Contacts()], then=live, also=("resolution", "valence", "modality")),
+    "neorl.agents.beyond.foveated_cells": entry(
+        foveated_cells, foveated=[True, False], velocity=[True, False], mirrored=[True, False],
+        also=("feature", "low", "axes")),
     "neorl.agents.agent.Policy": entry(
         Policy, exploration=shares, when_indifferent=["random", "no-op"],
         choose=st.sampled_from([greedy, softmax(1.0)]),

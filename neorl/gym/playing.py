@@ -82,7 +82,7 @@ def play(agent, env, scene, *, steps, actions=None, commands=None, seed=0, **sur
     learner.begin(first)
     for now in range(steps):
         observation, rewards[now], terminated[now], truncated[now], info = env.step(commands[learner.act()])
-        learner.observe(_seen(scene, observation, info))
+        learner.observe(_seen(scene, observation, info), float(rewards[now]))
         if (terminated[now] or truncated[now]) and now + 1 < steps:
             learner.begin(_seen(scene, *env.reset()))
     return Played(learner, rewards, terminated, truncated)

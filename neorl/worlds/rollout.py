@@ -32,6 +32,7 @@ def rollout_in(dynamics, constants):
         for now in range(clock[0], last_step):
             action = life.act(parameters, constants, state, scene)
             reward, done = step(world_state, rules, action)
+            state.reward[0] = reward
             life.observe(parameters, constants, state, scene)
             total += reward
             interval = now // bin_steps
