@@ -4,10 +4,10 @@ Colours keep apart for colour-blind readers, and never stand alone: a curve carr
 """
 
 import numpy as np
+import scipy
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
-from scipy.optimize import isotonic_regression
 
 from neorl import checks
 
@@ -72,7 +72,7 @@ def name_ends(axes, ends, line=0.075):
     ends = sorted(ends)
     share = min(1.0, 1.0 / (line * len(ends))) if ends else 1.0
     apart = share * line * (high - low) * np.arange(len(ends))
-    heights = apart + isotonic_regression([height for height, *_ in ends] - apart).x
+    heights = apart + scipy.optimize.isotonic_regression([height for height, *_ in ends] - apart).x
     letters = max(LEAST_LETTERS, share * plt.rcParams["font.size"])
     for at, (_, name, colour) in zip(heights, ends):
         axes.annotate(name, (1.02, at), xycoords=("axes fraction", "data"), color=colour, va="center",

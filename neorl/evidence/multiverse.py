@@ -13,8 +13,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from scipy import stats
-from scipy.stats import qmc
+import scipy
 
 from neorl import checks
 from neorl.evidence.priors import TO_THE_LETTER, WITHIN
@@ -34,7 +33,7 @@ def design(points, seed=0, choices=WITHIN):
     checks.integer("points", points, at_least=2)
     if points & (points - 1):
         raise ValueError(f"points is {points}, allowed are powers of two")
-    shares = qmc.Sobol(len(choices), rng=np.random.default_rng(seed)).random(points)
+    shares = scipy.stats.qmc.Sobol(len(choices), rng=np.random.default_rng(seed)).random(points)
     return [replace(TO_THE_LETTER, **{name: choice.at(share) for (name, choice), share in zip(choices.items(), row)})
             for row in shares]
 
@@ -111,7 +110,7 @@ def importance(readings, judged, name, choices=WITHIN, seed=0):
     """
     chosen = [key for key, choice in choices.items() if name[0] in choice.papers]
     places = np.array([[choices[key].place(getattr(reading, key)) for key in chosen] for reading in readings])
-    ranks = stats.rankdata([claims[name].here.value for claims in judged]) / len(judged)
+    ranks = scipy.stats.rankdata([claims[name].here.value for claims in judged]) / len(judged)
     lost, explained = [], []
     ensemble, inspection, selection = (require(f"sklearn.{each}", extra="book")
                                        for each in ("ensemble", "inspection", "model_selection"))

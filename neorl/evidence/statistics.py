@@ -8,8 +8,8 @@ from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy import stats
 
 from neorl import checks
 from neorl.experiments.simulation import Result
@@ -86,8 +86,8 @@ def least_of_most(*samples, axis):
 def rank_correlation(*samples, axis):
     """Spearman's, of the samples' places with their values, for `estimate`; scipy's own takes one pair at a time."""
     group = np.repeat(np.arange(len(samples)), [sample.shape[axis] for sample in samples])
-    ranks = stats.rankdata(np.concatenate(samples, axis), axis=axis)
-    place = stats.rankdata(group) - (len(group) + 1) / 2
+    ranks = scipy.stats.rankdata(np.concatenate(samples, axis), axis=axis)
+    place = scipy.stats.rankdata(group) - (len(group) + 1) / 2
     off = ranks - (len(group) + 1) / 2
     spread = np.sqrt((off**2).sum(axis) * (place**2).sum())
     return quotient((off * place).sum(axis), spread)
@@ -106,7 +106,7 @@ def probability_of_improvement(better: ArrayLike, worse: ArrayLike, rng: Rng = 0
 
 def _share_of_pairs(better, worse, axis):
     pairs = better.shape[axis] * worse.shape[axis]
-    return stats.mannwhitneyu(better, worse, axis=axis, method="asymptotic").statistic / pairs
+    return scipy.stats.mannwhitneyu(better, worse, axis=axis, method="asymptotic").statistic / pairs
 
 
 def points(result: Result) -> NDArray[np.float64]:
@@ -155,7 +155,7 @@ def tolerated_share(runs: int, beyond: int = 1, confidence: float = 0.95) -> flo
     """
     runs, beyond = checks.integer("runs", runs, 0, MOST_RUNS), checks.integer("beyond", beyond, 1, MOST_RUNS)
     confidence = checks.real("confidence", confidence, 0, 1)
-    return float(stats.beta.ppf(1 - confidence, runs + 1 - 2 * beyond, 2 * beyond)) if runs >= 2 * beyond else 0.0
+    return float(scipy.stats.beta.ppf(1 - confidence, runs + 1 - 2 * beyond, 2 * beyond)) if runs >= 2 * beyond else 0.0
 
 
 def time_to_level(result: Result, level: ArrayLike) -> NDArray[np.float64]:
@@ -273,5 +273,5 @@ def _in_waterworld(result):
 
 
 def _bootstrapped(samples, statistic, rng, axis=-1):
-    return stats.bootstrap(samples, statistic, n_resamples=RESAMPLES, confidence_level=0.95, method="percentile",
+    return scipy.stats.bootstrap(samples, statistic, n_resamples=RESAMPLES, confidence_level=0.95, method="percentile",
                            vectorized=True, axis=axis, rng=np.random.default_rng(rng)).confidence_interval
