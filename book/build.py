@@ -19,6 +19,9 @@ import tempfile
 import time
 from pathlib import Path
 
+sys.modules["rfc3987_syntax"] = None  # jsonschema would read a grammar for a second, for a format that no notebook has
+
+# ruff: noqa: E402
 import nbformat
 import papermill
 import psutil
@@ -41,6 +44,8 @@ ALONE = ("paper_b", "performance")  # measure times
 ORDER = (SHARES, "chapter_2", "chapter_3", "chapter_1", *READ_SHARES)  # what others need, and what takes long, first
 # Much of a notebook keeps one core busy: compiling, drawing. The papers' tables of values take gigabytes.
 AT_ONCE, GIGABYTES_EACH = 2, 4
+# Threads of linear algebra that wait for each other, beside another notebook, took fifty times as long as one.
+ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1"}
 STALL_SECONDS = 300  # a cell computes, and waits for nothing: one that takes no processor time for so long has hung
 CLAIMS_TABLE = "claims-table.md"
 WIDGET_STATE = "application/vnd.jupyter.widget-state+json"
@@ -164,6 +169,7 @@ def records(notebook):
 
 def attempt(notebook, parameters):
     """`compute`, in a process of its own: 0, or 1 after a line on what went wrong."""
+    os.environ |= ONE_THREAD
     try:
         compute(notebook, parameters)
     except PapermillExecutionError as error:

@@ -27,7 +27,7 @@ class Run(Individual):
     """One learner in one world, from its first step on.
 
     agent: an `Agent`. world: a `neorl.WaterWorld`, or another `neorl.World`. seed, run: integers ≥ 0.
-    after: a run of the same agent that is over; its values are overwritten.
+    after: a run that is over, whose memory this one takes over if it suffices; its values are overwritten.
 
     Raises ValueError for a bad argument, or if agent and world do not go together, MemoryError if the agent's values do
     not fit into the free memory.

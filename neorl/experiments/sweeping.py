@@ -180,7 +180,7 @@ def _live(condition, runs, source, each_slice=lambda lived: None, room=None):
         raise RuntimeError(f"worker {os.getpid()} has other sources of neorl than the sweep that it works for")
     rewards, hits = new_bins(condition.world, len(runs), condition.steps)
     run = vars(room).pop("run", None) if room else None
-    if run and (run.agent, run.world) != (condition.agent, condition.world):
+    if run and n_values(run.agent, run.world) < n_values(condition.agent, condition.world):
         run = None  # before another takes memory
     for k, *into in zip(runs, rewards, hits):
         run = live(condition.agent, condition.world, condition.steps, condition.seed, k, condition.changes, *into,
