@@ -1,7 +1,9 @@
 """A run as a moving picture, to be shown where there is no Python: in a talk, a README, a message."""
 
 import io
+from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -12,6 +14,7 @@ from PIL import Image
 from neorl import checks
 from neorl.drawing.boards import MARGIN, as_board, check_run_in_plane, draw_world
 from neorl.drawing.style import INK
+from neorl.experiments.run import Run
 from neorl.files import write_whole
 
 INCHES = 3.6  # as large as a board, so that letters are
@@ -19,7 +22,8 @@ HEAD = 0.08  # of the height, for the time and the reward
 MOST_FRAMES = 5_000
 
 
-def animate(run, path, seconds=10.0, fps=25, size=360, background="white"):
+def animate(run: Run, path: str | PathLike[str], seconds: float = 10.0, fps: int = 25, size: int = 360,
+            background: Any = "white") -> Path:
     """Let a run go on, and write a film of it to a GIF file, at the speed of the simulation; returns the path.
 
     run: a `neorl.Run` in a world of two axes, which is advanced. path: ends in ".gif".
@@ -32,7 +36,7 @@ def animate(run, path, seconds=10.0, fps=25, size=360, background="white"):
     >>> path = drawing.animate(run, "run.gif", seconds=0.2, size=120)
     """
     check_run_in_plane(run)
-    path = Path(path)
+    path = checks.path("path", path)
     if path.suffix.lower() != ".gif":
         raise ValueError(f"path is {str(path)!r}, allowed are files that end in '.gif'")
     fps = checks.integer("fps", fps, at_least=1, at_most=50)

@@ -4,18 +4,23 @@ Each function draws any number of curves by name into `ax`, or into a new figure
 run are drawn to scale: one of 2 minutes ends at 2 minutes, beside one of 20.
 """
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import ArrayLike
 
 from neorl import checks
 from neorl.drawing.style import CURVES, INK, axes_or_new, by_name, looks, name_ends
 from neorl.evidence.curves import CUTOFF_PERIODS, binned_rate, low_passed
-from neorl.evidence.statistics import mean_band, tolerance_band
+from neorl.evidence.statistics import Estimate, mean_band, tolerance_band
 from neorl.experiments.simulation import Result
 
 POINTS = 400  # of a curve; more cannot be seen
 
 
-def draw_accumulated(results, control=None, ax=None):
+def draw_accumulated(results: Mapping[str, Result], control: Mapping[str, Result] | None = None,
+                     ax: Axes | None = None) -> Axes:
     """Accumulated reward over steps with its tolerance band.
 
     results: {name: `neorl.Result`}. control: another such dict, drawn in grey.
@@ -39,7 +44,8 @@ def draw_accumulated(results, control=None, ax=None):
     return axes
 
 
-def draw_proficiency(results, total=None, points=50, ax=None):
+def draw_proficiency(results: Mapping[str, Result], total: tuple[str, Sequence[Result]] | None = None, points: int = 50,
+                     ax: Axes | None = None) -> Axes:
     """Mean reward per second over the run with the 95 % interval of the mean.
 
     results: {name: `neorl.Result`}. points: of a curve, integer ≥ 1.
@@ -62,7 +68,7 @@ def draw_proficiency(results, total=None, points=50, ax=None):
     return _draw_rates(curves, longest.seconds, _looks(results, curves.keys() - results.keys()), ax)
 
 
-def draw_smoothed(results, ax=None):
+def draw_smoothed(results: Mapping[str, Result], ax: Axes | None = None) -> Axes:
     """Mean reward per second over the run as paper B shows it, low-passed, with the 95 % interval of the mean.
 
     results: {name: `neorl.Result`}. The mean before the filter lies thin behind it, cut off where it leaves the
@@ -110,7 +116,8 @@ def _draw_rates(curves, seconds, styles, ax):
     return axes
 
 
-def draw_curves(xs, curves, xlabel="", ylabel="", ax=None):
+def draw_curves(xs: ArrayLike, curves: Mapping[str, ArrayLike], xlabel: str = "", ylabel: str = "",
+                ax: Axes | None = None) -> Axes:
     """Means over runs with their 95 % intervals.
 
     xs: (points,), from 0 on. curves: {name: (runs, points)}; where they are not a number there is a gap.
@@ -146,7 +153,8 @@ def _draw_means(curves, xlabel, ylabel, styles, ax):
     return axes
 
 
-def draw_sweep(xs, estimates_by_name, xlabel="", ylabel="reward per second", ax=None):
+def draw_sweep(xs: ArrayLike, estimates_by_name: Mapping[str, Sequence[Estimate]], xlabel: str = "",
+               ylabel: str = "reward per second", ax: Axes | None = None) -> Axes:
     """A reward against a number, with 95 % intervals.
 
     xs: (points,). estimates_by_name: {name: [`neorl.evidence.statistics.Estimate` for each of xs]}.
@@ -155,10 +163,11 @@ def draw_sweep(xs, estimates_by_name, xlabel="", ylabel="reward per second", ax=
     >>> from neorl.evidence.statistics import Estimate
     >>> axes = drawing.draw_sweep([3, 7], {"place cells": [Estimate(0.1, 0.0, 0.2), Estimate(0.3, 0.2, 0.5)]}, "N")
     """
+    xs = checks.doubles("xs", xs)
     for name, estimates in by_name("estimates_by_name", estimates_by_name).items():
-        if np.shape(estimates) != (len(xs), 3):
+        if xs.ndim != 1 or np.shape(estimates) != (len(xs), 3):
             raise ValueError(f"estimates_by_name[{name!r}] has the shape {np.shape(estimates)}, allowed is an Estimate "
-                             f"for each of the {len(xs)} of xs")
+                             f"for each of xs, which has the shape {xs.shape}")
     axes = axes_or_new(ax)
     axes.axhline(0, color=INK, linewidth=0.7)
     axes.set(xlabel=xlabel, ylabel=ylabel)
@@ -177,7 +186,8 @@ def add_estimates(axes, xs, estimates_by_name, linewidth):
     name_ends(axes, ends)
 
 
-def draw_costs(labels, measured, predicted, ax=None):
+def draw_costs(labels: Sequence[str], measured: Sequence[float], predicted: Sequence[float],
+               ax: Axes | None = None) -> Axes:
     """Microseconds a step of an agent that gets one map (label) after the other, and the sum of what each costs."""
     axes = axes_or_new(ax)
     axes.plot(labels, predicted, color=INK, linewidth=1.2)

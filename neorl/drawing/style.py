@@ -3,6 +3,8 @@
 Colours keep apart for colour-blind readers, and never stand alone: a curve carries its name, a creep its sign.
 """
 
+from typing import Any
+
 import numpy as np
 import scipy
 from matplotlib import pyplot as plt
@@ -17,7 +19,7 @@ CURVES = ("#3e6ad1", "#b02d45", "#ac990f", "#01a7bf", "#85488f", "#b46411", "#9c
 DASHES = ("-", "--", ":", "-.")  # of curves: one for each time that the colours have gone round
 LOW_PANEL = 0.17  # of the height of a panel, for the name of a curve
 LEAST_LETTERS = 6  # points, of the names of many curves
-STYLE = {
+STYLE: dict[Any, Any] = {
     "figure.facecolor": "none", "axes.facecolor": "none", "savefig.facecolor": "none", "figure.figsize": (4.9, 3.5),
     "font.size": 11, "text.color": INK, "axes.labelcolor": INK, "axes.edgecolor": INK, "xtick.color": INK,
     "ytick.color": INK, "axes.spines.top": False, "axes.spines.right": False, "lines.linewidth": 1.8,
@@ -25,7 +27,7 @@ STYLE = {
 }
 
 
-def use_style():
+def use_style() -> None:
     """Set matplotlib to the style of the book; ``with plt.rc_context(drawing.STYLE):`` does so for some figures."""
     plt.rcParams.update(STYLE)
 

@@ -3,10 +3,15 @@
 The thesis's numbers are in grey and carry their value; what was found has a colour and a marker for each reading.
 """
 
+from collections.abc import Mapping
+
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.text import Annotation
 
 from neorl import checks
 from neorl.drawing.style import CURVES, INK, axes_or_new, by_name, name_ends, width_of_figures
+from neorl.evidence.statistics import Estimate
 
 MARKERS = "osD^vP*"  # of readings, one for each colour
 ROW = 0.62  # inches
@@ -15,7 +20,8 @@ REACH = 0.5  # of the range of the numbers, beyond which intervals are cut off
 SMALL = 9  # points
 
 
-def draw_against_thesis(thesis, readings, xlabel="", ax=None):
+def draw_against_thesis(thesis: Mapping[str, float], readings: Mapping[str, Mapping[str, Estimate]], xlabel: str = "",
+                        ax: Axes | None = None) -> Axes:
     """Numbers of the thesis, each with what was found instead: a row for each, with dots and 95 % intervals.
 
     thesis: {label: number}, all in one unit, that of `xlabel`. readings: {name: {label: Estimate}}, with the same
@@ -55,7 +61,7 @@ def draw_against_thesis(thesis, readings, xlabel="", ax=None):
     return axes
 
 
-def mark_levels(axes, levels):
+def mark_levels(axes: Axes, levels: Mapping[str, float]) -> Axes:
     """Draw levels of the thesis into a figure of curves, as dashed lines with their names: levels {name: height}.
 
     The axes reach as far as the levels, and names at the ends of curves move apart again. Returns the axes.
@@ -73,7 +79,7 @@ def mark_levels(axes, levels):
         axes.axhline(height, color=INK, linewidth=1.1, linestyle=(0, (5, 3)), zorder=1)
         axes.annotate(name, (0.015, height), xycoords=("axes fraction", "data"), xytext=(0, 2),
                       textcoords="offset points", fontsize=SMALL, va="bottom")
-    names = [text for text in axes.texts if text.xy[0] > 1]
+    names = [text for text in axes.texts if isinstance(text, Annotation) and text.xy[0] > 1]
     for text in names:
         text.remove()
     name_ends(axes, [(text.xy[1], text.get_text(), text.get_color()) for text in names])

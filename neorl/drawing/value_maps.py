@@ -5,17 +5,20 @@ distance and a direction, is drawn in sectors of rings around the agent, and one
 draws into `ax`, or into a new board, and returns the axes.
 """
 
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.patches import Patch, Rectangle, Wedge
+from numpy.typing import ArrayLike
 
 from neorl import checks
 from neorl.agents.individual import Individual
 from neorl.core.geometry import TAU
 from neorl.core.horde import as_vectors
 from neorl.core.maps import NresMap
-from neorl.core.scene import CARDINAL
+from neorl.core.scene import CARDINAL, Actions
 from neorl.drawing.boards import board_or_new
 from neorl.drawing.style import AGENT, GREEN, INK, RED
 
@@ -32,7 +35,8 @@ class _Fields(NamedTuple):
     low: float  # where the board begins that they lie on
 
 
-def draw_cells(nres_map, colour=INK, fills=None, width=1.0, ax=None):
+def draw_cells(nres_map: NresMap, colour: Any = INK, fills: Mapping[int, tuple[Any, float]] | None = None,
+               width: float = 1.0, ax: Axes | None = None) -> Axes:
     """The receptive fields of a map, some of them filled.
 
     nres_map: a `neorl.NresMap` of two components of one vector, of its length and direction, or of the direction alone.
@@ -54,7 +58,7 @@ def draw_cells(nres_map, colour=INK, fills=None, width=1.0, ax=None):
     return axes
 
 
-def draw_values(nres_map, values, actions=CARDINAL, ax=None):
+def draw_values(nres_map: NresMap, values: ArrayLike, actions: Actions = CARDINAL, ax: Axes | None = None) -> Axes:
     """An arrow in every cell for the values of actions there: the sum of the actions' pushes, times their values.
 
     nres_map: as in `draw_cells`. values: float (cells, actions). actions: the world's `neorl.Actions`, of two axes.
@@ -80,7 +84,8 @@ def draw_values(nres_map, values, actions=CARDINAL, ax=None):
     return axes
 
 
-def draw_value_map(run, goals, valences=None, index=0, ax=None):
+def draw_value_map(run: Individual, goals: ArrayLike, valences: Sequence[float] | None = None, index: int = 0,
+                   ax: Axes | None = None) -> Axes:
     """What a run knows of goals: each cell the more opaque the more its best action is worth, red where that is less
     than 0, and an arrow for the values of all actions. The cells of the goals have a bold edge.
 

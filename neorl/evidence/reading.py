@@ -52,7 +52,7 @@ class Reading:
 
     learning_rate: float = Learning.learning_rate
     discount: float = Learning.discount
-    credit: str = Learning.credit
+    credit: str = Learning.credit  # type: ignore[assignment]  # there also a kernel of the user's
     absent_decay: float = Learning.absent_decay
     absent_form: str = Learning.absent_form
     memory: float = Learning.memory * CELLS_A_SECOND

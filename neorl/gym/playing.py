@@ -5,9 +5,12 @@ and where things are in it. Any space in which near means similar will do, such 
 car. Rewards are recorded and not perceived: what the agent wants are its desires.
 """
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from neorl import checks
 from neorl.agents.agent import Agent
@@ -27,27 +30,29 @@ class Played:
     """
 
     learner: Learner
-    rewards: np.ndarray
-    terminated: np.ndarray
-    truncated: np.ndarray
+    rewards: NDArray[np.float64]
+    terminated: NDArray[np.bool]
+    truncated: NDArray[np.bool]
 
     @property
-    def ends(self):
+    def ends(self) -> NDArray[np.int64]:
         """int64 (episodes,): how many steps had been taken when each episode was over, except one that was cut off."""
         return 1 + np.flatnonzero(self.terminated | self.truncated)
 
     @property
-    def lengths(self):
+    def lengths(self) -> NDArray[np.int64]:
         """int64 (episodes,): the steps of each episode that was over."""
         return np.diff(self.ends, prepend=0)
 
     @property
-    def returns(self):
+    def returns(self) -> NDArray[np.float64]:
         """float64 (episodes,): the sum of the rewards of each episode that was over."""
         return np.diff(np.cumsum(self.rewards)[self.ends - 1], prepend=0.0)
 
 
-def play(agent, env, scene, *, steps, actions=None, commands=None, seed=0, **surroundings):
+def play(agent: Agent | Learner, env: Any, scene: Callable[[Any, dict[str, Any]], Scene], *, steps: int,
+         actions: Actions | None = None, commands: Sequence[Any] | None = None, seed: int = 0,
+         **surroundings: Any) -> Played:
     """Let an agent live and learn in a Gymnasium environment, and return what it `Played`.
 
     agent: an `Agent`, which begins knowing nothing, or a `Learner`, which goes on from what it knows.
