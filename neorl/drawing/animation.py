@@ -7,13 +7,12 @@ from typing import Any
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.colors import is_color_like
 from matplotlib.figure import Figure
 from PIL import Image
 
 from neorl import checks
 from neorl.drawing.boards import MARGIN, as_board, check_run_in_plane, draw_world
-from neorl.drawing.style import INK
+from neorl.drawing.style import INK, colour_like
 from neorl.experiments.run import Run
 from neorl.files import write_whole
 
@@ -45,8 +44,7 @@ def animate(run: Run, path: str | PathLike[str], seconds: float = 10.0, fps: int
     if frames > MOST_FRAMES:
         raise ValueError(f"seconds is {seconds!r}, allowed are {MOST_FRAMES} frames or fewer, at {fps} a second "
                          f"{MOST_FRAMES / fps:g} s")
-    if not is_color_like(background):
-        raise ValueError(f"background is {background!r}, allowed are colours of matplotlib's")
+    colour_like("background", background)
     content, pictures = io.BytesIO(), _pictures(run, frames, fps, size, background)
     first = next(pictures)
     first.save(content, format="GIF", save_all=True, append_images=pictures, duration=1000 / fps, loop=0)

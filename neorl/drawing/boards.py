@@ -27,8 +27,11 @@ RADIUS = 0.025  # of an agent, where the world has none for it
 def new_board(size: float = 3.6, low: float = 0.0) -> Axes:
     """Axes of a new figure, `size` inches wide, over the unit board, or from `low` to 1 on either side.
 
+    size: from 0.1 to 100. low: from −1000 to 0.9. Raises ValueError for anything else.
+
     >>> axes = drawing.new_board(low=-1)
     """
+    size, low = checks.real("size", size, 0.1, 100), checks.real("low", low, -1000, 0.9)
     figure = plt.figure(figsize=(size, size), layout="none")
     return as_board(figure.add_axes((0.01, 0.01, 0.98, 0.98)), low)
 
@@ -36,8 +39,11 @@ def new_board(size: float = 3.6, low: float = 0.0) -> Axes:
 def new_boards(columns: int, rows: int) -> list[Axes]:
     """Axes over that many unit boards, row by row: a list.
 
+    columns, rows: integers from 1 to 20. Raises ValueError for anything else.
+
     >>> left, right = drawing.new_boards(columns=2, rows=1)
     """
+    columns, rows = (checks.integer(name, each, 1, 20) for name, each in (("columns", columns), ("rows", rows)))
     width = width_of_figures()
     figure, grid = plt.subplots(rows, columns, squeeze=False, figsize=(width, 1.1 * width * rows / columns),
                                 layout="constrained")
@@ -102,7 +108,7 @@ def draw_tank(world: WaterWorld, state: Any, ax: Axes | None = None) -> Axes:
     """Agent and creeps of a `neorl.WaterWorld`, each with its velocity over the coming half second; creeps carry their
     sign.
 
-    state: of that tank. Raises ValueError for anything else.
+    world: a `WaterWorld`. state: of that tank. Raises ValueError for anything else.
 
     >>> tank = neorl.WaterWorld()
     >>> axes = drawing.draw_tank(tank, tank.reset(seed=0))

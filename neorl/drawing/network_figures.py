@@ -118,10 +118,10 @@ def draw_network(agent: Agent, ax: Axes | None = None) -> Axes:
 
 
 def draw_networks(agents: Mapping[str, Agent], figure: Figure | SubFigure | None = None) -> NDArray[Any]:
-    """Networks {name: agent}, one below the other, all in letters of one size.
+    """Networks, one below the other, all in letters of one size.
 
-    figure: a matplotlib figure or a part of one, which they fill; by default a new one. Returns an array of axes, one
-    for each. Raises ValueError for anything else.
+    agents: {name: `neorl.Agent`}. figure: a matplotlib figure or a part of one, which they fill; by default a new one.
+    Returns an array of axes, one for each. Raises ValueError for anything else.
 
     >>> axes = drawing.draw_networks({"C": neorl.network_c(), "D": neorl.network_d()})
     """

@@ -65,7 +65,7 @@ def rate_map(track: Track, cell: int | None = None, bins: int = 20) -> NDArray[n
     >>> drawing.rate_map(drawing.track(run, seconds=60), cell=0, bins=2)[0, 0]
     np.float64(1.0)
     """
-    checks.instance("track", track, Track)
+    track = _checked(track)
     bins = checks.integer("bins", bins, at_least=1, at_most=1000)
     column, row = np.clip((track.position * bins).astype(np.int64), 0, bins - 1).T
     place = row * bins + column
@@ -75,6 +75,17 @@ def rate_map(track: Track, cell: int | None = None, bins: int = 20) -> NDArray[n
     active = np.any(track.cells == checks.integer("cell", cell, at_least=0), axis=1)
     found = np.bincount(place, active, minlength=bins**2).reshape(bins, bins)
     return np.divide(found, looks, out=np.full((bins, bins), np.nan), where=looks > 0)
+
+
+def _checked(track):
+    """The `Track`, in plain numbers. Raises ValueError unless it is one, of one look or more."""
+    position = checks.doubles("position of track", checks.instance("track", track, Track).position)
+    cells, step = np.asarray(track.cells), checks.positive("step of track", track.step)
+    if position.ndim != 2 or position.shape[1] != 2 or cells.dtype.kind not in "iu" or cells.ndim != 2 or (
+            len(cells) != len(position)) or not len(cells):
+        raise ValueError(f"track has positions {position.shape} and {cells.dtype} cells {cells.shape} every {step} s, "
+                         "allowed are (looks, 2) and integers (looks, points)")
+    return Track(position, cells, step)
 
 
 def draw_rate_map(track: Track, cell: int | None = None, bins: int = 20, ax: Axes | None = None) -> Axes:

@@ -9,6 +9,7 @@ import numpy as np
 import scipy
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
+from matplotlib.colors import is_color_like
 from matplotlib.figure import Figure, SubFigure
 
 from neorl import checks
@@ -57,6 +58,25 @@ def by_name(name, values):
         return values
     found = repr(values) if isinstance(values, dict) else f"of type {type(values).__name__}"
     raise ValueError(f"{name} is {found}, allowed is a dict with one entry or more, by name")
+
+
+def numbers(name, values):
+    """`values` as an array of doubles within ±1e30, or no numbers where there is a gap. Raises ValueError otherwise."""
+    try:
+        array = np.asarray(values)
+    except (TypeError, ValueError, OverflowError):
+        array = np.array(None)
+    if array.dtype.kind not in "fiub" or not np.all(np.isnan(array) | (np.abs(array) <= checks.LARGEST)):
+        raise ValueError(f"{name} is {checks.shown(values)}, allowed are numbers up to {checks.LARGEST:g}, in lists of "
+                         "equal lengths")
+    return array.astype(float)
+
+
+def colour_like(name, value):
+    """`value`, if it is a colour of matplotlib's. Raises ValueError for anything else."""
+    if isinstance(value, str | tuple) and is_color_like(value):
+        return value
+    raise ValueError(f"{name} is {checks.shown(value)}, allowed are colours of matplotlib's")
 
 
 def looks(count):

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.text import Annotation
 
 from neorl import checks
-from neorl.drawing.style import CURVES, INK, axes_or_new, by_name, name_ends, width_of_figures
+from neorl.drawing.style import CURVES, INK, axes_or_new, by_name, name_ends, numbers, width_of_figures
 from neorl.evidence.statistics import Estimate
 
 MARKERS = "osD^vP*"  # of readings, one for each colour
@@ -32,18 +32,21 @@ def draw_against_thesis(thesis: Mapping[str, float], readings: Mapping[str, Mapp
     >>> from neorl.evidence.statistics import Estimate
     >>> axes = drawing.draw_against_thesis({"both": 0.55}, {"calibrated": {"both": Estimate(0.5, 0.4, 0.6)}})
     """
-    by_name("thesis", thesis)
-    if len(readings) > len(CURVES):
+    for label, number in by_name("thesis", thesis).items():
+        checks.real(f"thesis[{label!r}]", number)
+    if len(checks.instance("readings", readings, dict)) > len(CURVES):
         raise ValueError(f"readings has {len(readings)}, allowed are at most {len(CURVES)}")
     for name, found in readings.items():
-        if set(found) != set(thesis):
+        if set(checks.instance(f"readings[{name!r}]", found, dict)) != set(thesis):
             raise ValueError(f"readings[{name!r}] has {', '.join(found)}, allowed are the labels of thesis: "
                              f"{', '.join(thesis)}")
+        if numbers(f"readings[{name!r}]", list(found.values())).shape != (len(thesis), 3):
+            raise ValueError(f"readings[{name!r}] is {checks.shown(found)}, allowed is an Estimate for each label")
     rows = np.arange(len(thesis))
     axes = axes_or_new(ax, figsize=(width_of_figures(), 1.1 + ROW * len(rows)))
-    numbers = [*thesis.values()]
-    axes.vlines(numbers, rows - 0.36, rows + 0.36, color=INK, linewidth=2.2)
-    for row, number in zip(rows, numbers):
+    told = [*thesis.values()]
+    axes.vlines(told, rows - 0.36, rows + 0.36, color=INK, linewidth=2.2)
+    for row, number in zip(rows, told):
         axes.annotate(f"thesis {number:g}".replace("-", "−"), (number, row - 0.38), fontsize=SMALL, ha="center",
                       va="bottom")
     shifts = 0.5 * (np.arange(len(readings)) - (len(readings) - 1) / 2) / max(len(readings), 1)
@@ -52,7 +55,7 @@ def draw_against_thesis(thesis: Mapping[str, float], readings: Mapping[str, Mapp
         axes.plot(value, rows + shift, color=colour, linestyle="none", marker=marker, markersize=6, label=name)
         axes.hlines(rows + shift, low, high, color=colour)
     axes.set(yticks=rows, yticklabels=thesis, ylim=(len(rows) - 0.5, -0.75), xlabel=xlabel)
-    values = [*numbers, *(estimate.value for found in readings.values() for estimate in found.values())]
+    values = [*told, *(estimate.value for found in readings.values() for estimate in found.values())]
     low, high = sorted(axes.get_xlim())
     reach = REACH * (max(values) - min(values)) or np.inf
     axes.set_xlim(max(low, min(values) - reach), min(high, max(values) + reach))
@@ -65,12 +68,13 @@ def mark_levels(axes: Axes, levels: Mapping[str, float]) -> Axes:
     """Draw levels of the thesis into a figure of curves, as dashed lines with their names: levels {name: height}.
 
     The axes reach as far as the levels, and names at the ends of curves move apart again. Returns the axes.
-    Raises ValueError for a height that is not finite.
+    Raises ValueError for anything else.
 
     >>> axes = drawing.draw_curves([0, 1], {"here": np.array([[0.1, 0.5]])})
     >>> axes = drawing.mark_levels(axes, {"thesis": 0.55})
     """
-    heights = [checks.real(f"levels[{name!r}]", height) for name, height in levels.items()]
+    checks.instance("axes", axes, Axes)
+    heights = [checks.real(f"levels[{name!r}]", height) for name, height in by_name("levels", levels).items()]
     bottom, top = axes.get_ylim()
     room = ROOM * (max([top, *heights]) - min([bottom, *heights]))
     axes.set_ylim(min([bottom, *(height - room for height in heights)]),

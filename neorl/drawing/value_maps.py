@@ -20,7 +20,7 @@ from neorl.core.horde import as_vectors
 from neorl.core.maps import NresMap
 from neorl.core.scene import CARDINAL, Actions
 from neorl.drawing.boards import board_or_new
-from neorl.drawing.style import AGENT, GREEN, INK, RED
+from neorl.drawing.style import AGENT, GREEN, INK, RED, colour_like
 
 MOST_CELLS = 20_000  # more cannot be seen
 OPACITY = 0.45  # of the cell of the greatest value
@@ -46,13 +46,19 @@ def draw_cells(nres_map: NresMap, colour: Any = INK, fills: Mapping[int, tuple[A
     >>> axes = drawing.draw_cells(neorl.NresMap(5), fills={12: (drawing.GREEN, 0.5)})
     """
     fields = _fields(nres_map)
-    axes, fills = board_or_new(ax, fields.low), fills or {}
+    colour, width = colour_like("colour", colour), checks.real("width", width, 0, 1000)
+    fills = checks.instance("fills", {} if fills is None else fills, dict)
+    for cell, fill in fills.items():
+        checks.integer("cell of fills", cell, at_least=0, at_most=nres_map.cells - 1)
+        if len(checks.several("fills", fill)) != 2:
+            raise ValueError(f"fills has {checks.shown(fill)}, allowed are pairs of a colour and an opacity")
+        colour_like("colour of fills", fill[0]), checks.real("opacity of fills", fill[1], 0, 1)
+    axes = board_or_new(ax, fields.low)
     for cell, patch in enumerate(fields.patches):
         patch.set(facecolor="none", edgecolor=colour, linewidth=width)
         axes.add_patch(patch)
     inside = _fields(nres_map).patches if fills else ()
     for cell, (fill, opacity) in fills.items():
-        cell = checks.integer("cell of fills", cell, at_least=0, at_most=nres_map.cells - 1)
         inside[cell].set(facecolor=fill, alpha=opacity, edgecolor="none")
         axes.add_patch(inside[cell])
     return axes
@@ -68,7 +74,8 @@ def draw_values(nres_map: NresMap, values: ArrayLike, actions: Actions = CARDINA
     >>> values = np.array([[0.0, 0.0, 1.0, 0.0]] * 9)  # east is best everywhere
     >>> axes = drawing.draw_values(neorl.NresMap(3), values, ax=drawing.draw_cells(neorl.NresMap(3)))
     """
-    fields, values = _fields(nres_map), checks.finite("values", np.asarray(values, float))
+    fields, values = _fields(nres_map), checks.doubles("values", values)
+    checks.instance("actions", actions, Actions)
     if values.shape != (nres_map.cells, len(actions.names)) or actions.axes != 2:
         raise ValueError(f"values has the shape {values.shape}, allowed is {(nres_map.cells, len(actions.names))} with "
                          f"actions along two axes, here {actions.axes}")

@@ -58,15 +58,18 @@ class Result:
         return self.rewards.sum(axis=1, dtype=float)
 
     def rate(self, begin: float = 0.0, end: float = 1.0) -> NDArray[np.float64]:
-        """float64 (runs,): reward per simulated second between two shares of the run in [0, 1], to the nearest bin.
+        """float64 (runs,): reward per simulated second between two shares of the run, to the nearest bin.
 
-        Raises ValueError for other shares, and for stretches shorter than a bin.
+        begin, end: the shares, in [0, 1]. Raises ValueError for other shares, and for stretches shorter than a bin.
         """
         bins, seconds = self._stretch(begin, end)
         return self.rewards[:, bins].sum(axis=1, dtype=float) / seconds
 
     def hit_rate(self, begin: float = 0.0, end: float = 1.0) -> NDArray[np.float64]:
-        """float64 (runs, kinds): things met of each kind per simulated second between two shares, as in `rate`."""
+        """float64 (runs, kinds): things met of each kind per simulated second between two shares of the run.
+
+        begin, end: the shares, in [0, 1]. Raises ValueError as `rate` does.
+        """
         bins, seconds = self._stretch(begin, end)
         return self.hits[:, bins].sum(axis=1) / seconds
 
@@ -92,7 +95,9 @@ class Result:
     def save(self, path: str | PathLike[str]) -> None:
         """Write all to a file for NumPy, npz: the arrays rewards and hits, and the text about, a table in JSON.
 
-        Raises ValueError for an agent or a world that no name finds again (`neorl.core.description`).
+        path: of the file, a string or a `pathlib.Path`; what was there is replaced.
+        Raises OSError if it cannot be written, ValueError for an agent or a world that no name finds again
+        (`neorl.core.description`).
         """
         exchange.save(self, path)
 
@@ -100,6 +105,7 @@ class Result:
     def load(cls, path: str | PathLike[str]) -> Self:
         """The result that `save` has written.
 
+        path: of the file, a string or a `pathlib.Path`.
         Raises OSError if there is no such file, ValueError if it is damaged, of another kind or a newer neorl, or if
         its agent or world cannot be imported.
         """
@@ -118,6 +124,7 @@ def simulate(agent: Agent, world: World, *, steps: int, runs: int, seed: int = 0
              changes: tuple[tuple[int, Agent], ...] = (), threads: int | None = None, progress: bool = True) -> Result:
     """Let `runs` independent learners live `steps` steps each, one core a run, and return their `Result`.
 
+    agent: an `Agent`. world: a `neorl.World`. steps, runs: integers ≥ 1.
     seed: integer ≥ 0; run k is the same for any number of runs and threads.
     changes: (step, agent) pairs in order of time: from that step on every learner is another agent, see `Run.change`.
     threads: how many runs go side by side; by default as many as there are cores and as fit into the free memory.

@@ -35,7 +35,8 @@ def simulate_once(agent: Agent, world: World, *, steps: int, runs: int, seed: in
                   changes: tuple[tuple[int, Agent], ...] = (), progress: bool = True) -> Result:
     """`neorl.simulate`, unless the same condition is on disk already; then what was computed is read.
 
-    Returns a `Result`. If it is interrupted, the runs that are finished are kept, and the next call does the rest.
+    The arguments are those of `simulate`. Returns a `Result`. If it is interrupted, the runs that are finished are
+    kept, and the next call does the rest.
     Raises what `simulate` does. Results that cannot be written to disk cost a warning.
     """
     try:

@@ -163,7 +163,7 @@ def checked_seed(seed, options):
     """The seed, and the number of the run of the options of a reset."""
     options = checks.instance("options", {} if options is None else options, Mapping)
     if set(options) - {"run"} or options and seed is None:
-        raise ValueError(f"options is {options!r}, allowed are None, and with a seed {{'run': k}}")
+        raise ValueError(f"options is {checks.shown(options)}, allowed are None, and with a seed {{'run': k}}")
     seed = None if seed is None else checks.integer("seed", seed, at_least=0)
     return seed, checks.integer("run", options.get("run", 0), at_least=0)
 

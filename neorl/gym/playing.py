@@ -71,7 +71,8 @@ def play(agent: Agent | Learner, env: Any, scene: Callable[[Any, dict[str, Any]]
     checks.instance("env", env, gymnasium.Env)
     steps, seed = checks.integer("steps", steps, at_least=0), checks.integer("seed", seed, at_least=0)
     if not callable(scene):
-        raise ValueError(f"scene is {scene!r}, allowed are functions of (observation, info) that return a Scene")
+        raise ValueError(f"scene is {checks.shown(scene)}, allowed are functions of (observation, info) that "
+                         "return a Scene")
     if commands is None and not isinstance(env.action_space, gymnasium.spaces.Discrete):
         raise ValueError(f"commands is None, allowed with the action space {env.action_space} are the values that "
                          "env.step takes, one for each action")
@@ -82,7 +83,7 @@ def play(agent: Agent | Learner, env: Any, scene: Callable[[Any, dict[str, Any]]
     learner = _learner(agent, actions, len(commands), len(first.position), seed, surroundings)
     names = learner.world.actions.all_names
     if len(commands) != len(names):
-        raise ValueError(f"commands is {commands!r}, allowed are {len(names)}, one for each of {names}")
+        raise ValueError(f"commands is {checks.shown(commands)}, allowed are {len(names)}, one for each of {names}")
     rewards, terminated, truncated = np.zeros(steps), np.zeros(steps, bool), np.zeros(steps, bool)
     learner.begin(first)
     for now in range(steps):
@@ -100,7 +101,7 @@ def _learner(agent, actions, n_actions, axes, seed, surroundings):
             raise ValueError("actions and surroundings are those of the Learner, allowed are none beside it")
         return agent
     if not isinstance(agent, Agent):
-        raise ValueError(f"agent is {agent!r}, allowed is an Agent or a Learner")
+        raise ValueError(f"agent is {checks.shown(agent)}, allowed is an Agent or a Learner")
     if actions is None:
         actions = Actions([str(number) for number in range(n_actions)], [(0.0,) * axes] * n_actions)
     return Learner(agent, actions=actions, seed=seed, **surroundings)

@@ -42,7 +42,11 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
                  autoreset_mode: Any = Mode.NEXT_STEP, render_mode: str | None = None, egocentric: bool = True,
                  continuing: bool | None = None) -> None:
         continuing = isinstance(world, WaterWorld) if continuing is None else continuing
-        self._mode = Mode(autoreset_mode)
+        try:
+            self._mode = Mode(autoreset_mode)
+        except ValueError:
+            raise ValueError(f"autoreset_mode is {checks.shown(autoreset_mode)}, allowed are "
+                             f"{', '.join(mode.value for mode in Mode)}") from None
         self._batch = Batch(world, num_envs, egocentric, continuing, self._mode is Mode.SAME_STEP, max_episode_steps)
         self.render_mode = checks.one_of("render_mode", render_mode, (None, *self.metadata["render_modes"]))
         self.metadata = {**self.metadata, "render_fps": world.fps, "autoreset_mode": self._mode}
@@ -83,7 +87,8 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
             seeds = [None if seed is None else first + i for i in range(self.num_envs)]
             super().reset(seed=first)
         if len(seeds) != self.num_envs:
-            raise ValueError(f"seed is {seed!r}, allowed are an integer ≥ 0, None, or {self.num_envs} of them")
+            raise ValueError(f"seed is {checks.shown(seed)}, allowed are an integer ≥ 0, None, or {self.num_envs} of "
+                             "them")
         checked = [checked_seed(each, options) for each in seeds]
         for i in np.flatnonzero(chosen):
             its_seed, run = checked[i]
@@ -94,7 +99,8 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
 
     def _mask(self, mask):
         if not isinstance(mask, np.ndarray) or mask.dtype != bool or mask.shape != (self.num_envs,) or not mask.any():
-            raise ValueError(f"reset_mask is {mask!r}, allowed is an array of bool ({self.num_envs},), not all False")
+            raise ValueError(f"reset_mask is {checks.shown(mask)}, allowed is an array of bool ({self.num_envs},), "
+                             "not all False")
         return mask
 
     def step(self, actions: ArrayLike) -> tuple[NDArray[np.float32], NDArray[np.float64], NDArray[np.bool],
@@ -111,10 +117,13 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
         over = slots.terminated | slots.truncated
         if not self._begun.all() or mode is Mode.DISABLED and over.any():
             raise gymnasium.error.ResetNeeded("step() came before reset(), allowed is step() in an episode")
-        given = np.asarray(actions)
+        try:
+            given = np.asarray(actions)
+        except ValueError:  # lists of several lengths
+            given = np.array(None)
         if (given.shape != (self.num_envs,) or given.dtype.kind not in "iu"
                 or not 0 <= given.min() <= given.max() < self.single_action_space.n):
-            raise ValueError(f"actions is {actions!r}, allowed are integers ({self.num_envs},) from 0 to "
+            raise ValueError(f"actions is {checks.shown(actions)}, allowed are integers ({self.num_envs},) from 0 to "
                              f"{self.single_action_space.n - 1}")
         slots.action[:] = given
         slots.begins[:] = over if mode is Mode.NEXT_STEP else False
