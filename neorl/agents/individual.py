@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from neorl import checks
 from neorl.agents.agent import LEARNED, Agent
-from neorl.agents.compile import compiled, constants_of
+from neorl.agents.compile import compiled, constants_of, n_values
 from neorl.agents.memory import fitting_runs, kept_apart, read_only
 from neorl.core.description import described, restored
 from neorl.core.horde import as_vectors
@@ -46,9 +46,11 @@ class Individual:
     """
 
     def _live(self, agent, world, stream, after=None):
-        """Begin as an agent that knows nothing. after: one of the same agent that is over and gives up its memory."""
-        old = after._state if after is not None and (after.agent, after.world) == (agent, world) else None
-        if old is None:
+        """Begin as an agent that knows nothing. after: one that is over and gives up its memory, if there is enough."""
+        old = None
+        if after is not None and len(after._state.values.q) >= n_values(agent, world):
+            old = after._parameters, after._state
+        else:
             fitting_runs(agent, world)
         self._agent, self._world = agent, world
         self._parameters = kept_apart(compiled(agent, world))

@@ -77,8 +77,8 @@ class State(NamedTuple):
 def new_state(parameters, stream, n_things, old=None):
     """The `State` of an agent that has learned nothing, in a world of so many things.
 
-    old: a state of the same parameters that is no longer needed, whose room for values is used again: to get a gigabyte
-    from the system, page by page, takes longer than a run.
+    old: the parameters and the state of one that is no longer needed, with as many values or more, whose room is used
+    again: to get a gigabyte from the system, page by page, takes longer than a run.
     """
     maps, (actions, axes) = parameters.maps, parameters.push.shape
     traces = maps.first_trace[-1] if parameters.learning.memory_retained > 0 else 0
@@ -89,8 +89,8 @@ def new_state(parameters, stream, n_things, old=None):
              "left": parameters.contacts.trace}
     values = {}
     if old:
-        execute(clear_q, parameters, old)
-        values["q"] = old.values.q
+        execute(clear_q, *old)
+        values["q"] = old[1].values.q[: sizes["values"]]
     state = new_tuple(State, sizes, {"stream": stream, "values": values})
     execute(begin_values, parameters, state)
     return state
