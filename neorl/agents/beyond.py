@@ -13,11 +13,13 @@ def foveated_cells(foveated: bool = True, velocity: bool = True, mirrored: bool 
     """Conjunctive cells of an object vector and the agent's velocity in the plane.
 
     foveated: whether receptive fields grow with distance. velocity: whether the cells know the agent's velocity.
-    mirrored: whether mirror images share a cell.
+    mirrored: whether mirror images share a cell. Ranges are twice as wide if not, so a map of 2N − 1 has the receptive
+        fields that one of N has if so.
     """
     feature, low = ("foveated" if foveated else "component"), (0.0 if mirrored else -1.0)
+    reach = FASTEST if mirrored else 2 * FASTEST
     axes = [Axis("objects", feature, along, low, 1.0) for along in (0, 1)]
-    axes += [Axis("velocity", "component", along, -FASTEST, FASTEST) for along in (0, 1)] if velocity else []
+    axes += [Axis("velocity", "component", along, -reach, reach) for along in (0, 1)] if velocity else []
     return Modality("foveated object-vector cell", axes, mirrored=mirrored)
 
 

@@ -169,8 +169,8 @@ def learn_step(parameters, constants, state, n, point, event, approach, fear):
         else:
             known = visits / (visits + contacts.familiarity)
             coarser, feared = coarser + known * (old - coarser), feared + known * (old_fear - feared)
-        root = math.sqrt(visits + 2.0)
-        rate = max(contacts.learning_rate, 1.0 / (root * math.sqrt(root)))
+        root = math.sqrt(abs(visits + 2.0))  # abs(): see `neorl.core.geometry.locate`
+        rate = max(contacts.learning_rate, 1.0 / (root * math.sqrt(abs(root))))
         q[entry + np.uint64(APPROACH)] = np.float32(old + rate * (approach - old))
         q[entry + np.uint64(FEAR)] = np.float32(old_fear + rate * (fear - old_fear))
         if visits < MOST_VISITS:
