@@ -73,6 +73,12 @@ def test_the_scene_has_the_posture_and_the_state_the_hand():
     np.testing.assert_allclose(state.point, [hand_in(each, [0.5, 0.5]) for each in state.scene.things], atol=1e-12)
 
 
+def test_a_fresh_point_is_two_radii_from_the_hand_or_more():
+    world = Arm(targets=32, obstacles=32)
+    away = np.concatenate([np.linalg.norm(state.point - state.hand, axis=1) for state in map(world.reset, range(30))])
+    assert 2 * world.radius <= away.min() < 2.1 * world.radius
+
+
 def test_an_action_turns_one_joint_and_idleness_none():
     world = Arm((1, 1, 1))
     assert world.actions.all_names == ("1+", "1−", "2+", "2−", "3+", "3−", "no-op")
