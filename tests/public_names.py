@@ -15,8 +15,9 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
 import neorl
-from neorl import (CARDINAL, Actions, Agent, Arena, Axis, Condition, Contacts, Desire, Learner, Learning, Modality,
-                   Node, NresMap, Place, Policy, Result, Run, Scene, WaterWorld, drawing, greedy, softmax)
+from neorl import (CARDINAL, Actions, Agent, Arena, Arm, Axis, Condition, Contacts, Desire, Learner, Learning, Modality,
+                   Node, NresMap, Place, Policy, Result, Run, Scene, Vessel, WaterMaze, WaterWorld, drawing, greedy,
+                   softmax)
 from neorl.agents import agent, beyond, learner, papers
 from neorl.agents.beyond import forager, foveated_cells
 from neorl.core.description import described, restored
@@ -31,16 +32,19 @@ from neorl.evidence import curves, multiverse, reading, statistics
 from neorl.evidence.statistics import Estimate
 from neorl.experiments import recording
 from neorl.gym import environment, playing, vector
-from neorl.worlds import arena, waterworld, world
+from neorl.worlds import arena, arm, vessel, water_maze, waterworld, world
 
 EXPORTED = (neorl, drawing)  # packages whose own names are those of their modules
-MODULES = (*EXPORTED, agent, beyond, learner, papers, horde, kernel, maps, modality, policy, scene, stream, arena,
-           waterworld, world, recording, curves, multiverse, reading, statistics, environment, playing, vector)
+MODULES = (*EXPORTED, agent, beyond, learner, papers, horde, kernel, maps, modality, policy, scene, stream, arena, arm,
+           vessel, water_maze, waterworld, world, recording, curves, multiverse, reading, statistics, environment,
+           playing, vector)
 # Classes that kernels, or the package itself, make and hand out; kernels themselves refuse to be called.
 MADE_INSIDE = {f"neorl.{name}" for name in (
     "agents.learner.Offer", "core.kernel.Kernel", "core.scene.Scene", "evidence.statistics.Estimate",
     "drawing.rate_maps.Track", "evidence.multiverse.Support", "experiments.recording.Recording", "gym.playing.Played",
     "experiments.simulation.Result", "worlds.arena.ArenaRules", "worlds.arena.ArenaState", "worlds.waterworld.Rules",
+    *(f"worlds.{name}{part}" for name in ("arm.Arm", "vessel.Vessel", "water_maze.WaterMaze")
+      for part in ("Rules", "State")),
     "worlds.waterworld.WaterWorldState", "worlds.world.Dynamics", "worlds.world.World")}
 # What authors of kernels and of worlds call, with types and sizes of their own: it checks nothing, for it is hot or
 # runs at import.
@@ -174,6 +178,7 @@ SCENE = Scene((0.5, 0.25), (0.0, 0.1), [(0.1, 0.2), (0.3, 0.4)], ("green", None)
 SCENES = st.sampled_from([SCENE, SCENE._replace(velocity=None, met=()), Scene(
     np.array([0.5, 0.5]), np.zeros(2), np.ones((2, 2)), np.array([0, 1]), np.array([True, False]))])
 BOARD, POOL = WaterWorld(n_creeps=2), Arena()
+SPACES = {"arm": Arm(), "vessel": Vessel(), "water_maze": WaterMaze()}  # by module
 RESULT = result_of(WaterWorld(win_reward=5.0))
 CONDITION = Condition(neorl.place_cells([2]), BOARD, 40, 1)
 SAMPLE = np.array([0.1, 0.5, 0.2, 0.9])
@@ -321,6 +326,16 @@ TABLE = {
     "neorl.worlds.arena.Arena, pay": entry(
         Arena, places=[[("a", 0.5, 0.5), ("b", 0.2, 0.2)]], pay=[(), (1.5,), [2, 3]], start=[(0.4, 0.4)], also="pay",
         then=live_in),
+    "neorl.worlds.arm.Arm": entry(
+        Arm, lengths=[(1, 1), [3, 2.5, 1]], targets=st.integers(1, 3), obstacles=st.integers(0, 3),
+        radius=st.floats(0.01, 0.2), fps=st.integers(1, 100), then=live_in),
+    "neorl.worlds.vessel.Vessel": entry(
+        Vessel, traffic=st.integers(0, 5), current=[(0, 0), [0.05, -0.02]], speed=st.floats(0.05, 1),
+        turning=st.floats(0.01, 5), lag=st.floats(1, 9), radius=st.floats(0.001, 0.1), fps=st.integers(1, 100),
+        then=live_in),
+    "neorl.worlds.water_maze.WaterMaze": entry(
+        WaterMaze, places=[((0.3, 0.4),), [(0.5, 0.5), (0.6, 0.4)]], trials_a_day=st.integers(1, 5),
+        radius=st.floats(0.01, 0.25), trial_seconds=st.floats(0.1, 99), fps=st.integers(1, 100), then=live_in),
     "neorl.worlds.world.World.reset": entry(BOARD.reset, seed=seeds, then=lambda state: list(arrays(state).values())),
     "neorl.worlds.world.World.step": entry(
         BOARD.step, state=states, action=["N", 0, "no-op", np.int8(4)]),
@@ -332,6 +347,12 @@ TABLE = {
     "neorl.worlds.world.World.check_state": entry(BOARD.check_state, state=states),
     "neorl.worlds.waterworld.WaterWorld.check_state": entry(BOARD.check_state, state=states),
     "neorl.worlds.arena.Arena.check_state": entry(POOL.check_state, state=st.integers(0, 5).map(POOL.reset)),
+    **{f"neorl.worlds.{module}.{type(space).__name__}.{name}": each for module, space in SPACES.items()
+       for name, each in {
+           "reset": entry(space.reset, seed=seeds, then=lambda state: list(arrays(state).values())),
+           "step": entry(space.step, state=st.integers(0, 5).map(space.reset), action=[space.actions.names[0], 0]),
+           "check_state": entry(space.check_state, state=st.integers(0, 5).map(space.reset)),
+       }.items()},
     "neorl.agents.agent.Learning": entry(
         Learning, learning_rate=shares, discount=shares, update_on=["cell"], credit=["happened", "activity", "share"],
         activity=st.floats(0, 9), absent_decay=shares, absent_form=["decay", "away"], terminal=[True, False],
@@ -403,7 +424,7 @@ TABLE = {
     **{f"neorl.{where}.{kind.__name__}.{name}": each for kind, value, where in (
         (Agent, neorl.network_d([2]), "agents.agent"), (Condition, CONDITION, "experiments.cache"),
         (Arena, Arena(), "worlds.arena"), (WaterWorld, BOARD, "worlds.waterworld"),
-        (world.World, BOARD, "worlds.world"))
+        (world.World, BOARD, "worlds.world"), *((type(each), each, f"worlds.{name}") for name, each in SPACES.items()))
        for name, each in {
            "from_dict": entry(kind.from_dict, data=[{"is": type(value).__name__} | value.to_dict()], then=identity,
                               also=("is", *value.to_dict())),

@@ -128,6 +128,8 @@ AT_EVERY_STEP = {"credit": "share", "absent_decay": 0.0, "trace": 1, "memory": 0
 class Contacts(checks.Final):
     """How nodes learn whose goals are contacts alone, see `neorl.core.contacts`: beyond the thesis.
 
+    The defaults are the best of what `neorl.chapters.beyond_agents.search` has tried.
+
     horizon: seconds > 0, the time constant by which what is to come is discounted.
     learning_rate: α in [0, 1], the least; after n visits it is n^(−3/4) or this.
     familiarity: ≥ 0. What a finer map knows of an action counts n / (n + familiarity) after n visits.
@@ -141,12 +143,12 @@ class Contacts(checks.Final):
     Raises ValueError for anything else.
     """
 
-    horizon: float = 0.65
-    learning_rate: float = 0.02
-    familiarity: float = 15.0
-    first_value: float = 0.3
-    trace_rate: float = 0.3
-    caution: float = 0.4
+    horizon: float = 0.389
+    learning_rate: float = 0.0262
+    familiarity: float = 6.15
+    first_value: float = 0.31
+    trace_rate: float = 0.215
+    caution: float = 0.309
     fear: str = "avoidance"
     rivals: str = "highest"
 

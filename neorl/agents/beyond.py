@@ -24,7 +24,7 @@ def foveated_cells(foveated: bool = True, velocity: bool = True, mirrored: bool 
 
 
 @paper_agent
-def forager(resolutions: Sequence[int] = (5, 9, 15), valence_green: float | str = LEARNED,
+def forager(resolutions: Sequence[int] = (5, 9, 15, 25), valence_green: float | str = LEARNED,
             valence_red: float | str = LEARNED, contacts: Contacts = Contacts()) -> Agent:
     """One node of foveated cells at several resolutions, whose goals are contacts.
 

@@ -69,6 +69,7 @@ def test_what_was_used_is_less_than_what_is_held():
 def test_the_record_of_the_search_is_of_this_code():
     record = search.read_record()
     best = record[0]
+    assert search.agent_of(best) == forager()
     found = simulate(search.agent_of(best), WaterWorld(), runs=4, steps=150_000, seed=search.SEED, progress=False)
     assert np.isclose(found.rate(2 / 3).mean(), best["with_3"], atol=2e-3)
     assert str(len(record)) in report.search_in_words()
