@@ -58,6 +58,11 @@ class Earned:
         """Of a run."""
         return int(self.edges[-1])
 
+    @property
+    def rates(self):
+        """Reward per simulated second in each bin: float64 (runs, bins)."""
+        return self.rewards / (np.diff(self.edges) / BOARDS[3].fps)
+
     def rate(self, begin, end):
         """Reward per simulated second between two steps of a run, which may lie within a bin: float64 (runs,)."""
         sums = np.pad(self.rewards.cumsum(axis=1), ((0, 0), (1, 0)))
@@ -67,8 +72,8 @@ class Earned:
     def steps_to(self, level, window):
         """After how many steps the mean of the last `window` first reaches a level: (runs,), infinite if never."""
         ends = self.edges[self.edges >= window]
-        made = np.array([self.rate(end - window, end) >= level for end in ends]).reshape(len(ends), self.runs)
-        return np.where(made.any(axis=0), ends[made.argmax(axis=0)], np.inf) if len(ends) else np.full(self.runs, np.inf)
+        made = np.array([self.rate(end - window, end) >= level for end in ends])
+        return np.where(made.any(axis=0), ends[made.argmax(axis=0)], np.inf)
 
 
 def neorl_agents():

@@ -185,7 +185,7 @@ def value_of_plan(plan, world, state, rules, action, hold, target):
         if done:
             break
         for thing in range(world.speed.shape[0]):
-            if world.scene.met[thing] > 0:  # what comes in its place is not known: it is nowhere, where nothing meets it
+            if world.scene.met[thing] > 0:  # what comes next is not known: it is nowhere, so nothing meets it
                 world.scene.kinds[thing] = ABSENT
                 world.scene.things[thing, 0] = world.scene.things[thing, 1] = np.nan
                 target = -1

@@ -4,8 +4,9 @@
    experience that is never cut into episodes, with two layers of 64 units, on one thread.
 2. Observation: `neorl.gym`'s, positions from the agent, nearest creep first, and after it the velocity of every creep
    in that order. No other learner of the page is told how fast creeps move.
-3. Search: for each method as many settings drawn from `RANGES`, each tried once for `SEARCH_STEPS` steps with 3 creeps
-   on a seed of its own. The setting that earned most in the last third of these is used for all runs.
+3. Search: for each method as many settings drawn (`neorl.chapters.alternatives.deep_settings`), each tried once for
+   `SEARCH_STEPS` steps with 3 creeps on a seed of its own. The one that earned most in the last third of these is used
+   for all runs.
 4. Exploration ends after a number of steps, not after a share of a run, so a long run begins as a short one.
 
 Both tables are made by ``python -m neorl.chapters.alternatives.deep_runs search deep_search.csv`` and ``… run
@@ -19,8 +20,7 @@ from pathlib import Path
 
 import numpy as np
 
-from neorl import checks
-from neorl.chapters.alternatives.search import drawn
+from neorl.chapters.alternatives.deep_settings import SEARCH_SEED, settings_of
 from neorl.chapters.alternatives.stored import (METHODS, MINUTE, RUN_FIELDS, SEARCH_FIELDS, append, chosen, finished,
                                                 read_search, row_of_run)
 from neorl.extras import require
@@ -28,15 +28,7 @@ from neorl.extras import require
 gymnasium = require("gymnasium", extra="gym")
 
 LAYERS = (64, 64)
-REPLAY = {"learning_rate": (1e-4, 2e-3), "gamma": [0.95, 0.97, 0.98, 0.99], "batch_size": [32, 64, 128],
-          "target_update_interval": [500, 1_000, 2_500, 5_000], "exploration_final_eps": [0.02, 0.05, 0.1],
-          "exploration_steps": [10_000, 20_000, 40_000], "buffer_size": [20_000, 50_000, 150_000]}
-RANGES = {"DQN": REPLAY,
-          "QR-DQN": REPLAY,
-          "PPO": {"learning_rate": (1e-4, 2e-3), "gamma": [0.95, 0.97, 0.98, 0.99], "batch_size": [64, 128],
-                  "n_steps": [256, 512, 1_024, 2_048], "n_epochs": [4, 10], "gae_lambda": [0.8, 0.9, 0.95],
-                  "ent_coef": [0.0, 0.003, 0.01, 0.03]}}
-SETTINGS, SEARCH_STEPS, SEARCH_SEED = 8, 51_000, 1_000  # a multiple of three minutes of 3,000 steps
+SETTINGS, SEARCH_STEPS = 8, 51_000  # a multiple of three minutes of 3,000 steps
 FASTEST_CREEP = 0.25  # sizes a second
 # (creeps, steps, runs) in the order in which they are made; runs of all methods take turns.
 PLAN = ((3, 150_000, 10), (8, 150_000, 5), (3, 600_000, 3), (8, 150_000, 10), (8, 600_000, 2), (3, 600_000, 10))
@@ -76,12 +68,6 @@ class Sight(gymnasium.Wrapper):
         nearest_first = np.argsort(((state.scene.things - state.scene.position) ** 2).sum(axis=1), kind="stable")
         velocity = (state.direction * state.speed[:, None])[nearest_first] / size / FASTEST_CREEP
         return np.concatenate([observation, velocity.ravel()], dtype=np.float32)
-
-
-def settings_of(method, number):
-    """The settings of a method, {name: value}, that the search draws in place `number`."""
-    checks.one_of("method", method, METHODS)
-    return drawn(RANGES[method], SEARCH_SEED, METHODS.index(method), checks.integer("number", number, at_least=0))
 
 
 def live(method, settings, creeps, steps, seed, run):
