@@ -17,7 +17,8 @@ The package is built in rooms, and a module imports only from its own room and f
 - `neorl.core`: the kernels, scenes, modalities and maps.
 """
 
-from neorl.agents.agent import Agent, Desire, Learning, Node, Place, Policy
+from neorl.agents.agent import Agent, Contacts, Desire, Learning, Node, Place, Policy
+from neorl.agents.beyond import forager
 from neorl.agents.papers import (brownian, multimodal, network_a, network_b, network_c, network_d, object_vector_cells,
                                  place_cells)
 from neorl.agents.learner import Learner
@@ -36,12 +37,12 @@ from neorl.worlds.waterworld import WaterWorld
 from neorl.worlds.world import World
 
 __version__ = "0.1.0"
-__all__ = ["Actions", "Agent", "Arena", "Axis", "CARDINAL", "Condition", "Desire", "Learner", "Learning",
+__all__ = ["Actions", "Agent", "Arena", "Axis", "CARDINAL", "Condition", "Contacts", "Desire", "Learner", "Learning",
            "Modality", "Node", "NresMap", "Place", "Policy", "Result", "Run", "Scene", "WaterWorld", "World",
            "greedy", "kernel", "kernel_maker", "learn", "simulate", "simulate_once", "softmax", "superpose",
            "sweep",
-           "brownian", "multimodal", "network_a", "network_b", "network_c", "network_d", "object_vector_cells",
-           "place_cells"]
+           "brownian", "forager", "multimodal", "network_a", "network_b", "network_c", "network_d",
+           "object_vector_cells", "place_cells"]
 
 
 def __getattr__(name):

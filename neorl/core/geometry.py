@@ -115,7 +115,9 @@ def locate(parameters, constants, scene, n, point, given, offset, coordinates):
             all_have = all_have and coordinate == coordinate
         elif feature <= Feature.margin:
             coordinate = offset[along] if replaced else component(parameters, constants, scene, n, vector, point, along)
-            if feature == Feature.margin:
+            if feature == Feature.foveated:
+                coordinate = math.sqrt(coordinate) if coordinate > 0.0 else -math.sqrt(-coordinate)
+            elif feature == Feature.margin:
                 coordinate = into_margin(coordinate, axes.high[axis])
         else:
             coordinate, x, y = 0.0, 0.0, 0.0

@@ -58,6 +58,22 @@ def test_a_notebook_is_computed_when_something_has_changed_and_kept_when_not(not
     assert sorted(path.name for path in build.CHAPTERS.iterdir()) == ["page.inputs.json", "page.ipynb"]
 
 
+NOTES_INTERRUPTION = """
+import pathlib, signal
+noted = pathlib.Path({path!r})
+get_ipython().kernel.post_handler_hook = lambda: signal.signal(signal.SIGINT, lambda *_: noted.touch())
+"""
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_kernel_is_not_interrupted_when_its_notebook_is_done(notebook, tmp_path):
+    page = nbformat.read(notebook, 4)
+    page.cells.append(nbformat.v4.new_code_cell(NOTES_INTERRUPTION.format(path=str(tmp_path / "noted"))))
+    nbformat.write(page, notebook)
+    build.compute(notebook, {"runs": 3})
+    assert not (tmp_path / "noted").exists()
+
+
 TEXT = "</script><!-- <script> </SCRIPT >"  # which must not end the tag that holds it
 
 
