@@ -16,8 +16,8 @@ class Statement(NamedTuple):
     text: str  # the claim in our words
     statistic: str
     thesis: str  # its number
-    figure: str = ""  # the label of the figure of this book that shows it
-    rule: str = ""  # the function of `neorl.evidence.claims` that judges it; a claim without one is open
+    figure: str  # the label of the figure of this book that shows it
+    rule: str  # the function of `neorl.evidence.claims` that judges it
     borders: tuple[float, ...] = (0.0,)  # where the rule divides our number
     demonstration: bool = False  # shown beside the claims, and not counted among them
 
@@ -159,7 +159,7 @@ STATEMENTS = {
         "failed.",
         "No other method of reinforcement learning or AI navigates this board in real time",
         "Final reward per second of the best alternative, divided by that of the thesis's best agent",
-        "none succeeds"),
+        "none succeeds", "fig-alternatives-curves", "judge_alternatives", (1.0,)),
     "T1": Statement(
         "paper A, The Control Problem by Superposition",
         "In the neoRL approach, moving rewards or changing agent priorities during an agent's life-time does not "
