@@ -1,7 +1,7 @@
 """Sphinx extension: what the reference pages make of docstrings.
 
-Kernels are left out, since whoever imports the package calls the functions around them. The fields of a class are
-told by the comments beside them. A name in single backticks leads to what it names, if the reference has that.
+Kernels are left out, since users of the package call the functions around them. The fields of a class are
+described by the comments beside them. A name in single backticks links to its entry, if the reference has one.
 """
 
 import ast
@@ -34,8 +34,9 @@ def skip_member(app, what, name, member, skip, options):
 
 
 def read_docstring(app, what, name, member, options, lines):
-    """Make lists of what a docstring tells about arguments, and add to it the comments beside the fields of a class."""
-    lines[:] = as_list(lines)
+    """List what a docstring says of arguments, and append the comments beside the fields of a class."""
+    opening, *rest = SENTENCE.split(lines[0], maxsplit=1) if lines else [""]
+    lines[:] = [escaped(opening), *as_list(rest + lines[1:])]  # what a docstring opens with is a sentence, not an item
     if what == "class" and (hasattr(member, "_fields") or dataclasses.is_dataclass(member)):
         source = textwrap.dedent(inspect.getsource(member))
         rows = source.splitlines()

@@ -49,7 +49,7 @@ AT_ONCE, GIGABYTES_EACH = 2, 4
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1"}
 STALL_SECONDS = 300  # a cell computes, and waits for nothing: one that takes no processor time for so long has hung
 ROOM = 2**20  # bytes: less than a page of the book takes
-CLAIMS_TABLE = "claims-table.md"
+CLAIMS_TABLE, ERRATA_TABLE = "claims-table.md", "errata-table.md"
 WIDGET_STATE = "application/vnd.jupyter.widget-state+json"
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 
@@ -68,7 +68,7 @@ def main():
     try:
         lock = the_only_build()  # until this process ends
         compute_all(notebooks)
-        write_claims()
+        write_tables()
         build()
     except KeyboardInterrupt:
         sys.exit("\ninterrupted; make book goes on from here")
@@ -129,7 +129,7 @@ def restore_claims(notebooks):
 
 def tidy(notebooks):
     """Remove from the chapters what no notebook has made, such as the pages of one that is gone."""
-    made = {CLAIMS_TABLE}
+    made = {CLAIMS_TABLE, ERRATA_TABLE}
     for notebook in notebooks:
         made |= {f"{notebook.stem}.inputs.json", *(kept_record(notebook) or {"outputs": ()})["outputs"]}
     for path in CHAPTERS.iterdir():
@@ -288,8 +288,8 @@ def check_parameters(notebook, parameters):
 def link_terms(text):
     """Markdown whose links into the glossary are Sphinx's references to its terms."""
     known = terms()
-    return re.sub(r"\[([^]]+)\]\(\.\./book/glossary\.md#([^)]+)\)",
-                  lambda link: f"{{term}}`{link[1]} <{known.get(link[2], link[2])}>`", text)
+    return re.sub(r"\[(\*?)([^]]+?)\1\]\(\.\./book/glossary\.md#([^)]+)\)",  # a role's text has no markup: emphasis goes around
+                  lambda link: f"{link[1]}{{term}}`{link[2]} <{known.get(link[3], link[3])}>`{link[1]}", text)
 
 
 def terms():
@@ -344,12 +344,13 @@ def script(kind, content):
     return f'<script type="{kind}">{text}</script>'
 
 
-def write_claims():
-    """The table of all claims, from what the notebooks have found, for the page that includes it."""
-    table = report.page(report.load(sorted(CHAPTERS.glob("*.claims.json"))))
-    target = CHAPTERS / CLAIMS_TABLE
-    if not target.exists() or target.read_text(encoding="utf-8") != table:
-        write_whole(target, table.encode())
+def write_tables():
+    """The tables of all claims, from the notebooks' results, and of all errata, for the pages that include them."""
+    for name, table in ((CLAIMS_TABLE, report.page(report.load(sorted(CHAPTERS.glob("*.claims.json"))))),
+                        (ERRATA_TABLE, report.errata())):
+        target = CHAPTERS / name
+        if not target.exists() or target.read_text(encoding="utf-8") != table:
+            write_whole(target, table.encode())
 
 
 def build():

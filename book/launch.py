@@ -11,6 +11,7 @@ from pathlib import Path
 
 def setup(app):
     app.connect("config-inited", follow_setting, priority=400)  # before the theme reads its options
+    app.connect("source-read", name_repository)
     app.connect("html-page-context", lead_to_notebooks, priority=502)  # after the theme has made its buttons
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
@@ -23,6 +24,13 @@ def follow_setting(app, config):
         options |= {"repository_url": urls["Repository"], "use_repository_button": True}
     else:
         options.pop("launch_buttons", None)
+
+
+def name_repository(app, page, source):
+    """Give a page the address that it asks for in a comment, ``% The repository is at <URL>.``, if there is one."""
+    if "repository_url" in app.config.html_theme_options:
+        address = f"The repository is at <{app.config.html_theme_options['repository_url']}>."
+        source[0] = source[0].replace("% The repository is at <URL>.", address)
 
 
 def lead_to_notebooks(app, page, template, context, doctree):

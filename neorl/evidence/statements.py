@@ -57,8 +57,8 @@ STATEMENTS = {
     "A5": Statement(
         ONE_MAP,
         "it is worth noting how all neoRL agents are comparable in learning speed.",
-        "All single resolutions learn about as fast, N70 with 49 times the states of N10",
-        "Least reward that a resolution accumulates, divided by the greatest",
+        "All single resolutions learn about equally fast, though N70 has 49 times the states of N10",
+        "Smallest accumulated reward of a resolution, divided by the largest",
         "comparable", "fig-accumulated", "judge_single_layer", (0.5,)),
     "A6": Statement(
         MAPS,
@@ -70,15 +70,15 @@ STATEMENTS = {
         MAPS,
         "The almost 6-fold increase in the number of states … resulted in a 3.5-factor increase in received reward "
         "without increasing training time.",
-        "Together they earn 3.5 times as much as N7, and learn at least as fast",
+        "Together they earn 3.5 times as much as N7 and learn at least as fast",
         "Final reward per second together, divided by that of N7",
         "3.5", "fig-proficiency", "judge_multiple_layers", (2.5, 5.0)),
     "A8": Statement(
         "section 4.3.1",
         "The multi-resolution neoRL agent across multiple NRES sets performed better than single-resolution neoRL "
         "agents on all accounts such that the agent learned quicker and attained higher proficiency",
-        "Several resolutions learn quicker, and earn more, than each of them alone",
-        "Smallest number of minutes by which 3, 7 and 23 together are sooner at half the final level of the best alone",
+        "Several resolutions learn quicker and earn more than each of them alone",
+        "Smallest lead, in minutes, of 3, 7 and 23 together at half the final level of the best one alone",
         "> 0", "fig-proficiency", "judge_multiple_layers"),
     "B1": Statement(
         GENERAL,
@@ -103,28 +103,28 @@ STATEMENTS = {
         BOTH,
         "The multi-modal neoRL agent reaches final proficiency after 15 min, whereas the PC neoRL agent uses more "
         "than 160 min.",
-        "Both reach their final level after 15 minutes, place cells after more than 160",
-        "Simulated minutes that both take",
+        "Agents with both modalities reach their final level after 15 minutes, place cells after more than 160",
+        "Simulated minutes until both reach their final level",
         "15", "fig-modal", "judge_pace", (30.0,)),
     "B5": Statement(
         "paper B, section 3",
         "the agent must catch the last green in a board full of red before the board can be reset and continue beyond "
         "(on average) 1.5 points per reset.",
-        "A board of three brings 1.5 points until it is reset",
-        "Green creeps less red ones, taken from one reset to the next",
+        "A board of three creeps yields 1.5 points per reset",
+        "Green creeps less red ones, taken between resets",
         "1.5", "fig-points", "judge_points", (1.35, 1.65)),
     "B6": Statement(
         "paper B, section 4",
         "neoRL navigation learns quicker, to higher proficiency, when more information is available to an agent.",
-        "Agents with both modalities learn quicker, and earn more, than with either",
-        "Smallest number of minutes by which both are sooner at half the final level of the better one alone",
+        "Agents with both modalities learn quicker and earn more than with either one",
+        "Smallest lead, in minutes, of both modalities at half the final level of the better one alone",
         "> 0", "fig-modal", "judge_modalities"),
     "B7": Statement(
         "chapter 5, on paper B",
         "The neoRL framework is general across NRES modalities, compositional and incremental by additional neoRL "
         "modules",
-        "A modality that joins half-way helps, and costs nothing that was learned",
-        "Final lead in reward per second over agents that it does not join",
+        "A modality added half-way helps, and loses nothing that was learned",
+        "Final lead in reward per second over agents without it",
         "> 0", "fig-joining", "judge_joining"),
     "C1": Statement(
         NETWORKS,
@@ -137,7 +137,7 @@ STATEMENTS = {
         NETWORKS,
         "Experiment b demonstrates the effect of separating desires according to valence, resulting in the increased "
         "performance by the neoRL navigational agent.",
-        "A desire for each colour (B) beats one for all (A)",
+        "One desire per colour (B) beats one for all (A)",
         "Lead of B over A in final reward per second",
         "> 0", "fig-proficiency-networks", "judge_networks"),
     "C3": Statement(
@@ -165,49 +165,47 @@ STATEMENTS = {
         "In the neoRL approach, moving rewards or changing agent priorities during an agent's life-time does not "
         "require retraining the agent.",
         "Moving or revaluing elements needs no retraining",
-        "Red creeps a minute in the fortieth of the run after they come to be wanted, divided by those that the same "
-        "agents take finally",
+        "Red creeps per minute in the fortieth of the run after they become desired, divided by those that "
+        "the same agents finally take",
         "1", "fig-revalued", "judge_changes", (0.8,)),
     "T2": Statement(
         "section 4.4",
         "Assessing additional NRES maps in the same agent … only results in a linear increase in computation.",
         "Cost grows linearly with maps",
-        "What all maps cost together, divided by the sum of what each costs alone",
+        "Cost of all maps together, divided by the sum of their separate costs",
         "1", "fig-cost", "judge_cost", (1.1,)),
     "T3": Statement(
         "section 3.4.2, observation 1",
         "Let a temporal mechanism require knowledge about system states at L separate time steps … The full set of "
         "Markov states required to represent the temporal dynamics becomes O(Ψ^L)",
-        "The states that a Markov process needs grow exponentially with the steps that matter: none of them can be "
-        "spared",
-        "Share of its reward above chance that an agent loses by remembering one step less, where it is least",
+        "The number of Markov states grows exponentially with the steps that matter: no state can be spared",
+        "Smallest share of its reward above chance that an agent loses by remembering one step less",
         "> 0", "fig-3-window", "judge_temporality", (0.1,)),
     "T4": Statement(
         "section 3.1",
         "Learning the full transition model increases the task according to |S|²·|A|, while Q-learning only requires "
         "the value for each state-action pairs, |S|·|A|.",
-        "Q-learning learns S·A values where a model of the transitions has S²·A",
-        "Power of S by which the entries of the model grow",
+        "Q-learning learns S·A values, a transition model S²·A",
+        "Exponent of S in the number of entries of the model",
         "2, and 1 for Q-learning", "fig-3-tables", "judge_tables", (1.9, 2.1)),
     "T5": Statement(
         "paper B, section 3",
         "All execution runs smoothly on a single CPU core",
         "One core keeps up with real time",
-        "Share of a core at 50 steps a second",
+        "Share of a core at 50 steps per second",
         "< 1", "fig-4-realtime", "judge_real_time", (1.0,)),
     "T6": Statement(
         "section 4.4",
         "Assessing additional NRES maps in the same agent improves navigational capabilities significantly, does not "
         "degrade learning performance",
         "More maps never slow learning",
-        "Smallest number of minutes by which agents with more maps are sooner at half the final level of the best "
-        "agent with fewer",
+        "Smallest lead, in minutes, of agents with more maps at half the final level of the best agent with fewer",
         "≥ 0", "fig-more-maps", "judge_more_maps"),
     "T7": Statement(
         "chapter 4, introduction",
         "following a school other than temporal-difference learning is required for neoRL.",
         "Persistence is needed: learning at every step fails",
-        "What learning at every step gains over Brownian motion, divided by what learning at changes of cell gains",
+        "Gain of learning at every step over Brownian motion, divided by the gain of learning at changes of cell",
         "0", "fig-persistence", "judge_persistence", (0.1,)),
     "T8": Statement(
         "section 4.4",
@@ -245,8 +243,8 @@ STATEMENTS = {
         "section 2.1.2, on figure 2.2",
         "When later motivated by food, however, the rats in the initially unrewarded group started to perform better "
         "than all other subjects.",
-        "Latent learning: animals rewarded from day 11 on overtake those rewarded throughout",
-        "Errors a day after the first reward, less those of animals rewarded throughout",
+        "Latent learning: animals first rewarded on day 11 overtake those rewarded throughout",
+        "Errors per day after the first reward, less those of animals rewarded throughout",
         "fewer", "fig-2-errors", "judge_latent_learning", demonstration=True),
 }
 

@@ -22,7 +22,7 @@ def make_book(tmp_path):
         shutil.rmtree(tmp_path / "book", ignore_errors=True)
         chapters = tmp_path / "book" / "chapters"
         chapters.mkdir(parents=True)
-        for name in ("launch.py", "api_links.py", "references.bib", "vendor"):
+        for name in ("launch.py", "api_links.py", "describe.py", "references.bib", "vendor"):
             (tmp_path / "book" / name).symlink_to(ROOT / "book" / name)
         shutil.copy(ROOT / "_config.yml", tmp_path)
         (tmp_path / "pyproject.toml").write_text(f'[project.urls]\nRepository = "{url}"' if url else "[project]")

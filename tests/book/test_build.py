@@ -193,12 +193,12 @@ def test_what_a_notebook_has_found_stands_beside_its_page_and_in_the_table_of_al
                                "{'holds': 1, 'undecided': 1, 'untestable': 0, 'readings': 4}})")
     nbformat.write(content, notebook)
     build.compute(notebook, {"runs": 3})
-    build.write_claims()
+    build.write_tables()
     table = (build.CHAPTERS / "claims-table.md").read_text()
     assert "| short runs: 25\u00a0% of 4, 25\u00a0% undecided |" in table
     assert table.count("not computed in this build") == 33
     written = (build.CHAPTERS / "claims-table.md").stat().st_mtime_ns
-    build.write_claims()
+    build.write_tables()
     assert (build.CHAPTERS / "claims-table.md").stat().st_mtime_ns == written
 
 
@@ -207,6 +207,7 @@ def test_links_into_the_glossary_become_references_to_its_terms():
             "[s](../book/s.md)")
     assert build.link_terms(text) == (
         "A {term}`map of cells <NRES map>`, {term}`off-policy <off-policy>`, [s](../book/s.md)")
+    assert build.link_terms("[*map*](../book/glossary.md#nres-map)") == "*{term}`map <NRES map>`*"
     assert build.link_terms("[lost](../book/glossary.md#lost)") == "{term}`lost <lost>`"  # which Sphinx complains about
 
 

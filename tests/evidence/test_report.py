@@ -45,7 +45,7 @@ def test_a_bound_that_does_not_exist_is_kept_as_null(cache_folder):
 def test_a_table_of_a_page_has_both_readings_and_what_the_verdicts_rest_on():
     table = report.table(networks(), networks(*paper_c()[::-1]), {"C2": {"holds": 1, "undecided": 0, "readings": 4}})
     assert table.splitlines()[0] == "| Claim | Thesis | To the letter | Calibrated | Verdict | Share within the text |"
-    assert row(table, "C2") == ("| **C2** A desire for each colour (B) beats one for all (A) | > 0 | "
+    assert row(table, "C2") == ("| **C2** One desire per colour (B) beats one for all (A) | > 0 | "
                                 "○\u00a0−0.30 [−0.31, −0.29] | ●\u00a00.10 [0.09, 0.11] | reproduced | "
                                 "short runs: 25\u00a0% of 4 |")
     (line,) = [line for line in table.splitlines() if line.startswith("- **C2**")]
@@ -96,7 +96,7 @@ def test_the_page_has_every_claim_of_the_thesis_and_says_which_were_not_computed
     assert "| not computed in this build |" in row(page, "H1") and "| not computed in this build |" in row(page, "A1")
     assert page.index("Beside the claims: a demonstration") < page.index("| **H1**")
     assert row(page, "C2").replace("\u00a0", " ") == (
-        "| **C2** A desire for each colour (B) beats one for all (A) | > 0 | ○ −0.30 [−0.31, −0.29] | "
+        "| **C2** One desire per colour (B) beats one for all (A) | > 0 | ○ −0.30 [−0.31, −0.29] | "
         "● 0.10 [0.09, 0.11] | reproduced ({ref}`figure <fig-proficiency-networks>`, {ref}`rule "
         "<rule-judge-networks>`) | 5 % of 40; short runs: 25 % of 256, 10 % undecided |")
 
