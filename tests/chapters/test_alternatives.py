@@ -192,7 +192,7 @@ def test_the_stored_long_runs_are_what_the_script_lives(name, creeps):
 
 def test_deep_agents_see_how_fast_creeps_move_nearest_first():
     from neorl.chapters.alternatives.deep_runs import FASTEST_CREEP, Sight, gymnasium
-    env = Sight(gymnasium.make("neorl.gym:neorl/WaterWorld-v0", n_creeps=3, max_episode_steps=-1), 6_000, 0, 1)
+    env = Sight(gymnasium.make("neorl.gym:neorl/WaterWorld-v0", n_creeps=3, max_episode_steps=-1), 6_000, 0, 1, 3.0)
     observation, _ = env.reset(seed=12345)
     state = env.unwrapped.world_state
     assert np.array_equal(state.scene.things, Run(place_cells([1]), BOARDS[3], 0, 1).world_state.scene.things)
@@ -200,7 +200,8 @@ def test_deep_agents_see_how_fast_creeps_move_nearest_first():
         observation, reward, *_ = env.step(action)
     nearest = np.argmin(((state.scene.things - state.scene.position) ** 2).sum(axis=1))
     velocity = state.direction[nearest] * state.speed[nearest] / 250 / FASTEST_CREEP
-    assert observation[4:6] == pytest.approx((state.scene.things[nearest] - state.scene.position) / 250, abs=1e-6)
+    assert observation[4:6] == pytest.approx(3 * (state.scene.things[nearest] - state.scene.position) / 250,
+                                              abs=1e-6)
     assert observation[16:18] == pytest.approx(velocity, abs=1e-6)
     assert env.observation_space.contains(observation) and env.rewards.shape == (2,)
 
@@ -208,7 +209,7 @@ def test_deep_agents_see_how_fast_creeps_move_nearest_first():
 def test_the_search_of_deep_agents_is_stored_whole():
     rows = stored.read_search(stored.FOLDER / "deep_search.csv")
     assert {row["method"] for row in rows} == set(stored.METHODS) == set(deep_settings.RANGES)
-    assert len(rows) == 3 * 8
+    assert len(rows) == 3 * deep_settings.SETTINGS
 
 
 def test_a_short_rerun_of_a_deep_agent_is_as_its_stored_run_begins():
@@ -217,7 +218,7 @@ def test_a_short_rerun_of_a_deep_agent_is_as_its_stored_run_begins():
     best = stored.chosen(stored.read_search(stored.FOLDER / "deep_search.csv"))["DQN"]
     (row,) = [row for row in stored.read_runs(stored.FOLDER / "deep_runs.csv")
               if (row["method"], row["creeps"], row["steps"], row["run"]) == ("DQN", 3, 150_000, 0)]
-    rewards, _, _ = live("DQN", deep_settings.settings_of("DQN", best) | {"exploration_steps": 10_000}, 3, 6_000, 0, 0)
+    rewards, _, _ = live("DQN", deep_settings.settings_of("DQN", best), 3, 6_000, 0, 0)
     assert np.array_equal(rewards, row["rewards"][:2])
 
 
@@ -290,8 +291,9 @@ def test_what_it_means_is_computed(boards):
 
 def test_the_tables_of_what_is_stored_name_every_method(boards):
     text = report.search_table()
-    assert all(f"| {name} | {count} |" in text for name, count in (*((name, 256) for name in search.RANGES),
-                                                                    *((name, 8) for name in stored.METHODS)))
+    counts = dict.fromkeys(search.RANGES, 256) | dict.fromkeys(stored.METHODS, deep_settings.SETTINGS)
+    assert all(f"| {name} | {count} |" in text for name, count in counts.items())
+    assert "256 settings" in report.search_in_words() and "36,000 steps" in report.search_in_words()
     text = report.long_table(boards)
     assert all(f"| {creeps} | {name} | 10 |" in text for creeps in (3, 8) for name in ("hybrid reward", "joint cells"))
     assert "planner" not in text

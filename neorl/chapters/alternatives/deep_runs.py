@@ -3,7 +3,8 @@
 1. Methods: DQN and PPO of Stable-Baselines3, QR-DQN of its contributed package, each one agent on one stream of
    experience that is never cut into episodes, with two layers of 64 units, on one thread.
 2. Observation: `neorl.gym`'s, positions from the agent, nearest creep first, and after it the velocity of every creep
-   in that order. No other learner of the page is told how fast creeps move.
+   in that order. No other learner of the page is told how fast creeps move. Positions of creeps are multiplied by a
+   number that is tuned.
 3. Search: for each method as many settings drawn (`neorl.chapters.alternatives.deep_settings`), each tried once for
    `SEARCH_STEPS` steps with 3 creeps on a seed of its own. The one that earned most in the last third of these is used
    for all runs.
@@ -20,7 +21,7 @@ from pathlib import Path
 
 import numpy as np
 
-from neorl.chapters.alternatives.deep_settings import SEARCH_SEED, settings_of
+from neorl.chapters.alternatives.deep_settings import SEARCH_SEED, SEARCH_STEPS, SETTINGS, settings_of
 from neorl.chapters.alternatives.stored import (METHODS, MINUTE, RUN_FIELDS, SEARCH_FIELDS, append, chosen, finished,
                                                 read_search, row_of_run)
 from neorl.extras import require
@@ -28,7 +29,6 @@ from neorl.extras import require
 gymnasium = require("gymnasium", extra="gym")
 
 LAYERS = (64, 64)
-SETTINGS, SEARCH_STEPS = 8, 51_000  # a multiple of three minutes of 3,000 steps
 FASTEST_CREEP = 0.25  # sizes a second
 # (creeps, steps, runs) in the order in which they are made; runs of all methods take turns.
 PLAN = ((3, 150_000, 10), (8, 150_000, 5), (3, 600_000, 3), (8, 150_000, 10), (8, 600_000, 2), (3, 600_000, 10))
@@ -38,15 +38,18 @@ class Sight(gymnasium.Wrapper):
     """The environment as deep agents see it, which counts what they earn.
 
     env: of WaterWorld, egocentric. steps: how many there will be. seed, run: of its world, which is that of
-    ``neorl.Run(agent, world, seed, run)``.
+    ``neorl.Run(agent, world, seed, run)``. scale: of creeps' positions from the agent, in board widths.
     """
 
-    def __init__(self, env, steps, seed, run):
+    def __init__(self, env, steps, seed, run, scale=1.0):
         super().__init__(env)
+        self._scale = np.ones(env.observation_space.shape, np.float32)
+        for axis in range(2):
+            self._scale[4 + axis::4] = scale  # after the agent's place and velocity: place and kind of each creep
         self._start = {"seed": seed, "options": {"run": run}}
         self.rewards, self._now = np.zeros(-(-steps // MINUTE)), 0
         creeps = env.unwrapped.world.n_creeps
-        low, high = (np.append(end, np.full(2 * creeps, sign, np.float32)) for end, sign in
+        low, high = (np.append(self._scale * end, np.full(2 * creeps, sign, np.float32)) for end, sign in
                      ((env.observation_space.low, -1), (env.observation_space.high, 1)))
         self.observation_space = gymnasium.spaces.Box(low, high)
 
@@ -67,7 +70,7 @@ class Sight(gymnasium.Wrapper):
         state, size = self.env.unwrapped.world_state, self.env.unwrapped.world.size
         nearest_first = np.argsort(((state.scene.things - state.scene.position) ** 2).sum(axis=1), kind="stable")
         velocity = (state.direction * state.speed[:, None])[nearest_first] / size / FASTEST_CREEP
-        return np.concatenate([observation, velocity.ravel()], dtype=np.float32)
+        return np.concatenate([self._scale * observation, velocity.ravel()], dtype=np.float32)
 
 
 def live(method, settings, creeps, steps, seed, run):
@@ -78,8 +81,9 @@ def live(method, settings, creeps, steps, seed, run):
     import torch
     torch.set_num_threads(1)
     env = gymnasium.make("neorl.gym:neorl/WaterWorld-v0", n_creeps=creeps, max_episode_steps=-1)
-    sight = Sight(env, steps, seed, run)
-    model = _model(method, dict(settings), sight, steps, seed * 1_000 + run)
+    settings = dict(settings)
+    sight = Sight(env, steps, seed, run, settings.pop("position_scale"))
+    model = _model(method, settings, sight, steps, seed * 1_000 + run)
     began = time.process_time()
     model.learn(steps)
     return sight.rewards, time.process_time() - began, _kilobytes(model)
@@ -91,8 +95,8 @@ def _model(method, settings, env, steps, seed):
     kind = {"DQN": stable_baselines3.DQN, "PPO": stable_baselines3.PPO, "QR-DQN": sb3_contrib.QRDQN}[method]
     network = {"net_arch": list(LAYERS)}
     if method != "PPO":
-        settings["exploration_fraction"] = min(1.0, settings.pop("exploration_steps") / steps)
-        settings |= {"learning_starts": 1_000, "train_freq": 4}
+        settings["exploration_fraction"] = settings.pop("exploration_steps") / steps  # or the run ends before
+        settings["learning_starts"] = 1_000
     if method == "QR-DQN":
         network["n_quantiles"] = 25
     return kind("MlpPolicy", env, seed=seed, device="cpu", policy_kwargs=network, **settings)
@@ -108,11 +112,11 @@ def _kilobytes(model):
     return (sum(each.element_size() * each.nelement() for each in tensors) + sum(each.nbytes for each in arrays)) / 1e3
 
 
-def search(path):
-    """Try `SETTINGS` settings of each method and append to the table at `path` what each earned."""
+def search(path, *methods):
+    """Try `SETTINGS` settings of each method, or of some, and append to the table at `path` what each earned."""
     done = {(row["method"], row["number"]) for row in read_search(path)} if Path(path).exists() else set()
     for number in range(SETTINGS):
-        for method in METHODS:
+        for method in methods or METHODS:
             if (method, number) not in done:
                 rewards, _, _ = live(method, settings_of(method, number), 3, SEARCH_STEPS, SEARCH_SEED, number)
                 third = rewards[-len(rewards) // 3:]

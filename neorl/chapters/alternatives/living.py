@@ -48,7 +48,7 @@ def live(contestant, world, *, steps, runs, bins, seed=0):
     edges = np.linspace(0, steps, bins + 1).round().astype(int)
     rewards, seconds, sizes = np.zeros((runs, bins)), np.zeros(runs), np.zeros(runs, int)
 
-    def live_one(run):
+    def live_one(run, edges=edges):
         state = world.reset(np.random.SeedSequence(seed, spawn_key=(run,)))
         memory = contestant.new_memory(world, new_stream(np.random.SeedSequence(seed, spawn_key=(run, 1))))
         sizes[run] = sum(each.nbytes for each in arrays(memory).values())
@@ -56,8 +56,7 @@ def live(contestant, world, *, steps, runs, bins, seed=0):
         execute(kernel_of_life, contestant.setting, memory, state, world.rules, edges, rewards[run])
         seconds[run] = thread_time() - began
 
-    live_one(0)  # compiles, which a second call does not
-    rewards[0] = 0.0
+    live_one(0, np.zeros_like(edges))  # compiles, which later calls do not
     with ThreadPoolExecutor(THREADS) as pool:
         list(pool.map(live_one, range(runs)))
     return Lived(rewards, seconds, int(sizes[0]))

@@ -6,10 +6,10 @@
 
 import numpy as np
 
+from neorl.chapters.alternatives import deep_settings, search
 from neorl.chapters.alternatives.contestants import (BEYOND, DEEP, PHYSICS, READINGS, TABLES, THESIS,
                                                      after_long)
 from neorl.chapters.alternatives.living import BOARDS
-from neorl.chapters.alternatives.search import setting_of
 from neorl.chapters.alternatives.stored import FOLDER, chosen, read_search
 from neorl.chapters.shared.wording import listed, number, table
 from neorl.evidence.claims import RUNS_FOR_A_VERDICT, judge_alternatives
@@ -121,10 +121,9 @@ def long_table(boards):
 
 def search_table():
     """How many settings were tried for each method, what they earned, and which one is used."""
-    from neorl.chapters.alternatives.deep_settings import settings_of
-
     rows = []
-    for file, setting in (("search.csv", lambda *at: setting_of(*at)._asdict()), ("deep_search.csv", settings_of)):
+    for file, setting in (("search.csv", lambda *at: search.setting_of(*at)._asdict()),
+                          ("deep_search.csv", deep_settings.settings_of)):
         tried = read_search(FOLDER / file)
         for method, best in chosen(tried).items():
             rates = [row["rate"] for row in tried if row["method"] == method]
@@ -132,6 +131,14 @@ def search_table():
                              for name, value in setting(method, best).items())
             rows.append([method, len(rates), number(np.median(rates)), number(max(rates)), used])
     return table(["", "tried", "median", "best", "used"], rows)
+
+
+def search_in_words():
+    """How large the search for settings was."""
+    return (f"For each tabular learner and for PD {search.SETTINGS} settings were drawn, and each was given "
+            f"{search.RUNS} runs of {search.STEPS:,} steps. Deep learners take thousands of times as long, so for each "
+            f"of them {deep_settings.SETTINGS} settings were drawn, and each was given one run of "
+            f"{deep_settings.SEARCH_STEPS:,} steps.")
 
 
 def _short(value):
