@@ -185,11 +185,12 @@ def test_it_learns_to_collect_in_minutes():
 def test_revalued_creeps_are_sought_at_once():
     fixed = forager(valence_green=1.0, valence_red=-1.0)
     run = Run(fixed, WaterWorld(n_creeps=8), 4)
-    run.advance(50_000)
+    rewards, hits = np.zeros(5_200, np.float32), np.zeros((5_200, 2), np.int16)
+    run.advance(50_000, rewards, hits)
     run.change(forager(valence_green=-1.0, valence_red=1.0))
-    rewards, hits = np.zeros(6_000, np.float32), np.zeros((6_000, 2), np.int16)
-    run.advance(5_000, rewards, hits)
-    assert hits[:, 1].sum() > 2 * hits[:, 0].sum()
+    run.advance(2_000, rewards, hits)
+    before, after = hits[4_000:5_000].sum(axis=0), hits[5_000:].sum(axis=0)
+    assert before[0] > 2 * before[1] and after[1] > after[0]
 
 
 @pytest.mark.parametrize("goal", [Place(0.9, 0.1), "node"])

@@ -12,6 +12,7 @@ import numpy as np
 
 from neorl import checks
 from neorl.agents import papers
+from neorl.agents.beyond import forager
 from neorl.agents.compile import n_bytes
 from neorl.chapters.alternatives import controllers
 from neorl.chapters.alternatives.living import BOARDS, live
@@ -83,7 +84,7 @@ def neorl_agents():
         both = papers.multimodal(PRIMES, place_gain=reading.place_gain, **reading.agents)
         agents[f"PC + OVC, {name}"] = THESIS, both
         agents[f"network D, {name}"] = THESIS, networks(reading)["D"]
-    # The agent of "Beyond the thesis" comes here, as one more entry: agents["foveated cells"] = BEYOND, its_agent
+    agents["forager"] = BEYOND, forager()
     return agents
 
 
