@@ -266,7 +266,7 @@ def check_parameters(notebook, parameters):
 def link_terms(text):
     """Markdown whose links into the glossary are Sphinx's references to its terms."""
     known = terms()
-    return re.sub(r"\[(\*?)([^]]+?)\1\]\(\.\./book/glossary\.md#([^)]+)\)",  # a role's text has no markup: emphasis goes around
+    return re.sub(r"\[(\*?)([^]]+?)\1\]\(\.\./book/glossary\.md#([^)]+)\)",  # a role's text has no markup
                   lambda link: f"{link[1]}{{term}}`{link[2]} <{known.get(link[3], link[3])}>`{link[1]}", text)
 
 

@@ -22,11 +22,11 @@ MOST_FRAMES = 5_000
 def animate(run, path, seconds=10.0, fps=25, size=360, background="white"):
     """Let a run go on, and write a film of it to a GIF file, at the speed of the simulation; returns the path.
 
-    run: a `neorl.Run` in a world of two axes, which is advanced. path: ends in ".gif".
-    seconds: simulated, > 0; with `fps` at most 5000 frames. fps: frames a second, integer from 1 to 50; a GIF counts in
-    hundredths of a second, so 10, 20, 25 and 50 are exact. size: the width in pixels, integer from 64 to 2000.
-    background: a colour of matplotlib's, such as "white" or "#121212" for a dark page.
-    Raises ValueError for anything else, before the run goes on, OSError if the file cannot be written.
+    run: a `neorl.Run` in a world of two axes, which is advanced. path: ends in ".gif". seconds: simulated, > 0; with
+    `fps` at most 5000 frames. fps: frames per second, integer from 1 to 50; a GIF counts in hundredths of a second, so
+    10, 20, 25 and 50 are exact. size: the width in pixels, integer from 64 to 2000. background: a colour of
+    matplotlib's, such as "white" or "#121212" for a dark page. Raises ValueError for anything else, before the run goes
+    on, OSError if the file cannot be written.
 
     >>> run = neorl.Run(neorl.place_cells([5, 7]), neorl.WaterWorld())
     >>> path = drawing.animate(run, "run.gif", seconds=0.2, size=120)
@@ -39,7 +39,7 @@ def animate(run, path, seconds=10.0, fps=25, size=360, background="white"):
     size = checks.integer("size", size, at_least=64, at_most=2000)
     frames = max(1, round(checks.positive("seconds", seconds) * fps))
     if frames > MOST_FRAMES:
-        raise ValueError(f"seconds is {seconds!r}, allowed are {MOST_FRAMES} frames or fewer, at {fps} a second "
+        raise ValueError(f"seconds is {seconds!r}, allowed are {MOST_FRAMES} frames or fewer, at {fps} per second "
                          f"{MOST_FRAMES / fps:g} s")
     if not is_color_like(background):
         raise ValueError(f"background is {background!r}, allowed are colours of matplotlib's")
