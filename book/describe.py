@@ -25,7 +25,7 @@ def describe(app, page, template, context, doctree):
         context["metatags"] = context.get("metatags", "") + tags(context.get("title", ""), description(doctree))
     make = context.get("generate_toctree_html")
     if make:
-        context["generate_toctree_html"] = lambda *args, **kwargs: named(make(*args, **kwargs))
+        context["generate_toctree_html"] = lambda kind, **choices: named(make(kind, **choices))
 
 
 def description(doctree):
@@ -42,5 +42,5 @@ def tags(title, text):
 
 
 def named(sidebar):
-    """HTML of a table of contents, with a name for each summary that has none."""
-    return NAMELESS.sub('<summary aria-label="Pages of this part">', sidebar) if isinstance(sidebar, str) else sidebar
+    """A table of contents as HTML, with a name for each summary that has none."""
+    return NAMELESS.sub('<summary aria-label="Pages of this part">', str(sidebar))

@@ -18,19 +18,24 @@ def setup(app):
 
 def follow_setting(app, config):
     """Show buttons if there is a repository, and none if there is not."""
-    options, project = config.html_theme_options, Path(app.srcdir).parent / "pyproject.toml"
-    urls = tomllib.loads(project.read_text(encoding="utf-8"))["project"].get("urls", {})
-    if "Repository" in urls:
-        options |= {"repository_url": urls["Repository"], "use_repository_button": True}
+    options, address = config.html_theme_options, repository(app)
+    if address:
+        options |= {"repository_url": address, "use_repository_button": True}
     else:
         options.pop("launch_buttons", None)
 
 
 def name_repository(app, page, source):
     """Give a page the address that it asks for in a comment, ``% The repository is at <URL>.``, if there is one."""
-    if "repository_url" in app.config.html_theme_options:
-        address = f"The repository is at <{app.config.html_theme_options['repository_url']}>."
-        source[0] = source[0].replace("% The repository is at <URL>.", address)
+    address = repository(app)
+    if address:
+        source[0] = source[0].replace("% The repository is at <URL>.", f"The repository is at <{address}>.")
+
+
+def repository(app):
+    """The address that is set, None without one."""
+    project = tomllib.loads((Path(app.srcdir).parent / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    return project.get("urls", {}).get("Repository")
 
 
 def lead_to_notebooks(app, page, template, context, doctree):

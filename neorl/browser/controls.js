@@ -204,7 +204,7 @@ class Controls {
       rewards: frame?.rewards, bins: frame?.ended ? frame.rewards.length : Math.floor((frame?.step ?? 0) / length.bin),
       band: this.presets[condition]?.band });
     this.placeHandles();
-    const speed = `${grouped(rate)} steps a second, ${grouped(rate / world.fps)} × real time`;
+    const speed = `${grouped(rate)} steps per second, ${grouped(rate / world.fps)} × real time`;
     this.part(".lived").textContent = this.livedText() + (this.running() && rate ? ` · ${speed}` : "");
     const hint = this.hasCreeps() ? `${HINT} Drag the creeps.` : HINT;
     this.part(".said").textContent = this.sentences().join(" ") || hint;

@@ -75,9 +75,9 @@ class Explorer(AnyWidget):
     has a trace or learns at every step), n_creeps (1 … 20; None in the arena), seed (below 2³²), run, speed (times real
     time, 0 for as fast as it goes), playing.
     Choosing a preset sets those that it determines. An agent that is no condition lives in the tank of the first
-    condition that has one, or else in one of 3 creeps; one to the letter at the letter's steps a second, and with its
+    condition that has one, or else in one of 3 creeps; one to the letter at the letter's steps per second, and with its
     contacts; those in the arena in `neorl.Arena()`.
-    seconds and score follow the run, about once a second.
+    seconds and score follow the run, about once per second.
 
     Raises ValueError for a condition that cannot be shown, TraitError for a bad trait, RuntimeError if the WebAssembly
     module cannot be built.
@@ -131,7 +131,7 @@ class Explorer(AnyWidget):
 
     @property
     def agent(self):
-        """The `Agent` that the traits describe, but for elements that somebody has dropped in the page."""
+        """The `Agent` that the traits describe, without elements dropped in the page."""
         preset, _ = self._lives[self.preset]
         named = {each.name: each for each in MODALITIES}
         nodes = [replace(node, resolutions=self.resolutions, gain=gain) for node, gain in zip(preset.nodes, self.gains)]

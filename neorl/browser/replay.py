@@ -17,7 +17,7 @@ class Replay(AnyWidget):
     """Recorded runs side by side.
 
     recordings: one or more of `Recording`, of as many steps each.
-    playing: whether it begins to play when it comes into sight. Readers who ask for less motion press a button.
+    playing: whether it begins to play when it comes into sight. With reduced motion, playback starts by a button.
 
     Raises ValueError for anything else.
     """
@@ -33,7 +33,7 @@ class Replay(AnyWidget):
                       for each in checks.several("recordings", recordings)]
         if len({(len(each.agent), each.fps) for each in recordings}) != 1:
             raise ValueError(f"recordings are of {[len(each.agent) - 1 for each in recordings]} steps, allowed are one "
-                             "or more of the same length and steps a second")
+                             "or more of the same length and steps per second")
         super().__init__(_recordings=[_thinned(each) for each in recordings], playing=playing)
 
 

@@ -2,7 +2,7 @@
 
 1. Agents run in the groups of conditions `CHEAP` under every reading, and in `EXPENSIVE` under the first ones alone.
 2. Which choices matter for a claim is learned from `ENOUGH` readings or more.
-3. Shares are of readings with short runs. Beside them stand those of readings at the papers' own lengths, which are the
+3. Shares are of readings with short runs, beside those of readings at the papers' own lengths, which are the
    design of the calibration.
 4. Tables and sentences are Markdown.
 """
@@ -80,15 +80,15 @@ def holding_in_short_runs(shares, judged, judged_part, steps, runs):
     """
     holding = {name: _share(found, "holds") for name, found in shares.items()}
     counts = _held(judged)
-    return ("The rules ask for more: an interval, which takes more runs than so many readings can have. In short "
-            f"runs, {steps / 60 / PAPER_FPS:.3g} minutes of simulated time at {PAPER_FPS} steps a second and {runs} "
-            f"runs a condition, these are shares of what agents do early: {len(shares)} claims were judged under "
-            f"{len(judged)} readings within the text, those whose runs are expensive ({', '.join(judged_part[0])}) "
-            f"under {len(judged_part)} of these. On average a claim holds under "
+    return (f"The rules require more: an interval, which takes more runs than so many readings can have. In short "
+            f"runs, {steps / 60 / PAPER_FPS:.3g} minutes of simulated time at {PAPER_FPS} steps per second and {runs} "
+            f"runs per condition, which show early behaviour: {len(shares)} claims were judged under "
+            f"{len(judged)} readings within the text, the expensive ones ({', '.join(judged_part[0])}) under "
+            f"{len(judged_part)} of these. On average a claim holds under "
             f"**{_percent(np.mean([*holding.values()]))}** of the readings. Under more than half hold "
             f"{listed(name for name, share in holding.items() if share > 0.5)}; under no reading "
             f"{listed(name for name, share in holding.items() if share == 0)}. Of the {len(judged[0])} claims that "
-            f"were judged under every reading, the reading with the most has {max(counts)}, and the average is "
+            f"were judged under every reading, the best reading has {max(counts)}, and the average is "
             f"{np.mean(counts):.1f}.")
 
 
@@ -176,7 +176,7 @@ def clear_leads(supports):
     """
     clear = [each for each in supports if each.lead.low > 0 or each.lead.high < 0]
     compared = sum(not each.is_to_the_letter for each in supports)
-    told = f"Of {compared} levels, {len(clear)} are listed; by chance alone it would be about {0.05 * compared:.0f}."
+    told = f"Of {compared} levels, {len(clear)} are listed; chance alone would list about {0.05 * compared:.0f}."
     if not clear:
         return told
     rows = [[WITHIN[each.choice].label, each.level, f"{each.held:.2f}", str(each.lead)] for each in clear]

@@ -1,9 +1,9 @@
-"""What the page on calibration computes and reports: the best reading run once more, and what the table says.
+"""The page on calibration: the best reading run again, and conclusions from the table of readings.
 
-1. The best reading of the table runs again with fresh seeds. Beside it run the reading to the letter and the nearest
+1. The best reading of the table runs again with new seeds. Beside it run the reading to the letter and the nearest
    other readings.
 2. Single maps, the last group of conditions, are expensive: they have fewer runs, and the other readings do without.
-3. Tables and sentences are Markdown. `neorl.evidence.calibration_results` draws the conclusions that they tell.
+3. Tables and sentences are Markdown. `neorl.evidence.calibration_results` draws the conclusions.
 """
 
 from dataclasses import replace
@@ -16,7 +16,7 @@ from neorl.evidence.priors import TO_THE_LETTER, WITHIN
 
 *CHEAP, SINGLE_MAPS = GROUPS
 IN_FULL = 100  # runs, from which on the single maps have all of them
-SETS, PAIRS = 8, 6  # how many sets of claims that hold together are told, and how many pairs that never do
+SETS, PAIRS = 8, 6  # of claims that hold together, and of claims that never do: the most that are listed
 
 
 def few(runs):
@@ -47,7 +47,7 @@ def to_the_letter(steps, runs, seed):
 
 
 def lives_of_others(rows, best, steps, seed):
-    """What rows of other readings than the best row's live in two runs each: [{key of the condition: `Result`}, …].
+    """Two runs each of rows with other readings than the best row's: [{key of the condition: `Result`}, …].
 
     The row at place i has the seed `seed` + i.
     """
@@ -75,7 +75,7 @@ def numbers(letter, best, confirmed):
         interval = f"{target.low:.3g} … {target.high:.3g}".replace("-", "−").replace("inf", "∞")
         measures = (_marked(target, *row.statistics[name]) for row in (letter, best, confirmed))
         rows.append([target.claim, target.label, target.thesis, interval, *measures])
-    return table(["Claim", "Statistic", "Thesis", "Agrees", "To the letter", "Best, in the table", "Best, fresh seeds"],
+    return table(["Claim", "Statistic", "Thesis", "Agrees", "To the letter", "Best, in the table", "Best, new seeds"],
                  rows)
 
 
@@ -109,7 +109,7 @@ def unseen_pairs(together):
 
 
 def without_a_claim(rows):
-    """How near a reading comes to the targets if a claim is given up, the nearest first, as a table. rows: of `Row`."""
+    """The nearest distance to the targets without one claim, in ascending order, as a table. rows: of `Row`."""
     first, *_ = nearest(rows)
     found = {"nothing": (first.distance, first)}
     found |= sorted(giving(rows).items(), key=lambda given_up: given_up[1][0])

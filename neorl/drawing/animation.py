@@ -25,11 +25,11 @@ def animate(run: Run, path: str | PathLike[str], seconds: float = 10.0, fps: int
             background: Any = "white") -> Path:
     """Let a run go on, and write a film of it to a GIF file, at the speed of the simulation; returns the path.
 
-    run: a `neorl.Run` in a world of two axes, which is advanced. path: ends in ".gif".
-    seconds: simulated, > 0; with `fps` at most 5000 frames. fps: frames a second, integer from 1 to 50; a GIF counts in
-    hundredths of a second, so 10, 20, 25 and 50 are exact. size: the width in pixels, integer from 64 to 2000.
-    background: a colour of matplotlib's, such as "white" or "#121212" for a dark page.
-    Raises ValueError for anything else, before the run goes on, OSError if the file cannot be written.
+    run: a `neorl.Run` in a world of two axes, which is advanced. path: ends in ".gif". seconds: simulated, > 0; with
+    `fps` at most 5000 frames. fps: frames per second, integer from 1 to 50; a GIF counts in hundredths of a second, so
+    10, 20, 25 and 50 are exact. size: the width in pixels, integer from 64 to 2000. background: a colour of
+    matplotlib's, such as "white" or "#121212" for a dark page. Raises ValueError for anything else, before the run goes
+    on, OSError if the file cannot be written.
 
     >>> run = neorl.Run(neorl.place_cells([5, 7]), neorl.WaterWorld())
     >>> path = drawing.animate(run, "run.gif", seconds=0.2, size=120)
@@ -42,7 +42,7 @@ def animate(run: Run, path: str | PathLike[str], seconds: float = 10.0, fps: int
     size = checks.integer("size", size, at_least=64, at_most=2000)
     frames = max(1, round(checks.positive("seconds", seconds) * fps))
     if frames > MOST_FRAMES:
-        raise ValueError(f"seconds is {seconds!r}, allowed are {MOST_FRAMES} frames or fewer, at {fps} a second "
+        raise ValueError(f"seconds is {seconds!r}, allowed are {MOST_FRAMES} frames or fewer, at {fps} per second "
                          f"{MOST_FRAMES / fps:g} s")
     colour_like("background", background)
     content, pictures = io.BytesIO(), _pictures(run, frames, fps, size, background)

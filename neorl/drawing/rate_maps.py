@@ -17,7 +17,7 @@ from neorl.drawing.boards import as_board, check_run_in_plane
 from neorl.drawing.style import INK, axes_or_new
 from neorl.experiments.run import Run
 
-LOOKS = 50  # a second, or once a step if there are fewer
+LOOKS = 50  # per second, or once per step if there are fewer
 MOST_LOOKS = 10_000_000
 
 
@@ -30,7 +30,7 @@ class Track(NamedTuple):
 
 
 def track(run: Run, seconds: float, index: int = 0) -> Track:
-    """Let a run go on, and look at it up to 50 times a second: a `Track`.
+    """Advance a run and sample it up to 50 times per second: a `Track`.
 
     run: a `neorl.Run` in a world of two axes, which is advanced. seconds: simulated, > 0.
     index: of the map in `Agent.maps`. Raises ValueError for anything else.

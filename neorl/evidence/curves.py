@@ -28,7 +28,7 @@ def low_passed(rates: ArrayLike) -> NDArray[np.float64]:
     """Curves (runs, points) through the filter forwards and backwards, so that nothing shifts in time.
 
     Before and after it a curve goes on as its image in the point where a straight line through its first or last cutoff
-    period ends: the one at its very end would be as noisy as a curve that nobody filtered.
+    period ends: the one at its very end would be as noisy as an unfiltered curve.
     rates: (runs, points). Raises ValueError for anything but finite numbers, or if there are no more than 2
     `CUTOFF_PERIODS` points.
     """

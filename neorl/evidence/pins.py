@@ -192,8 +192,8 @@ WORLD = (
         "paper B, section 3", "Three objects, +1 and −1 alone.", _always),
     Pin("objects and rewards, paper C", (), "Three objects move around in the Euclidean plane", "paper C, section 2",
         "As in paper B.", _always),
-    Pin("steps a second", ("fps",), "with one run taking somewhat under one hour on a single CPU core",
-        "paper A, Experiments", "150,000 steps are 50 minutes at 50 a second, the plainest; 83 at 30; 42 at 60."),
+    Pin("steps per second", ("fps",), "with one run taking somewhat under one hour on a single CPU core",
+        "paper A, Experiments", "150,000 steps are 50 minutes at 50 per second, the plainest; 83 at 30; 42 at 60."),
     Pin("contact", ("contact",), "", "", "Pygame compares whole pixels: rounded since version 2, the plainest, and "
         "truncated before."),
 )

@@ -129,7 +129,7 @@ WITHIN = {
     "weighting": Choice("map weights", ("resolution", "cells"), "ABCT"),
     "place_gain": Choice("gain of place, B", (1.0, 3.0, 5.0), "BT"),
     "network_resolutions": Choice("resolutions, C", (LAYERS, papers.PRIMES), "C"),
-    "fps": Choice("steps a second", (50, 30, 60), "ABCT"),
+    "fps": Choice("steps per second", (50, 30, 60), "ABCT"),
     "contact": Choice("contact", CONTACTS, "ABCT"),
 }
 PINNED: dict[str, Any] = {

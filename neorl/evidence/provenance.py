@@ -34,9 +34,9 @@ def constants():
     fixed = [
         Constant("side of the tank", f"{three.width} pixels", AUTHOR),
         Constant("radius of agent and creeps", f"{three.radius} pixels", PLE),
-        Constant("acceleration of an action", "a quarter of the width a second, each step", PLE),
+        Constant("acceleration of an action", "a quarter of the width per second, each step", PLE),
         Constant("drag", f"{waterworld.DRAG} a step", PLE),
-        Constant("speed of creeps", "up to a quarter of the width a second", PLE),
+        Constant("speed of creeps", "up to a quarter of the width per second", PLE),
         Constant("creeps, paper A", f"{eight.n_creeps}", "paper A, WaterWorld (and the author's later public code)"),
         Constant("creeps, papers B and C", f"{three.n_creeps}", "paper C, section 2; for paper B " + AUTHOR),
         Constant("reward for the last green creep, paper A", f"{eight.win_reward:g}", "paper A, WaterWorld"),

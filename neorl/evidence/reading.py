@@ -125,7 +125,7 @@ def conditions(reading: Reading, steps: int, runs: int, seed: int = 0,
                groups: Sequence[str] = tuple(GROUPS)) -> dict[Any, Condition]:
     """The conditions of the papers under a reading: {key: `Condition`}.
 
-    steps: of a run at 50 steps a second, but no more than the paper's; papers B and C live the same simulated time at
+    steps: of a run at 50 steps per second, but no more than the paper's; papers B and C live the same simulated time at
     any rate. For B4 agents live 16 times as long, half as many runs and at least two, unless paper B's are as long.
     Brownian motion with 8 creeps always lives as long as in paper A, where it meets with no reset.
     seed: integer ≥ 0. groups: names in `GROUPS`, which holds the keys of each.

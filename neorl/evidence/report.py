@@ -51,15 +51,15 @@ def summary(judged):
     by_reading = {reading: {claim.name: claim.verdict for claim in judged[reading] if claim.name in CLAIMS}
                   for reading in _in_order(judged)}
     if any("no verdict" in verdicts.values() for verdicts in by_reading.values()):
-        return "With so few runs there is nothing to sum up."
-    lines = ["Each claim, and where it is reproduced:", ""]
+        return "With so few runs there are no verdicts to sum up."
+    lines = ["Each claim, and the readings that reproduce it:", ""]
     for name in dict.fromkeys(name for verdicts in by_reading.values() for name in verdicts):
         where = [reading for reading, verdicts in by_reading.items() if verdicts.get(name) == "reproduced"]
         lines.append(f"- **{name}** {STATEMENTS[name].text}: *{'; '.join(where) or 'none of these readings'}*.")
     score = {reading: tuple([*verdicts.values()].count(kind) for kind in ("reproduced", "partly"))
              for reading, verdicts in by_reading.items()}
     closest = [reading for reading in score if score[reading] == max(score.values())]
-    told = "Closest to the thesis comes *{}*: {} of its claims are reproduced and {} partly.".format(
+    told = "The reading closest to the thesis is *{}*: {} claims are reproduced and {} partly.".format(
         "*, *".join(closest), *max(score.values()))
     told += "".join(f" In the reading *{reading}* they are {score[reading][0]} and {score[reading][1]}."
                     for reading in (LETTER, CALIBRATED) if reading in score and reading not in closest)

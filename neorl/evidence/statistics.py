@@ -1,4 +1,4 @@
-"""Statistics over runs: a run (a seed) is the unit, an interval is 95 % unless told otherwise.
+"""Statistics over runs: a run (a seed) is the unit, an interval is 95 % unless stated otherwise.
 
 Intervals are percentile bootstraps of `scipy.stats`, tolerance bands are pairs of order statistics. `rng` is what a
 bootstrap draws from, a `numpy.random.Generator` or the seed of one; by default it draws the same each time.

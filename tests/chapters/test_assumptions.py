@@ -84,11 +84,11 @@ def test_claims_that_hold_in_short_runs_are_counted(shares):
     judged = [claims(["B1", "C1"]), claims(["B1"], ["C1"]), claims([], ["B1", "C1"])]
     part = [claims([], ["A2"])] * 2
     text = plain(assumptions.holding_in_short_runs(shares, judged, part, 30_000, 2))
-    assert "In short runs, 10 minutes of simulated time at 50 steps a second and 2 runs a condition" in text
-    assert "3 claims were judged under 3 readings within the text, those whose runs are expensive (A2) under 2" in text
+    assert "In short runs, 10 minutes of simulated time at 50 steps per second and 2 runs per condition" in text
+    assert "3 claims were judged under 3 readings within the text, the expensive ones (A2) under 2" in text
     assert "a claim holds under **42 %** of the readings. Under more than half hold A2; under no reading B1." in text
-    assert text.endswith("Of the 2 claims that were judged under every reading, the reading with the most has 2, and "
-                         "the average is 1.0.")
+    assert text.endswith("Of the 2 claims that were judged under every reading, the best reading has 2, and the "
+                         "average is 1.0.")
     shares |= {"A2": shares["C1"], "B1": shares["C1"]}
     text = assumptions.holding_in_short_runs(shares, judged, part, 30_000, 2)
     assert "Under more than half hold none; under no reading none." in text
@@ -151,9 +151,9 @@ def test_levels_are_listed_if_they_clearly_lead_the_letter_or_trail_it():
     table, told = assumptions.clear_leads(supports * 10).split("\n\n")
     assert table.splitlines()[2:4] == ["| credit, ψ(N) | level 1 | 4.00 | 2.00 [1.00, 3.00] |",
                                        "| credit, ψ(N) | level 2 | 4.00 | −2.00 [−3.00, −1.00] |"]
-    assert told == "Of 30 levels, 20 are listed; by chance alone it would be about 2."
+    assert told == "Of 30 levels, 20 are listed; chance alone would list about 2."
     assert assumptions.clear_leads(supports[:1]) == (
-        "Of 0 levels, 0 are listed; by chance alone it would be about 0.")
+        "Of 0 levels, 0 are listed; chance alone would list about 0.")
 
 
 def test_priors_that_differ_beyond_the_text_stand_beside_those_within():

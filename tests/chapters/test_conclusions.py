@@ -87,9 +87,9 @@ def test_what_else_became_of_claims_is_told_where_there_are_any():
     some = all_claims("reproduced") | {"A2": "partly", "A3": "not testable", "A4": "not testable"}
     del some["T8"]
     assert what_did_not_hold(some)[2:] == [
-        "Partly: A2; the page of claims has what is missing.",
-        "Not testable, because agents have learned nothing to test them by: A3, A4.",
-        "Not computed yet, where this page was made: T8."]
+        "Partly: A2; the page of claims gives the details.",
+        "Not testable, because the agents have not learned: A3, A4.",
+        "Not computed when this page was built: T8."]
     assert len(what_did_not_hold(all_claims("reproduced"))) == 2
 
 
@@ -97,7 +97,7 @@ def test_claims_that_hold_in_no_short_run_or_are_undecided_in_most_are_named():
     shares = {"A2": {"holds": 0, "undecided": 2, "readings": 4}, "A3": {"holds": 1, "undecided": 3, "readings": 4},
               "H1": {"holds": 0, "undecided": 8, "readings": 8}}
     assert what_did_not_hold(all_claims("reproduced"), {}, shares)[-1] == (
-        "In short runs under 4 readings within the text, A2 held in none that could be decided; A3 were left undecided "
-        "by more than half of them.")
+        "In short runs under 4 readings within the text, A2 held in none that could be decided; A3 were undecided "
+        "in more than half of them.")
     del shares["A2"], shares["A3"]
     assert len(what_did_not_hold(all_claims("reproduced"), {}, shares)) == 2  # H1 is a demonstration

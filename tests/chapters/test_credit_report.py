@@ -28,7 +28,7 @@ def test_leads_are_told_for_each_rule_after_some_visits():
 
 def test_a_lead_that_is_clearly_larger_in_the_end_is_told_with_its_size():
     text = credit_report.leads({"inversion": values(0.6, 0.6), "difference": values(0.2, 0.2)})
-    assert "So in the end inversion has the larger lead, 3 times as large: to temporal difference" in text
+    assert "So in the end inversion has the larger lead, 3 times as large: for temporal difference" in text
     text = credit_report.leads({"inversion": values(0.6, 0.1), "difference": values(0.2, 0.2)})
     assert "So in the end" not in text
 
@@ -58,7 +58,8 @@ def test_what_finer_steps_do_to_values_and_leads_is_told():
     text = longer_stays(0.3, 0.004)
     assert text.startswith("From 1 step to 50, the value of the cause goes from 0.80 to 0.50 [0.50, 0.50] with "
                            "inversion, and to 0.50 [0.50, 0.50] with temporal difference, or 0.50 [0.50, 0.50] with "
-                           "the same horizon. The lead ends at 0.30, 0.004 and 0.050. So inversion hardly cares")
+                           "the same horizon. The lead ends at 0.30, 0.004 and 0.050. Inversion is thus nearly "
+                           "independent")
 
 
 def test_inversion_cares_how_finely_time_is_cut_if_its_lead_falls_or_is_not_much_the_larger():
@@ -87,7 +88,7 @@ def test_late_effects_are_told_by_rule():
 
 
 def test_credit_by_share_is_weak_if_brief_events_leave_it_a_smaller_lead():
-    assert "Credit by share has a weakness of its own" in late_effects(0.1, 0.5)
+    assert "Credit by share has its own weakness" in late_effects(0.1, 0.5)
     assert "Credit by share has a weakness" not in late_effects(0.5, 0.5)
 
 

@@ -25,8 +25,8 @@ def task():
 
 
 @pytest.mark.parametrize("late, told", [
-    ([0.5, 0.9, 0.95], "So the larger table learns from fewer steps."),
-    ([0.95, 0.95, 0.95], "The interval leaves open which needs fewer."),
+    ([0.5, 0.9, 0.95], "The model thus learns from fewer steps."),
+    ([0.95, 0.95, 0.95], "The interval leaves open which one needs fewer."),
 ])
 def test_the_larger_table_needs_fewer_steps_only_if_the_interval_says_so(task, late, told):
     made = {"Q-learning": np.array([late, late]), "model": np.array([[0.95, 1.0, 1.0], [0.95, 1.0, 1.0]])}
@@ -54,4 +54,4 @@ def test_a_factor_that_is_no_larger_than_the_number_of_cells_takes_the_reason_aw
 def test_sweeps_are_counted_in_all(task):
     found = decision_report.sweeps_in_all(task, 0.9, (1, 50))
     totals = [decision.sweeps_until_stable(*task.expected(), 0.9, sweeps) for sweeps in (1, 50)]
-    assert found == f"{totals[0]} in all with 1 an iteration; {totals[1]} in all with 50 an iteration."
+    assert found == f"{totals[0]} in all with 1 per iteration; {totals[1]} in all with 50 per iteration."

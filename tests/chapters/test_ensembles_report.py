@@ -29,13 +29,13 @@ def test_the_table_of_lives_has_a_row_for_each_chooser_and_one_for_chance():
 
 
 @pytest.mark.parametrize("learner, than", [(1.0, "better than"), (5.0, "worse than"),
-                                           (4.0, "not to be told apart from")])
+                                           (4.0, "indistinguishable from")])
 def test_the_best_rule_is_compared_with_the_best_learner_at_the_end(learner, than):
     made = rules(2, 1, 4, 3, learner)
     made["majority voting"][:, 0] = 9
     text = report.order_of_rules({"hall": made, "yard": rules(2, 1, 3, 4)})
     assert text.startswith("In the hall, Boltzmann multiplication ends highest and rank voting lowest of the four "
-                           "rules; over the whole life majority voting is first. At the end Boltzmann multiplication "
+                           "rules; over the whole run majority voting is first. At the end Boltzmann multiplication "
                            f"is {than} the best single learner, Sarsa (difference")
     assert " In the yard, Boltzmann addition ends highest" in text
 
@@ -44,13 +44,13 @@ def test_the_places_of_rank_voting_are_told_by_both_counts():
     early = rules(1, 2, 3, 4)
     early["rank voting"][:, 0] = 9
     text = report.places_of_rank_voting({"hall": early})
-    assert "places 3 at the end in the hall, 1 over the life in the hall. So the place of rank voting depends" in text
+    assert "ranks 3 at the end in the hall, 1 over the run in the hall. So the place of rank voting depends" in text
 
 
 def test_rank_voting_may_have_the_same_place_each_time():
     text = report.places_of_rank_voting({"hall": rules(2, 1, 4, 3), "yard": rules(4, 1, 2, 3)})
-    assert "the places 4 at the end in the hall, 4 over the life in the hall, 4 at the end in the yard, 4 over" in text
-    assert text.endswith("So rank voting has the same place in both mazes and by both counts.")
+    assert "ranks 4 at the end in the hall, 4 over the run in the hall, 4 at the end in the yard, 4 over" in text
+    assert text.endswith("So rank voting has the same place in both mazes and by both measures.")
 
 
 def by_greediness(*levels):
@@ -79,11 +79,11 @@ def test_the_reading_of_a_vote_matters_more_than_the_rule_if_it_makes_more_diffe
     made = rules(3.0, 2.5, 2.9, 2.8)
     made["majority of favourites"][:, 1] = 1.0
     text = report.readings_of_a_vote(made)
-    assert "is 2.00 [2.00, 2.00]. That is more than lies between" in text
-    assert "the best and the worst of the four rules, 0.50. So how one reads one word" in text
+    assert "is 2.00 [2.00, 2.00]. That exceeds the range between" in text
+    assert "the best and the worst of the four rules, 0.50. The reading of one word" in text
     made["majority of favourites"][:, 1] = 2.8
     text = report.readings_of_a_vote(made)
-    assert text.endswith("is 0.20 [0.20, 0.20]. Between the best and the worst of the four rules lie 0.50.")
+    assert text.endswith("is 0.20 [0.20, 0.20]. The range between the best and the worst of the four rules is 0.50.")
 
 
 def test_learners_are_ranked_among_themselves():

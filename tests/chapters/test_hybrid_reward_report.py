@@ -30,7 +30,7 @@ def test_the_table_has_a_row_for_each_kind_with_its_states_and_what_it_knows():
 @pytest.mark.parametrize("latent, told", [
     (5, "Latent heads learn more from the same steps than heads (difference 3.00"),
     (1, "Latent heads learn less from the same steps than heads (difference −1.00"),
-    (2, "Latent heads cannot be told apart from heads"),
+    (2, "Latent heads are indistinguishable from heads"),
 ])
 def test_latent_heads_are_better_than_heads_if_the_interval_says_so(latent, told):
     text = report.lead_of_heads(kinds(played([0, 0, 0]), played([0, 0, 2]), played([0, 0, latent])))
@@ -40,17 +40,16 @@ def test_latent_heads_are_better_than_heads_if_the_interval_says_so(latent, told
 def test_the_single_learner_catches_up_where_its_mean_first_reaches_what_heads_make_in_the_end():
     heads = played([9, 9, 4], edges=np.array([0, 20, 30, 50]))
     text = report.catching_up(kinds(played([1, 4, 7]), heads, None))
-    assert text == ("It does catch up: after 200 steps its mean first reaches 4.0, which is what heads make at the end "
-                    "of 50 steps.")
+    assert text == ("It does catch up: after 200 steps its mean first reaches 4.0, the score of heads after 50 steps.")
 
 
 def test_the_single_learner_that_does_not_catch_up_is_told_where_it_ends():
     heads = played([0, 0, -1], edges=np.array([0, 20, 30, 50]))
     text = report.catching_up(kinds(played([-4, -3, -2.5]), heads, None))
-    assert text == "In 1,000 steps it does not reach the −1.0 that heads make after 50; it ends at −2.5."
+    assert text == "In 1,000 steps it does not reach the −1.0 that heads score after 50; it ends at −2.5."
 
 
-@pytest.mark.parametrize("caught, told", [(6, "So the separation has a price"), (7, "does not show in this number.")])
+@pytest.mark.parametrize("caught, told", [(6, "The separation thus has a price"), (7, "does not show in this number.")])
 def test_the_separation_has_a_price_if_all_heads_are_caught_more_often(caught, told):
     text = report.price(kinds(played([0, 0, 0], caught), played([0, 0, 0], 9), played([0, 0, 0], 7)))
     assert told in text
@@ -65,13 +64,12 @@ def test_the_best_discount_of_each_kind_of_heads_is_told_and_how_often_they_run_
     assert text.startswith("After 1,000 steps heads do best at γ = 0.3 and latent heads at γ = 0.5, of those tried. "
                            "At γ = 0.5, 1.0 % of the games of heads run out of time; at γ = 0.9 it is 20.0 % (latent "
                            "heads: 2.0 % and 30.0 %).")
-    assert text.endswith("At every discount, though, heads of either kind are ahead of the single learner with the "
-                         "same experience.")
+    assert text.endswith("At every discount, though, heads of either kind lead the single learner with the same "
+                         "experience.")
 
 
 def test_heads_that_are_worse_at_one_discount_than_the_single_learner_at_its_best_are_not_ahead_at_every_one():
     swept = kinds([played([0, 0, x]) for x in (0, 2, 0)], [played([0, 0, x]) for x in (5, 4, 3)],
                   [played([0, 0, x]) for x in (2, 3, 4)])
     text = report.best_discounts([0.3, 0.5, 0.9], swept)
-    assert text.endswith("At the worst discount heads are no longer ahead of the single learner with the same "
-                         "experience.")
+    assert text.endswith("At the worst discount heads no longer lead the single learner with the same experience.")

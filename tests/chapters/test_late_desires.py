@@ -42,14 +42,14 @@ def test_what_agents_earn_before_and_after_half_time_is_told():
 
 
 def test_agents_that_have_learned_before_lead_over_newborn_ones():
-    assert ". So the indifferent agents do not begin at half-time: their lead over the first tenth is 0.20 [" in said()
+    assert ". The indifferent agents thus learned before half-time: their lead over the first tenth is 0.20 [" in said()
     assert ". Their lead over that, 0.00 [0.00, 0.01], may be none. " in said(after=0.102)
 
 
 @pytest.mark.parametrize("after, why", [
-    (0.3, ", which these runs cannot tell from none; in"),
-    (0.2, ": less, since agents that pursue creeps meet more of them; in"),
-    (0.4, ": more, since agents that drift see more of the tank; in"),
+    (0.3, ", which these runs do not distinguish from 0; in"),
+    (0.2, ": lower, since agents that pursue creeps meet more of them; in"),
+    (0.4, ": higher, since drifting agents visit more of the tank; in"),
 ])
 def test_the_difference_to_agents_with_desires_throughout_is_explained(after, why):
     assert why in said(after=after)
@@ -57,7 +57,7 @@ def test_the_difference_to_agents_with_desires_throughout_is_explained(after, wh
 
 def test_agents_that_finally_lead_are_said_to():
     assert said(final=(0.5, 0.6)).endswith(
-        "it is 0.10 [0.09, 0.11], so that the agents without desires for half a life are ahead.")
+        "it is 0.10 [0.09, 0.11], so the agents without desires for half the run are ahead.")
     assert said(final=(0.5, 0.5)).endswith("it is 0.00 [−0.01, 0.01].")
 
 

@@ -27,7 +27,7 @@ def test_errors_are_told_around_the_first_meals_of_both_groups_and_on_the_first_
     words = describe_errors(by_learner)
     assert "to day 12 the errors" in words
     assert "go from 51.0 to 52.0 (neoRL), from 51.1 to 52.1 (Q-learning), from 51.2 to 52.2 (Sarsa(λ))." in words
-    assert "On day 2, after as much food, those fed throughout make 2.0 (neoRL) and 2.2 (Sarsa(λ))." in words
+    assert "On day 2, after as much food, the group fed throughout makes 2.0 (neoRL) and 2.2 (Sarsa(λ))." in words
     assert "Sarsa(λ) makes 21.2 errors where a random walk makes 21.0" in words
 
 
@@ -46,13 +46,13 @@ def test_the_table_of_findings_has_a_row_for_each_and_a_column_for_each_kind_of_
 
 def test_findings_name_all_who_show_them():
     words = describe_findings(findings_of({"level": ["neoRL", "Sarsa(λ)"], "never": ["Q-learning"]}))
-    assert "the delayed group of neoRL and Sarsa(λ). There" in words
-    assert "not by being quick: that of none of the three. Overtaking: that of none of the three. Getting" in words
-    assert words.endswith("the never fed of Q-learning.")
+    assert "the delayed group of neoRL and Sarsa(λ). Level" in words
+    assert "not by quick learning: that of none of the three. Overtaking: that of none of the three. Improving" in words
+    assert words.endswith("the unrewarded group of Q-learning.")
 
 
-@pytest.mark.parametrize("fed, said", [(0.5, "this is why they are drawn level with and not overtaken: in a maze"),
-                                       (0.6, "Those fed throughout do not know quite the same: in a maze")])
+@pytest.mark.parametrize("fed, said", [(0.5, "draws level and does not overtake: in a maze"),
+                                       (0.6, "The group fed throughout does not know quite the same: in a maze")])
 def test_what_is_known_before_food_is_told_and_whether_the_fed_know_the_same(fed, said):
     known = np.full(DAYS, 0.9)
     known[9] = 0.5  # on the evening before day 11
@@ -69,8 +69,8 @@ def test_settings_are_told_by_their_numbers_and_verdicts():
                                                 ("c", ABOVE, AROUND, ABOVE))}
     judged = {"a": claim("partly"), "b": claim("reproduced"), "c": claim("partly")}
     words = describe_settings(rows, judged, worth=11.25)
-    assert "lies between −2.00 and 2.00 errors a day; never to be fed costs 11.2. In 1 of 3 settings the" in words
-    assert "It is *partly* in 2; *reproduced* in 1 (b). Where nothing sets two groups apart, one interval in" in words
+    assert "lie between −2.00 and 2.00 per day; never being fed costs 11.2. In 1 of 3 settings the" in words
+    assert "It is *partly* in 2; *reproduced* in 1 (b). Even between equal groups, about one interval in" in words
     assert words.endswith("are ahead in 2 settings. Of the others, so are Q-learning with b.")
 
 
@@ -81,9 +81,9 @@ def test_settings_without_a_rival_ahead_or_an_interval_below_0_are_told_so():
     assert words.endswith("are ahead in 1 settings. Of the others, none are in any.")
 
 
-@pytest.mark.parametrize("outcome, said", [("reproduced", "Here the interval does lie below 0. Yet both"),
-                                           ("partly", "level with those fed throughout, and no further. "),
-                                           ("not reproduced", "level cannot be told from a little behind. ")])
+@pytest.mark.parametrize("outcome, said", [("reproduced", "Here the interval lies below 0. Yet both"),
+                                           ("partly", "level with the group fed throughout, and no further. "),
+                                           ("not reproduced", "level cannot be distinguished from slightly behind. ")])
 def test_each_verdict_is_told_in_words_of_its_own(outcome, said):
     assert said in describe_verdict(claim(outcome)) and describe_verdict(claim(outcome)).endswith(". ")
     assert describe_verdict(claim(outcome, runs=9)) == describe_verdict(claim("not testable")) == ""

@@ -89,7 +89,7 @@ def test_what_was_found_is_put_in_words(results):
     assert "the order of single maps is N50 (0.40), N30 (0.30), N70 (0.25), N10 (0.20), N90 (0.10);" in words
     assert "Brownian motion earns 0.03 and resets the board 0.00 times in 150,000 steps" in words
     assert "together finally earn 0.70 per second, 3." in words and "(thesis: 3.5)" in words
-    assert "alone they earn 0.10, 0.20, 0.30, in all 0.60." in words
+    assert "alone they earn 0.10, 0.20, 0.30, in total 0.60." in words
     assert all(claim.name in words.split("By reward")[0] for claim in judged["calibrated"])
     assert "● reproduced: A1" in words and "no verdict" not in words
 

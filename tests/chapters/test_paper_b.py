@@ -120,7 +120,7 @@ def test_what_was_found_is_put_in_words_reading_by_reading(lived):
     assert letter.startswith(f"**To the letter**, place cells finally earn {level['PC']} per second (thesis: 0.29), ")
     assert calibrated.startswith("**Calibrated**, place cells finally earn ")
     assert f"and both together {level['PC + OVC']} (thesis: 0.55)" in calibrated
-    assert f"take {minute['PC'].value:.0f} minutes (thesis: more than 160), {minute['OVC'].value:.0f}, and" in letter
+    assert f"after {minute['PC'].value:.0f} minutes (thesis: more than 160), {minute['OVC'].value:.0f}, and" in letter
     assert side_by_side.verdicts_in_words(judged["calibrated"]) in calibrated and calibrated.endswith(".")
 
 
@@ -161,10 +161,10 @@ def test_intervals_that_hold_the_expected_points_are_counted():
     found = {"one": {"PC": Estimate(3.0, 2.0, 4.0), "OVC": Estimate(1.0, 0.5, 1.5)},
              "other": {"PC": Estimate(3.4, 3.4, 3.5), "OVC": Estimate(5.0, 4.0, 6.0)}}
     assert findings.points_in_words(found, 3.4) == (
-        "A fresh board has 1.70 green creeps on average, which gives 3.40 points a reset. That lies within 2 of the 4 "
+        "A new board has 1.70 green creeps on average, which gives 3.40 points per reset. That lies within 2 of the 4 "
         "intervals.")
     single = {"one": {"PC": Estimate(3.0, np.nan, np.nan)}}
-    assert findings.points_in_words(single, 3.4).endswith("which gives 3.40 points a reset.")
+    assert findings.points_in_words(single, 3.4).endswith("which gives 3.40 points per reset.")
 
 
 def test_red_creeps_a_minute_add_up_to_those_taken():
@@ -178,14 +178,14 @@ def test_red_creeps_are_told_before_and_after_the_turn_and_at_last():
     curve = np.zeros((2, 100))
     curve[:, 49], curve[:, 50], curve[:, 80:] = 1.0, [2.0, 4.0], 5.0
     assert findings.red_in_words({"to the letter": curve, "calibrated": 2 * curve}) == (
-        "To the letter, the agents take 1.0 red creeps a minute in the hundredth of the run before the turn, 3.0 in "
-        "the one after it, and 5.0 in the last fifth. Calibrated, the agents take 2.0 red creeps a minute in the "
-        "hundredth of the run before the turn, 6.0 in the one after it, and 10.0 in the last fifth.")
+        "To the letter, the agents take 1.0 red creeps per minute in the hundredth of the run before the change, "
+        "3.0 in the one after it, and 5.0 in the last fifth. Calibrated, the agents take 2.0 red creeps per minute "
+        "in the hundredth of the run before the change, 6.0 in the one after it, and 10.0 in the last fifth.")
 
 
 def test_distances_are_told_for_the_first_two_moves_and_the_later_ones():
     assert findings.distances_in_words({"to the letter": watched(), "calibrated": watched()}).startswith(
-        "To the letter, it is 0.30 and 0.20 for experienced agents, 0.40 and 0.40 for ignorant ones. Calibrated, it ")
+        "To the letter, it is 0.30 and 0.20 for experienced agents, 0.40 and 0.40 for untrained ones. Calibrated, it ")
 
 
 def test_what_agents_earn_is_told_for_the_twentieths_beside_the_change():

@@ -17,7 +17,7 @@ def overlaps(learned, neighbours, opposite, planned=0.2):
 def test_functions_that_overlap_even_at_opposite_corners_are_not_orthogonal():
     text = overlaps([BASIS, BASIS], [0.6, 0.6], [0.1, 0.1])
     assert text.startswith("They are not orthogonal: neighbours have a cosine of 0.60 [0.60, 0.60], and even opposite "
-                           "corners of 0.10 [0.10, 0.10]. Those that were learned overlap less than the planned ones.")
+                           "corners of 0.10 [0.10, 0.10]. The learned functions overlap less than the planned ones.")
 
 
 def test_functions_that_may_be_orthogonal_are_not_said_to_be_otherwise():
@@ -31,9 +31,9 @@ def test_one_agent_has_no_interval_that_could_hold_0():
 
 def test_functions_that_are_independent_in_all_agents_are_a_basis():
     text = overlaps([BASIS, 2 * BASIS], [0.6, 0.6], [0.3, 0.3])
-    assert ("*independent* in 2 of 2 agents: the 3 functions have rank 3, so that no one of them is a sum of others. "
+    assert ("*independent* in 2 of 2 agents: the 3 functions have rank 3, so none of them is a weighted sum of others. "
             "The planned ones are too, with rank 3. So the set is a *basis*, as the thesis says: any function on the 3 "
-            "cells is a weighted sum of the 3. How well they keep apart") in text
+            "cells is a weighted sum of the 3. The condition number") in text
     assert text.endswith("its median over agents is 4, and for the planned functions it is 1.")
 
 
@@ -56,18 +56,18 @@ def shares(compared):
 def test_the_sum_is_told_as_a_share_of_the_plan():
     text = shares({(1, 0): made_up(1.0), (2, 0): made_up(1.0, -0.2), (1, 1): made_up(0.6), (2, 1): made_up(0.75)})
     assert text.splitlines()[2:6] == [
-        "| Wanted | none feared | one feared | drawn actions, none feared |", "|---|---|---|---|",
+        "| Desired | none feared | one feared | random actions, none feared |", "|---|---|---|---|",
         "| 1 | 1.00 [1.00, 1.00] | 0.60 [0.60, 0.60] | 0.10 [0.10, 0.10] |",
         "| 2 | 1.00 [1.00, 1.00] | 0.75 [0.75, 0.75] | −0.20 [−0.20, −0.20] |"]
-    assert "Without fear, the sum lost nothing in any placement of 1 or 2 wanted. Following" in text
-    assert "Following it makes 60 to 100 % of what the plan makes, and drawing actions −20 to 10 %." in text
-    assert "It does worst with 1 wanted and 1 feared." in text
-    assert text.endswith("with γ = 0.5 they make 0.80 [0.80, 0.80] and 0.70 [0.70, 0.70].")
+    assert "Without feared elements, the sum lost nothing in any placement of 1 or 2 desired. Following" in text
+    assert "Following it earns 60 to 100 % of the plan's return, and random actions −20 to 10 %." in text
+    assert "It does worst with 1 desired and 1 feared." in text
+    assert text.endswith("with γ = 0.5 they earn 0.80 [0.80, 0.80] and 0.70 [0.70, 0.70].")
 
 
 def test_a_sum_that_always_loses_is_not_said_to_lose_nothing():
     text = shares({(1, 0): made_up(0.9), (1, 1): made_up(0.95)})
-    assert "lost nothing" not in text and "It does worst with 1 wanted and 0 feared." in text
+    assert "lost nothing" not in text and "It does worst with 1 desired and 0 feared." in text
 
 
 def test_the_largest_weights_stand_first_beside_their_valences():

@@ -29,7 +29,7 @@ def test_presses_are_counted_at_the_end_of_each_phase():
     words = describe_presses({"sees": sees, "blind": pressing((58, 58), (50, 30), (3, 3))}, ends=(10, 20, 30))
     numbers = [f"{number:.2f} [{number:.2f}, {number:.2f}]" for number in (58, 57, 56, 4, 3, 2, 52, 20)]
     first, second, third, *_ = words.split(" while ")
-    assert f"presses {numbers[0]} times a minute in the light and {numbers[1]} in the dark" in first
+    assert f"presses {numbers[0]} times per minute in the light and {numbers[1]} in the dark" in first
     assert f"{numbers[2]} and {numbers[3]}" in second and f"{numbers[4]} and {numbers[5]} once it never pays" in third
     assert f"makes a difference of {numbers[6]} presses" in words
     assert f"In blind rats the difference is {numbers[7]}" in words
@@ -38,15 +38,15 @@ def test_presses_are_counted_at_the_end_of_each_phase():
 @pytest.mark.parametrize("blind, by_food", [((40, 20), True), ((30, 30), False), ((20, 40), False)])
 def test_food_is_a_stimulus_where_blind_rats_press_more_in_the_light(blind, by_food):
     minutes = {"sees": pressing((0, 0), (56, 4), (0, 0)), "blind": pressing((0, 0), blind, (0, 0))}
-    assert ("food itself is a stimulus" in describe_presses(minutes, (10, 20, 30))) == by_food
+    assert ("food itself acts as a stimulus" in describe_presses(minutes, (10, 20, 30))) == by_food
 
 
 @pytest.mark.parametrize("sees, gated", [((56, 4), True), ((40, 20), False)])
 def test_the_light_gates_the_response_where_it_makes_more_of_a_difference_than_to_blind_rats(sees, gated):
     minutes = {"sees": pressing((0, 0), sees, (0, 0)), "blind": pressing((0, 0), (40, 20), (0, 0))}
     words = describe_presses(minutes, (10, 20, 30))
-    assert ("only for who perceives it" in words) == gated != words.endswith("do not show what the light adds.")
+    assert ("only in rats that perceive it" in words) == gated != words.endswith("do not show the effect of the light.")
 
 
 def test_a_way_has_steps_or_is_none():
-    assert describe_way(4) == "4 steps" and describe_way(0) == "0 steps" and describe_way(None) == "no way"
+    assert describe_way(4) == "4 steps" and describe_way(0) == "0 steps" and describe_way(None) == "no path"

@@ -15,7 +15,7 @@ def straight(*directions, steps=60):
 def test_walks_that_arrive_are_counted_and_their_time_is_told():
     unbiased, biased = straight((-1, 0, 0), (0, 1, 0)), straight((1, 0, 0), (0, -1, 0))
     assert purposive_report.arrivals(unbiased, biased, goal=(30, 0, 0)).startswith(
-        "Within 60 steps, 0 of 2 unbiased walks come to within 5 units of the goal, 30 units away, and 1 of the biased "
+        "Within 60 steps, 0 of 2 unbiased walks come within 5 units of the goal, 30 units away, and 1 of the biased "
         "ones, after 26 steps on average. The draws")
 
 
@@ -27,7 +27,7 @@ def test_where_no_walk_arrives_there_is_no_time_to_tell():
 def test_walks_spread_by_a_power_of_time_that_drift_raises():
     lags = np.array([1, 10, 100, 1_000, 10_000])
     text = purposive_report.displacements(lags, {0.0: np.array([lags] * 2), 0.1: np.array([lags**2.0] * 2)})
-    assert text.startswith("Without a bias, the mean squared distance grows by 1.00 [1.00, 1.00] a step")
+    assert text.startswith("Without a bias, the mean squared distance grows by 1.00 [1.00, 1.00] per step")
     assert text.splitlines()[-2:] == ["| 0 | never | 0.50 [0.50, 0.50] | 0.50 [0.50, 0.50] |",
                                       "| 0.1 | 99 steps | 1.00 [1.00, 1.00] | 1.00 [1.00, 1.00] |"]
 
@@ -55,5 +55,5 @@ def test_what_ridges_leave_over_is_told_but_for_the_product(angles):
             "two hills": Ridges(np.zeros(10), left / 2)}
     text = purposive_report.ridges(fits, Ridges(np.zeros(2), np.array([1, 0.9, 0.98])))
     assert "found at 45° and 135°, as in its formula" in text and "they leave 98 % of its spread" in text
-    assert "is, of the distance, 50.0 %, of the two hills, 25.0 %; and what ten leave is 0.0 %, 0.0 %." in text
+    assert "leave, of the distance, 50.0 %, of the two hills, 25.0 %; ten leave 0.0 %, 0.0 %." in text
     assert f"of degree {DEGREE}," in text

@@ -37,7 +37,7 @@ def clock(monkeypatch):
 
 
 def run_that_takes(clock, seconds):
-    """A run at 50 steps a second whose k-th step takes so many seconds, the last for all later ones."""
+    """A run at 50 steps per second whose k-th step takes so many seconds, the last for all later ones."""
     run = SimpleNamespace(world=SimpleNamespace(fps=50), step=0)
 
     def advance(steps):

@@ -30,9 +30,9 @@ def test_the_factors_of_experience_carry_the_names_of_their_worlds():
 def test_a_short_memory_is_worth_a_guess_or_more(short, told):
     paid = {"sum": np.array([[0.5, short, 0.9]] * 2), "table": np.array([[0.5, 0.8, 0.9]] * 2)}
     text = report.short_memory(paid, memory=2)
-    assert text.startswith(f"With the sum, who remembers 1 of the 2 steps makes {short:.2f} [{short:.2f}, "
-                           f"{short:.2f}], and who remembers all makes 0.90 [0.90, 0.90]. ")
-    assert ("no more than a guess" in text) == told and "With the table, 1 steps make 0.80 [0.80, 0.80]: there" in text
+    assert text.startswith(f"With the sum, agents that remember 1 of the 2 steps earn {short:.2f} [{short:.2f}, "
+                           f"{short:.2f}] per step, and agents that remember all earn 0.90 [0.90, 0.90]. ")
+    assert ("no more than a guess" in text) == told and "With the table, 1 steps earn 0.80 [0.80, 0.80]: there" in text
 
 
 def curves(certain, remembering, sticky, sticky_remembering):
@@ -46,17 +46,17 @@ SEEN = {"certain": 37, "certain + last": 148, "sticky": 37, "sticky + last": 148
 def test_the_cost_of_remembering_is_told_for_when_others_first_make_nine_tenths():
     made = curves([0.2, 0.9, 1.0], [0.1, 0.6, 0.9], [0.2, 0.8, 0.8], [0.1, 0.7, 1.0])
     text = report.worth_of_last_action(made, SEEN)
-    assert text == ("The learners meet 37 states without the last action and 148 with it. Where actions are certain, "
-                    "to remember costs 0.30 [0.30, 0.30] of the best return after 1,000 steps, and in the end it makes "
-                    "a difference of −0.10 [−0.10, −0.10]. Where they are sticky it makes one of 0.20 [0.20, 0.20]: "
-                    "the agent that does not remember stays behind.")
+    assert text == ("The learners meet 37 states without the last action and 148 with it. Where actions are "
+                    "certain, remembering costs 0.30 [0.30, 0.30] of the best return after 1,000 steps, and finally "
+                    "changes it by −0.10 [−0.10, −0.10]. Where they are sticky, it changes it by 0.20 [0.20, 0.20]: "
+                    "the agent without memory stays behind.")
 
 
 def test_the_cost_is_told_for_the_end_if_nobody_makes_nine_tenths_and_no_difference_decides_nothing():
     made = curves([0.2, 0.5, 0.7], [0.1, 0.3, 0.3], [0.2, 0.5, 0.5], [0.1, 0.5, 0.5])
     text = report.worth_of_last_action(made, SEEN)
     assert "costs 0.40 [0.40, 0.40] of the best return after 10,000 steps" in text
-    assert text.endswith("0.00 [0.00, 0.00], which with so few learners or steps decides nothing.")
+    assert text.endswith("0.00 [0.00, 0.00], which is inconclusive with so few learners or steps.")
 
 
 def test_the_table_of_floors_has_a_row_for_each():

@@ -36,26 +36,26 @@ def test_the_table_sets_what_is_clear_in_bold():
 
 def test_cells_that_tell_about_their_own_variable_alone_are_told_so():
     words = describe_information(told())
-    assert words.startswith("All of the 3 cells tell most, and more than chance, about the variable of their own "
-                            "modality. None exceeds the shifted spikes anywhere else. With 99 shifts, ")
-    assert words.endswith("6 of these have nothing to find. So each cell tells about the concern of its modality, and "
-                          "next to nothing about the others.")
+    assert words.startswith("All of the 3 cells are most informative, and above chance, about the variable of their "
+                            "own modality. None exceeds the shifted spikes anywhere else. With 99 shifts, ")
+    assert words.endswith("for 6 there is nothing to find. So each cell informs about the concern of its modality, "
+                          "and hardly about the others.")
 
 
 def test_what_cells_tell_beyond_that_is_named():
     words = describe_information(told(("speed cell", "position")))
     assert "Beyond that, the speed cell about position exceeds the shifted spikes. With 99" in words
-    assert "nothing to find, unless the way the animal goes links the variables. So each cell" in words
+    assert "nothing to find, unless the animal's path links the variables. So each cell" in words
     words = describe_information(told(("speed cell", "position"), ("place cell", "speed")))
     assert "the place cell about speed, the speed cell about position exceed the shifted" in words
-    assert words.endswith("next to nothing about the others.")
+    assert words.endswith("hardly about the others.")
     many = told(("speed cell", "position"), ("place cell", "speed"), ("place cell", "direction"))
     assert describe_information(many).endswith("links the variables.")
 
 
 def test_cells_that_do_not_tell_about_their_own_variable_are_not_counted():
     words = describe_information(told(unclear=["place cell"]))
-    assert words.startswith("2 of the 3 cells tell most, and more than chance, about the variable of their own "
+    assert words.startswith("2 of the 3 cells are most informative, and above chance, about the variable of their own "
                             "modality in so short a recording. None exceeds")
     assert words.endswith("nothing to find.")
     outdone = told(("place cell", "speed"))

@@ -48,7 +48,7 @@ def test_a_slow_world_repeats_frames_and_an_arena_is_filmed(tmp_path):
     ({"run": "run"}, "run is 'run', allowed is a Run"), ({"path": "run.mp4"}, "path is 'run.mp4', allowed are"),
     ({"seconds": 0}, "seconds is 0, allowed are finite numbers from 1e-30"),
     ({"seconds": float("nan")}, "seconds is nan"),
-    ({"seconds": 1e6}, "seconds is 1000000.0, allowed are 5000 frames or fewer, at 25 a second 200 s"),
+    ({"seconds": 1e6}, "seconds is 1000000.0, allowed are 5000 frames or fewer, at 25 per second 200 s"),
     ({"fps": 0}, "fps is 0, allowed are integers from 1 to 50"), ({"fps": 2**80}, "fps is 1208925819614629174706176"),
     ({"fps": 12.5}, "fps is 12.5"), ({"size": 10}, "size is 10, allowed are integers from 64 to 2000"),
     ({"background": "a dark one"}, "background is 'a dark one', allowed are colours of matplotlib's"),

@@ -67,11 +67,12 @@ def test_a_summary_names_where_claims_hold_and_what_comes_closest():
     text = report.summary({"calibrated": bad, "other": good, "to the letter": bad})
     assert "- **C1** Network A improves over time but stays weak: *to the letter; calibrated; other*." in text
     assert "- **C4** Recursion (D) improves on C drastically: *other*." in text
-    assert "Closest to the thesis comes *other*: 4 of its claims are reproduced and 0 partly." in text
+    assert "The reading closest to the thesis is *other*: 4 claims are reproduced and 0 partly." in text
     assert text.endswith(" In the reading *to the letter* they are 2 and 0. In the reading *calibrated* they are 2 "
                          "and 0.")
     assert "none of these readings" in report.summary({"calibrated": bad})
-    assert report.summary({"calibrated": networks(*paper_c(runs=2))}) == "With so few runs there is nothing to sum up."
+    few = networks(*paper_c(runs=2))
+    assert report.summary({"calibrated": few}) == "With so few runs there are no verdicts to sum up."
 
 
 @pytest.fixture

@@ -1,4 +1,4 @@
-"""What newborns, veterans and a rule earn in the tank, put into words.
+"""Sentences on the rewards of newborns, veterans and a rule in the tank.
 
 A newborn and a veteran are those of `neorl.chapters.chapter_1.before_and_after`, the rule is that of
 `neorl.chapters.chapter_1.steering`.
@@ -6,19 +6,19 @@ A newborn and a veteran are those of `neorl.chapters.chapter_1.before_and_after`
 
 
 def describe_gain(gain):
-    """Whether a life in the tank pays. gain: what veterans earn more than newborns, an `Estimate`."""
-    return "A life in the tank pays" if gain.low > 0 else "Whether a life in the tank pays, these runs do not tell"
+    """Whether experience in the tank pays. gain: the lead of veterans over newborns, an `Estimate`."""
+    return "Experience in the tank pays" if gain.low > 0 else "These runs do not show a gain by experience"
 
 
 def describe_rule(by_rule, veterans):
-    """What the rule does beside veterans, as the end of a sentence. by_rule, veterans: their rewards, (runs,) each."""
+    """The rule's score against the veterans', as the end of a sentence. by_rule, veterans: rewards, (runs,) each."""
     if by_rule.mean() > veterans.mean():
-        return ("does better than both, and it is not autonomous: whatever it knows, somebody else has found out. That "
-                "is why this book does not ask who scores most. It asks what an agent can come to know and want by "
-                "itself, and what for")
-    return "does no better here, although somebody has told it the laws of motion"
+        return ("scores higher than both, and it is not autonomous: its knowledge was designed in. This book "
+                "therefore does not ask which controller scores highest, but what an agent can learn and desire by "
+                "itself")
+    return "scores no higher here, although it is given the laws of motion"
 
 
 def describe_leads(leads, minute):
-    """What veterans earn more than newborns, a line for each life: leads {steps lived: `Estimate`}; minute in steps."""
+    """The lead of veterans over newborns, one line per length of life: leads {steps: `Estimate`}; minute in steps."""
     return "\n".join(f"{lessons / minute:6.2f} minutes lived: {lead} ahead" for lessons, lead in leads.items())

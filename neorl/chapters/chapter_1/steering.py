@@ -1,7 +1,7 @@
-"""Navigation by rule: a helmsman who steers to where he is told, and a captain who tells him (thesis chapter 1).
+"""Navigation by rule: a helmsman rule that steers to a target, and a captain rule that sets it (thesis chapter 1).
 
-1. *Category 1*: carry out a plan. The helmsman wants to be under way to a place with so much of its distance a second,
-   and takes the action that brings the velocity closest to that.
+1. *Category 1*: carry out a plan. The helmsman aims at a velocity of a fixed share of the distance per second, and
+   takes the action that brings the velocity closest to that.
 2. *Category 2*: make the plan. This captain follows a rule, too: on to the nearest green creep.
 
 Nothing here learns, so that it is automatic and not autonomous (definition 1). It knows the laws of motion.
@@ -22,9 +22,8 @@ def follow_route(world, waypoints, seconds, seed=0):
     """Steer by a list of way-points, one after the other, from the middle of a tank: category 1 navigation.
 
     waypoints: float (points, 2), in board widths, in [0, 1]. seconds: simulated, positive. seed: of the creeps, which
-    nobody minds here.
-    Returns float64 (steps + 1, 2), where the vessel was, in board widths.
-    Raises ValueError for anything else.
+    have no effect here. Returns float64 (steps + 1, 2), where the vessel was, in board widths. Raises ValueError for
+    anything else.
     """
     waypoints = checks.points("waypoints", waypoints, ("x", "y"))
     if waypoints.ndim != 2 or not np.all((0 <= waypoints) & (waypoints <= 1)):

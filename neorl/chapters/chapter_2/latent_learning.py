@@ -5,7 +5,7 @@ food in the goal box: throughout, never, or from day 11 on. Three kinds of anima
 
 1. *neoRL* is an `Agent`. It learns how to reach every place from all that happens (thesis eq. 4.8), and wants the goal
    box once it has met food there. The event of a transition is the action that made it; a bump into a wall or a closed
-   door changes no cell and teaches nothing. Without a wish every action is as good as any other.
+   door changes no cell and teaches nothing. Without a desire all actions have the same value.
 2. *Q-learning* (Watkins 1989) learns what its actions bring, and nothing where they bring nothing.
 3. *Sarsa(λ)* (Sutton and Barto 2018, section 12.7) has replacing eligibility traces, so that one reward teaches all of
    the way that led to it, and prefers, among actions of equal value, the one that it has tried least.
@@ -138,7 +138,7 @@ def neorl_animal(animal, maze):
 
 
 class Finding(NamedTuple):
-    """One of the original's findings, the number that tells with its interval, and whether it is found here."""
+    """One of the original's findings, its statistic with an interval, and whether it is found here."""
 
     text: str
     here: Estimate

@@ -1,8 +1,8 @@
 """A maze of T-shaped units, after the plan with 14 of them in which Tolman and Honzik (1930) ran their rats.
 
 Each unit is a choice between a blind alley and the true path. The original's plan (Elliott 1928) is known here as a
-drawing that others describe, not as a list of turns, so the order of turns is ours. No learner here can tell left from
-right or one order from another: a turn is a label of an action.
+drawing that others describe, not as a list of turns, so the order of turns is ours. No learner here distinguishes left
+from right or one order from another: a turn is a label of an action.
 """
 
 from dataclasses import dataclass

@@ -62,7 +62,7 @@ def draw_known(known_by_learner, first_reward):
 
 
 def draw_settings(rows, labels):
-    """How results hang on choices: rows {setting: {learner: [Estimate for each of ``labels``]}}, a panel a label."""
+    """How results depend on choices: rows {setting: {learner: [Estimate for each of ``labels``]}}, a panel a label."""
     width, _ = plt.rcParams["figure.figsize"]
     figure, panels = plt.subplots(1, len(labels), sharey=True, squeeze=False, figsize=(width, 0.36 * len(rows) + 1.4))
     heights = np.arange(len(rows))

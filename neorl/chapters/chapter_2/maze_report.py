@@ -1,4 +1,4 @@
-"""What animals do in the maze and know of it, put into words and tables."""
+"""Sentences and tables on the errors and the knowledge of animals in the maze."""
 
 import numpy as np
 
@@ -14,14 +14,14 @@ def describe_errors(by_learner):
                       f"{errors[name]['delayed'][FIRST_REWARD]:.1f} ({name})" for name in LEARNERS)
     neorl, sarsa = errors["neoRL"], errors["Sarsa(λ)"]
     return (f"From day {FIRST_REWARD}, on which it first finds food, to day {FIRST_REWARD + 1} the errors of the "
-            f"delayed group go {drops}. On day 2, after as much food, those fed throughout make "
+            f"delayed group go {drops}. On day 2, after as much food, the group fed throughout makes "
             f"{neorl['throughout'][1]:.1f} (neoRL) and {sarsa['throughout'][1]:.1f} (Sarsa(λ)). On the first day of "
             f"all, Sarsa(λ) makes {sarsa['never'][0]:.1f} errors where a random walk makes {neorl['never'][0]:.1f}, "
-            "since it prefers what it has not tried; after that nothing is new.")
+            "since it prefers untried actions; after that day none are left.")
 
 
 def findings_table(found):
-    """What each kind of animal shows of the original's findings, as a Markdown table: {learner: {name: `Finding`}}."""
+    """Which of the original's findings each kind of animal shows, as a Markdown table: {learner: {name: `Finding`}}."""
     rows = [[told[0].text, *(f"**{'yes' if each.holds else 'no'}** {each.here}" for each in told)]
             for told in zip(*(findings.values() for findings in found.values()))]
     return wording.table(["", *found], rows)
@@ -32,9 +32,9 @@ def describe_findings(found):
     level, one_meal, below, never = (
         " and ".join(name for name in found if found[name][key].holds) or "none of the three"
         for key in ("level", "one meal", "below", "never"))
-    return (f"On the level of those fed throughout at once after its first food: the delayed group of {level}. There "
-            f"by what it had learned before, and not by being quick: that of {one_meal}. Overtaking: that of {below}. "
-            f"Getting better without any food: the never fed of {never}.")
+    return (f"Level with the group fed throughout at once after its first food: the delayed group of {level}. Level "
+            f"by latent learning, not by quick learning: that of {one_meal}. Overtaking: that of {below}. Improving "
+            f"without food: the unrewarded group of {never}.")
 
 
 def describe_known(by_learner, units):
@@ -42,19 +42,20 @@ def describe_known(by_learner, units):
     neorl, q_learning, sarsa = (by_learner[name]["delayed"].known[:, FIRST_REWARD - 2].mean() * units
                                 for name in LEARNERS)
     same = np.array_equal(by_learner["neoRL"]["delayed"].known, by_learner["neoRL"]["throughout"].known)
-    fed = ("That is on each day and in every animal as much as those know who are fed throughout, and this is why they "
-           "are drawn level with and not overtaken" if same else "Those fed throughout do not know quite the same")
+    fed = ("On each day and in every animal this equals the knowledge of the group fed throughout, so the delayed "
+           "group draws level and does not overtake" if same else
+           "The group fed throughout does not know quite the same")
     return (f"On the evening of day {FIRST_REWARD - 1}, before it has met any food, the delayed group knows the way to "
             f"the food box at {neorl:.1f} of {units} choice points with neoRL, at {q_learning:.1f} with Q-learning and "
-            f"at {sarsa:.1f} with Sarsa(λ). {fed}: in a maze with one way out, with doors that let nobody turn back, "
-            "every animal passes every choice once a day, hungry or not, and what it knows about the food box spreads "
-            "back from there by one place each time. Wandering into blinds teaches about blinds.")
+            f"at {sarsa:.1f} with Sarsa(λ). {fed}: in a maze with one way out and one-way doors, every animal passes "
+            f"every choice once a day, hungry or not, and its knowledge of the food box spreads back by one place "
+            f"each time. Blind alleys teach only about blind alleys.")
 
 
 def describe_settings(rows, judged, worth):
     """How the verdict on H1 and the findings depend on settings.
 
-    rows, judged: what `neorl.chapters.chapter_2.latent_settings.vary` finds. worth: errors a day that food saves.
+    rows, judged: what `neorl.chapters.chapter_2.latent_settings.vary` finds. worth: errors per day that food saves.
     """
     below, one_meal = zip(*(row["neoRL"] for row in rows.values()))
     leads = [lead.value for lead in below]
@@ -63,22 +64,22 @@ def describe_settings(rows, judged, worth):
     rivals = [f"{name} with {setting}" for setting, row in rows.items() for name in LEARNERS[1:]
               if row[name][1].high < 0]
     reproduced = "reproduced" in [claim.verdict for claim in judged.values()]
-    luck = (". Where nothing sets two groups apart, one interval in forty or so still comes to lie below 0"
+    luck = (". Even between equal groups, about one interval in forty lies below 0"
             if reproduced else "")
-    return ("What the neoRL animals that were fed late make on days 12 to 17, less what those fed throughout make, "
-            f"lies between {span} errors a day; never to be fed costs {worth:.1f}. In {level} of {len(rows)} settings "
-            "the interval holds 0. The verdict about H1 also asks that day 12 alone shows them to be level, which "
-            f"takes many animals. It is {_by_verdict(judged)}{luck}. After one meal each, the neoRL animals that were "
+    return (f"The errors of the neoRL animals fed late on days 12 to 17, less those of the group fed throughout, lie "
+            f"between {span} per day; never being fed costs {worth:.1f}. In {level} of {len(rows)} settings "
+            f"the interval holds 0. The verdict on H1 also requires that day 12 alone shows them level, which takes "
+            f"many animals. It is {_by_verdict(judged)}{luck}. After one meal each, the neoRL animals that were "
             f"fed late are ahead in {sum(each.high < 0 for each in one_meal)} settings. Of the others, "
             + (f"so are {' and '.join(rivals)}." if rivals else "none are in any."))
 
 
 def describe_verdict(claim):
     """What the verdict on H1 shows, in a sentence or two; nothing where there is none."""
-    return {"reproduced": "Here the interval does lie below 0. Yet both groups know the same on each day, so that this "
-                          "can but be the luck of the draw; the settings above have other animals. ",
-            "partly": "What they know brings the animals level with those fed throughout, and no further. ",
-            "not reproduced": "With so many animals, level cannot be told from a little behind. "
+    return {"reproduced": "Here the interval lies below 0. Yet both groups know the same on each day, so this can "
+                          "only be chance; the settings above have other animals. ",
+            "partly": "Their knowledge brings the animals level with the group fed throughout, and no further. ",
+            "not reproduced": "With this number of animals, level cannot be distinguished from slightly behind. "
             }.get(claim.verdict, "")
 
 

@@ -1,7 +1,7 @@
 """A neuron in three sketches: its action potential, its soma that integrates, and its synapse that changes.
 
 1. *Action potential*: the equations of Hodgkin and Huxley (1952) for the giant axon of the squid at 6.3 °C. Gates open
-   and close at rates that hang on the potential, and let sodium in and potassium out.
+   and close at rates that depend on the potential, and let sodium in and potassium out.
 2. *Integration*: a leaky integrate-and-fire neuron (Lapicque 1907). What flows in raises the potential, a leak draws it
    back to rest; at the threshold the neuron fires and is reset. Between two steps the solution is exact.
 3. *Synapse*: each spike sets off a current that decays exponentially. Its efficacy changes with what happens to the

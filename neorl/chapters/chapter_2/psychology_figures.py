@@ -30,7 +30,7 @@ def draw_sessions(curves, phases, ylabel):
 
 
 def draw_wishes(grid, values, marks):
-    """The best actions in a grid under each of several wishes, {name: values (states, 4)}.
+    """The best actions in a grid under each of several desires, {name: values (states, 4)}.
 
     marks: {state: text}, what to write instead of an action.
     """

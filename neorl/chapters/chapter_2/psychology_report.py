@@ -1,4 +1,4 @@
-"""What animals do in boxes and under wishes, put into words."""
+"""Sentences on the behaviour of animals in boxes and under desires."""
 
 import numpy as np
 
@@ -32,17 +32,18 @@ def describe_presses(minutes, ends):
                    for rat in ("sees", "blind"))
     rates = [estimate(np.mean, each) for light_and_dark in sees for each in light_and_dark.T]
     gap, by_food = (estimate(np.mean, gated[:, 0] - gated[:, 1]) for _, gated, _ in (sees, blind))
-    last_press = (": the last press paid, so the next one may, and in this way food itself is a stimulus"
+    last_press = (": the last press paid, so the next one may, and food itself acts as a stimulus"
                   if by_food.low > 0 else "")
-    light = ("The light gates the response much better, but only for who perceives it." if gap.low > by_food.high else
-             "So few rats do not show what the light adds.")
-    return ("In the last three sessions of each phase a rat that sees the light presses {} times a minute in the light "
-            "and {} in the dark while the lever always pays, {} and {} while it pays in the light, and {} and {} once "
-            "it never pays. ".format(*rates)
-            + f"In the second phase the light makes a difference of {gap} presses a minute. In blind rats the "
+    light = ("The light gates the response much better, but only in rats that perceive it."
+             if gap.low > by_food.high else
+             "So few rats do not show the effect of the light.")
+    return ("In the last three sessions of each phase a rat that sees the light presses {} times per minute in the "
+            "light and {} in the dark while the lever always pays, {} and {} while it pays in the light, and {} and {} "
+            "once it never pays. ".format(*rates)
+            + f"In the second phase the light makes a difference of {gap} presses per minute. In blind rats the "
             f"difference is {by_food}{last_press}. {light}")
 
 
 def describe_way(steps):
-    """A way of so many steps, None if there is none."""
-    return "no way" if steps is None else f"{steps} steps"
+    """A path of so many steps, None if there is none."""
+    return "no path" if steps is None else f"{steps} steps"

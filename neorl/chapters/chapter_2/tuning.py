@@ -38,7 +38,7 @@ class Trajectory(NamedTuple):
 
     @property
     def speed(self):
-        """Box widths a second: float64 (steps,)."""
+        """Speeds in box widths per second: float64 (steps,)."""
         return np.linalg.norm(self.velocity, axis=1)
 
 
@@ -46,7 +46,7 @@ def roam(steps, seed=0, step=0.02, speed=0.2, persistence=0.7):
     """An animal that roams the box: a `Trajectory`.
 
     steps: integer ≥ 1. seed: of ``numpy.random.default_rng``. step: seconds, above 0.
-    speed: its mean, box widths a second. persistence: seconds after which its velocity is correlated by 1/e, above 0.
+    speed: its mean, box widths per second. persistence: seconds after which its velocity is correlated by 1/e, above 0.
     Raises ValueError for anything else.
     """
     checks.integer("steps", steps, at_least=1)
@@ -85,8 +85,8 @@ def in_field(nres_map, cell, trajectory, objects=()):
 def spikes(active, step, seed=0, inside=20.0, outside=0.2):
     """How many spikes a cell fires at each step: int16 (steps,), drawn from a Poisson distribution.
 
-    active: bool (steps,), see `in_field`. step: seconds. inside, outside: spikes a second while active, and else, ≥ 0.
-    Raises ValueError for anything else.
+    active: bool (steps,), see `in_field`. step: seconds. inside, outside: spikes per second while active, and else, ≥
+    0. Raises ValueError for anything else.
     """
     rates = np.where(active, checks.real("inside", inside, 0), checks.real("outside", outside, 0))
     return np.random.default_rng(seed).poisson(rates * checks.real("step", step, 1e-9)).astype(np.int16)
@@ -145,14 +145,14 @@ def information(tuned):
 
 
 class Told(NamedTuple):
-    """What the spikes of a cell tell about a variable."""
+    """The information that the spikes of a cell carry about a variable."""
 
     bits: float  # a spike
     clear: bool  # whether that is more than with any of `SHIFTS` shifts of the spikes in time
 
 
 def told_by_spikes(trains, trajectory, seed=0):
-    """What spikes tell about where an animal is, where it is heading and how fast it goes: {cell: {variable: `Told`}}.
+    """The information in spikes about an animal's position, heading and speed: {cell: {variable: `Told`}}.
 
     trains: {cell: spikes at each step}, (steps,) each. Shifted spikes go round the recording, by 1,000 steps or more
     either way, or by a tenth of a recording of fewer than 10,000.

@@ -118,5 +118,5 @@ def draw_tuning_curves(direction, speed, fastest):
         middles = fastest * (np.arange(len(rate)) + 0.5) / len(rate)
         along.plot(middles, rate, color=colour)
         ends.append((rate[~np.isnan(rate)][-1], name, colour))
-    along.set(xlabel="speed, box widths a second", ylabel="spikes a second", ylim=(0, None), xlim=(0, fastest))
+    along.set(xlabel="speed, box widths per second", ylabel="spikes per second", ylim=(0, None), xlim=(0, fastest))
     name_ends(along, ends)

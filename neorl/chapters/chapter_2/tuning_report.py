@@ -1,4 +1,4 @@
-"""What is seen in two reference frames, and what the spikes of tuned cells tell, put into words and tables."""
+"""Sentences and tables on two reference frames, and on the information in the spikes of tuned cells."""
 
 import numpy as np
 
@@ -19,14 +19,14 @@ def describe_frames(seconds, allocentric, seen, turned):
 
 
 def information_table(told):
-    """Bits a spike as a Markdown table, bold where shifted spikes tell less: {cell: {variable: `Told`}}."""
+    """Bits per spike as a Markdown table, bold where they exceed shifted spikes: {cell: {variable: `Told`}}."""
     rows = [[cell, *(f"**{each.bits:.2f}**" if each.clear else f"{each.bits:.2f}" for each in about.values())]
             for cell, about in told.items()]
     return wording.table(["Cell", *next(iter(told.values()))], rows)
 
 
 def describe_information(told):
-    """Which cells tell about the variable of their own modality, and which about others: {cell: {variable: `Told`}}."""
+    """Which cells inform about their own modality's variable, and which about others: {cell: {variable: `Told`}}."""
     right, others = 0, []
     for cell, about in told.items():
         own = OWN.get(cell, "position")
@@ -35,24 +35,25 @@ def describe_information(told):
     complete = right == len(told)
     beyond = (f"Beyond that, {', '.join(others)} {'exceeds' if len(others) == 1 else 'exceed'} the shifted spikes."
               if others else "None exceeds the shifted spikes anywhere else.")
-    return (f"{'All' if complete else right} of the {len(told)} cells tell most, and more than chance, about the "
-            f"variable of their own modality{'' if complete else ' in so short a recording'}. {beyond} With {SHIFTS} "
-            f"shifts, one in a hundred comparisons does so by chance, and {2 * len(told)} of these have nothing to find"
-            + (", unless the way the animal goes links the variables." if others else ".")
-            + (" So each cell tells about the concern of its modality, and next to nothing about the others."
+    return (f"{'All' if complete else right} of the {len(told)} cells are most informative, and above chance, about "
+            f"the variable of their own modality{'' if complete else ' in so short a recording'}. {beyond} With "
+            f"{SHIFTS} shifts, one in a hundred comparisons does so by chance, and for {2 * len(told)} there is "
+            f"nothing to find"
+            + (", unless the animal's path links the variables." if others else ".")
+            + (" So each cell informs about the concern of its modality, and hardly about the others."
                if complete and len(others) < 3 else ""))
 
 
 def describe_sizes(tuned, active):
-    """What is saved by maps apart: {cell: (`NresMap`, which of its cells)}, and {cell: when it is active, (steps,)}."""
+    """The savings of separate maps: {cell: (`NresMap`, which of its cells)}, {cell: when it is active, (steps,)}."""
     cells = [nres_map.cells for nres_map, _ in tuned.values()]
     digits, power = f"{np.prod(cells, dtype=float):.1e}".split("e")
     shares = [100 * np.mean(each) for each in active.values()]
-    return (f"It also saves. The {len(cells)} maps of this box have {sum(cells)} cells in all. A single map of "
-            f"everything, with a cell for each combination, would need {digits} × 10<sup>{int(power)}</sup>. Of each "
-            "map a few cells at most are active at a time: the cells shown here were active for "
-            f"{min(shares):.1f} to {max(shares):.1f} % of the time. What the separate maps cannot say is which "
-            "combination there is: that the animal runs just when it is near a wall, say, is in none of them.")
+    return (f"Separate maps also save cells. The {len(cells)} maps of this box have {sum(cells)} cells in all. A "
+            f"single joint map, with a cell for each combination, would need {digits} × 10<sup>{int(power)}</sup>. Of "
+            "each map a few cells at most are active at a time: the cells shown here were active for "
+            f"{min(shares):.1f} to {max(shares):.1f} % of the time. What separate maps cannot represent is the "
+            f"combination: that the animal runs just when it is near a wall, for instance, is in none of them.")
 
 
 def describe_likeness(found):

@@ -1,7 +1,7 @@
 """Finite Markov decision processes, and two ways to act well in one (thesis sections 3.1 and 3.3).
 
-Who knows the process plans: sweeps of the Bellman equation give values, values give a policy (Bellman 1957; eq. 3.7).
-Who does not lives in it, and learns from each step: action values by Q-learning (Watkins 1989; eq. 3.5), or a model of
+Planning uses a known process: sweeps of the Bellman equation give values, values give a policy (Bellman 1957; eq. 3.7).
+Learning without a model updates after each step: action values by Q-learning (Watkins 1989; eq. 3.5), or a model of
 the transitions in counts, with which to plan.
 
 Whatever the action, a step has one of the same few *outcomes*, each with its chance; the outcome decides where the step
@@ -91,8 +91,8 @@ def reaching(next_state, worth, slip=0.0, starts=None):
 def lattice(side, dimensions):
     """Where each action leads on a grid of any dimension: int64 (side ** dimensions, 2 * dimensions).
 
-    The actions go up and down each axis in turn; who walks over the border stays. The first state is one corner, the
-    last the opposite one. Raises ValueError unless both are integers ≥ 1.
+    The actions go up and down each axis in turn; a step over the border stays in place. The first state is one corner,
+    the last the opposite one. Raises ValueError unless both are integers ≥ 1.
     """
     checks.integer("side", side, at_least=1)
     checks.integer("dimensions", dimensions, at_least=1)
@@ -283,7 +283,7 @@ def count_transitions(lives, steps):
 
 
 def learned_model(lives, steps):
-    """What the first `steps` steps tell of a process, as `Process.expected` has it, for each run.
+    """The model of a process learned from its first `steps` steps, as `Process.expected` has it, for each run.
 
     The shares of each next state, float64 (runs, states, actions, states), and the mean rewards, (runs, states,
     actions). Both are 0 for what was never tried.

@@ -2,8 +2,8 @@
 
 The rules, the task and its numbers are those of Wiering and van Hasselt (2008), Ensemble algorithms in reinforcement
 learning. A maze is walked from a start to a goal, over and over; a step goes in a random direction with probability
-0.2, whichever was chosen. The goal is worth 100, a bump against a wall or the border −2, every other step −0.1. Who has
-not arrived after 1,000 steps begins anew.
+0.2, whichever was chosen. The goal is worth 100, a bump against a wall or the border −2, every other step −0.1. An
+episode ends after 1,000 steps at most.
 
 Five learners learn from whatever is done: Q-learning and Sarsa, which hold action values; and three with a critic, a
 value for each state: actor-critic, whose preferences add up the critic's surprises; QV-learning, whose action values
@@ -124,7 +124,7 @@ class GridMazeArrays(NamedTuple):
 def run_ensemble(maze, chooser, *, steps, runs, seed=0, doublings=0):
     """Reward per step in each twentieth of ``runs`` lives of ``steps`` steps: float64 (runs, 20).
 
-    maze: a `GridMaze`. chooser: who chooses, one of ``CHOOSERS``: a learner alone, a rule for all five, or chance.
+    maze: a `GridMaze`. chooser: of the actions, one of ``CHOOSERS``: a learner alone, a rule for all five, or chance.
     steps: ≥ 20. doublings: how often the chooser's greediness is doubled, or halved if negative, from −5 to 5.
     Run k is the same among any number of runs.
     Raises ValueError for a bad argument.

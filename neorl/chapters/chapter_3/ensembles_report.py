@@ -1,8 +1,7 @@
-"""What ensembles made of two mazes, as the page of chapter 3 reports it, in Markdown.
+"""The rewards of ensembles in two mazes, as the page of chapter 3 reports them, in Markdown.
 
 ``made`` is {maze: {chooser: reward per step (runs, parts)}}, of `neorl.chapters.chapter_3.ensembles.run_ensemble`.
-Choosers are ranked by their means over runs, at the end, which is the last part, or over the life, which is all of
-them.
+Choosers are ranked by their means over runs, at the end, which is the last part, or over the run, which is all of them.
 """
 
 import numpy as np
@@ -11,11 +10,11 @@ from neorl.chapters.chapter_3.ensembles import LEARNERS, RULES, agreement
 from neorl.chapters.shared.wording import by_interval, number, table
 from neorl.evidence.statistics import difference, estimate
 
-COUNTS = {"at the end": lambda rewards: rewards[:, -1], "over the life": lambda rewards: rewards.mean(axis=1)}
+COUNTS = {"at the end": lambda rewards: rewards[:, -1], "over the run": lambda rewards: rewards.mean(axis=1)}
 
 
 def lifetime_table(made, chance):
-    """The reward of each chooser over the life, and below it that of chance: {maze: (runs, parts)}."""
+    """The reward of each chooser over the run, and below it that of chance: {maze: (runs, parts)}."""
     choosers = list(next(iter(made.values())))
     rows = [(chooser, *(estimate(np.mean, rewards[chooser].mean(axis=1)) for rewards in made.values()))
             for chooser in choosers]
@@ -31,11 +30,11 @@ def places_of_rank_voting(made):
     """The place of rank voting among the rules, by both counts in each maze, and whether it is the same each time."""
     places = {f"{when} in the {maze}": _ranked(rewards, RULES, when).index("rank voting") + 1
               for maze, rewards in made.items() for when in COUNTS}
-    verdict = ("So the place of rank voting depends on the task and on what is counted, which is what the footnote "
-               "would lead one to expect." if len(set(places.values())) > 1 else
-               "So rank voting has the same place in both mazes and by both counts.")
+    verdict = ("So the place of rank voting depends on the task and on the measure, as the footnote "
+               "suggests." if len(set(places.values())) > 1 else
+               "So rank voting has the same place in both mazes and by both measures.")
     told = ", ".join(f"{place} {where}" for where, place in places.items())
-    return f"Among the four rules rank voting has here the places {told}. {verdict}"
+    return f"Among the four rules rank voting ranks {told}. {verdict}"
 
 
 def greediness_table(tempered):
@@ -51,8 +50,8 @@ def order_by_greediness(tempered):
     still = (" Still, neither more exploration nor less lifts rank voting from the last place in this maze."
              if set(bottoms) == {"rank voting"} else "")
     return (f"From halved to doubled the first places go to {_listed(tops)}, the last to {_listed(bottoms)}. Nor does "
-            "greediness mean the same in each rule: in the paper's setting, where all five learners agree, majority "
-            f"voting does as they say with probability {agreement('majority voting'):.4f}, rank voting with "
+            f"greediness mean the same in each rule: in the paper's setting, if all five learners agree, majority "
+            f"voting follows them with probability {agreement('majority voting'):.4f}, rank voting with "
             f"{agreement('rank voting'):.2f}.{still}")
 
 
@@ -61,19 +60,19 @@ def readings_of_a_vote(rewards):
     votes = estimate(difference, rewards["majority voting"][:, -1], rewards["majority of favourites"][:, -1])
     means = [rewards[rule][:, -1].mean() for rule in RULES]
     spread = max(means) - min(means)
-    beside = ("That is more than lies between the best and the worst of the four rules, "
-              f"{spread:.2f}. So how one reads one word of a rule can matter more than which rule one takes."
-              if votes.low > spread else f"Between the best and the worst of the four rules lie {spread:.2f}.")
+    beside = (f"That exceeds the range between the best and the worst of the four rules, {spread:.2f}. The reading of "
+              f"one word of a rule can thus matter more than the choice of the rule."
+              if votes.low > spread else f"The range between the best and the worst of the four rules is {spread:.2f}.")
     return f"The first reading less the second, at the end in the small maze, is {votes}. {beside}"
 
 
 def _order(maze, rewards):
     top, *_, bottom = _ranked(rewards, RULES, "at the end")
-    first, *_ = _ranked(rewards, RULES, "over the life")
+    first, *_ = _ranked(rewards, RULES, "over the run")
     alone, *_ = _ranked(rewards, LEARNERS, "at the end")
     ahead = estimate(difference, rewards[top][:, -1], rewards[alone][:, -1])
-    than = by_interval(ahead, "better than", "worse than", "not to be told apart from")
-    return (f"In the {maze}, {top} ends highest and {bottom} lowest of the four rules; over the whole life {first} is "
+    than = by_interval(ahead, "better than", "worse than", "indistinguishable from")
+    return (f"In the {maze}, {top} ends highest and {bottom} lowest of the four rules; over the whole run {first} is "
             f"first. At the end {top} is {than} the best single learner, {alone} (difference {ahead}).")
 
 

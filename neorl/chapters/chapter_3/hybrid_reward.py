@@ -74,18 +74,18 @@ class Game:
         return self.grid.marked("o")
 
     def states(self, kind):
-        """How many states a learner of a kind (one of ``KINDS``) tells apart, all heads taken together."""
+        """The number of states of a learner of a kind (one of ``KINDS``), over all its heads."""
         return _states(kind, self.grid.states, len(self.places))
 
 
 def times_fewer(cells, places):
-    """How many times fewer states heads tell apart than one learner does, in a game of so many cells and places."""
+    """The factor by which heads have fewer states than one learner does, in a game of so many cells and places."""
     return _states("one learner", cells, places) / _states("heads", cells, places)
 
 
 @dataclass(frozen=True)
 class Learner:
-    """Who learns: its kind, one of ``KINDS``, and the three rates of Q-learning, each from 0 to 1.
+    """A learner by its kind, one of ``KINDS``, and the three rates of Q-learning, each from 0 to 1.
 
     exploration: how often any action is taken instead of the best one.
 

@@ -1,4 +1,4 @@
-"""What the learners of the game of fruits made of it, as the page of chapter 3 reports it, in Markdown.
+"""The scores of the learners in the game of fruits, as the page of chapter 3 reports them, in Markdown.
 
 Learners are named as in `neorl.chapters.chapter_3.hybrid_reward.KINDS`; ``played`` is {kind: `Played`} of all of them.
 """
@@ -22,30 +22,30 @@ def lead_of_heads(played):
     one, heads, latent = (played[kind].final for kind in KINDS)
     lead = estimate(difference, latent, heads)
     learn = by_interval(lead, "learn more from the same steps than", "learn less from the same steps than",
-                        "cannot be told apart from")
+                        "are indistinguishable from")
     return ("A run of heads is better than one of the single learner with probability "
             f"{probability_of_improvement(heads, one)}. Latent heads {learn} heads (difference {lead}).")
 
 
 def catching_up(played):
-    """Whether and when the single learner, which plays for longer, reaches what heads make in the end."""
+    """Whether and when the single learner, which plays for longer, reaches the final score of heads."""
     one, heads = played["one learner"], played["heads"]
     level, course = heads.final.mean(), one.rewards.mean(axis=0)
     reached = one.edges[1:][course >= level]
     if len(reached):
-        return (f"It does catch up: after {reached[0]:,} steps its mean first reaches {number(level, 1)}, which is "
-                f"what heads make at the end of {heads.edges[-1]:,} steps.")
-    return (f"In {one.edges[-1]:,} steps it does not reach the {number(level, 1)} that heads make after "
+        return (f"It does catch up: after {reached[0]:,} steps its mean first reaches {number(level, 1)}, the score "
+                f"of heads after {heads.edges[-1]:,} steps.")
+    return (f"In {one.edges[-1]:,} steps it does not reach the {number(level, 1)} that heads score after "
             f"{heads.edges[-1]:,}; it ends at {number(course[-1], 1)}.")
 
 
 def price(played):
-    """How often learners are caught in the end, and whether that shows what the separation costs."""
+    """How often learners are finally caught, and whether that shows the cost of separation."""
     one, heads, latent = (100 * played[kind].share("caught") for kind in KINDS)
-    cost = ("So the separation has a price: a head of a fruit does not know of the ghost, nor the ghost's of the "
-            "fruits, and the sum of two best plans is not the best plan." if one < min(heads, latent) else
-            "The price of the separation, plans that do not know of each other, does not show in this number.")
-    return (f"At the end of these longest lives the single learner is caught in {one:.0f} % of its games, heads in "
+    cost = ("The separation thus has a price: the head of a fruit ignores the ghost, the head of the ghost ignores "
+            "the fruits, and the sum of two best plans is not the best plan." if one < min(heads, latent) else
+            "The price of the separation, plans that ignore each other, does not show in this number.")
+    return (f"At the end of these longest runs the single learner is caught in {one:.0f} % of its games, heads in "
             f"{heads:.0f} % and latent heads in {latent:.0f} %. {cost}")
 
 
@@ -59,11 +59,11 @@ def best_discounts(discounts, swept):
     best = {kind: discounts[int(np.argmax(means))] for kind, means in final.items()}
     stuck = {kind: [f"{100 * swept[kind][discounts.index(each)].share('out of time'):.1f} %" for each in (0.5, 0.9)]
              for kind in KINDS}
-    order = ("At every discount, though, heads of either kind are ahead of the single learner with the same "
+    order = ("At every discount, though, heads of either kind lead the single learner with the same "
              "experience." if min(final["heads"] + final["latent heads"]) > max(final["one learner"]) else
-             "At the worst discount heads are no longer ahead of the single learner with the same experience.")
+             "At the worst discount heads no longer lead the single learner with the same experience.")
     return (f"After {steps:,} steps heads do best at γ = {best['heads']} and latent heads at γ = "
             f"{best['latent heads']}, of those tried. At γ = 0.5, {stuck['heads'][0]} of the games of heads run out of "
-            f"time; at γ = 0.9 it is {stuck['heads'][1]} (latent heads: {' and '.join(stuck['latent heads'])}). Random "
-            "actions free an agent from an attractor sooner or later, so it may cost time without ending a game. "
-            f"{order}")
+            f"time; at γ = 0.9 it is {stuck['heads'][1]} (latent heads: {' and '.join(stuck['latent heads'])}). "
+            f"Random actions sooner or later free an agent from an attractor, so it may cost time without ending a "
+            f"game. {order}")

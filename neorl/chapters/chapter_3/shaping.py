@@ -1,7 +1,7 @@
 """Help that harms: a race to a finish, in which a buoy on the way pays too (thesis section 3.4.1).
 
-Who is paid enough at the buoy goes to and fro there, and never finishes. A state from which a policy never finishes is
-worth nothing to it by the true rewards.
+An agent that is paid enough at the buoy goes to and fro there, and never finishes. A state from which a policy never
+finishes is worth nothing to it by the true rewards.
 """
 
 from dataclasses import replace

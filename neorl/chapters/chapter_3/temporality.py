@@ -3,7 +3,7 @@
 A *mechanism* of memory L shows one of Ψ symbols at each step, drawn evenly, and pays 1 for naming its *outcome*, a
 symbol that its last L make together by one of ``RULES``. A *history* is the L last symbols, as a number in base Ψ whose
 last digit is the newest. Histories are the states of a Markov process, and there are Ψ^L of them; how many of these
-have to be told apart is counted from what follows them, by `states_needed`.
+have to be distinguished is counted from what follows them, by `states_needed`.
 
 *Sticky actions* (Machado et al. 2018) are a memory of one step: with some probability the last action is taken again.
 """
@@ -54,7 +54,7 @@ def outcomes(alphabet, memory, rule, seed=0):
 
 
 def states_needed(following, outcome):
-    """How many states tell everything apart that is to come: the states of the smallest equivalent machine.
+    """The number of states that distinguish all that follows: the states of the smallest equivalent machine.
 
     following: int64 (histories, symbols), as `next_histories`. outcome: (histories,). Two histories are one state if
     they have the same outcome now, and after every sequence of symbols. Histories are split until no symbol leads from

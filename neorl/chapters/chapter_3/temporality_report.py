@@ -1,4 +1,4 @@
-"""What it costs to remember, and not to, as the page of chapter 3 reports it, in Markdown."""
+"""The cost of remembering, and of not remembering, as the page of chapter 3 reports it, in Markdown."""
 
 import numpy as np
 
@@ -23,29 +23,29 @@ def states_table(memories, least):
 
 
 def experience_factors(needed):
-    """By what factors a step that matters prolongs learning: {name: (memories (points,), steps (runs, points))}."""
+    """The factors by which one more step prolongs learning: {name: (memories (points,), steps (runs, points))}."""
     return "; ".join(f"{growth_factor(*series)} with {name}" for name, series in needed.items())
 
 
 def short_memory(paid, memory):
-    """What agents make that remember a step less than matters.
+    """The reward of agents that remember one step less than matters.
 
-    paid: {"sum", "table": reward a step (runs, lengths)}, of lengths remembered from 0 to `memory`.
+    paid: {"sum", "table": reward per step (runs, lengths)}, of lengths remembered from 0 to `memory`.
     """
     short, enough, partial = (estimate(np.mean, paid[rule][:, length]) for rule, length
                               in (("sum", memory - 1), ("sum", memory), ("table", memory - 1)))
-    guess = "So all but one step of memory is worth no more than a guess. " if short.high < 0.55 else ""
-    return (f"With the sum, who remembers {memory - 1} of the {memory} steps makes {short}, and who remembers all "
-            f"makes {enough}. {guess}With the table, {memory - 1} steps make {partial}: there a part of the past tells "
-            "a part of the outcome, so how hard the curse strikes depends on the mechanism.")
+    guess = "Memory of all but one step is thus worth no more than a guess. " if short.high < 0.55 else ""
+    return (f"With the sum, agents that remember {memory - 1} of the {memory} steps earn {short} per step, and agents "
+            f"that remember all earn {enough}. {guess}With the table, {memory - 1} steps earn {partial}: there part "
+            f"of the past determines part of the outcome, so the severity of the curse depends on the mechanism.")
 
 
 def worth_of_last_action(curves, seen_states):
-    """What it costs and brings to remember the last action, where actions are certain and where they are sticky.
+    """The cost and the benefit of remembering the last action, for certain and for sticky actions.
 
     curves: {"certain", "certain + last", "sticky", "sticky + last": (steps (checkpoints,), share of the best return
-    (runs, checkpoints))}. seen_states: {the same: how many}. The cost is told for when learners that need not remember
-    first make nine tenths, in the mean, or for the end if they never do.
+    (runs, checkpoints))}. seen_states: {the same: how many}. The cost is that at the time when learners
+    without need of memory first reach nine tenths, in the mean, or at the end if they never do.
     """
     steps, certain = curves["certain"]
     _, remembering = curves["certain + last"]
@@ -54,15 +54,15 @@ def worth_of_last_action(curves, seen_states):
     price = estimate(difference, certain[:, early], remembering[:, early])
     gap = {kind: estimate(difference, curves[f"{kind} + last"][1][:, -1], curves[kind][1][:, -1])
            for kind in ("certain", "sticky")}
-    behind = (": the agent that does not remember stays behind." if gap["sticky"].low > 0 else
-              ", which with so few learners or steps decides nothing.")
+    behind = (": the agent without memory stays behind." if gap["sticky"].low > 0 else
+              ", which is inconclusive with so few learners or steps.")
     return (f"The learners meet {seen_states['sticky']} states without the last action and "
-            f"{seen_states['sticky + last']} with it. Where actions are certain, to remember costs {price} of the best "
-            f"return after {steps[early]:,} steps, and in the end it makes a difference of {gap['certain']}. Where "
-            f"they are sticky it makes one of {gap['sticky']}{behind}")
+            f"{seen_states['sticky + last']} with it. Where actions are certain, remembering costs {price} of the "
+            f"best return after {steps[early]:,} steps, and finally changes it by {gap['certain']}. Where they are "
+            f"sticky, it changes it by {gap['sticky']}{behind}")
 
 
 def floors_table(shares):
-    """What learners make by the floor of their learning rate: of `shares_by_floor`."""
+    """The return of learners by the floor of their learning rate: of `shares_by_floor`."""
     return table(("Floor of α", "Without the last action", "With it"),
                  [(floor, *(estimate(np.mean, each) for each in both)) for floor, both in shares.items()])

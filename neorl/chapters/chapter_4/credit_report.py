@@ -1,4 +1,4 @@
-"""What the page of chapter 4 says of the rules of learning in the chamber with two levers, in Markdown.
+"""Sentences of chapter 4 on the learning rules in the chamber with two levers, in Markdown.
 
 Values are as `neorl.chapters.chapter_4.credit.learn_by_each` returns them: {rule: (runs, visits, 4, 2)}.
 """
@@ -30,14 +30,13 @@ def leads(values):
             f"other with probability {chance}."]
     if ahead[2].low > 0:
         said.append("So in the end inversion has the larger lead, "
-                    f"{inversion[:, 2].mean() / difference[:, 2].mean():.0f} times as large: to temporal difference, "
-                    "most steps lead from the chamber to the chamber, and for these nothing tells one event from "
-                    "another.")
+                    f"{inversion[:, 2].mean() / difference[:, 2].mean():.0f} times as large: for temporal difference, "
+                    f"most steps lead from the chamber to the chamber, and these do not distinguish events.")
     by_inversion, by_difference, *_ = right.values()
     if np.abs(by_inversion - by_difference)[1:].max() <= 0.1:
-        said.append("But *both* put the cause first about equally often, from the tenth visit on. A lead that is small "
-                    "is still a lead, as long as nothing else is added to it. In an agent that adds up the values of "
-                    "many cells and several maps, other things are.")
+        said.append("But *both* put the cause first about equally often, from the tenth visit on. A small lead "
+                    "suffices as long as nothing else is added to it; an agent adds up the values of many cells and "
+                    "several maps.")
     return ("The *lead* of the cause is its value less that of the best of the other three. *Cause first* is the share "
             "of runs in which it is positive, so that a choice by value would be right.\n\n"
             + table(["Rule", "Lead after 10", "after 100", "Cause first after 1, 10, 100"], rows)
@@ -51,7 +50,7 @@ def _finely(found):
 
 
 def longer_stays(efforts, sampled, lead):
-    """How values and leads bear finer steps, by inversion, by temporal difference, and by that with the same horizon.
+    """How values and leads depend on finer steps, for inversion, temporal difference, and that with the same horizon.
 
     efforts: steps to open an exit, in order. sampled, lead: values by role (runs, 4) and the lead of the cause, an
     `Estimate`, for each effort: {rule: […]}, of these three rules.
@@ -63,16 +62,16 @@ def longer_stays(efforts, sampled, lead):
             f"inversion, and to {causes[1]} with temporal difference, or {causes[2]} with the same horizon. The lead "
             f"ends at {last[0]:.2f}, {last[1]:.3f} and {last[2]:.3f}."]
     if last[0] > 0.5 * lead["inversion"][0].value and last[0] > 2 * max(last[1:]):
-        said.append("So inversion hardly cares how finely time is cut, and temporal difference does. A longer horizon "
-                    "mends the value and not the lead: the finer the steps, the less a single one matters. This is the "
-                    "robustness in time that the thesis claims for its rule (section 4.1.3), and it holds here. It "
-                    "also matters for superposition: a coarse map, whose cells take long to cross, has values of the "
-                    "same size as a fine one.")
+        said.append("Inversion is thus nearly independent of the length of a step, and temporal difference is not. A "
+                    "longer horizon restores the value but not the lead: the finer the steps, the less a single one "
+                    "matters. This is the robustness in time that the thesis claims for its rule (section 4.1.3), and "
+                    "it holds here. It also matters for superposition: a coarse map, with cells that take long to "
+                    "cross, has values of the same size as a fine one.")
     return " ".join(said)
 
 
 def late_effects(delays, first, brief, quick):
-    """Which rules bear exits that open late, events that do not last, and quick learning.
+    """Which rules cope with exits that open late, with brief events, and with quick learning.
 
     first: {"inversion", "last event", "difference": [share of runs with the cause first, an Estimate, for each delay]}.
     brief: {hold: values}, the usual one among them. quick: values with α = 0.3. Both are of inversion and of temporal
@@ -85,8 +84,8 @@ def late_effects(delays, first, brief, quick):
     lead = {hold: _final_leads(values) for hold, values in brief.items()}
     shortest, usual = (lead[hold][0] for hold in (min(lead), Chamber.hold))  # by inversion
     if shortest.high < usual.low:
-        said.append("Credit by share has a weakness of its own: events that do not persist. The briefer they are, the "
-                    "more of both levers is in every stay.")
+        said.append("Credit by share has its own weakness: events that do not persist. The briefer they are, the more "
+                    "every stay contains of both levers.")
     said.append(f"The table is for exits that open at once, after {Chamber.effort} presses in all.")
     rows = [[f"{hold} steps", *estimates] for hold, estimates in lead.items()]
     inversion, difference = _final_leads(quick)

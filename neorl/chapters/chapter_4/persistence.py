@@ -1,4 +1,4 @@
-"""Whether it takes persistence to learn: agents that learn at changes of cell, or else at every step (claim T7).
+"""Whether learning requires persistence: agents that learn at changes of cell, or else at every step (claim T7).
 
 1. The agents are those of paper A with maps N3, N7 and N23, in the tank of that paper. They differ in their temporal
    driver alone.
@@ -47,7 +47,7 @@ def judge(results):
 
 
 def in_words(lived, judged):
-    """What agents finally earn under each reading, and what learning at every step keeps, in Markdown.
+    """The final reward of agents under each reading, and the share that learning at every step keeps, in Markdown.
 
     lived: as `live` returns it. judged: {name: `Claim`}, of the same readings.
     """
@@ -59,11 +59,11 @@ def in_words(lived, judged):
             rate = result.rate() if label == BROWNIAN else result.rate(*claims.FINAL)
             rows[-1].append(f"{estimate(np.mean, rate)}" + ("" if label in learns_at else f" ({label})"))
     said = "; ".join(f"{name}, {_share_that_is_kept(claim)}" for name, claim in judged.items())
-    return ("Reward per second in the last fifth of a run, of Brownian motion in the whole:\n\n"
+    return ("Reward per second in the last fifth of a run; of Brownian motion, over the whole run:\n\n"
             + table(["Learns at", *lived], rows) + f"\n\n{said.capitalize()}.")
 
 
 def _share_that_is_kept(claim):
     if claim.outcome == "not testable":
         return "agents that learn at changes of cell show no gain to compare with"
-    return f"learning at every step keeps {claim.here} of the gain that learning at changes of cell brings"
+    return f"learning at every step keeps {claim.here} of the gain of learning at changes of cell"

@@ -22,7 +22,7 @@ CONVERGED = 1e-12  # what is left of the error at the start
 class Comparison(NamedTuple):
     """Superposition against the plan for all elements at once, in the states without an element, for each placement.
 
-    Losses are told as shares of what the plan makes on average over placements, since in some of them it makes nothing.
+    Losses are shares of the plan's average return over placements, since in some of them it makes nothing.
     """
 
     agreement: np.ndarray  # share of the actions of superposition that are best: float64 (placements,)

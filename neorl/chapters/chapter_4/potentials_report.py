@@ -1,4 +1,4 @@
-"""What the page of chapter 4 says of value functions towards each cell, and of their sums, in Markdown."""
+"""Sentences of chapter 4 on value functions towards each cell, and on their sums, in Markdown."""
 
 import numpy as np
 
@@ -22,46 +22,46 @@ def overlaps(learned, planned, cosines):
     else:
         said.append(f"Neighbours have a cosine of {neighbours}, opposite corners of {opposite}.")
     if opposite.value < cosines["planned"][0, -1]:
-        said.append("Those that were learned overlap less than the planned ones. A likely reason: an agent that drifts "
-                    "is less sure to arrive, so values fall off faster with distance.")
+        said.append("The learned functions overlap less than the planned ones. A likely reason: a drifting agent "
+                    "arrives less reliably, so values fall off faster with distance.")
     said.append(f"But they are *independent* in {independent.sum()} of {runs} agents: the {cells} functions have rank "
-                f"{cells}, so that no one of them is a sum of others. The planned ones are too, with rank "
+                f"{cells}, so none of them is a weighted sum of others. The planned ones are too, with rank "
                 f"{np.linalg.matrix_rank(planned)}.")
     if independent.all():
         said.append("So the set is a *basis*, as the thesis says: any function on the "
                     f"{cells} cells is a weighted sum of the {cells}.")
     if independent.any():
         typical = np.median(np.linalg.cond(learned[independent]))
-        said.append("How well they keep apart is told by the condition number, 1 for orthogonal functions: its median "
+        said.append("The condition number, 1 for orthogonal functions, measures their independence: its median "
                     f"over agents is {typical:,.0f}, and for the planned functions it is "
                     f"{np.linalg.cond(planned):,.0f}.")
     return " ".join(said)
 
 
 def shares_of_plan(compared, feared, by_discount):
-    """What is made by following the sum, as a share of what the plan makes.
+    """The return from following the sum, as a fraction of the plan's.
 
-    compared: {(n, m): `Comparison`}, of n wanted elements and m feared ones. feared: {m: name}, 0 among them.
+    compared: {(n, m): `Comparison`}, of n desired elements and m feared ones. feared: {m: name}, 0 among them.
     by_discount: as `neorl.chapters.chapter_4.potentials.compare_discounts` returns it.
     """
     wanted = list(dict.fromkeys(n for n, _ in compared))
-    header = ["Wanted", *feared.values(), "drawn actions, none feared"]
+    header = ["Desired", *feared.values(), "random actions, none feared"]
     rows = [[n, *(estimate(np.mean, compared[n, m].achieved) for m in feared),
              estimate(np.mean, compared[n, 0].at_random)] for n in wanted]
     said = []
     exact = [str(n) for n in wanted if compared[n, 0].achieved.min() > 1 - 1e-9]
     if exact:
-        said.append(f"Without fear, the sum lost nothing in any placement of {' or '.join(exact)} wanted.")
+        said.append(f"Without feared elements, the sum lost nothing in any placement of {' or '.join(exact)} desired.")
     shares = [each.achieved.mean() for each in compared.values()]
     drawn = [each.at_random.mean() for each in compared.values()]
     n, m = min(zip(shares, compared))[1]
-    said.append(f"Following it makes {_range(shares)} of what the plan makes, and drawing actions {_range(drawn)}. It "
-                f"does worst with {n} wanted and {m} feared.")
-    others = (f"with γ = {discount:g} they make " + " and ".join(str(estimate(np.mean, each.achieved)) for each in both)
+    said.append(f"Following it earns {_range(shares)} of the plan's return, and random actions {_range(drawn)}. It "
+                f"does worst with {n} desired and {m} feared.")
+    others = (f"with γ = {discount:g} they earn " + " and ".join(str(estimate(np.mean, each.achieved)) for each in both)
               for discount, both in by_discount.items())
-    said.append("How much is lost depends on the discount: for six wanted and none feared, and for one wanted and two "
+    said.append(f"The loss depends on the discount: for six desired and none feared, and for one desired and two "
                 f"feared, {'; '.join(others)}.")
-    return ("What remains to who follows the sum, where the plan makes 1:\n\n" + table(header, rows) + "\n\n"
+    return ("Return from following the sum, as a fraction of the plan's:\n\n" + table(header, rows) + "\n\n"
             + " ".join(said))
 
 

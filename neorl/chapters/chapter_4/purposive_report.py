@@ -1,4 +1,4 @@
-"""What the page of chapter 4 says of walks, of series and of sums of functions of one variable, in Markdown."""
+"""Sentences of chapter 4 on walks, on series and on sums of functions of one variable, in Markdown."""
 
 import numpy as np
 
@@ -9,32 +9,32 @@ from neorl.evidence.statistics import estimate
 
 
 def arrivals(unbiased, biased, goal):
-    """How many walks come to their goal, and when: (runs, steps + 1, 3) without a bias and with β = 0.25."""
+    """How many walks reach their goal, and when: (runs, steps + 1, 3) without a bias and with β = 0.25."""
     first = [first_arrivals(paths, goal) for paths in (unbiased, biased)]
     by_chance, on_purpose = (each[np.isfinite(each)] for each in first)
     after = f", after {on_purpose.mean():,.0f} steps on average" if len(on_purpose) else ""
-    return (f"Within {unbiased.shape[1] - 1:,} steps, {len(by_chance)} of {len(unbiased)} unbiased walks come to "
-            f"within {NEAR} units of the goal, {np.linalg.norm(goal):.0f} units away, and {len(on_purpose)} of the "
-            f"biased ones{after}. The draws are the same for both: what differs is one step in four.")
+    return (f"Within {unbiased.shape[1] - 1:,} steps, {len(by_chance)} of {len(unbiased)} unbiased walks come within "
+            f"{NEAR} units of the goal, {np.linalg.norm(goal):.0f} units away, and {len(on_purpose)} of the "
+            f"biased ones{after}. The draws are the same for both: they differ in one step in four.")
 
 
 def displacements(lags, squared):
-    """By what power of time walks spread under a constant drift: squared {β: (runs, lags)}, 0 among them."""
+    """The power of time by which walks spread under a constant drift: squared {β: (runs, lags)}, 0 among them."""
     slope = estimate(np.mean, np.polyfit(lags, squared[0.0].T, 1)[0])
     rows = []
     for strength, curves in squared.items():
         over = f"{(1 - strength**2) / strength**2:,.0f} steps" if strength else "never"
         rows.append([f"{strength:g}", over, *(estimate(np.mean, power) for power in powers_of_time(curves, lags))])
-    return (f"Without a bias, the mean squared distance grows by {slope} a step, where 1 is expected. The table gives "
-            "the power of time by which distance grows, at the shortest and at the longest times of the figure.\n\n"
+    return (f"Without a bias, the mean squared distance grows by {slope} per step, where 1 is expected. The table "
+            "gives the power of time by which distance grows, at the shortest and the longest times of the figure.\n\n"
             + table(["β", "Drift takes over after", "Power at first", "Power at last"], rows))
 
 
 def decomposition(errors):
-    """How well series are taken apart: errors as `neorl.chapters.chapter_4.wold.errors` has them."""
+    """How well series are decomposed: errors as `neorl.chapters.chapter_4.wold.errors` has them."""
     rows = [[f"{steps:,}", *(estimate(np.mean, each) for each in of_runs)] for steps, of_runs in errors.items()]
     (_, runs), *_ = (of_runs.shape for of_runs in errors.values())
-    return ("How far off what is found is from what was put in, for series of different lengths (root mean squares, "
+    return ("Errors of the recovered parts, for series of different lengths (root mean squares, "
             "where the oscillation has an amplitude and the noise a standard deviation of 1; means over "
             f"{runs} series, with 95 % intervals):\n\n"
             + table(["Steps", "Error of u", "Error of y", "Largest error of b"], rows))
@@ -48,16 +48,16 @@ def sums_at_a_glance(x, y):
 
 
 def ridges(fits, along_axes):
-    """What sums of ridges leave over: fits {name: `Ridges` of ten terms}, the product of x and y among them.
+    """The residuals of sums of ridges: fits {name: `Ridges` of ten terms}, the product of x and y among them.
 
     along_axes: the `Ridges` of the product whose angles are those of the axes, of two terms.
     """
     angles = np.sort(np.degrees(fits["product"].angles[:2]))
     left = {name: 100 * fit.errors for name, fit in fits.items() if name != "product"}
-    return (f"The product takes two ridges, found at {angles[0]:.0f}° and {angles[1]:.0f}°, as in its formula. Without "
-            "sums on the inside, from functions of x alone and of y alone, little of it can be had: they leave "
-            f"{100 * along_axes.errors[2]:.0f} % of its spread. What five ridges leave is, "
+    return (f"The product takes two ridges, found at {angles[0]:.0f}° and {angles[1]:.0f}°, as in its formula. "
+            f"Functions of x alone and of y alone, without inner sums, explain little of it: they leave "
+            f"{100 * along_axes.errors[2]:.0f} % of its spread. Five ridges leave, "
             + ", ".join(f"of the {name}, {each[5]:.1f} %" for name, each in left.items())
-            + "; and what ten leave is " + ", ".join(f"{each[10]:.1f} %" for each in left.values())
-            + f". The outer functions are polynomials of degree {DEGREE}, which cannot make the kink of the larger one "
-            "or the tip of the distance, however many there are.")
+            + "; ten leave " + ", ".join(f"{each[10]:.1f} %" for each in left.values())
+            + f". The outer functions are polynomials of degree {DEGREE}, which cannot represent the kink of the "
+              f"larger one or the tip of the distance, however many there are.")

@@ -1,9 +1,9 @@
 """The two conclusions of the thesis (section 5.1), held against the verdicts on its claims under two readings.
 
-1. Each conclusion rests on some claims, and all others are the ground that they stand on.
+1. Each conclusion rests on some claims; all others are the ground of both.
 2. A conclusion holds *whole* if all its claims are reproduced, *in part* if some are, *not at all* if none of those
    judged is, and it is *without a verdict* if none is judged.
-3. `verdicts` are {reading: {name of a claim: what became of it}}, with the words of `neorl.evidence.report.verdict`, of
+3. `verdicts` are {reading: {name of a claim: its verdict}}, with the words of `neorl.evidence.report.verdict`, of
    `LETTER` and `CALIBRATED`.
 """
 
@@ -16,9 +16,9 @@ SUPERPOSITION = ("A2", "A3", "A4", "A6", "A7", "A8", "B1", "B2", "B3", "B4", "B6
 SEPARATION = ("T1", "T7", "C1", "C2", "C3", "C4")
 GROUND = tuple(name for name in CLAIMS if name not in SUPERPOSITION + SEPARATION)
 CONCLUSIONS = {"Superposition": SUPERPOSITION, "Learning apart from behaviour": SEPARATION}
-OTHER_VERDICTS = {"partly": "Partly: {}; the page of claims has what is missing.",
-                  "not testable": "Not testable, because agents have learned nothing to test them by: {}.",
-                  NOT_COMPUTED: "Not computed yet, where this page was made: {}."}
+OTHER_VERDICTS = {"partly": "Partly: {}; the page of claims gives the details.",
+                  "not testable": "Not testable, because the agents have not learned: {}.",
+                  NOT_COMPUTED: "Not computed when this page was built: {}."}
 
 
 def verdicts_by_reading(record):
@@ -37,13 +37,13 @@ def overview(verdicts):
     for title, names in CONCLUSIONS.items():
         held = "; ".join(f"{reading}, {_held(found, names)}" for reading, found in verdicts.items())
         lines.append(f"**{title}**: {held}.")
-    return (f"The book holds {len(CLAIMS)} claims of the thesis, each judged by a rule that was fixed before the "
+    return (f"The book lists {len(CLAIMS)} claims of the thesis, each judged by a rule that was fixed before the "
             "results. A conclusion holds *whole* if all its claims are reproduced, and *in part* if some are.\n\n"
             + "\n".join(f"- {line}" for line in lines))
 
 
 def _held(found, names):
-    """How far a conclusion holds whose claims are `names`, with those that do."""
+    """How far a conclusion on the claims `names` holds, with those that do."""
     judged = [name for name in names if found[name] in VERDICTS and found[name] != "no verdict"]
     kept = [name for name in judged if found[name] == "reproduced"]
     if not kept:
@@ -52,13 +52,13 @@ def _held(found, names):
 
 
 def both_verdicts(verdicts):
-    """What became of each claim under both readings, in Markdown: {name: text}."""
+    """The verdicts on each claim under both readings, in Markdown: {name: text}."""
     return {name: f"*{verdicts[CALIBRATED][name]}* calibrated, *{verdicts[LETTER][name]}* to the letter"
             for name in CLAIMS}
 
 
 def what_did_not_hold(record, verdicts):
-    """What was not reproduced, what was under one reading alone, and what else became of claims, in Markdown.
+    """Claims not reproduced, claims reproduced under one reading alone, and all others, in Markdown.
 
     record: as `neorl.evidence.report.load` has it.
     """
@@ -91,12 +91,12 @@ def _differences(verdicts):
 
 
 def _in_short_runs(shares):
-    """Which claims hold in no reading that was tried, and which are left undecided by most."""
+    """Claims that hold under no reading, and claims that are undecided under most."""
     never = [name for name, share in shares.items() if not share["holds"]]
     unclear = [name for name, share in shares.items() if share["undecided"] > share["readings"] / 2]
     return (f"In short runs under {max(share['readings'] for share in shares.values())} readings within the text, "
-            f"{_listed(never)} held in none that could be decided; {_listed(unclear)} were left undecided by more than "
-            "half of them.")
+            f"{_listed(never)} held in none that could be decided; {_listed(unclear)} were undecided in more than "
+            f"half of them.")
 
 
 def _with(verdict, found):

@@ -1,8 +1,8 @@
 """Agents that have no desires in the first part of a run, against agents that have them throughout: a demonstration.
 
 1. Both are agents of paper B with all maps of both modalities.
-2. An *indifferent* agent has the same desires with a valence of 0 each. It drifts about, and learns.
-3. When its time has come, it is given the valences of the others.
+2. An *indifferent* agent has the same desires with a valence of 0 each. It moves at random, and learns.
+3. At a given step it receives the valences of the others.
 """
 
 from dataclasses import replace
@@ -41,23 +41,23 @@ def in_words(throughout, from_half_time):
     said = [f"In the tenth of the run before half-time the indifferent agents earn {before} per second, in the tenth "
             f"after it {after}. The others earned {newborn} in the first tenth of their run."]
     if lead.low > 0:
-        said.append(f"So the indifferent agents do not begin at half-time: their lead over the first tenth is {lead}.")
+        said.append(f"The indifferent agents thus learned before half-time: their lead over the first tenth is {lead}.")
     else:
         said.append(f"Their lead over that, {lead}, may be none.")
     if gap.low <= 0 <= gap.high:
-        why = ", which these runs cannot tell from none"
+        why = ", which these runs do not distinguish from 0"
     elif gap.high < 0:
-        why = ": less, since agents that pursue creeps meet more of them"
+        why = ": lower, since agents that pursue creeps meet more of them"
     else:
-        why = ": more, since agents that drift see more of the tank"
-    ahead = ", so that the agents without desires for half a life are ahead" if at_last.low > 0 else ""
+        why = ": higher, since drifting agents visit more of the tank"
+    ahead = ", so the agents without desires for half the run are ahead" if at_last.low > 0 else ""
     said.append(f"Against agents with desires throughout, at the same time, the difference is {gap}{why}; in the last "
                 f"fifth of the run it is {at_last}{ahead}.")
     return " ".join(said)
 
 
 def vary_begin(reading, begins, steps, runs, seed=0):
-    """What agents earn per second in the tenth of a run after their desires begin: {minutes before: `Estimate`}.
+    """Reward per second in the tenth of a run after desires begin: {minutes before: `Estimate`}.
 
     begins: steps, each ≥ 1. All else is as in `live`.
     """
@@ -69,6 +69,6 @@ def vary_begin(reading, begins, steps, runs, seed=0):
 
 
 def beginnings(earned):
-    """What `vary_begin` has found, as text: a line each."""
+    """The results of `vary_begin` as text, one line each."""
     return "\n".join(f"{minutes:5.2f} minutes without desires: {reward} per second in the tenth after"
                      for minutes, reward in earned.items())

@@ -1,4 +1,4 @@
-"""What the page "Bring your own world" counts in its runs, and how it reports that."""
+"""Counts of the page "Bring your own world", and their sentences and tables."""
 
 import numpy as np
 
@@ -14,7 +14,7 @@ def per_thousand(finds, steps, points=20):
 
 
 def rates(result, points=20):
-    """The same of the runs of a `neorl.Result` whose reward is 1 for each find: float64 (runs, points)."""
+    """Finds per thousand steps in a `neorl.Result` with a reward of 1 for each: float64 (runs, points)."""
     shares = np.linspace(0, 1, points + 1)
     return np.stack([1_000 * result.rate(begin, end) / result.world.fps
                      for begin, end in zip(shares[:-1], shares[1:])], axis=1)
@@ -27,7 +27,7 @@ def trials(name, finds, steps):
 
 
 def speeds(python_seconds, kernel_seconds, steps, kernel_steps):
-    """A sentence on what a step costs in either form."""
+    """A sentence on the cost of a step in either form."""
     return (f"A step of the loop took {1e6 * python_seconds / steps:.0f} microseconds. As kernels, on all cores, it "
             f"took {1e9 * kernel_seconds / kernel_steps:.0f} nanoseconds.")
 

@@ -1,4 +1,4 @@
-"""What the page of paper A reports of its experiments: verdicts, and numbers beside the thesis's, whatever they are.
+"""Findings of the page of paper A: verdicts, and numbers beside the thesis's.
 
 Results are those of `neorl.chapters.paper_a.experiments.live`: {reading: {key: Result}}.
 """
@@ -25,7 +25,7 @@ def beside_thesis(results):
 
 
 def in_words(results, judged):
-    """What was found under each reading, as a Markdown list: verdicts, and the numbers behind them.
+    """The findings under each reading, as a Markdown list: verdicts, and the numbers behind them.
 
     judged: the claims of each reading, {name: [Claim, …]}.
     """
@@ -38,11 +38,11 @@ def _found(results, claims):
     control = results["brownian", 8]
     alone = [results["layer", n].rate(*FINAL).mean() for n in LAYERS]
     together = results["layers"].rate(*FINAL).mean()
-    return (f"{verdicts_in_words(claims)}. By reward per second in the whole run, the order of single maps is {order}; "
-            f"Brownian motion earns {number(control.rate().mean())} and resets the board "
+    return (f"{verdicts_in_words(claims)}. By reward per second over the whole run, the order of single maps is "
+            f"{order}; Brownian motion earns {number(control.rate().mean())} and resets the board "
             f"{number(resets(control).mean())} times in {control.steps:,} steps. N3, N7 and N23 together finally earn "
             f"{number(together)} per second, {_gain(results)} times as much as N7 (thesis: {THESIS[REWARD]}); alone "
-            f"they earn {', '.join(map(number, alone))}, in all {number(sum(alone))}.")
+            f"they earn {', '.join(map(number, alone))}, in total {number(sum(alone))}.")
 
 
 def _gain(results):
@@ -61,7 +61,7 @@ def judge_second_experiment(results):
 
 
 def choices(readings):
-    """What readings choose for agents of place cells, as a Markdown table, and what the text makes of it.
+    """The choices of readings for agents of place cells, as a Markdown table, and whether they are within the text.
 
     readings: {name: Reading}.
     """

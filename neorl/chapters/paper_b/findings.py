@@ -1,4 +1,4 @@
-"""What the page of paper B reports of its experiments and trials: verdicts, numbers beside the thesis's, sentences.
+"""Findings of the page of paper B: verdicts, numbers beside the thesis's, sentences.
 
 `lived` is what `neorl.chapters.paper_b.experiments.live` returns, {reading: {key: `Result`}}, and `watched` what
 `neorl.chapters.paper_b.trials.watch` does, {reading: `Watched`}.
@@ -41,7 +41,7 @@ def _judged(results, watched):
 
 
 def in_words(lived, judged):
-    """What was found under each reading, a paragraph of Markdown each: final levels, the time to them, and verdicts.
+    """The findings under each reading, one paragraph of Markdown each: final levels, the time to them, and verdicts.
 
     judged: as `judge_each` returns it.
     """
@@ -53,8 +53,8 @@ def in_words(lived, judged):
 def _found(level, minute):
     taken = {name: f"{each.value:.0f}" for name, each in minute.items()}
     return (f"place cells finally earn {level['PC']} per second (thesis: {THESIS_LEVELS['PC']}), object-vector cells "
-            f"{level['OVC']}, and both together {level['PC + OVC']} (thesis: {THESIS_LEVELS['PC + OVC']}). To reach "
-            f"their final level they take {taken['PC']} minutes (thesis: more than {THESIS_MINUTES['PC']}), "
+            f"{level['OVC']}, and both together {level['PC + OVC']} (thesis: {THESIS_LEVELS['PC + OVC']}). They reach "
+            f"their final levels after {taken['PC']} minutes (thesis: more than {THESIS_MINUTES['PC']}), "
             f"{taken['OVC']}, and {taken['PC + OVC']} (thesis: {THESIS_MINUTES['PC + OVC']}).")
 
 
@@ -91,7 +91,7 @@ def values_table(watched):
 
 
 def points_a_reset(lived):
-    """Points that a board brings until it is reset, of figure 5's agents and of Brownian motion under each reading.
+    """Points per reset of figure 5's agents and of Brownian motion under each reading.
 
     {name: {agent: `Estimate`}}
     """
@@ -100,7 +100,7 @@ def points_a_reset(lived):
 
 
 def expected_points(world):
-    """Points that a board brings until it is reset, whatever agents do: twice the green creeps that it begins with.
+    """Expected points per reset, independent of the agent: twice the initial number of green creeps.
 
     Each of its n creeps is green with a probability of one half, and at least one is: n / (1 − 2^−n).
     """
@@ -109,7 +109,7 @@ def expected_points(world):
 
 def points_in_words(found, expected):
     """How `expected_points` come about, and in how many intervals of `points_a_reset` they lie, if it has intervals."""
-    told = f"A fresh board has {expected / 2:.2f} green creeps on average, which gives {expected:.2f} points a reset."
+    told = f"A new board has {expected / 2:.2f} green creeps on average, which gives {expected:.2f} points per reset."
     intervals = [each for of_agents in found.values() for each in of_agents.values() if not np.isnan(each.low)]
     if not intervals:
         return told
@@ -118,7 +118,7 @@ def points_in_words(found, expected):
 
 
 def red_a_minute(lived):
-    """Red creeps that agents take a minute where these are revalued: ({name: (runs, stretches)}, (stretches,)).
+    """Red creeps taken per minute when these are revalued: ({name: (runs, stretches)}, (stretches,)).
 
     The run is cut into equal stretches; the second array has their middles, in minutes of the first reading.
     """
@@ -130,13 +130,13 @@ def red_a_minute(lived):
 
 
 def red_in_words(curves):
-    """How many red creeps agents take before these are revalued and after, of the curves of `red_a_minute`."""
+    """Red creeps taken before and after these are revalued, of the curves of `red_a_minute`."""
     lines = []
     for name, curve in curves.items():
         half, fifth = curve.shape[1] // 2, curve.shape[1] // 5
         before, after, later = curve[:, half - 1].mean(), curve[:, half].mean(), curve[:, -fifth:].mean()
-        lines.append(f"{name.capitalize()}, the agents take {before:.1f} red creeps a minute in the hundredth of the "
-                     f"run before the turn, {after:.1f} in the one after it, and {later:.1f} in the last fifth.")
+        lines.append(f"{name.capitalize()}, the agents take {before:.1f} red creeps per minute in the hundredth of "
+                     f"the run before the change, {after:.1f} in the one after it, and {later:.1f} in the last fifth.")
     return " ".join(lines)
 
 
@@ -146,18 +146,18 @@ def distances_in_words(watched):
     for name, each in watched.items():
         experienced, ignorant = (f"{moved[:, :2].mean():.2f} and {moved[:, 2:].mean():.2f}"
                                  for moved in (each.moved["experienced"], each.moved["ignorant"]))
-        lines.append(f"{name.capitalize()}, it is {experienced} for experienced agents, {ignorant} for ignorant ones.")
+        lines.append(f"{name.capitalize()}, it is {experienced} for experienced agents, {ignorant} for untrained ones.")
     return " ".join(lines)
 
 
 def joining_in_words(lived):
-    """What agents earn in a twentieth of the run before other cells join and in the one after it, by reading."""
+    """Reward per second in a twentieth of the run before other cells are added and in the one after it, by reading."""
     rates = {name: [results["joined"].rate(*part).mean() for part in ((0.45, 0.5), (0.5, 0.55))]
              for name, results in lived.items()}
     return " and ".join(f"{before:.2f} and {after:.2f} per second ({name})" for name, (before, after) in rates.items())
 
 
 def minutes_with_more_maps(lived):
-    """By how many minutes agents with more maps are sooner than those with fewer: {name: {addition: `Estimate`}}."""
+    """The lead in minutes of agents with more maps over those with fewer: {name: {addition: `Estimate`}}."""
     return {name: {added: sooner_with_more(more, fewer) for added, (more, fewer, _) in additions(results).items()}
             for name, results in lived.items()}

@@ -1,4 +1,4 @@
-"""What the page of paper C reports of its experiments.
+"""Findings of the page of paper C.
 
 The paper prints an order of four curves and no numbers, so ours stand beside Brownian motion and beside one another.
 Results are those of `neorl.chapters.paper_c.experiments.live`: {reading: {key: Result}}.
@@ -16,7 +16,7 @@ DRASTIC = 1.5  # "drastically" is read as by half or more
 
 
 def in_words(results, judged):
-    """What was found under each reading, as a Markdown list: verdicts, and the numbers behind them.
+    """The findings under each reading, as a Markdown list: verdicts, and the numbers behind them.
 
     judged: the claims of each reading, {name: [Claim, …]}.
     """
@@ -37,9 +37,8 @@ def drastic_level(results):
 
 
 def final_rates(by_reading):
-    """What networks finally earn and take under each reading, as a Markdown table: {name: results as `live` has them}.
-    """
-    rows = ["| Network | Reading | Reward per second | Green a minute | Red a minute |", "|---|---|---|---|---|"]
+    """Final reward and hits of networks under each reading, as a Markdown table: {name: results as `live` has them}."""
+    rows = ["| Network | Reading | Reward per second | Green per minute | Red per minute |", "|---|---|---|---|---|"]
     for network in NETWORKS:
         for name, results in by_reading.items():
             result = results["network", network]
@@ -54,11 +53,11 @@ def finals(recurring):
 
 
 def recursion_in_words(weights, found):
-    """The best weight of recursion under each reading, and what agents earn without any: of `finals`, by reading."""
+    """The best weight of recursion under each reading, and the reward without recursion: of `finals`, by reading."""
     lines = []
     for name, estimates in found.items():
         best, weight = max(zip(estimates, weights))
         without = estimates[weights.index(0.0)]
-        lines.append(f"Under the reading *{name}* the best weight is r = {weight:g}, with {best}; without recursion it "
-                     f"is {without}.")
+        lines.append(f"Under the reading *{name}* the best weight is r = {weight:g}, which earns {best}; without "
+                     f"recursion it is {without}.")
     return " ".join(lines).replace("= -", "= −")

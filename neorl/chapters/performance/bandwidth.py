@@ -1,4 +1,4 @@
-"""How many bytes a second the machine moves, by how many there are: its *working set*.
+"""How many bytes per second the machine moves, by how many there are: its *working set*.
 
 Two ways to move them: from one array to the next in order (as STREAM's copy does), or one value in each line of memory,
 in no order. Memory moves in lines of 64 bytes, and both ways count what is read and what is written.
@@ -17,7 +17,7 @@ A_TIME = 2**25  # bytes that are moved in one measurement, or more
 
 
 class Bandwidths(NamedTuple):
-    """Bytes a second by working set."""
+    """Bytes per second by working set."""
 
     working_sets: np.ndarray  # bytes: float64 (sizes,)
     copied: np.ndarray  # in order: float64 (sizes,)

@@ -11,12 +11,12 @@ PARTS = {"starting": CURVES[4], "importing": CURVES[2], "computing": AGENT, "dra
 
 
 def draw_bandwidths(bandwidths, loops):
-    """Bytes a second by working set, both ways, and the working sets of two of the loops, {name: `Loop`}."""
+    """Bytes per second by working set, both ways, and the working sets of two of the loops, {name: `Loop`}."""
     axes = plt.figure().add_subplot()
     ways = {"in order": (bandwidths.copied, CURVES[0]), "lone values": (bandwidths.scattered, CURVES[1])}
     for speeds, colour in ways.values():
         axes.plot(bandwidths.working_sets, speeds / GIGA, color=colour, marker="o", markersize=3)
-    axes.set(xscale="log", xlabel="working set", ylabel="gigabytes a second", ylim=(0, None))
+    axes.set(xscale="log", xlabel="working set", ylabel="gigabytes per second", ylim=(0, None))
     for name, side in (("N23 (memory)", "left"), ("twelve maps (memory)", "right")):
         axes.axvline(loops[name].moved.working_set, color=INK, linewidth=0.8, linestyle="--")
         axes.annotate(name.split(" (")[0], (loops[name].moved.working_set, 1), xycoords=("data", "axes fraction"),

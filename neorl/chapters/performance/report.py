@@ -1,4 +1,4 @@
-"""What the page "Performance" says of its measurements, in Markdown.
+"""Tables and sentences of the page "Performance", in Markdown.
 
 `python -m neorl.chapters.performance.report` measures them all and prints the page's main numbers.
 """
@@ -18,18 +18,18 @@ def summary(loops, bandwidths, rivals, worlds):
     least, most = min(ratios.values()), max(ratios.values())
     quickest, slowest = (of(loop.loop.min() for loop in loops.values()) for of in (min, max))
     several = ", ".join(f"{_times(ratio.value)} by {name}" for name, ratio in rivals.ratios.items())
-    original = "".join(f" {name} takes {_times(ratio.value)} for a step of the world." for name, ratio in
+    original = "".join(f" {name} takes {_times(ratio.value)} times as long for a step of the world." for name, ratio in
                        worlds.ratios.items())
     return (f"**On this machine one core takes {_seconds(quickest)} to {_seconds(slowest)} for a step of world and "
-            f"agent. That is {least:.1f} to {most:.1f} times the least that world and memory allow; the aim of "
-            f"{AIM} is met by {listed(within)}. The agent's part with N23 takes as many times as long by "
-            f"other means: {several}.{original}**")
+            f"agent. That is {least:.1f} to {most:.1f} times the lower bound set by world and memory; "
+            f"{listed(within)} meet the aim of {AIM}. The agent's part with N23 takes longer in other "
+            f"implementations, by a factor of {several}.{original}**")
 
 
 def bound_table(loops, bandwidths):
     """Each loop beside its bound."""
     return table(
-        ["agent", "changes of cell a step", "bytes a step", "working set", "world", "bytes take", "loop",
+        ["agent", "changes of cell per step", "bytes per step", "working set", "world", "bytes take", "loop",
          "loop / bound"],
         [[name, number(loop.moved.changes), f"{loop.moved.ordered + loop.moved.scattered:,.0f}",
           f"{loop.moved.working_set / 2**20:.1f} MiB", _seconds(loop.world.min()), _seconds(loop.moving(bandwidths)),
@@ -43,7 +43,7 @@ def spent_table(spent):
 
 
 def contest_table(*contests):
-    """What each way takes, and how many times as long as the package."""
+    """The time of each implementation, and its ratio to the package."""
     rows = [[each.what, name, _seconds(seconds.min()), _interval(each.ratios[name]) if name in each.ratios else "1"]
             for each in contests for name, seconds in each.seconds.items()]
     return table(["what", "by", "takes", "times as long"], rows)
@@ -63,9 +63,9 @@ def growth_table(series):
 
 
 def minutes_table(pages):
-    """Where the minutes of the book go, or a sentence that there are none."""
+    """Where the book's build time goes, or a sentence that no page was computed."""
     if not pages:
-        return "No page of the book has been computed here, so there are no times of it to show."
+        return "No page of the book has been computed here, so there are no times to show."
     parts = ("starting", "importing", "computing", "drawing", "total")
     rows = [[page.page, *(f"{getattr(page, part):.0f}" for part in parts)] for page in pages]
     sums = [f"{sum(getattr(page, part) for page in pages):.0f}" for part in parts]

@@ -1,7 +1,7 @@
 """Grid worlds drawn in text: a "#" is a wall, every other character a state.
 
-The four actions are N, S, E and W, in this order as everywhere in neorl. Who walks into a wall or over the border
-stays. States are counted row by row from the upper left.
+The four actions are N, S, E and W, in this order as everywhere in neorl. A step into a wall or over the border stays in
+place. States are counted row by row from the upper left.
 """
 
 from dataclasses import dataclass

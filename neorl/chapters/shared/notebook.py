@@ -1,4 +1,4 @@
-"""What every notebook of the book begins with: its parameters checked, its style set, its scale told."""
+"""The beginning of every notebook of the book: check its parameters, set its style, report its scale."""
 
 import ast
 import inspect
@@ -15,7 +15,7 @@ from neorl.evidence.claims import RUNS_FOR_A_VERDICT
 
 
 def begin(runs, steps, seed, fewest_steps=1, **others):
-    """Check the parameters of a notebook, set the style of its figures, and tell the reader if the runs are few.
+    """Check the parameters of a notebook, set the style of its figures, and warn the reader of few runs.
 
     runs: integer ≥ 1. steps: integer ≥ `fewest_steps`, so that there is something to draw. seed: integer ≥ 0.
     others: further parameters of the notebook, which it checks itself.

@@ -1,0 +1,71 @@
+"""The English of the pages: words that hide the technical subject of a sentence, counted outside quotations and code.
+
+A sentence's subject is the agent, the kernel, the run or the claim, and its verb the field's: "who remembers all makes
+0.9 a second" is "agents that remember all earn 0.9 per second". `KEPT` are the sentences that may stay.
+"""
+
+import ast
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+ROOMS = ("experiments", "evidence", "drawing", "browser", "chapters")  # of which docstrings and texts are read
+TELLTALE = re.compile(r"""
+    \b(whoever|whom|nobody|somebody|someone|anybody|everybody|from\ nothing|tells?|told|hangs?\ on|wish(es|ed)?)\b
+    | (^|[.:;(–]\ )who\b | \b(to|for|by|with|of|and|or|from|as|than|is|those)\ who\b  # that no noun stands before
+    | (?<!half\ )(?<!of\ )\ba\ second\b(?=[.,;:)|]|$|\ (and|in|on|for|with|at|before|while|by|of|each|from)\b)
+    """, re.VERBOSE | re.IGNORECASE)
+QUOTED = re.compile(r"“[^”]*”|```.*?```|`[^`]*`|\$\$?[^$]*\$\$?", re.DOTALL)
+KEPT = {
+    "after many of them it is hard to tell from a [Wiener process]",  # an idiom
+}
+
+
+def prose():
+    """Every text that readers see: (where it stands, Markdown or the text of a string)."""
+    for path in (ROOT / "README.md", *sorted((ROOT / "book").glob("*.md"))):
+        yield path.name, path.read_text(encoding="utf-8")
+    for path in sorted((ROOT / "notebooks").glob("*.ipynb")):
+        for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
+            if cell["cell_type"] == "markdown":
+                yield path.name, "".join(cell["source"])
+    for room in ROOMS:
+        for path in sorted((ROOT / "neorl" / room).rglob("*.py")):
+            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                if isinstance(node, ast.Constant) and isinstance(node.value, str) and " " in node.value:
+                    yield str(path.relative_to(ROOT)), node.value
+
+
+def telltales(text):
+    """The sentences of a text, outside quotations and code, that have a telltale word: [(word, sentence), …]."""
+    text = " ".join(QUOTED.sub(" ", text).split())
+    found = []
+    for match in TELLTALE.finditer(text):
+        begin, end = text.rfind(". ", 0, match.start()) + 1, text.find(". ", match.end())
+        sentence = text[begin:end if end > 0 else None].strip()
+        if not any(kept in sentence for kept in KEPT):
+            found.append((match[0], sentence))
+    return found
+
+
+@pytest.mark.parametrize("sentence, word", [
+    ("Whoever is quick shows it there.", "Whoever"), ("It is what nobody told it.", "nobody"),
+    ("Only for who perceives it.", "for who"), ("Who walks into a wall stays.", "Who"),
+    ("They make 0.55 a second.", "a second"), ("How steep it is hangs on the gain.", "hangs on"),
+    ("It lives at 50 steps a second.", "a second")])
+def test_a_telltale_word_is_found(sentence, word):
+    assert telltales(sentence)[0] == (word, sentence.rstrip())
+
+
+@pytest.mark.parametrize("text", [
+    "The whole run.", "Half a second later.", "Rats, who had learned, ran.", "Jung and Adler, who disagreed.",
+    "The thesis: “agents who wish”.", "The arrow keys steer a second player.", "`told` is a name."])
+def test_what_is_plain_or_quoted_passes(text):
+    assert telltales(text) == []
+
+
+def test_no_sentence_of_pages_and_docstrings_hides_its_subject():
+    assert [(where, *each) for where, text in prose() for each in telltales(text)] == []
