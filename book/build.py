@@ -64,7 +64,7 @@ def main():
         write_tables()
         build()
     except KeyboardInterrupt:
-        sys.exit("\ninterrupted; make book goes on from here")
+        sys.exit("\ninterrupted; make book resumes from here")
     lock.close()
     print(f"the book is at {HTML.as_uri()}")
 
