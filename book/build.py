@@ -19,10 +19,14 @@ import tempfile
 import time
 from pathlib import Path
 
+sys.modules["rfc3987_syntax"] = None  # jsonschema would read a grammar for a second, for a format that no notebook has
+
+# ruff: noqa: E402
 import nbformat
 import papermill
 import psutil
 import workers
+from jupyter_client import AsyncKernelManager
 from nbclient.exceptions import DeadKernelError
 from papermill.exceptions import PapermillExecutionError, strip_color
 from traitlets.config import Config
@@ -41,7 +45,10 @@ ALONE = ("paper_b", "performance")  # measure times
 ORDER = (SHARES, "chapter_2", "chapter_3", "chapter_1", *READ_SHARES)  # what others need, and what takes long, first
 # Much of a notebook keeps one core busy: compiling, drawing. The papers' tables of values take gigabytes.
 AT_ONCE, GIGABYTES_EACH = 2, 4
+# Threads of linear algebra that wait for each other, beside another notebook, took fifty times as long as one.
+ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1"}
 STALL_SECONDS = 300  # a cell computes, and waits for nothing: one that takes no processor time for so long has hung
+ROOM = 2**20  # bytes: less than a page of the book takes
 CLAIMS_TABLE, ERRATA_TABLE = "claims-table.md", "errata-table.md"
 WIDGET_STATE = "application/vnd.jupyter.widget-state+json"
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
@@ -58,13 +65,15 @@ def main():
     notebooks[ROOT / "notebooks" / f"{SHARES}.ipynb"] = parameters | {"points": points(chosen.runs)}
     for notebook, its_parameters in notebooks.items():
         check_parameters(notebook, its_parameters)
-    lock = the_only_build()  # until this process ends
     try:
+        lock = the_only_build()  # until this process ends
         compute_all(notebooks)
         write_tables()
         build()
     except KeyboardInterrupt:
         sys.exit("\ninterrupted; make book resumes from here")
+    except OSError as error:
+        sys.exit(f"\nthe book was not built: {error}; make book resumes from here")
     lock.close()
     print(f"the book is at {HTML.as_uri()}")
 
@@ -164,6 +173,7 @@ def records(notebook):
 
 def attempt(notebook, parameters):
     """`compute`, in a process of its own: 0, or 1 after a line on what went wrong."""
+    os.environ |= ONE_THREAD
     try:
         compute(notebook, parameters)
     except PapermillExecutionError as error:
@@ -220,6 +230,7 @@ def execute(notebook, target, parameters):
             papermill.execute_notebook(
                 notebook, target, parameters, cwd=ROOT / "notebooks", request_save_on_cell_execute=False,
                 progress_bar=False,  # two of them would write over each other
+                kernel_manager_class=Kernel,
                 on_cell_start=lambda cell, cell_index: at.append(f"the cell that begins {cell.source[:60]!r}"),
                 # over TCP the kernel warns that it is not encrypted
                 config=Config(KernelManager={"transport": "ipc", "ip": f"{sockets}/kernel"}))
@@ -227,6 +238,17 @@ def execute(notebook, target, parameters):
             why = (f"has hung: no processor time in {STALL_SECONDS} s" if watch.hung else
                    f"has died, perhaps since there was not enough memory ({error})")
             raise RuntimeError(f"its kernel {why}, in {at[-1]}") from error
+
+
+class Kernel(AsyncKernelManager):
+    """A kernel that is asked to end when its last cell is done, and not interrupted before.
+
+    It may still be at the end of that cell, and would say in the build that it was interrupted.
+    """
+
+    async def _async_interrupt_kernel(self):
+        if not self.shutting_down:
+            await super()._async_interrupt_kernel()
 
 
 def record_of(notebook):
@@ -266,7 +288,8 @@ def check_parameters(notebook, parameters):
 def link_terms(text):
     """Markdown whose links into the glossary are Sphinx's references to its terms."""
     known = terms()
-    return re.sub(r"\[(\*?)([^]]+?)\1\]\(\.\./book/glossary\.md#([^)]+)\)",  # a role's text has no markup
+    # A role's text has no markup, so emphasis goes around it.
+    return re.sub(r"\[(\*?)([^]]+?)\1\]\(\.\./book/glossary\.md#([^)]+)\)",
                   lambda link: f"{link[1]}{{term}}`{link[2]} <{known.get(link[3], link[3])}>`{link[1]}", text)
 
 
@@ -341,7 +364,10 @@ def build():
     record.unlink(missing_ok=True)
     shutil.rmtree(BUILT / "next", ignore_errors=True)
     if workers.run((__file__, "--pages")):
-        sys.exit("the book was not built, see above")
+        free = shutil.disk_usage(BUILT).free
+        shutil.rmtree(BUILT / "next", ignore_errors=True)
+        sys.exit("the book was not built, see above" if free > ROOM else
+                 f"the book was not built, for {BUILT} is on a disk that has no room left; make book goes on from here")
     shutil.rmtree(HTML.parent, ignore_errors=True)
     os.replace(BUILT / "next" / "_build" / "html", HTML.parent)
     shutil.rmtree(BUILT / "next")

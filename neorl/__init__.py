@@ -1,8 +1,8 @@
 """neorl: agents that navigate by neural representations of Euclidean space, and the experiments of their thesis.
 
 An `Agent` is a network of `Node`s and `Desire`s, a node tiles the space of a `Modality`, and `simulate` lets agents
-live in `WaterWorld`, an `Arena` or another `World`; `sweep` does many `Condition`s at a time. A `Learner` is an agent
-in a loop of the user's own. The agents of the papers are values of these types.
+live in `WaterWorld`, an `Arena`, an `Arm`, a `Vessel`, a `WaterMaze` or another `World`; `sweep` does many `Condition`s
+at a time. A `Learner` is an agent in a loop of the user's own. The agents of the papers are values of these types.
 
 The package is built in rooms, and a module imports only from its own room and from those below:
 
@@ -13,11 +13,12 @@ The package is built in rooms, and a module imports only from its own room and f
 - `neorl.evidence`: statistics, claims and their rules, readings of the thesis and their calibration;
 - `neorl.experiments`: runs, sweeps, and what is finished kept on disk;
 - `neorl.agents`: agents as data, and the `Learner`;
-- `neorl.worlds`: what a world is, WaterWorld and the arena, and an agent's rollout in them;
+- `neorl.worlds`: what a world is, WaterWorld and others, and an agent's rollout in them;
 - `neorl.core`: the kernels, scenes, modalities and maps.
 """
 
-from neorl.agents.agent import Agent, Desire, Learning, Node, Place, Policy
+from neorl.agents.agent import Agent, Contacts, Desire, Learning, Node, Place, Policy
+from neorl.agents.beyond import forager
 from neorl.agents.papers import (brownian, multimodal, network_a, network_b, network_c, network_d, object_vector_cells,
                                  place_cells)
 from neorl.agents.learner import Learner
@@ -32,16 +33,19 @@ from neorl.experiments.run import Run
 from neorl.experiments.simulation import Result, simulate
 from neorl.experiments.sweeping import simulate_once, sweep
 from neorl.worlds.arena import Arena
+from neorl.worlds.arm import Arm
+from neorl.worlds.vessel import Vessel
+from neorl.worlds.water_maze import WaterMaze
 from neorl.worlds.waterworld import WaterWorld
 from neorl.worlds.world import World
 
 __version__ = "0.1.0"
-__all__ = ["Actions", "Agent", "Arena", "Axis", "CARDINAL", "Condition", "Desire", "Learner", "Learning",
-           "Modality", "Node", "NresMap", "Place", "Policy", "Result", "Run", "Scene", "WaterWorld", "World",
-           "greedy", "kernel", "kernel_maker", "learn", "simulate", "simulate_once", "softmax", "superpose",
-           "sweep",
-           "brownian", "multimodal", "network_a", "network_b", "network_c", "network_d", "object_vector_cells",
-           "place_cells"]
+__all__ = ["Actions", "Agent", "Arena", "Arm", "Axis", "CARDINAL", "Condition", "Contacts", "Desire", "Learner",
+           "Learning", "Modality", "Node", "NresMap", "Place", "Policy", "Result", "Run", "Scene", "Vessel",
+           "WaterMaze", "WaterWorld", "World", "greedy", "kernel", "kernel_maker", "learn", "simulate",
+           "simulate_once", "softmax", "superpose", "sweep",
+           "brownian", "forager", "multimodal", "network_a", "network_b", "network_c", "network_d",
+           "object_vector_cells", "place_cells"]
 
 
 def __getattr__(name):

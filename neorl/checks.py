@@ -52,7 +52,7 @@ def integer(name: str, value: Any, at_least: int, at_most: int | None = None) ->
 
 def real(name: str, value: Any, at_least: float = -LARGEST, at_most: float = LARGEST) -> float:
     """`value` as a float, if it is a number in the range; −0.0 as 0.0, since equal values are the same in every way."""
-    number = scalar(value)
+    number = plain(value)
     if isinstance(number, numbers.Real) and not isinstance(number, bool):
         try:
             number = float(number)
@@ -88,8 +88,7 @@ def several(name: str, values: Any) -> tuple[Any, ...]:
 
 def flag(name: str, value: Any) -> bool:
     """`value` as a bool, if it is True or False."""
-    value = scalar(value)
-    return one_of(name, bool(value) if isinstance(value, np.bool) else value, (True, False))
+    return one_of(name, plain(value), (True, False))
 
 
 def finite(name: str, array: NDArray, at_most: float = LARGEST) -> NDArray:
@@ -139,11 +138,6 @@ def plain(value):
         return float(value) if isinstance(value, numbers.Real) and not isinstance(value, int | float) else value
     except OverflowError:
         return value
-
-
-def scalar(value):
-    """The number that an array of no axis holds, or anything else as it is."""
-    return value[()] if isinstance(value, np.ndarray) and value.ndim == 0 else value
 
 
 def _is_short(values):

@@ -105,7 +105,7 @@ def by_a_learner(name, steps):
             learner.change(changes[step])
         paid, _, done = world.step(state, learner.act())
         reward += paid
-        learner.observe(state.scene)
+        learner.observe(state.scene, paid)
         if done:
             execute(world.dynamics.reset, state, world.rules)
             learner.begin(state.scene)

@@ -31,7 +31,7 @@ from hypothesis import strategies as st
 from neorl import greedy, kernel
 from neorl.core.kernel import Kernel
 
-SECONDS = 100
+SECONDS = 100 if numba.config.DISABLE_JIT else 900  # compiling beside other work takes long
 MEMORY = 12 * 2**30  # bytes of addresses, so that a list that is too long fails and does not take the machine along
 ERRORS = (ValueError, TypeError, MemoryError)
 

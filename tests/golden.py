@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from neorl import (Agent, Arena, Desire, Learning, Node, Place, Policy, Run, WaterWorld, brownian, multimodal,
-                   network_a, network_b, network_c, network_d, object_vector_cells, place_cells, softmax)
+from neorl import (Agent, Arena, Contacts, Desire, Learning, Node, Place, Policy, Run, WaterWorld, brownian, forager,
+                   multimodal, network_a, network_b, network_c, network_d, object_vector_cells, place_cells, softmax)
 from neorl.core import modality
 
 RECORD = Path(__file__).parent / "golden.json"
@@ -48,6 +48,20 @@ def seeker(**choices):
     """An agent that seeks the platform of the arena, by where it is and by where that lies."""
     nodes = [Node("PC", modality.PLACE_CELL, [3, 7], "cells"), Node("OVC", modality.OBJECT_VECTOR_CELL, [4], "cells")]
     return Agent(nodes, [Desire("platform", node.name, 1.0) for node in nodes], **choices)
+
+
+CONTACTS = Contacts(0.65, 0.02, 15.0, 0.3, 0.3, 0.4, "avoidance", "highest")
+
+
+def contact_network():
+    """Contacts beside cells, with desires for a kind, a place and what a node of places desires."""
+    nodes = [Node("PC", modality.PLACE_CELL, [3, 7], "cells"),
+             Node("OVC", modality.OBJECT_VECTOR_CELL, [4, 6], gain=0.5, goals="contacts"),
+             *forager([5, 9]).nodes]
+    desires = [Desire("green", "PC", 1.0), Desire("red", "OVC", -1.0), Desire("green", "OVC", "learned"),
+               Desire("PC", "OVC × V"), Desire(Place(0.2, 0.9), "OVC × V", 0.1), Desire("red", "OVC × V", "learned")]
+    return Agent(nodes, desires, plain_rule(), Policy(0.05, "random"),
+                 contacts=Contacts(1.3, 0.1, 3.0, 0.1, 0.1, 1.5, "approach", "add"))
 
 
 RULES = {
@@ -102,6 +116,8 @@ RUNS = {
     "arena, calibrated": (seeker(learning=plain_rule(**CALIBRATED), policy=Policy(0.0, "random")), MAZE),
     "softmax": (multimodal([4], place_gain=1.0, **learning(credit="activity", memory=3.0)
                            | {"policy": Policy(choose=softmax(0.2))}), 3),
+    "contacts": (forager([5, 9, 15], contacts=CONTACTS), 3),
+    "contacts, network": (contact_network(), 8),
 }
 CHANGES = {
     "joined by objects": ((LONG // 3, "both"),),

@@ -11,11 +11,15 @@ import tempfile
 import numpy as np
 from fuzzing import entry
 from hypothesis import strategies as st
+from matplotlib import pyplot as plt
+from matplotlib.figure import Figure
 
 import neorl
-from neorl import (CARDINAL, Actions, Agent, Arena, Axis, Condition, Desire, Learner, Learning, Modality, Node, NresMap,
-                   Place, Policy, Result, Run, Scene, WaterWorld, greedy, softmax)
-from neorl.agents import agent, learner, papers
+from neorl import (CARDINAL, Actions, Agent, Arena, Arm, Axis, Condition, Contacts, Desire, Learner, Learning, Modality,
+                   Node, NresMap, Place, Policy, Result, Run, Scene, Vessel, WaterMaze, WaterWorld, drawing, greedy,
+                   softmax)
+from neorl.agents import agent, beyond, learner, papers
+from neorl.agents.beyond import forager, foveated_cells
 from neorl.core.description import described, restored
 from neorl.agents.individual import Individual
 from neorl.core import horde, kernel, maps, modality, policy, scene, stream
@@ -24,15 +28,23 @@ from neorl.core.kernel import arrays
 from neorl.core.modality import (CARTESIAN_OBJECT_VECTOR_CELL, MODALITIES, OBJECT_VECTOR_CELL,
                                  PLACE_CELL, cartesian, polar)
 from neorl.core.stream import new_stream
-from neorl.evidence import curves, statistics
-from neorl.worlds import arena, waterworld, world
+from neorl.evidence import curves, multiverse, reading, statistics
+from neorl.evidence.statistics import Estimate
+from neorl.experiments import recording
+from neorl.gym import environment, playing, vector
+from neorl.worlds import arena, arm, vessel, water_maze, waterworld, world
 
-MODULES = (neorl, agent, learner, papers, horde, kernel, maps, modality, policy, scene, stream, arena, waterworld,
-           world, curves, statistics)
+EXPORTED = (neorl, drawing)  # packages whose own names are those of their modules
+MODULES = (*EXPORTED, agent, beyond, learner, papers, horde, kernel, maps, modality, policy, scene, stream, arena, arm,
+           vessel, water_maze, waterworld, world, recording, curves, multiverse, reading, statistics, environment,
+           playing, vector)
 # Classes that kernels, or the package itself, make and hand out; kernels themselves refuse to be called.
 MADE_INSIDE = {f"neorl.{name}" for name in (
     "agents.learner.Offer", "core.kernel.Kernel", "core.scene.Scene", "evidence.statistics.Estimate",
+    "drawing.rate_maps.Track", "evidence.multiverse.Support", "experiments.recording.Recording", "gym.playing.Played",
     "experiments.simulation.Result", "worlds.arena.ArenaRules", "worlds.arena.ArenaState", "worlds.waterworld.Rules",
+    *(f"worlds.{name}{part}" for name in ("arm.Arm", "vessel.Vessel", "water_maze.WaterMaze")
+      for part in ("Rules", "State")),
     "worlds.waterworld.WaterWorldState", "worlds.world.Dynamics", "worlds.world.World")}
 # What authors of kernels and of worlds call, with types and sizes of their own: it checks nothing, for it is hot or
 # runs at import.
@@ -44,6 +56,8 @@ FOR_AUTHORS = {f"neorl.{name}" for name in (
         "Modality.check_axes", "as_radians", "as_turns", "axis_parameters", "firsts", "integers", "space_of")),
     *(f"evidence.statistics.{name}" for name in (  # what `estimate` calls
         "difference", "lead_over_best", "lead_over_sum", "least_of_most", "quotient", "rank_correlation", "ratio")),
+    *(f"evidence.multiverse.{name}" for name in ("held", "importance", "outcome", "shares", "support")),  # of claims
+    "evidence.reading.additions", "evidence.reading.judge", "gym.environment.checked_seed", "gym.environment.seed_row",
     "agents.papers.paper_agent", "core.kernel.jit_is_off", "core.scene.checked_scene", "worlds.world.check_arrays")}
 
 
@@ -52,7 +66,7 @@ def public_names():
     found = set()
     for module in MODULES:
         for name, value in vars(module).items():
-            ours = name in neorl.__all__ if module is neorl else getattr(value, "__module__", "") == module.__name__
+            ours = name in module.__all__ if module in EXPORTED else getattr(value, "__module__", "") == module.__name__
             if ours and not name.startswith("_") and callable(value) and not isinstance(value, kernel.Kernel):
                 full = f"{value.__module__}.{value.__qualname__}"
                 found.add(full)
@@ -130,10 +144,41 @@ def result_of(world, runs=3, bins=40):
                   rng.integers(0, 3, (runs, bins, 2)).astype(np.int16))
 
 
+def drawn(axes):
+    """Nothing more: what is drawn is looked at in tests of its own."""
+    plt.close("all")
+
+
+def drawing_of(function, **arguments):
+    also = arguments.pop("also", ())
+    axes = st.builds(lambda: Figure(figsize=(2, 2)).add_subplot())
+    return entry(function, ax=axes, then=drawn, also=also, **arguments)
+
+
+def new_run(agent=neorl.network_b([3, 5]), steps=40):
+    run = Run(agent, BOARD)
+    run.advance(steps)
+    return run
+
+
+def new_env():
+    return environment.WorldEnv(BOARD)
+
+
+def begun(env):
+    env.reset(seed=0)
+    return env
+
+
+def scene_of(observation, info):
+    return Scene(np.array([0.5, 0.5]), np.zeros(2), np.zeros((0, 2)), (), ())
+
+
 SCENE = Scene((0.5, 0.25), (0.0, 0.1), [(0.1, 0.2), (0.3, 0.4)], ("green", None), (0, 1))
 SCENES = st.sampled_from([SCENE, SCENE._replace(velocity=None, met=()), Scene(
     np.array([0.5, 0.5]), np.zeros(2), np.ones((2, 2)), np.array([0, 1]), np.array([True, False]))])
 BOARD, POOL = WaterWorld(n_creeps=2), Arena()
+SPACES = {"arm": Arm(), "vessel": Vessel(), "water_maze": WaterMaze()}  # by module
 RESULT = result_of(WaterWorld(win_reward=5.0))
 CONDITION = Condition(neorl.place_cells([2]), BOARD, 40, 1)
 SAMPLE = np.array([0.1, 0.5, 0.2, 0.9])
@@ -281,6 +326,16 @@ TABLE = {
     "neorl.worlds.arena.Arena, pay": entry(
         Arena, places=[[("a", 0.5, 0.5), ("b", 0.2, 0.2)]], pay=[(), (1.5,), [2, 3]], start=[(0.4, 0.4)], also="pay",
         then=live_in),
+    "neorl.worlds.arm.Arm": entry(
+        Arm, lengths=[(1, 1), [3, 2.5, 1]], targets=st.integers(1, 3), obstacles=st.integers(0, 3),
+        radius=st.floats(0.01, 0.2), fps=st.integers(1, 100), then=live_in),
+    "neorl.worlds.vessel.Vessel": entry(
+        Vessel, traffic=st.integers(0, 5), current=[(0, 0), [0.05, -0.02]], speed=st.floats(0.05, 1),
+        turning=st.floats(0.01, 5), lag=st.floats(1, 9), radius=st.floats(0.001, 0.1), fps=st.integers(1, 100),
+        then=live_in),
+    "neorl.worlds.water_maze.WaterMaze": entry(
+        WaterMaze, places=[((0.3, 0.4),), [(0.5, 0.5), (0.6, 0.4)]], trials_a_day=st.integers(1, 5),
+        radius=st.floats(0.01, 0.25), trial_seconds=st.floats(0.1, 99), fps=st.integers(1, 100), then=live_in),
     "neorl.worlds.world.World.reset": entry(BOARD.reset, seed=seeds, then=lambda state: list(arrays(state).values())),
     "neorl.worlds.world.World.step": entry(
         BOARD.step, state=states, action=["N", 0, "no-op", np.int8(4)]),
@@ -292,6 +347,12 @@ TABLE = {
     "neorl.worlds.world.World.check_state": entry(BOARD.check_state, state=states),
     "neorl.worlds.waterworld.WaterWorld.check_state": entry(BOARD.check_state, state=states),
     "neorl.worlds.arena.Arena.check_state": entry(POOL.check_state, state=st.integers(0, 5).map(POOL.reset)),
+    **{f"neorl.worlds.{module}.{type(space).__name__}.{name}": each for module, space in SPACES.items()
+       for name, each in {
+           "reset": entry(space.reset, seed=seeds, then=lambda state: list(arrays(state).values())),
+           "step": entry(space.step, state=st.integers(0, 5).map(space.reset), action=[space.actions.names[0], 0]),
+           "check_state": entry(space.check_state, state=st.integers(0, 5).map(space.reset)),
+       }.items()},
     "neorl.agents.agent.Learning": entry(
         Learning, learning_rate=shares, discount=shares, update_on=["cell"], credit=["happened", "activity", "share"],
         activity=st.floats(0, 9), absent_decay=shares, absent_form=["decay", "away"], terminal=[True, False],
@@ -302,6 +363,16 @@ TABLE = {
     "neorl.agents.agent.Learning, traces": entry(
         Learning, trace=st.integers(1, 9), memory=[0], discount=shares, update_on=["cell"],
         then=lambda learning: live(neorl.multimodal([3], learning=learning))),
+    "neorl.agents.agent.Contacts": entry(
+        Contacts, horizon=st.floats(0.01, 9), learning_rate=shares, familiarity=st.floats(0, 99), first_value=shares,
+        trace_rate=shares, caution=st.floats(0, 9), fear=["avoidance", "approach"], rivals=["highest", "add"],
+        then=lambda contacts: live(forager([3, 5], contacts=contacts))),
+    "neorl.agents.beyond.forager": entry(
+        forager, resolutions=[(3,), (3, 5)], valence_green=[1.0, "learned"], valence_red=[-1.0, "learned"],
+        contacts=[Contacts()], then=live, also=("resolution", "valence", "modality")),
+    "neorl.agents.beyond.foveated_cells": entry(
+        foveated_cells, foveated=[True, False], velocity=[True, False], mirrored=[True, False],
+        also=("feature", "low", "axes")),
     "neorl.agents.agent.Policy": entry(
         Policy, exploration=shares, when_indifferent=["random", "no-op"],
         choose=st.sampled_from([greedy, softmax(1.0)]),
@@ -353,7 +424,7 @@ TABLE = {
     **{f"neorl.{where}.{kind.__name__}.{name}": each for kind, value, where in (
         (Agent, neorl.network_d([2]), "agents.agent"), (Condition, CONDITION, "experiments.cache"),
         (Arena, Arena(), "worlds.arena"), (WaterWorld, BOARD, "worlds.waterworld"),
-        (world.World, BOARD, "worlds.world"))
+        (world.World, BOARD, "worlds.world"), *((type(each), each, f"worlds.{name}") for name, each in SPACES.items()))
        for name, each in {
            "from_dict": entry(kind.from_dict, data=[{"is": type(value).__name__} | value.to_dict()], then=identity,
                               also=("is", *value.to_dict())),
@@ -421,4 +492,108 @@ TABLE = {
     "neorl.agents.papers.network_d": paper(neorl.network_d, recursion=reals, scale=st.floats(0, 2),
                                            signed=[True, False], place_gain=reals, object_gain=reals),
 }
-NOTHING_TO_REPLACE = {"neorl.agents.papers.brownian"}
+RUNS, TRACK = st.builds(new_run), drawing.track(new_run(), 1)
+NAMED_RESULTS = [{"N3": RESULT, "N5": RESULT}]
+ESTIMATES = [Estimate(0.5, 0.4, 0.6), Estimate(0.1, np.nan, np.nan)]
+MAPS = st.sampled_from([NresMap(3), NresMap(4, OBJECT_VECTOR_CELL)])
+TABLE |= {
+    "neorl.drawing.animation.animate": entry(
+        drawing.animate, run=RUNS, path=["run.gif"], seconds=[0.05], fps=[25], size=[64], background=["white", "#121"],
+        errors=(OSError,), long=("seconds",)),
+    "neorl.drawing.boards.new_board": entry(drawing.new_board, size=st.floats(1, 9), low=st.floats(-1, 0), then=drawn),
+    "neorl.drawing.boards.new_boards": entry(
+        drawing.new_boards, columns=st.integers(1, 3), rows=st.integers(1, 2), then=drawn, long=("columns", "rows")),
+    "neorl.drawing.boards.draw_world": drawing_of(drawing.draw_world, world=[BOARD], state=states),
+    "neorl.drawing.boards.draw_tank": drawing_of(drawing.draw_tank, world=[BOARD], state=states),
+    "neorl.drawing.boards.draw_walls": drawing_of(drawing.draw_walls, world=[BOARD, POOL]),
+    "neorl.drawing.boards.draw_desires": drawing_of(drawing.draw_desires, run=RUNS),
+    "neorl.drawing.curves.draw_accumulated": drawing_of(
+        drawing.draw_accumulated, results=NAMED_RESULTS, control=[None, {"luck": RESULT}]),
+    "neorl.drawing.curves.draw_proficiency": drawing_of(
+        drawing.draw_proficiency, results=NAMED_RESULTS, total=[None, ("sum", [RESULT, RESULT])],
+        points=st.integers(1, 99)),
+    "neorl.drawing.curves.draw_smoothed": drawing_of(
+        drawing.draw_smoothed, results=[{"N3": result_of(BOARD, bins=60)}]),
+    "neorl.drawing.curves.draw_curves": drawing_of(
+        drawing.draw_curves, xs=[np.arange(60), range(60)], curves=[{"a": CURVES, "b": CURVES.tolist()}]),
+    "neorl.drawing.curves.draw_sweep": drawing_of(
+        drawing.draw_sweep, xs=[[3, 7], np.array([1.0, 2.0])], estimates_by_name=[{"a": ESTIMATES}]),
+    "neorl.drawing.curves.draw_costs": drawing_of(
+        drawing.draw_costs, labels=[["N3", "N7"]], measured=[[1.0, 2.0]], predicted=[[1.0, 2.5]]),
+    "neorl.drawing.network_figures.draw_network": drawing_of(drawing.draw_network, agent=agents),
+    "neorl.drawing.network_figures.draw_networks": entry(
+        drawing.draw_networks, agents=[{"D": neorl.network_d([2]), "A": neorl.network_a([2])}],
+        figure=st.builds(lambda: Figure(figsize=(5, 4))), then=drawn),
+    "neorl.drawing.rate_maps.track": entry(
+        lambda run, seconds, index: drawing.track(run, seconds, index).position, run=RUNS, seconds=[0.1, 1],
+        index=[0, 1], long=("seconds",)),
+    "neorl.drawing.rate_maps.rate_map": entry(
+        lambda **each: np.nan_to_num(drawing.rate_map(**each)), track=[TRACK], cell=[None, 0, 5],
+        bins=st.integers(1, 30)),
+    "neorl.drawing.rate_maps.draw_rate_map": drawing_of(
+        drawing.draw_rate_map, track=[TRACK], cell=[None, 0, 5], bins=st.integers(1, 30)),
+    "neorl.drawing.receptive_fields.draw_receptive_fields": drawing_of(
+        drawing.draw_receptive_fields, nres_map=MAPS, world=[BOARD], state=states),
+    "neorl.drawing.thesis_figures.draw_against_thesis": drawing_of(
+        drawing.draw_against_thesis, thesis=[{"both": 0.55, "one": 0.2}],
+        readings=[{"book": dict(zip(("both", "one"), ESTIMATES))}]),
+    "neorl.drawing.thesis_figures.mark_levels": entry(
+        drawing.mark_levels, axes=st.builds(lambda: Figure().add_subplot()), levels=[{"thesis": 0.5}], then=drawn),
+    "neorl.drawing.value_maps.draw_cells": drawing_of(
+        drawing.draw_cells, nres_map=MAPS, colour=["red", "#808080"], fills=[None, {1: ("red", 0.5)}],
+        width=st.floats(0, 5)),
+    "neorl.drawing.value_maps.draw_values": drawing_of(
+        drawing.draw_values, nres_map=[NresMap(2)], values=[np.ones((4, 4)), np.eye(4).tolist()], actions=[CARDINAL]),
+    "neorl.drawing.value_maps.draw_value_map": drawing_of(
+        drawing.draw_value_map, run=RUNS, goals=[[(0.7, 0.7)], [(0.1, 0.2), (0.5, 0.5)][:1]], valences=[None, [1.0]],
+        index=[0, 1], also="points"),
+    "neorl.evidence.multiverse.design": entry(multiverse.design, points=[2, 4], seed=seeds, long=("points",)),
+    "neorl.evidence.reading.Reading": entry(
+        reading.Reading, learning_rate=shares, discount=[0.9], credit=["happened", "step"], memory=st.floats(0, 99),
+        memory_unit=["cells", "seconds"], exploration=shares, place_gain=reals,
+        vectors=["signed", "by size", "incoming"], recursion=reals, network_resolutions=[(3, 7), [2]],
+        fps=st.integers(10, 60), contact=["rounded"],
+        also=("resolution", "gain", "scale"),
+        then=lambda made: (reading.conditions(made, 1_000, 1), made.within_the_text)),
+    "neorl.evidence.reading.conditions": entry(
+        lambda **each: [*reading.conditions(**each)], reading=[reading.Reading()], steps=st.integers(1, 9_999),
+        runs=st.integers(1, 9), seed=seeds, groups=[("modal",), ["layers", "networks"]], also="group"),
+    "neorl.evidence.reading.networks": entry(
+        lambda **each: [*reading.networks(**each)], reading=[reading.Reading()]),
+    "neorl.experiments.recording.record": entry(
+        recording.record, name=["Newborn"], run=RUNS, steps=st.integers(1, 5), long=("steps",)),
+    **{f"neorl.gym.environment.{kind.__name__}.{name}": each
+       for kind in (environment.WorldEnv, environment.WaterWorldEnv, environment.ArenaEnv) for name, each in {
+           "reset": entry(lambda **each: new_env().reset(**each)[0], seed=[None, 0, 5], options=[None], also="run"),
+           "step": entry(method(environment.WorldEnv.step, lambda: begun(new_env())), action=[0, np.int64(4)]),
+       }.items()},
+    "neorl.gym.environment.WorldEnv": entry(
+        lambda **each: begun(environment.WorldEnv(**each)).step(0)[0], world=[BOARD, POOL],
+        render_mode=[None, "rgb_array"], egocentric=[True, False], continuing=[None, True, False]),
+    "neorl.gym.environment.WaterWorldEnv": entry(
+        lambda **each: begun(environment.WaterWorldEnv(**each)).step(0)[0], render_mode=[None, "rgb_array"],
+        egocentric=[True, False], continuing=[True, False], n_creeps=[2]),
+    "neorl.gym.environment.ArenaEnv": entry(
+        lambda **each: begun(environment.ArenaEnv(**each)).step(0)[0], render_mode=[None, "rgb_array"],
+        egocentric=[True, False], continuing=[True, False], places=[[("platform", 0.6, 0.3)]]),
+    "neorl.gym.playing.play": entry(
+        lambda **each: playing.play(**each).rewards, agent=[neorl.place_cells([3])], env=st.builds(new_env),
+        scene=st.just(scene_of), steps=st.integers(0, 5), seed=st.integers(0, 99), things=[0], kinds=[("green", "red")],
+        actions=[None], commands=[None, range(5)], long=("steps",), also=("Discrete", "surroundings", "kind", "axes")),
+    **{f"neorl.gym.vector.VectorWorldEnv{name}": each for name, each in {
+        "": entry(lambda **each: vector.VectorWorldEnv(**each).reset(seed=0)[0], world=[BOARD, POOL],
+                  num_envs=st.integers(1, 3), max_episode_steps=[None, 5], autoreset_mode=["NextStep", "SameStep"],
+                  render_mode=[None, "rgb_array"], egocentric=[True, False], continuing=[None, True],
+                  long=("num_envs",)),
+        ".reset": entry(lambda **each: vector.VectorWorldEnv(BOARD, 2).reset(**each)[0], seed=[None, 3, [1, 2]],
+                        options=[None], also=("run", "reset_mask")),
+        ".step": entry(method(vector.VectorWorldEnv.step, lambda: begun(vector.VectorWorldEnv(BOARD, 2))),
+                       actions=[[0, 1], np.array([4, 0])])}.items()},
+    "neorl.gym.vector.vector_waterworld": entry(
+        lambda **each: vector.vector_waterworld(**each).reset(seed=0)[0], num_envs=[1, 2], n_creeps=[2],
+        egocentric=[True, False], continuing=[True, False], long=("num_envs",)),
+    "neorl.gym.vector.vector_arena": entry(
+        lambda **each: vector.vector_arena(**each).reset(seed=0)[0], num_envs=[1, 2], egocentric=[True, False],
+        continuing=[True, False], shape=["round", "square"], long=("num_envs",)),
+}
+NOTHING_TO_REPLACE = {"neorl.agents.papers.brownian", "neorl.drawing.style.use_style"}

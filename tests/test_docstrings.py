@@ -8,9 +8,9 @@ import re
 import pytest
 from public_names import NOTHING_TO_REPLACE, TABLE
 
-OTHERS = ("neorl.experiments", "neorl.drawing")  # rooms that are not looked at
-NAMES = sorted({name.partition(",")[0] for name in (*TABLE, *NOTHING_TO_REPLACE) if not name.startswith(OTHERS)})
-CHOICES = "choices"  # of a paper's agent: the docstring of the module says what they are
+NAMES = sorted({name.partition(",")[0] for name in (*TABLE, *NOTHING_TO_REPLACE)})
+SAID_BY_THE_MODULE = ("choices", "ax")  # the docstring of their module says what they are
+OTHERS = re.compile(r"[Tt]he (others|other fields|fields|arguments) are those of")  # which are told there
 
 
 def found(name):
@@ -38,7 +38,8 @@ def lacking(name):
     dataclass = dataclasses.is_dataclass(value)
     parameters = inspect.signature(value).parameters
     for parameter in parameters.values():
-        if parameter.name not in ("self", CHOICES) and not re.search(rf"\b{parameter.name}\b", text):
+        named = re.search(rf"\b{parameter.name}\b", text) or OTHERS.search(text)
+        if parameter.name not in ("self", *SAID_BY_THE_MODULE) and not named:
             yield f"the argument {parameter.name} in the docstring"
         if parameter.name != "self" and parameter.annotation is inspect.Parameter.empty:
             yield f"an annotation of {parameter.name}"

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import neorl
-from neorl import (Actions, Agent, Arena, Axis, Condition, Desire, Learner, Learning, Modality, Node, NresMap, Place,
-                   Policy, Result, Run, Scene, WaterWorld, World)
+from neorl import (Actions, Agent, Arena, Arm, Axis, Condition, Contacts, Desire, Learner, Learning, Modality, Node,
+                   NresMap, Place, Policy, Result, Run, Scene, Vessel, WaterMaze, WaterWorld, World)
 from neorl.core.identity import identity
 from neorl.core.modality import LANDMARK_VECTOR_CELL, PLACE_CELL, cartesian, polar
 
@@ -15,10 +15,13 @@ AXIS = Axis("position", along=1, low=-1.0, high=2.0, intervals=3, name="y")
 NODE = Node("PC", PLACE_CELL, (3, 7), gain=0.5)
 VALUES = [  # of every public dataclass, with a number in every field that can hold one
     Learning(memory=2.0), Learning(memory=0.0, trace=3), Policy(exploration=0.25), NODE, AXIS,
+    Contacts(0.5, 0.25, 4.0, 0.5, 0.25, 0.5),
     Axis("position", boundaries=(0.0, 0.25, 1.0)), LANDMARK_VECTOR_CELL, Place(0.5, 0.25), NresMap(4, PLACE_CELL),
     Desire("green", "PC", valence=-1.0, scale=2.0), Desire((0.5, 0.25), "PC", 1.0), Agent((NODE,), own_cell="silent"),
     Actions(("N", "S"), ((0.0, 1.0), (1.0, 0.0)), "no-op"), WaterWorld(n_creeps=4, win_reward=5.0),
     Arena(pay=(2.0,), obstacles=((0.25, 0.25, 0.5, 0.5),), start=(0.75, 0.75)),
+    Arm(lengths=(0.5, 0.25), targets=2, radius=0.125), Vessel(traffic=2, current=(0.0625, 0.0), speed=0.125),
+    WaterMaze(places=((0.5, 0.25),), trials_a_day=2, radius=0.125),
     Condition(neorl.place_cells([3]), WaterWorld(), 100, 2, 7, ((50, neorl.place_cells([2])),))]
 NUMBERS = {int: [np.int64, np.uint16, np.array], float: [np.float64, np.float32, np.float16, np.array]}
 OF_BOUNDARIES = ("low", "high", "intervals")  # which say what these are

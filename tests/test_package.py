@@ -23,6 +23,12 @@ def test_import_neorl_imports_nothing_that_takes_long():
     assert not set(WHEN_USED) & set(listed.stdout.split())
 
 
+def test_figures_and_statistics_import_no_part_of_scipy_before_they_use_it():
+    listed = subprocess.run([sys.executable, "-c", "import neorl.drawing, neorl.evidence.report, sys; "
+                             "print(*sys.modules)"], capture_output=True, text=True, check=True)
+    assert not {"scipy.optimize", "scipy.signal", "scipy.stats"} & set(listed.stdout.split())
+
+
 def test_the_version_is_the_same_everywhere():
     assert f"\nversion: {neorl.__version__}\n" in (ROOT / "CITATION.cff").read_text()
     assert "version" in PROJECT["dynamic"]

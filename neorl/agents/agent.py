@@ -29,6 +29,10 @@ MEMORY_UNITS = ("cells", "seconds")
 MEMORY_VALUES = ("reached", "discounted")
 CAUSES = ("any", "own")
 MOST_PARTS = 4_096  # nodes, or desires, whose number squared is looked at
+GOALS = ("cells", "contacts")
+FEARS = ("avoidance", "approach")
+RIVALS = ("highest", "add")
+LEARNED, FIRST_WORTH = "learned", 1.0  # what is not yet known is worth a meeting
 WHEN_INDIFFERENT = ("random", "no-op")
 
 
@@ -121,6 +125,47 @@ AT_EVERY_STEP = {"credit": "share", "absent_decay": 0.0, "trace": 1, "memory": 0
 
 
 @dataclass(frozen=True)
+class Contacts(checks.Final):
+    """How nodes learn whose goals are contacts alone, see `neorl.core.contacts`: beyond the thesis.
+
+    The defaults are the best of what `neorl.chapters.beyond_agents.search` has tried.
+
+    horizon: seconds > 0, the time constant by which what is to come is discounted.
+    learning_rate: α in [0, 1], the least; after n visits it is n^(−3/4) or this.
+    familiarity: ≥ 0. What a finer map knows of an action counts n / (n + familiarity) after n visits.
+    first_value: in [0, 1], of the approach of what has not been tried: optimism in place of ε.
+    trace_rate: in [0, 1], at which actions learn that they have led to a contact; 0 without a trace.
+    caution: ≥ 0, what harm weighs against the best approach.
+    fear: what the value of harm is: "avoidance", of a contact to an agent that would flee, or "approach", as the
+        superposition of the thesis has it (eq. 4.4).
+    rivals: of several things of positive worth, the approach that is worth the "highest" counts alone, or all "add" up.
+
+    Raises ValueError for anything else.
+    """
+
+    horizon: float = 0.389
+    learning_rate: float = 0.0262
+    familiarity: float = 6.15
+    first_value: float = 0.31
+    trace_rate: float = 0.215
+    caution: float = 0.309
+    fear: str = "avoidance"
+    rivals: str = "highest"
+
+    def __post_init__(self):
+        checks.assign(
+            self,
+            horizon=checks.positive("horizon", self.horizon),
+            learning_rate=checks.real("learning_rate", self.learning_rate, 0, 1),
+            familiarity=checks.real("familiarity", self.familiarity, 0),
+            first_value=checks.real("first_value", self.first_value, 0, 1),
+            trace_rate=checks.real("trace_rate", self.trace_rate, 0, 1),
+            caution=checks.real("caution", self.caution, 0),
+            fear=checks.one_of("fear", self.fear, FEARS),
+            rivals=checks.one_of("rivals", self.rivals, RIVALS))
+
+
+@dataclass(frozen=True)
 class Policy(checks.Final):
     """How the agent chooses: the action of highest value, ties broken at random (paper A, The Control Problem).
 
@@ -150,6 +195,8 @@ class Node(checks.Final):
     name: a string that is no kind of thing in the worlds it is to live in. resolutions: one integer ≥ 1 or more.
     weighting: of the maps in the sum. "equal"; "resolution", by N; "cells", by N². The weights add up to 1.
     gain: of the node's values in the agent's; with 0 only the node's desires count.
+    goals: what the node learns to reach: all "cells", the Horde of the thesis, or "contacts" with things alone, see
+        `Contacts`. Its modality is then of objects, its resolutions grow, and its weighting has no effect.
 
     Raises ValueError for anything else.
     """
@@ -159,6 +206,7 @@ class Node(checks.Final):
     resolutions: Sequence[int]
     weighting: str = "cells"
     gain: float = 1.0
+    goals: str = "cells"
 
     def __post_init__(self):
         checks.instance("modality", self.modality, Modality)
@@ -168,7 +216,15 @@ class Node(checks.Final):
             raise ValueError("resolutions is (), allowed are one integer or more")
         checks.assign(self, resolutions=tuple(each.resolution for each in self.maps),
                      weighting=checks.one_of("weighting", self.weighting, WEIGHTINGS),
-                     gain=checks.real("gain", self.gain))
+                     gain=checks.real("gain", self.gain), goals=checks.one_of("goals", self.goals, GOALS))
+        if self.goals == "contacts" and self.modality.follows != "objects":
+            raise ValueError(f"goals is 'contacts', allowed for {self.modality.name}s is 'cells': they follow no "
+                             "objects")
+        if self.goals == "contacts" and any(fine <= coarse for coarse, fine in zip(self.resolutions,
+                                                                                   self.resolutions[1:])):
+            raise ValueError(f"resolutions is {self.resolutions}, allowed for contacts are integers that grow")
+        if self.goals == "cells" and self.modality.mirrored:
+            raise ValueError(f"goals is 'cells', allowed for {self.modality.name}s, which are mirrored, is 'contacts'")
 
     @property
     def maps(self) -> tuple[NresMap, ...]:
@@ -212,7 +268,8 @@ class Desire(checks.Final):
         times `scale`, says where, as seen from the agent in units of the world's size, the element lies (paper C,
         section 1). A node that desires of itself does so by its desire vector of the step before: recursion.
     valence: how much an element matters, and its sign. For a desire between nodes None stands for the sum of the
-        valences that the vector comes from; recursion needs a number, the weight r.
+        valences that the vector comes from; recursion needs a number, the weight r. "learned" stands for a number that
+        is learned from reward alone, for a kind of thing; it begins with 1.
     of: the names of the sources that the vector of a node comes from; () stands for all its elements.
     scale: units of the world's size for a vector of length 1, ≥ 0. signed: sum w instead of |w|.
 
@@ -221,7 +278,7 @@ class Desire(checks.Final):
 
     source: str | Place | Sequence[float]
     target: str
-    valence: float | None = None
+    valence: float | str | None = None
     of: Sequence[str] = ()
     scale: float = 1.0
     signed: bool = True
@@ -235,7 +292,12 @@ class Desire(checks.Final):
         elif isinstance(self.source, str):
             checks.assign(self, source=str(self.source))
         checks.assign(self, target=str(checks.instance("target", self.target, str)))
-        if self.valence is not None:
+        if self.valence == LEARNED and isinstance(self.valence, str):
+            if not isinstance(self.source, str):
+                raise ValueError(f"valence is 'learned', allowed for the source {self.source!r} are numbers: it is "
+                                 "learned for kinds of things")
+            checks.assign(self, valence=LEARNED)
+        elif self.valence is not None:
             checks.assign(self, valence=checks.real("valence", self.valence))
         checks.assign(self, of=tuple(str(checks.instance("of", each, str)) for each in checks.several("of", self.of)),
                      scale=checks.real("scale", self.scale, 0), signed=checks.flag("signed", self.signed))
@@ -250,6 +312,7 @@ class Agent(Described, checks.Final):
 
     nodes: one `Node` or more, each name once. desires: any number of `Desire`. Of either 4,096 at most.
     learning: how its maps learn, a `Learning`. policy: how it chooses, a `Policy`.
+    contacts: how those of nodes learn whose goals are contacts, a `Contacts`.
     own_cell: whether an element in the cell that it is to be reached from is "silent", its desire met, or "counts".
 
     Raises ValueError for anything else, and for a network that cannot be evaluated: a desire from or to a node that
@@ -261,6 +324,7 @@ class Agent(Described, checks.Final):
     learning: Learning = field(default_factory=Learning)
     policy: Policy = field(default_factory=Policy)
     own_cell: str = "counts"
+    contacts: Contacts = field(default_factory=Contacts)
 
     def __post_init__(self):
         for name, kind, fewest in (("nodes", Node, 1), ("desires", Desire, 0)):
@@ -275,6 +339,7 @@ class Agent(Described, checks.Final):
             raise ValueError(f"nodes are {', '.join(map(repr, names))}, allowed is each name once")
         checks.instance("learning", self.learning, Learning)
         checks.instance("policy", self.policy, Policy)
+        checks.instance("contacts", self.contacts, Contacts)
         checks.assign(self, own_cell=checks.one_of("own_cell", self.own_cell, OWN_CELL))
         for desire in self.desires:
             self._check_desire(desire)
@@ -290,6 +355,12 @@ class Agent(Described, checks.Final):
                              f"another node, {', '.join(map(repr, nodes))}")
         if desire.of and desire.source not in nodes:
             raise ValueError(f"of is {desire.of!r}, allowed for the desire {desire} is (): it comes from no node")
+        if desire.valence == LEARNED and desire.source in nodes:
+            raise ValueError(f"valence of the desire {desire} is 'learned', allowed for that of a node are numbers and "
+                             "None")
+        if isinstance(desire.source, tuple) and nodes[desire.target].goals == "contacts":
+            raise ValueError(f"desire {desire}: a point is no goal of the node, allowed are kinds of things, places "
+                             "and nodes: it learns of contacts alone")
         modality = nodes[desire.target].modality
         if isinstance(desire.source, str | Place) and not modality.takes_places:
             raise ValueError(f"desire {desire}: what lies at a place has no point among {modality.name}s, allowed are "

@@ -4,16 +4,20 @@ Of a world an agent needs no more than its `size`, `fps`, `kinds`, `actions` and
 `neorl.worlds.world`. The names of kinds in its desires get their meaning here.
 """
 
+import itertools
+
 import numpy as np
 
-from neorl.agents.agent import Place
+from neorl.agents.agent import FIRST_WORTH, LEARNED, Place
 from neorl.core.choices import Attention, Capture, Credit, Source, UpdateOn, Weighting
 from neorl.core.constants import Constants, features, no_credit
 from neorl.core.kernel import execute, new_tuple
 from neorl.core.modality import as_turns, axis_parameters, firsts, integers
-from neorl.core.parameters import Parameters, derive
+from neorl.core.parameters import ENTRIES, Parameters, derive
 from neorl.worlds.arena import Arena
 from neorl.worlds.waterworld import WaterWorld
+
+TRACE_STEPS = 64  # over which a contact is remembered back; in 1.3 s little is left of what it is worth
 
 
 def compiled(agent, world):
@@ -36,8 +40,9 @@ def constants_of(agent, world):
 
 
 def n_values(agent, world):
-    """How many Q values an agent holds in a world; each takes four bytes."""
-    return sum(len(world.actions.names) * nres_map.cells**2 for nres_map in agent.maps)
+    """How many values an agent holds in a world; each takes four bytes."""
+    return sum(len(world.actions.names) * nres_map.cells * (ENTRIES if node.goals == "contacts" else nres_map.cells)
+               for node in agent.nodes for nres_map in node.maps)
 
 
 def n_bytes(agent, world):
@@ -47,7 +52,7 @@ def n_bytes(agent, world):
     for node in agent.nodes:
         several = {"objects": world.things, "boundaries": 2 * axes, "landmarks": len(node.modality.landmarks)}
         for nres_map in node.maps:
-            remembered = nres_map.cells * (20 + 16 * actions) if rule.memory > 0 else 0
+            remembered = nres_map.cells * (20 + 16 * actions) if rule.memory > 0 and node.goals == "cells" else 0
             total += several.get(node.modality.follows, 1) * (remembered + rule.trace * (8 + 4 * actions))
     return total
 
@@ -58,21 +63,26 @@ def chosen(agent, world):
     names, n_axes = [node.name for node in agent.nodes], world.actions.axes
     modalities = [node.modality for node in agent.nodes]
     choices, sizes = axis_parameters(modalities, n_axes)
-    choices["nodes"] |= {"weighting": integers(Weighting[node.weighting] for node in agent.nodes),
+    choices["nodes"] |= {"learns_contacts": np.array([node.goals == "contacts" for node in agent.nodes], np.bool_),
+                         "weighting": integers(Weighting[node.weighting] for node in agent.nodes),
                          "gain": np.array([node.gain for node in agent.nodes]),
                          "first_map": firsts(len(node.resolutions) for node in agent.nodes),
                          "order": integers(names.index(name) for name in agent.evaluation_order)}
+    mirrored = [modality.name for modality in modalities if modality.mirrored]
+    frames = (_frames(world.actions, mirrored[0]) if mirrored else
+              np.arange(len(world.actions.names), dtype=np.int64).reshape(1, -1))
     coordinates = max([n_axes, *(len(modality.axes) for modality in modalities)])
     choices |= {
         "size": float(world.size), "own_cell_counts": agent.own_cell == "counts",
-        "push": np.array(world.actions.pushes, float),
+        "push": np.array(world.actions.pushes, float), "frames": frames,
         "maps": {"resolution": integers(n for node in agent.nodes for n in node.resolutions)},
         "desires": _desires(agent, world, coordinates),
-        "learning": _learning(agent.learning, world.fps),
+        "learning": _learning(agent.learning, world.fps), "contacts": _contacts(agent, world.fps),
         "policy": {"exploration": agent.policy.exploration,
                    "indifferent_is_no_op": agent.policy.when_indifferent == "no-op"}}
     return choices, sizes | {
-        "maps": len(agent.maps), "map_axes": sum(len(nres_map.intervals) for nres_map in agent.maps),
+        "frames": len(frames), "maps": len(agent.maps),
+        "map_axes": sum(len(nres_map.intervals) for nres_map in agent.maps),
         "desires": len(agent.desires), "actions": len(world.actions.names), "axes": n_axes, "coordinates": coordinates}
 
 
@@ -111,7 +121,9 @@ def _desires(agent, world, coordinates):
             "kind": integers(world.kinds.index(desire.source) if desire.source in world.kinds else -1
                              for desire in desires),
             "target": integers(names.index(desire.target) for desire in desires),
-            "valence": np.array([desire.valence or 0.0 for desire in desires], float),
+            "valence": np.array([FIRST_WORTH if desire.valence == LEARNED else desire.valence or 0.0
+                                 for desire in desires], float),
+            "learned": np.array([desire.valence == LEARNED for desire in desires], np.bool_),
             "sums_valence": np.array([desire.valence is None for desire in desires], np.bool_),
             "scale": np.array([desire.scale for desire in desires], float),
             "signed": np.array([desire.signed for desire in desires], np.bool_),
@@ -145,6 +157,34 @@ def _learning(learning, fps):
             "own_causes": learning.causes == "own",
             "capture": int(Capture[learning.capture]),
             "attention": int(Attention[learning.attention])}
+
+
+def _contacts(agent, fps):
+    contacts, learns = agent.contacts, any(node.goals == "contacts" for node in agent.nodes)
+    return {"discount": float(_retained(contacts.horizon * fps)), "learning_rate": contacts.learning_rate,
+            "familiarity": contacts.familiarity, "first_value": contacts.first_value,
+            "trace": TRACE_STEPS if learns else 1, "trace_rate": contacts.trace_rate, "caution": contacts.caution,
+            "flees": contacts.fear == "avoidance", "rivals_add": contacts.rivals == "add"}
+
+
+def _frames(actions, name):
+    """For each mirror image of the world, as `neorl.core.contacts.mirror` counts them, the action that each one is."""
+    frames = []
+    exchanges = itertools.product(*(range(actions.axes - axis) for axis in reversed(range(actions.axes - 1))))
+    for far, flips in itertools.product(exchanges, itertools.product((1, -1), repeat=actions.axes)):
+        pushes = np.array(actions.pushes) * flips[::-1]
+        for axis, other in enumerate(reversed(far)):
+            pushes[:, [axis, axis + other]] = pushes[:, [axis + other, axis]]
+        frames.append([_action_of(actions, push, name) for push in pushes])
+    return np.array(frames, np.int64)
+
+
+def _action_of(actions, push, name):
+    for action, its_push in enumerate(actions.pushes):
+        if tuple(push) == its_push:
+            return action
+    raise ValueError(f"{name}s are mirrored, allowed in this world are cells that are not: none of its actions pushes "
+                     f"by {tuple(map(float, push))}, the mirror image of one that does")
 
 
 def _retained(constant):

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from neorl import checks
-from neorl.agents.agent import Agent
-from neorl.agents.compile import compiled, constants_of
+from neorl.agents.agent import LEARNED, Agent
+from neorl.agents.compile import compiled, constants_of, n_values
 from neorl.agents.memory import fitting_runs, kept_apart, read_only
 from neorl.core.description import described, restored
 from neorl.core.horde import as_vectors
@@ -25,7 +25,7 @@ from neorl.files import read_arrays, write_arrays
 # What `State` has of each map, by the array that says where it begins.
 OF_A_MAP = {"first_value": ("values.q",), "first_cell": ("values.goal_range",),
             "first_track": ("tracks.cell", "tracks.events", "tracks.trace_cell", "tracks.trace_rates",
-                            "tracks.trace_count", "tracks.remembered_count"),
+                            "tracks.trace_count", "tracks.remembered_count", "contacts.frame"),
             "first_trace": ("tracks.remembered", "tracks.remembered_at", "tracks.strength", "tracks.trace_weight",
                             "tracks.trace_worth")}
 
@@ -46,9 +46,11 @@ class Individual:
     """
 
     def _live(self, agent, world, stream, after=None):
-        """Begin as an agent that knows nothing. after: one of the same agent that is over and gives up its memory."""
-        old = after._state if after is not None and (after.agent, after.world) == (agent, world) else None
-        if old is None:
+        """Begin as an agent that knows nothing. after: one that is over and gives up its memory, if there is enough."""
+        old = None
+        if after is not None and len(after._state.values.q) >= n_values(agent, world):
+            old = after._parameters, after._state
+        else:
             fitting_runs(agent, world)
         self._agent, self._world = agent, world
         self._parameters = kept_apart(compiled(agent, world))
@@ -75,15 +77,17 @@ class Individual:
         return mapped(read_only, self._state)
 
     def q(self, index: int = 0) -> NDArray[np.float32]:
-        """The values of one of the agent's maps: float32 (cells, actions, cells), q[state, action, goal], a view that
-        cannot be written to.
+        """The values of one of the agent's maps, a view that cannot be written to.
+
+        float32 (cells, actions, cells), q[state, action, goal]; of a node whose goals are contacts (cells, actions, 3):
+        approach, fear and number of visits (see `neorl.core.contacts`).
 
         index: the place of the map in `Agent.maps`. Raises ValueError if there is none.
         """
         maps = self.agent.maps
         index = checks.integer("index", index, at_least=0, at_most=len(maps) - 1)
         first, end = self._parameters.maps.first_value[index : index + 2]
-        return read_only(self._state.values.q[first:end].reshape(maps[index].cells, -1, maps[index].cells))
+        return read_only(self._state.values.q[first:end].reshape(maps[index].cells, len(self.world.actions.names), -1))
 
     def output(self, name: str) -> Output:
         """The `Output` of the node of that name. Raises ValueError if there is none."""
@@ -97,7 +101,8 @@ class Individual:
         """Go on as another agent, which keeps what this one knows.
 
         A map keeps its values, its active cells and what led to them if both agents have it, in a node of the same
-        name, and as much trace. All else starts afresh; so do the desires of the step before.
+        name with the same goals, and as much trace; a desire that both have keeps a valence that it has learned. All
+        else starts afresh; so do the desires of the step before.
         Raises ValueError unless it is an `Agent` that goes with the world, MemoryError if its values do not fit into
         the free memory.
         """
@@ -114,10 +119,14 @@ class Individual:
                     begin_old, end_old = of_old[old_maps[key] : old_maps[key] + 2]
                     begin, end = of_new[m : m + 2]
                     for name in names:
-                        width = len(new[name]) // of_new[-1]
+                        width = len(new[name]) // max(of_new[-1], 1)
                         new[name][width * begin : width * end] = old[name][width * begin_old : width * end_old]
         for name in ("last_event", "activity", "attended"):
             new[name][:] = old[name]
+        for e, desire in enumerate(agent.desires):
+            if desire.valence == LEARNED and desire in self.agent.desires:
+                for name in ("desires.worth", "desires.meetings"):
+                    new[name][e] = old[name][self.agent.desires.index(desire)]
         vars(self).update(_agent=agent, _parameters=parameters, _state=state)  # at once, even if interrupted
         self._bind()
 
@@ -183,4 +192,4 @@ class Individual:
 
 def _map_keys(agent):
     rule = agent.learning
-    return [(node.name, each, rule.trace, rule.memory > 0) for node in agent.nodes for each in node.maps]
+    return [(node.name, node.goals, each, rule.trace, rule.memory > 0) for node in agent.nodes for each in node.maps]

@@ -100,19 +100,22 @@ class Learner(Individual):
         self._progress = "twice"
         return action
 
-    def observe(self, scene: Any) -> None:
+    def observe(self, scene: Any, reward: float = 0.0) -> None:
         """Perceive what the last action has led to, and learn from it.
 
         scene: a `neorl.Scene` of numbers, or anything with its fields: position and velocity, (axes,), if velocity is
             None at rest; things, (things, axes), where they are; kinds, for each its kind's name or number, or None
             while it is absent; met, for each whether it was met in this step, () if none was. A thing that was met may
             have moved, changed its kind or vanished: its slot is that of a fresh one.
+        reward: what the action has paid, which desires of learned valence learn from.
 
         Raises ValueError for one that does not fit or is not finite, RuntimeError unless the agent has acted.
         """
         if self._progress != "twice":
             raise RuntimeError("observe(scene) came before act(), allowed is observe(scene) after it")
+        reward = checks.real("reward", reward)
         self._take(scene)
+        self._state.reward[0] = reward
         self._calls[2]()
         self._progress = "to act"
 
@@ -172,8 +175,9 @@ def accept(offer: Offer, scene: Scene) -> bool:
     for thing in range(offered.kinds.shape[0]):
         for axis in range(offered.position.shape[0]):
             scene.things[thing, axis] = offered.things[thing, axis]
+        was = max(scene.kinds[thing], 0)  # of the kind that it was seen as before
+        scene.met[thing] = 1 + was if offered.met[thing] != 0 else 0
         scene.kinds[thing] = offered.kinds[thing]
-        scene.met[thing] = offered.met[thing] != 0
     return True
 
 

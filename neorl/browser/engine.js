@@ -13,11 +13,11 @@ let look = { map: "", goal: null, field: 0 }; // the name of a map, a cell of it
 
 /** A run in a machine of its own: its parameters derived, all else at 0. */
 function newRun({ parameters: choices, world, steps, bin_steps }) {
-  const { maps, nodes, axes, desires, learning, push } = choices;
+  const { maps, nodes, axes, desires, learning, contacts, frames, push } = choices;
   const sizes = {
     maps: maps.resolution.length, map_axes: mapAxes(choices), nodes: nodes.follows.length,
     node_axes: axes.what.length, boundaries: axes.boundary.length, landmarks: nodes.landmark.length,
-    desires: desires.source.length, coordinates: choices.coordinates, trace: learning.trace, actions: push.length,
+    frames: frames.length, left: contacts.trace, desires: desires.source.length, coordinates: choices.coordinates, trace: learning.trace, actions: push.length,
     axes: push[0].length, things: world.things, obstacles: world.rules.arena.obstacle?.length ?? 0,
     kinds: world.kinds.length, bins: Math.ceil(steps / bin_steps),
   };
@@ -72,7 +72,7 @@ function begin(request) {
     run.machine.call("start_stream", { words: words.length }, { words, stream });
   }
   call("reset", { state: run.world_state });
-  call("clear_goal_ranges");
+  call("begin_values");
   call("begin");
   lookAt({ map: request.map, goal: null, field: request.field });
   return frame();
@@ -98,12 +98,16 @@ function mapNames({ names, maps, nodes }) {
 const nameOf = (enumeration, number) =>
   Object.entries(layout.enumerations[enumeration]).find(([, each]) => each === Number(number))[0];
 
+const learnsContacts = (m) => run.choices.nodes.learns_contacts[nodeOf(run.choices.nodes.first_map, m)];
+
 /** The map that is looked at, as it is drawn, and the way to the goal that is chosen in it. */
 function seen(m) {
   const { follows } = run.choices.nodes;
+  const vector = nameOf("Vector", follows[nodeOf(run.choices.nodes.first_map, m)]);
+  if (learnsContacts(m)) return { name: look.map, vector, axes: [], goal: null, ways: null }; // its cells are no goals
   return {
-    name: look.map, vector: nameOf("Vector", follows[nodeOf(run.choices.nodes.first_map, m)]), axes: axesOf(m),
-    goal: look.goal, ways: look.goal === null ? null : valueFunction(m, look.goal),
+    name: look.map, vector, axes: axesOf(m), goal: look.goal,
+    ways: look.goal === null ? null : valueFunction(m, look.goal),
   };
 }
 
@@ -131,7 +135,9 @@ function become(choices) {
     take(run.parameters, choices);
     run.choices = choices;
     call("derive", { n_things: run.sizes.things });
-    for (const each of Object.values(run.state.desires)) each.fill(0);
+    const { worth, meetings, ...ofBefore } = run.state.desires;
+    for (const each of Object.values(ofBefore)) each.fill(0);
+    choices.desires.valence.forEach((valence, e) => { if (!choices.desires.learned[e]) worth[e] = valence; });
   } else {
     run = newRun({ ...old, parameters: choices });
     copy(run.world_state, old.world_state);
@@ -140,7 +146,7 @@ function become(choices) {
     run.clock.set(old.clock);
     const { step, reward, player, changes } = old;
     Object.assign(run, { step, reward, player, changes });
-    call("clear_goal_ranges");
+    call("begin_values");
     call("begin");
     for (const name of ["stream", "last_event", "activity", "attended"]) run.state[name].set(old.state[name]);
     const oldKeys = mapKeys(old.choices);
@@ -252,7 +258,7 @@ function frame(steps = 0) {
     round: Boolean(rules.in_arena && rules.arena.round),
     obstacles: rules.in_arena ? Array.from(rules.arena.obstacle) : [],
     player: player && { ...body(second), reward: player.reward },
-    active: Array.from(state.tracks.cell.subarray(from, to), Number),
+    active: learnsContacts(m) ? [] : Array.from(state.tracks.cell.subarray(from, to), Number),
     nodes: choices.names.map((name, n) => ({ name, ...desire(n) })),
     landings: choices.edges.flatMap(({ source, target }, e) => (source === "" ? [] : [{
       source, target, recurs: source === target, valence: state.desires.valence[e],
@@ -317,7 +323,7 @@ const REQUESTS = {
   look({ type, at, ...choice }) {
     lookAt(choice);
     const cell = at && call("cell_seen_at", { m: mapNames(run.choices).indexOf(look.map), ...at });
-    if (at) look.goal = cell === look.goal ? null : cell;
+    if (at && !learnsContacts(mapNames(run.choices).indexOf(look.map))) look.goal = cell === look.goal ? null : cell;
     return frame();
   },
   advance,

@@ -16,8 +16,8 @@ from pathlib import Path
 import numpy as np
 
 from neorl import checks
-from neorl.agents import papers
-from neorl.agents.agent import Agent, Desire, Learning, Node, Policy
+from neorl.agents import beyond, papers
+from neorl.agents.agent import LEARNED, Agent, Desire, Learning, Node, Policy
 from neorl.agents.compile import chosen, constants_of
 from neorl.browser import wasm
 from neorl.browser.worlds import rules_of
@@ -48,7 +48,8 @@ IN_THE_ARENA = {  # since the platform never moves, only exploration gets an age
     "Place cells in the water maze": Agent(
         [Node("PC", PLACE_CELL, [5, 9, 13])], [Desire("platform", "PC", 1.0)],
         Learning(learning_rate=0.05, discount=0.8, memory=2.0, memory_value="discounted"), Policy(exploration=0.5))}
-AGENTS = CALIBRATED | TO_THE_LETTER | IN_THE_ARENA
+BEYOND = {"Foveated cells, contacts alone": beyond.forager(valence_green=1.0, valence_red=-1.0)}
+AGENTS = CALIBRATED | TO_THE_LETTER | BEYOND | IN_THE_ARENA
 STEPS = 300_000  # of a run, where the page has no condition
 CURVE_BINS = 50
 SCRIPTS = ("settings.js", "drawing.js", "page.js", "controls.js", "hands.js", "widget.js")
@@ -156,7 +157,8 @@ class Explorer(AnyWidget):
             if name == "preset":
                 return checks.one_of(name, value, tuple(self._presets))
             if name == "modality":
-                return checks.one_of(name, value, ("", *self._modalities))
+                own = self._lives[self.preset][0].nodes[0].goals == "contacts"
+                return checks.one_of(name, value, ("",) if own else ("", *self._modalities))
             agent, world = self._lives[self.preset]
             if name == "n_creeps" and value is not None and not isinstance(world, WaterWorld):
                 raise ValueError(f"n_creeps is {value!r}, allowed in the arena is None")
@@ -188,6 +190,8 @@ def _check_condition(name, result):
                          ("recursions", {each.valence for each in agent.desires if each.source == each.target})):
         if len(values) > 1:
             raise ValueError(f"condition {name} has different {what}, {values}, allowed are the same throughout")
+    if any(each.valence == LEARNED for each in agent.desires):
+        raise ValueError(f"condition {name} has valences that are learned, allowed in the Explorer are numbers")
     checks.integer(f"seed of condition {name}", result.seed, at_least=0, at_most=2**32 - 1)
     if not isinstance(result.world, WaterWorld | Arena):
         raise ValueError(f"condition {name} is in {result.world!r}, allowed in the Explorer are WaterWorld and Arena")
@@ -214,7 +218,8 @@ def _preset(name, agent, world, result):
     return {
         "label": name, "nodes": names,
         "group": ("On this page" if result else "To the letter" if name in TO_THE_LETTER else
-                  "In the arena" if name in IN_THE_ARENA else "Calibrated"),
+                  "In the arena" if name in IN_THE_ARENA else "Beyond the thesis" if name in BEYOND else
+                  "Calibrated"),
         "resolutions": list(agent.nodes[0].resolutions),
         "modality": _named(modality) if len(names) == 1 else "",
         "gains": [node.gain for node in agent.nodes], "learning_rate": learning.learning_rate,

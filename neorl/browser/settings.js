@@ -19,7 +19,7 @@ function chosenParameters(layout, presets, modalities, settings, elements = []) 
   const { names, maps, nodes, axes, desires, learning } = parameters;
   maps.resolution = names.flatMap(() => settings.resolutions);
   nodes.first_map = [0, ...names.map((_, n) => (n + 1) * settings.resolutions.length)];
-  if (names.length === 1 && settings.modality !== preset.modality) { // the preset's may have ranges of its own
+  if (names.length === 1 && settings.modality !== preset.modality && !nodes.learns_contacts[0]) { // the preset's may have ranges of its own
     Object.assign(nodes, modalities[settings.modality].nodes);
     Object.assign(axes, modalities[settings.modality].axes);
     parameters.coordinates = Math.max(parameters.push[0].length, axes.what.length);

@@ -32,11 +32,11 @@ from neorl.agents.compile import constants_of
 from neorl.agents.individual import OF_A_MAP
 from neorl.agents.papers import brownian
 from neorl.browser.worlds import EITHER, EitherRules, EitherState
-from neorl.core import life, parameters
+from neorl.core import contacts, life, parameters
 from neorl.core.choices import Action, Cut, Feature, Source, Vector
 from neorl.core.kernel import fields, is_tuple
 from neorl.core.parameters import Parameters, derive
-from neorl.core.state import State, clear_goal_ranges
+from neorl.core.state import State, begin_values
 from neorl.core.steps import steps_with
 from neorl.core.stream import start_stream
 from neorl.experiments.cache import source_digest
@@ -47,13 +47,15 @@ from neorl.worlds.rollout import rollout_in
 from neorl.worlds.waterworld import WaterWorld, WaterWorldState
 
 CONSTANTS = constants_of(brownian(), WaterWorld())  # those of every agent without kernels of the user's own
-EXPORTS = (start_stream, derive, clear_goal_ranges, EITHER.reset, steps_with(CONSTANTS).begin,
+EXPORTS = (start_stream, derive, begin_values, EITHER.reset, steps_with(CONSTANTS).begin,
            rollout_in(EITHER, CONSTANTS), *probes_with(CONSTANTS))
 TUPLES = (Parameters, State, EitherState, EitherRules, WaterWorldState)
 ENUMERATIONS = (Action, Cut, Feature, Source, Vector)
 SCALARS = {bool: "bool", int: "int64", float: "float64", np.float32: "float32"}
 HOT = "rollout"  # of the exports; the others are called once in a picture or less
-RARE = (life.begin, waterworld.reset, waterworld.draw_creep, arena.reset, parameters.cut_axes, parameters.find_inputs)
+RARE = (life.begin, waterworld.reset, waterworld.draw_creep, arena.reset, parameters.cut_axes, parameters.find_inputs,
+        contacts.begin_contacts)
+APART = (contacts.observe_contacts, contacts.evaluate_contacts)  # fast, but once
 SHIPPED = Path(__file__).with_name("kernels.wasm")  # in a wheel
 TRIPLE = "wasm32-unknown-unknown"
 LAYOUT = "e-m:e-p:32:32-p10:8:8-p20:8:8-i64:64-i128:128-n32:64-S128-ni:1:10:20"
@@ -154,7 +156,7 @@ def _build():
 
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
-    for kernel in RARE:
+    for kernel in RARE + APART:
         kernel.dispatcher.targetoptions.pop("forceinline", None)
     target = llvm.Target.from_triple(TRIPLE).create_target_machine(features="+simd128,+bulk-memory", opt=3)
     together = _together([_code(kernel) for kernel in EXPORTS])
@@ -176,12 +178,13 @@ def _together(codes):
     module = llvm.parse_assembly(codes[0])
     for code in codes[1:]:
         module.link_in(llvm.parse_assembly(code))
-    exports, rare = {kernel.__name__ for kernel in EXPORTS}, [_mangled(kernel) for kernel in RARE]
+    exports = {kernel.__name__ for kernel in EXPORTS}
+    rare, apart = ([_mangled(kernel) for kernel in kernels] for kernels in (RARE, RARE + APART))
     for function in module.functions:
         is_rare = any(name in function.name for name in rare)
         if function.name not in exports and not function.is_declaration:
             function.linkage = "internal"
-        if is_rare:
+        if any(name in function.name for name in apart):
             function.add_function_attribute("noinline")
         if is_rare or function.name in exports - {HOT}:
             function.add_function_attribute("optsize")

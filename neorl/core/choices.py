@@ -9,6 +9,6 @@ Credit = IntEnum("Credit", "share happened last count activity own", start=0)
 Capture = IntEnum("Capture", "contact leap silent", start=0)
 Attention = IntEnum("Attention", "each nearest wanted", start=0)
 Vector = IntEnum("Vector", "position velocity objects boundaries landmarks own", start=0)  # what an axis starts from
-Feature = IntEnum("Feature", "component margin length direction", start=0)  # what it keeps of that
+Feature = IntEnum("Feature", "component foveated margin length direction", start=0)  # what it keeps of that
 Cut = IntEnum("Cut", "equal closed boundaries", start=0)  # of an axis into intervals; closed: that is no direction
 Action = IntEnum("Action", "N S E W no_op", start=0)  # of worlds whose actions are `scene.CARDINAL`

@@ -115,7 +115,10 @@ def locate(parameters, constants, scene, n, point, given, offset, coordinates):
             all_have = all_have and coordinate == coordinate
         elif feature <= Feature.margin:
             coordinate = offset[along] if replaced else component(parameters, constants, scene, n, vector, point, along)
-            if feature == Feature.margin:
+            if feature == Feature.foveated:
+                root = math.sqrt(abs(coordinate))  # abs() spares the compiler a library that takes negative ones
+                coordinate = root if coordinate > 0.0 else -root
+            elif feature == Feature.margin:
                 coordinate = into_margin(coordinate, axes.high[axis])
         else:
             coordinate, x, y = 0.0, 0.0, 0.0
@@ -123,7 +126,7 @@ def locate(parameters, constants, scene, n, point, given, offset, coordinates):
                 value = offset[each] if replaced else component(parameters, constants, scene, n, vector, point, each)
                 coordinate += value * value
                 x, y = value if each == 0 else x, value if each == 1 else y
-            coordinate = math.sqrt(abs(coordinate))  # abs() spares the compiler a library that takes negative ones
+            coordinate = math.sqrt(abs(coordinate))
             if feature == Feature.direction:
                 has_direction = x != 0.0 or y != 0.0
                 all_have = all_have and has_direction

@@ -9,6 +9,7 @@
 5. At rest, or at distance 0, a track keeps the direction that it had.
 6. What a capture is, which changes of cell a thing's tracks learn from and which things have any are choices of
    `neorl.agents.agent.Learning`; a track that does not learn follows its point all the same.
+7. A node that learns of contacts alone does so by rules of its own, see `neorl.core.contacts`.
 
 `scene` is what the agent perceives of its world (`neorl.core.scene.Scene`).
 """
@@ -16,6 +17,7 @@
 import numpy as np
 
 from neorl.core.choices import Attention, Capture, Credit, UpdateOn, Vector
+from neorl.core.contacts import begin_contacts, learn_worth, observe_contacts
 from neorl.core.geometry import cell_of, contact_cell, locate, maps_of, with_kept_directions
 from neorl.core.kernel import inlined_kernel
 from neorl.core.learning import UNIT, ZERO, enter, learn_transition, start_track
@@ -43,7 +45,11 @@ def observe(parameters, constants, state, scene):
     """Perceive what an action has led to, and learn from it."""
     for n in range(parameters.nodes.points.shape[0]):
         for point in range(parameters.nodes.points[n]):
-            perceive(parameters, constants, state, scene, n, point)
+            if parameters.nodes.learns_contacts[n]:
+                observe_contacts(parameters, constants, state, scene, n, point)
+            else:
+                perceive(parameters, constants, state, scene, n, point)
+    learn_worth(parameters, state, scene)
     attend(parameters, constants, state, scene)
 
 
@@ -127,6 +133,9 @@ def begin(parameters, constants, state, scene):
 @inlined_kernel
 def begin_point(parameters, constants, state, scene, n, point):
     """Start the tracks of a point where it is now."""
+    if parameters.nodes.learns_contacts[n]:
+        begin_contacts(parameters, constants, state, scene, n, point)
+        return
     locate(parameters, constants, scene, n, point, False, state.offset, state.coordinates)
     absent = parameters.nodes.follows[n] == Vector.objects and scene.kinds[point] < 0
     for m in maps_of(parameters.nodes, n):

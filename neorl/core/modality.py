@@ -6,6 +6,8 @@ staying as they are in the world. An axis keeps a *feature* of the vector (thesi
 table 1):
 
 - *component*: one component as it is; the experiments use two for places and, as an emulation, for objects;
+- *foveated*: the square root of a component, with its sign; equal intervals of it grow in proportion to the distance,
+  as receptive fields grow with eccentricity;
 - *margin*: how far a component reaches into a margin along the walls, negative in the west and the north, and 0 in the
   middle of the board;
 - *length*, and *direction*.
@@ -36,6 +38,7 @@ from neorl.core.scene import MOST_AXES, Scene, checked_scene
 VECTORS = ("position", "velocity", "objects", "boundaries", "landmarks")
 SEVERAL = ("objects", "boundaries", "landmarks")  # there may be several of these, and a modality follows one kind
 MOST_CELLS = 2**31 - 1  # of a map
+MOST_MIRRORED = 3  # axes of a world, which has 2ⁿ n! mirror images
 FEATURES = tuple(Feature.__members__)
 SEEN_FROM_AGENT = "centred on the agent, allocentric direction"
 FRAMES = {"position": "allocentric", "velocity": "allocentric direction"}
@@ -48,11 +51,11 @@ class Axis(checks.Final):
     of: "position", "velocity", "objects", "boundaries" (the nearest point of each wall) or "landmarks"; or a
         `neorl.kernel` ``(scene, point) → number``, whose number is the coordinate: what it takes is the
         `neorl.core.scene.Scene` and which of the things, walls or landmarks is looked at.
-    feature: of that vector: "component", "margin" (of a position), "length" or "direction" (in the plane of the first
-        two axes of the world).
-    along: for a component or a margin, the axis of the world: 0 for x, 1 for y, and so on.
+    feature: of that vector: "component", "foveated", "margin" (of a position), "length" or "direction" (in the plane of
+        the first two axes of the world).
+    along: for a component, foveated or not, or a margin, the axis of the world: 0 for x, 1 for y, and so on.
     low, high: the range, in units of the world's size (a second, for velocity); beyond it lies the interval at its end.
-        For a margin `high` is its width. A direction has none.
+        For a margin `high` is its width; of what is foveated they are square roots. A direction has none.
     closed: whether the range closes on itself, as for an angle; a direction always does.
     intervals: how many there are, whatever the resolution of the map; None stands for its resolution.
     boundaries: of unequal intervals, from the first to the last, in place of `low`, `high` and `intervals`.
@@ -102,7 +105,7 @@ class Axis(checks.Final):
     def _name(self):
         if callable(self.of):
             return self.of.__name__
-        if self.feature in ("component", "margin"):
+        if self.feature in ("component", "foveated", "margin"):
             return "xyz"[self.along] if self.along < 3 else f"x{self.along}"
         return "speed" if (self.of, self.feature) == ("velocity", "length") else (
             "distance" if self.feature == "length" else "direction")
@@ -135,6 +138,10 @@ class Modality(checks.Final):
     name: of such a cell in neuroscience.
     axes: one `Axis` or more, of objects, boundaries or landmarks one kind at most.
     landmarks: where they stand, in units of the world's size, if an axis is of landmarks.
+    mirrored: whether what is the same but for reflections along the axes of the world and exchanges of two of them is
+        in the same cell, and its actions are those of the mirror image. Its axes are then, for each of its vectors, a
+        component, foveated or not, along every axis of the world in turn, of the same range and intervals. Those of the
+        first vector are never below 0. Only nodes whose goals are contacts can have such maps.
 
     Raises ValueError for anything else.
     """
@@ -142,6 +149,7 @@ class Modality(checks.Final):
     name: str
     axes: Sequence[Axis]
     landmarks: Sequence[Sequence[float]] = ()
+    mirrored: bool = False
 
     def __post_init__(self):
         checks.assign(self, name=str(checks.instance("name", self.name, str)))
@@ -150,7 +158,7 @@ class Modality(checks.Final):
             raise ValueError(f"axes is {axes!r}, allowed are one or more, of {', '.join(SEVERAL)} one kind at most")
         landmarks = tuple(tuple(checks.real("landmarks", value) for value in checks.several("landmarks", each))
                           for each in checks.several("landmarks", self.landmarks))
-        checks.assign(self, axes=axes, landmarks=landmarks)
+        checks.assign(self, axes=axes, landmarks=landmarks, mirrored=checks.flag("mirrored", self.mirrored))
         order = [0.0 if axis.of == self.follows and not axis.is_direction else 1.0 if axis.of == self.follows else 2.0
                  for axis in axes]
         if order != sorted(order):
@@ -159,8 +167,19 @@ class Modality(checks.Final):
         if bool(landmarks) != (self.follows == "landmarks") or len({len(each) for each in landmarks}) > 1:
             raise ValueError(f"landmarks is {self.landmarks!r}, allowed are places where an axis is of landmarks, and "
                              "() elsewhere")
+        if self.mirrored and not self._is_symmetric:
+            raise ValueError(f"mirrored is True, allowed for these axes is False: {axes!r} are not, for each vector, a "
+                             "component along every axis of the world in turn, of the same range and intervals")
         if landmarks and len(landmarks[0]) < self.least_axes:
             raise ValueError(f"landmarks is {landmarks!r}, allowed are places of {self.least_axes} coordinates or more")
+
+    @property
+    def _is_symmetric(self):
+        along_each = [[axis for axis in self.axes if axis.of == of] for of in dict.fromkeys(
+            axis.of for axis in self.axes)]
+        return all([replace(axis, along=0, name="") for axis in group] == [replace(group[0], along=0, name="")] * len(
+            group) and [axis.along for axis in group] == list(range(self.least_axes)) and not callable(group[0].of)
+            and group[0].feature in ("component", "foveated") for group in along_each)
 
     @property
     def follows(self) -> str:
@@ -232,6 +251,9 @@ class Modality(checks.Final):
         """Raise ValueError unless these cells have a meaning in a world of so many axes."""
         if self.least_axes > n_axes:
             raise ValueError(f"{self.name}s need a world of {self.least_axes} axes or more, this one has {n_axes}")
+        if self.mirrored and not self.least_axes == n_axes <= MOST_MIRRORED:
+            raise ValueError(f"mirrored {self.name}s have components along {self.least_axes} axes, allowed in a world "
+                             f"of {n_axes} are {n_axes}, {MOST_MIRRORED} at most")
         if self.landmarks and len(self.landmarks[0]) != n_axes:
             raise ValueError(f"landmarks is {self.landmarks!r}, allowed are places of {n_axes} coordinates")
 
@@ -277,6 +299,7 @@ def axis_parameters(modalities, n_axes):
     nodes = {"follows": integers(Vector[modality.follows] for modality in modalities),
              "first_axis": firsts(len(modality.axes) for modality in modalities),
              "first_landmark": firsts(len(modality.landmarks) for modality in modalities),
+             "mirrored": np.array([modality.mirrored for modality in modalities], np.bool_),
              "landmark": np.array(landmarks, float).reshape(-1, n_axes)}
     return {"nodes": nodes, "axes": {
         "what": np.array([_what(axis, own) for axis in axes], np.int64),

@@ -16,6 +16,7 @@
 import numpy as np
 
 from neorl.core.choices import Source, Vector
+from neorl.core.contacts import evaluate_contacts
 from neorl.core.geometry import cell_of, contact_cell, locate, maps_of
 from neorl.core.kernel import inlined_kernel
 from neorl.core.stream import randint, uniform
@@ -52,9 +53,12 @@ def evaluate(parameters, constants, state, scene):
         for i in range(inputs.shape[0]):  # all before any is renewed, because recursion takes those of the last step
             if parameters.desires.source[inputs[i]] == Source.node:
                 project(parameters, constants, desires, np.uint64(inputs[i]))
+        if nodes.learns_contacts[n]:
+            evaluate_contacts(parameters, constants, state, scene, n)
         for i in range(inputs.shape[0]):
             e = np.uint64(inputs[i])
-            evaluate_desire(parameters, constants, state, scene, n, e)
+            if not nodes.learns_contacts[n]:
+                evaluate_desire(parameters, constants, state, scene, n, e)
             for action in range(len(constants.actions)):
                 state.action_value[action] += nodes.gain[n] * desires.q[e, action]
 
@@ -84,7 +88,7 @@ def project(parameters, constants, desires, e):
 def evaluate_desire(parameters, constants, state, scene, n, e):
     """What one desire adds to its node's Q-vector, and the valence of its elements together, into state.desires."""
     chosen, desires, n_axes = parameters.desires, state.desires, len(constants.axes)
-    q, source, valence = desires.q[e], chosen.source[e], chosen.valence[e]
+    q, source, valence = desires.q[e], chosen.source[e], desires.worth[e]
     for action in range(len(constants.actions)):
         q[action] = 0.0
     if source == Source.node:

@@ -17,6 +17,9 @@ from neorl.core.geometry import (ALONG, BEYOND, CUT, FEATURE, INTERVALS, LAST, L
 from neorl.core.kernel import array, inlined_kernel, kernel
 
 
+ENTRIES = 3  # values of an action in a cell of a map of contacts: `contacts.APPROACH`, `FEAR`, `VISITS`
+
+
 class MapParameters(NamedTuple):
     """The maps of all nodes. `first_…` arrays have one more entry, for the end of the last map's."""
 
@@ -47,6 +50,8 @@ class NodeParameters(NamedTuple):
     landmark: array("float64", "landmarks", "axes")
     # derived
     points: array("int64", "nodes")  # how many it follows
+    learns_contacts: array("bool", "nodes")  # see `neorl.core.contacts`
+    mirrored: array("bool", "nodes")
     is_cartesian: array("bool", "nodes")  # whether its coordinates are the components of what it follows
     first_input: array("int64", "nodes + 1")  # where in `inputs` its desires begin
     inputs: array("int64", "desires")  # desires, those of one node after those of the other
@@ -59,6 +64,7 @@ class DesireParameters(NamedTuple):
     kind: array("int64", "desires")  # of the things that it is for
     target: array("int64", "desires")  # the node
     valence: array("float64", "desires")
+    learned: array("bool", "desires")  # whether the valence is only what it begins with
     sums_valence: array("bool", "desires")  # whether the valence is that of its elements instead
     scale: array("float64", "desires")
     signed: array("bool", "desires")
@@ -89,6 +95,20 @@ class LearningParameters(NamedTuple):
     attention: int  # see `choices.Attention`
 
 
+class ContactParameters(NamedTuple):
+    """How nodes learn that learn of contacts alone, see `neorl.agents.agent.Contacts`."""
+
+    discount: float  # for each step
+    learning_rate: float
+    familiarity: float
+    first_value: float
+    trace: int  # steps over which a contact is remembered back
+    trace_rate: float
+    caution: float
+    flees: bool
+    rivals_add: bool
+
+
 class PolicyParameters(NamedTuple):
     """How the agent chooses, see `neorl.agents.agent.Policy`."""
 
@@ -112,12 +132,14 @@ class Parameters(NamedTuple):
     size: float  # of the world, in its own units of length
     own_cell_counts: bool
     push: array("float64", "actions", "axes")  # of each action that is an event
+    frames: array("int64", "frames", "actions")  # of each mirror image of the world the action that an action is there
     maps: MapParameters
     grid: array("float64", "map_axes", 5)  # of each map how it cuts each axis of its node, see `geometry.LOW`
     nodes: NodeParameters
     axes: AxisParameters
     desires: DesireParameters
     learning: LearningParameters
+    contacts: ContactParameters
     policy: PolicyParameters
 
 
@@ -148,10 +170,12 @@ def derive(parameters: Parameters, n_things: int) -> None:
             for _ in range(nodes.weighting[n]):
                 maps.weight[m] *= maps.resolution[m]
             total += maps.weight[m]
-            maps.first_value[m + 1] = maps.first_value[m] + parameters.push.shape[0] * cells * cells
+            values = ENTRIES if nodes.learns_contacts[n] else cells
+            maps.first_value[m + 1] = maps.first_value[m] + parameters.push.shape[0] * cells * values
             maps.first_cell[m + 1] = maps.first_cell[m] + cells
             maps.first_track[m + 1] = maps.first_track[m] + points
-            maps.first_trace[m + 1] = maps.first_trace[m] + points * cells
+            remembered = 0 if nodes.learns_contacts[n] else points * cells
+            maps.first_trace[m + 1] = maps.first_trace[m] + remembered
         for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
             maps.weight[m] /= total
         find_inputs(parameters, n)

@@ -2,9 +2,11 @@
 
 from typing import NamedTuple
 
+import numpy as np
+
 from neorl.core.kernel import array, execute, kernel, new_tuple
 from neorl.core.learning import values_of
-from neorl.core.parameters import Parameters
+from neorl.core.parameters import ENTRIES, Parameters
 
 
 class ValueState(NamedTuple):
@@ -31,12 +33,22 @@ class TrackState(NamedTuple):
     trace_worth: array("float32", "trace_rows")
 
 
+class ContactState(NamedTuple):
+    """What the tracks of maps of contacts have beside the others."""
+
+    frame: array("int64", "tracks")  # which mirror image the active cell is seen in
+    left: array("int64", "tracks", "left")  # where in q the actions are that were taken last, a ring
+    count: array("int64", "tracks")  # of them, since the track started
+
+
 class DesireState(NamedTuple):
     """The desires as of the last choice that was not drawn."""
 
     q: array("float64", "desires", "actions")  # what each adds to the value of each action in its node
     target: array("float64", "desires", "axes + 1")  # where a node's desire lands, from the agent, and its valence
     valence: array("float64", "desires")  # of all its elements together
+    worth: array("float64", "desires")  # of one of them; what is not learned stays as it was chosen
+    meetings: array("int64", "desires")  # from which the worth was learned
 
 
 class State(NamedTuple):
@@ -44,56 +56,77 @@ class State(NamedTuple):
 
     values: ValueState
     tracks: TrackState
+    contacts: ContactState
     desires: DesireState
     last_event: array("int64", 1)
     activity: array("float32", "actions")  # of each event
     things: array("float64", "things", "axes")  # where they were after the last step
     attended: array("int64", 1)  # which of the things is learned about
+    reward: array("float64", 1)  # of the last step
     action_value: array("float64", "actions")  # as of the last choice that was not drawn
     stream: array("uint64", 4)  # the random numbers of the policy
     here: array("float64", "axes")  # working memory: where the agent is, in units of the world's size
     coordinates: array("float64", "coordinates")  # working memory: of the point that is looked at
     alone: array("float64", "coordinates")  # working memory: of that point had it not moved
     offset: array("float64", "axes")  # working memory: of an element of interest from the agent
+    seen: array("int64", "maps")  # working memory: the cells of a point
+    rival: array("float64", "actions")  # working memory: what a thing adds to the values of actions
+    favourite: array("float64", "actions")  # working memory: what the best of all things adds
 
 
 def new_state(parameters, stream, n_things, old=None):
     """The `State` of an agent that has learned nothing, in a world of so many things.
 
-    old: a state of the same parameters that is no longer needed, whose room for values is used again: to get a gigabyte
-    from the system, page by page, takes longer than a run.
+    old: the parameters and the state of one that is no longer needed, with as many values or more, whose room is used
+    again: to get a gigabyte from the system, page by page, takes longer than a run.
     """
     maps, (actions, axes) = parameters.maps, parameters.push.shape
     traces = maps.first_trace[-1] if parameters.learning.memory_retained > 0 else 0
     sizes = {"values": maps.first_value[-1], "cells": maps.first_cell[-1], "tracks": maps.first_track[-1],
              "trace": parameters.learning.trace, "traces": traces, "trace_rows": 2 * actions * traces,
              "desires": len(parameters.desires.source), "things": n_things, "actions": actions, "axes": axes,
-             "coordinates": parameters.desires.at.shape[1]}
+             "coordinates": parameters.desires.at.shape[1], "maps": len(maps.cells),
+             "left": parameters.contacts.trace}
     values = {}
     if old:
-        execute(clear_q, parameters, old)
-        values["q"] = old.values.q
+        execute(clear_q, *old)
+        values["q"] = old[1].values.q[: sizes["values"]]
     state = new_tuple(State, sizes, {"stream": stream, "values": values})
-    execute(clear_goal_ranges, parameters, state)
+    execute(begin_values, parameters, state)
     return state
 
 
 @kernel
 def clear_q(parameters: Parameters, state: State) -> None:
     """Set all values to zero that are not."""
-    for m in range(parameters.maps.cells.shape[0]):
-        values = values_of(parameters, state, m)
-        for cell in range(values.cells):
-            for event in range(values.actions):
-                row = values.first + (cell * values.actions + event) * values.cells
-                for goal in range(values.goal_range[cell, 0], values.goal_range[cell, 1]):
-                    values.q[row + goal] = 0.0
+    nodes = parameters.nodes
+    for n in range(nodes.follows.shape[0]):
+        for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
+            values = values_of(parameters, state, m)
+            if nodes.learns_contacts[n]:
+                for i in range(values.first, parameters.maps.first_value[m + 1]):
+                    values.q[i] = 0.0
+                continue
+            for cell in range(values.cells):
+                for event in range(values.actions):
+                    row = values.first + (cell * values.actions + event) * values.cells
+                    for goal in range(values.goal_range[cell, 0], values.goal_range[cell, 1]):
+                        values.q[row + goal] = 0.0
 
 
 @kernel
-def clear_goal_ranges(parameters: Parameters, state: State) -> None:
-    """Let no cell know of any goal."""
-    maps = parameters.maps
-    for m in range(maps.cells.shape[0]):
-        for cell in range(maps.first_cell[m], maps.first_cell[m + 1]):
-            state.values.goal_range[cell, 0], state.values.goal_range[cell, 1] = maps.cells[m], 0
+def begin_values(parameters: Parameters, state: State) -> None:
+    """Let no cell know of any goal, every contact promise its first value, and every desire be worth what was chosen.
+
+    The values of the state are zero.
+    """
+    maps, nodes = parameters.maps, parameters.nodes
+    for n in range(nodes.follows.shape[0]):
+        for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
+            for cell in range(maps.first_cell[m], maps.first_cell[m + 1]):
+                state.values.goal_range[cell, 0], state.values.goal_range[cell, 1] = maps.cells[m], 0
+            if nodes.learns_contacts[n]:
+                for i in range(maps.first_value[m], maps.first_value[m + 1], ENTRIES):
+                    state.values.q[i] = np.float32(parameters.contacts.first_value)
+    for e in range(parameters.desires.valence.shape[0]):
+        state.desires.worth[e] = parameters.desires.valence[e]

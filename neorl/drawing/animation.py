@@ -1,17 +1,19 @@
 """A run as a moving picture, to be shown where there is no Python: in a talk, a README, a message."""
 
 import io
+from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.colors import is_color_like
 from matplotlib.figure import Figure
 from PIL import Image
 
 from neorl import checks
 from neorl.drawing.boards import MARGIN, as_board, check_run_in_plane, draw_world
-from neorl.drawing.style import INK
+from neorl.drawing.style import INK, colour_like
+from neorl.experiments.run import Run
 from neorl.files import write_whole
 
 INCHES = 3.6  # as large as a board, so that letters are
@@ -19,7 +21,8 @@ HEAD = 0.08  # of the height, for the time and the reward
 MOST_FRAMES = 5_000
 
 
-def animate(run, path, seconds=10.0, fps=25, size=360, background="white"):
+def animate(run: Run, path: str | PathLike[str], seconds: float = 10.0, fps: int = 25, size: int = 360,
+            background: Any = "white") -> Path:
     """Let a run go on, and write a film of it to a GIF file, at the speed of the simulation; returns the path.
 
     run: a `neorl.Run` in a world of two axes, which is advanced. path: ends in ".gif". seconds: simulated, > 0; with
@@ -32,7 +35,7 @@ def animate(run, path, seconds=10.0, fps=25, size=360, background="white"):
     >>> path = drawing.animate(run, "run.gif", seconds=0.2, size=120)
     """
     check_run_in_plane(run)
-    path = Path(path)
+    path = checks.path("path", path)
     if path.suffix.lower() != ".gif":
         raise ValueError(f"path is {str(path)!r}, allowed are files that end in '.gif'")
     fps = checks.integer("fps", fps, at_least=1, at_most=50)
@@ -41,8 +44,7 @@ def animate(run, path, seconds=10.0, fps=25, size=360, background="white"):
     if frames > MOST_FRAMES:
         raise ValueError(f"seconds is {seconds!r}, allowed are {MOST_FRAMES} frames or fewer, at {fps} per second "
                          f"{MOST_FRAMES / fps:g} s")
-    if not is_color_like(background):
-        raise ValueError(f"background is {background!r}, allowed are colours of matplotlib's")
+    colour_like("background", background)
     content, pictures = io.BytesIO(), _pictures(run, frames, fps, size, background)
     first = next(pictures)
     first.save(content, format="GIF", save_all=True, append_images=pictures, duration=1000 / fps, loop=0)

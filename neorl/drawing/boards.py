@@ -4,8 +4,11 @@ Each function draws into `ax`, or into a new board, and returns the axes. A boar
 Axes whose limits are not set yet become a board.
 """
 
+from typing import Any
+
 import numpy as np
 from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
 from matplotlib.patches import Circle, Rectangle
 
 from neorl import checks
@@ -21,20 +24,26 @@ MARGIN = 0.06  # around a board
 RADIUS = 0.025  # of an agent, where the world has none for it
 
 
-def new_board(size=3.6, low=0.0):
+def new_board(size: float = 3.6, low: float = 0.0) -> Axes:
     """Axes of a new figure, `size` inches wide, over the unit board, or from `low` to 1 on either side.
+
+    size: from 0.1 to 100. low: from −1000 to 0.9. Raises ValueError for anything else.
 
     >>> axes = drawing.new_board(low=-1)
     """
+    size, low = checks.real("size", size, 0.1, 100), checks.real("low", low, -1000, 0.9)
     figure = plt.figure(figsize=(size, size), layout="none")
     return as_board(figure.add_axes((0.01, 0.01, 0.98, 0.98)), low)
 
 
-def new_boards(columns, rows):
+def new_boards(columns: int, rows: int) -> list[Axes]:
     """Axes over that many unit boards, row by row: a list.
+
+    columns, rows: integers from 1 to 20. Raises ValueError for anything else.
 
     >>> left, right = drawing.new_boards(columns=2, rows=1)
     """
+    columns, rows = (checks.integer(name, each, 1, 20) for name, each in (("columns", columns), ("rows", rows)))
     width = width_of_figures()
     figure, grid = plt.subplots(rows, columns, squeeze=False, figsize=(width, 1.1 * width * rows / columns),
                                 layout="constrained")
@@ -57,7 +66,7 @@ def board_or_new(ax, low=0.0):
     return as_board(ax, low) if axes_or_new(ax).get_autoscalex_on() else ax
 
 
-def draw_world(world, state, ax=None):
+def draw_world(world: World, state: Any, ax: Axes | None = None) -> Axes:
     """A world of two axes from above, within its walls: a `neorl.WaterWorld` as `draw_tank` has it, any other with its
     agent, the agent's velocity over the coming half second, and its things.
 
@@ -81,13 +90,13 @@ def draw_world(world, state, ax=None):
     return axes
 
 
-def draw_walls(world, ax=None):
+def draw_walls(world: World, ax: Axes | None = None) -> Axes:
     """The walls and obstacles of a `neorl.Arena`, or the border of another world's board.
 
     >>> axes = drawing.draw_walls(neorl.Arena(obstacles=[(0.4, 0.4, 0.6, 0.5)]))
     """
     axes = board_or_new(ax)
-    border = {"fill": False, "edgecolor": INK, "linewidth": 1.4}
+    border: dict[str, Any] = {"fill": False, "edgecolor": INK, "linewidth": 1.4}
     is_round = isinstance(world, Arena) and world.shape == "round"
     axes.add_patch(Circle((0.5, 0.5), 0.5, **border) if is_round else Rectangle((0, 0), 1, 1, **border))
     for left, top, right, bottom in world.obstacles if isinstance(world, Arena) else ():
@@ -95,11 +104,11 @@ def draw_walls(world, ax=None):
     return axes
 
 
-def draw_tank(world, state, ax=None):
+def draw_tank(world: WaterWorld, state: Any, ax: Axes | None = None) -> Axes:
     """Agent and creeps of a `neorl.WaterWorld`, each with its velocity over the coming half second; creeps carry their
     sign.
 
-    state: of that tank. Raises ValueError for anything else.
+    world: a `WaterWorld`. state: of that tank. Raises ValueError for anything else.
 
     >>> tank = neorl.WaterWorld()
     >>> axes = drawing.draw_tank(tank, tank.reset(seed=0))
@@ -124,7 +133,7 @@ def _draw_velocity(axes, place, velocity):
                   arrowprops={"arrowstyle": "->", "color": INK, "linewidth": 1.4, "shrinkA": 0, "shrinkB": 0})
 
 
-def draw_desires(run, ax=None):
+def draw_desires(run: Run, ax: Axes | None = None) -> Axes:
     """Where the desires between the nodes of a run's agent land, as seen from its agent.
 
     run: a `neorl.Run` in a world of two axes. Raises ValueError for anything else.

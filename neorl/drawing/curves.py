@@ -4,18 +4,23 @@ Each function draws any number of curves by name into `ax`, or into a new figure
 run are drawn to scale: one of 2 minutes ends at 2 minutes, beside one of 20.
 """
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import ArrayLike
 
 from neorl import checks
-from neorl.drawing.style import CURVES, INK, axes_or_new, by_name, looks, name_ends
+from neorl.drawing.style import CURVES, INK, axes_or_new, by_name, looks, name_ends, numbers
 from neorl.evidence.curves import CUTOFF_PERIODS, binned_rate, low_passed
-from neorl.evidence.statistics import mean_band, tolerance_band
+from neorl.evidence.statistics import Estimate, mean_band, tolerance_band
 from neorl.experiments.simulation import Result
 
 POINTS = 400  # of a curve; more cannot be seen
 
 
-def draw_accumulated(results, control=None, ax=None):
+def draw_accumulated(results: Mapping[str, Result], control: Mapping[str, Result] | None = None,
+                     ax: Axes | None = None) -> Axes:
     """Accumulated reward over steps with its tolerance band.
 
     results: {name: `neorl.Result`}. control: another such dict, drawn in grey.
@@ -24,7 +29,7 @@ def draw_accumulated(results, control=None, ax=None):
     >>> results = {"N7": neorl.simulate(neorl.place_cells([7]), neorl.WaterWorld(), steps=5_000, runs=4)}
     >>> axes = drawing.draw_accumulated(results)
     """
-    results, control = _checked(results), _checked(control, "control") if control else {}
+    results, control = _checked(results), {} if control is None else _checked(control, "control")
     axes, ends, last = axes_or_new(ax), [], 0.0
     for (name, result), (colour, dashes) in zip([*results.items(), *control.items()], _looks(results, control)):
         points = np.linspace(0, result.rewards.shape[1] - 1, POINTS).astype(int)
@@ -39,7 +44,8 @@ def draw_accumulated(results, control=None, ax=None):
     return axes
 
 
-def draw_proficiency(results, total=None, points=50, ax=None):
+def draw_proficiency(results: Mapping[str, Result], total: tuple[str, Sequence[Result]] | None = None, points: int = 50,
+                     ax: Axes | None = None) -> Axes:
     """Mean reward per second over the run with the 95 % interval of the mean.
 
     results: {name: `neorl.Result`}. points: of a curve, integer ≥ 1.
@@ -51,18 +57,18 @@ def draw_proficiency(results, total=None, points=50, ax=None):
     """
     points = checks.integer("points", points, at_least=1)
     curves = {name: _rates(result, points) for name, result in _checked(results).items()}
-    if total:
-        name, parts = total
+    if total is not None:
+        name, parts = _checked_sum(total)
         if len({(part.seconds, part.rewards.shape) for part in parts}) != 1:
             raise ValueError(f"total has results of {', '.join(f'{part.runs} × {part.seconds:g} s' for part in parts)}"
                              ", allowed are one or more, all of as many runs and seconds")
         rates = [_rates(part, points) for part in parts]
         curves[name] = rates[0][0], sum(rate for _, rate in rates)
-    longest = max([*results.values(), *(total[1] if total else ())], key=lambda result: result.seconds)
+    longest = max([*results.values(), *(parts if total is not None else ())], key=lambda result: result.seconds)
     return _draw_rates(curves, longest.seconds, _looks(results, curves.keys() - results.keys()), ax)
 
 
-def draw_smoothed(results, ax=None):
+def draw_smoothed(results: Mapping[str, Result], ax: Axes | None = None) -> Axes:
     """Mean reward per second over the run as paper B shows it, low-passed, with the 95 % interval of the mean.
 
     results: {name: `neorl.Result`}. The mean before the filter lies thin behind it, cut off where it leaves the
@@ -92,6 +98,12 @@ def _checked(results, what="results"):
     return results
 
 
+def _checked_sum(total):
+    if not isinstance(total, tuple | list) or len(total) != 2 or not isinstance(total[0], str):
+        raise ValueError(f"total is {checks.shown(total)}, allowed is a pair of a name and a list of results")
+    return total[0], [checks.instance("total", part, Result) for part in checks.several("total", total[1])]
+
+
 def _looks(results, grey):
     """The looks of results, and after them grey for each of the others."""
     return looks(len(results)) + [(INK, "-")] * len(grey)
@@ -110,18 +122,20 @@ def _draw_rates(curves, seconds, styles, ax):
     return axes
 
 
-def draw_curves(xs, curves, xlabel="", ylabel="", ax=None):
+def draw_curves(xs: ArrayLike, curves: Mapping[str, ArrayLike], xlabel: str = "", ylabel: str = "",
+                ax: Axes | None = None) -> Axes:
     """Means over runs with their 95 % intervals.
 
     xs: (points,), from 0 on. curves: {name: (runs, points)}; where they are not a number there is a gap.
+    xlabel, ylabel: of the axes.
     Raises ValueError for curves of other shapes, or without a number.
 
     >>> rng = np.random.default_rng(0)
     >>> axes = drawing.draw_curves(np.arange(20), {"luck": rng.random((8, 20)).cumsum(axis=1)}, "days", "gold")
     """
-    xs, checked = np.asarray(xs, float), {}
+    xs, checked = checks.doubles("xs", xs), {}
     for name, curve in by_name("curves", curves).items():
-        curve = np.asarray(curve, float)
+        curve = numbers(f"curves[{name!r}]", curve)
         checked[name] = xs, curve
         if xs.ndim != 1 or curve.ndim != 2 or not curve.size or curve.shape[1] != len(xs):
             raise ValueError(f"curves[{name!r}] has the shape {curve.shape}, allowed are (runs, points) over xs, which "
@@ -146,19 +160,23 @@ def _draw_means(curves, xlabel, ylabel, styles, ax):
     return axes
 
 
-def draw_sweep(xs, estimates_by_name, xlabel="", ylabel="reward per second", ax=None):
+def draw_sweep(xs: ArrayLike, estimates_by_name: Mapping[str, Sequence[Estimate]], xlabel: str = "",
+               ylabel: str = "reward per second", ax: Axes | None = None) -> Axes:
     """A reward against a number, with 95 % intervals.
 
     xs: (points,). estimates_by_name: {name: [`neorl.evidence.statistics.Estimate` for each of xs]}.
+    xlabel, ylabel: of the axes.
     Raises ValueError for anything else.
 
     >>> from neorl.evidence.statistics import Estimate
     >>> axes = drawing.draw_sweep([3, 7], {"place cells": [Estimate(0.1, 0.0, 0.2), Estimate(0.3, 0.2, 0.5)]}, "N")
     """
+    xs = checks.doubles("xs", xs)
     for name, estimates in by_name("estimates_by_name", estimates_by_name).items():
-        if np.shape(estimates) != (len(xs), 3):
-            raise ValueError(f"estimates_by_name[{name!r}] has the shape {np.shape(estimates)}, allowed is an Estimate "
-                             f"for each of the {len(xs)} of xs")
+        shape = numbers(f"estimates_by_name[{name!r}]", estimates).shape
+        if xs.ndim != 1 or shape != (len(xs), 3):
+            raise ValueError(f"estimates_by_name[{name!r}] has the shape {shape}, allowed is an Estimate "
+                             f"for each of xs, which has the shape {xs.shape}")
     axes = axes_or_new(ax)
     axes.axhline(0, color=INK, linewidth=0.7)
     axes.set(xlabel=xlabel, ylabel=ylabel)
@@ -177,12 +195,24 @@ def add_estimates(axes, xs, estimates_by_name, linewidth):
     name_ends(axes, ends)
 
 
-def draw_costs(labels, measured, predicted, ax=None):
-    """Microseconds a step of an agent that gets one map (label) after the other, and the sum of what each costs."""
+def draw_costs(labels: Sequence[str], measured: ArrayLike, predicted: ArrayLike,
+               ax: Axes | None = None) -> Axes:
+    """Microseconds a step of an agent that gets one map after the other, and the sum of what each costs.
+
+    labels: of the maps. measured, predicted: (maps,), the microseconds with all maps so far, and their sum.
+    Raises ValueError for anything else.
+
+    >>> axes = drawing.draw_costs(["N3", "N7"], measured=[0.2, 0.5], predicted=[0.2, 0.6])
+    """
+    labels = [str(label) for label in checks.several("labels", labels)]
+    costs, sums = checks.doubles("measured", measured), checks.doubles("predicted", predicted)
+    if not labels or not (len(labels),) == costs.shape == sums.shape:
+        raise ValueError(f"labels are {len(labels)}, measured has the shape {costs.shape} and predicted {sums.shape}, "
+                         "allowed is one of each for every map")
     axes = axes_or_new(ax)
-    axes.plot(labels, predicted, color=INK, linewidth=1.2)
-    axes.plot(labels, measured, color=CURVES[0], linestyle="none", marker="o", markersize=5)
+    axes.plot(labels, sums, color=INK, linewidth=1.2)
+    axes.plot(labels, costs, color=CURVES[0], linestyle="none", marker="o", markersize=5)
     axes.set(ylabel="microseconds a step", ylim=(0, None))
     axes.tick_params(axis="x", rotation=60)
-    name_ends(axes, [(measured[-1], "measured", CURVES[0]), (predicted[-1], "sum", INK)])
+    name_ends(axes, [(costs[-1], "measured", CURVES[0]), (sums[-1], "sum", INK)])
     return axes

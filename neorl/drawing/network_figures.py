@@ -4,15 +4,19 @@ Lengths are in ems, the height of a letter, and y runs downward. Every node has 
 node downward in a lane that later nodes keep clear of: so no line runs through a node.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from textwrap import wrap
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure, SubFigure
 from matplotlib.font_manager import FontProperties
 from matplotlib.patches import Circle, FancyArrowPatch, FancyBboxPatch
 from matplotlib.path import Path
 from matplotlib.textpath import TextPath
+from numpy.typing import NDArray
 
 from neorl import checks
 from neorl.agents.agent import Agent, Desire, Place
@@ -92,7 +96,7 @@ class _Drawing(NamedTuple):
         return max(box.bottom for box in self.boxes.values())
 
 
-def draw_network(agent, ax=None):
+def draw_network(agent: Agent, ax: Axes | None = None) -> Axes:
     """An agent as a network: nodes with their maps, desires with their valences, and the gains of nodes in its value.
 
     A desire without a number has the sum of the valences that its vector comes from; "green: Σ w" says which they are.
@@ -107,17 +111,17 @@ def draw_network(agent, ax=None):
     drawing = _laid_out(checks.instance("agent", agent, Agent))
     axes_or_new(ax).axis("off")
     ax.figure.canvas.figure.draw_without_rendering()  # so that the axes have their size
-    wide, high = 72 / ax.figure.dpi * ax.get_window_extent().size
+    wide, high = 72 / ax.figure.dpi * np.array(ax.get_window_extent().size)
     em = min(LARGEST, wide / (drawing.width + 1), high / (drawing.height + 2 * HEAD))
     _draw_into(ax, em, drawing, "", wide / em, high / em, head=(high / em - drawing.height) / 2)
     return ax
 
 
-def draw_networks(agents, figure=None):
-    """Networks {name: agent}, one below the other, all in letters of one size.
+def draw_networks(agents: Mapping[str, Agent], figure: Figure | SubFigure | None = None) -> NDArray[Any]:
+    """Networks, one below the other, all in letters of one size.
 
-    figure: a matplotlib figure or a part of one, which they fill; by default a new one. Returns an array of axes, one
-    for each. Raises ValueError for anything else.
+    agents: {name: `neorl.Agent`}. figure: a matplotlib figure or a part of one, which they fill; by default a new one.
+    Returns an array of axes, one for each. Raises ValueError for anything else.
 
     >>> axes = drawing.draw_networks({"C": neorl.network_c(), "D": neorl.network_d()})
     """

@@ -7,12 +7,15 @@ cell was active. Nothing is smoothed, and places where the agent never was are e
 from typing import NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.colors import Normalize, PowerNorm
 from matplotlib.patches import Rectangle
+from numpy.typing import NDArray
 
 from neorl import checks
 from neorl.drawing.boards import as_board, check_run_in_plane
 from neorl.drawing.style import INK, axes_or_new
+from neorl.experiments.run import Run
 
 LOOKS = 50  # per second, or once per step if there are fewer
 MOST_LOOKS = 10_000_000
@@ -26,7 +29,7 @@ class Track(NamedTuple):
     step: float  # seconds from one look to the next
 
 
-def track(run, seconds, index=0):
+def track(run: Run, seconds: float, index: int = 0) -> Track:
     """Advance a run and sample it up to 50 times per second: a `Track`.
 
     run: a `neorl.Run` in a world of two axes, which is advanced. seconds: simulated, > 0.
@@ -51,7 +54,7 @@ def track(run, seconds, index=0):
     return Track(places / run.world.size, cells, every / run.world.fps)
 
 
-def rate_map(track, cell=None, bins=20):
+def rate_map(track: Track, cell: int | None = None, bins: int = 20) -> NDArray[np.floating]:
     """The rate of a cell by place, or without one the seconds that the agent spent there: float64 (bins, bins).
 
     track: a `Track`. cell: of its map, 0 … cells − 1. bins: a side, integer from 1 to 1000, of the unit board, row by
@@ -62,7 +65,7 @@ def rate_map(track, cell=None, bins=20):
     >>> drawing.rate_map(drawing.track(run, seconds=60), cell=0, bins=2)[0, 0]
     np.float64(1.0)
     """
-    checks.instance("track", track, Track)
+    track = _checked(track)
     bins = checks.integer("bins", bins, at_least=1, at_most=1000)
     column, row = np.clip((track.position * bins).astype(np.int64), 0, bins - 1).T
     place = row * bins + column
@@ -74,7 +77,18 @@ def rate_map(track, cell=None, bins=20):
     return np.divide(found, looks, out=np.full((bins, bins), np.nan), where=looks > 0)
 
 
-def draw_rate_map(track, cell=None, bins=20, ax=None):
+def _checked(track):
+    """The `Track`, in plain numbers. Raises ValueError unless it is one, of one look or more."""
+    position = checks.doubles("position of track", checks.instance("track", track, Track).position)
+    cells, step = np.asarray(track.cells), checks.positive("step of track", track.step)
+    if position.ndim != 2 or position.shape[1] != 2 or cells.dtype.kind not in "iu" or cells.ndim != 2 or (
+            len(cells) != len(position)) or not len(cells):
+        raise ValueError(f"track has positions {position.shape} and {cells.dtype} cells {cells.shape} every {step} s, "
+                         "allowed are (looks, 2) and integers (looks, points)")
+    return Track(position, cells, step)
+
+
+def draw_rate_map(track: Track, cell: int | None = None, bins: int = 20, ax: Axes | None = None) -> Axes:
     """Draw a `rate_map` over the board, with a scale beside it, into `ax` or a new figure; returns the axes.
 
     track, cell, bins: as `rate_map` takes them. Seconds are coloured by their square root, so that places where the

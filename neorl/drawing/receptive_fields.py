@@ -1,6 +1,9 @@
 """The receptive fields of maps of any modality, as they lie over a board while an agent is somewhere on it."""
 
+from typing import Any
+
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.patches import Rectangle
 
@@ -15,7 +18,7 @@ from neorl.worlds.world import World
 RASTER = 121  # places a side at which receptive fields are looked up
 
 
-def draw_receptive_fields(nres_map, world, state, ax=None):
+def draw_receptive_fields(nres_map: NresMap, world: World, state: Any, ax: Axes | None = None) -> Axes:
     """The receptive fields of a map over the board, those of its active cells filled, into `ax` or a new board.
 
     A place stands for itself, for a thing there as the agent would see it, or for the velocity that takes the agent
@@ -38,7 +41,7 @@ def draw_receptive_fields(nres_map, world, state, ax=None):
     at = _in_intervals(nres_map, modality.tune(vectors))
     axes = board_or_new(ax)
     arena = axes.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
-    thin = {"linewidths": 0.8, "colors": INK, "zorder": -1}
+    thin: dict[str, Any] = {"linewidths": 0.8, "colors": INK, "zorder": -1}
     for i, (axis, n) in enumerate(zip(modality.axes, nres_map.intervals)):
         borders = np.arange(1, n)
         borders = borders[(at[..., i].min() < borders) & (borders < at[..., i].max())]

@@ -3,11 +3,14 @@
 Colours keep apart for colour-blind readers, and never stand alone: a curve carries its name, a creep its sign.
 """
 
+from typing import Any
+
 import numpy as np
+import scipy
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
+from matplotlib.colors import is_color_like
 from matplotlib.figure import Figure, SubFigure
-from scipy.optimize import isotonic_regression
 
 from neorl import checks
 
@@ -17,7 +20,7 @@ CURVES = ("#3e6ad1", "#b02d45", "#ac990f", "#01a7bf", "#85488f", "#b46411", "#9c
 DASHES = ("-", "--", ":", "-.")  # of curves: one for each time that the colours have gone round
 LOW_PANEL = 0.17  # of the height of a panel, for the name of a curve
 LEAST_LETTERS = 6  # points, of the names of many curves
-STYLE = {
+STYLE: dict[Any, Any] = {
     "figure.facecolor": "none", "axes.facecolor": "none", "savefig.facecolor": "none", "figure.figsize": (4.9, 3.5),
     "font.size": 11, "text.color": INK, "axes.labelcolor": INK, "axes.edgecolor": INK, "xtick.color": INK,
     "ytick.color": INK, "axes.spines.top": False, "axes.spines.right": False, "lines.linewidth": 1.8,
@@ -25,7 +28,7 @@ STYLE = {
 }
 
 
-def use_style():
+def use_style() -> None:
     """Set matplotlib to the style of the book; ``with plt.rc_context(drawing.STYLE):`` does so for some figures."""
     plt.rcParams.update(STYLE)
 
@@ -57,6 +60,25 @@ def by_name(name, values):
     raise ValueError(f"{name} is {found}, allowed is a dict with one entry or more, by name")
 
 
+def numbers(name, values):
+    """`values` as an array of doubles within ±1e30, or no numbers where there is a gap. Raises ValueError otherwise."""
+    try:
+        array = np.asarray(values)
+    except (TypeError, ValueError, OverflowError):
+        array = np.array(None)
+    if array.dtype.kind not in "fiub" or not np.all(np.isnan(array) | (np.abs(array) <= checks.LARGEST)):
+        raise ValueError(f"{name} is {checks.shown(values)}, allowed are numbers up to {checks.LARGEST:g}, in lists of "
+                         "equal lengths")
+    return array.astype(float)
+
+
+def colour_like(name, value):
+    """`value`, if it is a colour of matplotlib's. Raises ValueError for anything else."""
+    if isinstance(value, str | tuple) and is_color_like(value):
+        return value
+    raise ValueError(f"{name} is {checks.shown(value)}, allowed are colours of matplotlib's")
+
+
 def looks(count):
     """Colours and dashes of so many curves: 28 differ, in colour first."""
     return [(CURVES[i % len(CURVES)], DASHES[i // len(CURVES) % len(DASHES)]) for i in range(count)]
@@ -72,7 +94,7 @@ def name_ends(axes, ends, line=0.075):
     ends = sorted(ends)
     share = min(1.0, 1.0 / (line * len(ends))) if ends else 1.0
     apart = share * line * (high - low) * np.arange(len(ends))
-    heights = apart + isotonic_regression([height for height, *_ in ends] - apart).x
+    heights = apart + scipy.optimize.isotonic_regression([height for height, *_ in ends] - apart).x
     letters = max(LEAST_LETTERS, share * plt.rcParams["font.size"])
     for at, (_, name, colour) in zip(heights, ends):
         axes.annotate(name, (1.02, at), xycoords=("axes fraction", "data"), color=colour, va="center",

@@ -3,10 +3,15 @@
 The thesis's numbers are in grey and carry their value; what was found has a colour and a marker for each reading.
 """
 
+from collections.abc import Mapping
+
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.text import Annotation
 
 from neorl import checks
-from neorl.drawing.style import CURVES, INK, axes_or_new, by_name, name_ends, width_of_figures
+from neorl.drawing.style import CURVES, INK, axes_or_new, by_name, name_ends, numbers, width_of_figures
+from neorl.evidence.statistics import Estimate
 
 MARKERS = "osD^vP*"  # of readings, one for each colour
 ROW = 0.62  # inches
@@ -15,7 +20,8 @@ REACH = 0.5  # of the range of the numbers, beyond which intervals are cut off
 SMALL = 9  # points
 
 
-def draw_against_thesis(thesis, readings, xlabel="", ax=None):
+def draw_against_thesis(thesis: Mapping[str, float], readings: Mapping[str, Mapping[str, Estimate]], xlabel: str = "",
+                        ax: Axes | None = None) -> Axes:
     """Numbers of the thesis, each with what was found instead: a row for each, with dots and 95 % intervals.
 
     thesis: {label: number}, all in one unit, that of `xlabel`. readings: {name: {label: Estimate}}, with the same
@@ -26,18 +32,21 @@ def draw_against_thesis(thesis, readings, xlabel="", ax=None):
     >>> from neorl.evidence.statistics import Estimate
     >>> axes = drawing.draw_against_thesis({"both": 0.55}, {"calibrated": {"both": Estimate(0.5, 0.4, 0.6)}})
     """
-    by_name("thesis", thesis)
-    if len(readings) > len(CURVES):
+    for label, number in by_name("thesis", thesis).items():
+        checks.real(f"thesis[{label!r}]", number)
+    if len(checks.instance("readings", readings, dict)) > len(CURVES):
         raise ValueError(f"readings has {len(readings)}, allowed are at most {len(CURVES)}")
     for name, found in readings.items():
-        if set(found) != set(thesis):
+        if set(checks.instance(f"readings[{name!r}]", found, dict)) != set(thesis):
             raise ValueError(f"readings[{name!r}] has {', '.join(found)}, allowed are the labels of thesis: "
                              f"{', '.join(thesis)}")
+        if numbers(f"readings[{name!r}]", list(found.values())).shape != (len(thesis), 3):
+            raise ValueError(f"readings[{name!r}] is {checks.shown(found)}, allowed is an Estimate for each label")
     rows = np.arange(len(thesis))
     axes = axes_or_new(ax, figsize=(width_of_figures(), 1.1 + ROW * len(rows)))
-    numbers = [*thesis.values()]
-    axes.vlines(numbers, rows - 0.36, rows + 0.36, color=INK, linewidth=2.2)
-    for row, number in zip(rows, numbers):
+    told = [*thesis.values()]
+    axes.vlines(told, rows - 0.36, rows + 0.36, color=INK, linewidth=2.2)
+    for row, number in zip(rows, told):
         axes.annotate(f"thesis {number:g}".replace("-", "−"), (number, row - 0.38), fontsize=SMALL, ha="center",
                       va="bottom")
     shifts = 0.5 * (np.arange(len(readings)) - (len(readings) - 1) / 2) / max(len(readings), 1)
@@ -46,7 +55,7 @@ def draw_against_thesis(thesis, readings, xlabel="", ax=None):
         axes.plot(value, rows + shift, color=colour, linestyle="none", marker=marker, markersize=6, label=name)
         axes.hlines(rows + shift, low, high, color=colour)
     axes.set(yticks=rows, yticklabels=thesis, ylim=(len(rows) - 0.5, -0.75), xlabel=xlabel)
-    values = [*numbers, *(estimate.value for found in readings.values() for estimate in found.values())]
+    values = [*told, *(estimate.value for found in readings.values() for estimate in found.values())]
     low, high = sorted(axes.get_xlim())
     reach = REACH * (max(values) - min(values)) or np.inf
     axes.set_xlim(max(low, min(values) - reach), min(high, max(values) + reach))
@@ -55,16 +64,17 @@ def draw_against_thesis(thesis, readings, xlabel="", ax=None):
     return axes
 
 
-def mark_levels(axes, levels):
+def mark_levels(axes: Axes, levels: Mapping[str, float]) -> Axes:
     """Draw levels of the thesis into a figure of curves, as dashed lines with their names: levels {name: height}.
 
     The axes reach as far as the levels, and names at the ends of curves move apart again. Returns the axes.
-    Raises ValueError for a height that is not finite.
+    Raises ValueError for anything else.
 
     >>> axes = drawing.draw_curves([0, 1], {"here": np.array([[0.1, 0.5]])})
     >>> axes = drawing.mark_levels(axes, {"thesis": 0.55})
     """
-    heights = [checks.real(f"levels[{name!r}]", height) for name, height in levels.items()]
+    checks.instance("axes", axes, Axes)
+    heights = [checks.real(f"levels[{name!r}]", height) for name, height in by_name("levels", levels).items()]
     bottom, top = axes.get_ylim()
     room = ROOM * (max([top, *heights]) - min([bottom, *heights]))
     axes.set_ylim(min([bottom, *(height - room for height in heights)]),
@@ -73,7 +83,7 @@ def mark_levels(axes, levels):
         axes.axhline(height, color=INK, linewidth=1.1, linestyle=(0, (5, 3)), zorder=1)
         axes.annotate(name, (0.015, height), xycoords=("axes fraction", "data"), xytext=(0, 2),
                       textcoords="offset points", fontsize=SMALL, va="bottom")
-    names = [text for text in axes.texts if text.xy[0] > 1]
+    names = [text for text in axes.texts if isinstance(text, Annotation) and text.xy[0] > 1]
     for text in names:
         text.remove()
     name_ends(axes, [(text.xy[1], text.get_text(), text.get_color()) for text in names])

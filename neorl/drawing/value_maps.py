@@ -5,19 +5,22 @@ distance and a direction, is drawn in sectors of rings around the agent, and one
 draws into `ax`, or into a new board, and returns the axes.
 """
 
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.patches import Patch, Rectangle, Wedge
+from numpy.typing import ArrayLike
 
 from neorl import checks
 from neorl.agents.individual import Individual
 from neorl.core.geometry import TAU
 from neorl.core.horde import as_vectors
 from neorl.core.maps import NresMap
-from neorl.core.scene import CARDINAL
+from neorl.core.scene import CARDINAL, Actions
 from neorl.drawing.boards import board_or_new
-from neorl.drawing.style import AGENT, GREEN, INK, RED
+from neorl.drawing.style import AGENT, GREEN, INK, RED, colour_like
 
 MOST_CELLS = 20_000  # more cannot be seen
 OPACITY = 0.45  # of the cell of the greatest value
@@ -32,7 +35,8 @@ class _Fields(NamedTuple):
     low: float  # where the board begins that they lie on
 
 
-def draw_cells(nres_map, colour=INK, fills=None, width=1.0, ax=None):
+def draw_cells(nres_map: NresMap, colour: Any = INK, fills: Mapping[int, tuple[Any, float]] | None = None,
+               width: float = 1.0, ax: Axes | None = None) -> Axes:
     """The receptive fields of a map, some of them filled.
 
     nres_map: a `neorl.NresMap` of two components of one vector, of its length and direction, or of the direction alone.
@@ -42,19 +46,25 @@ def draw_cells(nres_map, colour=INK, fills=None, width=1.0, ax=None):
     >>> axes = drawing.draw_cells(neorl.NresMap(5), fills={12: (drawing.GREEN, 0.5)})
     """
     fields = _fields(nres_map)
-    axes, fills = board_or_new(ax, fields.low), fills or {}
+    colour, width = colour_like("colour", colour), checks.real("width", width, 0, 1000)
+    fills = checks.instance("fills", {} if fills is None else fills, dict)
+    for cell, fill in fills.items():
+        checks.integer("cell of fills", cell, at_least=0, at_most=nres_map.cells - 1)
+        if len(checks.several("fills", fill)) != 2:
+            raise ValueError(f"fills has {checks.shown(fill)}, allowed are pairs of a colour and an opacity")
+        colour_like("colour of fills", fill[0]), checks.real("opacity of fills", fill[1], 0, 1)
+    axes = board_or_new(ax, fields.low)
     for cell, patch in enumerate(fields.patches):
         patch.set(facecolor="none", edgecolor=colour, linewidth=width)
         axes.add_patch(patch)
     inside = _fields(nres_map).patches if fills else ()
     for cell, (fill, opacity) in fills.items():
-        cell = checks.integer("cell of fills", cell, at_least=0, at_most=nres_map.cells - 1)
         inside[cell].set(facecolor=fill, alpha=opacity, edgecolor="none")
         axes.add_patch(inside[cell])
     return axes
 
 
-def draw_values(nres_map, values, actions=CARDINAL, ax=None):
+def draw_values(nres_map: NresMap, values: ArrayLike, actions: Actions = CARDINAL, ax: Axes | None = None) -> Axes:
     """An arrow in every cell for the values of actions there: the sum of the actions' pushes, times their values.
 
     nres_map: as in `draw_cells`. values: float (cells, actions). actions: the world's `neorl.Actions`, of two axes.
@@ -64,7 +74,8 @@ def draw_values(nres_map, values, actions=CARDINAL, ax=None):
     >>> values = np.array([[0.0, 0.0, 1.0, 0.0]] * 9)  # east is best everywhere
     >>> axes = drawing.draw_values(neorl.NresMap(3), values, ax=drawing.draw_cells(neorl.NresMap(3)))
     """
-    fields, values = _fields(nres_map), checks.finite("values", np.asarray(values, float))
+    fields, values = _fields(nres_map), checks.doubles("values", values)
+    checks.instance("actions", actions, Actions)
     if values.shape != (nres_map.cells, len(actions.names)) or actions.axes != 2:
         raise ValueError(f"values has the shape {values.shape}, allowed is {(nres_map.cells, len(actions.names))} with "
                          f"actions along two axes, here {actions.axes}")
@@ -80,7 +91,8 @@ def draw_values(nres_map, values, actions=CARDINAL, ax=None):
     return axes
 
 
-def draw_value_map(run, goals, valences=None, index=0, ax=None):
+def draw_value_map(run: Individual, goals: ArrayLike, valences: Sequence[float] | None = None, index: int = 0,
+                   ax: Axes | None = None) -> Axes:
     """What a run knows of goals: each cell the more opaque the more its best action is worth, red where that is less
     than 0, and an arrow for the values of all actions. The cells of the goals have a bold edge.
 

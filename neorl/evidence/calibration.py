@@ -26,7 +26,7 @@ import time
 from dataclasses import replace
 
 import numpy as np
-from scipy.stats import qmc
+import scipy
 
 from neorl import checks
 from neorl.evidence import calibration_table
@@ -121,7 +121,8 @@ def _chunks(group, places):
 
 def design(points, seed=0):
     """So many readings evenly through the priors within the text, a list of `Reading`: see `reading_at`."""
-    return [reading_at(row) for row in qmc.Sobol(len(WITHIN), rng=np.random.default_rng(seed)).random(points)]
+    sequence = scipy.stats.qmc.Sobol(len(WITHIN), rng=np.random.default_rng(seed))
+    return [reading_at(row) for row in sequence.random(points)]
 
 
 def reading_at(shares):

@@ -9,7 +9,7 @@ from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
-from scipy import stats
+import scipy
 
 from neorl import checks
 from neorl.evidence.calibration import IN_FULL, Emulator, reading_at
@@ -78,7 +78,7 @@ class Marginal(NamedTuple):
     @property
     def information(self):
         """What the posterior says more than the prior, in bits (Kullback and Leibler 1951)."""
-        return float(stats.entropy(self.posterior, self.prior, base=2))
+        return float(scipy.stats.entropy(self.posterior, self.prior, base=2))
 
 
 def marginal(name, remaining):

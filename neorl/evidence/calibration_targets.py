@@ -92,7 +92,7 @@ def _surplus(results, rate):
     return rate(results["layers"]) - sum(rate(results["layer", n]) for n in (3, 7, 23))
 
 
-def _extremes(results):
+def _extremes(results) -> tuple[float, float]:
     """What the worst and the best of the single maps earn over the whole run."""
     each = [_whole(results["single", n]) for n in (10, 30, 50)]
     return min(each), max(each)

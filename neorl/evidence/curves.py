@@ -1,8 +1,8 @@
 """Curves of reward per second over a run, in equal stretches, and smoothed as the thesis smooths."""
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.signal import butter, sosfiltfilt
 
 from neorl import checks
 from neorl.experiments.simulation import Result
@@ -37,10 +37,10 @@ def low_passed(rates: ArrayLike) -> NDArray[np.float64]:
         raise ValueError(f"rates has the shape {rates.shape}, allowed are (runs, points), with more than "
                          f"{2 * CUTOFF_PERIODS} points")
     points = rates.shape[1]
-    sections = butter(FILTER_ORDER, 2 * CUTOFF_PERIODS / points, output="sos")
+    sections = scipy.signal.butter(FILTER_ORDER, 2 * CUTOFF_PERIODS / points, output="sos")
     near = points // CUTOFF_PERIODS
     first, last = (np.polynomial.polynomial.polyfit(np.arange(near) + 0.5, end.T, 1)[0][:, None]
                    for end in (rates[:, :near], rates[:, : -near - 1 : -1]))
     mirrored = rates[:, ::-1]
     longer = np.concatenate([2 * first - mirrored, rates, 2 * last - mirrored], axis=1)
-    return sosfiltfilt(sections, longer, axis=1)[:, points : 2 * points]
+    return scipy.signal.sosfiltfilt(sections, longer, axis=1)[:, points : 2 * points]

@@ -9,32 +9,35 @@
    otherwise, also where agents have learned nothing to test it by.
 """
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from scipy import stats
-from scipy.stats import qmc
+import scipy
 
 from neorl import checks
-from neorl.evidence.priors import TO_THE_LETTER, WITHIN
+from neorl.evidence.priors import TO_THE_LETTER, WITHIN, Choice
+from neorl.evidence.reading import Reading
 from neorl.evidence.statistics import Estimate, difference, estimate
 from neorl.extras import require
 
 PARTS = 5  # into which a prior without levels is cut; the middle one holds the reading to the letter
 
 
-def design(points, seed=0, choices=WITHIN):
+def design(points: int, seed: int = 0, choices: Mapping[str, Choice] = WITHIN) -> list[Reading]:
     """So many plausible readings, a list of `Reading`.
 
+    points: a power of two, of which any is a part of the next. seed: integer ≥ 0, of the sequence.
     choices: what is varied, {field of `Reading`: `Choice`}: `WITHIN`, `BEYOND`, or any other. Where nothing is varied,
     all are the reading to the letter.
-    Raises ValueError unless points is a power of two, of which any is a part of the next.
+    Raises ValueError for anything else.
     """
     checks.integer("points", points, at_least=2)
     if points & (points - 1):
         raise ValueError(f"points is {points}, allowed are powers of two")
-    shares = qmc.Sobol(len(choices), rng=np.random.default_rng(seed)).random(points)
+    seed = checks.integer("seed", seed, at_least=0)
+    shares = scipy.stats.qmc.Sobol(len(choices), rng=np.random.default_rng(seed)).random(points)
     return [replace(TO_THE_LETTER, **{name: choice.at(share) for (name, choice), share in zip(choices.items(), row)})
             for row in shares]
 
@@ -111,7 +114,7 @@ def importance(readings, judged, name, choices=WITHIN, seed=0):
     """
     chosen = [key for key, choice in choices.items() if name[0] in choice.papers]
     places = np.array([[choices[key].place(getattr(reading, key)) for key in chosen] for reading in readings])
-    ranks = stats.rankdata([claims[name].here.value for claims in judged]) / len(judged)
+    ranks = scipy.stats.rankdata([claims[name].here.value for claims in judged]) / len(judged)
     lost, explained = [], []
     ensemble, inspection, selection = (require(f"sklearn.{each}", extra="book")
                                        for each in ("ensemble", "inspection", "model_selection"))

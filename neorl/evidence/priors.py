@@ -11,7 +11,7 @@
 
 import math
 from dataclasses import dataclass, fields
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from neorl.agents import papers
 from neorl.agents.agent import WHEN_INDIFFERENT
@@ -132,8 +132,9 @@ WITHIN = {
     "fps": Choice("steps per second", (50, 30, 60), "ABCT"),
     "contact": Choice("contact", CONTACTS, "ABCT"),
 }
-PINNED = {"own_cell": "counts", "tiled_fraction": 1.0, "exploration": 0.0, "when_indifferent": "random",
-          "network_gain": 1.0, "vectors": "signed", "scale": 1.0, "recursion": -1.0}
+PINNED: dict[str, Any] = {
+    "own_cell": "counts", "tiled_fraction": 1.0, "exploration": 0.0, "when_indifferent": "random", "network_gain": 1.0,
+    "vectors": "signed", "scale": 1.0, "recursion": -1.0}
 TO_THE_LETTER = Reading(**PINNED, **{name: choice.plainest for name, choice in WITHIN.items()})
 _BEYOND = WITHIN | {
     "credit": Choice("credit, ψ(N)", ("happened", "share", "count", "activity", "last", "step"), "ABCT"),

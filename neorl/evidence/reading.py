@@ -5,7 +5,9 @@
 3. It is judged by the rules of `neorl.evidence.claims`, on every claim that the conditions at hand suffice for.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 from neorl import checks
 from neorl.agents import papers
@@ -48,11 +50,12 @@ class Reading:
         that recurs, which is signed and of what came in from other nodes alone.
     network_resolutions: of the maps of paper C.
     The other fields are those of `Learning`, `Policy`, `Node`, `Desire`, `Agent` and `WaterWorld` of the same names.
+    Raises ValueError for `vectors` and `network_resolutions` that are none; its agents and conditions check the others.
     """
 
     learning_rate: float = Learning.learning_rate
     discount: float = Learning.discount
-    credit: str = Learning.credit
+    credit: str = Learning.credit  # type: ignore[assignment]  # there also a kernel of the user's
     absent_decay: float = Learning.absent_decay
     absent_form: str = Learning.absent_form
     memory: float = Learning.memory * CELLS_A_SECOND
@@ -82,7 +85,9 @@ class Reading:
     def __post_init__(self):
         checks.one_of("vectors", self.vectors, VECTORS)
         resolutions = checks.several("network_resolutions", self.network_resolutions)
-        object.__setattr__(self, "network_resolutions", resolutions)
+        checks.assign(self, network_resolutions=resolutions, memory=checks.real("memory", self.memory, 0),
+                      exploration=checks.real("exploration", self.exploration, 0, 1),
+                      fps=checks.integer("fps", self.fps, at_least=1))
 
     @property
     def within_the_text(self):
@@ -116,15 +121,18 @@ class Reading:
         return {**self.agents, "learning": learning, "object_tiled_fraction": papers.TILED_FRACTION}
 
 
-def conditions(reading, steps, runs, seed=0, groups=tuple(GROUPS)):
+def conditions(reading: Reading, steps: int, runs: int, seed: int = 0,
+               groups: Sequence[str] = tuple(GROUPS)) -> dict[Any, Condition]:
     """The conditions of the papers under a reading: {key: `Condition`}.
 
     steps: of a run at 50 steps per second, but no more than the paper's; papers B and C live the same simulated time at
     any rate. For B4 agents live 16 times as long, half as many runs and at least two, unless paper B's are as long.
     Brownian motion with 8 creeps always lives as long as in paper A, where it meets with no reset.
-    groups: names in `GROUPS`, which holds the keys of each.
+    seed: integer ≥ 0. groups: names in `GROUPS`, which holds the keys of each.
     Raises ValueError for anything else.
     """
+    checks.instance("reading", reading, Reading)
+    steps, runs = checks.integer("steps", steps, at_least=1), checks.integer("runs", runs, at_least=1)
     wanted = [key for group in checks.several("groups", groups)
               for key in GROUPS[checks.one_of("groups", group, tuple(GROUPS))]]
     made = _all_conditions(reading, steps, runs, seed)
@@ -160,8 +168,9 @@ def _all_conditions(reading, steps, runs, seed):
     return made
 
 
-def networks(reading):
-    """Networks A to D of paper C under a reading: {name: `Agent`}."""
+def networks(reading: Reading) -> dict[str, Agent]:
+    """Networks A to D of paper C under a reading: {name: `Agent`}. Raises ValueError unless it is a `Reading`."""
+    checks.instance("reading", reading, Reading)
     shared = {"resolutions": reading.network_resolutions, "scale": reading.scale,
               "signed": reading.vectors == "signed", **reading.agents}
     adding = {"place_gain": reading.network_gain, **shared}

@@ -17,7 +17,7 @@ from neorl.experiments.cache import source_digest
 from neorl.files import cache_folder, write_whole
 
 SIGNS = dict(zip(VERDICTS, "●◐○––"))
-OPEN, NOT_COMPUTED = "open", "not computed in this build"
+NOT_COMPUTED = "not computed in this build"
 LETTER, CALIBRATED = "to the letter", "calibrated"  # names of readings
 HEADER = "| Claim | Thesis | To the letter | Calibrated | Verdict | Share within the text |\n|---|---|---|---|---|---|"
 PARTS = ("claims", "letter", "shares")  # of a record
@@ -99,9 +99,7 @@ def number(found):
 
 
 def verdict(record, name):
-    """What became of a claim under the book's reading: a verdict, or that it is open, or not computed."""
-    if not STATEMENTS[name].rule:
-        return OPEN
+    """What became of a claim under the book's reading: a verdict, or that it is not computed."""
     return record["claims"].get(name, {"verdict": NOT_COMPUTED})["verdict"]
 
 
@@ -179,5 +177,5 @@ def _evidence(record, names):
             found = record[part].get(name)
             if found:
                 line += f" {reading}: {number(found)}, {found['runs']} runs. {found['detail']}"
-        lines.append(line if statement.rule else f"{line} Open: there is no rule yet that could judge it.")
+        lines.append(line)
     return lines

@@ -1,4 +1,7 @@
-"""The rules by which the claims of paper C are decided: networks. `neorl.evidence.verdict` says what a verdict is."""
+"""The rules by which the claims of paper C are decided: networks, and alternatives to them.
+
+`neorl.evidence.verdict` says what a verdict is.
+"""
 
 import numpy as np
 
@@ -41,3 +44,27 @@ def judge_networks(a, b, c, d, brownian):
                 f"{probability_of_improvement(final['D'], final['C'])}.", runs, reproduced=gain.low >= 1.5,
                 partly=gain.low > 1, possible=gain.high >= 1.5, testable=knows["C"])
     return [c1, c2, c3, c4]
+
+
+def judge_alternatives(alternatives, thesis, brownian, real_time):
+    """Claim C5, from final rewards per second on one board, (runs,) each, after the same number of steps.
+
+    alternatives: {name: (final rewards, seconds that a step takes to compute)}, of learners that observe no more of
+        the board than can be seen on it. thesis: {name: final rewards} of the thesis's agents.
+    brownian: final rewards of Brownian motion. real_time: seconds that a step lasts.
+    """
+    best = max(thesis, key=lambda name: thesis[name].mean())
+    over = {name: estimate(ratio, final, thesis[best]) for name, (final, _) in alternatives.items()}
+    late = [name for name, (_, seconds) in alternatives.items() if seconds >= real_time]
+    fails = {name: name in late or each.high < 1 for name, each in over.items()}
+    leader = max([name for name in over if name not in late] or over, key=lambda name: over[name].value)
+    succeeds = [name for name, each in over.items() if name not in late and each.low >= 1]
+    return judged("C5", over[leader], f"The best alternative is {leader}, and the thesis's best agent is {best}, which "
+                  f"earns {estimate(np.mean, thesis[best])}. An alternative fails that surely earns less, or takes "
+                  f"longer to compute a step than the step lasts: {', '.join(n for n in fails if fails[n]) or 'none'}. "
+                  f"At least as much, surely and in time, earn: {', '.join(succeeds) or 'none'}. Partly is read as "
+                  "half of the alternatives failing.",
+                  min(map(len, [*(final for final, _ in alternatives.values()), *thesis.values()])),
+                  reproduced=all(fails.values()), partly=2 * sum(fails.values()) >= len(fails),
+                  possible=not succeeds,
+                  testable=estimate(difference, thesis[best], brownian).low > 0)

@@ -16,8 +16,8 @@ class Statement(NamedTuple):
     text: str  # the claim in our words
     statistic: str
     thesis: str  # its number
-    figure: str = ""  # the label of the figure of this book that shows it
-    rule: str = ""  # the function of `neorl.evidence.claims` that judges it; a claim without one is open
+    figure: str  # the label of the figure of this book that shows it
+    rule: str  # the function of `neorl.evidence.claims` that judges it
     borders: tuple[float, ...] = (0.0,)  # where the rule divides our number
     demonstration: bool = False  # shown beside the claims, and not counted among them
 
@@ -159,7 +159,7 @@ STATEMENTS = {
         "failed.",
         "No other method of reinforcement learning or AI navigates this board in real time",
         "Final reward per second of the best alternative, divided by that of the thesis's best agent",
-        "none succeeds"),
+        "none succeeds", "fig-alternatives-curves", "judge_alternatives", (1.0,)),
     "T1": Statement(
         "paper A, The Control Problem by Superposition",
         "In the neoRL approach, moving rewards or changing agent priorities during an agent's life-time does not "
@@ -213,6 +213,32 @@ STATEMENTS = {
         "Larger receptive fields go with a slower time scale",
         "Power of the width of a field by which the stay in it grows",
         "direct relation", "fig-time-scale", "judge_time_scale", (0.5,)),
+    "G1": Statement(
+        "paper B, section 1",
+        "Navigation has to be efficient (require few interactions for learning new behaviors)",
+        "Efficient: once at a new place, agents find it again sooner than Q-learning on the same cells",
+        "Seconds of the second trial at a new place in a water maze, divided by those of Q-learning",
+        "few", "fig-spaces-pool", "judge_efficiency", (0.5, 1.0)),
+    "G2": Statement(
+        "paper B, section 3",
+        "it is crucial that NRES-oriented navigation can operate based on different Euclidean spaces",
+        "General: with one rule of learning agents beat chance in every other space that was tried",
+        "Smallest probability over the worlds that a run of the agent beats one at random",
+        "> 0.5", "fig-spaces-all", "judge_generality", (0.5,)),
+    "G3": Statement(
+        "paper B, section 3",
+        "NeoRL navigation must be … compositional across conceptual components, without any significant decline in "
+        "learning efficiency.",
+        "Compositional: a map for each feature reaches any combination as directly as one map of both",
+        "Steps to a point of a space of two features with a map for each, divided by those with one map of both",
+        "1", "fig-spaces-birds", "judge_composition", (1.25, 2.0)),
+    "G4": Statement(
+        "chapter 5, on paper B",
+        "The neoRL framework is general across NRES modalities, compositional and incremental by additional neoRL "
+        "modules",
+        "Incremental: a second map that joins half-way helps a vessel, and costs nothing that was learned",
+        "Final lead in reward per minute over agents that it does not join",
+        "> 0", "fig-spaces-vessel", "judge_extension"),
     "H1": Statement(
         "section 2.1.2, on figure 2.2",
         "When later motivated by food, however, the rats in the initially unrewarded group started to perform better "

@@ -8,8 +8,8 @@ from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy import stats
 
 from neorl import checks
 from neorl.experiments.simulation import Result
@@ -43,11 +43,11 @@ def estimate(statistic: Callable, *samples: ArrayLike, rng: Rng = 0) -> Estimate
     if not callable(statistic) or not samples:
         raise ValueError(f"statistic is {checks.shown(statistic)} of {len(samples)} samples, allowed are functions of "
                          "one sample or more")
-    samples, rng = [_sample("samples", each) for each in samples], _generator(rng)
-    value = float(statistic(*map(np.asarray, samples), axis=-1))
-    if min(len(sample) for sample in samples) < 2:
+    checked, rng = [_sample("samples", each) for each in samples], _generator(rng)
+    value = float(statistic(*checked, axis=-1))
+    if min(map(len, checked)) < 2:
         return Estimate(value, np.nan, np.nan)
-    low, high = _bootstrapped(samples, statistic, rng)
+    low, high = _bootstrapped(checked, statistic, rng)
     return Estimate(value, float(low), float(high))
 
 
@@ -86,8 +86,8 @@ def least_of_most(*samples, axis):
 def rank_correlation(*samples, axis):
     """Spearman's, of the samples' places with their values, for `estimate`; scipy's own takes one pair at a time."""
     group = np.repeat(np.arange(len(samples)), [sample.shape[axis] for sample in samples])
-    ranks = stats.rankdata(np.concatenate(samples, axis), axis=axis)
-    place = stats.rankdata(group) - (len(group) + 1) / 2
+    ranks = scipy.stats.rankdata(np.concatenate(samples, axis), axis=axis)
+    place = scipy.stats.rankdata(group) - (len(group) + 1) / 2
     off = ranks - (len(group) + 1) / 2
     spread = np.sqrt((off**2).sum(axis) * (place**2).sum())
     return quotient((off * place).sum(axis), spread)
@@ -106,7 +106,7 @@ def probability_of_improvement(better: ArrayLike, worse: ArrayLike, rng: Rng = 0
 
 def _share_of_pairs(better, worse, axis):
     pairs = better.shape[axis] * worse.shape[axis]
-    return stats.mannwhitneyu(better, worse, axis=axis, method="asymptotic").statistic / pairs
+    return scipy.stats.mannwhitneyu(better, worse, axis=axis, method="asymptotic").statistic / pairs
 
 
 def points(result: Result) -> NDArray[np.float64]:
@@ -124,10 +124,10 @@ def resets(result: Result) -> NDArray[np.float64]:
     result: a `Result` in `WaterWorld`, of whose rewards it follows. Raises ValueError where that creep brings no reward
     of its own.
     """
-    _in_waterworld(result)
-    if result.world.win_reward == 0:
+    win_reward = _in_waterworld(result).win_reward
+    if win_reward == 0:
         raise ValueError("win_reward of the world is 0.0, allowed are worlds where a reset shows in the reward")
-    return np.rint((result.totals - points(result)) / result.world.win_reward)
+    return np.rint((result.totals - points(result)) / win_reward)
 
 
 def tolerance_band(curves: ArrayLike, share: float = 0.75, confidence: float = 0.95) -> NDArray[np.float64]:
@@ -139,12 +139,12 @@ def tolerance_band(curves: ArrayLike, share: float = 0.75, confidence: float = 0
     Raises ValueError unless both are numbers from 0 to 1, and the curves finite, of one run or more.
     """
     share, confidence = checks.real("share", share, 0, 1), checks.real("confidence", confidence, 0, 1)
-    curves = _curves(curves)
-    runs = len(curves)
+    checked = _curves(curves)
+    runs = len(checked)
     beyond = 1
     while 2 * (beyond + 1) <= runs and tolerated_share(runs, beyond + 1, confidence) >= share:
         beyond += 1
-    ordered = np.sort(curves, axis=0)
+    ordered = np.sort(checked, axis=0)
     return ordered[[beyond - 1, -beyond]]
 
 
@@ -155,7 +155,7 @@ def tolerated_share(runs: int, beyond: int = 1, confidence: float = 0.95) -> flo
     """
     runs, beyond = checks.integer("runs", runs, 0, MOST_RUNS), checks.integer("beyond", beyond, 1, MOST_RUNS)
     confidence = checks.real("confidence", confidence, 0, 1)
-    return float(stats.beta.ppf(1 - confidence, runs + 1 - 2 * beyond, 2 * beyond)) if runs >= 2 * beyond else 0.0
+    return float(scipy.stats.beta.ppf(1 - confidence, runs + 1 - 2 * beyond, 2 * beyond)) if runs >= 2 * beyond else 0.0
 
 
 def time_to_level(result: Result, level: ArrayLike) -> NDArray[np.float64]:
@@ -199,7 +199,7 @@ def minutes_sooner(quick: Results, slow: Results, level: float) -> Estimate:
     Raises ValueError for anything else.
     """
     level = checks.real("level", level)
-    groups = [group if isinstance(group, list | tuple) else [group] for group in (quick, slow)]
+    groups: list[Sequence[Any]] = [group if isinstance(group, list | tuple) else [group] for group in (quick, slow)]
     for name, group in zip(("quick", "slow"), groups):
         for result in group:
             checks.instance(name, result, Result)
@@ -244,10 +244,10 @@ def mean_band(curves: ArrayLike, rng: Rng = 0) -> Any:
 
     rng: see the module. Raises ValueError for curves that are not finite, or of no run.
     """
-    curves, rng = _curves(curves), _generator(rng)
-    if len(curves) < 2:
-        return np.full((2, curves.shape[1]), np.nan)
-    return _bootstrapped((curves,), np.mean, rng, axis=0)
+    checked, rng = _curves(curves), _generator(rng)
+    if len(checked) < 2:
+        return np.full((2, checked.shape[1]), np.nan)
+    return _bootstrapped((checked,), np.mean, rng, axis=0)
 
 
 def _sample(name, values):
@@ -269,9 +269,9 @@ def _generator(rng):
 
 
 def _in_waterworld(result):
-    checks.instance("world of result", checks.instance("result", result, Result).world, WaterWorld)
+    return checks.instance("world of result", checks.instance("result", result, Result).world, WaterWorld)
 
 
 def _bootstrapped(samples, statistic, rng, axis=-1):
-    return stats.bootstrap(samples, statistic, n_resamples=RESAMPLES, confidence_level=0.95, method="percentile",
-                           vectorized=True, axis=axis, rng=np.random.default_rng(rng)).confidence_interval
+    return scipy.stats.bootstrap(samples, statistic, n_resamples=RESAMPLES, confidence_level=0.95, method="percentile",
+                                 vectorized=True, axis=axis, rng=np.random.default_rng(rng)).confidence_interval

@@ -30,7 +30,7 @@ PARTS = ("checks", "extras", "files", "core", "worlds", "agents", "experiments")
 
 @dataclass(frozen=True)
 class Condition(Described):
-    """All that determines a `Result`: the arguments of `simulate` of the same names.
+    """All that determines a `Result`. The fields are those of `simulate` of the same names.
 
     Raises ValueError for what `simulate` would refuse.
     """

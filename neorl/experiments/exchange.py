@@ -5,7 +5,7 @@ world and all else that determined it, as plain data (`neorl.core.description`),
 """
 
 import json
-from importlib import metadata
+import sys
 
 import numpy as np
 
@@ -22,11 +22,8 @@ OF_A_CONDITION = {"agent": Agent, "world": World, "steps": int, "runs": int, "se
 
 
 def version():
-    """The version of neorl that is installed, or "unknown" for sources that are not."""
-    try:
-        return metadata.version("neorl-companion")
-    except metadata.PackageNotFoundError:
-        return "unknown"
+    """The version of neorl, whose package stands above this room."""
+    return sys.modules["neorl"].__version__
 
 
 def about(condition):

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from neorl import checks
-from neorl.experiments.run import new_bins
-from neorl.worlds.waterworld import GREEN
+from neorl.experiments.run import Run, new_bins
+from neorl.worlds.waterworld import GREEN, WaterWorld
 
 
 @dataclass(frozen=True)
@@ -22,9 +22,14 @@ class Recording:
     hits: np.ndarray  # int64 (steps + 1, 2): green and red creeps taken so far
 
 
-def record(name, run, steps):
-    """Let a run live so many steps more, and return the `Recording`. Raises ValueError for a bad number of steps."""
-    checks.integer("steps", steps, at_least=1)
+def record(name: str, run: Run, steps: int) -> Recording:
+    """Let a run live so many steps more, and return the `Recording` of that name.
+
+    run: a `neorl.Run` in `neorl.WaterWorld`, which is advanced. steps: integer ≥ 1.
+    Raises ValueError for anything else.
+    """
+    steps = checks.integer("steps", steps, at_least=1)
+    checks.instance("world of run", checks.instance("run", run, Run).world, WaterWorld)
     scale, frames, taken = 1 / run.world.width, [], np.zeros(2, np.int64)
     rewards, hits = new_bins(run.world, 1, run.step + steps)
     for step in range(steps + 1):

@@ -6,7 +6,10 @@ that, so it is the same run alone or among others, on one core or on several.
 The state of the world can be written to, and is checked at every `Run.advance`.
 """
 
+from typing import Any, Self
+
 import numpy as np
+from numpy.typing import NDArray
 
 from neorl import checks
 from neorl.agents.agent import Agent
@@ -27,7 +30,7 @@ class Run(Individual):
     """One learner in one world, from its first step on.
 
     agent: an `Agent`. world: a `neorl.WaterWorld`, or another `neorl.World`. seed, run: integers ≥ 0.
-    after: a run of the same agent that is over; its values are overwritten.
+    after: a run that is over, whose memory this one takes over if it suffices; its values are overwritten.
 
     Raises ValueError for a bad argument, or if agent and world do not go together, MemoryError if the agent's values do
     not fit into the free memory.
@@ -35,7 +38,7 @@ class Run(Individual):
 
     _kept = ("_state", "_world_state")
 
-    def __init__(self, agent, world, seed=0, run=0, after=None):
+    def __init__(self, agent: Agent, world: World, seed: int = 0, run: int = 0, after: Self | None = None) -> None:
         checks.instance("agent", agent, Agent)
         checks.instance("world", world, World)
         sequence = np.random.SeedSequence(checks.integer("seed", seed, at_least=0),
@@ -60,7 +63,7 @@ class Run(Individual):
         self._rollout = rollout_in(self.world.dynamics, constants_of(self.agent, self.world))
 
     @property
-    def world_state(self):
+    def world_state(self) -> Any:
         """The state of the world, whose arrays can be written to. A state that is assigned is copied."""
         return self._world_state
 
@@ -72,15 +75,17 @@ class Run(Individual):
             mine[...] = given[name]
 
     @property
-    def step(self):
+    def step(self) -> int:
         """How many steps the run has taken."""
         return self._progress
 
-    def advance(self, steps, rewards=None, hits=None):
+    def advance(self, steps: int, rewards: NDArray[np.float32] | None = None,
+                hits: NDArray[np.int16] | None = None) -> float:
         """Take `steps` more steps; returns the reward that they pay.
 
         rewards: float32 (bins,) and hits: int16 (bins, kinds), if given, take the rewards, and the things of each kind
-        that were met, of each 0.2 s since the run began. An interruption leaves a run that can go on from its `step`.
+        that were met, 32,767 at most, of each 0.2 s since the run began. An interruption leaves a run that can go on
+        from its `step`.
         Raises ValueError if they do not fit, or if the world's state is not finite.
         """
         self.world.check_state(self._world_state)

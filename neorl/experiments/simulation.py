@@ -4,8 +4,11 @@ import os
 import threading
 from concurrent.futures import CancelledError, ThreadPoolExecutor
 from dataclasses import dataclass
+from os import PathLike
+from typing import Any, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from neorl import checks
 from neorl.agents.agent import Agent
@@ -20,7 +23,7 @@ class Result:
     """What the runs of one condition brought.
 
     rewards: float32 (runs, bins), summed over bins of 0.2 s. hits: int16 (runs, bins, kinds), the
-    things of each kind that were met; in WaterWorld green and red creeps.
+    things of each kind that were met, counted up to 32,767 in a bin; in WaterWorld green and red creeps.
     changes: (step, agent) pairs, what the runs became when.
     """
 
@@ -29,45 +32,48 @@ class Result:
     steps: int
     runs: int
     seed: int
-    rewards: np.ndarray
-    hits: np.ndarray
+    rewards: NDArray[np.float32]
+    hits: NDArray[np.int16]
     changes: tuple[tuple[int, Agent], ...] = ()
 
     @property
-    def seconds(self):
+    def seconds(self) -> float:
         """Simulated seconds a run."""
         return self.steps / self.world.fps
 
     @property
-    def edges(self):
+    def edges(self) -> NDArray[np.float64]:
         """float64 (bins + 1,): when the first bin begins and each bin ends, in simulated seconds."""
         steps = np.arange(self.rewards.shape[1] + 1) * bin_steps(self.world)
         return np.minimum(steps, self.steps) / self.world.fps
 
     @property
-    def time(self):
+    def time(self) -> NDArray[np.float64]:
         """float64 (bins,): when each bin ends, in simulated seconds."""
         return self.edges[1:]
 
     @property
-    def totals(self):
+    def totals(self) -> NDArray[np.float64]:
         """float64 (runs,): the reward that each run accumulated."""
         return self.rewards.sum(axis=1, dtype=float)
 
-    def rate(self, begin=0.0, end=1.0):
-        """float64 (runs,): reward per simulated second between two shares of the run in [0, 1], to the nearest bin.
+    def rate(self, begin: float = 0.0, end: float = 1.0) -> NDArray[np.float64]:
+        """float64 (runs,): reward per simulated second between two shares of the run, to the nearest bin.
 
-        Raises ValueError for other shares, and for stretches shorter than a bin.
+        begin, end: the shares, in [0, 1]. Raises ValueError for other shares, and for stretches shorter than a bin.
         """
         bins, seconds = self._stretch(begin, end)
         return self.rewards[:, bins].sum(axis=1, dtype=float) / seconds
 
-    def hit_rate(self, begin=0.0, end=1.0):
-        """float64 (runs, kinds): things met of each kind per simulated second between two shares, as in `rate`."""
+    def hit_rate(self, begin: float = 0.0, end: float = 1.0) -> NDArray[np.float64]:
+        """float64 (runs, kinds): things met of each kind per simulated second between two shares of the run.
+
+        begin, end: the shares, in [0, 1]. Raises ValueError as `rate` does.
+        """
         bins, seconds = self._stretch(begin, end)
         return self.hits[:, bins].sum(axis=1) / seconds
 
-    def to_frame(self):
+    def to_frame(self) -> Any:
         """A `pandas.DataFrame` with a row for each run and bin, in this order.
 
         Columns: "run", int64; "time", float64, when the bin ends, in simulated seconds; "reward", float32, the sum over
@@ -76,7 +82,7 @@ class Result:
         """
         return exchange.to_frame(self)
 
-    def to_xarray(self):
+    def to_xarray(self) -> Any:
         """An `xarray.Dataset` of dimensions run, time and kind, with these coordinates.
 
         time: when each bin ends, in simulated seconds. rewards: float32 (run, time), the sum over the bin; hits: int16
@@ -86,17 +92,20 @@ class Result:
         """
         return exchange.to_xarray(self)
 
-    def save(self, path):
+    def save(self, path: str | PathLike[str]) -> None:
         """Write all to a file for NumPy, npz: the arrays rewards and hits, and the text about, a table in JSON.
 
-        Raises ValueError for an agent or a world that no name finds again (`neorl.core.description`).
+        path: of the file, a string or a `pathlib.Path`; what was there is replaced.
+        Raises OSError if it cannot be written, ValueError for an agent or a world that no name finds again
+        (`neorl.core.description`).
         """
         exchange.save(self, path)
 
     @classmethod
-    def load(cls, path):
+    def load(cls, path: str | PathLike[str]) -> Self:
         """The result that `save` has written.
 
+        path: of the file, a string or a `pathlib.Path`.
         Raises OSError if there is no such file, ValueError if it is damaged, of another kind or a newer neorl, or if
         its agent or world cannot be imported.
         """
@@ -111,9 +120,11 @@ class Result:
         return slice(first, last), self.edges[last] - self.edges[first]
 
 
-def simulate(agent, world, *, steps, runs, seed=0, changes=(), threads=None, progress=True):
+def simulate(agent: Agent, world: World, *, steps: int, runs: int, seed: int = 0,
+             changes: tuple[tuple[int, Agent], ...] = (), threads: int | None = None, progress: bool = True) -> Result:
     """Let `runs` independent learners live `steps` steps each, one core a run, and return their `Result`.
 
+    agent: an `Agent`. world: a `neorl.World`. steps, runs: integers ≥ 1.
     seed: integer ≥ 0; run k is the same for any number of runs and threads.
     changes: (step, agent) pairs in order of time: from that step on every learner is another agent, see `Run.change`.
     threads: how many runs go side by side; by default as many as there are cores and as fit into the free memory.

@@ -14,24 +14,29 @@
 import os
 import threading
 import warnings
-from concurrent.futures import BrokenExecutor, CancelledError, ThreadPoolExecutor, as_completed
+from concurrent.futures import BrokenExecutor, CancelledError, Executor, ThreadPoolExecutor, as_completed
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from neorl import checks
+from neorl.agents.agent import Agent
 from neorl.agents.compile import n_values
 from neorl.experiments.cache import Condition, source_digest
 from neorl.experiments.keeping import Keeper
 from neorl.experiments.run import new_bins
-from neorl.experiments.simulation import label, live, progress_bar, usable_threads
+from neorl.experiments.simulation import Result, label, live, progress_bar, usable_threads
+from neorl.worlds.world import World
 
 ATTEMPTS = 3
 TASK_STEPS = 100_000  # a tenth of a second of a typical agent's, against a millisecond for handing them over
 
 
-def simulate_once(agent, world, *, steps, runs, seed=0, changes=(), progress=True):
+def simulate_once(agent: Agent, world: World, *, steps: int, runs: int, seed: int = 0,
+                  changes: tuple[tuple[int, Agent], ...] = (), progress: bool = True) -> Result:
     """`neorl.simulate`, unless the same condition is on disk already; then what was computed is read.
 
-    Returns a `Result`. If it is interrupted, the runs that are finished are kept, and the next call does the rest.
+    The arguments are those of `simulate`. Returns a `Result`. If it is interrupted, the runs that are finished are
+    kept, and the next call does the rest.
     Raises what `simulate` does. Results that cannot be written to disk cost a warning.
     """
     try:
@@ -40,7 +45,8 @@ def simulate_once(agent, world, *, steps, runs, seed=0, changes=(), progress=Tru
         raise failure.__cause__ or failure
 
 
-def sweep(conditions, executor=None, progress=True, *, workers=None):
+def sweep(conditions: Sequence[Condition], executor: Executor | None = None, progress: bool = True, *,
+          workers: int | None = None) -> Iterator[Result]:
     """Compute independent conditions, and return an iterator of their `Result`s, in order.
 
     conditions: `Condition`s. All are computed before this returns; each result is read from disk when its turn comes.
@@ -71,7 +77,7 @@ def sweep(conditions, executor=None, progress=True, *, workers=None):
     # The large ones come first and take over each other's memory.
     waiting = [task for condition in sorted(missing, key=lambda each: -n_values(each.agent, each.world))
                for task in _tasks(condition, missing[condition])]
-    total, errors = sum(task.steps for task in waiting), []
+    total, errors = sum(task.steps for task in waiting), list[tuple[Task, BaseException]]()
     name = label(next(iter(missing)).agent) if len(missing) == 1 else "sweep"
     with progress_bar(total, name, progress) as bar:
         try:
@@ -180,7 +186,7 @@ def _live(condition, runs, source, each_slice=lambda lived: None, room=None):
         raise RuntimeError(f"worker {os.getpid()} has other sources of neorl than the sweep that it works for")
     rewards, hits = new_bins(condition.world, len(runs), condition.steps)
     run = vars(room).pop("run", None) if room else None
-    if run and (run.agent, run.world) != (condition.agent, condition.world):
+    if run and n_values(run.agent, run.world) < n_values(condition.agent, condition.world):
         run = None  # before another takes memory
     for k, *into in zip(runs, rewards, hits):
         run = live(condition.agent, condition.world, condition.steps, condition.seed, k, condition.changes, *into,

@@ -22,8 +22,10 @@ Without a seed the next episode draws on from the same stream of random numbers,
 """
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from neorl import checks
 from neorl.extras import require
@@ -32,6 +34,7 @@ from neorl.gym.observation import observation_space
 from neorl.gym.rendering import Window, frame
 from neorl.worlds.arena import Arena
 from neorl.worlds.waterworld import WaterWorld
+from neorl.worlds.world import World
 
 gymnasium = require("gymnasium", extra="gym")
 
@@ -48,7 +51,8 @@ class WorldEnv(gymnasium.Env):
 
     metadata = {"render_modes": ["human", "rgb_array"]}
 
-    def __init__(self, world, render_mode=None, egocentric=True, continuing=None):
+    def __init__(self, world: World, render_mode: str | None = None, egocentric: bool = True,
+                 continuing: bool | None = None) -> None:
         continuing = isinstance(world, WaterWorld) if continuing is None else continuing
         self._batch = Batch(world, 1, egocentric, continuing)
         self.render_mode = checks.one_of("render_mode", render_mode, (None, *self.metadata["render_modes"]))
@@ -56,19 +60,20 @@ class WorldEnv(gymnasium.Env):
         self.observation_space = observation_space(world, egocentric)
         self.action_space = gymnasium.spaces.Discrete(len(world.actions.all_names))
         self._begun = self._over = False
-        self._window = None
+        self._window: Window | None = None
 
     @property
-    def world(self):
+    def world(self) -> World:
         """The `neorl.World`."""
         return self._batch.world
 
     @property
-    def world_state(self):
+    def world_state(self) -> Any:
         """The state of the world, views that cannot be written to."""
         return self._batch.state_of(0)
 
-    def reset(self, *, seed=None, options=None):
+    def reset(self, *, seed: int | None = None,
+              options: Mapping[str, Any] | None = None) -> tuple[NDArray[np.float32], dict[str, Any]]:
         """Begin an episode.
 
         seed: an integer ≥ 0, or None to draw on. options: None, or {"run": k}, k ≥ 0, with a seed.
@@ -81,7 +86,7 @@ class WorldEnv(gymnasium.Env):
         self._begun, self._over = True, False
         return self._returned()[::4]
 
-    def step(self, action):
+    def step(self, action: int) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
         """Take an action.
 
         action: an integer in 0 … actions − 1.
@@ -105,7 +110,7 @@ class WorldEnv(gymnasium.Env):
         return (slots.observation[0].copy(), float(slots.reward[0]), bool(slots.terminated[0]),
                 bool(slots.truncated[0]), info)
 
-    def render(self):
+    def render(self) -> NDArray[np.uint8] | None:
         """A picture of the world, uint8 (500, 500, 3), north up, if the mode is "rgb_array"; else None.
 
         Raises `gymnasium.error.ResetNeeded` before `reset`.
@@ -122,7 +127,7 @@ class WorldEnv(gymnasium.Env):
         self._window.show(picture)
         return None
 
-    def close(self):
+    def close(self) -> None:
         """Close the window, if there is one."""
         if self._window is not None:
             self._window.close()
@@ -138,7 +143,8 @@ class WaterWorldEnv(WorldEnv):
     rules: the fields of `WaterWorld`. The others are those of `WorldEnv`.
     """
 
-    def __init__(self, render_mode=None, egocentric=True, continuing=True, **rules):
+    def __init__(self, render_mode: str | None = None, egocentric: bool = True, continuing: bool = True,
+                 **rules: Any) -> None:
         super().__init__(WaterWorld(**rules), render_mode, egocentric, continuing)
 
 
@@ -148,7 +154,8 @@ class ArenaEnv(WorldEnv):
     rules: the fields of `Arena`. The others are those of `WorldEnv`.
     """
 
-    def __init__(self, render_mode=None, egocentric=True, continuing=False, **rules):
+    def __init__(self, render_mode: str | None = None, egocentric: bool = True, continuing: bool = False,
+                 **rules: Any) -> None:
         super().__init__(Arena(**rules), render_mode, egocentric, continuing)
 
 
@@ -156,7 +163,7 @@ def checked_seed(seed, options):
     """The seed, and the number of the run of the options of a reset."""
     options = checks.instance("options", {} if options is None else options, Mapping)
     if set(options) - {"run"} or options and seed is None:
-        raise ValueError(f"options is {options!r}, allowed are None, and with a seed {{'run': k}}")
+        raise ValueError(f"options is {checks.shown(options)}, allowed are None, and with a seed {{'run': k}}")
     seed = None if seed is None else checks.integer("seed", seed, at_least=0)
     return seed, checks.integer("run", options.get("run", 0), at_least=0)
 

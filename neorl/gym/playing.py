@@ -5,9 +5,12 @@ and where things are in it. Any space in which near means similar will do, such 
 car. Rewards are recorded and not perceived: what the agent wants are its desires.
 """
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from neorl import checks
 from neorl.agents.agent import Agent
@@ -27,27 +30,29 @@ class Played:
     """
 
     learner: Learner
-    rewards: np.ndarray
-    terminated: np.ndarray
-    truncated: np.ndarray
+    rewards: NDArray[np.float64]
+    terminated: NDArray[np.bool]
+    truncated: NDArray[np.bool]
 
     @property
-    def ends(self):
+    def ends(self) -> NDArray[np.int64]:
         """int64 (episodes,): how many steps had been taken when each episode was over, except one that was cut off."""
         return 1 + np.flatnonzero(self.terminated | self.truncated)
 
     @property
-    def lengths(self):
+    def lengths(self) -> NDArray[np.int64]:
         """int64 (episodes,): the steps of each episode that was over."""
         return np.diff(self.ends, prepend=0)
 
     @property
-    def returns(self):
+    def returns(self) -> NDArray[np.float64]:
         """float64 (episodes,): the sum of the rewards of each episode that was over."""
         return np.diff(np.cumsum(self.rewards)[self.ends - 1], prepend=0.0)
 
 
-def play(agent, env, scene, *, steps, actions=None, commands=None, seed=0, **surroundings):
+def play(agent: Agent | Learner, env: Any, scene: Callable[[Any, dict[str, Any]], Scene], *, steps: int,
+         actions: Actions | None = None, commands: Sequence[Any] | None = None, seed: int = 0,
+         **surroundings: Any) -> Played:
     """Let an agent live and learn in a Gymnasium environment, and return what it `Played`.
 
     agent: an `Agent`, which begins knowing nothing, or a `Learner`, which goes on from what it knows.
@@ -66,7 +71,8 @@ def play(agent, env, scene, *, steps, actions=None, commands=None, seed=0, **sur
     checks.instance("env", env, gymnasium.Env)
     steps, seed = checks.integer("steps", steps, at_least=0), checks.integer("seed", seed, at_least=0)
     if not callable(scene):
-        raise ValueError(f"scene is {scene!r}, allowed are functions of (observation, info) that return a Scene")
+        raise ValueError(f"scene is {checks.shown(scene)}, allowed are functions of (observation, info) that "
+                         "return a Scene")
     if commands is None and not isinstance(env.action_space, gymnasium.spaces.Discrete):
         raise ValueError(f"commands is None, allowed with the action space {env.action_space} are the values that "
                          "env.step takes, one for each action")
@@ -77,12 +83,12 @@ def play(agent, env, scene, *, steps, actions=None, commands=None, seed=0, **sur
     learner = _learner(agent, actions, len(commands), len(first.position), seed, surroundings)
     names = learner.world.actions.all_names
     if len(commands) != len(names):
-        raise ValueError(f"commands is {commands!r}, allowed are {len(names)}, one for each of {names}")
+        raise ValueError(f"commands is {checks.shown(commands)}, allowed are {len(names)}, one for each of {names}")
     rewards, terminated, truncated = np.zeros(steps), np.zeros(steps, bool), np.zeros(steps, bool)
     learner.begin(first)
     for now in range(steps):
         observation, rewards[now], terminated[now], truncated[now], info = env.step(commands[learner.act()])
-        learner.observe(_seen(scene, observation, info))
+        learner.observe(_seen(scene, observation, info), float(rewards[now]))
         if (terminated[now] or truncated[now]) and now + 1 < steps:
             learner.begin(_seen(scene, *env.reset()))
     return Played(learner, rewards, terminated, truncated)
@@ -95,7 +101,7 @@ def _learner(agent, actions, n_actions, axes, seed, surroundings):
             raise ValueError("actions and surroundings are those of the Learner, allowed are none beside it")
         return agent
     if not isinstance(agent, Agent):
-        raise ValueError(f"agent is {agent!r}, allowed is an Agent or a Learner")
+        raise ValueError(f"agent is {checks.shown(agent)}, allowed is an Agent or a Learner")
     if actions is None:
         actions = Actions([str(number) for number in range(n_actions)], [(0.0,) * axes] * n_actions)
     return Learner(agent, actions=actions, seed=seed, **surroundings)

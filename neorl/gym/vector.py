@@ -6,9 +6,11 @@ of a seed is that of seed + i; an environment whose episode is over begins the n
 ``infos["final_obs"]``), or when ``reset(options={"reset_mask": mask})`` asks for it (`DISABLED`).
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from neorl import checks
 from neorl.extras import require
@@ -18,6 +20,7 @@ from neorl.gym.observation import observation_space
 from neorl.gym.rendering import frame
 from neorl.worlds.arena import Arena
 from neorl.worlds.waterworld import WaterWorld
+from neorl.worlds.world import World
 
 gymnasium = require("gymnasium", extra="gym")
 Mode = gymnasium.vector.AutoresetMode
@@ -35,10 +38,15 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
 
     metadata = {"render_modes": ["rgb_array"]}
 
-    def __init__(self, world, num_envs=1, max_episode_steps=None, autoreset_mode=Mode.NEXT_STEP, render_mode=None,
-                 egocentric=True, continuing=None):
+    def __init__(self, world: World, num_envs: int = 1, max_episode_steps: int | None = None,
+                 autoreset_mode: Any = Mode.NEXT_STEP, render_mode: str | None = None, egocentric: bool = True,
+                 continuing: bool | None = None) -> None:
         continuing = isinstance(world, WaterWorld) if continuing is None else continuing
-        self._mode = Mode(autoreset_mode)
+        try:
+            self._mode = Mode(autoreset_mode)
+        except ValueError:
+            raise ValueError(f"autoreset_mode is {checks.shown(autoreset_mode)}, allowed are "
+                             f"{', '.join(mode.value for mode in Mode)}") from None
         self._batch = Batch(world, num_envs, egocentric, continuing, self._mode is Mode.SAME_STEP, max_episode_steps)
         self.render_mode = checks.one_of("render_mode", render_mode, (None, *self.metadata["render_modes"]))
         self.metadata = {**self.metadata, "render_fps": world.fps, "autoreset_mode": self._mode}
@@ -51,23 +59,26 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
         self._begun = np.zeros(self.num_envs, bool)
 
     @property
-    def world(self):
+    def world(self) -> World:
         """The `neorl.World`."""
         return self._batch.world
 
     @property
-    def world_states(self):
+    def world_states(self) -> tuple[Any, ...]:
         """The states of the worlds, one for each environment, views that cannot be written to: a tuple."""
         return tuple(map(self._batch.state_of, range(self.num_envs)))
 
-    def reset(self, *, seed=None, options=None):
+    def reset(self, *, seed: int | Sequence[int] | None = None,
+              options: Mapping[str, Any] | None = None) -> tuple[NDArray[np.float32], dict[str, Any]]:
         """Begin an episode in every environment.
 
         seed: an integer ≥ 0, of which environment i takes seed + i; a list of one for each; or None to draw on.
         options: None, or {"run": k} as in `WorldEnv.reset`, and "reset_mask": bool (num_envs,), in which not all begin.
         Returns (observations: float32 (num_envs, numbers), infos). Raises ValueError for anything else.
         """
-        options = dict(checks.instance("options", {} if options is None else options, Mapping))
+        if not isinstance(options, Mapping | None):
+            raise ValueError(f"options is {checks.shown(options)}, allowed are None and dicts")
+        options = dict(options or {})
         chosen = self._mask(options.pop("reset_mask", np.ones(self.num_envs, bool)))
         if isinstance(seed, list | tuple):
             seeds = seed
@@ -76,20 +87,24 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
             seeds = [None if seed is None else first + i for i in range(self.num_envs)]
             super().reset(seed=first)
         if len(seeds) != self.num_envs:
-            raise ValueError(f"seed is {seed!r}, allowed are an integer ≥ 0, None, or {self.num_envs} of them")
+            raise ValueError(f"seed is {checks.shown(seed)}, allowed are an integer ≥ 0, None, or {self.num_envs} of "
+                             "them")
         checked = [checked_seed(each, options) for each in seeds]
         for i in np.flatnonzero(chosen):
-            seed_row(self, self._batch, i, *checked[i], self._begun[i])
+            its_seed, run = checked[i]
+            seed_row(self, self._batch, i, its_seed, run, self._begun[i])
         self._batch.begin(chosen)
         self._begun |= chosen
         return self._batch.slots.observation.copy(), self._infos(chosen)
 
     def _mask(self, mask):
         if not isinstance(mask, np.ndarray) or mask.dtype != bool or mask.shape != (self.num_envs,) or not mask.any():
-            raise ValueError(f"reset_mask is {mask!r}, allowed is an array of bool ({self.num_envs},), not all False")
+            raise ValueError(f"reset_mask is {checks.shown(mask)}, allowed is an array of bool ({self.num_envs},), "
+                             "not all False")
         return mask
 
-    def step(self, actions):
+    def step(self, actions: ArrayLike) -> tuple[NDArray[np.float32], NDArray[np.float64], NDArray[np.bool],
+                                                NDArray[np.bool], dict[str, Any]]:
         """Take an action in every environment.
 
         actions: integers (num_envs,), each in 0 … actions − 1.
@@ -102,10 +117,13 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
         over = slots.terminated | slots.truncated
         if not self._begun.all() or mode is Mode.DISABLED and over.any():
             raise gymnasium.error.ResetNeeded("step() came before reset(), allowed is step() in an episode")
-        given = np.asarray(actions)
+        try:
+            given = np.asarray(actions)
+        except ValueError:  # lists of several lengths
+            given = np.array(None)
         if (given.shape != (self.num_envs,) or given.dtype.kind not in "iu"
                 or not 0 <= given.min() <= given.max() < self.single_action_space.n):
-            raise ValueError(f"actions is {actions!r}, allowed are integers ({self.num_envs},) from 0 to "
+            raise ValueError(f"actions is {checks.shown(actions)}, allowed are integers ({self.num_envs},) from 0 to "
                              f"{self.single_action_space.n - 1}")
         slots.action[:] = given
         slots.begins[:] = over if mode is Mode.NEXT_STEP else False
@@ -146,8 +164,9 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
         return tuple(frame(self.world, state.scene) for state in self.world_states)
 
 
-def vector_waterworld(num_envs=1, max_episode_steps=None, autoreset_mode=Mode.NEXT_STEP, render_mode=None,
-                      egocentric=True, continuing=True, **rules):
+def vector_waterworld(num_envs: int = 1, max_episode_steps: int | None = None, autoreset_mode: Any = Mode.NEXT_STEP,
+                      render_mode: str | None = None, egocentric: bool = True, continuing: bool = True,
+                      **rules: Any) -> VectorWorldEnv:
     """Many tanks of `neorl.WaterWorld`: "neorl/WaterWorld-v0" of `gymnasium.make_vec`.
 
     rules: the fields of `WaterWorld`. The others are those of `VectorWorldEnv`, which it returns.
@@ -156,8 +175,9 @@ def vector_waterworld(num_envs=1, max_episode_steps=None, autoreset_mode=Mode.NE
                           continuing)
 
 
-def vector_arena(num_envs=1, max_episode_steps=None, autoreset_mode=Mode.NEXT_STEP, render_mode=None, egocentric=True,
-                 continuing=False, **rules):
+def vector_arena(num_envs: int = 1, max_episode_steps: int | None = None, autoreset_mode: Any = Mode.NEXT_STEP,
+                 render_mode: str | None = None, egocentric: bool = True, continuing: bool = False,
+                 **rules: Any) -> VectorWorldEnv:
     """Many times `neorl.Arena`: "neorl/Arena-v0" of `gymnasium.make_vec`.
 
     rules: the fields of `Arena`. The others are those of `VectorWorldEnv`, which it returns.

@@ -1,4 +1,7 @@
-"""Worlds for agents to live in: `WaterWorld` and `Arena`; and the rollout of an agent in any of them.
+"""Worlds for agents to live in, and the rollout of an agent in any of them.
+
+`WaterWorld` is that of the papers, an `Arena` has walls and places that matter. Three more are of other spaces: the
+joints of an `Arm`, the waters of a `Vessel` with a rudder, and the pool of a `WaterMaze`.
 
 **How to write a world.** A world is one file. It defines
 

@@ -41,6 +41,7 @@ def probes_with(constants):
             life.begin(parameters, constants, elsewhere, there)
             for e in range(state.desires.valence.shape[0]):  # recursion takes the agent's own of the step before
                 elsewhere.desires.valence[e] = state.desires.valence[e]
+                elsewhere.desires.worth[e] = state.desires.worth[e]
                 for action in range(len(constants.actions)):
                     elsewhere.desires.q[e, action] = state.desires.q[e, action]
             evaluate(parameters, constants, elsewhere, there)

@@ -14,6 +14,9 @@ from neorl.core.parameters import Parameters
 from neorl.core.state import State
 
 
+MOST_HITS = 32_767  # in a bin, that its type has room for
+
+
 @functools.cache
 def rollout_in(dynamics, constants):
     """The kernel `rollout` of agents with certain `neorl.core.constants.Constants` in a world of certain `Dynamics`."""
@@ -26,18 +29,19 @@ def rollout_in(dynamics, constants):
                 rewards: array("float32", "bins"), hits: array("int16", "bins", "kinds")) -> float:
         """Take the steps clock[0] … last_step − 1, adding what they pay to the bins of `rewards` and `hits`.
 
-        total: reward so far, to which theirs is added and returned. hits: things met of each kind.
+        total: reward so far, to which theirs is added and returned. hits: things met of each kind, up to `MOST_HITS`.
         """
         scene = world_state.scene
         for now in range(clock[0], last_step):
             action = life.act(parameters, constants, state, scene)
             reward, done = step(world_state, rules, action)
+            state.reward[0] = reward
             life.observe(parameters, constants, state, scene)
             total += reward
             interval = now // bin_steps
             rewards[interval] += np.float32(reward)
             for thing in range(scene.met.shape[0]):
-                if scene.met[thing] > 0:
+                if scene.met[thing] > 0 and hits[interval, scene.met[thing] - 1] < MOST_HITS:
                     hits[interval, scene.met[thing] - 1] += 1
             if done:
                 reset(world_state, rules)

@@ -49,7 +49,8 @@ def test_the_menu_has_the_agents_of_both_readings():
     assert AGENTS["Network D"] == calibrated == networks(Reading())["D"]
     assert AGENTS["Network D, to the letter"] == letter != calibrated
     groups = [(each["group"], name) for name, each in Explorer()._presets.items()]
-    assert [group for group, _ in groups] == 7 * ["Calibrated"] + 4 * ["To the letter"] + ["In the arena"]
+    assert [group for group, _ in groups] == 7 * ["Calibrated"] + 4 * ["To the letter"] + [
+        "Beyond the thesis", "In the arena"]
     assert all(name.endswith(", to the letter") == (group == "To the letter") for group, name in groups)
 
 

@@ -164,7 +164,7 @@ def of_my_own(scene, point):
 
 @pytest.mark.parametrize("make, message", [
     (lambda: Axis("smell"), "of is 'smell', allowed are 'position', 'velocity', 'objects', 'boundaries', 'landmarks'"),
-    (lambda: Axis("position", "colour"), "feature is 'colour', allowed are 'component', 'margin', 'length', 'd"),
+    (lambda: Axis("position", "colour"), "feature is 'colour', allowed are 'component', 'foveated', 'margin', "),
     *((lambda of=of: Axis(of, "margin", high=0.25), f"a margin of 0.25 of '{of}'") for of in VECTORS[1:]),
     (lambda: Axis("position", "margin", low=-1, high=0.6), "a margin of 0.6 of 'position': allowed are .* up to 0.5"),
     (lambda: Axis("position", "margin", low=-1, high=0.0), "a margin of 0.0 of 'position'"),

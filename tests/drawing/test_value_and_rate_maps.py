@@ -161,8 +161,8 @@ def test_a_rate_map_is_drawn_as_it_is_with_a_scale():
     (lambda: drawing.track(Run(place_cells([2]), TANK), 1e9), r"seconds is 1000000000.0, allowed are at most .* looks"),
     (lambda: drawing.track(Run(place_cells([2]), TANK), 1, index=1), "index is 1"),
     (lambda: drawing.rate_map(np.ones(3)), "track is .*, allowed is a Track"),
-    (lambda: drawing.rate_map(drawing.Track(np.ones((1, 2)), np.ones((1, 1)), 1.0), bins=0), "bins is 0"),
-    (lambda: drawing.rate_map(drawing.Track(np.ones((1, 2)), np.ones((1, 1)), 1.0), cell=-1), "cell is -1"),
+    (lambda: drawing.rate_map(drawing.Track(np.ones((1, 2)), np.ones((1, 1), int), 1.0), bins=0), "bins is 0"),
+    (lambda: drawing.rate_map(drawing.Track(np.ones((1, 2)), np.ones((1, 1), int), 1.0), cell=-1), "cell is -1"),
 ])
 def test_rates_of_what_there_is_not_are_refused(look, message):
     with pytest.raises(ValueError, match=message):

@@ -199,6 +199,33 @@ def test_networks_that_have_learned_nothing_are_not_compared():
     assert [claim.verdict for claim in judged] == ["not testable"] * 4
 
 
+def final(level, runs=20):
+    return level + np.random.default_rng(0).normal(0, 0.01, runs)
+
+
+@pytest.mark.parametrize("levels, seconds, expected", [
+    ((0.1, 0.2), 0.001, "reproduced"), ((0.1, 0.6), 0.001, "partly"), ((0.5, 0.6), 0.001, "not reproduced"),
+    ((0.5, 0.6), 0.1, "reproduced"),  # not in real time
+])
+def test_alternatives_fail_that_earn_less_or_compute_too_long(levels, seconds, expected):
+    others = {name: (final(level), seconds) for name, level in zip(("Q-learning", "DQN"), levels)}
+    claim = claims.judge_alternatives(others, {"weak": final(0.2), "best": final(0.4)}, final(0.1), 0.02)
+    assert claim.verdict == expected
+    assert claim.here.value == pytest.approx(levels[1] / 0.4, abs=0.02)
+    assert "The best alternative is DQN, and the thesis's best agent is best" in claim.detail
+
+
+def test_alternatives_are_compared_with_an_agent_that_has_learned():
+    claim = claims.judge_alternatives({"DQN": (final(0.5), 0.0)}, {"best": final(0.1)}, final(0.1), 0.02)
+    assert claim.verdict == "not testable"
+
+
+def test_an_alternative_that_earns_as_much_within_the_noise_leaves_room_for_the_claim():
+    others = {"DQN": (final(0.4)[::-1], 0.0)}
+    claim = claims.judge_alternatives(others, {"best": final(0.4)}, final(0.1), 0.02)
+    assert (claim.outcome, claim.undecided) == ("not reproduced", True)
+
+
 def playing(boards, brought, runs=20):
     """Runs on a board where the last green creep is worth 1, with so many resets and so many points for each."""
     result = replace(lives(np.zeros(1_000), runs), world=WaterWorld(win_reward=1.0))
@@ -368,10 +395,9 @@ def test_agents_that_have_earned_nothing_are_no_reason_to_divide_by_zero():
     assert {claim.outcome for claim in judged} <= {"reproduced", "partly", "not reproduced", "not testable"}
 
 
-def test_every_rule_is_named_in_the_statements_and_a_claim_without_one_is_open():
+def test_every_rule_is_named_in_the_statements():
     rules = {name for name in vars(claims) if name.startswith("judge_")}
-    assert {statement.rule for statement in STATEMENTS.values()} - {""} == rules
-    assert [name for name, statement in STATEMENTS.items() if not statement.rule] == ["C5"]
+    assert {statement.rule for statement in STATEMENTS.values()} == rules
 
 
 def test_every_statement_quotes_what_it_judges_and_demonstrations_stand_beside_the_claims():

@@ -108,6 +108,12 @@ def test_hits_are_kept_without_rewards(run):
     assert hits.sum() > 0 and paid == hits[:, 0].sum() - hits[:, 1].sum()
 
 
+def test_hits_are_counted_as_far_as_there_is_room_for_their_number(run):
+    hits = np.full((500, 2), 32_766, np.int16)
+    run.advance(5_000, hits=hits)
+    assert set(hits.ravel().tolist()) == {32_766, 32_767}
+
+
 @pytest.mark.parametrize("rewards", [np.zeros(200, np.float32)[::2], [0.0] * 100, np.zeros((100, 1), np.float32)])
 def test_bins_that_the_kernel_cannot_take_are_refused(run, rewards):
     with pytest.raises(ValueError, match="rewards is .* allowed is float32 from"):

@@ -525,10 +525,20 @@ def test_a_run_in_the_room_of_another_begins_with_nothing_and_is_the_same(agent)
     assert_equal(after, fresh)
 
 
-def test_a_run_after_that_of_another_agent_has_room_of_its_own():
-    before = Run(place_cells([14]), WaterWorld())
+def test_a_run_takes_over_the_room_of_a_larger_agent_and_is_the_same():
+    before = Run(multimodal([3, 14]), WaterWorld())
+    before.advance(5_000)
+    smaller = place_cells([13], learning=plain_rule(trace=5))
+    after, fresh = Run(smaller, WaterWorld(), after=before), Run(smaller, WaterWorld())
+    assert np.shares_memory(after.state.values.q, before.state.values.q) and not after.state.values.q.any()
+    assert after.advance(5_000) == fresh.advance(5_000)
+    assert_equal(after, fresh)
+
+
+def test_a_run_after_that_of_a_smaller_agent_has_room_of_its_own():
+    before = Run(place_cells([13]), WaterWorld())
     before.advance(5_000)
     knew = before.state.values.q.copy()
-    assert not np.shares_memory(Run(place_cells([13]), WaterWorld(), after=before).state.values.q,
+    assert not np.shares_memory(Run(place_cells([14]), WaterWorld(), after=before).state.values.q,
                                 before.state.values.q)
     np.testing.assert_array_equal(before.state.values.q, knew)

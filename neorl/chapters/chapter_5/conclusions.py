@@ -8,7 +8,7 @@
 """
 
 from neorl.evidence import report
-from neorl.evidence.report import CALIBRATED, LETTER, NOT_COMPUTED, OPEN
+from neorl.evidence.report import CALIBRATED, LETTER, NOT_COMPUTED
 from neorl.evidence.statements import CLAIMS, STATEMENTS
 from neorl.evidence.verdict import VERDICTS
 
@@ -28,7 +28,7 @@ def verdicts_by_reading(record):
 
 
 def overview(verdicts):
-    """How many claims have which verdict, how far each conclusion holds, and what is open, in Markdown."""
+    """How many claims have which verdict, and how far each conclusion holds, in Markdown."""
     lines = []
     for reading, found in verdicts.items():
         counts = {each: len(_with(each, found)) for each in VERDICTS}
@@ -37,7 +37,6 @@ def overview(verdicts):
     for title, names in CONCLUSIONS.items():
         held = "; ".join(f"{reading}, {_held(found, names)}" for reading, found in verdicts.items())
         lines.append(f"**{title}**: {held}.")
-    lines.append(f"{', '.join(_with(OPEN, verdicts[CALIBRATED]))} is open: no page has a rule for it yet.")
     return (f"The book lists {len(CLAIMS)} claims of the thesis, each judged by a rule that was fixed before the "
             "results. A conclusion holds *whole* if all its claims are reproduced, and *in part* if some are.\n\n"
             + "\n".join(f"- {line}" for line in lines))

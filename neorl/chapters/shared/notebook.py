@@ -5,6 +5,7 @@ import inspect
 
 from IPython import get_ipython
 from IPython.display import Markdown, display
+from matplotlib import pyplot as plt
 from matplotlib_inline.backend_inline import set_matplotlib_formats
 
 from neorl import checks
@@ -27,6 +28,8 @@ def begin(runs, steps, seed, fewest_steps=1, **others):
         if name not in known:
             raise ValueError(f"parameter {name} is unknown, allowed are {', '.join(known)}")
     set_matplotlib_formats("svg")
+    plt.switch_backend(plt.get_backend())  # which it would be only by the first figure
+    plt.uninstall_repl_displayhook()  # it draws all figures of a cell, and to be shown they are drawn once more
     use_style()
     if runs < RUNS_FOR_A_VERDICT:
         display(Markdown(f"> **{runs} runs: no verdicts.** This page is a first look. Verdicts need "

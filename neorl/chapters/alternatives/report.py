@@ -1,0 +1,188 @@
+"""What the page on alternatives says of what it has found, in Markdown, and the verdict on claim C5.
+
+`earned` is {name: `Earned`} of one board, as `neorl.chapters.alternatives.contestants.compete` has it, and `boards` is
+{creeps: earned}.
+"""
+
+import numpy as np
+
+from neorl.chapters.alternatives import deep_settings, search
+from neorl.chapters.alternatives.contestants import (BEYOND, DEEP, PHYSICS, READINGS, TABLES, THESIS,
+                                                     after_long)
+from neorl.chapters.alternatives.living import BOARDS
+from neorl.chapters.alternatives.stored import FOLDER, chosen, read_search
+from neorl.chapters.shared.wording import listed, number, table
+from neorl.evidence.claims import RUNS_FOR_A_VERDICT, judge_alternatives
+from neorl.evidence.statistics import estimate
+
+LEVELS = (0.5, 1, 2, 3)  # reward per second
+FINAL = 0.8  # of a run, from where on its reward is final
+WINDOW = 0.1  # of a run, whose mean reward has to reach a level
+LATE = 50_000  # steps at the end of a long run
+
+
+def final(each):
+    """Final reward per second of an `Earned`: float64 (runs,)."""
+    return each.rate(FINAL * each.steps, each.steps)
+
+
+def best_of(earned, *kinds):
+    """The name of the one of some kinds that earns most finally, or None if there is none."""
+    names = [name for name, each in earned.items() if each.kind in kinds]
+    return max(names, key=lambda name: final(earned[name]).mean(), default=None)
+
+
+def shown(earned):
+    """What a figure shows: all, but of the thesis's agents only the best under each reading."""
+    best = {best_of(_under(earned, reading), THESIS) for reading in READINGS}
+    return {name: each for name, each in earned.items() if each.kind != THESIS or name in best}
+
+
+def judge(earned, steps):
+    """Claim C5 under each reading, {reading: `Claim`}.
+
+    Those learners count that have lived for so many steps, and in enough runs for a verdict, or as many as the others.
+    """
+    enough = min(earned["Brownian motion"].runs, RUNS_FOR_A_VERDICT)
+    alternatives = {name: (final(each), each.seconds) for name, each in earned.items()
+                    if each.kind in (TABLES, DEEP) and each.steps == steps and each.runs >= enough}
+    return {reading: judge_alternatives(alternatives,
+                                        {name: final(each) for name, each in _under(earned, reading).items()},
+                                        final(earned["Brownian motion"]), 1 / BOARDS[3].fps) for reading in READINGS}
+
+
+def _under(earned, reading):
+    return {name: each for name, each in earned.items() if each.kind == THESIS and name.endswith(reading)}
+
+
+def summary(boards, claims):
+    """The page's result in a paragraph. claims: as `judge` returns them."""
+    parts = []
+    for creeps, earned in boards.items():
+        tabular, deep, thesis = (best_of(earned, kind) for kind in (TABLES, DEEP, THESIS))
+        ours = best_of(earned, BEYOND)
+        told = [f"{_named(earned, tabular)}" if tabular else "", _named(earned, deep) if deep else "",
+                f"{_named(earned, ours)}, the agent of this part of the book" if ours else ""]
+        parts.append(f"With {creeps} creeps the thesis's best agent, {thesis}, finally earns {_rate(earned, thesis)} "
+                     f"per second, and others earn {'; '.join(part for part in told if part)}. Controllers that know "
+                     f"the physics earn {_rate(earned, 'nearest green')} and {_rate(earned, 'PD')}, a planner "
+                     f"{_rate(earned, 'planner')}.")
+    verdicts = "; ".join(f"{reading}, {claim.verdict}" for reading, claim in claims.items())
+    return f"**{' '.join(parts)} That no other method succeeds (claim C5): {verdicts}.**"
+
+
+def _named(earned, name):
+    return f"{_rate(earned, name)} ({name})"
+
+
+def _rate(earned, name):
+    return number(final(earned[name]).mean())
+
+
+def results_table(earned):
+    """Reward in thirds, steps to levels, time and memory of each contestant."""
+    rows = [[name, each.runs, *(number(part.mean()) for part in thirds(each)[:2]), _level(each),
+             *(_steps_to(each, level) for level in LEVELS), _microseconds(each), f"{each.kilobytes:,.3g}"
+             if each.kilobytes < 1_000 else f"{each.kilobytes:,.0f}"] for name, each in earned.items()]
+    return table(["", "runs", "first third", "second", "last", *(f"to {level:g}" for level in LEVELS), "µs", "kB"],
+                 rows)
+
+
+def thirds(each):
+    """Reward per second in each third of the runs of an `Earned`: three times float64 (runs,)."""
+    return [each.rate(part * each.steps / 3, (part + 1) * each.steps / 3) for part in range(3)]
+
+
+def _level(each):
+    return estimate(np.mean, thirds(each)[2])
+
+
+def _steps_to(each, level):
+    if each.kind == PHYSICS:
+        return "at once" if each.rate(0, each.steps).mean() >= level else "–"
+    steps = np.median(each.steps_to(level, WINDOW * each.steps))
+    return f"{steps / 1_000:,.0f}" if np.isfinite(steps) else "–"
+
+
+def _microseconds(each):
+    return f"{each.seconds * 1e6:.2g}" if each.seconds < 1e-4 else f"{each.seconds * 1e6:,.0f}"
+
+
+def long_table(boards):
+    """What learners earn at the end of the long runs that are stored, beside that of the page's."""
+    rows = []
+    for creeps, earned in boards.items():
+        kinds = {name: each.kind for name, each in earned.items() if each.kind != PHYSICS}
+        for name, each in after_long(creeps, kinds).items():
+            rows.append([creeps, name, each.runs, *(estimate(np.mean, each.rate(end - LATE, end))
+                                                    for end in (150_000, each.steps // 2, each.steps))])
+    return table(["creeps", "", "runs", "before step 150,000", "300,000", "600,000"], rows)
+
+
+def search_table():
+    """How many settings were tried for each method, what they earned, and which one is used."""
+    rows = []
+    for file, setting in (("search.csv", lambda *at: search.setting_of(*at)._asdict()),
+                          ("deep_search.csv", deep_settings.settings_of)):
+        tried = read_search(FOLDER / file)
+        for method, best in chosen(tried).items():
+            rates = [row["rate"] for row in tried if row["method"] == method]
+            used = ", ".join(f"{name.replace('_', ' ')} {_short(value)}"
+                             for name, value in setting(method, best).items())
+            rows.append([method, len(rates), number(np.median(rates)), number(max(rates)), used])
+    return table(["", "tried", "median", "best", "used"], rows)
+
+
+def search_in_words():
+    """How large the search for settings was."""
+    return (f"For each tabular learner and for PD {search.SETTINGS} settings were drawn, and each was given "
+            f"{search.RUNS} runs of {search.STEPS:,} steps. Deep learners take thousands of times as long, so for each "
+            f"of them {deep_settings.SETTINGS} settings were drawn, and each was given one run of "
+            f"{deep_settings.SEARCH_STEPS:,} steps.")
+
+
+def _short(value):
+    return ("no", "yes")[value] if isinstance(value, bool) else f"{value:.3g}" if isinstance(value, float) else value
+
+
+def meaning(boards):
+    """What follows from the comparison, as a list: on the claim, on heads, on sample efficiency and on what is left."""
+    lines = [_over_the_thesis(boards[3]), _heads(boards), _pace(boards[3]), _distance(boards)]
+    return "\n".join(f"- {line}" for line in lines)
+
+
+def _over_the_thesis(earned):
+    best = final(earned[best_of(earned, THESIS)]).mean()
+    more = [name for name, each in earned.items() if each.kind in (TABLES, DEEP) and final(each).mean() > best]
+    return (f"**Others can do this.** With three creeps {len(more)} of the learners that stand beside the thesis's "
+            f"finally earn more than its best agent does: {listed(more)}.")
+
+
+def _heads(boards):
+    lines = []
+    for creeps, earned in boards.items():
+        heads, joint, whole = (number(final(earned[name]).mean()) for name in ("hybrid reward", "joint cells",
+                                                                              "monolithic"))
+        lines.append(f"with {creeps} creeps they earn {heads} per second by a head for each creep, {joint} by joint "
+                     f"cells and {whole} by the whole scene as one state")
+    return f"**What counts is the state.** Tabular learners all learn by the same rule, and finally {'; '.join(lines)}."
+
+
+def _pace(earned):
+    level = LEVELS[0]
+    taken = {name: np.median(each.steps_to(level, WINDOW * each.steps)) for name, each in earned.items()
+             if each.kind in (TABLES, DEEP, THESIS, BEYOND)}
+    order = sorted((name for name in taken if np.isfinite(taken[name])), key=taken.get)
+    told = listed([f"{name} {taken[name] / 1_000:,.0f}" for name in order])
+    return (f"**Sample efficiency.** Thousands of steps until half of the runs have reached {level} per second with "
+            f"three creeps: {told}. The others do not reach it.")
+
+
+def _distance(boards):
+    lines = []
+    for creeps, earned in boards.items():
+        best = best_of(earned, TABLES, DEEP, BEYOND)
+        share = {name: 100 * final(earned[best]).mean() / final(earned[name]).mean() for name in ("PD", "planner")}
+        lines.append(f"with {creeps} creeps the best learner, {best}, earns {share['PD']:.0f} % of what PD "
+                     f"does, and {share['planner']:.0f} % of what the planner does")
+    return f"**There is room.** Finally, {'; '.join(lines)}."

@@ -1,0 +1,58 @@
+"""What the page on the forager draws."""
+
+import numpy as np
+
+from neorl.chapters.beyond_agents.experiments import PARTS, THESIS, hits_per_second, last_third
+from neorl.drawing.curves import draw_curves, draw_proficiency
+from neorl.drawing.style import INK, axes_or_new
+from neorl.evidence.statistics import estimate
+
+
+def draw_learning(lived):
+    """Reward per second while learning: the forager beside the thesis's agent and the bare one."""
+    return draw_proficiency({"forager": lived.way[f"+ {PARTS[-1]}"], "contacts alone": next(iter(lived.way.values())),
+                             THESIS: lived.thesis[THESIS]})
+
+
+def draw_long(lived):
+    """Reward per second of the forager over the long runs, by the number of creeps."""
+    return draw_proficiency({f"{creeps} creeps": result for creeps, result in lived.long.items()})
+
+
+def draw_parts(lived, ax=None):
+    """The last third's reward per second on the way, and of the whole without each part: a row a part."""
+    axes = axes_or_new(ax, figsize=(4.9, 4.2))
+    rows = np.arange(len(lived.way))
+    way = [estimate(np.mean, last_third(each)) for each in lived.way.values()]
+    axes.errorbar([each.value for each in way], rows, xerr=_bars(way), fmt="o", color="#3e6ad1", label="on the way")
+    without = [estimate(np.mean, last_third(lived.without[part])) for part in PARTS]
+    axes.errorbar([each.value for each in without], rows[1:], xerr=_bars(without), fmt="D", color="#b46411",
+                  label="the whole without it")
+    axes.axvline(way[-1].value, color=INK, linewidth=0.7)
+    axes.set_yticks(rows, list(lived.way))
+    axes.invert_yaxis()
+    axes.set_xlabel("reward per second, last third")
+    axes.legend(frameon=False, fontsize=9, loc="lower left")
+    return axes
+
+
+def _bars(estimates):
+    """What errorbar takes of estimates: (2, rows)."""
+    return np.array([[each.value - each.low, each.high - each.value] for each in estimates]).T
+
+
+def draw_fear(middles, fears):
+    """Fear by approach, with the line of a fear that were as high as the approach."""
+    known = np.isfinite(fears).all(axis=0)
+    axes = draw_curves(middles[known], {"fear by avoidance": fears[:, known]}, "approach", "fear")
+    axes.plot([0, 1], [0, 1], color=INK, linewidth=0.7)
+    axes.set_xlim(0, 1)
+    return axes
+
+
+def draw_revalued(lived):
+    """Creeps met per second, by kind, with a line where red becomes worth as much as green."""
+    minutes, rates = hits_per_second(lived.revalued)
+    axes = draw_curves(minutes, rates, "simulated minutes", "creeps per second")
+    axes.axvline(lived.revalued.seconds / 120, color=INK, linewidth=0.7)
+    return axes

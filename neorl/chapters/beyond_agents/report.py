@@ -1,0 +1,101 @@
+"""What the page on the forager says of its results, in Markdown."""
+
+import numpy as np
+
+from neorl.chapters.beyond_agents.experiments import BARE, PARTS, TARGETS, THESIS, last_third, reached
+from neorl.chapters.beyond_agents.search import RANGES, read_record, score_of
+from neorl.chapters.shared.wording import listed, number, table
+from neorl.evidence.statistics import difference, estimate
+
+
+def interval(each):
+    """An `Estimate` as text."""
+    return f"{number(each.value)} ({number(each.low)} to {number(each.high)})"
+
+
+def mean_of(rates):
+    """The `Estimate` of a mean over runs."""
+    return estimate(np.mean, rates)
+
+
+def summary(lived):
+    """The page's result in a paragraph."""
+    found = {name: mean_of(rates) for name, rates in reached(lived).items()}
+    met = [name for name, each in found.items() if each.value >= TARGETS[name][3]]
+    missed = [f"{name} ({number(found[name].value)}, aim {TARGETS[name][3]})" for name in TARGETS if name not in met]
+    thesis, ours = (mean_of(last_third(each)) for each in (lived.thesis[THESIS], lived.way[f"+ {PARTS[-1]}"]))
+    parts = {part: mean_of(last_third(result)).value for part, result in lived.without.items()}
+    most = sorted(parts, key=parts.get)[:3]
+    return (f"**The forager earns {interval(ours)} per second over the last third of the runs, while it learns; the "
+            f"best agent of the thesis earns {interval(thesis)} in the calibrated reading.** It meets {len(met)} of "
+            f"{len(TARGETS)} aims" + (f"; missed: {listed(missed)}" if missed else "") + ". It loses most without "
+            f"{', '.join(f'{part} ({number(parts[part])})' for part in most)}. It has no network of neurons, no replay "
+            "and no model, and passes through its experience once; elements that are moved or revalued need no "
+            "retraining.")
+
+
+def target_table(lived):
+    """The aims, and what was reached on runs that took no part in the search."""
+    return table(["aim, reward per second while learning", "at least", "reached (95 % interval)", "met"],
+                 [[name, TARGETS[name][3], interval(each), "●" if each.low >= TARGETS[name][3] else
+                   "◐" if each.value >= TARGETS[name][3] else "○"]
+                  for name, each in ((name, mean_of(rates)) for name, rates in reached(lived).items())])
+
+
+def part_table(lived):
+    """What each part adds on the way, and what its absence costs the whole."""
+    rows, before = [], lived.way[BARE]
+    whole = lived.way[f"+ {PARTS[-1]}"]
+    for part in PARTS:
+        after = lived.way[f"+ {part}"]
+        gained = estimate(difference, last_third(after), last_third(before))
+        lost = estimate(difference, last_third(lived.without[part]), last_third(whole))
+        rows.append([part, interval(gained), interval(lost)])
+        before = after
+    return table(["part", "adds on the way", "its absence changes the whole by"], rows)
+
+
+def search_in_words():
+    """How much was searched, and what came of it."""
+    tried = read_record()
+    best = tried[0]
+    spread = [score_of(row) for row in tried]
+    return (f"{len(tried)} settings of {len(RANGES)} numbers and of the resolutions were tried by differential "
+            f"evolution; their scores lie between {number(min(spread))} and {number(max(spread))}, half of them above "
+            f"{number(float(np.median(spread)))}. The best has the resolutions "
+            f"{listed(map(str, best['resolutions']))} and {', '.join(f'{name} {best[name]:g}' for name in RANGES)}, "
+            f"and earned {number(best['with_3'])} per second with 3 creeps, {number(best['with_8'])} with 8 and "
+            f"{number(best['late'])} late, on the runs that it was chosen by.")
+
+
+def revalued_in_words(lived):
+    """What the agents meet before and after red is worth as much as green."""
+    bins = lived.revalued.hits.shape[1]
+    seconds = lived.revalued.seconds / 2
+    before, after = (lived.revalued.hits[:, part].sum(axis=1) / seconds
+                     for part in (slice(0, bins // 2), slice(bins // 2, bins)))
+    return (f"Up to half-time the agents meet {number(before[:, 0].mean())} green and "
+            f"{number(before[:, 1].mean())} red creeps per second; from then on, with nothing learned anew, "
+            f"{number(after[:, 0].mean())} green and {number(after[:, 1].mean())} red ones.")
+
+
+def mean_fear(fears):
+    """The mean over runs (runs, bins), not a number where none has any."""
+    known = np.isfinite(fears)
+    total = np.where(known, fears, 0.0).sum(axis=0)
+    return np.where(known.any(axis=0), total / np.maximum(known.sum(axis=0), 1), np.nan)
+
+
+def fear_in_words(middles, fears):
+    """How fear depends on approach."""
+    mean = mean_fear(fears)
+    half, high = mean[np.abs(middles - 0.5).argmin()], np.nanmax(mean)
+    return (f"Where the approach is worth half a contact, fear is {number(float(half))}; at its highest it is "
+            f"{number(float(high))}. A fear that were linear in approach would be "
+            f"{number(float(high * 0.5 / middles[np.nanargmax(mean)]))} there.")
+
+
+def cost_in_words(cost):
+    """What the forager costs."""
+    return (f"A step of world and agent takes {number(cost.microseconds, 1)} µs on one core of this machine. The agent "
+            f"holds {cost.held:,.0f} KiB of values, of which it has used {cost.used:,.0f} KiB.")

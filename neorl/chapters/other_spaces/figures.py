@@ -1,0 +1,219 @@
+"""The figures of the page: worlds from above with what an agent does there, beside what agents learn.
+
+Functions that draw a world take `ax`, or make a new board; those that draw a pair of panels return both.
+"""
+
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.patches import Circle, Rectangle
+
+from neorl.chapters.other_spaces import birds, hill, lives, minds, pool
+from neorl.core.geometry import TAU
+from neorl.drawing.boards import as_board, board_or_new
+from neorl.drawing.curves import draw_curves
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, axes_or_new, width_of_figures
+from neorl.evidence.statistics import estimate, probability_of_improvement
+
+SEEN = 12  # postures of an arm that are drawn on its way to a target
+BIRD = 0.05  # half the length of a bird's body, as a share of the square
+
+
+def pair(widths=(1, 1.25)):
+    """Two panels side by side, the left one a board."""
+    width = 1.5 * width_of_figures()
+    figure, (left, right) = plt.subplots(1, 2, figsize=(width, 0.42 * width), width_ratios=widths, layout="constrained")
+    return as_board(left), right
+
+
+def draw_arms(reached, seen):
+    """An arm of two links on its way to two targets, and targets and obstacles met by both arms over their runs.
+
+    reached: of `lives.reach`. seen: of `lives.watch`, with an arm of two links.
+    """
+    left, right = pair()
+    draw_reaching(seen, left)
+    minutes = lives.curve(reached[2, "agent"])[0]
+    curves = {f"{links} links{name}": lives.curve(reached[links, key])[1]
+              for links in (2, 3) for key, name in (("agent", ""), ("random", ", random"))}
+    draw_curves(minutes, curves, "simulated minutes", "reward per second", right)
+    return left, right
+
+
+def draw_reaching(seen, ax=None, targets=2):
+    """Postures of an arm until it has met so many targets, later ones darker, with the targets and the obstacle."""
+    axes = board_or_new(ax)
+    axes.set(xlim=(-1.15, 1.15), ylim=(1.15, -1.15))
+    ends = [at for at, (_, met) in enumerate(seen) if met][: targets + 1]
+    begin, end = (ends[0] + 1, ends[-1]) if len(ends) > 1 else (0, len(seen))
+    shown = np.linspace(begin, end - 1, SEEN * targets).astype(int)
+    for rank, at in enumerate(shown):
+        joints = joints_of(seen[at][0].scene.position)
+        axes.plot(*joints.T, color=AGENT, alpha=0.15 + 0.6 * rank / len(shown), linewidth=1.8)
+        axes.plot(*joints[-1], marker="o", markersize=3, color=AGENT)
+    for last in ends[1:]:
+        axes.add_patch(Circle(seen[last - 1][0].point[0], lives.ARMS[2].radius, facecolor=GREEN, alpha=0.5))
+        axes.text(*seen[last - 1][0].point[0], "+", color=INK, ha="center", va="center", weight="bold")
+    for obstacle in {tuple(seen[at][0].point[1]) for at in shown}:
+        axes.add_patch(Circle(obstacle, lives.ARMS[2].radius, facecolor=RED, alpha=0.5))
+        axes.text(*obstacle, "−", color=INK, ha="center", va="center", weight="bold")
+    axes.plot(0, 0, marker="s", markersize=6, color=INK)
+    return axes
+
+
+def joints_of(posture):
+    """Where the base, the joints and the hand of the arm with links of equal length are: float64 (links + 1, 2)."""
+    angles = TAU * np.cumsum(posture)
+    ways = np.column_stack([np.cos(angles), np.sin(angles)]) / len(posture)
+    return np.concatenate([np.zeros((1, 2)), np.cumsum(ways, axis=0)])
+
+
+def draw_vessel(sailed, seen):
+    """A vessel's track among others, and what pilots earn over their runs.
+
+    sailed: of `lives.sail`. seen: of `lives.watch`.
+    """
+    left, right = pair()
+    draw_track(seen, left)
+    minutes = lives.curve(sailed["radar"])[0]
+    draw_curves(minutes, {name: lives.curve(result)[1] for name, result in sailed.items()}, "simulated minutes",
+                "reward per second", right)
+    return left, right
+
+
+def draw_track(seen, ax=None):
+    """The track of a vessel, the waypoints that it meets, and the tracks of the others."""
+    axes = board_or_new(ax)
+    axes.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
+    things = np.array([state.scene.things for state, _ in seen])
+    for track in things[:, 1:].swapaxes(0, 1):
+        leaps = np.flatnonzero(np.abs(np.diff(track, axis=0)).max(axis=1) > 0.05) + 1
+        for part in np.split(track, leaps):
+            axes.plot(*part.T, color=RED, linewidth=0.8, linestyle="--")
+            axes.plot(*part[-1], marker="D", markersize=4, color=RED)
+    track = np.array([state.scene.position for state, _ in seen])
+    axes.plot(*track.T, color=AGENT, linewidth=1.6)
+    axes.annotate("", track[-1], track[-4], arrowprops={"arrowstyle": "-|>", "color": AGENT})
+    for number, at in enumerate([at for at, (_, met) in enumerate(seen) if met and at > 0], 1):
+        place = seen[at - 1][0].scene.things[0]
+        axes.add_patch(Circle(place, lives.WATERS.radius, facecolor=GREEN, alpha=0.5))
+        axes.text(*place, str(number), color=INK, ha="center", va="center_baseline")
+    return axes
+
+
+def draw_pool(swum, paths):
+    """Paths of a swimmer's first and second trial of a day, and seconds to the platform over the days.
+
+    swum: of `pool.swim`. paths: (first, second), float64 (steps, 2) each.
+    """
+    left, right = pair()
+    draw_paths(paths, left)
+    trials = np.arange(pool.DAYS * pool.TRIALS_A_DAY) + 0.5
+    draw_curves(trials / pool.TRIALS_A_DAY, {
+        **{name: each.reshape(len(each), -1) for name, each in swum["moved"].items()},
+        "neoRL, fixed": swum["fixed"]["neoRL"].reshape(len(swum["fixed"]["neoRL"]), -1)}, "days",
+        "seconds to the platform", right)
+    right.set_ylim(0, None)
+    for day in range(1, pool.DAYS):
+        right.axvline(day, color=INK, linewidth=0.4)
+    return left, right
+
+
+def draw_paths(paths, ax=None):
+    """The pool with the paths of trials, from the rim to the platform where the last one ends."""
+    axes = board_or_new(ax)
+    axes.add_patch(Circle((0.5, 0.5), 0.5, fill=False, edgecolor=INK, linewidth=1.4))
+    for number, (path, colour) in enumerate(zip(paths, (INK, AGENT)), 1):
+        axes.plot(*path.T, color=colour, linewidth=1.0 if number == 1 else 2.0)
+        axes.text(*path[0], f" {number}", color=colour, weight="bold")
+    axes.add_patch(Circle(pool.MOVED.places[-1], pool.MOVED.radius, facecolor=GREEN, alpha=0.6))
+    return axes
+
+
+def draw_birds(asked, paths):
+    """The space of birds with the ways to some of them, and how many times the fewest steps questions take.
+
+    asked: of `birds.ask`. paths: float64 (steps, 2) each, of `birds.path`.
+    """
+    left, right = pair((1, 1))
+    draw_space(paths, left)
+    draw_rows({name: estimate(np.mean, each.mean(axis=1)) for name, each in asked.items()}, "times the fewest steps",
+              right)
+    right.set_xscale("log")
+    right.axvline(1, color=INK, linewidth=0.7)
+    return left, right
+
+
+def draw_space(paths, ax=None):
+    """The space of birds: those with a name, some others, and ways between them."""
+    axes = board_or_new(ax)
+    axes.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
+    for path in paths:
+        axes.plot(*path.T, color=AGENT, linewidth=1.0, alpha=0.6)
+    for name, bird in birds.NAMED.items():
+        draw_bird(bird, axes, GREEN)
+        axes.text(bird[0] - 0.04, bird[1] - 0.04, name, color=INK, ha="center", va="bottom", fontsize=8)
+    for bird in birds.NAMELESS:
+        draw_bird(bird, axes, INK)
+    axes.text(0.5, 1.11, "neck →", color=INK, ha="center", va="top")
+    axes.text(-0.03, 0.5, "legs →", color=INK, ha="right", va="center", rotation=270)
+    return axes
+
+
+def draw_bird(bird, axes, colour):
+    """A bird where it lies in its space, its neck and legs as long as that place says."""
+    (x, y), (neck, legs) = bird, 0.02 + 0.08 * np.array(bird)
+    axes.plot([x - BIRD / 2, x + BIRD / 2], [y, y], color=colour, linewidth=5, solid_capstyle="round")
+    axes.plot([x + BIRD / 2, x + BIRD / 2 + neck / 3], [y, y - neck], color=colour, linewidth=1.6)
+    axes.plot(x + BIRD / 2 + neck / 3, y - neck, marker="o", markersize=3, color=colour)
+    for foot in (-0.01, 0.01):
+        axes.plot([x + foot, x + foot], [y, y + legs], color=colour, linewidth=1.2)
+
+
+def draw_car(driven, learner):
+    """What a driver has learned, in the plane of place and velocity, and the steps of an episode as it learns.
+
+    driven: of `hill.drive`. learner: a driver that has learned, a `neorl.Learner`.
+    """
+    left, right = pair()
+    draw_pushes(learner, left)
+    decisions = (np.arange(hill.POINTS) + 1) * hill.DECISIONS / hill.POINTS
+    draw_curves(decisions, driven, "decisions", "steps of an episode", right)
+    return left, right
+
+
+def draw_pushes(learner, ax=None):
+    """Where a driver pushes left and right, by cell of place (rightward) and velocity (upward); empty: not known."""
+    axes = axes_or_new(ax)
+    q = learner.q(0)
+    goals = [minds.COLUMNS - 1 + minds.COLUMNS * row for row in range(minds.ROWS)]
+    value = q[:, :, goals].sum(axis=2)
+    push = np.where(value.max(axis=1) > 0, value[:, 2] - value[:, 0], np.nan).reshape(minds.ROWS, minds.COLUMNS)
+    axes.axis("on")
+    axes.set(aspect="auto", xlim=minds.TRACK, ylim=minds.SPEEDS, xlabel="place", ylabel="velocity")
+    for row in range(minds.ROWS):
+        for column in range(minds.COLUMNS):
+            if np.isfinite(push[row, column]):
+                right = push[row, column] > 0
+                x = minds.TRACK[0] + (column + 0.5) * (minds.TRACK[1] - minds.TRACK[0]) / minds.COLUMNS
+                y = minds.SPEEDS[0] + (row + 0.5) * (minds.SPEEDS[1] - minds.SPEEDS[0]) / minds.ROWS
+                axes.plot(x, y, marker=">" if right else "<", markersize=5, color=CURVES[0] if right else CURVES[1])
+    return axes
+
+
+def draw_worlds(scores, ax=None):
+    """How probably a run of an agent beats one at random, in each world. scores: of `scores.of_each_world`."""
+    axes = draw_rows({world: probability_of_improvement(*each) for world, each in scores.items()},
+                     "probability that a run beats one at random", ax)
+    axes.set_xlim(0, 1.04)
+    axes.axvline(0.5, color=INK, linewidth=0.7)
+    return axes
+
+
+def draw_rows(estimates, label, ax=None):
+    """Values with their intervals, a row each: {name: `Estimate`}."""
+    axes = axes_or_new(ax, figsize=(width_of_figures(), 0.4 * len(estimates) + 0.8))
+    for row, (name, (value, low, high)) in enumerate(estimates.items()):
+        axes.plot(value, row, marker="o", color=CURVES[0])
+        axes.plot([low, high], [row, row], color=CURVES[0])
+    axes.set(yticks=range(len(estimates)), yticklabels=list(estimates), ylim=(len(estimates) - 0.5, -0.5), xlabel=label)
+    return axes

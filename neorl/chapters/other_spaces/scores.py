@@ -1,0 +1,31 @@
+"""One number a run for each world of the page, of its agent and of the same agent acting at random: more is better."""
+
+import numpy as np
+
+from neorl.evidence.verdict import FINAL
+
+LATER = slice(4, None)  # the days in the pool that count, when something can have been learned
+
+
+def of_each_world(reached, sailed, swum, asked, driven):
+    """{world: (agent float64 (runs,), random float64 (runs,))}, from what the modules of the page return.
+
+    Of arms and the vessel reward per second in the last fifth. Of the pool, with the platform moved, the seconds of the
+    trials after the first of each later day; of birds how many times the fewest steps a question takes; of the car the
+    steps of an episode in the last quarter; these three with a minus sign.
+    """
+    return {"arm of two links": _rates(reached[2, "agent"], reached[2, "random"]),
+            "arm of three links": _rates(reached[3, "agent"], reached[3, "random"]),
+            "vessel": _rates(sailed["radar"], sailed["random"]),
+            "water maze": tuple(-swum["moved"][name][:, LATER, 1:].mean(axis=(1, 2)) for name in ("neoRL", "random")),
+            "birds": tuple(-asked[name].mean(axis=1) for name in ("one map", "random")),
+            "mountain car": tuple(-driven[name][:, -2:].mean(axis=1) for name in ("neoRL", "random"))}
+
+
+def seconds_at_a_new_place(swum, swimmer):
+    """Seconds of the second trial of each later day, with the platform moved: float64 (runs,)."""
+    return swum["moved"][swimmer][:, LATER, 1].mean(axis=1)
+
+
+def _rates(*results):
+    return tuple(np.asarray(result.rate(*FINAL)) for result in results)

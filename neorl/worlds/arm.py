@@ -1,0 +1,193 @@
+"""A robot arm of two or three links, whose hand reaches for targets and keeps off obstacles; its space is its joints'.
+
+1. The base stands still. The angle of the first joint is that of the first link to the x axis, and the angle of every
+   other joint that of its link to the link before; in turns, 0 ≤ angle < 1, closed on themselves. All links together
+   are 1 long.
+2. An action adds `PUSH` turns a second to the velocity of one joint, or takes as much away. Then each joint turns by
+   velocity · dt, and keeps `DRAG` of its velocity. Idleness adds nothing.
+3. A target, or an obstacle, is the point where the hand is in some posture. The scene has the posture: the arm's own as
+   the position, that of each point as the place of a thing. The hand can reach a point in other postures, too.
+4. A point is met when the hand is within `radius` of it. That pays 1 for a target and −1 for an obstacle, and a fresh
+   point of the same kind takes its place: of a posture whose angles are each drawn evenly, and drawn again as long as
+   the point is within two radii of the hand.
+5. The arm starts at rest, stretched along the x axis, among fresh points. There is no end.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from neorl import checks
+from neorl.core.geometry import TAU
+from neorl.core.kernel import array, kernel
+from neorl.core.scene import Actions, Scene
+from neorl.core.stream import uniform
+from neorl.worlds.world import Dynamics, World
+
+PUSH = 0.05  # turns a second
+DRAG = 0.9
+TERMS = 10  # of the series of sine and cosine, so that they are exact to the last few bits
+TARGET, OBSTACLE = range(2)
+
+
+class ArmState(NamedTuple):
+    """All that changes of an arm."""
+
+    scene: Scene
+    hand: array("float64", 2)
+    point: array("float64", "things", 2)  # where the hand is in the posture of each thing
+    stream: array("uint64", 4)
+
+
+class ArmRules(NamedTuple):
+    """All that stays the same of an arm, as the kernels take it."""
+
+    dt: float  # seconds a step
+    radius: float
+    targets: int
+    length: array("float64", "axes")
+
+
+@dataclass(frozen=True)
+class Arm(World, checks.Final):
+    """A robot arm, see the module for its rules. All lengths are shares of that of all links together.
+
+    lengths: of the links, two or three numbers > 0 in any unit.
+    targets, obstacles: how many there are at any time, integers 0 … 64, one or more together.
+    radius: within which a point is met, 10⁻³ … 0.2. fps: steps a second, 1 … 2³¹.
+
+    Raises ValueError for anything else.
+    """
+
+    lengths: Sequence[float] = (0.5, 0.5)
+    targets: int = 1
+    obstacles: int = 1
+    radius: float = 0.1
+    fps: int = 20
+
+    kinds = ("target", "obstacle")
+    size = 1.0
+
+    def __post_init__(self):
+        checks.assign(
+            self, lengths=tuple(checks.real("lengths", each, 1e-6, 1e6)
+                                for each in checks.several("lengths", self.lengths)),
+            targets=checks.integer("targets", self.targets, at_least=0, at_most=64),
+            obstacles=checks.integer("obstacles", self.obstacles, at_least=0, at_most=64),
+            radius=checks.real("radius", self.radius, 1e-3, 0.2),
+            fps=checks.integer("fps", self.fps, at_least=1, at_most=2**31))
+        if not 2 <= len(self.lengths) <= 3:
+            raise ValueError(f"lengths is {self.lengths!r}, allowed are two or three, one for each link")
+        if self.things == 0:
+            raise ValueError("targets and obstacles are 0, allowed are one or more together")
+
+    @property
+    def actions(self):
+        """An `Actions`: each joint forth and back, "1+", "1−", "2+" and so on."""
+        joints = range(len(self.lengths))
+        return Actions([f"{joint + 1}{sign}" for joint in joints for sign in "+−"],
+                       [[sign * (axis == joint) for axis in joints] for joint in joints for sign in (1.0, -1.0)],
+                       "no-op")
+
+    @property
+    def dynamics(self) -> Dynamics:
+        """The kernels."""
+        return Dynamics(reset, step)
+
+    @property
+    def things(self) -> int:
+        """How many targets and obstacles there are."""
+        return self.targets + self.obstacles
+
+    @property
+    def rules(self) -> ArmRules:
+        """The rules as the kernels take them."""
+        return ArmRules(1.0 / self.fps, self.radius, self.targets, np.array(self.lengths) / sum(self.lengths))
+
+
+@kernel
+def reset(state: ArmState, rules: ArmRules) -> None:
+    """Start at rest, stretched along the x axis."""
+    scene = state.scene
+    for joint in range(rules.length.shape[0]):
+        scene.position[joint] = scene.velocity[joint] = 0.0
+    find_hand(scene.position, rules.length, state.hand)
+    for thing in range(scene.met.shape[0]):
+        scene.kinds[thing] = TARGET if thing < rules.targets else OBSTACLE
+        scene.met[thing] = 0
+        draw_point(state, rules, thing)
+
+
+@kernel
+def step(state: ArmState, rules: ArmRules, action: int):
+    """One step of the rules. Returns (reward, done)."""
+    scene, reward = state.scene, 0.0
+    if action < 2 * rules.length.shape[0]:
+        scene.velocity[action // 2] += PUSH if action % 2 == 0 else -PUSH
+    for joint in range(rules.length.shape[0]):
+        angle = scene.position[joint] + scene.velocity[joint] * rules.dt
+        angle -= np.floor(angle)
+        scene.position[joint] = angle if angle < 1.0 else 0.0
+        scene.velocity[joint] *= DRAG
+    find_hand(scene.position, rules.length, state.hand)
+    for thing in range(scene.met.shape[0]):
+        meets = from_hand(state, thing) < rules.radius * rules.radius
+        scene.met[thing] = 1 + scene.kinds[thing] if meets else 0
+        if meets:
+            reward += 1.0 if scene.kinds[thing] == TARGET else -1.0
+            draw_point(state, rules, thing)
+    return reward, False
+
+
+@kernel
+def draw_point(state, rules, thing):
+    """Put a fresh point into a slot."""
+    posture = state.scene.things[thing]
+    near = 4.0 * rules.radius * rules.radius
+    while True:
+        for joint in range(rules.length.shape[0]):
+            posture[joint] = uniform(state.stream)
+        find_hand(posture, rules.length, state.point[thing])
+        if from_hand(state, thing) >= near:
+            return
+
+
+@kernel
+def from_hand(state, thing):
+    """The squared distance of a point from the hand."""
+    dx, dy = state.point[thing, 0] - state.hand[0], state.point[thing, 1] - state.hand[1]
+    return dx * dx + dy * dy
+
+
+@kernel
+def find_hand(posture, length, hand):
+    """Where the hand is in a posture, into `hand`: (x, y), the base at the origin, y downward."""
+    along_x, along_y = 1.0, 0.0  # the direction of the link
+    hand[0] = hand[1] = 0.0
+    for joint in range(length.shape[0]):
+        cosine, sine = unit_vector(posture[joint])
+        along_x, along_y = along_x * cosine - along_y * sine, along_x * sine + along_y * cosine
+        hand[0] += length[joint] * along_x
+        hand[1] += length[joint] * along_y
+
+
+@kernel
+def unit_vector(turns):
+    """Cosine and sine of an angle in turns, by their series within an eighth of a turn of the nearest quarter."""
+    quarter = np.floor(4.0 * turns + 0.5)
+    angle = (turns - 0.25 * quarter) * TAU
+    cosine = sine = 1.0
+    for n in range(TERMS, 0, -1):
+        cosine = 1.0 - angle * angle / ((2 * n - 1) * (2 * n)) * cosine
+        sine = 1.0 - angle * angle / ((2 * n) * (2 * n + 1)) * sine
+    sine *= angle
+    quarter -= 4.0 * np.floor(0.25 * quarter)
+    if quarter == 1.0:
+        return -sine, cosine
+    if quarter == 2.0:
+        return -cosine, -sine
+    if quarter == 3.0:
+        return sine, -cosine
+    return cosine, sine

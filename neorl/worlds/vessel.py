@@ -1,0 +1,201 @@
+"""A vessel with a rudder in a current, which calls at waypoints among other vessels (thesis, figure 1.1).
+
+1. The vessel goes through the water at one `speed`, where its bow points. The `current` carries it along, so it moves
+   over the ground by (speed · heading + current) · dt. At the edge of the area it is held up along that axis.
+2. The rudder is to port, to starboard, or idle amidships. The rate of turn follows it with a lag (Nomoto et al. 1957):
+   rate += (rudder · `turning` − rate) · dt / `lag`. The heading, a vector of length 1, then turns by rate · dt, to
+   second order: by twice the angle whose tangent is rate · dt / 2.
+3. The scene has the position; as the velocity that through the water, as compass and log show it; and as things one
+   waypoint and the other vessels. How the current sets and how fast the vessel turns it does not show.
+4. A waypoint pays 1 when it is within `radius`; a fresh one takes its place. Another vessel within `radius` pays −1, a
+   collision, and another one takes its place. Each is drawn evenly over the area, and again as long as it is within
+   `CLEAR` of the vessel.
+5. The others keep their course, any one of eight, and their speed over the ground, drawn evenly from 0 to `speed`; at
+   the edge they turn back as light is reflected.
+6. The vessel starts in the middle, heading east, its rudder amidships. There is no end.
+
+The area is 1 wide and high, y points down, and east is x.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from neorl import checks
+from neorl.core.kernel import array, kernel
+from neorl.core.scene import Actions, Scene
+from neorl.core.stream import randint, uniform
+from neorl.worlds.world import Dynamics, World
+
+HELM = Actions(("port", "starboard"), ((0.0, 0.0), (0.0, 0.0)), "amidships")
+CLEAR = 0.25
+WAYPOINT, TRAFFIC = range(2)
+PORT, STARBOARD = range(2)
+DIAGONAL = math.sqrt(0.5)
+
+
+class VesselState(NamedTuple):
+    """All that changes on the water."""
+
+    scene: Scene
+    heading: array("float64", 2)  # of length 1
+    rate: array("float64", 1)  # of turn, radians a second, positive to starboard
+    course: array("float64", "things", 2)  # over the ground, widths a second
+    stream: array("uint64", 4)
+
+
+class VesselRules(NamedTuple):
+    """All that stays the same on the water, as the kernels take it."""
+
+    dt: float  # seconds a step
+    speed: float
+    turning: float
+    lag: float
+    radius: float
+    current: array("float64", 2)
+
+
+@dataclass(frozen=True)
+class Vessel(World, checks.Final):
+    """A vessel among others, see the module for its rules. Lengths are in widths of the area.
+
+    traffic: how many other vessels there are, 0 … 64.
+    current: (x, y), widths a second, either below the speed in size.
+    speed: widths a second through the water, 10⁻³ … 1. turning: radians a second with the rudder over for long,
+        10⁻³ … 10. lag: seconds > 0 that the rate of turn takes to follow, a step at least.
+    radius: within which things are met, 10⁻³ … 0.1. fps: steps a second, 1 … 2³¹.
+
+    Raises ValueError for anything else.
+    """
+
+    traffic: int = 3
+    current: Sequence[float] = (0.03, 0.0)
+    speed: float = 0.1
+    turning: float = 1.0
+    lag: float = 0.5
+    radius: float = 0.05
+    fps: int = 10
+
+    kinds = ("waypoint", "vessel")
+    actions = HELM
+    size = 1.0
+
+    def __post_init__(self):
+        checks.assign(
+            self, traffic=checks.integer("traffic", self.traffic, at_least=0, at_most=64),
+            speed=checks.real("speed", self.speed, 1e-3, 1),
+            turning=checks.real("turning", self.turning, 1e-3, 10),
+            radius=checks.real("radius", self.radius, 1e-3, 0.1),
+            fps=checks.integer("fps", self.fps, at_least=1, at_most=2**31))
+        checks.assign(self, lag=checks.real("lag", self.lag, 1 / self.fps, 1e6),
+                      current=tuple(checks.real("current", each, -self.speed, self.speed)
+                                    for each in checks.several("current", self.current)))
+        if len(self.current) != 2:
+            raise ValueError(f"current is {self.current!r}, allowed are (x, y)")
+
+    @property
+    def dynamics(self) -> Dynamics:
+        """The kernels."""
+        return Dynamics(reset, step)
+
+    @property
+    def things(self) -> int:
+        """The waypoint and the other vessels."""
+        return 1 + self.traffic
+
+    @property
+    def rules(self) -> VesselRules:
+        """The rules as the kernels take them."""
+        return VesselRules(1.0 / self.fps, self.speed, self.turning, self.lag, self.radius, np.array(self.current))
+
+    def check_state(self, state: VesselState) -> None:
+        """Raise ValueError unless a state is of this world, finite, and its heading of length 1."""
+        super().check_state(state)
+        if not abs(np.linalg.norm(state.heading) - 1.0) < 1e-6:
+            raise ValueError(f"state.heading is {checks.shown(state.heading)}, allowed are vectors of length 1")
+
+
+@kernel
+def reset(state: VesselState, rules: VesselRules) -> None:
+    """Start in the middle, heading east."""
+    scene = state.scene
+    state.heading[0], state.heading[1], state.rate[0] = 1.0, 0.0, 0.0
+    for axis in range(2):
+        scene.position[axis] = 0.5
+        scene.velocity[axis] = rules.speed * state.heading[axis]
+    for thing in range(scene.met.shape[0]):
+        scene.kinds[thing] = WAYPOINT if thing == 0 else TRAFFIC
+        scene.met[thing] = 0
+        draw_thing(state, rules, thing)
+
+
+@kernel
+def step(state: VesselState, rules: VesselRules, action: int):
+    """One step of the rules. Returns (reward, done)."""
+    scene, reward = state.scene, 0.0
+    steer(state, rules, action)
+    for axis in range(2):
+        at = scene.position[axis] + (scene.velocity[axis] + rules.current[axis]) * rules.dt
+        scene.position[axis] = min(max(at, 0.0), 1.0)
+    for thing in range(scene.met.shape[0]):
+        meets = from_vessel(scene, thing) < rules.radius * rules.radius
+        scene.met[thing] = 1 + scene.kinds[thing] if meets else 0
+        if meets:
+            reward += 1.0 if scene.kinds[thing] == WAYPOINT else -1.0
+            draw_thing(state, rules, thing)
+        sail(state, rules, thing)
+    return reward, False
+
+
+@kernel
+def steer(state, rules, action):
+    """Turn by the rudder."""
+    rudder = 1.0 if action == STARBOARD else -1.0 if action == PORT else 0.0
+    state.rate[0] += (rudder * rules.turning - state.rate[0]) * rules.dt / rules.lag
+    tangent = 0.5 * state.rate[0] * rules.dt
+    square = tangent * tangent
+    cosine, sine = (1.0 - square) / (1.0 + square), 2.0 * tangent / (1.0 + square)
+    x, y = state.heading[0], state.heading[1]
+    x, y = cosine * x - sine * y, sine * x + cosine * y
+    length = math.sqrt(x * x + y * y)  # which rounding would change in the course of many turns
+    state.heading[0], state.heading[1] = x / length, y / length
+    for axis in range(2):
+        state.scene.velocity[axis] = rules.speed * state.heading[axis]
+
+
+@kernel
+def sail(state, rules, thing):
+    """Move another vessel on; a waypoint has no course."""
+    for axis in range(2):
+        at = state.scene.things[thing, axis] + state.course[thing, axis] * rules.dt
+        if at < 0.0:
+            at, state.course[thing, axis] = -at, -state.course[thing, axis]
+        elif at > 1.0:
+            at, state.course[thing, axis] = 2.0 - at, -state.course[thing, axis]
+        state.scene.things[thing, axis] = at
+
+
+@kernel
+def draw_thing(state, rules, thing):
+    """Put a fresh waypoint or vessel into a slot."""
+    scene = state.scene
+    scene.things[thing, 0], scene.things[thing, 1] = uniform(state.stream), uniform(state.stream)
+    while from_vessel(scene, thing) < CLEAR * CLEAR:
+        scene.things[thing, 0], scene.things[thing, 1] = uniform(state.stream), uniform(state.stream)
+    state.course[thing, 0] = state.course[thing, 1] = 0.0
+    if scene.kinds[thing] == TRAFFIC:
+        east, south = randint(state.stream, 3) - 1.0, randint(state.stream, 3) - 1.0
+        while east == 0.0 and south == 0.0:
+            east, south = randint(state.stream, 3) - 1.0, randint(state.stream, 3) - 1.0
+        speed = rules.speed * uniform(state.stream) * (DIAGONAL if east != 0.0 and south != 0.0 else 1.0)
+        state.course[thing, 0], state.course[thing, 1] = speed * east, speed * south
+
+
+@kernel
+def from_vessel(scene, thing):
+    """The squared distance of a thing from the vessel."""
+    dx, dy = scene.things[thing, 0] - scene.position[0], scene.things[thing, 1] - scene.position[1]
+    return dx * dx + dy * dy

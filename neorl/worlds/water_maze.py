@@ -1,0 +1,175 @@
+"""The water maze (Morris 1984): a round pool with a platform under its surface, which is moved every few trials.
+
+1. The pool touches all sides of the unit square. An action adds `PUSH`, diameters a second, to the animal's velocity
+   along an axis. It swims on by velocity · dt, and keeps `DRAG` of its velocity. Along an axis where it would come into
+   the wall it stays where it is, and stops.
+2. A trial starts at rest at one of the four cardinal points of the rim, drawn at random. It ends on the platform, which
+   is within `radius` of its centre; that pays 1. A trial that is not over after `trial_seconds` ends without pay.
+3. The platform stands at the first of `places` for `trials_a_day` trials, then at the second, and so on, and at the
+   first again after the last.
+4. The platform cannot be seen. What the scene has as a thing is where the animal remembers it: after a trial, where the
+   platform is, for an animal that has not found it is put on it. Nothing is remembered before the first trial, and
+   from when the animal comes within `radius` of the place remembered and there is no platform.
+5. The state holds how many seconds each trial took, for as many trials as there are days in `places`, one after the
+   other.
+
+The origin is the upper left corner.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from neorl import checks
+from neorl.core.kernel import array, kernel
+from neorl.core.scene import ABSENT, CARDINAL, Scene
+from neorl.core.stream import randint
+from neorl.worlds.arena import RIM
+from neorl.worlds.world import Dynamics, World
+
+PUSH = 0.02
+DRAG = 0.95
+PLATFORM = 0
+
+
+class WaterMazeState(NamedTuple):
+    """All that changes in the pool."""
+
+    scene: Scene
+    platform: array("float64", 2)
+    trial: array("int64", 1)  # how many have begun
+    clock: array("int64", 1)  # steps since the trial began
+    latency: array("float64", "trials")  # seconds that each trial took; 0 if it is not over
+    stream: array("uint64", 4)
+
+
+class WaterMazeRules(NamedTuple):
+    """All that stays the same in the pool, as the kernels take it."""
+
+    dt: float  # seconds a step
+    radius: float
+    last_step: int
+    trials_a_day: int
+    place: array("float64", "places", 2)
+    start: array("float64", 4, 2)
+    push: array("float64", 5, 2)
+
+
+@dataclass(frozen=True)
+class WaterMaze(World, checks.Final):
+    """A water maze, see the module for its rules. All lengths are shares of the pool's diameter.
+
+    places: of the platform, (x, y) each, one a day, one to 1,024, within the pool.
+    trials_a_day: integer 1 … 1,024. radius: of the platform, 10⁻³ … 0.25.
+    trial_seconds: how long a trial lasts at most, > 0. fps: steps a second, 1 … 2³¹.
+
+    Raises ValueError for anything else.
+    """
+
+    places: Sequence[Sequence[float]] = ((0.65, 0.35),)
+    trials_a_day: int = 4
+    radius: float = 0.06
+    trial_seconds: float = 120.0
+    fps: int = 10
+
+    kinds = ("platform",)
+    actions = CARDINAL
+    size = 1.0
+    things = 1
+
+    def __post_init__(self):
+        places = [checks.several("places", each) for each in checks.several("places", self.places)]
+        checks.assign(
+            self, places=tuple(tuple(checks.real("places", value, 0, 1) for value in each) for each in places),
+            trials_a_day=checks.integer("trials_a_day", self.trials_a_day, at_least=1, at_most=1_024),
+            radius=checks.real("radius", self.radius, 1e-3, 0.25),
+            trial_seconds=checks.real("trial_seconds", self.trial_seconds, 1e-9, 1e9),
+            fps=checks.integer("fps", self.fps, at_least=1, at_most=2**31))
+        if not 1 <= len(self.places) <= 1_024 or any(
+                len(each) != 2 or (each[0] - 0.5)**2 + (each[1] - 0.5)**2 > 0.25 for each in self.places):
+            raise ValueError(f"places is {checks.shown(self.places)}, allowed are one to 1024, each (x, y) in the pool")
+
+    @property
+    def dynamics(self) -> Dynamics:
+        """The kernels."""
+        return Dynamics(reset, step)
+
+    @property
+    def trials(self) -> int:
+        """How many trials the days have together."""
+        return len(self.places) * self.trials_a_day
+
+    @property
+    def sizes(self) -> dict[str, int]:
+        """The sizes of the arrays in a state and in the rules, by name."""
+        return super().sizes | {"trials": self.trials, "places": len(self.places)}
+
+    @property
+    def rules(self) -> WaterMazeRules:
+        """The rules as the kernels take them."""
+        near, far = RIM, 1.0 - RIM
+        return WaterMazeRules(
+            1.0 / self.fps, self.radius, max(1, round(self.trial_seconds * self.fps)), self.trials_a_day,
+            np.array(self.places), np.array([(0.5, near), (0.5, far), (far, 0.5), (near, 0.5)]), self.actions.table)
+
+    def check_state(self, state: WaterMazeState) -> None:
+        """Raise ValueError unless a state is of this world, finite, and its trial has begun."""
+        super().check_state(state)
+        if not state.trial[0] >= 1:
+            raise ValueError(f"state.trial is {checks.shown(state.trial)}, allowed are integers ≥ 1")
+
+
+@kernel
+def reset(state: WaterMazeState, rules: WaterMazeRules) -> None:
+    """Start a trial, at rest at the rim."""
+    scene, start = state.scene, randint(state.stream, 4)
+    if state.trial[0] == 0:
+        scene.kinds[0] = ABSENT
+    day = state.trial[0] // rules.trials_a_day % rules.place.shape[0]
+    state.trial[0] += 1
+    state.clock[0] = scene.met[0] = 0
+    for axis in range(2):
+        scene.position[axis], scene.velocity[axis] = rules.start[start, axis], 0.0
+        state.platform[axis] = rules.place[day, axis]
+
+
+@kernel
+def step(state: WaterMazeState, rules: WaterMazeRules, action: int):
+    """One step of the rules. Returns (reward, done)."""
+    scene = state.scene
+    swim(scene, rules, action)
+    state.clock[0] += 1
+    found = is_near(scene.position, state.platform, rules.radius)
+    done = found or state.clock[0] >= rules.last_step
+    scene.met[0] = 1 + PLATFORM if found else 0
+    if done:
+        scene.kinds[0] = PLATFORM
+        scene.things[0, 0], scene.things[0, 1] = state.platform[0], state.platform[1]
+        if state.trial[0] <= state.latency.shape[0]:
+            state.latency[state.trial[0] - 1] = state.clock[0] * rules.dt
+    elif scene.kinds[0] == PLATFORM and is_near(scene.position, scene.things[0], rules.radius):
+        scene.kinds[0] = ABSENT
+    return 1.0 if found else 0.0, done
+
+
+@kernel
+def swim(scene, rules, action):
+    """Move the animal, along one axis after the other."""
+    for axis in range(2):
+        scene.velocity[axis] += PUSH * rules.push[action, axis]
+        before = scene.position[axis]
+        scene.position[axis] += scene.velocity[axis] * rules.dt
+        dx, dy = scene.position[0] - 0.5, scene.position[1] - 0.5
+        if dx * dx + dy * dy > 0.25:
+            scene.position[axis], scene.velocity[axis] = before, 0.0
+        else:
+            scene.velocity[axis] *= DRAG
+
+
+@kernel
+def is_near(one, other, radius):
+    """Whether two places are closer than a radius."""
+    dx, dy = one[0] - other[0], one[1] - other[1]
+    return dx * dx + dy * dy < radius * radius

@@ -1,0 +1,54 @@
+"""The rules on Kaelbling's properties, on samples made up so that the answer is known."""
+
+import numpy as np
+import pytest
+
+from neorl import Result, WaterWorld, place_cells
+from neorl.evidence import claims
+
+
+def sample(mean, runs=20):
+    return mean + np.random.default_rng(round(100 * mean)).normal(0, 0.02 * abs(mean), runs)
+
+
+def lives(early, final, runs=20):
+    rewards = np.repeat([[early] * 500 + [final] * 500], runs, axis=0) * 0.2
+    rewards *= np.random.default_rng(round(1e3 * (early + 7 * final))).normal(1, 0.02, (runs, 1))
+    return Result(place_cells([1]), WaterWorld(), 10_000, runs, 0, rewards.astype(np.float32),
+                  np.zeros((runs, 1_000, 2), np.int16))
+
+
+@pytest.mark.parametrize("agent, table, chance, expected", [
+    (10, 40, 50, "reproduced"), (30, 40, 50, "partly"), (45, 40, 50, "not reproduced"), (10, 40, 8, "not reproduced")])
+def test_efficiency(agent, table, chance, expected):
+    claim = claims.judge_efficiency(sample(agent), sample(table), sample(chance))
+    assert claim.verdict == expected and claim.here.value == pytest.approx(agent / table, rel=0.05)
+
+
+@pytest.mark.parametrize("agents, expected", [
+    ((3, 4), "reproduced"), ((3, 0.5), "partly"), ((0.5, 0.6), "not reproduced")])
+def test_generality(agents, expected):
+    claim = claims.judge_generality({str(agent): (sample(agent), sample(1)) for agent in agents})
+    assert claim.verdict == expected and claim.here.value == (min(agents) > 1)
+
+
+@pytest.mark.parametrize("apart, expected", [(1.1, "reproduced"), (1.5, "partly"), (3, "not reproduced")])
+def test_composition(apart, expected):
+    assert claims.judge_composition(sample(apart), sample(1), sample(9)).verdict == expected
+    assert claims.judge_composition(sample(apart), sample(1), sample(0.5)).verdict == "not reproduced"
+
+
+@pytest.mark.parametrize("joined, expected", [
+    ((1.0, 1.3), "reproduced"), ((1.0, 0.95), "partly"), ((1.0, 0.8), "not reproduced")])
+def test_extension(joined, expected):
+    alone = lives(1.0, 1.0)
+    claim = claims.judge_extension(lives(*joined), alone, lives(0.0, 0.0))
+    assert claim.verdict == expected and claim.here.value == pytest.approx(60 * (joined[1] - 1), abs=2)
+    assert claims.judge_extension(lives(*joined), alone, lives(1.5, 1.5)).verdict == "not testable"
+
+
+def test_few_runs_give_no_verdict():
+    assert claims.judge_efficiency(sample(1, 9), sample(4), sample(5)).verdict == "no verdict"
+    assert claims.judge_generality({"a": (sample(3, 9), sample(1))}).verdict == "no verdict"
+    assert claims.judge_composition(sample(1), sample(1, 9), sample(5)).verdict == "no verdict"
+    assert claims.judge_extension(lives(1, 2, 9), lives(1, 1), lives(0, 0)).verdict == "no verdict"

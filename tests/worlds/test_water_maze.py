@@ -1,0 +1,116 @@
+"""The rules of the water maze, step by step against a restatement in plain Python with NumPy's random numbers."""
+
+import math
+
+import numpy as np
+import pytest
+
+from neorl.worlds.water_maze import WaterMaze
+
+RIM = [(0.5, 0.05), (0.5, 0.95), (0.95, 0.5), (0.05, 0.5)]
+WAYS = [(0, -1), (0, 1), (1, 0), (-1, 0), (0, 0)]
+
+
+class PlainMaze:
+    """The rules of the module's docstring, one after the other."""
+
+    def __init__(self, world, seed):
+        self.world, self.trial, self.remembered = world, 0, None
+        self.rng = np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed)))
+        self.latencies = [0.0] * len(world.places) * world.trials_a_day
+        self.begin()
+
+    def begin(self):
+        self.at, self.speed, self.steps = list(RIM[int(self.rng.random() * 4)]), [0.0, 0.0], 0
+        self.platform = self.world.places[self.trial // self.world.trials_a_day % len(self.world.places)]
+        self.trial += 1
+
+    def step(self, action):
+        for axis in range(2):
+            self.speed[axis] += 0.02 * WAYS[action][axis]
+            there = list(self.at)
+            there[axis] += self.speed[axis] / self.world.fps
+            if math.dist(there, (0.5, 0.5)) > 0.5:
+                self.speed[axis] = 0.0
+            else:
+                self.at, self.speed[axis] = there, 0.95 * self.speed[axis]
+        self.steps += 1
+        found = math.dist(self.at, self.platform) < self.world.radius
+        over = found or self.steps >= round(self.world.trial_seconds * self.world.fps)
+        if over:
+            self.remembered = self.platform
+            if self.trial <= len(self.latencies):
+                self.latencies[self.trial - 1] = self.steps / self.world.fps
+        elif self.remembered and math.dist(self.at, self.remembered) < self.world.radius:
+            self.remembered = None
+        return float(found), over
+
+
+PLACES = ((0.7, 0.5), (0.3, 0.4), (0.5, 0.75))
+
+
+@pytest.mark.parametrize("world", [
+    WaterMaze(), WaterMaze(PLACES, 2, 0.15, 30.0), WaterMaze(PLACES[:2], 1, 0.2, 12.0, fps=5)])
+def test_trials_follow_the_rules(world):
+    state, plain = world.reset(8), PlainMaze(world, 8)
+    rng, seen = np.random.default_rng(2), {"found": 0, "failed": 0, "forgotten": 0}
+    for action in np.repeat(rng.integers(0, 5, 4_000), rng.integers(1, 20, 4_000))[:20_000]:
+        before = plain.remembered
+        reward, met, done = world.step(state, int(action))
+        assert (reward, done) == plain.step(action) and met.tolist() == [reward == 1]
+        np.testing.assert_allclose(state.scene.position, plain.at, atol=1e-9)
+        np.testing.assert_allclose(state.scene.velocity, plain.speed, atol=1e-9)
+        assert (state.scene.kinds[0] == 0) == (plain.remembered is not None)
+        if plain.remembered:
+            assert tuple(state.scene.things[0]) == plain.remembered
+        seen["forgotten"] += before is not None and plain.remembered is None
+        if done:
+            seen["found" if reward else "failed"] += 1
+            from neorl.core.kernel import execute
+            execute(world.dynamics.reset, state, world.rules)
+            plain.begin()
+            assert state.trial[0] == plain.trial
+    np.testing.assert_allclose(state.latency, plain.latencies)
+    assert seen["found"] > 5 and (len(world.places) == 1 or seen["forgotten"] > 3)
+
+
+def test_nothing_is_remembered_before_the_first_trial_and_the_platform_after_it():
+    world = WaterMaze(trial_seconds=0.1)
+    state = world.reset(0)
+    assert state.scene.kinds.tolist() == [-1] and tuple(state.scene.position) in RIM
+    assert not state.scene.velocity.any() and state.latency.tolist() == [0] * 4
+    assert world.step(state, "no-op")[::2] == (0.0, True)
+    assert state.scene.kinds.tolist() == [0] and state.scene.things.tolist() == [[0.65, 0.35]]
+    assert state.latency.tolist() == [0.1, 0, 0, 0]
+
+
+def test_the_animal_cannot_leave_the_pool():
+    world = WaterMaze(trial_seconds=1e6)
+    state, reached = world.reset(1), 0.0
+    rng = np.random.default_rng(0)
+    for action in np.repeat(rng.integers(0, 4, 400), rng.integers(1, 40, 400)):
+        world.step(state, int(action))
+        away = math.dist(state.scene.position, (0.5, 0.5))
+        assert away <= 0.5
+        reached = max(reached, away)
+    assert reached > 0.49
+
+
+@pytest.mark.parametrize("arguments, message", [
+    ({"places": ()}, r"places is \(\), allowed are one to 1024, each \(x, y\) in the pool"),
+    ({"places": ((0.1, 0.1),)}, "places is .*, allowed are one to 1024"), ({"places": (0.5, 0.5)}, "places is 0.5"),
+    ({"places": ((0.5, 0.5, 0.5),)}, "places is"), ({"places": ((0.5, np.nan),)}, "places is nan"),
+    ({"places": ((0.5, 2),)}, "places is 2"), ({"trials_a_day": 0}, "trials_a_day is 0"),
+    ({"radius": 0}, "radius is 0"), ({"radius": 0.3}, "radius is 0.3"), ({"trial_seconds": 0}, "trial_seconds is 0"),
+    ({"fps": 0}, "fps is 0"), ({"fps": 2.5}, "fps is 2.5"),
+])
+def test_a_bad_maze_is_refused(arguments, message):
+    with pytest.raises(ValueError, match=message):
+        WaterMaze(**arguments)
+
+
+def test_a_trial_that_has_not_begun_is_refused():
+    state = WaterMaze().reset(0)
+    state.trial[0] = 0
+    with pytest.raises(ValueError, match="state.trial is .*, allowed are integers ≥ 1"):
+        WaterMaze().step(state, "N")
