@@ -1,7 +1,7 @@
-# make book   compute every notebook and build the book   RUNS=10 runs a condition; 4 is a look, 100 the papers' scale
+# make book   compute every notebook and build the book   RUNS=10 runs per condition; 4 is a quick look, 100 the papers' scale
 # make test   run the tests
-# make exact  live the runs on record in every way that must bring the same bits, and print which do; PYTHONS="python3.13"
-# make verify lives a random sample of the runs behind the figures again and compares; SAMPLE=20 runs, SEED=of the sample
+# make exact  run the reference runs in every way that must give the same bits, and print which do; PYTHONS="python3.13"
+# make verify recompute a random sample of the runs behind the figures and compare; SAMPLE=20 runs, SEED=of the sample
 # make lab    open the notebooks in JupyterLab
 # make readme write the claims of the last build into the README
 # make bench  measure the speed of the kernels

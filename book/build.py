@@ -71,9 +71,9 @@ def main():
         write_tables()
         build()
     except KeyboardInterrupt:
-        sys.exit("\ninterrupted; make book goes on from here")
+        sys.exit("\ninterrupted; make book resumes from here")
     except OSError as error:
-        sys.exit(f"\nthe book was not built: {error}; make book goes on from here")
+        sys.exit(f"\nthe book was not built: {error}; make book resumes from here")
     lock.close()
     print(f"the book is at {HTML.as_uri()}")
 

@@ -49,8 +49,8 @@ def judge_networks(a, b, c, d, brownian):
 def judge_alternatives(alternatives, thesis, brownian, real_time):
     """Claim C5, from final rewards per second on one board, (runs,) each, after the same number of steps.
 
-    alternatives: {name: (final rewards, seconds that a step takes to compute)}, of learners that are told no more of
-        the board than what can be seen on it. thesis: {name: final rewards} of the thesis's agents.
+    alternatives: {name: (final rewards, seconds that a step takes to compute)}, of learners that observe no more of
+        the board than can be seen on it. thesis: {name: final rewards} of the thesis's agents.
     brownian: final rewards of Brownian motion. real_time: seconds that a step lasts.
     """
     best = max(thesis, key=lambda name: thesis[name].mean())

@@ -8,8 +8,12 @@ from pathlib import Path
 
 import nbformat
 import pytest
+from docutils.core import publish_doctree
 
 ROOT = Path(__file__).parents[2]
+sys.path.insert(0, str(ROOT / "book"))
+import api_links  # noqa: E402
+import describe  # noqa: E402
 PUBLIC = sorted(".".join(path.relative_to(ROOT / "neorl").with_suffix("").parts).removesuffix(".__init__")
                 for path in (ROOT / "neorl").rglob("*.py"))
 
@@ -29,7 +33,8 @@ def make_book(tmp_path):
         toc = "format: jb-book\nroot: index\nchapters:\n  - file: chapters/page\n"
         (tmp_path / "book" / "_toc.yml").write_text(toc)
         reference = "\n\n".join(f".. automodule:: {module}" for module in modules)
-        (tmp_path / "book" / "index.md").write_text(f"# Reference\n\n```{{eval-rst}}\n{reference}\n```\n")
+        (tmp_path / "book" / "index.md").write_text(f"# Reference\n\nAll of it.\n\n% The repository is at "
+                                                     f"<URL>.\n\n```{{eval-rst}}\n{reference}\n```\n")
         kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3"},
                   "language_info": {"name": "python", "pygments_lexer": "ipython3"}}
         cells = [nbformat.v4.new_markdown_cell("# Page"), nbformat.v4.new_code_cell("1")]
@@ -50,6 +55,7 @@ def test_a_notebook_opens_from_the_repository_that_is_set(make_book):
     assert "https://colab.research.google.com/github/somebody/neorl/blob/main/notebooks/page.ipynb" in page
     assert 'href="https://github.com/somebody/neorl"' in page
     assert "mybinder" not in reference  # no notebook
+    assert "The repository is at <a" in reference and '<meta name="description" content="All of it." />' in reference
 
 
 def test_without_a_repository_there_are_no_buttons_and_docstrings_become_lists_with_links(make_book):
@@ -58,11 +64,32 @@ def test_without_a_repository_there_are_no_buttons_and_docstrings_become_lists_w
                                          "neorl.experiments.sweeping"])
     assert "mybinder" not in page and "colab" not in page and "fa-github" not in page
     text = re.sub(r"<[^>]+>", "", reference)
+    assert "The repository is at" not in text
     assert "Raises" in text and "ValueError" in text
     of_store = reference.split('id="neorl.experiments.sweeping.simulate_once"')[1].split("</article>")[0]
     assert re.search(r'href="#neorl.experiments.simulation.Result"[^>]*><code[^>]*><span class="pre">Result', of_store)
     assert "float64 (actions,): the value of each action" in text  # a comment beside a field
     assert "Alias for field number" not in text
+
+
+def test_a_page_is_described_by_its_first_paragraph_cut_at_a_word():
+    long = publish_doctree("Title\n=====\n\nSay *one* thing " + "and another " * 30 + "\n\nNot this.")
+    text = describe.description(long)
+    assert text.startswith("Say one thing and another") and text.endswith(" …") and len(text) <= describe.LONGEST
+    assert describe.description(publish_doctree("")) == "" and "description" not in describe.tags("A", "")
+    assert 'content="a &lt; &quot;b&quot;"' in describe.tags("A", 'a < "b"')
+
+
+def test_a_summary_of_the_sidebar_has_a_name_and_others_stay():
+    assert describe.named('<summary><span class="toctree-toggle">') == (
+        '<summary aria-label="Pages of this part"><span class="toctree-toggle">')
+    assert describe.named("<summary>Solution</summary>") == "<summary>Solution</summary>"
+
+
+def test_a_docstring_opens_with_a_sentence_and_lists_what_follows():
+    lines = ["Speeds: float64 (steps,). step: seconds.", "", "seed: integer ≥ 0."]
+    api_links.read_docstring(None, "function", "speed", None, None, lines)
+    assert lines[0] == "Speeds: float64 (steps,)." and lines.count("``step``") == lines.count("``seed``") == 1
 
 
 def test_the_reference_has_every_module():
