@@ -292,7 +292,7 @@ class Desire(checks.Final):
         elif isinstance(self.source, str):
             checks.assign(self, source=str(self.source))
         checks.assign(self, target=str(checks.instance("target", self.target, str)))
-        if self.valence == LEARNED and isinstance(self.valence, str):
+        if isinstance(self.valence, str) and self.valence == LEARNED:
             if not isinstance(self.source, str):
                 raise ValueError(f"valence is 'learned', allowed for the source {self.source!r} are numbers: it is "
                                  "learned for kinds of things")

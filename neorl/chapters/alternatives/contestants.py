@@ -1,4 +1,4 @@
-"""All that is compared on the page: who they are, and what each has earned on a board of so many creeps.
+"""All that is compared on the page: the contestants, and what each has earned on a board of so many creeps.
 
 All see the same: where the agent is and how fast it moves, and where the creeps are and of which kind. Deep agents see
 how fast creeps move, too; controllers and the planner know the rules of the world. All choose among the five actions at
@@ -27,7 +27,7 @@ from neorl.experiments.run import Run
 from neorl.experiments.sweeping import sweep
 
 CHANCE, THESIS, BEYOND, TABLES, DEEP, PHYSICS = (
-    "chance", "the thesis's agents", "beyond the thesis", "tabular learners", "deep learners", "told the physics")
+    "chance", "the thesis's agents", "beyond the thesis", "tabular learners", "deep learners", "given the physics")
 BINS = 50  # of a run
 TIMED_STEPS = 20_000
 PLANNED = 1 / 30  # of the steps of other runs, in which the planner is watched

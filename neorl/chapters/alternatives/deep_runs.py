@@ -3,8 +3,8 @@
 1. Methods: DQN and PPO of Stable-Baselines3, QR-DQN of its contributed package, each one agent on one stream of
    experience that is never cut into episodes, with two layers of 64 units, on one thread.
 2. Observation: `neorl.gym`'s, positions from the agent, nearest creep first, and after it the velocity of every creep
-   in that order. No other learner of the page is told how fast creeps move. Positions of creeps are multiplied by a
-   number that is tuned.
+   in that order. The other learners of the page do not see how fast creeps move. Positions of creeps are multiplied by
+   a number that is tuned.
 3. Search: for each method as many settings drawn (`neorl.chapters.alternatives.deep_settings`), each tried once for
    `SEARCH_STEPS` steps with 3 creeps on a seed of its own. The one that earned most in the last third of these is used
    for all runs.

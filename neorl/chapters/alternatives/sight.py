@@ -1,4 +1,4 @@
-"""What tabular learners tell apart: the cells that a creep's position from the agent and the agent's velocity lie in.
+"""What tabular learners distinguish: the cells that a creep's position from the agent and the agent's velocity lie in.
 
 All are chosen by a `Setting`: how many cells there are along each axis of a position, how far they reach to either side
 and whether they are equally wide or the wider the farther they are; and how many cells along each axis of the velocity,

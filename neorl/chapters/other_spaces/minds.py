@@ -1,7 +1,7 @@
 """The agents of the page: one rule of learning, one policy, and for each world what its cells stand for.
 
 Nothing but nodes and desires differs between them. `RULE` is plain bootstrapping at changes of cell, without memory of
-earlier cells. How it and the maps were found is told on the page (`neorl.chapters.other_spaces.report.SEARCHED`).
+earlier cells. The page says how it and the maps were found (`neorl.chapters.other_spaces.report.SEARCHED`).
 """
 
 from dataclasses import replace

@@ -1,7 +1,7 @@
 """Trials in the water maze: an agent of the page, the same agent swimming at random, and Q-learning on the same cells.
 
 Q-learning (Watkins 1989) knows of the pool which cell of the finer map the animal is in, learns at every step, and is
-paid 1 on the platform. Before each trial nothing else tells it where that is.
+paid 1 on the platform. Only this reward shows where the platform is.
 """
 
 import functools

@@ -57,7 +57,8 @@ def reaching(reached, feared):
     rows = [[number(valence, 1), _met(result, 0), _met(result, 1),
              number(_rate(result, 1) / _rate(result, 0)) if _rate(result, 0) else "–",
              estimate(np.mean, result.rate(*FINAL))] for valence, result in feared.items()]
-    header = ["Valence of obstacles", "Targets a second", "Obstacles a second", "Obstacles a target", "Reward a second"]
+    header = ["Valence of obstacles", "Targets per second", "Obstacles per second", "Obstacles per target",
+              "Reward per second"]
     return " ".join(said) + "\n\n" + table(header, rows)
 
 
