@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from neorl import checks
 from neorl.agents.agent import LEARNED, Agent, Contacts, Desire, Node
 from neorl.agents.papers import paper_agent
 from neorl.core.modality import Axis, Modality
@@ -15,7 +16,10 @@ def foveated_cells(foveated: bool = True, velocity: bool = True, mirrored: bool 
     foveated: whether receptive fields grow with distance. velocity: whether the cells know the agent's velocity.
     mirrored: whether mirror images share a cell. Ranges are twice as wide if not, so a map of 2N − 1 has the receptive
         fields that one of N has if so.
+    Raises ValueError for anything but flags.
     """
+    foveated, velocity = checks.flag("foveated", foveated), checks.flag("velocity", velocity)
+    mirrored = checks.flag("mirrored", mirrored)
     feature, low = ("foveated" if foveated else "component"), (0.0 if mirrored else -1.0)
     reach = FASTEST if mirrored else 2 * FASTEST
     axes = [Axis("objects", feature, along, low, 1.0) for along in (0, 1)]
