@@ -289,8 +289,6 @@ class Desire(checks.Final):
         elif not isinstance(self.source, Place):
             point = checks.several("source", self.source)
             checks.assign(self, source=tuple(checks.real("source", value) for value in point))
-        elif isinstance(self.source, str):
-            checks.assign(self, source=str(self.source))
         checks.assign(self, target=str(checks.instance("target", self.target, str)))
         if isinstance(self.valence, str) and self.valence == LEARNED:
             if not isinstance(self.source, str):

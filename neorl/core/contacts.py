@@ -251,11 +251,13 @@ def learn_worth(parameters, state, scene):
     chosen, desires = parameters.desires, state.desires
     surprise = state.reward[0]
     for e in range(chosen.source.shape[0]):
-        for thing in range(scene.met.shape[0]):
-            if chosen.learned[e] and scene.met[thing] == chosen.kind[e] + 1:
-                surprise -= desires.worth[e]
+        if chosen.learned[e]:
+            for thing in range(scene.met.shape[0]):
+                if scene.met[thing] == chosen.kind[e] + 1:
+                    surprise -= desires.worth[e]
     for e in range(chosen.source.shape[0]):
-        for thing in range(scene.met.shape[0]):
-            if chosen.learned[e] and scene.met[thing] == chosen.kind[e] + 1:
-                desires.meetings[e] += 1
-                desires.worth[e] += max(0.1, 1.0 / desires.meetings[e]) * surprise
+        if chosen.learned[e]:
+            for thing in range(scene.met.shape[0]):
+                if scene.met[thing] == chosen.kind[e] + 1:
+                    desires.meetings[e] += 1
+                    desires.worth[e] += max(0.1, 1.0 / desires.meetings[e]) * surprise

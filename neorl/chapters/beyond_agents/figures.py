@@ -4,7 +4,7 @@ import numpy as np
 
 from neorl.chapters.beyond_agents.experiments import PARTS, THESIS, hits_per_second, last_third
 from neorl.drawing.curves import draw_curves, draw_proficiency
-from neorl.drawing.style import INK, axes_or_new
+from neorl.drawing.style import CURVES, INK, axes_or_new
 from neorl.evidence.statistics import estimate
 
 
@@ -24,9 +24,9 @@ def draw_parts(lived, ax=None):
     axes = axes_or_new(ax, figsize=(4.9, 4.2))
     rows = np.arange(len(lived.way))
     way = [estimate(np.mean, last_third(each)) for each in lived.way.values()]
-    axes.errorbar([each.value for each in way], rows, xerr=_bars(way), fmt="o", color="#3e6ad1", label="on the way")
+    axes.errorbar([each.value for each in way], rows, xerr=_bars(way), fmt="o", color=CURVES[0], label="on the way")
     without = [estimate(np.mean, last_third(lived.without[part])) for part in PARTS]
-    axes.errorbar([each.value for each in without], rows[1:], xerr=_bars(without), fmt="D", color="#b46411",
+    axes.errorbar([each.value for each in without], rows[1:], xerr=_bars(without), fmt="D", color=CURVES[5],
                   label="the whole without it")
     axes.axvline(way[-1].value, color=INK, linewidth=0.7)
     axes.set_yticks(rows, list(lived.way))
