@@ -30,6 +30,7 @@ class Keeper:
     def missing(self, condition):
         """The numbers of the runs that a condition lacks: a list, empty if it is whole."""
         if cache.load(condition) is not None:
+            self._written(cache.remove_runs, condition)  # of a process that was killed before it could
             return []
         lived = self._lived[condition] = cache.load_runs(condition)
         if len(lived) == condition.runs:

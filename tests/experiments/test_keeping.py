@@ -171,6 +171,14 @@ def test_a_disk_that_takes_nothing_costs_one_warning(at_once, mounted, monkeypat
     assert all(files.read_checked(path) is not None for path in disk.rglob("*") if path.is_file())
 
 
+def test_single_runs_that_a_killed_process_left_beside_their_condition_go(cache_folder):
+    result = once(SHORT)
+    cache.save_runs(SHORT, {0: (result.rewards[0], result.hits[0])})
+    assert len(kept(cache_folder, "runs")) == 1
+    assert_whole(once(SHORT), SHORT)
+    assert kept(cache_folder, "runs") == []
+
+
 def test_a_folder_that_is_none_costs_one_warning(tmp_path, monkeypatch):
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path / "file"))
