@@ -10,14 +10,12 @@ import json
 import numpy as np
 
 from neorl.evidence.errata import ERRATA
+from neorl.evidence.marks import NOT_COMPUTED, symbol
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 from neorl.evidence.statistics import Estimate
-from neorl.evidence.verdict import VERDICTS
 from neorl.experiments.cache import source_digest
 from neorl.files import cache_folder, write_whole
 
-SIGNS = dict(zip(VERDICTS, "●◐○––"))
-NOT_COMPUTED = "not computed in this build"
 LETTER, CALIBRATED = "to the letter", "calibrated"  # names of readings
 HEADER = "| Claim | Thesis | To the letter | Calibrated | Verdict | Share within the text |\n|---|---|---|---|---|---|"
 PARTS = ("claims", "letter", "shares")  # of a record
@@ -38,7 +36,7 @@ def comparison(judged):
     names = sorted({claim.name for claims in judged.values() for claim in claims})
     rows = ["| Reading | " + " | ".join(names) + " |", "|---" * (len(names) + 1) + "|"]
     for reading in _in_order(judged):
-        cells = {claim.name: f"{SIGNS[claim.verdict]}\u00a0{claim.here.value:z.2f}" for claim in judged[reading]}
+        cells = {claim.name: f"{symbol(claim.verdict)}\u00a0{claim.here.value:z.2f}" for claim in judged[reading]}
         rows.append(f"| {reading} | " + " | ".join(cells.get(name, "") for name in names).replace("-", "−") + " |")
     return "\n".join(rows)
 
@@ -148,7 +146,7 @@ def _row(record, name, links=False):
 
 
 def _marked(found):
-    return f"{SIGNS[found['verdict']]}\u00a0{number(found)}" if found else ""
+    return f"{symbol(found['verdict'])}\u00a0{number(found)}" if found else ""
 
 
 def _share(share):

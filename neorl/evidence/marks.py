@@ -1,0 +1,40 @@
+"""How a verdict is shown, everywhere alike: by a symbol, and on pages by a colour as well, never by colour alone.
+
+The colours are those of the classes in the book's style sheet, one for light pages and one for dark ones.
+"""
+
+from typing import NamedTuple
+
+from neorl import checks
+from neorl.evidence.verdict import VERDICTS
+
+NOT_COMPUTED = "not computed in this build"
+
+
+class Mark(NamedTuple):
+    """The symbol of a verdict, and the class that the book's style sheet colours."""
+
+    symbol: str
+    css: str
+
+
+NONE = Mark("–", "verdict-none")
+MARKS = dict(zip(VERDICTS, (Mark("●", "verdict-reproduced"), Mark("◐", "verdict-partly"),
+                            Mark("○", "verdict-not-reproduced"), NONE, NONE))) | {NOT_COMPUTED: NONE}
+
+
+def symbol(verdict: str) -> str:
+    """The symbol of a verdict: ● reproduced, ◐ partly, ○ not reproduced, – anything else.
+
+    verdict: a key of `MARKS`. Raises ValueError for anything else.
+    """
+    return MARKS[checks.one_of("verdict", verdict, MARKS)].symbol
+
+
+def html(verdict: str) -> str:
+    """The symbol in its colour, as inline HTML for Markdown; its name is the verdict, for a reader of screens.
+
+    verdict: a key of `MARKS`. Raises ValueError for anything else.
+    """
+    return (f'<span class="verdict {MARKS[checks.one_of("verdict", verdict, MARKS)].css}" role="img" '
+            f'aria-label="{verdict}" title="{verdict}">{symbol(verdict)}</span>')

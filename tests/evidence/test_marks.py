@@ -1,0 +1,36 @@
+"""Verdicts have a symbol each, and colours that are legible on every ground of the book."""
+
+import re
+
+import pytest
+from contrast import GROUNDS, STYLE_SHEET, contrast, variables
+
+from neorl.evidence import marks, report
+from neorl.evidence.verdict import VERDICTS
+
+
+def test_every_verdict_has_a_mark_and_what_is_not_tested_looks_alike():
+    assert [marks.symbol(verdict) for verdict in (*VERDICTS, marks.NOT_COMPUTED)] == ["●", "◐", "○", "–", "–", "–"]
+    assert marks.NOT_COMPUTED == report.NOT_COMPUTED
+
+
+def test_a_mark_is_named_for_readers_who_do_not_see_it():
+    assert marks.html("partly") == ('<span class="verdict verdict-partly" role="img" aria-label="partly" '
+                                    'title="partly">◐</span>')
+
+
+@pytest.mark.parametrize("function", [marks.symbol, marks.html])
+def test_anything_else_is_refused(function):
+    with pytest.raises(ValueError, match="verdict is 'perhaps', allowed are"):
+        function("perhaps")
+
+
+def test_every_mark_has_a_colour_that_is_legible_on_all_grounds():
+    classes = {mark.css for mark in marks.MARKS.values()}
+    styled = dict(re.findall(r"\n\.(verdict-[\w-]+) \{\n  color: var\(--([\w-]+)\);", STYLE_SHEET.read_text()))
+    assert styled.keys() == classes
+    for mode, colours in variables("verdict-").items():
+        assert colours.keys() == set(styled.values())
+        for name, colour in colours.items():
+            for ground in GROUNDS[mode]:
+                assert contrast(colour, ground) >= 4.5, (mode, name, ground)
