@@ -28,6 +28,7 @@ import psutil
 import workers
 from jupyter_client import AsyncKernelManager
 from nbclient.exceptions import DeadKernelError
+from page_order import results_first
 from papermill.exceptions import PapermillExecutionError, strip_color
 from traitlets.config import Config
 
@@ -208,6 +209,7 @@ def compute(notebook, parameters):
     executed = nbformat.read(work / notebook.name, nbformat.NO_CONVERT)
     for cell in executed.cells:  # links are written for notebooks/, and the page lies in book/chapters/
         cell.source = link_terms(cell.source).replace("](../book/", "](../")
+    executed.cells = results_first(executed.cells, notebook.stem, parameters, time.monotonic() - began)
     save_figures(executed, work)
     save_widgets(executed, work)
     if claims.exists():
@@ -314,9 +316,8 @@ def save_widgets(notebook, folder):
     stored = notebook.metadata.get("widgets", {}).get(WIDGET_STATE, {"state": {}})
     kept = {}
     for cell in notebook.cells:
-        name = cell.metadata.get("widget", {}).get("name")
-        data = [output.get("data", {}) for output in cell.get("outputs", [])]
-        views = [shown[WIDGET_VIEW] for shown in data if WIDGET_VIEW in shown]
+        name, outputs = cell.metadata.get("widget", {}).get("name"), cell.get("outputs", [])
+        views = [each.data[WIDGET_VIEW] for each in outputs if WIDGET_VIEW in each.get("data", {})]
         if name and len(views) != 1:
             raise ValueError(f"cell of widget {name} shows {len(views)} widgets, allowed is 1")
         for view in views:

@@ -19,7 +19,8 @@ import build  # noqa: E402
 def notebook(tmp_path, monkeypatch):
     """A notebook of two cells, and chapters of its own."""
     monkeypatch.setattr(build, "CHAPTERS", tmp_path / "chapters")
-    cells = [nbformat.v4.new_code_cell("runs: int = 20", metadata={"tags": ["parameters"]}),
+    cells = [nbformat.v4.new_markdown_cell("# Page"),
+             nbformat.v4.new_code_cell("runs: int = 20", metadata={"tags": ["parameters"]}),
              nbformat.v4.new_markdown_cell("[Sources](../book/sources.md) of [maps](../book/glossary.md#nres-map)"),
              nbformat.v4.new_code_cell("assert runs != 13\nprint(runs)")]
     metadata = {"kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"}}
@@ -39,8 +40,8 @@ def test_a_notebook_is_computed_when_something_has_changed_and_kept_when_not(not
     target = build.CHAPTERS / "page.ipynb"
     build.compute(notebook, {"runs": 3})
     executed = nbformat.read(target, 4)
-    assert executed.cells[-1].outputs[0].text == "3\n"
-    assert executed.cells[2].source == "[Sources](../sources.md) of {term}`maps <NRES map>`"
+    assert executed.cells[2].outputs[0].text == "3\n"
+    assert executed.cells[1].source == "[Sources](../sources.md) of {term}`maps <NRES map>`"
     assert json.loads((build.CHAPTERS / "page.inputs.json").read_text())["parameters"] == {"runs": 3}
 
     before = target.stat().st_mtime_ns
@@ -51,10 +52,10 @@ def test_a_notebook_is_computed_when_something_has_changed_and_kept_when_not(not
     assert build.attempt(notebook, {"runs": 13}) == 1
     said = capsys.readouterr().out
     assert "page.ipynb, In [3]: AssertionError: " in said and "runs != 13" in said
-    assert nbformat.read(target, 4).cells[-1].outputs[0].text == "3\n"  # a failure leaves the page alone
+    assert nbformat.read(target, 4).cells[2].outputs[0].text == "3\n"  # a failure leaves the page alone
     assert (build.CHAPTERS / ".page" / "page.ipynb").exists()  # and shows how far it came
     build.compute(notebook, {"runs": 4})
-    assert nbformat.read(target, 4).cells[-1].outputs[0].text == "4\n"
+    assert nbformat.read(target, 4).cells[2].outputs[0].text == "4\n"
     assert sorted(path.name for path in build.CHAPTERS.iterdir()) == ["page.inputs.json", "page.ipynb"]
 
 
@@ -189,7 +190,7 @@ def test_what_a_notebook_has_found_stands_beside_its_page_and_in_the_table_of_al
                                                                                           monkeypatch):
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path / "cache"))
     content = nbformat.read(notebook, 4)
-    content.cells[2].source = ("from neorl.evidence import report\nreport.save('page', shares={'A2': "
+    content.cells[3].source = ("from neorl.evidence import report\nreport.save('page', shares={'A2': "
                                "{'holds': 1, 'undecided': 1, 'untestable': 0, 'readings': 4}})")
     nbformat.write(content, notebook)
     build.compute(notebook, {"runs": 3})
@@ -281,7 +282,7 @@ def test_notebooks_read_the_claims_of_the_chapters_and_no_others(notebook, chapt
 
 def cell_of(notebook, source):
     page = nbformat.read(notebook, 4)
-    page.cells[2].source = source
+    page.cells[3].source = source
     nbformat.write(page, notebook)
 
 

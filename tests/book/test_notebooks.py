@@ -153,11 +153,3 @@ def test_a_parameter_that_the_notebook_does_not_have_is_refused(monkeypatch):
     monkeypatch.setattr(notebook, "get_ipython", Shell)
     with pytest.raises(ValueError, match="parameter runz is unknown, allowed are runs, steps, seed"):
         notebook.begin(runs=4, steps=1, seed=0)
-
-
-def test_few_runs_are_told_to_the_reader(capsys, monkeypatch):
-    shown = []
-    monkeypatch.setattr(notebook, "display", shown.append)
-    notebook.begin(runs=4, steps=1, seed=0)
-    notebook.begin(runs=20, steps=1, seed=0)
-    assert len(shown) == 1 and "4 runs: no verdicts" in shown[0].data

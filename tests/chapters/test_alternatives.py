@@ -265,12 +265,11 @@ def test_the_claim_is_judged_by_learners_with_enough_runs(boards):
 
 
 def test_the_summary_names_the_best_of_each_sort_and_an_agent_beyond_the_thesis_if_there_is_one(boards):
-    judged = report.judge(boards[3], 150_000)
-    text = report.summary(boards, judged)
+    text = report.summary(boards)
     assert "With 3 creeps the thesis's best agent, PC + OVC, calibrated, finally earns 0.50 per second" in text
     assert "2.50 (hybrid reward); 1.20 (DQN). Controllers" in text and "this part of the book" not in text
     ours = {creeps: {**each, "ours": earned(BEYOND, 3.0)} for creeps, each in boards.items()}
-    assert "; 3.00 (ours), the agent of this part of the book. Controllers" in report.summary(ours, judged)
+    assert "; 3.00 (ours), the agent of this part of the book. Controllers" in report.summary(ours)
     assert "the best learner, ours, earns" in report.meaning(ours)
 
 

@@ -55,8 +55,8 @@ def _under(earned, reading):
     return {name: each for name, each in earned.items() if each.kind == THESIS and name.endswith(reading)}
 
 
-def summary(boards, claims):
-    """The page's result in a paragraph. claims: as `judge` returns them."""
+def summary(boards):
+    """The page's result in a paragraph."""
     parts = []
     for creeps, earned in boards.items():
         tabular, deep, thesis = (best_of(earned, kind) for kind in (TABLES, DEEP, THESIS))
@@ -67,8 +67,7 @@ def summary(boards, claims):
                      f"per second, and others earn {'; '.join(part for part in told if part)}. Controllers that know "
                      f"the physics earn {_rate(earned, 'nearest green')} and {_rate(earned, 'PD')}, a planner "
                      f"{_rate(earned, 'planner')}.")
-    verdicts = "; ".join(f"{reading}, {claim.verdict}" for reading, claim in claims.items())
-    return f"**{' '.join(parts)} That no other method succeeds (claim C5): {verdicts}.**"
+    return " ".join(parts)
 
 
 def _named(earned, name):

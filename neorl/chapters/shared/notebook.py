@@ -1,21 +1,20 @@
-"""The beginning of every notebook of the book: check its parameters, set its style, report its scale."""
+"""The beginning of every notebook of the book: check its parameters, set its style."""
 
 import ast
 import inspect
 
 from IPython import get_ipython
-from IPython.display import Markdown, display
+from IPython.display import Markdown
 from matplotlib import pyplot as plt
 from matplotlib_inline.backend_inline import set_matplotlib_formats
 
 from neorl import checks
 from neorl.core.kernel import function_of
 from neorl.drawing.style import use_style
-from neorl.evidence.claims import RUNS_FOR_A_VERDICT
 
 
 def begin(runs, steps, seed, fewest_steps=1, **others):
-    """Check the parameters of a notebook, set the style of its figures, and warn the reader of few runs.
+    """Check the parameters of a notebook, and set the style of its figures.
 
     runs: integer ≥ 1. steps: integer ≥ `fewest_steps`, so that there is something to draw. seed: integer ≥ 0.
     others: further parameters of the notebook, which it checks itself.
@@ -31,9 +30,6 @@ def begin(runs, steps, seed, fewest_steps=1, **others):
     plt.switch_backend(plt.get_backend())  # which it would be only by the first figure
     plt.uninstall_repl_displayhook()  # it draws all figures of a cell, and to be shown they are drawn once more
     use_style()
-    if runs < RUNS_FOR_A_VERDICT:
-        display(Markdown(f"> **{runs} runs: no verdicts.** This page is a first look. Verdicts need "
-                         f"{RUNS_FOR_A_VERDICT} runs or more."))
 
 
 def injected_names():

@@ -1,0 +1,52 @@
+"""The order of a built page: title, what was found, the page's text, and last its parameters.
+
+A notebook runs from its parameters to its results, and a page reads from its results on. So the cells tagged ``found``,
+a box and its figure, move up below the title, and the parameters, with the values that the page was computed with, to
+its end, folded below the heading *Run it yourself*. The cell that papermill injects is left out.
+"""
+
+import re
+
+from nbformat.v4 import new_markdown_cell
+
+FOUND, PARAMETERS, INJECTED = "found", "parameters", "injected-parameters"
+
+
+def results_first(cells, name, values, seconds):
+    """The cells of a computed notebook, in the order of its page.
+
+    name: of the notebook, without its ending. values: of its parameters, {name: value}. seconds: that it took.
+    """
+    title, *others = cells
+    last = [each for each in others if PARAMETERS in tags(each)]
+    for cell in last:
+        cell.source = with_values(cell.source, values)
+        cell.metadata.tags = [PARAMETERS, "hide-input"]
+        cell.metadata.mystnb = {"code_prompt_show": "Show the parameters", "code_prompt_hide": "Hide the parameters"}
+    first = [each for each in others if FOUND in tags(each)]
+    rest = [each for each in others if not {FOUND, PARAMETERS, INJECTED} & tags(each)]
+    heading = new_markdown_cell(run_it_yourself(name, seconds), id="run-it-yourself")  # not an id at random
+    return [title, *first, *rest, heading, *last]
+
+
+def tags(cell):
+    """The tags of a cell, a set."""
+    return set(cell.metadata.get("tags", ()))
+
+
+def with_values(source, values):
+    """The source of a cell of parameters, ``name: type = default  # comment``, with other values for the defaults."""
+    for name, value in values.items():
+        shown = f"{value:_}" if isinstance(value, int) else repr(value)
+        source = re.sub(rf"^({name}: \w+ = )[^\s#]+", rf"\g<1>{shown}", source, flags=re.MULTILINE)
+    return source
+
+
+def run_it_yourself(name, seconds):
+    """The text that stands above the parameters of a page."""
+    took = f"{seconds:.0f} seconds" if seconds < 90 else f"{seconds / 60:.0f} minutes"
+    return (f"## Run it yourself\n\nThis page took {took} to compute, less what earlier builds had cached. `make lab` "
+            f"opens its notebook, `notebooks/{name}.ipynb`, in JupyterLab: change the parameters below, and run it "
+            f"again. Papermill computes it with other ones in one line:\n\n```\n.venv/bin/papermill "
+            f"notebooks/{name}.ipynb out.ipynb -p runs 4\n```\n\n[Running it](../running.md) has other machines, "
+            "clusters and the cloud.")

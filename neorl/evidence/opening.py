@@ -1,0 +1,46 @@
+"""The box that opens a page of the book, *What was found*, in Markdown: verdicts by symbol, and a few sentences.
+
+A box stands at the top of its page, before everything that it rests on, so it says what a figure cannot: which claims
+hold, and the numbers to remember. With too few runs for verdicts it says so in their place.
+"""
+
+from neorl.evidence.marks import html
+from neorl.evidence.statements import STATEMENTS
+from neorl.evidence.verdict import RUNS_FOR_A_VERDICT
+
+CLAIMS_PAGE = "../claims.md"  # as seen from the pages that are built
+
+
+def what_was_found(sentences, runs, verdicts=None):
+    """The box of a page.
+
+    sentences: Markdown, of computed numbers. runs: of a condition, the parameter of the page. verdicts: {reading: {name
+    of a claim: its verdict}}, a line for each reading, whose name may be empty; none for a page that judges no claim.
+    """
+    lines = ["**What was found**"]
+    if runs < RUNS_FOR_A_VERDICT:
+        lines.append(f"**Quick look: no verdicts.** A verdict needs {RUNS_FOR_A_VERDICT} runs of each condition; this "
+                     f"page was computed with {runs}.")
+    else:
+        lines += [_line(reading, found) for reading, found in (verdicts or {}).items()]
+    # A blank line ends the HTML, so that what stands between the two tags is read as Markdown.
+    return "\n\n".join(['<div class="found">', *lines, sentences, "</div>"])
+
+
+def verdicts_of(judged):
+    """The verdicts on claims, {reading: {name: verdict}}. judged: {reading: [Claim, …]}."""
+    return {reading: {claim.name: claim.verdict for claim in claims} for reading, claims in judged.items()}
+
+
+def _line(reading, found):
+    """One reading's verdicts, each with the claims that have it: "Calibrated: ● A2, A7 reproduced; ◐ A3 partly"."""
+    groups = []
+    for verdict in dict.fromkeys(found.values()):
+        names = [_link(name) for name, each in found.items() if each == verdict]
+        groups.append(f"{html(verdict)}\u00a0{', '.join(names)} {verdict}")
+    return f"{reading.capitalize()}{': ' if reading else ''}{'; '.join(groups)}"
+
+
+def _link(name):
+    """The name of a claim, with its text as the title of a link to the page of claims."""
+    return f'[{name}]({CLAIMS_PAGE} "{STATEMENTS[name].text}")'

@@ -1,0 +1,23 @@
+"""The box that opens a page: verdicts with symbols and links, or that there are none."""
+
+from neorl.evidence import marks, opening
+
+
+def test_a_box_has_verdicts_by_reading_with_symbols_names_and_links():
+    text = opening.what_was_found("It earns 0.30.", 10, {"calibrated": {"A2": "reproduced", "A3": "partly",
+                                                                       "A4": "reproduced"}, "": {"A1": "no verdict"}})
+    begin, title, calibrated, nameless, sentences, end = text.split("\n\n")
+    assert (begin, title, sentences, end) == ('<div class="found">', "**What was found**", "It earns 0.30.", "</div>")
+    assert calibrated.startswith(f"Calibrated: {marks.html('reproduced')}\u00a0[A2](../claims.md")
+    assert ", [A4](../claims.md" in calibrated and calibrated.endswith(' partly')
+    assert calibrated.index("[A4]") < calibrated.index("; ") < calibrated.index("◐")
+    assert nameless.startswith(marks.html("no verdict"))
+
+
+def test_with_few_runs_a_box_says_that_there_are_no_verdicts():
+    text = opening.what_was_found("It earns 0.30.", 9, {"calibrated": {"A2": "reproduced"}})
+    assert "**Quick look: no verdicts.**" in text and "computed with 9" in text and "A2" not in text
+
+
+def test_a_page_without_claims_has_a_box_of_sentences():
+    assert opening.what_was_found("Fast.", 10) == '<div class="found">\n\n**What was found**\n\nFast.\n\n</div>'
