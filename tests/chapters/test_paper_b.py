@@ -113,15 +113,16 @@ def test_all_claims_of_the_page_are_judged_in_their_order(lived):
 
 
 def test_what_was_found_is_put_in_words_reading_by_reading(lived):
-    both = lived | {"to the letter": lived["calibrated"]}
-    judged = findings.judge_each(both, {"to the letter": watched(), "calibrated": watched()})
-    letter, calibrated = findings.in_words(both, judged).split("\n\n")
+    both = {"to the letter": lived["calibrated"]} | lived
+    letter, calibrated = findings.in_words(both).split("\n\n")
     level, minute = findings.levels(lived)["calibrated"], findings.minutes(lived)["calibrated"]
     assert letter.startswith(f"**To the letter**, place cells finally earn {level['PC']} per second (thesis: 0.29), ")
     assert calibrated.startswith("**Calibrated**, place cells finally earn ")
     assert f"and both together {level['PC + OVC']} (thesis: 0.55)" in calibrated
     assert f"after {minute['PC'].value:.0f} minutes (thesis: more than 160), {minute['OVC'].value:.0f}, and" in letter
-    assert side_by_side.verdicts_in_words(judged["calibrated"]) in calibrated and calibrated.endswith(".")
+    short = findings.in_short(both)
+    assert calibrated.removeprefix("**Calibrated**, ") in short
+    assert short.endswith(f"and both {level['PC + OVC'].value:.2f}.")
 
 
 def test_levels_are_those_of_the_last_fifth_and_minutes_those_of_longer_lives(lived):

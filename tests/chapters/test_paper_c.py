@@ -7,10 +7,9 @@ import pytest
 
 from neorl import Result, WaterWorld, brownian
 from neorl.chapters.paper_c.experiments import NETWORKS, explorer_conditions, live, neighbours, networks, recur
-from neorl.chapters.paper_c.findings import drastic_level, final_rates, finals, in_words, recursion_in_words
+from neorl.chapters.paper_c.findings import drastic_level, final_rates, finals, in_short, in_words, recursion_in_words
 from neorl.evidence.priors import TO_THE_LETTER
 from neorl.evidence.reading import GROUPS, Reading, networks as agents
-from neorl.evidence.rules_paper_c import judge_networks
 from neorl.evidence.statistics import Estimate
 
 LIKE_THE_THESIS = {"A": 0.12, "B": 0.2, "C": 0.3, "D": 0.6}
@@ -50,13 +49,14 @@ def test_what_the_networks_page_has_not_run_yet_has_few_runs(monkeypatch):
 
 
 def test_what_was_found_is_put_in_words(results):
-    judged = {"book": judge_networks(*networks(results).values(), results["brownian", 3])}
-    words = in_words({"book": results}, judged)
-    assert words.startswith("- **Book.** ● reproduced: C1, C2, C3, C4. By reward")
+    words = in_words({"book": results})
+    assert words.startswith("- **Book.** By reward")
     numbers = [f"{result.rate(0.8, 1.0).mean():.2f}" for result in networks(results).values()]
     assert " < ".join(f"{name} ({number})" for name, number in zip(NETWORKS, numbers)) in words
     backwards = results | {("network", "A"): results["network", "D"], ("network", "D"): results["network", "A"]}
-    assert "order is D (" in in_words({"book": backwards}, judged)
+    assert "order is D (" in in_words({"book": backwards})
+    short = in_short({"to the letter": backwards, "calibrated": results})
+    assert f"the order is A ({numbers[0]}) <" in short and short.index("D (") < short.index("to the letter")
 
 
 def test_neighbours_differ_in_one_choice_and_are_more_with_many_runs():

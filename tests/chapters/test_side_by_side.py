@@ -2,17 +2,10 @@
 
 from dataclasses import replace
 
-
 import neorl
 from neorl.chapters.shared import side_by_side
 from neorl.evidence.priors import TO_THE_LETTER
 from neorl.evidence.reading import Reading
-from neorl.evidence.statistics import Estimate
-from neorl.evidence.verdict import Claim
-
-
-def claim(name, outcome, runs=10):
-    return Claim(name, Estimate(0.0, 0.0, 0.0), "", runs, outcome, False)
 
 
 def test_conditions_that_readings_share_are_computed_once(monkeypatch):
@@ -48,12 +41,6 @@ def test_results_are_named_by_resolution_in_the_order_asked_for():
     results = {("place", "all"): "together", ("place", 2): "coarse", ("place", 13): "fine", "both": "other"}
     found = side_by_side.by_resolution(results, "place", (2, 13, "all"))
     assert list(found.items()) == [("N2", "coarse"), ("N13", "fine"), ("all", "together")]
-
-
-def test_claims_stand_by_their_verdicts_and_a_verdict_that_none_has_is_left_out():
-    claims = [claim("A1", "partly"), claim("A2", "reproduced"), claim("A3", "partly"),
-              claim("A4", "reproduced", runs=9)]
-    assert side_by_side.verdicts_in_words(claims) == "● reproduced: A2; ◐ partly: A1, A3; – no verdict: A4"
 
 
 def test_what_is_said_of_each_reading_is_an_item_of_a_list():

@@ -1,4 +1,4 @@
-"""Findings of the page of paper A: verdicts, and numbers beside the thesis's.
+"""Findings of the page of paper A: numbers beside the thesis's.
 
 Results are those of `neorl.chapters.paper_a.experiments.live`: {reading: {key: Result}}.
 """
@@ -6,11 +6,12 @@ Results are those of `neorl.chapters.paper_a.experiments.live`: {reading: {key: 
 import numpy as np
 
 from neorl.chapters.shared import side_by_side
-from neorl.chapters.shared.side_by_side import each_in_words, verdicts_in_words
+from neorl.chapters.shared.side_by_side import each_in_words
 from neorl.chapters.shared.wording import number
 from neorl.evidence.claims import judge_multiple_layers
 from neorl.evidence.priors import BEYOND
 from neorl.evidence.reading import LAYERS, SINGLE
+from neorl.evidence.report import CALIBRATED, LETTER
 from neorl.evidence.statistics import Estimate, estimate, ratio, resets
 from neorl.evidence.verdict import FINAL
 
@@ -24,25 +25,44 @@ def beside_thesis(results):
             for name, each in results.items()}
 
 
-def in_words(results, judged):
-    """The findings under each reading, as a Markdown list: verdicts, and the numbers behind them.
+def in_short(results):
+    """The findings in three sentences, beside the thesis's numbers."""
+    calibrated, letter = results[CALIBRATED], results[LETTER]
+    gain, by_letter = _gain(calibrated), _gain(letter)
+    together, alone = _finals(calibrated)
+    control = calibrated["brownian", 8]
+    return (f"In the calibrated reading, N3, N7 and N23 together finally earn {number(together)} per second: "
+            f"{gain} times as much as N7 alone, where the thesis has {THESIS[REWARD]}, and "
+            f"{'more' if together > sum(alone) else 'not more'} than the sum of the three alone, "
+            f"{number(sum(alone))}. To the letter they earn {by_letter} times as much as N7. Of single maps "
+            f"{_order(calibrated)[0]} earns most, where the thesis has N50; Brownian motion resets the board "
+            f"{number(resets(control).mean())} times in {control.steps:,} steps, where it is “incapable of” one.")
 
-    judged: the claims of each reading, {name: [Claim, …]}.
-    """
-    return each_in_words({name: _found(results[name], claims) for name, claims in judged.items()})
+
+def in_words(results):
+    """The findings under each reading, as a Markdown list of numbers."""
+    return each_in_words({name: _found(each) for name, each in results.items()})
 
 
-def _found(results, claims):
-    rate = {n: results["single", n].rate().mean() for n in SINGLE}
-    order = ", ".join(f"N{n} ({number(rate[n])})" for n in sorted(rate, key=rate.get, reverse=True))
+def _found(results):
     control = results["brownian", 8]
-    alone = [results["layer", n].rate(*FINAL).mean() for n in LAYERS]
-    together = results["layers"].rate(*FINAL).mean()
-    return (f"{verdicts_in_words(claims)}. By reward per second over the whole run, the order of single maps is "
-            f"{order}; Brownian motion earns {number(control.rate().mean())} and resets the board "
+    together, alone = _finals(results)
+    return (f"By reward per second over the whole run, the order of single maps is "
+            f"{', '.join(_order(results))}; Brownian motion earns {number(control.rate().mean())} and resets the board "
             f"{number(resets(control).mean())} times in {control.steps:,} steps. N3, N7 and N23 together finally earn "
             f"{number(together)} per second, {_gain(results)} times as much as N7 (thesis: {THESIS[REWARD]}); alone "
             f"they earn {', '.join(map(number, alone))}, in total {number(sum(alone))}.")
+
+
+def _order(results):
+    """Single maps with their reward per second over the whole run, the best one first."""
+    rate = {n: results["single", n].rate().mean() for n in SINGLE}
+    return [f"N{n} ({number(rate[n])})" for n in sorted(rate, key=rate.get, reverse=True)]
+
+
+def _finals(results):
+    """Final reward per second of all three maps together, and of each alone."""
+    return results["layers"].rate(*FINAL).mean(), [results["layer", n].rate(*FINAL).mean() for n in LAYERS]
 
 
 def _gain(results):

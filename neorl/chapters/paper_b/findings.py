@@ -1,4 +1,4 @@
-"""Findings of the page of paper B: verdicts, numbers beside the thesis's, sentences.
+"""Findings of the page of paper B: claims judged, numbers beside the thesis's, sentences.
 
 `lived` is what `neorl.chapters.paper_b.experiments.live` returns, {reading: {key: `Result`}}, and `watched` what
 `neorl.chapters.paper_b.trials.watch` does, {reading: `Watched`}.
@@ -7,10 +7,10 @@
 import numpy as np
 
 from neorl.chapters.paper_b.experiments import of_figure_5
-from neorl.chapters.shared.side_by_side import verdicts_in_words
 from neorl.core.modality import MODALITIES
 from neorl.evidence import claims
 from neorl.evidence.reading import PRIMES, additions, judge
+from neorl.evidence.report import CALIBRATED, LETTER
 from neorl.evidence.rules_chapters import sooner_with_more
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.statistics import estimate, points, quotient, ratio, resets, time_to_final_level
@@ -40,14 +40,18 @@ def _judged(results, watched):
     return [found[name] for name in STATEMENTS if name in found]
 
 
-def in_words(lived, judged):
-    """The findings under each reading, one paragraph of Markdown each: final levels, the time to them, and verdicts.
-
-    judged: as `judge_each` returns it.
-    """
+def in_short(lived):
+    """The findings in a few sentences, beside the thesis's numbers."""
     level, minute = levels(lived), minutes(lived)
-    return "\n\n".join(f"**{name.capitalize()}**, {_found(level[name], minute[name])} {verdicts_in_words(each)}."
-                       for name, each in judged.items())
+    short = {agent: f"{each.value:.2f}" for agent, each in level[LETTER].items()}
+    return (f"In the calibrated reading, {_found(level[CALIBRATED], minute[CALIBRATED])} To the letter, place cells "
+            f"earn {short['PC']}, object-vector cells {short['OVC']}, and both {short['PC + OVC']}.")
+
+
+def in_words(lived):
+    """The findings under each reading, one paragraph of Markdown each: final levels, and the time to them."""
+    level, minute = levels(lived), minutes(lived)
+    return "\n\n".join(f"**{name.capitalize()}**, {_found(level[name], minute[name])}" for name in lived)
 
 
 def _found(level, minute):

@@ -7,27 +7,39 @@ Results are those of `neorl.chapters.paper_c.experiments.live`: {reading: {key: 
 import numpy as np
 
 from neorl.chapters.paper_c.experiments import NETWORKS, networks
-from neorl.chapters.shared.side_by_side import each_in_words, verdicts_in_words
+from neorl.chapters.shared.side_by_side import each_in_words
 from neorl.chapters.shared.wording import number
-from neorl.evidence.statistics import estimate
+from neorl.evidence.report import CALIBRATED, LETTER
+from neorl.evidence.statistics import estimate, ratio
 from neorl.evidence.verdict import FINAL
 
 DRASTIC = 1.5  # "drastically" is read as by half or more
 
 
-def in_words(results, judged):
-    """The findings under each reading, as a Markdown list: verdicts, and the numbers behind them.
+def in_short(results):
+    """The findings in three sentences, beside the thesis's order."""
+    calibrated, letter = results[CALIBRATED], results[LETTER]
+    lead = estimate(ratio, calibrated["network", "D"].rate(*FINAL), calibrated["network", "C"].rate(*FINAL))
+    return (f"The thesis has A < B < C ≪ D. By final reward per second, the order is {_order(calibrated)} in the "
+            f"calibrated reading, and {_order(letter)} to the letter. Calibrated, recursion brings D to {lead} times "
+            f"as much as C; Brownian motion earns {_control(calibrated)}.")
 
-    judged: the claims of each reading, {name: [Claim, …]}.
-    """
-    return each_in_words({name: _found(results[name], claims) for name, claims in judged.items()})
+
+def in_words(results):
+    """The findings under each reading, as a Markdown list of numbers."""
+    return each_in_words({name: f"By reward per second in the last fifth of a run the order is {_order(each)}, where "
+                                f"the thesis has A < B < C ≪ D; Brownian motion earns {_control(each)}."
+                          for name, each in results.items()})
 
 
-def _found(results, claims):
+def _order(results):
+    """Networks with their final reward per second, in rising order."""
     final = {name: result.rate(*FINAL).mean() for name, result in networks(results).items()}
-    order = " < ".join(f"{name} ({number(final[name])})" for name in sorted(final, key=final.get))
-    return (f"{verdicts_in_words(claims)}. By reward per second in the last fifth of a run the order is {order}, where "
-            f"the thesis has A < B < C ≪ D; Brownian motion earns {number(results['brownian', 3].rate().mean())}.")
+    return " < ".join(f"{name} ({number(final[name])})" for name in sorted(final, key=final.get))
+
+
+def _control(results):
+    return number(results["brownian", 3].rate().mean())
 
 
 def drastic_level(results):

@@ -7,10 +7,9 @@ Readings are {name: `Reading`}, and their results {name: {key: `Result`}}, with 
 from dataclasses import replace
 
 from neorl.chapters.shared.wording import table
-from neorl.evidence.marks import symbol
 from neorl.evidence.priors import BEYOND, WITHIN
 from neorl.evidence.reading import judge
-from neorl.evidence.verdict import RUNS_FOR_A_VERDICT, VERDICTS
+from neorl.evidence.verdict import RUNS_FOR_A_VERDICT
 from neorl.experiments.sweeping import sweep
 
 
@@ -43,12 +42,6 @@ def changed(reading, changes):
 def by_resolution(results, group, resolutions):
     """The results of one reading with the keys (group, N), by name: {"N3": `Result`, …}; "all" keeps its name."""
     return {n if n == "all" else f"N{n}": results[group, n] for n in resolutions}
-
-
-def verdicts_in_words(claims):
-    """The verdicts of claims, with the names of the claims that have each: "● reproduced: A1, A2; ◐ partly: A3"."""
-    names = {verdict: ", ".join(claim.name for claim in claims if claim.verdict == verdict) for verdict in VERDICTS}
-    return "; ".join(f"{symbol(verdict)} {verdict}: {some}" for verdict, some in names.items() if some)
 
 
 def each_in_words(words):
