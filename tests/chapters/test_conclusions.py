@@ -1,9 +1,11 @@
 """The two conclusions, against verdicts that are made up."""
 
+import re
+
 import pytest
 
 from neorl.chapters.chapter_5 import conclusions
-from neorl.chapters.chapter_5.conclusions import GROUND, SEPARATION, SUPERPOSITION
+from neorl.chapters.chapter_5.conclusions import BEYOND, GROUND, SEPARATION, SUPERPOSITION
 from neorl.evidence.report import CALIBRATED, LETTER
 from neorl.evidence.statements import CLAIMS
 
@@ -31,7 +33,7 @@ def all_claims(verdict):
 
 
 def test_every_claim_belongs_to_one_conclusion_or_to_the_ground():
-    assert sorted([*SUPERPOSITION, *SEPARATION, *GROUND]) == sorted(CLAIMS)
+    assert sorted([*SUPERPOSITION, *SEPARATION, *GROUND, *BEYOND]) == sorted(CLAIMS)
 
 
 def test_each_reading_has_verdicts_of_its_own():
@@ -42,10 +44,19 @@ def test_each_reading_has_verdicts_of_its_own():
     assert conclusions.both_verdicts(found)["A2"] == "*reproduced* calibrated, *partly* to the letter"
 
 
-def test_the_overview_counts_verdicts():
-    text = conclusions.overview(verdicts(all_claims("reproduced") | {"A1": "partly", "T2": "partly"}, {"A2": "partly"}))
-    assert f"- **Calibrated**, of {len(CLAIMS)} claims judged: {len(CLAIMS) - 2} reproduced, 2 partly.\n" in text
-    assert "- **To the letter**, of 1 claims judged: 1 partly.\n" in text
+def test_the_box_counts_verdicts():
+    text = conclusions.in_short(verdicts(all_claims("reproduced") | {"A1": "partly", "G2": "partly"}, {"A2": "partly"}))
+    text = re.sub("<[^>]+>", "", text).replace("\u00a0", " ")
+    assert (f"results: to the letter, ◐ 1 partly, – {len(CLAIMS) - 1} not computed in this build; calibrated, ● "
+            f"{len(CLAIMS) - 2} reproduced, ◐ 2 partly. In the calibrated reading, *Superposition* holds ") in text
+    assert text.endswith("the pages beyond the thesis judge 5: ● 4 reproduced, ◐ 1 partly.")
+
+
+def test_what_lies_beyond_the_thesis_has_its_verdicts_and_numbers():
+    made = record({"C5": "not reproduced"})
+    first, second, *_ = conclusions.beyond(made, conclusions.verdicts_by_reading(made)).splitlines()
+    assert "○" in first and "**C5** No other method" in first and first.endswith(": 0.50 [0.40, 0.60]).")
+    assert "**G1**" in second and second.endswith("*not computed in this build*.")
 
 
 @pytest.mark.parametrize("found, held", [

@@ -1,11 +1,14 @@
 """What is said of the animals in the maze."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from neorl.chapters.chapter_2.latent_learning import DAYS, LEARNERS, Finding, Record
 from neorl.chapters.chapter_2.maze_report import (describe_errors, describe_first_meals, describe_findings,
-                                                 describe_known, describe_settings, describe_verdict, findings_table)
+                                                 describe_known, describe_settings, describe_verdict, findings_table,
+                                                 in_short)
 from neorl.evidence.statistics import Estimate
 from neorl.evidence.verdict import Claim
 
@@ -93,3 +96,14 @@ def test_first_meals_have_a_line_each():
     assert describe_first_meals({3: (13.75, 11.5), 15: (15.25, 0.0)}).splitlines() == [
         "first meal on day 3: 13.8 errors that day, 11.5 on the next",
         "first meal on day 15: 15.2 errors that day, 0.0 on the next"]
+
+
+def test_the_box_has_each_learner_and_the_demonstration():
+    errors = np.zeros((2, 17))
+    errors[:, 10], errors[:, 11] = 5.0, 1.5
+    record = SimpleNamespace(errors=errors)
+    by_learner = {name: {"delayed": record} for name in ("neoRL", "Q-learning", "Sarsa(λ)")}
+    text = in_short(by_learner, SimpleNamespace(here="−0.13 [−0.29, 0.02]"))
+    assert "from 5.0 errors on that day to 1.5 on the next with neoRL" in text
+    assert "from 5.0 to 1.5 with Q-learning and from 5.0 to 1.5 with Sarsa(λ)" in text
+    assert "make −0.13 [−0.29, 0.02] errors per day less" in text

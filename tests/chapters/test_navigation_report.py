@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from neorl.chapters.chapter_1.navigation_report import describe_gain, describe_leads, describe_rule
+from neorl.chapters.chapter_1.navigation_report import (describe_gain, describe_leads, describe_rule, in_short,
+                                                       rewards_table)
 from neorl.evidence.statistics import Estimate
 
 
@@ -25,3 +26,12 @@ def test_each_life_has_a_line_with_its_minutes():
     leads = {600: Estimate(-0.01, -0.07, 0.05), 60_000: Estimate(0.43, 0.34, 0.52)}
     assert describe_leads(leads, minute=3_000).splitlines() == [
         "  0.20 minutes lived: −0.01 [−0.07, 0.05] ahead", " 20.00 minutes lived: 0.43 [0.34, 0.52] ahead"]
+
+
+def test_the_box_and_the_table_have_what_each_earns():
+    newborns, veterans, by_rule = np.array([0.0, 0.1, 0.2]), np.array([0.5, 0.6, 0.7]), np.array([1.0, 1.0, 1.0])
+    text = in_short(newborns, veterans, by_rule, 20.0)
+    assert text.startswith("Experience in the tank pays: ") and "lived 20 minutes" in text and "earns 0.50 [" in text
+    assert "with probability 1.00" in text and "earns 1.00 [1.00, 1.00], whatever" in text
+    table = rewards_table(newborns, veterans, by_rule, 20.0)
+    assert "| newborn | 0.10 [" in table and "| veteran of 20 minutes | 0.60 [" in table

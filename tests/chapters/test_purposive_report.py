@@ -57,3 +57,8 @@ def test_what_ridges_leave_over_is_told_but_for_the_product(angles):
     assert "found at 45° and 135°, as in its formula" in text and "they leave 98 % of its spread" in text
     assert "leave, of the distance, 50.0 %, of the two hills, 25.0 %; ten leave 0.0 %, 0.0 %." in text
     assert f"of degree {DEGREE}," in text
+
+
+def test_the_box_has_the_school_the_sum_and_the_clock():
+    text = purposive_report.in_short("It keeps 0.75.", 0.613, np.array([0.02, 0.04]))
+    assert " It keeps 0.75. " in text and "in 61 % of cells" in text and text.endswith("takes 3.0 % of a core.")

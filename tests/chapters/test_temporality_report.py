@@ -62,3 +62,11 @@ def test_the_cost_is_told_for_the_end_if_nobody_makes_nine_tenths_and_no_differe
 def test_the_table_of_floors_has_a_row_for_each():
     found = report.floors_table({0.1: [np.array([0.5]), np.array([0.75])], 0.5: [np.array([0.25]), np.array([1.0])]})
     assert found.splitlines()[2:] == ["| 0.1 | 0.50 | 0.75 |", "| 0.5 | 0.25 | 1.00 |"]
+
+
+def test_the_box_has_the_curse_the_missing_step_and_the_model():
+    needed = {"Ψ = 2": (np.arange(1, 4), np.array([[10.0, 20.0, 40.0]] * 3))}
+    paid = {"sum": np.tile([0.5, 0.5, 0.9], (3, 1)), "table": np.tile([0.5, 0.6, 0.9], (3, 1))}
+    text = report.in_short(needed, paid, 2, 169, 1.66)
+    assert "prolongs Q-learning by a factor of 2.0" in text and "grid of 169 states only 1.7 % of it" in text
+    assert "remember 1 of 2 such steps earn 0.50 [0.50, 0.50] per step" in text and "all earn 0.90" in text

@@ -9,6 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from neorl import checks
+from neorl.chapters.chapter_1.steering import chase
 from neorl.evidence.statistics import difference, estimate
 from neorl.experiments.run import Run
 
@@ -35,6 +36,16 @@ def trials(agent, world, *, lessons, steps, runs, seed=0):
 
     with ThreadPoolExecutor() as pool:
         return np.array(list(pool.map(pair, range(checks.integer("runs", runs, at_least=1))))).T
+
+
+def first_minutes(agent, world, *, lessons, runs, seed=0):
+    """Rewards per second in the first minute on the same boards, (runs,) each: newborns, veterans, and the rule.
+
+    lessons: steps that a veteran has lived before. Raises ValueError for a bad argument.
+    """
+    minute = 60 * world.fps
+    newborns, veterans = trials(agent, world, lessons=lessons, steps=minute, runs=runs, seed=seed) / 60
+    return newborns, veterans, chase(world, minute, runs, seed) / 60
 
 
 def leads(agent, world, lives, *, steps, runs, seed=0):

@@ -4,6 +4,7 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.patches import Circle
 
+from neorl.drawing.boards import new_boards
 from neorl.drawing.style import AGENT, GREEN, INK, RED
 
 
@@ -19,6 +20,12 @@ def draw_route(axes, path, waypoints):
     axes.plot(*path[0], "o", color=AGENT, markersize=9)
     for number, (x, y) in enumerate(waypoints, start=1):
         _draw_disc(axes, (x, y), 0.045, INK, str(number))
+
+
+def draw_recordings(recordings):
+    """Several recordings side by side, each on a board of its own."""
+    for axes, recording in zip(new_boards(rows=1, columns=len(recordings)), recordings):
+        draw_recording(axes, recording)
 
 
 def draw_recording(axes, recording):

@@ -4,6 +4,32 @@ A newborn and a veteran are those of `neorl.chapters.chapter_1.before_and_after`
 `neorl.chapters.chapter_1.steering`.
 """
 
+import numpy as np
+
+from neorl.chapters.shared.wording import table
+from neorl.evidence.statistics import difference, estimate, probability_of_improvement
+
+
+def in_short(newborns, veterans, by_rule, minutes):
+    """What experience is worth in the tank, in three sentences: of the rewards per second of `first_minutes`.
+
+    minutes: that a veteran has lived.
+    """
+    gain, chance = estimate(difference, veterans, newborns), probability_of_improvement(veterans, newborns)
+    return (f"{describe_gain(gain)}: in its first minute on a board, an agent that has lived {minutes:.0f} minutes in "
+            f"another such tank earns {gain} per second more than the same agent newborn, with the 95 % interval in "
+            f"brackets, and beats a newborn of another pair with probability {chance}. Neither was trained; both "
+            f"learn while they act. Steering by a fixed rule that knows the laws of motion earns "
+            f"{estimate(np.mean, by_rule)}, whatever its experience.")
+
+
+def rewards_table(newborns, veterans, by_rule, minutes):
+    """The same rewards as a Markdown table."""
+    rows = (("newborn", newborns), (f"veteran of {minutes:.0f} minutes", veterans),
+            ("helmsman and captain by rule", by_rule))
+    return table(["in its first minute on a board", "reward per second"],
+                 [(name, estimate(np.mean, rewards)) for name, rewards in rows])
+
 
 def describe_gain(gain):
     """Whether experience in the tank pays. gain: the lead of veterans over newborns, an `Estimate`."""

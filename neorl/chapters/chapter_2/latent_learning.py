@@ -180,6 +180,16 @@ def findings(groups, first_reward=FIRST_REWARD):
     }
 
 
+def compare_groups(maze, runs, seed=0):
+    """The three groups of each kind of animal, {learner: {group: `Record`}}. Arguments as in `simulate_groups`."""
+    return {learner: simulate_groups(Animal(learner), maze, runs, seed) for learner in LEARNERS}
+
+
+def known_by(by_learner, group):
+    """What the animals of a group know at the end of each day, {learner: (animals, days)}: of `compare_groups`."""
+    return {learner: groups[group].known for learner, groups in by_learner.items()}
+
+
 def compare_learners(by_learner):
     """The `findings` of each kind of animal: {learner: {name: `Finding`}}, from {learner: {group: `Record`}}."""
     return {learner: findings(groups) for learner, groups in by_learner.items()}

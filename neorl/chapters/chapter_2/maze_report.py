@@ -6,6 +6,22 @@ from neorl.chapters.chapter_2.latent_learning import FIRST_REWARD, LEARNERS
 from neorl.chapters.shared import wording
 
 
+def in_short(by_learner, claim):
+    """What the maze shows of latent learning, in three sentences.
+
+    by_learner: {learner: {group: `Record`}}. claim: on demonstration H1.
+    """
+    drops = [(name, by_learner[name]["delayed"].errors.mean(axis=0)) for name in LEARNERS]
+    (first, errors), *others = ((name, [f"{daily[day]:.1f}" for day in (FIRST_REWARD - 1, FIRST_REWARD)])
+                                for name, daily in drops)
+    also = " and ".join(f"from {before} to {after} with {name}" for name, (before, after) in others)
+    return (f"In Tolman and Honzik's maze of 1930, rats that first found food on day {FIRST_REWARD} overtook rats fed "
+            f"throughout. Simulated animals go from {errors[0]} errors on that day to {errors[1]} on the next with "
+            f"{first}, the thesis's kind of learning, and {also}. From day {FIRST_REWARD + 1} on the {first} animals "
+            f"make {claim.here} errors per day less than those fed throughout, where below 0 means fewer: what was "
+            "learned without reward is there when it matters.")
+
+
 def describe_errors(by_learner):
     """Errors before and after a first meal, late and early, and on the first day: {learner: {group: `Record`}}."""
     errors = {learner: {group: record.errors.mean(axis=0) for group, record in groups.items()}

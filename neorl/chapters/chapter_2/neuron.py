@@ -26,6 +26,8 @@ CAPACITY = 1.0  # µF/cm²
 SODIUM, POTASSIUM, LEAK = 120.0, 36.0, 0.3  # mS/cm², all channels open
 SODIUM_AT, POTASSIUM_AT, LEAK_AT = REST + 115.0, REST - 12.0, REST + 10.613  # mV, where each current reverses
 RESOLUTION = 0.01  # ms between two points of an action potential
+SHOCKS = {"one shock": [30], "five, apart": [30, 45, 60, 75, 90],
+          "five at once": [30, 30.1, 30.2, 30.3, 30.4]}  # to the animal, by their minutes
 PULSES_APART = 0.05  # µA/cm², how closely the threshold of the axon is looked for
 
 
@@ -174,6 +176,11 @@ def synaptic_current(spikes, weight, decay=5.0, step=0.1):
     """
     decay = np.exp(-checks.real("step", step, 1e-9) / checks.real("decay", decay, 1e-9))
     return lfilter([checks.real("weight", weight)], [1.0, -decay], np.asarray(spikes, float), axis=0)
+
+
+def efficacies(minutes, shocks):
+    """`efficacy` after several series of shocks, {name: [minute, …]}: {name: (minutes,)}."""
+    return {name: efficacy(minutes, at) for name, at in shocks.items()}
 
 
 def efficacy(minutes, shocks, fading=15.0, short=1.0, lasting=1.0):

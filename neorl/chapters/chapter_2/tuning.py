@@ -99,6 +99,11 @@ class TuningCurve(NamedTuple):
     seconds: np.ndarray  # float64 (bins,) or (bins, bins), time spent there, smoothed as the spikes are
 
 
+def rates(trains, names, values, **binning):
+    """The rates of the `tuning_curve` of some cells, {name: (bins,)}. trains: {name: spikes}."""
+    return {name: tuning_curve(trains[name], values, **binning).rate for name in names}
+
+
 def tuning_curve(counts, values, step, high, bins, smoothing=1.0, closed=False):
     """The tuning of a cell to a variable: a `TuningCurve`.
 

@@ -16,6 +16,15 @@ def growth_factor(xs, needed):
     return estimate(np.mean, np.exp(slopes))
 
 
+def fit_trend(years, counts):
+    """The exponential trend of counts: a `scipy.stats.linregress` of their base 2 logarithms, and the fitted counts.
+
+    years, counts: (n,) each, n ≥ 3.
+    """
+    trend = stats.linregress(years, np.log2(counts))
+    return trend, 2 ** (trend.intercept + trend.slope * years)
+
+
 def doubling_time(trend, points):
     """In how much of x something doubles: an `Estimate`, with the interval of a straight line through logarithms.
 

@@ -3,6 +3,11 @@
 import numpy as np
 
 
+def numerical_slope(inputs, outputs):
+    """The slope of an activation between neighbouring inputs, (n − 1,): float64 (n,) each, inputs rising."""
+    return np.diff(outputs) / np.diff(inputs)
+
+
 def agreeing_intervals(inputs, slope):
     """In how many intervals the slope of an activation is the step of McCulloch and Pitts (1943).
 

@@ -5,7 +5,22 @@ import numpy as np
 from neorl.chapters.chapter_3.growth import growth_factor
 from neorl.chapters.chapter_3.temporality import RULES
 from neorl.chapters.shared.wording import table
+from neorl.evidence.claims import judge_temporality
 from neorl.evidence.statistics import difference, estimate
+
+
+def in_short(needed, paid, memory, states, share):
+    """The two curses and the price of a model, in three sentences.
+
+    needed, paid, memory: as in `experience_factors` and `short_memory`. states: of a grid. share: of the entries of its
+    full table of transitions that ever differ from 0, in %.
+    """
+    short, enough = (estimate(np.mean, paid["sum"][:, length]) for length in (memory - 1, memory))
+    return (f"Each further step of the past that matters prolongs Q-learning by a factor of "
+            f"{experience_factors(needed)}. No step can be spared: agents that remember {memory - 1} of {memory} such "
+            f"steps earn {short} per step, where a guess earns 0.50 and agents that remember all earn {enough}. A full "
+            f"table of transitions grows with the square of the states, as the thesis says; but in a grid of {states} "
+            f"states only {share:.1f} % of it ever differ from 0.")
 
 
 def states_met(met):
@@ -13,6 +28,13 @@ def states_met(met):
     full = all((states == alphabet**memories).all() for alphabet, (memories, states) in met.items())
     return ("Every learner meets all Ψ to the power of L states, in every world." if full else
             "Not every learner meets all Ψ to the power of L states in time.")
+
+
+def judge(paid, memory):
+    """Claim T3, of agents that remember all the steps that matter and of agents that remember one less."""
+    above = {rule: rewards - 0.5 for rule, rewards in paid.items()}  # a guess
+    return judge_temporality(*({rule: each[:, length] for rule, each in above.items()}
+                               for length in (memory, memory - 1)))
 
 
 def states_table(memories, least):

@@ -58,9 +58,13 @@ def in_words(lived, judged):
         for label, result in of_readings:
             rate = result.rate() if label == BROWNIAN else result.rate(*claims.FINAL)
             rows[-1].append(f"{estimate(np.mean, rate)}" + ("" if label in learns_at else f" ({label})"))
-    said = "; ".join(f"{name}, {_share_that_is_kept(claim)}" for name, claim in judged.items())
     return ("Reward per second in the last fifth of a run; of Brownian motion, over the whole run:\n\n"
-            + table(["Learns at", *lived], rows) + f"\n\n{said.capitalize()}.")
+            + table(["Learns at", *lived], rows) + f"\n\n{share_in_words(judged)}")
+
+
+def share_in_words(judged):
+    """What learning at every step keeps of the gain, in a sentence: {name: `Claim`}."""
+    return "; ".join(f"{name}, {_share_that_is_kept(claim)}" for name, claim in judged.items()).capitalize() + "."
 
 
 def _share_that_is_kept(claim):

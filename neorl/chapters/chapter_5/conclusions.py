@@ -8,13 +8,15 @@
 """
 
 from neorl.evidence import report
+from neorl.evidence.marks import html
 from neorl.evidence.report import CALIBRATED, LETTER, NOT_COMPUTED
 from neorl.evidence.statements import CLAIMS, STATEMENTS
 from neorl.evidence.verdict import VERDICTS
 
 SUPERPOSITION = ("A2", "A3", "A4", "A6", "A7", "A8", "B1", "B2", "B3", "B4", "B6", "B7", "T6")
 SEPARATION = ("T1", "T7", "C1", "C2", "C3", "C4")
-GROUND = tuple(name for name in CLAIMS if name not in SUPERPOSITION + SEPARATION)
+BEYOND = ("C5", "G1", "G2", "G3", "G4")  # which the pages beyond the thesis judge
+GROUND = tuple(name for name in CLAIMS if name not in SUPERPOSITION + SEPARATION + BEYOND)
 CONCLUSIONS = {"Superposition": SUPERPOSITION, "Learning apart from behaviour": SEPARATION}
 OTHER_VERDICTS = {"partly": "Partly: {}; the page of claims gives the details.",
                   "not testable": "Not testable, because the agents have not learned: {}.",
@@ -27,19 +29,36 @@ def verdicts_by_reading(record):
     return {reading: {name: report.verdict(found, name) for name in CLAIMS} for reading, found in records.items()}
 
 
-def overview(verdicts):
-    """How many claims have which verdict, and how far each conclusion holds, in Markdown."""
-    lines = []
-    for reading, found in verdicts.items():
-        counts = {each: len(_with(each, found)) for each in VERDICTS}
-        told = ", ".join(f"{count} {each}" for each, count in counts.items() if count)
-        lines.append(f"**{reading.capitalize()}**, of {sum(counts.values())} claims judged: {told}.")
-    for title, names in CONCLUSIONS.items():
-        held = "; ".join(f"{reading}, {_held(found, names)}" for reading, found in verdicts.items())
-        lines.append(f"**{title}**: {held}.")
+def in_short(verdicts):
+    """How many claims have which verdict, and how far each conclusion holds, in a few sentences of Markdown."""
+    tallies = "; ".join(f"{reading}, {_tally(found)}" for reading, found in verdicts.items())
+    others = _tally({name: verdicts[CALIBRATED][name] for name in BEYOND})
+    held = " ".join(f"*{title}* holds {_held(verdicts[CALIBRATED], names)}." for title, names in CONCLUSIONS.items())
     return (f"The book lists {len(CLAIMS)} claims of the thesis, each judged by a rule that was fixed before the "
-            "results. A conclusion holds *whole* if all its claims are reproduced, and *in part* if some are.\n\n"
+            f"results: {tallies}. In the calibrated reading, {held} Of these claims the pages beyond the thesis "
+            f"judge {len(BEYOND)}: {others}.")
+
+
+def _tally(found):
+    """How many claims have which verdict, with its symbol: "● 6 reproduced, ◐ 11 partly"."""
+    counts = {each: len(_with(each, found)) for each in (*VERDICTS, NOT_COMPUTED)}
+    return ", ".join(f"{html(each)}\u00a0{count} {each}" for each, count in counts.items() if count)
+
+
+def overview(verdicts):
+    """How far each conclusion holds under each reading, as a Markdown list."""
+    lines = [f"**{title}**: " + "; ".join(f"{reading}, {_held(found, names)}" for reading, found in verdicts.items())
+             + "." for title, names in CONCLUSIONS.items()]
+    return ("A conclusion holds *whole* if all its claims are reproduced, and *in part* if some are.\n\n"
             + "\n".join(f"- {line}" for line in lines))
+
+
+def beyond(record, verdicts):
+    """What the pages beyond the thesis have found of its claims, as a Markdown list."""
+    return "\n".join(
+        f"- {html(verdicts[CALIBRATED][name])} **{name}** {STATEMENTS[name].text}: *{verdicts[CALIBRATED][name]}*"
+        + (f" ({STATEMENTS[name].statistic}: {report.number(record['claims'][name])})."
+           if name in record["claims"] else ".") for name in BEYOND)
 
 
 def _held(found, names):
