@@ -8,7 +8,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
-from neorl.drawing.style import AGENT, INK, RED, axes_or_new, figure_or_new, width_of_figures
+from neorl.drawing.style import AGENT, INK, RED, SMALL, TEXT, axes_or_new, figure_or_new, width_of_figures
 from neorl.evidence.multiverse import outcome
 from neorl.evidence.priors import WITHIN
 from neorl.evidence.statements import STATEMENTS
@@ -17,7 +17,6 @@ COLOURS = {"holds": AGENT, "undecided": RED, "fails": INK}
 OUTCOMES = {"holds": "o", "undecided": "D", "fails": "."}  # markers
 SHADES = LinearSegmentedColormap.from_list("shades", [AGENT + "10", AGENT + "ff"])
 ROW = 0.2  # inches
-SMALL = 9  # points
 ABREAST = 3  # small curves
 
 
@@ -35,14 +34,14 @@ def draw_specifications(judged, figure=None):
         axes.remove()
     for axes, (name, claims) in zip(panels, judged.items()):
         order = _curve(axes, claims, name)
-        axes.set_title(f"{name}  {_share_of(claims, 'holds')}", size=SMALL, color=INK, loc="left", pad=3)
+        axes.set_title(f"{name}  {_share_of(claims, 'holds')}", size=SMALL, color=TEXT, loc="left", pad=3)
         axes.set(xticks=[], xlim=(-1, len(order)))
         axes.tick_params(labelsize=SMALL, length=2)
         axes.locator_params(axis="y", nbins=3)
     handles = [Line2D([], [], linestyle="none", marker=OUTCOMES[kind], markersize=5, color=COLOURS[kind], label=kind)
                for kind in COLOURS]
     handles += [Line2D([], [], linestyle="none", marker="^", markersize=5, color=INK, label="beyond the axis")]
-    figure.legend(handles=handles, loc="outside upper center", ncols=4, frameon=False, fontsize=SMALL, labelcolor=INK,
+    figure.legend(handles=handles, loc="outside upper center", ncols=4, frameon=False, fontsize=SMALL, labelcolor=TEXT,
                   handletextpad=0.2, columnspacing=1.0)
     return panels
 
@@ -61,10 +60,10 @@ def draw_specification(readings, judged, name, choices=WITHIN, figure=None):
     figure = figure_or_new(figure, (width_of_figures(), 2.4 + below))
     curve, strips = panels = figure.subplots(2, 1, sharex=True, height_ratios=(1.9, below))
     order = _curve(curve, claims, name)
-    figure.suptitle(fill(f"{name}: {STATEMENTS[name].text}", 58), size=11, color=INK)
+    figure.suptitle(fill(f"{name}: {STATEMENTS[name].text}", 58), size=11, color=TEXT)
     handles = [Line2D([], [], linestyle="none", marker=OUTCOMES[kind], markersize=5, color=COLOURS[kind],
                       label=f"{kind} {_share_of(claims, kind)}") for kind in COLOURS]
-    curve.legend(handles=handles, frameon=False, labelcolor="linecolor", fontsize=SMALL, handlelength=0.6, ncols=3,
+    curve.legend(handles=handles, frameon=False, labelcolor=TEXT, fontsize=SMALL, handlelength=0.6, ncols=3,
                  loc="lower center", bbox_to_anchor=(0.5, 1.0))
     places = [[choice.place(getattr(readings[i], key)) for i in order] for key, choice in shown.items()]
     strips.imshow(places, aspect="auto", cmap=SHADES, vmin=0, vmax=1, interpolation="nearest")
@@ -147,7 +146,7 @@ def draw_standing(record, names, ax=None):
                for kind, alpha in (("holds", 1.0), ("undecided", 0.45))]
     handles.append(Line2D([], [], color=INK, marker="D", markersize=5, linestyle="none"))
     axes.legend(handles, ["holds", "undecided", "agrees, in long runs"], frameon=False, fontsize=SMALL, ncols=3,
-                labelcolor=INK, loc="lower left", bbox_to_anchor=(0, 1.0), borderpad=0)
+                labelcolor=TEXT, loc="lower left", bbox_to_anchor=(0, 1.0), borderpad=0)
     return axes
 
 
