@@ -96,8 +96,9 @@ def _curve(axes, claims, name):
                                         (of_kind & (value > high), np.full(len(at), high), "^"),
                                         (of_kind & (value < low), np.full(len(at), low), "v"),
                                         (of_kind & np.isnan(value), np.full(len(at), low), "x")):
-            axes.plot(at[places], heights[places], linestyle="none", marker=marker, markersize=2.5 if marker in
-                      OUTCOMES.values() else 4, color=colour, label=kind, clip_on=False)
+            if places.any():  # nothing, unclipped, would take the whole figure
+                axes.plot(at[places], heights[places], linestyle="none", marker=marker, color=colour, clip_on=False,
+                          markersize=2.5 if marker in OUTCOMES.values() else 4)
     for border in STATEMENTS[name].borders:
         axes.axhline(border, color=INK, linewidth=0.8, linestyle="--")
     margin = 0.06 * (high - low)

@@ -58,7 +58,7 @@ def draw_contests(*contests):
 def draw_growth(series):
     """A small panel for each series that was timed: costs as dots, a line of the predicted slope through the last."""
     timed = [each for each in series if each.unit == "seconds"]
-    _, panels = plt.subplots(-(-len(timed) // 2), 2, figsize=(5.6, 1.9 * -(-len(timed) // 2)))
+    _, panels = plt.subplots(-(-len(timed) // 2), 2, figsize=(4.9, 1.9 * -(-len(timed) // 2)))
     for axes, each in zip(panels.flat, timed):
         line = each.costs[-1] * (each.xs / each.xs[-1]) ** each.predicted
         axes.plot(each.xs, line, color=INK, linewidth=1)
@@ -66,10 +66,10 @@ def draw_growth(series):
                   marker="o", markersize=4)
         axes.set(xscale="log", yscale="log", xlabel=each.of)
         axes.set_title(each.cost, fontsize=9, color=TEXT)
-        axes.set_xticks(each.xs, [f"{x:g}" for x in each.xs], fontsize=9.5)
+        axes.set_xticks(each.xs, [f"{x:g}" for x in each.xs], fontsize=9)
         axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         axes.yaxis.set_major_formatter(EngFormatter("s"))
-        axes.tick_params(axis="y", labelsize=9.5)
+        axes.tick_params(axis="y", labelsize=9)
         for axis in (axes.xaxis, axes.yaxis):
             axis.set_minor_formatter(NullFormatter())
             axis.set_tick_params(which="minor", length=0)
