@@ -32,7 +32,7 @@ from page_order import results_first
 from papermill.exceptions import PapermillExecutionError, strip_color
 from traitlets.config import Config
 
-from neorl.evidence import report
+from neorl.evidence import ledger, report
 from neorl.files import cache_folder, write_whole
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -50,7 +50,7 @@ AT_ONCE, GIGABYTES_EACH = 2, 4
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1"}
 STALL_SECONDS = 300  # a cell computes, and waits for nothing: one that takes no processor time for so long has hung
 ROOM = 2**20  # bytes: less than a page of the book takes
-CLAIMS_TABLE, ERRATA_TABLE = "claims-table.md", "errata-table.md"
+CLAIMS_TABLE, CLAIMS_FRONT, ERRATA_TABLE = "claims-table.md", "claims-front.html", "errata-table.md"
 WIDGET_STATE = "application/vnd.jupyter.widget-state+json"
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 
@@ -130,7 +130,7 @@ def restore_claims(notebooks):
 
 def tidy(notebooks):
     """Remove from the chapters what no notebook has made, such as the pages of one that is gone."""
-    made = {CLAIMS_TABLE, ERRATA_TABLE}
+    made = {CLAIMS_TABLE, CLAIMS_FRONT, ERRATA_TABLE}
     for notebook in notebooks:
         made |= {f"{notebook.stem}.inputs.json", *(kept_record(notebook) or {"outputs": ()})["outputs"]}
     for path in CHAPTERS.iterdir():
@@ -347,8 +347,9 @@ def script(kind, content):
 
 
 def write_tables():
-    """The tables of all claims, from the notebooks' results, and of all errata, for the pages that include them."""
-    for name, table in ((CLAIMS_TABLE, report.page(report.load(sorted(CHAPTERS.glob("*.claims.json"))))),
+    """What pages include: all claims, from the notebooks' results, the strip of them for the front page, all errata."""
+    record = report.load(sorted(CHAPTERS.glob("*.claims.json")))
+    for name, table in ((CLAIMS_TABLE, ledger.page(record)), (CLAIMS_FRONT, ledger.front(record)),
                         (ERRATA_TABLE, report.errata())):
         target = CHAPTERS / name
         if not target.exists() or target.read_text(encoding="utf-8") != table:

@@ -35,6 +35,14 @@ def judge_readings(readings, groups, steps, runs, seed=0):
     return [judge({key: next(results) for key in of_reading}) for of_reading in wanted]
 
 
+def by_claim(judged, judged_part):
+    """The claims by name, each under all its readings: {name: [`Claim`, …]}, in the order of the claims.
+
+    judged, judged_part: the claims under all readings and under the first ones, as `judge_readings` has them.
+    """
+    return _in_order({name: [claims[name] for claims in each] for each in (judged, judged_part) for name in each[0]})
+
+
 def shares(judged, judged_part, rows):
     """How often each claim holds in short runs and agrees at the papers' lengths, as `report.save` takes it.
 

@@ -85,8 +85,9 @@ def draw_world(world: World, state: Any, ax: Axes | None = None) -> Axes:
     for place, kind in zip(state.scene.things / world.size, state.scene.kinds):
         if kind >= 0:
             axes.add_patch(Circle(place, radius, facecolor=(GREEN, *CURVES)[kind % 8], alpha=0.75, edgecolor="none"))
-    axes.add_patch(Circle(state.scene.position / world.size, RADIUS, facecolor=AGENT, edgecolor="none"))
-    _draw_velocity(axes, state.scene.position / world.size, state.scene.velocity / world.size)
+    place = inside(state.scene.position / world.size, RADIUS)
+    axes.add_patch(Circle(place, RADIUS, facecolor=AGENT, edgecolor="none"))
+    _draw_velocity(axes, place, state.scene.velocity / world.size)
     return axes
 
 
@@ -120,11 +121,16 @@ def draw_tank(world: WaterWorld, state: Any, ax: Axes | None = None) -> Axes:
     movers += [(position, velocity, GREEN if green else RED, "+" if green else "−") for position, velocity, green
                in zip(scene.things, creep_velocity, scene.kinds == waterworld.GREEN)]
     for position, velocity, colour, sign in movers:
-        x, y = position / world.width
+        x, y = inside(position / world.width, radius)
         axes.add_patch(Circle((x, y), radius, facecolor=colour, edgecolor="none"))
         axes.text(x, y, sign, color="white", ha="center", va="center_baseline", weight="bold")
         _draw_velocity(axes, (x, y), velocity / world.width)
     return axes
+
+
+def inside(places, radius):
+    """Places moved so that a disc of that radius lies within the board: a world may let a centre reach the wall."""
+    return np.clip(places, radius, 1 - radius)
 
 
 def _draw_velocity(axes, place, velocity):

@@ -5,18 +5,22 @@ A figure of one panel is drawn into `ax`, one of several into `figure`; by defau
 its axes.
 """
 
+from textwrap import fill
+
 import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from neorl.drawing.multiverse_figures import SHADES
-from neorl.drawing.style import AGENT, CURVES, INK, RED, axes_or_new, figure_or_new, name_ends, width_of_figures
+from neorl.drawing.style import (AGENT, CURVES, INK, RED, SMALL, TEXT, axes_or_new, figure_or_new, letters, name_ends,
+                                 width_of_figures)
 from neorl.evidence.calibration_results import binned, marginal, progress
 from neorl.evidence.claims import FINAL
 from neorl.evidence.curves import binned_rate, low_passed
 from neorl.evidence.priors import WITHIN
 
 ROW = 0.15  # inches, of a bar with its name
+NARROW = 12  # letters in a line
 POINTS = 100  # of a predicted curve
 LEVELS, MINUTES = (0.29, 0.55), (160, 15)  # of place cells and of both: what paper B prints
 SINGLE = {f"N{n}": ("single", n) for n in (10, 30, 50)}
@@ -41,8 +45,8 @@ def draw_marginals(remaining, nearest=None, names=tuple(WITHIN), columns=2, figu
         axes.barh(at, found.prior, 0.8, fill=False, edgecolor=INK, linewidth=0.8)
         if nearest:
             axes.plot(marginal(name, nearest).posterior, at, linestyle="none", marker="o", markersize=2.5, color=RED)
-        axes.set_yticks(at, [level.replace(" … ", "…") for level in found.levels], fontsize=7)
-        axes.set_title(WITHIN[name].label, size=8, color=INK, pad=2)
+        axes.set_yticks(at, [level.replace(" … ", "…") for level in found.levels], fontsize=SMALL)
+        axes.set_title(WITHIN[name].label, size=SMALL, color=TEXT, pad=2)
         axes.set(ylim=(len(at) - 0.4, -0.6), xlim=(0, None), xticks=[])
         axes.tick_params(length=0)
         axes.spines["bottom"].set_visible(False)
@@ -53,7 +57,7 @@ def draw_marginals(remaining, nearest=None, names=tuple(WITHIN), columns=2, figu
     if nearest:
         handles.append(Line2D([], [], linestyle="none", marker="o", markersize=3, color=RED))
         words.append("nearest readings")
-    figure.legend(handles, words, loc="outside upper center", ncols=3, frameon=False, fontsize=8)
+    figure.legend(handles, words, loc="outside upper center", ncols=3, frameon=False, fontsize=SMALL)
     return grid
 
 
@@ -62,7 +66,7 @@ def draw_pairs(remaining, names, figure=None):
 
     remaining: a `Posterior`. names: of the choices, at least two.
     """
-    size = 1.15 * width_of_figures()
+    size = width_of_figures()
     grid = figure_or_new(figure, (size, size)).subplots(len(names), len(names), squeeze=False)
     cut = [binned(name, remaining.readings) for name in names]
     for i, (below, _, down) in enumerate(cut):
@@ -80,34 +84,34 @@ def draw_pairs(remaining, names, figure=None):
                 axes.imshow(shares, aspect="auto", cmap=SHADES, vmin=0, interpolation="nearest")
             axes.set(xticks=[], yticks=[])
             if j == 0 and i > 0:
-                axes.set_yticks(range(len(below)), [level.split(" … ")[0] for level in below], fontsize=6)
-                axes.set_ylabel(WITHIN[names[i]].label, fontsize=7)
+                axes.set_yticks(range(len(below)), [level.split(" … ")[0] for level in below], fontsize=SMALL)
+                axes.set_ylabel(fill(WITHIN[names[i]].label, NARROW), fontsize=SMALL)
             if i == len(names) - 1:
-                axes.set_xticks(range(len(beside)), [level.split(" … ")[0] for level in beside], fontsize=6,
+                axes.set_xticks(range(len(beside)), [level.split(" … ")[0] for level in beside], fontsize=SMALL,
                                 rotation=90)
-                axes.set_xlabel(WITHIN[names[j]].label, fontsize=7)
+                axes.set_xlabel(fill(WITHIN[names[j]].label, NARROW), fontsize=SMALL)
             axes.tick_params(length=0)
     return grid
 
 
 def draw_together(together, ax=None):
     """Which claims hold together: % of the readings with both measured in which both hold, on the diagonal each alone.
+    Below each number a bar has that length.
 
     together: a `Together`. A cross marks pairs that never do, although some would be expected by chance.
     """
     axes = axes_or_new(ax, figsize=(width_of_figures(), width_of_figures()))
     share = np.divide(together.both, together.rows, out=np.zeros(together.both.shape), where=together.rows > 0)
     never = set(together.never)
-    lower = np.where(np.tri(len(share), dtype=bool), share, np.nan)
-    axes.imshow(lower, cmap=SHADES, vmin=0, vmax=max(float(np.nanmax(lower)), 1e-9), interpolation="nearest")
     for i, below in enumerate(together.claims):
         for j, beside in enumerate(together.claims[: i + 1]):
             crossed = (beside, below) in never
-            colour = RED if crossed else "white" if share[i, j] > np.nanmax(lower) / 2 else INK
-            axes.text(j, i, "×" if crossed else f"{100 * share[i, j]:.0f}", ha="center", va="center", fontsize=8,
-                      color=colour, weight="bold" if crossed or i == j else "normal")
-    axes.set_xticks(range(len(share)), together.claims, fontsize=8)
-    axes.set_yticks(range(len(share)), together.claims, fontsize=8)
+            axes.text(j, i, "×" if crossed else f"{100 * share[i, j]:.0f}", ha="center", va="center", fontsize=SMALL,
+                      color=RED if crossed else TEXT, weight="bold" if crossed or i == j else "normal")
+            axes.barh(i + 0.36, share[i, j] * 0.84, 0.14, left=j - 0.42, color=AGENT)
+    axes.set_xticks(range(len(share)), together.claims, fontsize=SMALL)
+    axes.set_yticks(range(len(share)), together.claims, fontsize=SMALL)
+    axes.set(xlim=(-0.5, len(share) - 0.5), ylim=(len(share) - 0.4, -0.5))
     axes.tick_params(length=0)
     axes.spines[:].set_visible(False)
     return axes
@@ -162,8 +166,8 @@ def draw_modalities(lives, ax=None):
         _mark_level(axes, level, f"{level:.2f}", colour, at=0.45)
         if minutes <= max(lengths):
             axes.axvline(minutes, color=colour, linewidth=0.9, linestyle=":")
-            axes.annotate(f"{minutes} min", (minutes, 0.99), xycoords=("data", "axes fraction"), color=colour,
-                          fontsize=8, va="top")
+            axes.annotate(f"{minutes} min", (minutes, 0.99), xycoords=("data", "axes fraction"), color=letters(colour),
+                          fontsize=SMALL, va="top")
     return axes
 
 
@@ -205,5 +209,6 @@ def _mark_level(axes, level, words, colour, at=0.01):
     low, high = axes.get_ylim()
     axes.set_ylim(low, max(high, 1.05 * level))
     axes.axhline(level, color=colour, linewidth=0.9, linestyle="--")
-    axes.annotate(words, (at, level), xycoords=("axes fraction", "data"), color=colour, fontsize=8, va="bottom")
+    axes.annotate(words, (at, level), xycoords=("axes fraction", "data"), color=letters(colour), fontsize=SMALL,
+                  va="bottom")
     return axes

@@ -8,56 +8,107 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
-from neorl.drawing.style import AGENT, INK, RED, axes_or_new, figure_or_new, width_of_figures
+from neorl.drawing.style import AGENT, INK, RED, SMALL, TEXT, axes_or_new, figure_or_new, width_of_figures
 from neorl.evidence.multiverse import outcome
 from neorl.evidence.priors import WITHIN
 from neorl.evidence.statements import STATEMENTS
 
 COLOURS = {"holds": AGENT, "undecided": RED, "fails": INK}
+OUTCOMES = {"holds": "o", "undecided": "D", "fails": "."}  # markers
 SHADES = LinearSegmentedColormap.from_list("shades", [AGENT + "10", AGENT + "ff"])
 ROW = 0.2  # inches
+ABREAST = 3  # small curves
+
+
+def draw_specifications(judged, figure=None):
+    """Specification curves of many claims, small and side by side: each claim's number under every reading, in order.
+
+    judged: {name: [`Claim`, …]}, each claim under its readings. Numbers beyond an axis are drawn as in
+    `draw_specification`.
+    figure: a figure or a part of one to fill, by default a new one. Returns the axes of the claims, an array.
+    """
+    rows = -(-len(judged) // ABREAST)
+    figure = figure_or_new(figure, (width_of_figures(), 1.05 * rows + 0.3))
+    panels, spare = np.split(figure.subplots(rows, ABREAST, squeeze=False).ravel(), [len(judged)])
+    for axes in spare:
+        axes.remove()
+    for axes, (name, claims) in zip(panels, judged.items()):
+        order = _curve(axes, claims, name)
+        axes.set_title(f"{name}  {_share_of(claims, 'holds')}", size=SMALL, color=TEXT, loc="left", pad=3)
+        axes.set(xticks=[], xlim=(-1, len(order)))
+        axes.tick_params(labelsize=SMALL, length=2)
+        axes.locator_params(axis="y", nbins=3)
+    handles = [Line2D([], [], linestyle="none", marker=OUTCOMES[kind], markersize=5, color=COLOURS[kind], label=kind)
+               for kind in COLOURS]
+    handles += [Line2D([], [], linestyle="none", marker="^", markersize=5, color=INK, label="beyond the axis")]
+    figure.legend(handles=handles, loc="outside upper center", ncols=4, frameon=False, fontsize=SMALL, labelcolor=TEXT,
+                  handletextpad=0.2, columnspacing=1.0)
+    return panels
 
 
 def draw_specification(readings, judged, name, choices=WITHIN, figure=None):
     """The specification curve of a claim: its number under every reading in order of size, and the choices below.
 
     readings: [Reading, …]. judged: {name: `Claim`} for each of them. choices: what is shown of them, as `design` takes
-    it. Where a number is not finite, or off the middle 95 % of them, it stands at the edge.
+    it. A number that is off the middle 95 % of them stands at the edge as a triangle that points beyond it; one that
+    does not exist, as a cross at the lower edge.
     figure: a figure or a part of one to fill, by default a new one. Returns the axes of the curve and of the choices.
     """
     claims = [each[name] for each in judged]
-    here = np.array([claim.here for claim in claims])
-    order = np.argsort(np.nan_to_num(here[:, 0], nan=-np.inf), kind="stable")
     shown = {key: choice for key, choice in choices.items() if name[0] in choice.papers}
     below = ROW * len(shown)
     figure = figure_or_new(figure, (width_of_figures(), 2.4 + below))
     curve, strips = panels = figure.subplots(2, 1, sharex=True, height_ratios=(1.9, below))
-    low, high = _limits(here[:, 0], STATEMENTS[name].borders)
-    at = np.arange(len(order))
-    value, bottom, top = np.clip(np.nan_to_num(here[order], nan=low, posinf=high, neginf=low), low, high).T
-    outcomes = np.array([outcome(claims[i]) for i in order])
-    for kind, colour in COLOURS.items():
-        of_kind = outcomes == kind
-        curve.vlines(at[of_kind], bottom[of_kind], top[of_kind], color=colour, alpha=0.3, linewidth=1)
-        curve.plot(at[of_kind], value[of_kind], linestyle="none", marker="o", markersize=2.5, color=colour,
-                   label=f"{kind} {of_kind.mean():.0%}".replace("%", " %"))
-    for border in STATEMENTS[name].borders:
-        curve.axhline(border, color=INK, linewidth=0.8, linestyle="--")
-    margin = 0.03 * (high - low)
-    curve.set_ylim(low - margin, high + margin)
-    figure.suptitle(fill(f"{name}: {STATEMENTS[name].text}", 58), size=11, color=INK)
-    curve.legend(frameon=False, labelcolor="linecolor", fontsize=9, handlelength=0.6, ncols=3, loc="lower center",
-                 bbox_to_anchor=(0.5, 1.0))
+    order = _curve(curve, claims, name)
+    figure.suptitle(fill(f"{name}: {STATEMENTS[name].text}", 58), size=11, color=TEXT)
+    handles = [Line2D([], [], linestyle="none", marker=OUTCOMES[kind], markersize=5, color=COLOURS[kind],
+                      label=f"{kind} {_share_of(claims, kind)}") for kind in COLOURS]
+    curve.legend(handles=handles, frameon=False, labelcolor=TEXT, fontsize=SMALL, handlelength=0.6, ncols=3,
+                 loc="lower center", bbox_to_anchor=(0.5, 1.0))
     places = [[choice.place(getattr(readings[i], key)) for i in order] for key, choice in shown.items()]
     strips.imshow(places, aspect="auto", cmap=SHADES, vmin=0, vmax=1, interpolation="nearest")
-    strips.set_yticks(range(len(shown)), [choice.label for choice in shown.values()], fontsize=9)
+    strips.set_yticks(range(len(shown)), [choice.label for choice in shown.values()], fontsize=SMALL)
     strips.set(xlabel="readings, in order of the number above", xticks=[])
     ends = strips.secondary_yaxis("right")
-    ends.set_yticks(range(len(shown)), [choice.levels for choice in shown.values()], fontsize=8)
+    ends.set_yticks(range(len(shown)), [choice.levels for choice in shown.values()], fontsize=SMALL)
     for axes in (strips, ends):
         axes.tick_params(length=0)
         axes.spines[:].set_visible(False)
     return panels
+
+
+def _curve(axes, claims, name):
+    """Draw the number of a claim under every reading in order of size, and return the order.
+
+    A number beyond the axis is a triangle at its edge, and one that does not exist a cross at the lower edge.
+    """
+    here = np.array([claim.here for claim in claims])
+    order = np.argsort(np.nan_to_num(here[:, 0], nan=-np.inf), kind="stable")
+    low, high = _limits(here[:, 0], STATEMENTS[name].borders)
+    at, value = np.arange(len(order)), here[order, 0]
+    bottom, top = np.clip(np.nan_to_num(here[order, 1:], nan=low, posinf=high, neginf=low), low, high).T
+    outcomes = np.array([outcome(claims[i]) for i in order])
+    within = (value >= low) & (value <= high)
+    for kind, colour in COLOURS.items():
+        of_kind = outcomes == kind
+        axes.vlines(at[of_kind], bottom[of_kind], top[of_kind], color=colour, alpha=0.3, linewidth=1)
+        for places, heights, marker in ((of_kind & within, value, OUTCOMES[kind]),
+                                        (of_kind & (value > high), np.full(len(at), high), "^"),
+                                        (of_kind & (value < low), np.full(len(at), low), "v"),
+                                        (of_kind & np.isnan(value), np.full(len(at), low), "x")):
+            if places.any():  # nothing, unclipped, would take the whole figure
+                axes.plot(at[places], heights[places], linestyle="none", marker=marker, color=colour, clip_on=False,
+                          markersize=2.5 if marker in OUTCOMES.values() else 4)
+    for border in STATEMENTS[name].borders:
+        axes.axhline(border, color=INK, linewidth=0.8, linestyle="--")
+    margin = 0.06 * (high - low)
+    axes.set_ylim(low - margin, high + margin)
+    return order
+
+
+def _share_of(claims, kind):
+    """The share of readings under which a claim has an outcome, as text."""
+    return f"{np.mean([outcome(claim) == kind for claim in claims]):.0%}".replace("%", " %")
 
 
 def _limits(values, borders):
@@ -86,7 +137,7 @@ def draw_standing(record, names, ax=None):
             if share.get("measured"):
                 axes.plot(100 * share["agrees"] / share["measured"], row, "D", color=INK, markersize=5, clip_on=False)
         else:
-            axes.text(1, row, "not varied over readings", fontsize=9, va="center")
+            axes.text(1, row, "not varied over readings", fontsize=SMALL, va="center")
     verdicts = {name: record["claims"].get(name, {"verdict": "not computed"})["verdict"] for name in names}
     axes.set_yticks(range(len(names)), [f"{name}  {verdicts[name]}" for name in names], fontsize=10)
     axes.set(xlim=(0, 100), ylim=(len(names) - 0.4, -0.6), xlabel="% of readings")
@@ -95,8 +146,8 @@ def draw_standing(record, names, ax=None):
     handles = [Rectangle((0, 0), 1, 1, color=COLOURS[kind], alpha=alpha)
                for kind, alpha in (("holds", 1.0), ("undecided", 0.45))]
     handles.append(Line2D([], [], color=INK, marker="D", markersize=5, linestyle="none"))
-    axes.legend(handles, ["holds", "undecided", "agrees, in long runs"], frameon=False, fontsize=9, ncols=3,
-                labelcolor=INK, loc="lower left", bbox_to_anchor=(0, 1.0), borderpad=0)
+    axes.legend(handles, ["holds", "undecided", "agrees, in long runs"], frameon=False, fontsize=SMALL, ncols=3,
+                labelcolor=TEXT, loc="lower left", bbox_to_anchor=(0, 1.0), borderpad=0)
     return axes
 
 
@@ -110,8 +161,8 @@ def draw_importance(importance, choices=WITHIN, ax=None):
     for column, shares in enumerate(importance.values()):
         for key, share in shares.items():
             axes.plot(column, keys.index(key), marker="o", color=AGENT, markersize=13 * np.sqrt(np.clip(share, 0, 1)))
-    axes.set_xticks(range(len(importance)), importance, fontsize=9)
-    axes.set_yticks(range(len(keys)), [choices[key].label for key in keys], fontsize=9)
+    axes.set_xticks(range(len(importance)), importance, fontsize=SMALL)
+    axes.set_yticks(range(len(keys)), [choices[key].label for key in keys], fontsize=SMALL)
     axes.set(xlim=(-0.6, len(importance) - 0.4), ylim=(len(keys) - 0.4, -0.6))
     axes.xaxis.tick_top()
     axes.tick_params(length=0)

@@ -1,6 +1,9 @@
 """The style of all figures: colours that serve a light page and a dark one, on a transparent ground.
 
-Colours keep apart for colour-blind readers, and never stand alone: a curve carries its name, a creep its sign.
+1. Lines and discs have a contrast of 3 : 1 or more with either page, letters of 4.5 : 1: as drawn on a light page, and
+   as the book's style sheet brightens them on a dark one.
+2. Colours keep apart for colour-blind readers, and never stand alone: a curve carries its name, a creep its sign.
+3. Letters are of 9 points or more in a figure of the usual width, which is 9 pixels on a phone.
 """
 
 from typing import Any
@@ -9,21 +12,23 @@ import numpy as np
 import scipy
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
-from matplotlib.colors import is_color_like
+from matplotlib.colors import is_color_like, to_hex, to_rgb
 from matplotlib.figure import Figure, SubFigure
 
 from neorl import checks
 
-INK = "#808080"
-AGENT, GREEN, RED = "#3b8ad9", "#12946d", "#d9622b"
-CURVES = ("#3e6ad1", "#b02d45", "#ac990f", "#01a7bf", "#85488f", "#b46411", "#9c86fd")
+INK, TEXT = "#808080", "#6e6e6e"  # lines, letters
+AGENT, GREEN, RED = "#3175b9", "#0e825f", "#ba5323"
+CURVES = ("#3d6ad1", "#ae2c47", "#b68f0c", "#00a1c0", "#85498f", "#ae6411", "#af77ff")
+LIGHT_OF_LETTERS = 0.165  # relative luminance
 DASHES = ("-", "--", ":", "-.")  # of curves: one for each time that the colours have gone round
 LOW_PANEL = 0.17  # of the height of a panel, for the name of a curve
-LEAST_LETTERS = 6  # points, of the names of many curves
+SMALL = 9  # points: the least that letters have
 STYLE: dict[Any, Any] = {
     "figure.facecolor": "none", "axes.facecolor": "none", "savefig.facecolor": "none", "figure.figsize": (4.9, 3.5),
-    "font.size": 11, "text.color": INK, "axes.labelcolor": INK, "axes.edgecolor": INK, "xtick.color": INK,
-    "ytick.color": INK, "axes.spines.top": False, "axes.spines.right": False, "lines.linewidth": 1.8,
+    "font.size": 11, "text.color": TEXT, "axes.labelcolor": TEXT, "axes.edgecolor": INK, "xtick.color": INK,
+    "ytick.color": INK, "xtick.labelcolor": TEXT, "ytick.labelcolor": TEXT, "axes.spines.top": False,
+    "axes.spines.right": False, "lines.linewidth": 1.8,
     "figure.constrained_layout.use": True, "svg.hashsalt": "neorl",
 }
 
@@ -79,6 +84,18 @@ def colour_like(name, value):
     raise ValueError(f"{name} is {checks.shown(value)}, allowed are colours of matplotlib's")
 
 
+def letters(colour):
+    """A colour of matplotlib's, darker or lighter, so that letters in it are legible: "#rrggbb"."""
+    channels = np.array(to_rgb(colour))
+    linear = np.where(channels <= 0.04045, channels / 12.92, ((channels + 0.055) / 1.055) ** 2.4)
+    light = linear @ [0.2126, 0.7152, 0.0722]
+    if light > LIGHT_OF_LETTERS:
+        linear = linear * LIGHT_OF_LETTERS / light
+    else:
+        linear = linear + (1 - linear) * (LIGHT_OF_LETTERS - light) / (1 - light)
+    return to_hex(np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055))
+
+
 def looks(count):
     """Colours and dashes of so many curves: 28 differ, in colour first."""
     return [(CURVES[i % len(CURVES)], DASHES[i // len(CURVES) % len(DASHES)]) for i in range(count)]
@@ -95,7 +112,7 @@ def name_ends(axes, ends, line=0.075):
     share = min(1.0, 1.0 / (line * len(ends))) if ends else 1.0
     apart = share * line * (high - low) * np.arange(len(ends))
     heights = apart + scipy.optimize.isotonic_regression([height for height, *_ in ends] - apart).x
-    letters = max(LEAST_LETTERS, share * plt.rcParams["font.size"])
+    size = max(SMALL, share * plt.rcParams["font.size"])
     for at, (_, name, colour) in zip(heights, ends):
-        axes.annotate(name, (1.02, at), xycoords=("axes fraction", "data"), color=colour, va="center",
-                      fontsize=letters, annotation_clip=False)
+        axes.annotate(name, (1.02, at), xycoords=("axes fraction", "data"), color=letters(colour), va="center",
+                      fontsize=size, annotation_clip=False)

@@ -10,14 +10,13 @@ from matplotlib.axes import Axes
 from matplotlib.text import Annotation
 
 from neorl import checks
-from neorl.drawing.style import CURVES, INK, axes_or_new, by_name, name_ends, numbers, width_of_figures
+from neorl.drawing.style import CURVES, INK, SMALL, axes_or_new, by_name, name_ends, numbers, width_of_figures
 from neorl.evidence.statistics import Estimate
 
 MARKERS = "osD^vP*"  # of readings, one for each colour
 ROW = 0.62  # inches
 ROOM = 0.06  # of the height of a panel, beyond the levels that are marked
 REACH = 0.5  # of the range of the numbers, beyond which intervals are cut off
-SMALL = 9  # points
 
 
 def draw_against_thesis(thesis: Mapping[str, float], readings: Mapping[str, Mapping[str, Estimate]], xlabel: str = "",

@@ -4,11 +4,14 @@ A box stands at the top of its page, before everything that it rests on, so it s
 hold, and the numbers to remember. With too few runs for verdicts it says so in their place.
 """
 
+from html import escape
+
+from neorl.evidence.ledger import anchor
 from neorl.evidence.marks import html
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.verdict import RUNS_FOR_A_VERDICT
 
-CLAIMS_PAGE = "../claims.md"  # as seen from the pages that are built
+CLAIMS_PAGE = "../claims.html"  # as seen from the pages that are built
 
 
 def what_was_found(sentences, runs, verdicts=None):
@@ -42,5 +45,5 @@ def _line(reading, found):
 
 
 def _link(name):
-    """The name of a claim, with its text as the title of a link to the page of claims."""
-    return f'[{name}]({CLAIMS_PAGE} "{STATEMENTS[name].text}")'
+    """The name of a claim, with its text as the title of a link to its row on the page of claims."""
+    return f'<a href="{CLAIMS_PAGE}#{anchor(name)}" title="{escape(STATEMENTS[name].text)}">{name}</a>'

@@ -2,7 +2,8 @@
 
 A record is JSON, one file a page, in the folder ``claims`` of the store. It has the claims that the page has judged
 under the book's reading ("claims") and under the reading to the letter ("letter"), or, from the chapter on assumptions,
-the shares of readings within the text under which claims hold ("shares"). The page of all claims is made of records.
+the shares of readings within the text under which claims hold ("shares"). `neorl.evidence.ledger` makes the page of
+all claims of records.
 """
 
 import json
@@ -28,7 +29,7 @@ def table(claims, letter=(), shares=None):
     """
     record = {"claims": _kept(claims), "letter": _kept(letter), "shares": shares or {}}
     names = [claim.name for claim in claims]
-    return "\n".join([HEADER, *(_row(record, name) for name in names), "", *_evidence(record, names)])
+    return "\n".join([HEADER, *(_row(record, name) for name in names), "", *evidence(record, names)])
 
 
 def comparison(judged):
@@ -106,19 +107,30 @@ def extract(record, names):
     return "\n".join([HEADER, *(_row(record, name) for name in names)])
 
 
-def page(record):
-    """The tables of all claims and demonstrations for the book, and what each verdict rests on, in MyST Markdown."""
-    names = [*CLAIMS, *DEMONSTRATIONS]
-    claims, demonstrations = ([_row(record, name, links=True) for name in some] for some in (CLAIMS, DEMONSTRATIONS))
-    return "\n".join([HEADER, *claims, "", "## Beside the claims: a demonstration", "", HEADER, *demonstrations, "",
-                      "## What each verdict rests on", "", *_evidence(record, names)]) + "\n"
-
-
 def in_short(record):
-    """The same tables, in plain Markdown and without what verdicts rest on."""
+    """The tables of all claims and demonstrations, in plain Markdown and without what verdicts rest on."""
     claims, demonstrations = ([_row(record, name) for name in some] for some in (CLAIMS, DEMONSTRATIONS))
     beside = ["", "Beside the claims stands a demonstration:", "", HEADER, *demonstrations]
     return "\n".join([HEADER, *claims, *beside]) + "\n"
+
+
+def evidence(record, names):
+    """A line of a list for each claim: the sentence that is judged, what was measured, and what was found."""
+    lines = []
+    for name in names:
+        statement = STATEMENTS[name]
+        line = f"- **{name}** “{statement.quotation}” ({statement.place}) *{statement.statistic}*."
+        for part, reading in (("claims", "Here"), ("letter", "To the letter")):
+            found = record[part].get(name)
+            if found:
+                line += f" {reading}: {number(found)}, {found['runs']} runs. {found['detail']}"
+        lines.append(line)
+    return lines
+
+
+def percent(count, total):
+    """A count of a total, as text."""
+    return f"{100 * count / total:.0f}\u00a0%"
 
 
 def label(rule):
@@ -135,13 +147,11 @@ def _kept(claims):
                          "runs": claim.runs, "verdict": claim.verdict, "detail": claim.detail} for claim in claims}
 
 
-def _row(record, name, links=False):
-    statement, found = STATEMENTS[name], record["claims"].get(name)
+def _row(record, name):
+    statement = STATEMENTS[name]
     cells = [f"**{name}** {statement.text}", statement.thesis, *(_marked(record[part].get(name))
                                                                  for part in ("letter", "claims")),
              verdict(record, name), _share(record["shares"].get(name))]
-    if links and found:
-        cells[4] += f" ({{ref}}`figure <{statement.figure}>`, {{ref}}`rule <{label(statement.rule)}>`)"
     return f"| {' | '.join(cells)} |"
 
 
@@ -153,27 +163,9 @@ def _share(share):
     if not share:
         return ""
     total = share["readings"]
-    short = f"short runs: {_percent(share['holds'], total)} of {total}"
+    short = f"short runs: {percent(share['holds'], total)} of {total}"
     if share["undecided"]:
-        short += f", {_percent(share['undecided'], total)} undecided"
+        short += f", {percent(share['undecided'], total)} undecided"
     if not share.get("measured"):
         return short
-    return f"{_percent(share['agrees'], share['measured'])} of {share['measured']}; {short}"
-
-
-def _percent(count, total):
-    return f"{100 * count / total:.0f}\u00a0%"
-
-
-def _evidence(record, names):
-    """A line of a list for each claim: the sentence that is judged, what was measured, and what was found."""
-    lines = []
-    for name in names:
-        statement = STATEMENTS[name]
-        line = f"- **{name}** “{statement.quotation}” ({statement.place}) *{statement.statistic}*."
-        for part, reading in (("claims", "Here"), ("letter", "To the letter")):
-            found = record[part].get(name)
-            if found:
-                line += f" {reading}: {number(found)}, {found['runs']} runs. {found['detail']}"
-        lines.append(line)
-    return lines
+    return f"{percent(share['agrees'], share['measured'])} of {share['measured']}; {short}"

@@ -106,6 +106,8 @@ def test_each_specification_curve_has_the_label_of_its_claim():
     drawn = re.findall(r'draw_specification\(.*"(\w+)"\)', "\n".join(cell.source for cell in page.cells))
     assert [f"fig-spec-{name.lower()}" for name in drawn] == [each for each in labels(page) if "spec" in each]
     assert drawn == [name for name in STATEMENTS if name in drawn] and len(drawn) == 19
+    folded = [cell.metadata.mystnb.code_prompt_show for cell in page.cells if "draw_specification(" in cell.source]
+    assert folded == [f"{name}: {STATEMENTS[name].text}" for name in drawn]
 
 
 def test_links_lead_somewhere(cells):

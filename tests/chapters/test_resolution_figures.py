@@ -36,7 +36,8 @@ def test_an_element_fills_its_cell_by_the_sign_and_the_size_of_its_valence():
     filled = {patch.get_xy(): (to_hex(patch.get_facecolor()), patch.get_alpha()) for patch in axes.patches
               if patch.get_alpha()}
     assert filled == {(0.5, 0.5): (GREEN, 0.3), (0.0, 0.5): (RED, 0.6)}
-    assert [text.get_text() for text in axes.texts] == ["+0.5", "-1"]
+    assert [text.get_text() for text in axes.texts] == ["+0.5", "−1"]
+    assert [text.get_ha() for text in axes.texts] == ["left", "left"]  # the upper left corner, where no arrow falls
     (arrows,) = axes.collections
     assert len(arrows.U) == 1 and arrows.U[0] > 0
 
@@ -45,3 +46,11 @@ def test_finer_maps_have_thinner_lines():
     resolution_figures.draw_maps([NresMap(n) for n in (1, 2, 3)])
     lines = [(to_hex(patch.get_edgecolor()), patch.get_linewidth()) for patch in plt.gca().patches]
     assert lines == [(RED, 3.2)] + 4 * [(AGENT, 1.8)] + 9 * [(INK, 0.7)]
+
+
+def test_a_valence_stands_in_a_corner_that_its_arrow_does_not_cross():
+    values = np.zeros((4, 4))
+    values[0], values[1] = [0, 1, 1, 0], [1, 0, 1, 0]  # to the south-east, to the north-east
+    resolution_figures.draw_elements(NresMap(2), [(0.2, 0.2), (0.7, 0.2)], [1.0, 1.0], values)
+    assert [(text.get_ha(), round(text.get_position()[0], 3)) for text in plt.gca().texts] == [
+        ("right", 0.475), ("left", 0.525)]

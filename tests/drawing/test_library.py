@@ -10,6 +10,7 @@ import sys
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
+from matplotlib.patches import Circle
 
 import neorl
 from neorl import Arena, NresMap, Result, Run, WaterWorld, drawing, network_d, place_cells
@@ -207,3 +208,12 @@ drawing.draw_network(neorl.network_d()).figure.savefig("network.svg")
 def test_without_matplotlib_the_extra_is_named(tmp_path):
     done = python("import neorl; neorl.simulate; from neorl.drawing import draw_curves", ("matplotlib",), tmp_path)
     assert "ImportError: this needs matplotlib: pip install 'neorl-companion[plot]'" in done.stderr
+
+
+def test_an_agent_at_the_wall_is_drawn_inside_its_board():
+    tank = WaterWorld()
+    state = tank.reset(seed=0)
+    state.scene.position[:] = 0.0
+    axes = drawing.draw_world(tank, state)
+    assert all(radius - 1e-9 <= x <= 1 - radius + 1e-9 for patch in axes.patches if isinstance(patch, Circle)
+               for radius in [patch.radius] for x in patch.center)

@@ -8,7 +8,7 @@ from matplotlib import pyplot as plt
 
 from neorl import Learning, Policy, multimodal, network_a, network_b, network_c, network_d, place_cells, simulate
 from neorl.agents.agent import AT_EVERY_STEP
-from neorl.drawing.multiverse_figures import draw_importance, draw_specification
+from neorl.drawing.multiverse_figures import OUTCOMES, draw_importance, draw_specification, draw_specifications
 from neorl.evidence import multiverse
 from neorl.evidence.claims import Claim
 from neorl.evidence.priors import BEYOND, PINNED, TO_THE_LETTER, WITHIN, Choice, LogUniform
@@ -261,17 +261,47 @@ def test_the_choices_that_matter_are_found(made_up):
     assert explained > 0.8
 
 
+def points(axes, markers=(*OUTCOMES.values(), "^", "v", "x")):
+    """The points of a curve that have one of the markers, from left to right."""
+    found = np.concatenate([line.get_xydata() for line in axes.lines
+                            if line.get_linestyle() == "None" and line.get_marker() in markers])
+    return found[found[:, 0].argsort()]
+
+
+def test_a_number_beyond_the_axis_is_marked_there(made_up):
+    readings, claims = made_up
+    claims[3], claims[5], claims[7] = ({"C2": judged(value)} for value in (40.0, -40.0, np.inf))
+    curve, _ = draw_specification(readings, claims, "C2")
+    low, high = points(curve)[:, 1].min(), points(curve)[:, 1].max()
+    assert -1 < low < high < 2
+    assert points(curve, "v")[0].tolist() == [0, low]
+    assert points(curve, "^")[-2:].tolist() == [[126, high], [127, high]]
+    values = [each["C2"].here.value for each in claims]
+    assert len(points(curve, "^")) == sum(value > high for value in values) < 8
+    plt.close()
+
+
+def test_many_curves_stand_side_by_side_with_the_share_that_holds(made_up):
+    _, claims = made_up
+    of_c2 = [each["C2"] for each in claims]
+    panels = draw_specifications({name: of_c2 for name in ("C1", "C2", "C3", "C4")})
+    share = np.mean([claim.outcome == "reproduced" for claim in of_c2])
+    assert [axes.get_title(loc="left") for axes in panels] == [
+        f"C{i}  {share:.0%}".replace("%", " %") for i in (1, 2, 3, 4)]
+    assert len(plt.gcf().axes) == 4 and all(len(points(axes)) == 128 for axes in panels)
+    plt.close()
+
+
 def test_a_specification_curve_is_in_order_and_shows_every_choice_below(made_up):
     readings, claims = made_up
     claims[7] = {"C2": judged(np.nan)}
     draw_specification(readings, claims, "C2")
     figure = plt.gcf()
     curve, strips = figure.axes
-    points = {line.get_label(): line.get_xydata() for line in curve.lines if line.get_label()[0] != "_"}
-    assert [label.split()[0] for label in points] == ["holds", "undecided", "fails"]
-    at = np.concatenate(list(points.values()))
-    at = at[at[:, 0].argsort()]
+    assert [text.get_text().split()[0] for text in curve.get_legend().get_texts()] == list(OUTCOMES)
+    at = points(curve)
     assert len(at) == 128 and np.all(np.diff(at[:, 1]) >= 0)
+    assert points(curve, "x").tolist() == [[0.0, pytest.approx(at[:, 1].min())]]
     (image,) = strips.images
     order = np.argsort([-np.inf if np.isnan(each["C2"].here.value) else each["C2"].here.value for each in claims],
                        kind="stable")

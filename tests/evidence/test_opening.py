@@ -8,9 +8,10 @@ def test_a_box_has_verdicts_by_reading_with_symbols_names_and_links():
                                                                        "A4": "reproduced"}, "": {"A1": "no verdict"}})
     begin, title, calibrated, nameless, sentences, end = text.split("\n\n")
     assert (begin, title, sentences, end) == ('<div class="found">', "**What was found**", "It earns 0.30.", "</div>")
-    assert calibrated.startswith(f"Calibrated: {marks.html('reproduced')}\u00a0[A2](../claims.md")
-    assert ", [A4](../claims.md" in calibrated and calibrated.endswith(' partly')
-    assert calibrated.index("[A4]") < calibrated.index("; ") < calibrated.index("◐")
+    link = '<a href="../claims.html#claim-{}" title="'
+    assert calibrated.startswith(f"Calibrated: {marks.html('reproduced')}\u00a0{link.format('a2')}Every single")
+    assert f", {link.format('a4')}" in calibrated and calibrated.endswith(" partly")
+    assert calibrated.index("A4</a>") < calibrated.index("; ") < calibrated.index("◐")
     assert nameless.startswith(marks.html("no verdict"))
 
 

@@ -1,9 +1,6 @@
 """What was found, as the pages tell it: tables, records on disk, and what is not there."""
 
-import inspect
 import json
-import re
-from pathlib import Path
 
 import pytest
 from matplotlib import pyplot as plt
@@ -12,7 +9,6 @@ from test_claims import brownian, made_up, paper_a, paper_c
 from neorl.drawing.multiverse_figures import draw_standing
 from neorl.evidence import claims, report
 from neorl.evidence.errata import ERRATA
-from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 
 pytestmark = pytest.mark.usefixtures("cache_folder")
 
@@ -89,26 +85,7 @@ def row(table, name):
     return found
 
 
-def test_the_page_has_every_claim_of_the_thesis_and_says_which_were_not_computed(record):
-    page = report.page(record)
-    rows = [line.split("**")[1] for line in page.splitlines() if line.startswith("| **")]
-    lines = [line.split("**")[1] for line in page.splitlines() if line.startswith("- **")]
-    assert rows == lines == [*CLAIMS, *DEMONSTRATIONS]
-    assert "| not computed in this build |" in row(page, "H1") and "| not computed in this build |" in row(page, "A1")
-    assert page.index("Beside the claims: a demonstration") < page.index("| **H1**")
-    assert row(page, "C2").replace("\u00a0", " ") == (
-        "| **C2** One desire per colour (B) beats one for all (A) | > 0 | ○ −0.30 [−0.31, −0.29] | "
-        "● 0.10 [0.09, 0.11] | reproduced ({ref}`figure <fig-proficiency-networks>`, {ref}`rule "
-        "<rule-judge-networks>`) | 5 % of 40; short runs: 25 % of 256, 10 % undecided |")
-
-
-def test_a_claim_of_a_single_run_has_no_interval_and_no_verdict(record):
-    page = report.page(record)
-    assert "| –\u00a00.19 | no verdict (" in row(page, "A6")
-    assert "Here: 0.19, 1 runs. They reach half" in page
-
-
-def test_the_short_table_says_the_same(record):
+def test_the_short_table_has_every_claim_of_the_thesis_and_says_which_were_not_computed(record):
     table = report.in_short(record)
     assert row(table, "C2").endswith("| ●\u00a00.10 [0.09, 0.11] | reproduced | 5\u00a0% of 40; short runs: 25\u00a0% "
                                      "of 256, 10\u00a0% undecided |")
@@ -120,16 +97,6 @@ def test_some_claims_of_a_record_make_a_table(record):
     header, _, *rows = report.extract(record, ["A6", "C2", "C5"]).splitlines()
     assert header.startswith("| Claim | Thesis | To the letter |") and len(rows) == 3
     assert rows == [row(report.in_short(record), name) for name in ("A6", "C2", "C5")]
-
-
-def test_the_page_of_claims_shows_the_code_of_every_rule():
-    text = (Path(__file__).parents[2] / "book" / "claims.md").read_text(encoding="utf-8")
-    section = r"\((rule-[\w-]+)\)=\n### .+\n\n```{literalinclude} ../neorl/evidence/(\w+).py\n:pyobject: (\w+)\n"
-    shown = re.findall(section, text)
-    rules = [getattr(claims, statement.rule) for statement in STATEMENTS.values()]
-    assert {label: (module, rule) for label, module, rule in shown} == {
-        report.label(rule.__name__): (inspect.getmodule(rule).__name__.removeprefix("neorl.evidence."), rule.__name__)
-        for rule in rules}
 
 
 def test_errata_are_a_table_and_their_arithmetic_is_right():

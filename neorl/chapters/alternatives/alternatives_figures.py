@@ -4,7 +4,7 @@ from matplotlib import pyplot as plt
 
 from neorl.chapters.alternatives.contestants import BEYOND, CHANCE, DEEP, PHYSICS, TABLES, THESIS
 from neorl.chapters.alternatives.report import shown
-from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, name_ends
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, TEXT, name_ends
 from neorl.evidence.statistics import mean_band
 
 DASHED = {TABLES: "-", DEEP: "--", THESIS: ":", BEYOND: "-", CHANCE: ":", PHYSICS: "-."}
@@ -34,6 +34,6 @@ def draw_learning(boards):
                 axes.fill_between(at, *mean_band(rates), color=colour, alpha=0.2, linewidth=0)
             ends.append((rates[:, -max(1, rates.shape[1] // 10):].mean(), name, colour))
         axes.set(ylabel="reward per second", xlim=(0, earned["Brownian motion"].steps / 1_000))
-        axes.set_title(f"{creeps} creeps", color=INK, fontsize=11)
+        axes.set_title(f"{creeps} creeps", color=TEXT, fontsize=11)
         name_ends(axes, ends, line=0.055)
     axes.set_xlabel("steps, in thousands")

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.patches import Circle
 
-from neorl.drawing.boards import new_boards
+from neorl.drawing.boards import inside, new_boards
 from neorl.drawing.style import AGENT, GREEN, INK, RED
 
 
@@ -53,5 +53,6 @@ def _draw_path(axes, path, shown):
 
 
 def _draw_disc(axes, place, radius, colour, sign):
+    place = inside(place, radius)
     axes.add_patch(Circle(place, radius, facecolor=colour, edgecolor="none", zorder=3))
     axes.text(*place, sign, color="white", ha="center", va="center_baseline", weight="bold", zorder=4)

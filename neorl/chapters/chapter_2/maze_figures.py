@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 
 from neorl.drawing.curves import draw_curves
-from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, name_ends
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, TEXT, letters, name_ends
 from neorl.evidence.statistics import mean_band
 
 NAMES = {"throughout": "throughout", "never": "never", "delayed": "from day {}"}
@@ -27,8 +27,8 @@ def draw_plan(maze):
     for state, neighbour, name, colour in ((0, 1, "start", INK), (-1, -2, "food box", GREEN)):
         axes.plot(*path[state], color=colour, marker="s", markersize=13, zorder=4)
         beyond = np.sign(path[state] - path[neighbour])
-        axes.annotate(name, path[state], (38 * beyond[0], -17 * beyond[1]), textcoords="offset points", color=colour,
-                      ha="center", va="center")
+        axes.annotate(name, path[state], (38 * beyond[0], -17 * beyond[1]), textcoords="offset points",
+                      color=letters(colour), ha="center", va="center")
 
 
 def draw_errors(by_learner, first_reward):
@@ -46,7 +46,7 @@ def draw_errors(by_learner, first_reward):
             ends.append((mean[-1], NAMES[group].format(first_reward), colour))
         axes.axvline(first_reward, color=INK, linewidth=1, linestyle=":")
         axes.set(ylabel="errors a day", title=learner, ylim=(0, None), xlim=(1, days[-1]))
-        axes.title.set_color(INK)
+        axes.title.set_color(TEXT)
         axes.ends = ends
     axes.set(xlabel="day", xticks=days[::2])
     for axes in grid[:, 0]:
@@ -78,4 +78,4 @@ def draw_settings(rows, labels):
         axes.tick_params(axis="y", length=0)
     axes.invert_yaxis()
     figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=len(learners), frameon=False,
-                  labelcolor="linecolor", handletextpad=0.1, columnspacing=1.2)
+                  labelcolor=TEXT, handletextpad=0.1, columnspacing=1.2)

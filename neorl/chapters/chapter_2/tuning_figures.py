@@ -6,7 +6,7 @@ from matplotlib.patches import Arc, Rectangle
 
 from neorl.chapters.chapter_2.tuning import cartesian, egocentric
 from neorl.drawing.boards import new_boards
-from neorl.drawing.style import AGENT, CURVES, GREEN, INK, LOW_PANEL, RED, name_ends
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, LOW_PANEL, RED, letters, name_ends
 
 
 def draw_frames(point, heading, distance, bearing):
@@ -105,7 +105,7 @@ def draw_tuning_curves(direction, speed, fastest):
         angles = 2 * np.pi * (np.arange(len(rate) + 1) + 0.5) / len(rate)
         around.plot(angles, np.append(rate, rate[:1]), color=colour)
         peak = np.nanargmax(rate)
-        around.annotate(name, (angles[peak], rate[peak]), (10, 8), textcoords="offset points", color=colour)
+        around.annotate(name, (angles[peak], rate[peak]), (10, 8), textcoords="offset points", color=letters(colour))
     # As on a map: y points south, so that angles run clockwise from east.
     around.set_theta_direction(-1)
     around.set_xticks(np.pi / 2 * np.arange(4), ["E", "S", "W", "N"])

@@ -7,7 +7,7 @@ from matplotlib.ticker import MultipleLocator
 
 from neorl.chapters.shared.grid import WALL
 from neorl.chapters.shared.grid_figures import draw_grid, draw_policy
-from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, name_ends
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, letters, name_ends
 from neorl.evidence.statistics import mean_band
 
 
@@ -80,7 +80,7 @@ def draw_alternation(value_errors, policy_losses):
     for first, colour, name, shift in ((1, CURVES[0], "after evaluation", (0, 8)),
                                        (2, CURVES[5], "after\nimprovement", (8, 2))):
         axes.plot(xs[first::2], ys[first::2], color=colour, linestyle="none", marker="o", markersize=5, clip_on=False)
-        axes.annotate(name, (xs[first], ys[first]), color=colour, xytext=shift, textcoords="offset points")
+        axes.annotate(name, (xs[first], ys[first]), color=letters(colour), xytext=shift, textcoords="offset points")
     shown = [0, 0.001, 0.01, 0.1, 0.5]
     axes.set(xlabel="values: distance from the policy's own", ylabel="policy: distance from greedy", xlim=(0, None),
              ylim=(0, None))
@@ -118,7 +118,7 @@ def draw_means(series, xlabel, ylabel, logs="", marks=False, guides=()):
         name_ends(axes, [end for _, *end in ends])
     else:
         for x, y, name, colour in ends:
-            axes.annotate(name, (x, y), xytext=(0, 8), textcoords="offset points", color=colour, ha="center",
+            axes.annotate(name, (x, y), xytext=(0, 8), textcoords="offset points", color=letters(colour), ha="center",
                           annotation_clip=False)
 
 

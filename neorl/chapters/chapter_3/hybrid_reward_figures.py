@@ -7,7 +7,7 @@ from matplotlib.patches import Circle, Wedge
 from neorl.chapters.chapter_3.ensembles import LEARNERS
 from neorl.chapters.chapter_3.hybrid_reward import settled_values
 from neorl.chapters.shared.grid_figures import draw_grid, draw_policy, new_grids
-from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, TEXT, letters
 from neorl.evidence.statistics import estimate, mean_band
 
 
@@ -38,8 +38,8 @@ def draw_scores(played):
         axes.plot(steps, mean, color=colour)
         axes.fill_between(steps, *mean_band(each.rewards), color=colour, alpha=0.2, linewidth=0)
         at_the_edge = steps[-1] == furthest
-        axes.annotate(name, (steps[-1], mean[-1]), (6, 0 if at_the_edge else 7 if i == 0 else -9), color=colour,
-                      textcoords="offset points", va="center", annotation_clip=False)
+        axes.annotate(name, (steps[-1], mean[-1]), (6, 0 if at_the_edge else 7 if i == 0 else -9),
+                      color=letters(colour), textcoords="offset points", va="center", annotation_clip=False)
     axes.axhline(0, color=INK, linewidth=0.7, zorder=1)
     axes.set(xscale="log", xlabel="steps", ylabel="reward per 100 steps", xlim=(None, furthest))
 
@@ -54,7 +54,7 @@ def draw_junction(grid, discounts):
         values = sum(settled_values(grid, fruit, discount) for fruit in fruits)
         values[fruits] = 0  # a fruit that is reached is gone
         draw_policy(axes, grid, values)
-        axes.set_title(f"γ = {discount}", color=INK)
+        axes.set_title(f"γ = {discount}", color=TEXT)
 
 
 def draw_finals(rewards, best):
@@ -73,9 +73,9 @@ def draw_finals(rewards, best):
             colour = INK if name in LEARNERS else CURVES[0]
             axes.hlines(row, low, high, color=colour, linewidth=2)
             axes.plot(value, row, marker="o", markersize=6, color=colour)
-        axes.set_title(maze, size=11, color=INK)
+        axes.set_title(maze, size=11, color=TEXT)
         axes.grid(axis="y", color=INK, alpha=0.2, linewidth=0.5)
         axes.locator_params(axis="x", nbins=3)
     panels[0].set_yticks(range(len(names)), names)
     panels[0].invert_yaxis()
-    panels[0].figure.supxlabel("reward per step", size=11, color=INK)
+    panels[0].figure.supxlabel("reward per step", size=11, color=TEXT)

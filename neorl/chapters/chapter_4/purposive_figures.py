@@ -10,7 +10,7 @@ from neorl.chapters.chapter_4.potentials import misled
 from neorl.chapters.chapter_4.walks import expected_squared_displacement
 from neorl.chapters.shared.grid_figures import draw_grid, draw_policy, new_grids
 from neorl.drawing.curves import add_estimates
-from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, name_ends
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, letters, name_ends
 from neorl.evidence.statistics import mean_band
 
 
@@ -62,7 +62,8 @@ def draw_parts(time, panels):
         for place, (name, values) in enumerate(curves.items()):
             wide = {"linewidth": 4.5, "alpha": 0.45} if place < len(curves) - 1 else {"linewidth": 1.2}
             axes.plot(time, values, color=CURVES[place], **wide)
-            axes.annotate(name, (1.02, 0.7 - 0.3 * place), xycoords="axes fraction", color=CURVES[place], va="center")
+            axes.annotate(name, (1.02, 0.7 - 0.3 * place), xycoords="axes fraction",
+                          color=letters(CURVES[place]), va="center")
         axes.set_title(title, loc="left")
     grid[-1].set(xlabel="steps", xlim=(time[0], time[-1]))
 

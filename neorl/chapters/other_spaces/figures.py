@@ -11,7 +11,7 @@ from neorl.chapters.other_spaces import birds, hill, lives, minds, pool
 from neorl.core.geometry import TAU
 from neorl.drawing.boards import as_board, board_or_new
 from neorl.drawing.curves import draw_curves
-from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, axes_or_new, width_of_figures
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, TEXT, axes_or_new, letters, width_of_figures
 from neorl.evidence.statistics import estimate, probability_of_improvement
 
 SEEN = 12  # postures of an arm that are drawn on its way to a target
@@ -52,10 +52,10 @@ def draw_reaching(seen, ax=None, targets=2):
         axes.plot(*joints[-1], marker="o", markersize=3, color=AGENT)
     for last in ends[1:]:
         axes.add_patch(Circle(seen[last - 1][0].point[0], lives.ARMS[2].radius, facecolor=GREEN, alpha=0.5))
-        axes.text(*seen[last - 1][0].point[0], "+", color=INK, ha="center", va="center", weight="bold")
+        axes.text(*seen[last - 1][0].point[0], "+", color=TEXT, ha="center", va="center", weight="bold")
     for obstacle in {tuple(seen[at][0].point[1]) for at in shown}:
         axes.add_patch(Circle(obstacle, lives.ARMS[2].radius, facecolor=RED, alpha=0.5))
-        axes.text(*obstacle, "−", color=INK, ha="center", va="center", weight="bold")
+        axes.text(*obstacle, "−", color=TEXT, ha="center", va="center", weight="bold")
     axes.plot(0, 0, marker="s", markersize=6, color=INK)
     return axes
 
@@ -96,7 +96,7 @@ def draw_track(seen, ax=None):
     for number, at in enumerate([at for at, (_, met) in enumerate(seen) if met and at > 0], 1):
         place = seen[at - 1][0].scene.things[0]
         axes.add_patch(Circle(place, lives.WATERS.radius, facecolor=GREEN, alpha=0.5))
-        axes.text(*place, str(number), color=INK, ha="center", va="center_baseline")
+        axes.text(*place, str(number), color=TEXT, ha="center", va="center_baseline")
     return axes
 
 
@@ -124,7 +124,7 @@ def draw_paths(paths, ax=None):
     axes.add_patch(Circle((0.5, 0.5), 0.5, fill=False, edgecolor=INK, linewidth=1.4))
     for number, (path, colour) in enumerate(zip(paths, (INK, AGENT)), 1):
         axes.plot(*path.T, color=colour, linewidth=1.0 if number == 1 else 2.0)
-        axes.text(*path[0], f" {number}", color=colour, weight="bold")
+        axes.text(*path[0], f" {number}", color=letters(colour), weight="bold")
     axes.add_patch(Circle(pool.MOVED.places[-1], pool.MOVED.radius, facecolor=GREEN, alpha=0.6))
     return axes
 
@@ -151,11 +151,11 @@ def draw_space(paths, ax=None):
         axes.plot(*path.T, color=AGENT, linewidth=1.0, alpha=0.6)
     for name, bird in birds.NAMED.items():
         draw_bird(bird, axes, GREEN)
-        axes.text(bird[0] - 0.04, bird[1] - 0.04, name, color=INK, ha="center", va="bottom", fontsize=8)
+        axes.text(bird[0] - 0.04, bird[1] - 0.04, name, color=TEXT, ha="center", va="bottom", fontsize=9)
     for bird in birds.NAMELESS:
         draw_bird(bird, axes, INK)
-    axes.text(0.5, 1.11, "neck →", color=INK, ha="center", va="top")
-    axes.text(-0.03, 0.5, "legs →", color=INK, ha="right", va="center", rotation=270)
+    axes.text(0.5, 1.11, "neck →", color=TEXT, ha="center", va="top")
+    axes.text(-0.03, 0.5, "legs →", color=TEXT, ha="right", va="center", rotation=270)
     return axes
 
 

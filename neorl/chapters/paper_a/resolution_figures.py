@@ -1,7 +1,11 @@
 """Drawings of paper A: maps over one board, the field of elements of interest, and maps alone and together."""
 
+import numpy as np
+
 from neorl.chapters.paper_a.experiments import layers
 from neorl.chapters.paper_a.findings import REWARD, THESIS
+from neorl.core.horde import as_vectors
+from neorl.core.scene import CARDINAL
 from neorl.drawing.boards import new_board
 from neorl.drawing.curves import draw_proficiency
 from neorl.drawing.style import AGENT, GREEN, INK, RED
@@ -22,7 +26,8 @@ def draw_together(results):
 
 
 def draw_elements(nres_map, places, valences, values):
-    """Elements of interest with their valences, and the action values (cells, 4) that they make of a map.
+    """Elements of interest with their valences, in corners that no arrow crosses, and the action values (cells, 4) that
+    they make of a map.
 
     places: (elements, 2), in board widths. valences: (elements,).
     """
@@ -30,8 +35,12 @@ def draw_elements(nres_map, places, valences, values):
              for goal, valence in zip(nres_map.encode(places), valences)}
     axes = draw_cells(nres_map, fills=fills)
     draw_values(nres_map, values, ax=axes)
-    for (x, y), valence in zip(places, valences):
-        axes.text(x - 0.08, y - 0.05, f"{valence:+g}", weight="bold")
+    cells, side = nres_map.encode(places), 1 / nres_map.resolution
+    for cell, (east, south), valence in zip(cells, as_vectors(np.asarray(values), CARDINAL)[cells], valences):
+        left, top = side * (cell % nres_map.resolution), side * (cell // nres_map.resolution)
+        falling = east * south > 0  # an arrow that leaves the upper right corner free
+        axes.text(left + side * (0.95 if falling else 0.05), top + 0.05 * side, f"{valence:+g}".replace("-", "−"),
+                  ha="right" if falling else "left", va="top", weight="bold")
 
 
 def draw_maps(maps):

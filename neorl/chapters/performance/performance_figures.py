@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.ticker import EngFormatter, LogLocator, NullFormatter
 
-from neorl.drawing.style import AGENT, CURVES, INK, name_ends
+from neorl.drawing.style import AGENT, CURVES, INK, TEXT, name_ends
 
 GIGA, NANO = 1e9, 1e-9
 PARTS = {"starting": CURVES[4], "importing": CURVES[2], "computing": AGENT, "drawing": CURVES[1]}
@@ -58,18 +58,18 @@ def draw_contests(*contests):
 def draw_growth(series):
     """A small panel for each series that was timed: costs as dots, a line of the predicted slope through the last."""
     timed = [each for each in series if each.unit == "seconds"]
-    _, panels = plt.subplots(-(-len(timed) // 2), 2, figsize=(5.6, 1.9 * -(-len(timed) // 2)))
+    _, panels = plt.subplots(-(-len(timed) // 2), 2, figsize=(4.9, 1.9 * -(-len(timed) // 2)))
     for axes, each in zip(panels.flat, timed):
         line = each.costs[-1] * (each.xs / each.xs[-1]) ** each.predicted
         axes.plot(each.xs, line, color=INK, linewidth=1)
         axes.plot(each.xs, np.where(each.costs > 0, each.costs, np.nan), color=AGENT, linestyle="none",
                   marker="o", markersize=4)
         axes.set(xscale="log", yscale="log", xlabel=each.of)
-        axes.set_title(each.cost, fontsize=9, color=INK)
-        axes.set_xticks(each.xs, [f"{x:g}" for x in each.xs], fontsize=8)
+        axes.set_title(each.cost, fontsize=9, color=TEXT)
+        axes.set_xticks(each.xs, [f"{x:g}" for x in each.xs], fontsize=9)
         axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         axes.yaxis.set_major_formatter(EngFormatter("s"))
-        axes.tick_params(axis="y", labelsize=8)
+        axes.tick_params(axis="y", labelsize=9)
         for axis in (axes.xaxis, axes.yaxis):
             axis.set_minor_formatter(NullFormatter())
             axis.set_tick_params(which="minor", length=0)
@@ -101,5 +101,5 @@ def _bytes(axes):
 
 def _legend(axes, colours):
     handles = [plt.Rectangle((0, 0), 1, 1, color=colour) for colour in colours.values()]
-    axes.legend(handles, colours, frameon=False, labelcolor=INK, loc="lower left", bbox_to_anchor=(0, 1),
+    axes.legend(handles, colours, frameon=False, labelcolor=TEXT, loc="lower left", bbox_to_anchor=(0, 1),
                 ncols=len(colours), handlelength=1, columnspacing=1, borderaxespad=0.2)

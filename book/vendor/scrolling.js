@@ -1,0 +1,45 @@
+// Tables that are wider than their column scroll by themselves. Here they do so by keyboard too, with a name for readers
+// of screens, and fade at the edge behind which there is more. Tables that fit are left alone.
+const BOXES = ".bd-content :is(.pst-scrollable-table-container, .wide-table)";
+
+// A table that a notebook wrote as HTML has no box yet.
+const wrap = (table) => {
+  const box = document.createElement("div");
+  box.className = "wide-table";
+  table.replaceWith(box);
+  box.append(table);
+};
+
+const nameOf = (box) => {
+  const heads = [...box.querySelectorAll("thead th")].map((cell) => cell.textContent.trim()).filter(Boolean);
+  const caption = box.querySelector("caption .caption-text, caption")?.textContent.trim();
+  return `Table, scrolls sideways: ${caption || heads.join(", ") || "no headings"}`;
+};
+
+const mark = (box) => {
+  const hidden = box.scrollWidth - box.clientWidth;
+  const scrolls = hidden > 1;
+  box.classList.toggle("more-right", scrolls && box.scrollLeft < hidden - 1);
+  box.classList.toggle("more-left", scrolls && box.scrollLeft > 1);
+  if (scrolls) {
+    box.tabIndex = 0;
+    box.setAttribute("role", "region");
+    box.setAttribute("aria-label", nameOf(box));
+  } else {
+    for (const each of ["tabindex", "role", "aria-label"]) box.removeAttribute(each);
+  }
+};
+
+const start = () => {
+  for (const table of document.querySelectorAll(".bd-content .cell_output table")) {
+    if (!table.closest(BOXES)) wrap(table);
+  }
+  const watch = new ResizeObserver((entries) => entries.forEach((entry) => mark(entry.target)));
+  for (const box of document.querySelectorAll(BOXES)) {
+    box.addEventListener("scroll", () => mark(box), { passive: true });
+    watch.observe(box);
+  }
+};
+
+if (document.readyState === "loading") document.addEventListener("DOMContentLoaded", start);
+else start();

@@ -1,0 +1,106 @@
+"""The page of all claims, and the strip of them that opens the book, from the records of `neorl.evidence.report`.
+
+1. A tally and a strip with a square for each claim come first, then a row for each, then what its verdict rests on.
+2. A row has the estimates under both readings, the verdict, and the shares of readings in columns of their own.
+3. Pages are MyST Markdown. The strip is HTML, since its squares are links of their own shape.
+"""
+
+from html import escape
+
+from neorl.evidence import marks, report
+from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
+from neorl.evidence.verdict import RUNS_FOR_A_VERDICT, VERDICTS
+
+COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict", "Agrees", "Holds", "Undecided")
+CHAPTERS = {"A": "Paper A: maps of one space", "B": "Paper B: modalities", "C": "Paper C: networks of desires",
+            "T": "The thesis as a whole", "G": "General, compositional, incremental", "H": "A demonstration"}
+
+
+def page(record):
+    """The tally, the strip, the tables and what verdicts rest on, in MyST Markdown. record: as `report.load` has it."""
+    parts = [strip(record), tally(record), _table(record, CLAIMS), "## Beside the claims: a demonstration",
+             _table(record, DEMONSTRATIONS), "## What each verdict rests on",
+             "The sentence that is judged, what was measured, and what was found."]
+    for letter, title in CHAPTERS.items():
+        lines = report.evidence(record, [name for name in STATEMENTS if name[0] == letter])
+        parts.append("\n".join([f":::{{dropdown}} {title}", *lines, ":::"]))
+    return "\n\n".join(parts) + "\n"
+
+
+def front(record):
+    """The sentence of result and the strip that open the book, as HTML. record: as `report.load` has it."""
+    return f'<p class="result">{sentence(record)}</p>\n{strip(record, "claims.html")}\n'
+
+
+def counts(record):
+    """How many claims have each verdict: {verdict: count}, without verdicts that no claim has."""
+    found = [report.verdict(record, name) for name in CLAIMS]
+    return {verdict: found.count(verdict) for verdict in marks.MARKS if verdict in found}
+
+
+def sentence(record):
+    """What holds, as one sentence of HTML."""
+    found = counts(record)
+    if not any(found.get(verdict) for verdict in VERDICTS[:3]):
+        return (f"The book judges {len(CLAIMS)} claims of the thesis; verdicts need {RUNS_FOR_A_VERDICT} runs per "
+                "condition, and this build has fewer.")
+    reproduced, partly, failed = (found.get(verdict, 0) for verdict in VERDICTS[:3])
+    rest = len(CLAIMS) - reproduced - partly - failed
+    left = f"; {rest} could not be judged" if rest else ""
+    return (f"Of the thesis’s {len(CLAIMS)} claims, <strong>{reproduced} {'is' if reproduced == 1 else 'are'} "
+            f"reproduced</strong>, {partly} partly and {failed} not{left}.")
+
+
+def tally(record):
+    """How many claims have each verdict, as a line of Markdown."""
+    return f"{len(CLAIMS)} claims: " + " · ".join(f"{marks.html(verdict)} {count} {verdict}"
+                                                  for verdict, count in counts(record).items()) + "."
+
+
+def strip(record, address=""):
+    """A square for each claim, its symbol in its colour, that leads to the claim's row: an HTML list.
+
+    address: of the page of claims, relative to that of the strip.
+    """
+    squares = []
+    for name in CLAIMS:
+        verdict = report.verdict(record, name)
+        mark, text = marks.MARKS[verdict], escape(f"{name}, {verdict}: {STATEMENTS[name].text}")
+        squares.append(f'<li><a class="{mark.css}" href="{address}#{anchor(name)}" title="{text}" aria-label="{text}">'
+                       f"{name}<span>{mark.symbol}</span></a></li>")
+    return f'<ul class="claims-strip" aria-label="Verdict of each claim">{"".join(squares)}</ul>'
+
+
+def anchor(name):
+    """The fragment of the address of a claim's row."""
+    return f"claim-{name.lower()}"
+
+
+def _table(record, names):
+    rows = [f"| {' | '.join(COLUMNS)} |", "|---" * len(COLUMNS) + "|", *(_row(record, name) for name in names)]
+    return "\n".join([":::{div} claims", *rows, ":::"])
+
+
+def _row(record, name):
+    statement, found, share = STATEMENTS[name], record["claims"].get(name), record["shares"].get(name)
+    verdict = report.verdict(record, name)
+    judged = f"{marks.html(verdict)} {verdict}"
+    if found:
+        judged += f" {{ref}}`figure <{statement.figure}>`, {{ref}}`rule <{report.label(statement.rule)}>`"
+    cells = [f'<span id="{anchor(name)}"></span>**{name}** {statement.text}', statement.thesis,
+             *(_marked(record[part].get(name)) for part in ("letter", "claims")), judged, *_shares(share)]
+    return f"| {' | '.join(cells)} |"
+
+
+def _marked(found):
+    return f"{marks.html(found['verdict'])} {report.number(found)}" if found else ""
+
+
+def _shares(share):
+    """Under how many readings the numbers agree at the papers' lengths, and the rule holds, or cannot decide."""
+    if not share:
+        return "", "", ""
+    agrees = (f"{report.percent(share['agrees'], share['measured'])} of {share['measured']}"
+              if share.get("measured") else "")
+    total = share["readings"]
+    return agrees, f"{report.percent(share['holds'], total)} of {total}", report.percent(share["undecided"], total)

@@ -1,0 +1,41 @@
+"""Figures are legible on light pages and on dark ones, by the contrasts of WCAG 2."""
+
+import re
+
+import pytest
+from contrast import GROUNDS, STYLE_SHEET, contrast
+
+from neorl import drawing
+from neorl.drawing.style import TEXT, letters
+
+LINES = (*drawing.CURVES, drawing.INK, drawing.AGENT, drawing.GREEN, drawing.RED)
+DISCS = (drawing.AGENT, drawing.GREEN, drawing.RED)  # which carry a white sign
+
+
+def shown(colour, mode):
+    """A colour of a figure as a page of the book shows it."""
+    (factor,) = re.findall(r"filter: brightness\(([\d.]+)\)", STYLE_SHEET.read_text())
+    channels = (int(colour[at : at + 2], 16) * (float(factor) if mode == "dark" else 1.0) for at in (1, 3, 5))
+    return "#" + "".join(f"{min(round(channel), 255):02x}" for channel in channels)
+
+
+@pytest.mark.parametrize("mode", GROUNDS)
+def test_lines_stand_out_from_the_page(mode):
+    for colour in LINES:
+        assert contrast(shown(colour, mode), GROUNDS[mode][0]) >= 3, colour
+
+
+@pytest.mark.parametrize("mode", GROUNDS)
+def test_letters_are_legible(mode):
+    for colour in (TEXT, *DISCS, *map(letters, LINES), letters("black"), letters("white"), letters("#ffff00")):
+        assert contrast(shown(colour, mode), GROUNDS[mode][0]) >= 4.5, colour
+
+
+@pytest.mark.parametrize("mode", GROUNDS)
+def test_signs_stand_out_from_their_discs(mode):
+    for colour in DISCS:
+        assert contrast(shown(colour, mode), "#ffffff") >= 3, colour
+
+
+def test_the_measure_is_that_of_wcag():
+    assert contrast("#000000", "#ffffff") == 21 and contrast("#777777", "#ffffff") == pytest.approx(4.48, abs=0.005)

@@ -1,0 +1,83 @@
+"""The page of all claims and the strip that opens the book: every claim once, each with its symbol and its shares."""
+
+import inspect
+import re
+from pathlib import Path
+
+import pytest
+from contrast import STYLE_SHEET
+
+from neorl.evidence import claims, ledger, report
+from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
+
+FOUND = {"here": [0.1, 0.09, 0.11], "runs": 20, "verdict": "reproduced", "detail": "A run of B beats one of A."}
+RECORD = {"claims": {"C2": FOUND, "A6": FOUND | {"here": [0.19, None, None], "runs": 1, "verdict": "no verdict"},
+                     "B1": FOUND | {"verdict": "not reproduced"}},
+          "letter": {"C2": FOUND | {"here": [-0.3, -0.31, -0.29], "verdict": "partly"}},
+          "shares": {"C2": {"holds": 64, "undecided": 26, "readings": 256, "agrees": 2, "measured": 40},
+                     "A6": {"holds": 1, "undecided": 0, "readings": 4}}}
+EMPTY = {"claims": {}, "letter": {}, "shares": {}}
+
+
+def row(name, record=RECORD):
+    (found,) = [line for line in ledger.page(record).splitlines() if f"**{name}**" in line and line[0] == "|"]
+    return re.sub(r"<[^>]*>", "", found.replace("<fig", "(fig").replace("<rule", "(rule")).replace("\u00a0", " ")
+
+
+def test_a_row_has_both_readings_the_verdict_and_shares_in_columns_of_their_own():
+    assert row("C2") == (
+        "| **C2** One desire per colour (B) beats one for all (A) | > 0 | ◐ −0.30 [−0.31, −0.29] | "
+        "● 0.10 [0.09, 0.11] | ● reproduced {ref}`figure (fig-proficiency-networks>`, {ref}`rule "
+        "(rule-judge-networks>` | 5 % of 40 | 25 % of 256 | 10 % |")
+    assert row("A6").endswith("| – 0.19 | – no verdict {ref}`figure (fig-proficiency>`, {ref}`rule "
+                              "(rule-judge-multiple-layers>` |  | 25 % of 4 | 0 % |")
+    assert row("H1").endswith("| fewer |  |  | – not computed in this build |  |  |  |")
+
+
+def test_the_page_has_every_claim_once_in_a_row_and_once_in_what_verdicts_rest_on():
+    lines = ledger.page(RECORD).splitlines()
+    rows = [line.split("**")[1] for line in lines if line.startswith('| <span id="claim-')]
+    assert rows == [line.split("**")[1] for line in lines if line.startswith("- **")] == [*CLAIMS, *DEMONSTRATIONS]
+    assert {name[0] for name in STATEMENTS} == set(ledger.CHAPTERS)
+
+
+def test_every_square_of_the_strip_leads_to_the_row_of_its_claim():
+    squares = re.findall(r'<a class="([\w-]+)" href="claims.html#([\w-]+)" title="(\w+), ([^:]+): [^"]*"',
+                         ledger.front(RECORD))
+    assert [name for *_, name, _ in squares] == list(CLAIMS)
+    page = ledger.page(RECORD)
+    assert all(page.count(f'<span id="{place}"></span>**{name}**') == 1 for _, place, name, _ in squares)
+    assert ("verdict-reproduced", "claim-c2", "C2", "reproduced") in squares
+    assert ("verdict-none", "claim-a1", "A1", "not computed in this build") in squares
+
+
+def test_the_tally_counts_claims_and_no_demonstrations():
+    found = ledger.counts(RECORD | {"claims": RECORD["claims"] | {"H1": FOUND}})
+    assert found == {"reproduced": 1, "not reproduced": 1, "no verdict": 1,
+                     "not computed in this build": len(CLAIMS) - 3}
+    assert f"{len(CLAIMS)} claims: <span" in ledger.tally(RECORD) and "</span> 1 reproduced · " in ledger.tally(RECORD)
+
+
+@pytest.mark.parametrize("record, words", [
+    (RECORD, f"Of the thesis’s {len(CLAIMS)} claims, 1 is reproduced, 0 partly and 1 not; {len(CLAIMS) - 2} could not "
+             "be judged."),
+    (EMPTY, "verdicts need 10 runs per condition, and this build has fewer")])
+def test_the_book_opens_with_what_holds_or_why_nothing_is_known(record, words):
+    assert words in re.sub("<[^>]+>", "", ledger.front(record))
+
+
+def test_the_style_sheet_names_the_columns_on_a_phone():
+    """Where a row is a card, there is no header above it."""
+    labels = re.findall(r'\.claims td:nth-child\((\d)\)::before \{ content: "([^"]+)"; \}', STYLE_SHEET.read_text())
+    assert labels == [(str(at), name) for at, name in enumerate(ledger.COLUMNS, 1) if at > 1]
+
+
+def test_the_page_of_claims_shows_the_code_of_every_rule():
+    text = (Path(__file__).parents[2] / "book" / "claims.md").read_text(encoding="utf-8")
+    section = (r":::{dropdown} .+\n\((rule-[\w-]+)\)=\n```{literalinclude} ../neorl/evidence/(\w+).py\n"
+               r":pyobject: (\w+)\n")
+    shown = re.findall(section, text)
+    rules = [getattr(claims, statement.rule) for statement in STATEMENTS.values()]
+    assert {label: (module, rule) for label, module, rule in shown} == {
+        report.label(rule.__name__): (inspect.getmodule(rule).__name__.removeprefix("neorl.evidence."), rule.__name__)
+        for rule in rules}
