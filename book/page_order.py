@@ -23,7 +23,7 @@ def results_first(cells, name, values, seconds):
         cell.source = with_values(cell.source, values)
         cell.metadata.tags = [PARAMETERS, "hide-input"]
         cell.metadata.mystnb = {"code_prompt_show": "Show the parameters", "code_prompt_hide": "Hide the parameters"}
-    first = [each for each in others if FOUND in tags(each)]
+    first = sorted((each for each in others if FOUND in tags(each)), key=has_figure)  # the box before its figure
     rest = [each for each in others if not {FOUND, PARAMETERS, INJECTED} & tags(each)]
     heading = new_markdown_cell(run_it_yourself(name, seconds), id="run-it-yourself")  # not an id at random
     return [title, *first, *rest, heading, *last]
@@ -32,6 +32,11 @@ def results_first(cells, name, values, seconds):
 def tags(cell):
     """The tags of a cell, a set."""
     return set(cell.metadata.get("tags", ()))
+
+
+def has_figure(cell):
+    """Whether a cell puts out a figure with a caption."""
+    return "figure" in cell.metadata.get("mystnb", {})
 
 
 def with_values(source, values):

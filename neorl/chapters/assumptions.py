@@ -68,9 +68,24 @@ def importances(*multiverses):
     return _in_order(importance), _in_order(explained)
 
 
+def of_predicted(importance, names):
+    """The importances of the claims of those names, and none of the others: {claim: {choice: importance}}."""
+    return {name: found if name in names else {} for name, found in importance.items()}
+
+
 def predicted(explained):
     """The claims whose number the choices predict, a list of names. explained: {claim: R²}."""
     return [name for name, share in explained.items() if share >= PREDICTED]
+
+
+def in_short(shares, judged, foremost):
+    """The result of the page in three sentences. foremost: as `foremost_choices` has it."""
+    agreeing = [found["agrees"] / found["measured"] for found in shares.values() if found.get("measured")]
+    holding = [_share(found, "holds") for found in shares.values()]
+    return (f"At the papers' own lengths, a claim's numbers agree with the thesis under {_percent(np.mean(agreeing))} "
+            f"of the readings that the text allows, on average over {len(agreeing)} claims. In short runs under "
+            f"{len(judged)} readings, with an interval required, a claim holds under {_percent(np.mean(holding))}. "
+            f"{foremost}")
 
 
 def agreement_at_length(shares):

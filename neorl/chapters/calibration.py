@@ -55,6 +55,20 @@ def lives_of_others(rows, best, steps, seed):
             for place, row in enumerate(rows) if row.reading != best.reading]
 
 
+def in_short(complete, letter, confirmed, together):
+    """The result of the page in three sentences.
+
+    complete: rows that were run in every group. letter, confirmed: a `Row` each. together: a `Together`.
+    """
+    (most, _), claims = together.sets[0], len(together.claims)
+    return (f"Of {len(complete):,} readings within the text that were run in every condition, "
+            f"{agreeing(complete).lower()} agree with all {len(TARGETS)} targets, numbers of the thesis, at once. To "
+            f"the letter, {len(letter.held)} of {claims} claims hold; under the best reading, in {confirmed.runs} "
+            f"runs with fresh seeds, {len(confirmed.held)} do. The most that hold together in any one reading are "
+            f"{len(most)}. Here a claim holds if its means agree with the thesis's numbers; the papers' pages judge "
+            "by stricter rules.")
+
+
 def agreeing(rows):
     """How many rows agree with all targets, as text. rows: of `Row`."""
     return str(sum(row.distance == 0 for row in rows) or "None")

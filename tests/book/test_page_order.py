@@ -15,7 +15,8 @@ def cell(source, *tags):
 
 CELLS = [new_markdown_cell("# Title"), cell("runs: int = 20  # of each", "parameters"),
          cell("runs = 4", "injected-parameters"), cell("import neorl", "remove-input"), new_markdown_cell("Text."),
-         cell("box", "remove-input", "found"), cell("figure", "hide-input", "found"), cell("other", "hide-input")]
+         cell("figure", "hide-input", "found"), cell("other", "hide-input"), cell("box", "remove-input", "found")]
+CELLS[5].metadata.mystnb = {"figure": {"name": "fig"}}
 
 
 def test_a_page_opens_with_its_title_and_what_was_found_and_ends_with_its_parameters():

@@ -177,3 +177,14 @@ def test_readings_beyond_the_text_break_it_and_their_claims_are_counted():
     text = assumptions.counts_beyond(outside, judged_outside, [claims(["B1", "C1"])] * 4)
     assert text == ("3 readings, of which 2 break the text, in 1.0 choices on average. Beyond the text 0.3 of 2 claims "
                     "hold on average; within it, 2.0; the difference is −1.67 [−2.00, −1.00].")
+
+
+def test_the_box_has_the_shares_at_length_and_in_short_runs(shares):
+    text = plain(assumptions.in_short(shares, [claims(["B1"])] * 3, "Credit matters most."))
+    assert "agree with the thesis under 20 % of the readings that the text allows, on average over 1 claims" in text
+    assert "under 3 readings, with an interval required, a claim holds under 42 %. Credit matters most." in text
+
+
+def test_only_predicted_claims_have_importances():
+    assert assumptions.of_predicted({"A1": {"credit": 0.2}, "A2": {"credit": 0.3}}, ["A2"]) == {
+        "A1": {}, "A2": {"credit": 0.3}}

@@ -153,3 +153,11 @@ def test_every_target_has_its_reason():
 def test_rows_that_come_out_as_they_stand_are_counted():
     one, other = rows((), ["C4"])
     assert calibration.equal([(one, one), (one, other), (other, replace(other))]) == 2
+
+
+def test_the_box_counts_readings_and_claims(together):
+    letter, confirmed = rows(["C4"], ())
+    text = calibration.in_short(rows((), ["C4"], ()), letter, confirmed, together)
+    assert text.startswith("Of 3 readings within the text that were run in every condition, 2 agree with all")
+    assert f"{len(letter.held)} of 3 claims hold; under the best reading, in 2 runs" in text
+    assert "hold together in any one reading are 2." in text

@@ -48,7 +48,8 @@ def test_the_box_counts_verdicts():
     text = conclusions.in_short(verdicts(all_claims("reproduced") | {"A1": "partly", "G2": "partly"}, {"A2": "partly"}))
     text = re.sub("<[^>]+>", "", text).replace("\u00a0", " ")
     assert (f"results: to the letter, ◐ 1 partly, – {len(CLAIMS) - 1} not computed in this build; calibrated, ● "
-            f"{len(CLAIMS) - 2} reproduced, ◐ 2 partly. In the calibrated reading, *Superposition* holds ") in text
+            f"{len(CLAIMS) - 2} reproduced, ◐ 2 partly. How far its two conclusions hold in the calibrated reading: "
+            "*Superposition*: *whole* (") in text
     assert text.endswith("the pages beyond the thesis judge 5: ● 4 reproduced, ◐ 1 partly.")
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from neorl.chapters.chapter_3.growth import doubling_time, draws_of_all, growth_factor
+from neorl.chapters.chapter_3.growth import doubling_time, draws_of_all, fit_trend, growth_factor
 
 
 def test_the_factor_of_a_power_is_its_base_and_the_first_point_does_not_count():
@@ -40,3 +40,9 @@ def test_the_interval_of_a_doubling_time_is_that_of_students_t():
 
 def test_all_of_n_things_are_drawn_after_about_n_ln_n_draws():
     assert draws_of_all(1) == 0 and draws_of_all(1000) == pytest.approx(6907.755)
+
+
+def test_a_trend_goes_through_what_doubles_each_two_years():
+    years = np.array([2000, 2002, 2004, 2006])
+    trend, fitted = fit_trend(years, np.array([1.0, 2.0, 4.0, 8.0]))
+    assert trend.slope == pytest.approx(0.5) and fitted == pytest.approx([1.0, 2.0, 4.0, 8.0])

@@ -6,7 +6,8 @@ from matplotlib import pyplot as plt
 
 from neorl.chapters.chapter_2 import maze_figures
 from neorl.chapters.chapter_2.latent_learning import (DAYS, GROUPS, LEARNERS, Animal, Record, Rival, _learn_by_traces,
-                                                      compare_learners, findings, judge, live, simulate_groups)
+                                                      compare_groups, compare_learners, findings, judge, known_by, live,
+                                                      simulate_groups)
 from neorl.chapters.chapter_2.maze import Maze, random_maze
 from neorl.chapters.shared.grid import MOVES
 from neorl.chapters.shared.tabular import Rates
@@ -266,3 +267,10 @@ def test_settings_are_drawn_as_points_with_their_intervals():
     assert [list(line.get_xdata()) for line in second.lines[1:]] == [[3, 4], [7, 8]]
     assert [list(each.get_segments()[0][:, 0]) for each in first.collections] == [[0, 2], [4, 6]]
     assert [label.get_text() for label in first.get_yticklabels()] == ["a", "b"]
+
+
+def test_all_kinds_of_animals_are_compared_in_all_groups_and_by_what_they_know():
+    found = compare_groups(Maze(), runs=2)
+    assert list(found) == list(LEARNERS) and {*found["neoRL"]} == {*GROUPS}
+    known = known_by(found, "delayed")
+    assert list(known) == list(LEARNERS) and known["neoRL"] is found["neoRL"]["delayed"].known

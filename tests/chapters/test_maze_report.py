@@ -106,4 +106,4 @@ def test_the_box_has_each_learner_and_the_demonstration():
     text = in_short(by_learner, SimpleNamespace(here="−0.13 [−0.29, 0.02]"))
     assert "from 5.0 errors on that day to 1.5 on the next with neoRL" in text
     assert "from 5.0 to 1.5 with Q-learning and from 5.0 to 1.5 with Sarsa(λ)" in text
-    assert "make −0.13 [−0.29, 0.02] errors per day less" in text
+    assert "less those of animals fed throughout, are −0.13 [−0.29, 0.02]: they overtake if" in text

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from neorl.chapters.chapter_2 import psychology_figures
+from neorl.chapters.chapter_2 import neuron, psychology_figures
 from neorl.chapters.chapter_2.neuron import (REST, Neuron, action_potential, efficacy, firing_rate, gate_rates,
                                              gates_at_rest, integrate, peak, pulses_at_threshold, synaptic_current)
 from neorl.chapters.shared.grid import Grid
@@ -154,3 +154,11 @@ def test_a_wish_is_drawn_everywhere_but_in_the_marked_places():
 def test_what_makes_no_neuron_is_refused(call, message):
     with pytest.raises(ValueError, match=message):
         call()
+
+
+def test_each_series_of_shocks_has_its_efficacy():
+    minutes = np.array([0.0, 31.0, 200.0])
+    found = neuron.efficacies(minutes, neuron.SHOCKS)
+    assert list(found) == ["one shock", "five, apart", "five at once"]
+    np.testing.assert_array_equal(found["one shock"], efficacy(minutes, [30]))
+    assert found["five, apart"][2] > 1.1 > found["one shock"][2]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from neorl.chapters.chapter_3.perceptron import agreeing_intervals, mistake_bound
+from neorl.chapters.chapter_3.perceptron import agreeing_intervals, mistake_bound, numerical_slope
 
 
 def test_intervals_agree_where_the_slope_is_zero_below_the_threshold_and_one_above():
@@ -29,3 +29,7 @@ def test_rosenblatts_rule_makes_no_more_mistakes_than_the_bound():
                 weights += label * given
                 mistakes += 1
     assert 0 < mistakes <= mistake_bound(inputs, truth)
+
+
+def test_the_slope_is_that_between_neighbours():
+    assert numerical_slope(np.array([-2.0, 0.0, 4.0]), np.array([0.0, 0.0, 2.0])).tolist() == [0.0, 0.5]

@@ -6,7 +6,7 @@ from matplotlib import pyplot as plt
 
 from neorl import Run, WaterWorld, multimodal, place_cells
 from neorl.chapters.chapter_1 import navigation_figures
-from neorl.chapters.chapter_1.before_and_after import leads, trials, veteran
+from neorl.chapters.chapter_1.before_and_after import first_minutes, leads, trials, veteran
 from neorl.chapters.chapter_1.steering import CLOSE, HASTE, chase, follow_route, steer
 from neorl.core.kernel import arrays, execute
 from neorl.experiments.recording import Recording
@@ -102,3 +102,11 @@ def test_a_path_breaks_off_where_the_agent_is_put_back_and_a_creep_is_drawn_wher
     assert [text.get_text() for text in axes.texts] == ["+", "−", ""]
     assert "1 green, 1 red" in axes.get_title()
     plt.close("all")
+
+
+def test_the_first_minute_is_that_of_trials_and_of_the_rule_per_second():
+    world, agent = WaterWorld(), multimodal([3])
+    newborns, veterans, by_rule = first_minutes(agent, world, lessons=100, runs=2)
+    minute = 60 * world.fps
+    np.testing.assert_array_equal([newborns, veterans], trials(agent, world, lessons=100, steps=minute, runs=2) / 60)
+    np.testing.assert_array_equal(by_rule, chase(world, minute, 2) / 60)

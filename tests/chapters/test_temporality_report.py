@@ -70,3 +70,11 @@ def test_the_box_has_the_curse_the_missing_step_and_the_model():
     text = report.in_short(needed, paid, 2, 169, 1.66)
     assert "prolongs Q-learning by a factor of 2.0" in text and "grid of 169 states only 1.7 % of it" in text
     assert "remember 1 of 2 such steps earn 0.50 [0.50, 0.50] per step" in text and "all earn 0.90" in text
+
+
+def test_the_curse_is_judged_by_all_steps_and_by_all_but_one():
+    rng = np.random.default_rng(0)
+    paid = {rule: np.stack([np.full(12, 0.5), 0.5 + 0.01 * rng.random(12), 0.9 + 0.01 * rng.random(12)], axis=1)
+            for rule in ("sum", "table")}
+    assert report.judge(paid, 2).name == "T3"
+    assert report.judge(paid, 2).here != report.judge(paid, 1).here

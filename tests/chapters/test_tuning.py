@@ -7,7 +7,7 @@ from matplotlib import pyplot as plt
 from neorl import NresMap
 from neorl.chapters.chapter_2 import tuning_figures
 from neorl.chapters.chapter_2.tuning import (Trajectory, TuningCurve, cartesian, egocentric, in_field, information,
-                                             likeness, rate_maps, roam, spikes, told_by_spikes, tuning_curve)
+                                          likeness, rate_maps, rates, roam, spikes, told_by_spikes, tuning_curve)
 from neorl.core.geometry import TAU
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, HEAD_DIRECTION_CELL, LANDMARK_VECTOR_CELL,
                                  OBJECT_VECTOR_CELL, SPEED_CELL)
@@ -250,3 +250,9 @@ def test_both_frames_meet_in_the_point():
 def test_what_makes_no_tuning_is_refused(call, message):
     with pytest.raises(ValueError, match=message):
         call()
+
+
+def test_rates_are_those_of_the_tuning_curves_of_some_cells():
+    trains, values = {"a": np.array([1, 0, 1, 0]), "b": np.array([0, 1, 0, 1])}, np.array([0.1, 0.9, 0.1, 0.9])
+    found = rates(trains, ["b"], values, step=1.0, high=1.0, bins=2, smoothing=0.0)
+    assert list(found) == ["b"] and found["b"].tolist() == [0.0, 1.0]

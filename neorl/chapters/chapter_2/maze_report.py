@@ -17,9 +17,9 @@ def in_short(by_learner, claim):
     also = " and ".join(f"from {before} to {after} with {name}" for name, (before, after) in others)
     return (f"In Tolman and Honzik's maze of 1930, rats that first found food on day {FIRST_REWARD} overtook rats fed "
             f"throughout. Simulated animals go from {errors[0]} errors on that day to {errors[1]} on the next with "
-            f"{first}, the thesis's kind of learning, and {also}. From day {FIRST_REWARD + 1} on the {first} animals "
-            f"make {claim.here} errors per day less than those fed throughout, where below 0 means fewer: what was "
-            "learned without reward is there when it matters.")
+            f"{first}, the thesis's kind of learning, and {also}. From then on, the errors per day of the {first} "
+            f"animals, less those of animals fed throughout, are {claim.here}: they overtake if the whole interval "
+            "lies below 0.")
 
 
 def describe_errors(by_learner):

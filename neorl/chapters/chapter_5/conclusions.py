@@ -33,10 +33,10 @@ def in_short(verdicts):
     """How many claims have which verdict, and how far each conclusion holds, in a few sentences of Markdown."""
     tallies = "; ".join(f"{reading}, {_tally(found)}" for reading, found in verdicts.items())
     others = _tally({name: verdicts[CALIBRATED][name] for name in BEYOND})
-    held = " ".join(f"*{title}* holds {_held(verdicts[CALIBRATED], names)}." for title, names in CONCLUSIONS.items())
+    held = " ".join(f"*{title}*: {_held(verdicts[CALIBRATED], names)}." for title, names in CONCLUSIONS.items())
     return (f"The book lists {len(CLAIMS)} claims of the thesis, each judged by a rule that was fixed before the "
-            f"results: {tallies}. In the calibrated reading, {held} Of these claims the pages beyond the thesis "
-            f"judge {len(BEYOND)}: {others}.")
+            f"results: {tallies}. How far its two conclusions hold in the calibrated reading: {held} Of these claims, "
+            f"the pages beyond the thesis judge {len(BEYOND)}: {others}.")
 
 
 def _tally(found):

@@ -32,6 +32,12 @@ def speeds(python_seconds, kernel_seconds, steps, kernel_steps):
             f"took {1e9 * kernel_seconds / kernel_steps:.0f} nanoseconds.")
 
 
+def in_short(finds, python_seconds, kernel_seconds, steps, runs):
+    """What a world in either form costs, and what an agent learns in it: of a loop and of runs of the same steps."""
+    return ("An agent learns to find a lily pad in a pond of a few lines of Python. "
+            f"{trials('The pad', finds, steps)} {speeds(python_seconds, kernel_seconds, steps, steps * runs)}")
+
+
 def table(results):
     """Finds per thousand steps in the last fifth of the runs, mean and standard deviation: {name: `Result`}."""
     rows = ["| agent | finds per thousand steps |", "|---|---|"]

@@ -26,6 +26,12 @@ def same_bits(name, one, other):
     return f"{name}: {verdict}."
 
 
+def in_short(found, steps, one, other, away):
+    """What the tasks of the page show, in three sentences. Arguments as below and above."""
+    return (f"{transfer(found, steps)} {same_bits('A run that was saved and loaded continues', one, other)} An agent "
+            f"steers an animal in another simulator by the firing of its neurons. {distances(away)}")
+
+
 def distances(by_name):
     """A sentence on how far animals were from the object in the last fifth of their time: {name: float64 (steps,)}."""
     parts = [f"{name} {np.mean(each[-len(each) // 5:]):.2f} m" for name, each in by_name.items()]
