@@ -1,10 +1,11 @@
 """Sphinx extension: the buttons that lead to the repository, and to its notebooks on Binder and Colab.
 
 ``Repository`` in pyproject.toml's ``[project.urls]`` is their one setting, which the package's metadata have as well;
-without it there are none. The book shows notebooks as they were computed, in chapters/, and readers run them as they
-lie in the repository, in notebooks/.
+without it there are none. The book shows notebooks as they were computed, in chapters/ and with their results first,
+and readers run them as they lie in the repository, in notebooks/; the button to download a page leads there too.
 """
 
+import shutil
 import tomllib
 from pathlib import Path
 
@@ -13,6 +14,7 @@ def setup(app):
     app.connect("config-inited", follow_setting, priority=400)  # before the theme reads its options
     app.connect("source-read", name_repository)
     app.connect("html-page-context", lead_to_notebooks, priority=502)  # after the theme has made its buttons
+    app.connect("build-finished", offer_notebooks)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
 
@@ -44,3 +46,11 @@ def lead_to_notebooks(app, page, template, context, doctree):
         for button in group.get("buttons", []):
             if group.get("label") == "launch-buttons":
                 button["url"] = button["url"].replace("book/chapters/", "notebooks/")
+
+
+def offer_notebooks(app, exception):
+    """Let readers download the notebook that a page was computed from, which runs from top to bottom."""
+    for page in (Path(app.outdir) / "_sources" / "chapters").glob("*.ipynb"):
+        notebook = Path(app.srcdir).parent / "notebooks" / page.name
+        if notebook.exists():
+            shutil.copy(notebook, page)

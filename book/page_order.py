@@ -52,6 +52,6 @@ def run_it_yourself(name, seconds):
     took = f"{seconds:.0f} seconds" if seconds < 90 else f"{seconds / 60:.0f} minutes"
     return (f"## Run it yourself\n\nThis page took {took} to compute, less what earlier builds had cached. `make lab` "
             f"opens its notebook, `notebooks/{name}.ipynb`, in JupyterLab: change the parameters below, and run it "
-            f"again. Papermill computes it with other ones in one line:\n\n```\n.venv/bin/papermill "
+            f"again. Papermill computes it with other ones in one line:\n\n```bash\n.venv/bin/papermill "
             f"notebooks/{name}.ipynb out.ipynb -p runs 4\n```\n\n[Running it](../running.md) has other machines, "
             "clusters and the cloud.")

@@ -39,6 +39,8 @@ def make_book(tmp_path):
                   "language_info": {"name": "python", "pygments_lexer": "ipython3"}}
         cells = [nbformat.v4.new_markdown_cell("# Page"), nbformat.v4.new_code_cell("1")]
         nbformat.write(nbformat.v4.new_notebook(cells=cells, metadata=kernel), chapters / "page.ipynb")
+        (tmp_path / "notebooks").mkdir(exist_ok=True)
+        (tmp_path / "notebooks" / "page.ipynb").write_text("as it runs")
         command = [Path(sys.executable).with_name("jupyter-book"), "build", "book", "--config", "_config.yml",
                    "--path-output", ".", "--all", "--quiet", "--warningiserror", "--nitpick"]
         done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
@@ -49,11 +51,13 @@ def make_book(tmp_path):
     return make
 
 
-def test_a_notebook_opens_from_the_repository_that_is_set(make_book):
+def test_a_notebook_opens_from_the_repository_that_is_set(make_book, tmp_path):
     page, reference = make_book("https://github.com/somebody/neorl")
     assert "https://mybinder.org/v2/gh/somebody/neorl/main?urlpath=lab/tree/notebooks/page.ipynb" in page
     assert "https://colab.research.google.com/github/somebody/neorl/blob/main/notebooks/page.ipynb" in page
     assert 'href="https://github.com/somebody/neorl"' in page
+    assert 'href="../_sources/chapters/page.ipynb"' in page
+    assert (tmp_path / "_build" / "html" / "_sources" / "chapters" / "page.ipynb").read_text() == "as it runs"
     assert "mybinder" not in reference  # no notebook
     assert "The repository is at <a" in reference and '<meta name="description" content="All of it." />' in reference
 
