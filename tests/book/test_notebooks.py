@@ -121,10 +121,8 @@ def test_links_lead_somewhere(cells):
 
 
 @pytest.mark.parametrize("chapter", CHAPTERS)
-def test_a_chapter_tells_how_long_it_takes_shows_little_code_and_ends_with_exercises(chapter):
+def test_a_chapter_shows_little_code_and_ends_with_exercises(chapter):
     cells = NOTEBOOKS[chapter].cells
-    (parameters,) = [cell for cell in cells if "parameters" in cell.metadata.get("tags", [])]
-    assert re.search(r"(seconds|minutes?)\b", parameters.source)
     shown = [cell for cell in cells
              if cell.cell_type == "code" and "remove-input" not in cell.metadata.get("tags", [])]
     assert sum(len(cell.source.splitlines()) for cell in shown) <= 300
@@ -156,3 +154,26 @@ def test_a_parameter_that_the_notebook_does_not_have_is_refused(monkeypatch):
     monkeypatch.setattr(notebook, "get_ipython", Shell)
     with pytest.raises(ValueError, match="parameter runz is unknown, allowed are runs, steps, seed"):
         notebook.begin(runs=4, steps=1, seed=0)
+
+
+def test_a_page_opens_with_one_box_and_one_figure_below_a_few_lines(cells):
+    title, *others = cells
+    assert title.source.startswith("# ") and len(title.source) < 600
+    found = [cell for cell in others if "found" in cell.metadata.get("tags", [])]
+    (box,) = [cell for cell in found if "figure" not in cell.metadata.get("mystnb", {})]
+    assert "opening.what_was_found(" in box.source and "remove-input" in box.metadata.tags
+    (figure,) = [cell for cell in found if cell is not box]
+    assert "hide-input" in figure.metadata.tags
+
+
+def test_what_a_notebook_begins_with_is_hidden_and_says_how_long_it_takes(cells):
+    parameters, imports = [cell for cell in cells if cell.cell_type == "code"][:2]
+    assert parameters.metadata.tags == ["parameters", "hide-input"]
+    assert re.match(r"# .*\b(seconds|minutes?)\b", parameters.source)
+    assert "notebook.begin(" in imports.source and HIDDEN & set(imports.metadata.tags)
+
+
+@pytest.mark.parametrize("name", sorted({*NOTEBOOKS} - {"own_world", "your_research"}))  # whose code is to be copied
+def test_code_that_draws_is_folded(name):
+    drawn = [cell for cell in NOTEBOOKS[name].cells if "figure" in cell.metadata.get("mystnb", {})]
+    assert all(HIDDEN & set(cell.metadata.get("tags", [])) for cell in drawn)
