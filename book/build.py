@@ -22,6 +22,7 @@ from pathlib import Path
 sys.modules["rfc3987_syntax"] = None  # jsonschema would read a grammar for a second, for a format that no notebook has
 
 # ruff: noqa: E402
+import contents
 import nbformat
 import papermill
 import psutil
@@ -50,7 +51,7 @@ AT_ONCE, GIGABYTES_EACH = 2, 4
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1"}
 STALL_SECONDS = 300  # a cell computes, and waits for nothing: one that takes no processor time for so long has hung
 ROOM = 2**20  # bytes: less than a page of the book takes
-CLAIMS_TABLE, CLAIMS_FRONT, ERRATA_TABLE = "claims-table.md", "claims-front.html", "errata-table.md"
+CLAIMS, FRONT, ERRATA, PICTURES = INCLUDED = "claims-table.md", "claims-front.html", "errata-table.md", "contents.md"
 WIDGET_STATE = "application/vnd.jupyter.widget-state+json"
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 
@@ -130,7 +131,7 @@ def restore_claims(notebooks):
 
 def tidy(notebooks):
     """Remove from the chapters what no notebook has made, such as the pages of one that is gone."""
-    made = {CLAIMS_TABLE, CLAIMS_FRONT, ERRATA_TABLE}
+    made = {*INCLUDED}
     for notebook in notebooks:
         made |= {f"{notebook.stem}.inputs.json", *(kept_record(notebook) or {"outputs": ()})["outputs"]}
     for path in CHAPTERS.iterdir():
@@ -347,10 +348,11 @@ def script(kind, content):
 
 
 def write_tables():
-    """What pages include: all claims, from the notebooks' results, the strip of them for the front page, all errata."""
+    """What pages include: all claims, from the notebooks' results, the strip of them, errata, contents in pictures."""
     record = report.load(sorted(CHAPTERS.glob("*.claims.json")))
-    for name, table in ((CLAIMS_TABLE, ledger.page(record)), (CLAIMS_FRONT, ledger.front(record)),
-                        (ERRATA_TABLE, report.errata())):
+    toc = (ROOT / "book" / "_toc.yml").read_text(encoding="utf-8")
+    for name, table in ((CLAIMS, ledger.page(record)), (FRONT, ledger.front(record)), (ERRATA, report.errata()),
+                        (PICTURES, contents.pictures(toc, CHAPTERS))):
         target = CHAPTERS / name
         if not target.exists() or target.read_text(encoding="utf-8") != table:
             write_whole(target, table.encode())

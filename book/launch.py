@@ -10,6 +10,12 @@ import tomllib
 from pathlib import Path
 
 
+ASKED = "% The repository is at <URL>."
+UNNAMED = ("This copy of the book was built without the address of its repository: `Repository` under `[project.urls]` "
+           "in `pyproject.toml`.")
+FOR_URL = '"`, with the address of the repository for `URL`'
+
+
 def setup(app):
     app.connect("config-inited", follow_setting, priority=400)  # before the theme reads its options
     app.connect("source-read", name_repository)
@@ -28,10 +34,11 @@ def follow_setting(app, config):
 
 
 def name_repository(app, page, source):
-    """Give a page the address that it asks for in a comment, ``% The repository is at <URL>.``, if there is one."""
+    """Give a page the address that it asks for, in a comment and in its commands, or say that there is none."""
     address = repository(app)
+    source[0] = source[0].replace(ASKED, f"The repository is at <{address}>." if address else UNNAMED)
     if address:
-        source[0] = source[0].replace("% The repository is at <URL>.", f"The repository is at <{address}>.")
+        source[0] = source[0].replace(f"git+URL{FOR_URL}", f"git+{address}\"`")
 
 
 def repository(app):

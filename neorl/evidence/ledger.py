@@ -42,13 +42,14 @@ def sentence(record):
     """What holds, as one sentence of HTML."""
     found = counts(record)
     if not any(found.get(verdict) for verdict in VERDICTS[:3]):
-        return (f"The book judges {len(CLAIMS)} claims of the thesis; verdicts need {RUNS_FOR_A_VERDICT} runs per "
-                "condition, and this build has fewer.")
+        return (f"This book judges {len(CLAIMS)} claims of P. R. Leikanger’s thesis on navigation; verdicts need "
+                f"{RUNS_FOR_A_VERDICT} runs per condition, and this build has fewer.")
     reproduced, partly, failed = (found.get(verdict, 0) for verdict in VERDICTS[:3])
     rest = len(CLAIMS) - reproduced - partly - failed
     left = f"; {rest} could not be judged" if rest else ""
-    return (f"Of the thesis’s {len(CLAIMS)} claims, <strong>{reproduced} {'is' if reproduced == 1 else 'are'} "
-            f"reproduced</strong>, {partly} partly and {failed} not{left}.")
+    verb = "is" if reproduced == 1 else "are"
+    return (f"Recomputed from scratch, <strong>{reproduced} of {len(CLAIMS)} claims</strong> of P. R. Leikanger’s "
+            f"thesis on navigation {verb} reproduced, {partly} partly and {failed} not{left}.")
 
 
 def tally(record):

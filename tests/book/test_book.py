@@ -14,6 +14,8 @@ ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "book"))
 import api_links  # noqa: E402
 import describe  # noqa: E402
+import launch  # noqa: E402
+import weight  # noqa: E402
 PUBLIC = sorted(".".join(path.relative_to(ROOT / "neorl").with_suffix("").parts).removesuffix(".__init__")
                 for path in (ROOT / "neorl").rglob("*.py"))
 
@@ -26,14 +28,14 @@ def make_book(tmp_path):
         shutil.rmtree(tmp_path / "book", ignore_errors=True)
         chapters = tmp_path / "book" / "chapters"
         chapters.mkdir(parents=True)
-        for name in ("launch.py", "api_links.py", "describe.py", "references.bib", "vendor"):
+        for name in ("launch.py", "api_links.py", "describe.py", "weight.py", "references.bib", "vendor"):
             (tmp_path / "book" / name).symlink_to(ROOT / "book" / name)
         shutil.copy(ROOT / "_config.yml", tmp_path)
         (tmp_path / "pyproject.toml").write_text(f'[project.urls]\nRepository = "{url}"' if url else "[project]")
         toc = "format: jb-book\nroot: index\nchapters:\n  - file: chapters/page\n"
         (tmp_path / "book" / "_toc.yml").write_text(toc)
         reference = "\n\n".join(f".. automodule:: {module}" for module in modules)
-        (tmp_path / "book" / "index.md").write_text(f"# Reference\n\nAll of it.\n\n% The repository is at "
+        (tmp_path / "book" / "index.md").write_text(f"# Reference\n\nAll of it, and $x$.\n\n% The repository is at "
                                                      f"<URL>.\n\n```{{eval-rst}}\n{reference}\n```\n")
         kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3"},
                   "language_info": {"name": "python", "pygments_lexer": "ipython3"}}
@@ -59,7 +61,12 @@ def test_a_notebook_opens_from_the_repository_that_is_set(make_book, tmp_path):
     assert 'href="../_sources/chapters/page.ipynb"' in page
     assert (tmp_path / "_build" / "html" / "_sources" / "chapters" / "page.ipynb").read_text() == "as it runs"
     assert "mybinder" not in reference  # no notebook
-    assert "The repository is at <a" in reference and '<meta name="description" content="All of it." />' in reference
+    assert "The repository is at <a" in reference
+    assert '<meta name="description" content="All of it, and x." />' in reference
+    assert '<meta property="og:image" content="../_static/card.png" />' in page
+    assert 'aria-label="Search"' not in page.split('class="btn search-button-field')[1].split(">")[0]
+    assert 'role="complementary" aria-label="Book"' in page
+    assert "fontawesome.js" not in page + reference and "tex-chtml.js" not in page and "tex-chtml.js" in reference
 
 
 def test_without_a_repository_there_are_no_buttons_and_docstrings_become_lists_with_links(make_book):
@@ -68,7 +75,7 @@ def test_without_a_repository_there_are_no_buttons_and_docstrings_become_lists_w
                                          "neorl.experiments.sweeping"])
     assert "mybinder" not in page and "colab" not in page and "fa-github" not in page
     text = re.sub(r"<[^>]+>", "", reference)
-    assert "The repository is at" not in text
+    assert "The repository is at" not in text and "built without the address of its repository" in text
     assert "Raises" in text and "ValueError" in text
     of_store = reference.split('id="neorl.experiments.sweeping.simulate_once"')[1].split("</article>")[0]
     assert re.search(r'href="#neorl.experiments.simulation.Result"[^>]*><code[^>]*><span class="pre">Result', of_store)
@@ -80,14 +87,44 @@ def test_a_page_is_described_by_its_first_paragraph_cut_at_a_word():
     long = publish_doctree("Title\n=====\n\nSay *one* thing " + "and another " * 30 + "\n\nNot this.")
     text = describe.description(long)
     assert text.startswith("Say one thing and another") and text.endswith(" …") and len(text) <= describe.LONGEST
-    assert describe.description(publish_doctree("")) == "" and "description" not in describe.tags("A", "")
-    assert 'content="a &lt; &quot;b&quot;"' in describe.tags("A", 'a < "b"')
+    assert describe.description(publish_doctree("")) == "" and "description" not in describe.tags("A", "", "card.png")
+    assert 'content="a &lt; &quot;b&quot;"' in describe.tags("A", 'a < "b"', "card.png")
 
 
 def test_a_summary_of_the_sidebar_has_a_name_and_others_stay():
     assert describe.named('<summary><span class="toctree-toggle">') == (
         '<summary aria-label="Pages of this part"><span class="toctree-toggle">')
     assert describe.named("<summary>Solution</summary>") == "<summary>Solution</summary>"
+
+
+def test_names_and_roles_of_a_body_are_put_right():
+    wrong = ('<summary aria-label="Toggle hidden content"><p>Show</p></summary><div role="doc-biblioentry">A</div>'
+             '<tr><th class="head"><p></p></th><th></th><th>A</th></tr>')
+    assert describe.mended(wrong, describe.IN_BODIES) == (
+        '<summary><p>Show</p></summary><div role="listitem">A</div>'
+        '<tr><td class="head"></td><td></td><th>A</th></tr>')
+
+
+def test_a_command_names_the_repository_that_is_set(tmp_path, monkeypatch):
+    text = (ROOT / "book" / "running.md").read_text(encoding="utf-8")
+    for address, wanted in (("https://example.org/n", 'git+https://example.org/n"`.'), (None, 'git+URL"`, with the')):
+        monkeypatch.setattr(launch, "repository", lambda app: address)
+        launch.name_repository(None, "running", source := [text])
+        assert wanted in source[0] and launch.ASKED not in source[0]
+
+
+def test_an_image_has_its_size_and_waits_until_it_is_near(tmp_path):
+    drawing = tmp_path / "a.svg"
+    drawing.write_text('<svg xmlns="http://www.w3.org/2000/svg" width="75pt" height="30.0pt" viewBox="0 0 75 30">')
+
+    def sized(tag):
+        return weight.IMAGE.sub(lambda found: weight.sized(found, {"a.svg": drawing}), tag)
+
+    assert sized('<img alt="A" src="../_images/a.svg" />') == (
+        '<img loading="lazy" width="100" height="40" alt="A" src="../_images/a.svg" />')
+    assert sized('<img src="_images/b.png"/>') == '<img loading="lazy" src="_images/b.png"/>'
+    assert sized('<img width="3" src="_images/a.svg"/>') == '<img loading="lazy" width="3" src="_images/a.svg"/>'
+    assert sized('<img src="https://example.org/a.svg"/>') == '<img src="https://example.org/a.svg"/>'
 
 
 def test_a_docstring_opens_with_a_sentence_and_lists_what_follows():
