@@ -21,11 +21,13 @@ def what_was_found(sentences, runs, verdicts=None):
     of a claim: its verdict}}, a line for each reading, whose name may be empty; none for a page that judges no claim.
     """
     lines = ["**What was found**"]
-    if runs < RUNS_FOR_A_VERDICT:
+    if runs >= RUNS_FOR_A_VERDICT:
+        lines += [_line(reading, found) for reading, found in (verdicts or {}).items()]
+    elif verdicts:
         lines.append(f"**Quick look: no verdicts.** A verdict needs {RUNS_FOR_A_VERDICT} runs of each condition; this "
                      f"page was computed with {runs}.")
     else:
-        lines += [_line(reading, found) for reading, found in (verdicts or {}).items()]
+        lines.append(f"**Quick look.** This page was computed with few runs of each condition, {runs} at most.")
     # A blank line ends the HTML, so that what stands between the two tags is read as Markdown.
     return "\n\n".join(['<div class="found">', *lines, sentences, "</div>"])
 

@@ -18,6 +18,7 @@ def test_a_box_has_verdicts_by_reading_with_symbols_names_and_links():
 def test_with_few_runs_a_box_says_that_there_are_no_verdicts():
     text = opening.what_was_found("It earns 0.30.", 9, {"calibrated": {"A2": "reproduced"}})
     assert "**Quick look: no verdicts.**" in text and "computed with 9" in text and "A2" not in text
+    assert "**Quick look.**" in opening.what_was_found("Fast.", 9)
 
 
 def test_a_page_without_claims_has_a_box_of_sentences():
