@@ -49,7 +49,7 @@ class Learner(Individual):
     agent: an `Agent`. things: how many things there are at any time at most. kinds: the names of their kinds, that
     which an agent wants by default first. actions: what the agent can do, an `Actions`; by default N, S, E, W, and to
     be idle. seed: integer ≥ 0, of the agent's random numbers. size: the world's unit of length, such as its width.
-    fps: steps a second, which memories in seconds depend on.
+    fps: steps per second, which memories in seconds depend on.
 
     Raises ValueError for anything else, or if agent and world do not go together, MemoryError if the agent's values do
     not fit into the free memory.

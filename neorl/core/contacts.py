@@ -38,8 +38,8 @@ MOST_VISITS = 1e6  # that are counted; a count is a float32
 def mirror(parameters, constants, n, coordinates):
     """Mirror coordinates in place so that those of the first vector are ≥ 0 and fall; returns the number of the frame.
 
-    Vectors follow one another in `coordinates`, with a component along every axis of the world. Where one cannot tell,
-    the next one does.
+    Vectors follow one another in `coordinates`, with a component along every axis of the world. Where one decides
+    nothing, the next one does.
     """
     n_axes, end = len(constants.axes), parameters.nodes.first_axis[n + 1] - parameters.nodes.first_axis[n]
     frame, flips, orders = 0, 1, 1

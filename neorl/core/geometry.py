@@ -1,7 +1,7 @@
 """From where things are to the cells that are active.
 
 A space is a list of axes. Along each an agent perceives one number, the axis's *coordinate*: a *feature* of a *vector*
-in units of the world's size (a second, for velocity); a direction is in turns, from the first axis of the world towards
+in units of the world's size (per second, for velocity); a direction is in turns, from the first axis of the world to
 the second. A map cuts each axis into intervals, and the intervals that hold the coordinates make the one active cell
 (`cell_of`). Without a direction, as at rest, the coordinate is not a number, and the interval stays as it was.
 

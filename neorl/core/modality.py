@@ -54,8 +54,8 @@ class Axis(checks.Final):
     feature: of that vector: "component", "foveated", "margin" (of a position), "length" or "direction" (in the plane of
         the first two axes of the world).
     along: for a component, foveated or not, or a margin, the axis of the world: 0 for x, 1 for y, and so on.
-    low, high: the range, in units of the world's size (a second, for velocity); beyond it lies the interval at its end.
-        For a margin `high` is its width; of what is foveated they are square roots. A direction has none.
+    low, high: the range, in units of the world's size (per second, for velocity); beyond it lies the interval at its
+        end. For a margin `high` is its width; of what is foveated they are square roots. A direction has none.
     closed: whether the range closes on itself, as for an angle; a direction always does.
     intervals: how many there are, whatever the resolution of the map; None stands for its resolution.
     boundaries: of unequal intervals, from the first to the last, in place of `low`, `high` and `intervals`.

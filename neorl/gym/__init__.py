@@ -1,4 +1,4 @@
-"""neoRL and Gymnasium: the worlds of this package as environments, and its agents in anybody's.
+"""neoRL and Gymnasium: the worlds of this package as environments, and its agents in any environment.
 
 Importing this package registers three environments; before a colon, it is imported by Gymnasium::
 

@@ -1,7 +1,7 @@
 """What an environment returns of a scene: one flat array of single-precision numbers.
 
 1. The agent's position, in units of the world's size: axes numbers in [0, 1].
-2. Its velocity, in sizes a second: axes numbers in [−10, 10], which in WaterWorld and in an arena with inertia no
+2. Its velocity, in sizes per second: axes numbers in [−10, 10], which in WaterWorld and in an arena with inertia no
    velocity reaches.
 3. For every thing its place and its kind: axes numbers, and then as many as there are kinds, 1 for its own and 0 for
    the others. If *egocentric*, the place is the way there from the agent, in sizes, in [−1, 1], and the nearest thing
@@ -19,7 +19,7 @@ from neorl.extras import require
 
 gymnasium = require("gymnasium", extra="gym")
 
-FASTEST = 10.0  # sizes a second; in WaterWorld drag lets no velocity grow beyond 9.75
+FASTEST = 10.0  # sizes per second; in WaterWorld drag lets no velocity grow beyond 9.75
 
 
 def observation_space(world, egocentric):

@@ -53,7 +53,7 @@ def draw_disc(picture, x, y, radius, colour):
 
 
 class Window:
-    """A window that shows pictures at so many a second. Pygame has one at a time, which all environments share."""
+    """A window that shows pictures at a fixed rate. Pygame has one at a time, which all environments share."""
 
     def __init__(self, fps):
         os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")

@@ -27,7 +27,7 @@ from neorl.worlds.world import Dynamics, World
 SHAPES = ("round", "square")
 MOTIONS = ("inertia", "steps")
 RIM = 0.05  # how far from the wall a trial starts, of the size
-PUSH = 0.25  # of the size a second, that an action adds to the velocity
+PUSH = 0.25  # of the size per second, that an action adds to the velocity
 
 
 class ArenaState(NamedTuple):
@@ -68,7 +68,7 @@ class Arena(World, checks.Final):
     shape: of the walls, "round" or "square". motion: "inertia", or plain "steps" of `step_length`.
     radius: within which a place is met, > 0. ends: whether that ends the trial.
     start: where trials start, (x, y); () stands for one of four points of the rim.
-    trial_seconds: how long a trial lasts at most, > 0. fps: steps a second, 1 … 2³¹.
+    trial_seconds: how long a trial lasts at most, > 0. fps: steps per second, 1 … 2³¹.
 
     Raises ValueError for anything else, and for a start that is not free.
     """

@@ -3,7 +3,7 @@
 1. The base stands still. The angle of the first joint is that of the first link to the x axis, and the angle of every
    other joint that of its link to the link before; in turns, 0 ≤ angle < 1, closed on themselves. All links together
    are 1 long.
-2. An action adds `PUSH` turns a second to the velocity of one joint, or takes as much away. Then each joint turns by
+2. An action adds `PUSH` turns per second to the velocity of one joint, or takes as much away. Then each joint turns by
    velocity · dt, and keeps `DRAG` of its velocity. Idleness adds nothing.
 3. A target, or an obstacle, is the point where the hand is in some posture. The scene has the posture: the arm's own as
    the position, that of each point as the place of a thing. The hand can reach a point in other postures, too.
@@ -26,7 +26,7 @@ from neorl.core.scene import Actions, Scene
 from neorl.core.stream import uniform
 from neorl.worlds.world import Dynamics, World
 
-PUSH = 0.05  # turns a second
+PUSH = 0.05  # turns per second
 DRAG = 0.9
 TERMS = 10  # of the series of sine and cosine, so that they are exact to the last few bits
 TARGET, OBSTACLE = range(2)
@@ -56,7 +56,7 @@ class Arm(World, checks.Final):
 
     lengths: of the links, two or three numbers > 0 in any unit.
     targets, obstacles: how many there are at any time, integers 0 … 64, one or more together.
-    radius: within which a point is met, 10⁻³ … 0.2. fps: steps a second, 1 … 2³¹.
+    radius: within which a point is met, 10⁻³ … 0.2. fps: steps per second, 1 … 2³¹.
 
     Raises ValueError for anything else.
     """

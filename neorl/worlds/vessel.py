@@ -42,8 +42,8 @@ class VesselState(NamedTuple):
 
     scene: Scene
     heading: array("float64", 2)  # of length 1
-    rate: array("float64", 1)  # of turn, radians a second, positive to starboard
-    course: array("float64", "things", 2)  # over the ground, widths a second
+    rate: array("float64", 1)  # of turn, radians per second, positive to starboard
+    course: array("float64", "things", 2)  # over the ground, widths per second
     stream: array("uint64", 4)
 
 
@@ -63,10 +63,10 @@ class Vessel(World, checks.Final):
     """A vessel among others, see the module for its rules. Lengths are in widths of the area.
 
     traffic: how many other vessels there are, 0 … 64.
-    current: (x, y), widths a second, either below the speed in size.
-    speed: widths a second through the water, 10⁻³ … 1. turning: radians a second with the rudder over for long,
+    current: (x, y), widths per second, either below the speed in size.
+    speed: widths per second through the water, 10⁻³ … 1. turning: radians per second with the rudder over for long,
         10⁻³ … 10. lag: seconds > 0 that the rate of turn takes to follow, a step at least.
-    radius: within which things are met, 10⁻³ … 0.1. fps: steps a second, 1 … 2³¹.
+    radius: within which things are met, 10⁻³ … 0.1. fps: steps per second, 1 … 2³¹.
 
     Raises ValueError for anything else.
     """

@@ -1,6 +1,6 @@
 """The water maze (Morris 1984): a round pool with a platform under its surface, which is moved every few trials.
 
-1. The pool touches all sides of the unit square. An action adds `PUSH`, diameters a second, to the animal's velocity
+1. The pool touches all sides of the unit square. An action adds `PUSH`, diameters per second, to the animal's velocity
    along an axis. It swims on by velocity · dt, and keeps `DRAG` of its velocity. Along an axis where it would come into
    the wall it stays where it is, and stops.
 2. A trial starts at rest at one of the four cardinal points of the rim, drawn at random. It ends on the platform, which
@@ -63,7 +63,7 @@ class WaterMaze(World, checks.Final):
 
     places: of the platform, (x, y) each, one a day, one to 1,024, within the pool.
     trials_a_day: integer 1 … 1,024. radius: of the platform, 10⁻³ … 0.25.
-    trial_seconds: how long a trial lasts at most, > 0. fps: steps a second, 1 … 2³¹.
+    trial_seconds: how long a trial lasts at most, > 0. fps: steps per second, 1 … 2³¹.
 
     Raises ValueError for anything else.
     """

@@ -11,7 +11,7 @@ Rules, as in the PyGame Learning Environment (Tasfi 2016; thesis section 4.2), f
 3. If no green creep is left, the step also pays `win_reward` and the episode is over.
 4. Every creep, fresh ones too, moves at its own constant speed. At a wall it is clamped and turns back with a jitter.
 
-The tank is 250 pixels wide with 50 steps a second unless told otherwise; the origin is the upper left corner.
+The tank is 250 pixels wide with 50 steps per second by default; the origin is the upper left corner.
 """
 
 import math

@@ -12,7 +12,8 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-ROOMS = ("experiments", "evidence", "drawing", "browser", "chapters")  # of which docstrings and texts are read
+# Docstrings and texts of all rooms are read.
+ROOMS = ("core", "worlds", "agents", "experiments", "evidence", "drawing", "browser", "gym", "chapters")
 TELLTALE = re.compile(r"""
     \b(whoever|whom|nobody|somebody|someone|anybody|everybody|from\ nothing|tells?|told|hangs?\ on|wish(es|ed)?)\b
     | (^|[.:;(–]\ )who\b | \b(to|for|by|with|of|and|or|from|as|than|is|those)\ who\b  # that no noun stands before

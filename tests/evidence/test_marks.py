@@ -25,6 +25,11 @@ def test_anything_else_is_refused(function):
         function("perhaps")
 
 
+def test_links_in_striped_rows_are_legible():
+    for mode, colours in variables("table-link").items():
+        assert [contrast(colours["table-link"], ground) >= 4.5 for ground in GROUNDS[mode]] == [True, True]
+
+
 def test_every_mark_has_a_colour_that_is_legible_on_all_grounds():
     classes = {mark.css for mark in marks.MARKS.values()}
     styled = dict(re.findall(r"\n\.(verdict-[\w-]+) \{\n  color: var\(--([\w-]+)\);", STYLE_SHEET.read_text()))
