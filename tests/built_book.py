@@ -33,6 +33,27 @@ def test_the_explorer_of_a_page_starts_and_reruns_the_runs_of_its_figures(open_p
         expect(explorer).to_contain_text(re.compile(r"The notebook computed .* for this run: the same\."))
 
 
+def test_the_front_page_is_light_and_stands_still(open_page):
+    page = open_page(HTML, "index.html", "http")
+    page.locator(".neorl-explorer").wait_for()
+    loaded = page.evaluate("""() => ["resource", "navigation"].flatMap(kind => performance.getEntriesByType(kind))
+        .filter(entry => !entry.name.startsWith("blob:")).map(entry => entry.encodedBodySize)""")
+    assert sum(loaded) <= 1_500_000
+    shifts = page.evaluate("""() => new Promise(resolve => new PerformanceObserver(list => resolve(
+        list.getEntries().reduce((sum, entry) => sum + entry.value, 0)
+    )).observe({type: "layout-shift", buffered: true}))""")
+    assert shifts < 0.1
+
+
+def test_on_a_phone_the_front_page_opens_with_its_result_and_the_tank(open_page):
+    page = open_page(HTML, "index.html")
+    page.set_viewport_size({"width": 400, "height": 800})
+    page.locator(".neorl-explorer .arena").wait_for()
+    assert page.locator(".claims-strip a").count() == len(CLAIMS)
+    assert page.locator(".claims-strip").bounding_box()["y"] < page.locator(".arena").bounding_box()["y"] < 560
+    assert page.evaluate("document.documentElement.scrollWidth") <= 400
+
+
 def test_a_page_without_a_widget_asks_for_nothing(open_page):
     page = open_page(HTML, "sources.html")
     assert page.locator(".neorl-explorer").count() == 0

@@ -99,7 +99,7 @@ def draw_policies(grid, q_by_title, valences):
 
     A state of the first panel is ringed where one of its actions is not among the best of the last.
     """
-    colours = {state: (GREEN if valence > 0 else RED, 0.55) for state, valence in valences.items()}
+    colours = {state: (GREEN if valence > 0 else RED, 0.95) for state, valence in valences.items()}
     first, *_, last = q_by_title.values()
     panels = new_grids(grid, columns=len(q_by_title))
     for axes, (title, q) in zip(panels, q_by_title.items()):
