@@ -6,7 +6,8 @@ controls.
 
 - `settings.js` makes parameters of a preset and of the traits, `engine.js` runs them in a worker, in the memory of
   `machine.js`, and nothing else decides a run: run k of a seed is the run that `neorl.Run` makes of it.
-- `drawing.js` draws; `page.js`, `controls.js`, `hands.js` and `widget.js` are what the reader sees and turns.
+- `drawing.js` and `curve.js` draw; `page.js`, `legend.js`, `controls.js`, `hands.js` and `widget.js` are what the
+  reader sees and turns; `starters.js` has things to try, and `address.js` the state in the address of the page.
 """
 
 import math
@@ -52,7 +53,8 @@ BEYOND = {"Foveated cells, contacts alone": beyond.forager(valence_green=1.0, va
 AGENTS = CALIBRATED | TO_THE_LETTER | BEYOND | IN_THE_ARENA
 STEPS = 300_000  # of a run, where the page has no condition
 CURVE_BINS = 50
-SCRIPTS = ("settings.js", "drawing.js", "page.js", "controls.js", "hands.js", "widget.js")
+SCRIPTS = ("settings.js", "drawing.js", "curve.js", "page.js", "legend.js", "controls.js", "hands.js", "starters.js",
+           "address.js", "widget.js")
 
 
 def _text(*names):
