@@ -163,9 +163,11 @@ class Controls {
 
   showControls() {
     const { model } = this;
-    const { nodes, recursion, red, can_remember, parameters: { learning } } = this.presets[model.get("preset")];
+    const { nodes, modality, recursion, red, avoided, can_remember, parameters: { learning } } =
+      this.presets[model.get("preset")];
+    this.control("valence_red").previousElementSibling.textContent = `Valence of ${AVOIDED[avoided] ?? "red"}`;
     for (const name of ["modality", "seed", "run"]) this.control(name).value = model.get(name);
-    this.offer("modality", nodes.length === 1);
+    this.offer("modality", nodes.length === 1 && modality !== "");
     this.offer("recursion", recursion !== null);
     this.offer("valence_red", red.length > 0);
     this.offer("n_creeps", this.hasCreeps());
@@ -219,6 +221,8 @@ class Controls {
     if (!this.arena.clientWidth || (isLoading && this.drawn)) return; // the last picture stays for that long
     Object.assign(this, { drawn: now, stale: false });
     drawArena(this.arena, colours, frame, cursor);
+    this.part(".limb").hidden = !frame?.arm;
+    if (frame?.arm) drawLimb(this.limb, colours, frame);
     drawCurve(this.curve, colours, { seconds: length.steps / world.fps, binSeconds: length.bin / world.fps,
       rewards: frame?.rewards ?? [], lived: (frame?.step ?? 0) / world.fps, band: this.presets[condition]?.band });
     this.placeHandles();

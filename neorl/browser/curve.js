@@ -45,10 +45,6 @@ function ratesOf(rewards, binSeconds, lived, seconds) {
   return { edges, rates };
 }
 
-function addLine(path, points) {
-  for (const point of points) path.lineTo(...point);
-}
-
 /** The 1, 2 or 5 times a power of ten next above a number. */
 function roundStep(least) {
   const power = 10 ** Math.floor(Math.log10(least));

@@ -46,13 +46,14 @@ function drawArena(canvas, colours, frame, cursor) {
   else walls.rect(0, 0, unit, unit);
   context.save();
   context.clip(walls);
-  const cells = frame?.seen && cellsOf(frame.seen, frame.agent);
+  const cells = frame?.seen && cellsOf(frame.seen, frame.agent, frame.heading);
   if (cells) drawMap(board, cells, frame);
   drawObstacles(board, frame?.obstacles ?? []);
   context.restore();
   if (cells && frame.seen.goal !== null) drawWays(board, cells, frame);
   else if (frame?.field) drawField(board, frame);
   stroke(board, colours.ink, 1.4, 0.75, (path) => path.addPath(walls));
+  if (frame?.current) drawCurrent(board, frame.current);
   if (frame) drawMovers(board, frame);
   if (cursor) drawCursor(board, cursor);
 }
@@ -73,11 +74,11 @@ function drawWays(board, cells, { seen: { ways }, round }) {
 }
 
 /** The receptive fields of a map in the world: their borders, the region of a cell, and its middle with its size. */
-function cellsOf(map, agent) {
+function cellsOf(map, agent, heading) {
   const origin = map.vector === "position" ? { x: 0, y: 0 } : agent;
   const scale = map.vector === "velocity" ? HALF_A_SECOND : 1; // where a velocity takes the agent in half a second
-  const isRound = map.axes.some(({ feature }) => ["length", "direction"].includes(feature));
-  return (isRound ? roundCells : squareCells)(map, origin, scale);
+  const isRound = map.axes.some(({ feature }) => ["length", "direction", "bearing"].includes(feature));
+  return isRound ? roundCells(map, origin, scale, heading) : squareCells(map, origin, scale);
 }
 
 /** The number of a cell's interval along an axis, the only one if there is no such axis. */
@@ -99,29 +100,46 @@ function squareCells({ axes }, { x, y }, scale) {
     const last = borders.length - 2;
     return [index > 0 ? clampedToBoard(borders[index]) : 0, index < last ? clampedToBoard(borders[index + 1]) : 1];
   };
-  const corners = (cell) => [...shown(xs, intervalOf(cell, across)), ...shown(ys, intervalOf(cell, down))];
+  // Where an axis closes on itself, cells go on at the other side of the board.
+  const shiftsOf = (axis) => (axis?.closed ? [-1, 0, 1] : [0]);
+  const along = (borders, axis, cell) => {
+    const index = intervalOf(cell, axis);
+    return axis?.closed ? [borders[index], borders[index + 1]] : shown(borders, index);
+  };
+  const corners = (cell) => [...along(xs, across, cell), ...along(ys, down, cell)];
+  const wrapped = (middle, axis) => (axis?.closed ? middle - Math.floor(middle) : middle);
   return {
     count: Math.max(intervalsOf(across), intervalsOf(down)),
     addBorders(path, unit) {
-      for (const x of xs.slice(1, -1)) path.moveTo(x * unit, 0), path.lineTo(x * unit, unit);
-      for (const y of ys.slice(1, -1)) path.moveTo(0, y * unit), path.lineTo(unit, y * unit);
+      const between = (borders, axis) => shiftsOf(axis).flatMap((shift) =>
+        borders.slice(axis?.closed ? 0 : 1, -1).map((border) => (border + shift) * unit));
+      for (const x of between(xs, across)) path.moveTo(x, 0), path.lineTo(x, unit);
+      for (const y of between(ys, down)) path.moveTo(0, y), path.lineTo(unit, y);
     },
     addRegion(path, cell, unit) {
       const [left, right, top, bottom] = corners(cell);
-      path.rect(left * unit, top * unit, (right - left) * unit, (bottom - top) * unit);
+      for (const aside of shiftsOf(across)) {
+        for (const below of shiftsOf(down)) {
+          path.rect((left + aside) * unit, (top + below) * unit, (right - left) * unit, (bottom - top) * unit);
+        }
+      }
     },
     middle(cell) {
       const [left, right, top, bottom] = corners(cell);
-      return { x: (left + right) / 2, y: (top + bottom) / 2, size: Math.min(right - left, bottom - top) };
+      return { x: wrapped((left + right) / 2, across), y: wrapped((top + bottom) / 2, down),
+        size: Math.min(right - left, bottom - top) };
     },
   };
 }
 
-function roundCells({ axes }, { x, y }, scale) {
-  const [away, around] = ["length", "direction"].map((feature) => axes.find((each) => each.feature === feature));
+/** heading: of the agent, from which a bearing starts, as a direction starts from the east. */
+function roundCells({ axes }, { x, y }, scale, heading) {
+  const away = axes.find(({ feature }) => feature === "length");
+  const around = axes.find(({ feature }) => ["direction", "bearing"].includes(feature));
+  const ahead = around?.feature === "bearing" ? Math.atan2(heading[1], heading[0]) : 0;
   const [rings, sectors] = [intervalsOf(away), intervalsOf(around)];
   const radii = (away?.borders ?? [0, 1]).map((radius) => scale * radius);
-  const angles = (around?.borders ?? [0, 1]).map((turns) => FULL_TURN * turns);
+  const angles = (around?.borders ?? [0, 1]).map((turns) => ahead + FULL_TURN * turns);
   const extent = (cell) => {
     const [ring, sector] = [intervalOf(cell, away), intervalOf(cell, around)];
     const [from, to] = sectors > 1 ? [angles[sector], angles[sector + 1]] : [0, FULL_TURN];
@@ -214,83 +232,16 @@ function drawObstacles(board, obstacles) {
   });
 }
 
-function drawMovers(board, { agent, things, player, nodes, landings, radius, body }) {
-  const { colours, unit } = board;
-  const movers = [...things, ...(player ? [player] : []), agent];
-  stroke(board, colours.ink, 1.4, 0.8, (path) => {
-    for (const { x, y, vx, vy } of movers.filter((each) => Math.hypot(each.vx, each.vy) > 0.02)) {
-      const drawn = HALF_A_SECOND * roomFor(x, y, HALF_A_SECOND * vx, HALF_A_SECOND * vy);
-      addArrow(path, unit, x, y, drawn * vx, drawn * vy, 6);
-    }
-  });
-  for (const thing of things) drawThing(board, thing, radius);
-  drawDisc(board, agent, body, colours.agent, "");
-  if (player) {
-    drawDisc(board, player, body, colours.ink, "");
-    drawDisc(board, player, 0.78 * body, colours.paper, "Y", colours.ink);
-  }
-  nodes.forEach((node, index) => drawDesire(board, agent, node, index));
-  const isElsewhere = ({ x, y }) => Math.hypot(x - agent.x, y - agent.y) > body;
-  for (const landing of landings.filter(isElsewhere)) drawLanding(board, landing);
-}
-
-/** A creep with its sign, or a place as far as it reaches. */
-function drawThing(board, thing, radius) {
-  const { colours, unit } = board;
-  const signs = { green: 1, red: -1 };
-  if (thing.kind in signs) return drawDisc(board, thing, radius, ...signOf(board, signs[thing.kind]));
-  const addPlace = (path) => path.arc(thing.x * unit, thing.y * unit, radius * unit, 0, FULL_TURN);
-  fillPath(board, colours.place, 0.35, addPlace);
-  stroke(board, colours.place, 2, 1, addPlace);
-}
-
-function drawDisc(board, { x, y }, radius, colour, sign, signColour = "#fff") {
-  const { unit } = board;
-  fillPath(board, colour, 1, (path) => path.arc(x * unit, y * unit, radius * unit, 0, FULL_TURN));
-  write(board, sign, x * unit, y * unit, `bold ${1.4 * radius * unit}px`, signColour);
-}
-
-/** A node's desire, dashed, with the node's name at its end. Long ones are shortened, so that all stay in sight. */
-function drawDesire(board, agent, { name, x, y }, index) {
-  const length = Math.hypot(x, y);
-  const drawn = LONGEST_DESIRE * (1 - Math.exp(-2 * length));
-  if (drawn < 0.05) return;
-  const share = (drawn / length) * roomFor(agent.x, agent.y, (drawn * x) / length, (drawn * y) / length);
-  const [dx, dy, ahead] = [share * x, share * y, 1 + 0.028 / drawn];
-  board.context.setLineDash([5, 4]);
-  stroke(board, board.colours.agent, 2, 1, (path) => addArrow(path, board.unit, agent.x, agent.y, dx, dy, 0));
-  board.context.setLineDash([]);
-  stroke(board, board.colours.agent, 2, 1, (path) => addHead(path, board.unit, agent.x + dx, agent.y + dy, dx, dy, 7));
-  const aside = (index % 2 ? -1 : 1) * (0.022 / drawn); // so that the names of two that agree stay apart
-  const [textX, textY] = [agent.x + dx * ahead - dy * aside, agent.y + dy * ahead + dx * aside].map(clampedToBoard);
-  write(board, name, textX * board.unit, textY * board.unit, "600 12px", board.colours.agent, board.colours.paper);
-}
-
-/** Where the desire of one node lands for another: a diamond with its sign, at the border if it lands outside. */
-function drawLanding(board, { x, y, valence }) {
-  const half = 0.028 * board.unit;
-  const [left, top] = [x, y].map((place) => inSight(place) * board.unit);
-  const [colour, sign] = signOf(board, valence);
-  const addDiamond = (path) => {
-    path.moveTo(left, top - half);
-    for (const [dx, dy] of [[half, 0], [0, half], [-half, 0]]) path.lineTo(left + dx, top + dy);
-    path.closePath();
-  };
-  stroke(board, board.colours.paper, 3, 1, addDiamond);
-  fillPath(board, colour, 1, addDiamond);
-  write(board, sign, left, top, `bold ${1.3 * half}px`, "#fff");
-}
-
-function signOf({ colours }, valence) {
-  return valence < 0 ? [colours.red, "−"] : [colours.green, "+"];
-}
-
 function drawCursor(board, { x, y }) {
   stroke(board, board.colours.goal, 2, 1, (path) => {
     for (const [dx, dy] of [[0.03, 0], [-0.03, 0], [0, 0.03], [0, -0.03]]) {
       addArrow(path, board.unit, x + dx / 4, y + dy / 4, dx, dy, 0);
     }
   });
+}
+
+function addLine(path, points) {
+  for (const point of points) path.lineTo(...point);
 }
 
 function stroke({ context }, colour, width, alpha, add) {

@@ -1,6 +1,8 @@
 /* What the tank shows, in words: the key beside it, and a description for those who hear the page. */
 
-const SPELLED_OUT = { PC: "place cells", OVC: "object-vector cells", "OVC × V": "object vector and velocity" };
+const SPELLED_OUT = { PC: "place cells", OVC: "object-vector cells", "OVC × V": "object vector and velocity",
+  joints: "the way to a posture, joint by joint", far: "radar, the whole area", near: "radar, what is near",
+  place: "place cells" };
 const [LINE, HEAD] = ["M2 8H21", "M16 4L21 8L16 12"];
 const picture = (content) => `<svg viewBox="0 0 24 16" aria-hidden="true">${content}</svg>`;
 const disc = (kind, sign) => picture(`<circle class="${kind} full" cx="12" cy="8" r="7.5"/>
@@ -12,29 +14,41 @@ const PICTURES = {
     <text x="12" y="12">Y</text>`),
   place: picture(`<circle class="place" cx="12" cy="8" r="6.5"/>`),
   active: picture(`<rect class="active" x="4" y="0.5" width="16" height="15"/>`),
+  hidden: picture(`<circle class="hidden" cx="12" cy="8" r="6.5"/>`),
+  hull: picture(`<path class="agent full" d="M22 8L12 13H3V3H12Z"/>`),
+  vessel: picture(`<path class="red full" d="M22 8L12 13H3V3H12Z"/>`), current: arrow("current"),
   field: arrow("field"), desire: arrow("desire"), way: arrow("way"),
   landing: picture(`<path class="green full" d="M12 0L20 8L12 16L4 8Z"/><path class="sign" d="M9 8h6M12 5v6"/>`),
 };
 
 /** The entries of the key, [picture, text], for a frame and the world that it is of. */
-function keyOf({ things, nodes, landings, player, active, field, seen }) {
+function keyOf({ things, nodes, landings, player, active, field, seen, arm, heading, hidden, current }) {
   const kinds = new Set(things.map(({ kind }) => kind));
   const names = nodes.filter(({ valence }) => valence).map(({ name }) => {
     const long = SPELLED_OUT[name];
     return long ? `<b>${name}</b>, ${long}` : `<b>${name}</b>`;
   });
   const entries = [
-    ["agent", "The agent; the line ends where it will be in half a second"],
+    ["agent", arm ? "The posture of the arm: across the angle of its first joint, down that of its second"
+      : "The agent; the line ends where it will be in half a second", !heading],
+    ["hull", "The vessel; the line ends where it will be in half a second", heading],
+    ["green", "Target: pays +1 (one of its postures)", kinds.has("target")],
+    ["red", "Obstacle: pays −1 (one of its postures)", kinds.has("obstacle")],
+    ["place", "Waypoint: pays +1", kinds.has("waypoint")], ["vessel", "Another vessel: a collision pays −1",
+      kinds.has("vessel")],
+    ["current", "The current, which the agent does not perceive", current?.some(Boolean)],
+    ["hidden", "The platform, under the surface: pays +1 and ends the trial", hidden],
     ["player", "You", player],
     ["green", "Green creep: pays +1", kinds.has("green")], ["red", "Red creep: pays −1", kinds.has("red")],
-    ["place", "Platform", kinds.has("platform")],
+    ["place", hidden ? "Where the animal remembers the platform" : "Platform", kinds.has("platform")],
     ["active", "Shaded: the active cell of the map shown", active.length],
-    ["field", "Grey: what the agent would do at that place, all maps together", field && seen.goal === null],
+    ["field", `Grey: what the agent would do at that place${heading ? ", on this heading" : ""}, all maps together`,
+      field && seen.goal === null],
     ["desire", `Dashed: the desire vector of a node: ${names.join("; ")}`, names.length],
     ["landing", "Where the desire of one node lands as an element for another", landings.length],
     ["way", "The chosen cell, and the way to it from every other", seen.goal !== null],
   ];
-  return entries.filter(([, , shown = true]) => shown);
+  return entries.filter((entry) => entry.length < 3 || entry[2]);
 }
 
 const entryMarkup = ([kind, text]) => `<li>${PICTURES[kind]}<span>${text}</span></li>`;
@@ -58,7 +72,7 @@ function describe({ agent, things, player, ended }) {
 }
 
 function whereabouts({ x, y }) {
-  const [across, down] = [Math.min(2, Math.floor(3 * x)), Math.min(2, Math.floor(3 * y))].map((each) => Math.max(0, each));
+  const [across, down] = [x, y].map((each) => Math.max(0, Math.min(2, Math.floor(3 * each))));
   if (across === 1 && down === 1) return "in the middle";
   return `at the ${[["top", "", "bottom"][down], ["left", "", "right"][across]].filter(Boolean).join(" ")}`;
 }

@@ -6,11 +6,11 @@ const [MOST_ELEMENTS, MOST_SEED, NO_ACTION] = [5, 2 ** 32 - 1, 4];
 const [DOUBLE_TAP, NEARBY] = [350, 0.06]; // milliseconds and board widths between the two taps
 const NO_MEMORY = -1; // the place on its slider, which has logarithms to the base of ten
 const THRUST_EVERY = 90; // milliseconds; a held key pushes one step at a time, or nobody could steer
-const [REACH, SLOW, REACHING] = [0.05, 0.2, 1500]; // a creep within reach of the pointer slows: board widths, times real
-// time, and milliseconds for which the pointer may rest
+const [REACH, SLOW, REACHING] = [0.05, 0.2, 1500]; // of a pointer at a creep: board widths, times real time, milliseconds
 const KEYS = { ArrowUp: [0, 0, -1], ArrowDown: [1, 0, 1], ArrowRight: [2, 1, 0], ArrowLeft: [3, -1, 0] };
 const NEW_RUN = ["preset", "memory", "resolutions", "modality", "n_creeps", "seed", "run"];
 const ALLOWED = "Resolutions are whole numbers from 1 to 90, such as 3, 5, 7.";
+const AVOIDED = { red: "red", obstacle: "obstacles", vessel: "vessels" };
 const WHOLE = ({ min, max }) => `Whole numbers from ${min} to ${max} are allowed here.`;
 const STOPPED = "The simulation has stopped. Reset begins it again.";
 const HINT = "Click a cell: how to get there. Double-click: drop an element of interest.";
@@ -30,10 +30,12 @@ const pageOf = (id) => `<p role="alert" hidden></p>
     ${press("red", "Make red desirable half-way")}${press("corner", "Show the way to a corner")}
     ${press("game", "Play against it")}</div>
   <div class="bar">${choice("preset", "Agent")}<div class="buttons">${press("play", "Play")}${press("step", "Step")}
-    ${press("new-run", "New run")}${press("reset", "Reset")}</div>${slide("speed", "Speed", 0, SPEEDS.length - 1, 1)}</div>
+    ${press("new-run", "New run")}${press("reset", "Reset")}</div>
+    ${slide("speed", "Speed", 0, SPEEDS.length - 1, 1)}</div>
   <div class="columns"><div class="board">
     <div class="arena"><canvas tabindex="0" role="application" aria-describedby="${id}" aria-label="The world. Arrow
-      keys move a cursor, Enter chooses the cell under it, Escape lets go of it."></canvas><div class="grips"></div><div class="marks"></div>
+      keys move a cursor, Enter chooses the cell under it, Escape lets go of it."></canvas><div class="grips"></div>
+      <div class="marks"></div>
       <div class="pad" hidden>${["Up ↑", "Left ←", "Down ↓", "Right →"].map(pad).join("")}</div></div>
     <p class="unseen" id="${id}"></p><p class="said"></p>
     <div class="element" hidden>${slide("element-valence", "It is worth", -2, 2, 0.1)}
@@ -43,7 +45,9 @@ const pageOf = (id) => `<p role="alert" hidden></p>
     <div class="shown">${choice("map", "Map shown")}<label class="tick"><input type="checkbox" name="field" checked>Show
       field</label></div></div>
   <ul class="key" aria-label="What the tank shows"></ul>
-  <div class="side"><p class="title">Reward per second</p>
+  <div class="side"><div class="limb" hidden><p class="title">The arm</p>
+    <canvas role="img" aria-label="The arm in the plane, with the points that it seeks and avoids"></canvas></div>
+    <p class="title">Reward per second</p>
     <canvas role="img" aria-label="Reward per simulated second over the minutes of the run"></canvas>
     <p class="legend"></p><p class="lived"></p><p class="pace"></p>${choice("modality", "Modality")}
     <label class="labelled"><span>Resolutions</span><input type="text" name="resolutions" autocomplete="off"></label>

@@ -17,8 +17,10 @@ function chosenParameters(layout, presets, modalities, settings, elements = []) 
   const preset = presets[settings.preset];
   const parameters = structuredClone(preset.parameters);
   const { names, maps, nodes, axes, desires, learning } = parameters;
-  maps.resolution = names.flatMap(() => settings.resolutions);
-  nodes.first_map = [0, ...names.map((_, n) => (n + 1) * settings.resolutions.length)];
+  if (settings.resolutions.join() !== preset.resolutions.join()) { // as those of each node may differ in the preset
+    maps.resolution = names.flatMap(() => settings.resolutions);
+    nodes.first_map = [0, ...names.map((_, n) => (n + 1) * settings.resolutions.length)];
+  }
   if (names.length === 1 && settings.modality !== preset.modality && !nodes.learns_contacts[0]) { // the preset's may have ranges of its own
     Object.assign(nodes, modalities[settings.modality].nodes);
     Object.assign(axes, modalities[settings.modality].axes);

@@ -45,7 +45,7 @@ class Starters extends Hands {
 
   mapOfPlaces() {
     const { names, nodes: { follows } } = this.parameters();
-    const { position } = this.model.get("_layout").enumerations.Vector;
+    const { position } = this.model.get("_layout").plane.enumerations.Vector;
     const name = names[Math.max(0, follows.indexOf(position))];
     const resolutions = this.model.get("resolutions");
     const near = resolutions.toSorted((a, b) => Math.abs(a - FINE_ENOUGH) - Math.abs(b - FINE_ENOUGH))[0];
@@ -64,7 +64,7 @@ class Starters extends Hands {
     const { life: { frame, game }, model, presets } = this;
     const preset = presets[model.get("preset")];
     const knowsCells = preset && !preset.parameters.nodes.learns_contacts.every(Boolean);
-    const able = { watch: preset, red: preset?.red.length, corner: frame && knowsCells,
+    const able = { watch: preset, red: preset?.avoided === "red", corner: frame && knowsCells,
       game: frame && !frame.ended && this.hasCreeps() };
     for (const [name, isAble] of Object.entries(able)) this.action(name).disabled = !isAble;
     this.action("game").textContent = game ? "Leave the game" : "Play against it";

@@ -42,8 +42,9 @@ class Explorer extends Address {
     Object.assign(this, { model, presets: model.get("_presets"), modalities: model.get("_modalities"),
       life: newLife(), elements: [], selected: null, noted: new Set(), undo: [], drawn: 0, told: 0, failed: false });
     this.calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
-    this.root = Object.assign(document.createElement("div"), { className: "neorl-explorer", innerHTML: pageOf(`neorl-tank-${explorers += 1}`) });
-    [this.arena, this.curve] = this.root.querySelectorAll("canvas");
+    this.root = Object.assign(document.createElement("div"), { className: "neorl-explorer",
+      innerHTML: pageOf(`neorl-tank-${explorers += 1}`) });
+    [this.arena, this.limb, this.curve] = this.root.querySelectorAll("canvas");
     this.fillMenus();
     place.append(this.root);
     this.listen();
@@ -125,7 +126,7 @@ class Explorer extends Address {
       if (problem || !this.near) break;
       const names = [...noted];
       noted.clear();
-      this.condition = conditionOf(model.get("_layout"), presets, modalities, this.settings());
+      this.condition = conditionOf(model.get("_layout").plane, presets, modalities, this.settings());
       this.showControls();
       if (!this.engine || names.some((name) => NEW_RUN.includes(name))) await this.begin();
       else if (names.some((name) => name === "elements" || GOES_ON.includes(name))) await this.change();
@@ -139,7 +140,7 @@ class Explorer extends Address {
   }
 
   parameters() {
-    const layout = this.model.get("_layout");
+    const layout = this.model.get("_layout").plane; // its enumerations are those of all
     return chosenParameters(layout, this.presets, this.modalities, this.settings(), this.elements);
   }
 
@@ -150,18 +151,25 @@ class Explorer extends Address {
     this.life = newLife({ world, length: { steps, bin }, changed: this.elements.length > 0, due: this.due });
     this.due = null;
     this.refresh();
-    if (!this.engine) await this.load();
+    if (!this.engine) this.startEngine();
+    if (!this.loaded.has(world.module)) await this.load(world.module);
     const changes = this.condition === model.get("preset") ? presets[this.condition].changes : [];
     this.take(await this.ask({ type: "begin", parameters: this.parameters(), world, seed, run, steps, bin_steps: bin,
       changes, map: this.control("map").value, field: this.fieldTiles() }));
     await this.meet();
   }
 
-  async load() {
-    const { buffer, byteOffset, byteLength } = this.model.get("_wasm");
+  startEngine() {
     this.engine = startEngine(this.model.get("_engine"), (message) => this.fail(message));
+    this.loaded = new Set();
+  }
+
+  /** A module of kernels, when its first run begins. */
+  async load(name) {
+    const { buffer, byteOffset, byteLength } = this.model.get("_wasm")[name];
     const wasm = buffer.slice(byteOffset, byteOffset + byteLength);
-    await this.ask({ type: "load", wasm, layout: this.model.get("_layout") }, [wasm]);
+    this.loaded.add(name);
+    await this.ask({ type: "load", name, wasm, layout: this.model.get("_layout")[name] }, [wasm]);
   }
 
   /** What the engine answers, unless the run for which it was asked has gone: then nothing ever follows. */
@@ -338,7 +346,7 @@ function problemOf(presets, modalities, model) {
 function damageOf(model) {
   const isFull = (value) => value !== null && typeof value === "object" && Object.keys(value).length > 0;
   const sound = { _presets: isFull, _modalities: isFull, _layout: isFull, _engine: (text) => Boolean(text),
-    _wasm: (bytes) => ArrayBuffer.isView(bytes) && bytes.byteLength > 0 };
+    _wasm: (all) => isFull(all) && Object.values(all).every((each) => ArrayBuffer.isView(each) && each.byteLength) };
   const missing = Object.keys(sound).filter((name) => !sound[name](model.get(name)));
   return missing.length ? `The Explorer cannot start: this page does not hold its ${missing.join(", ")}.` : "";
 }

@@ -9,7 +9,7 @@ from playwright.sync_api import expect
 
 from neorl import (Arena, Desire, Explorer, Learning, Place, Run, WaterWorld, multimodal, network_d, place_cells,
                    simulate)
-from neorl.browser.explorer import IN_THE_ARENA, STEPS
+from neorl.browser.explorer import IN_THE_ARENA, OTHER_SPACES, STEPS
 from neorl.core.modality import BOUNDARY_VECTOR_CELL, OBJECT_VECTOR_CELL
 
 SIZE = {"steps": 30_000, "runs": 12, "seed": 3, "progress": False}
@@ -289,6 +289,25 @@ def test_in_the_arena_it_lives_the_run_that_python_lives_and_offers_nothing_of_c
         expect(page.locator(f'[name="{control}"]')).to_be_visible()
     assert play_to_the_end(page) == lived(BOTH)
     assert page.evaluate("window.offered")
+
+
+@pytest.mark.parametrize("name", OTHER_SPACES)
+def test_in_another_space_it_lives_the_run_that_python_lives(open_page, site, name):
+    page = open_page(*site(name))
+    explorer_of(page)
+    for action in ("game", "red"):
+        expect(page.locator(f'[data-action="{action}"]')).to_be_disabled()
+    expect(page.locator(".limb")).to_be_visible(visible=name.startswith("Arm"))
+    assert play_to_the_end(page) == lived(*OTHER_SPACES[name], steps=STEPS)
+
+
+def test_a_pilot_keeps_the_maps_of_each_node_until_others_are_chosen(open_page, site):
+    page = open_page(*site("Vessel with a radar"))
+    explorer_of(page)
+    expect(page.locator('[name="map"] option')).to_have_text(["far N8", "near N4"])
+    page.locator('[name="resolutions"]').fill("6")
+    page.locator('[name="resolutions"]').press("Enter")
+    expect(page.locator('[name="map"] option')).to_have_text(["far N6", "near N6"])
 
 
 def test_a_condition_in_another_maze_is_not_the_one_that_is_seen(open_page, tmp_path):

@@ -169,7 +169,7 @@ def test_maps_go_by_the_modality_that_they_are_of(visit):
 
 
 def test_a_link_leads_to_a_moment_of_a_run(visit):
-    page = visit("#explorer:agent=things&run=7&minute=2&map=OVC+N4&goal=5")
+    page = visit("#explorer_agent-things_run-7_minute-2_map-ovc-n4_goal-5")
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal === '5'")
     assert (told(page, "state"), told(page, "step"), told(page, "condition")) == ("paused", "6000", "things")
     assert float(told(page, "score")) == Run(object_vector_cells([4]), TANK, SIZE["seed"], 7).advance(6_000)
@@ -185,9 +185,9 @@ def test_the_address_of_a_moment_leads_back_to_it(visit):
     press(page, "play")
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step > 500")
     press(page, "play")
-    page.wait_for_function("location.hash.includes('minute=')")
+    page.wait_for_function("location.hash.includes('_minute-')")
     before = {name: told(page, name) for name in ("step", "score")}
-    assert "red=0.5" in page.url and "run=4" in page.url
+    assert "_red-0p5" in page.url and "_run-4" in page.url
     again = visit(page.url[page.url.index("#"):])
     again.wait_for_function(f"document.querySelector('.neorl-explorer').dataset.step == {before['step']}")
     wait(again, "paused")
@@ -196,13 +196,13 @@ def test_the_address_of_a_moment_leads_back_to_it(visit):
 
 def test_a_link_within_the_page_is_followed(visit):
     page = visit()
-    page.evaluate("location.hash = '#explorer:start=corner'")
+    page.evaluate("location.hash = '#explorer_start-corner'")
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal === '0'")
 
 
 @pytest.mark.parametrize("address, reason", [
-    ("#explorer:agent=Nobody", "There is no agent “Nobody”"), ("#explorer:run=-1", "run = -1"),
-    ("#explorer:resolutions=3,x", "resolutions"), ("#explorer:minute=soon", "no minute")])
+    ("#explorer_agent-nobody", "There is no agent “nobody”"), ("#explorer_run--1", "run = -1"),
+    ("#explorer_resolutions-3-x", "resolutions"), ("#explorer_minute-soon", "no minute")])
 def test_an_address_of_no_run_is_a_sentence_and_the_page_stays_as_it_is(visit, address, reason):
     page = visit(address)
     expect(page.locator(".refused")).to_contain_text(reason)
