@@ -80,7 +80,8 @@ class Address extends Starters {
     const step = Math.min(steps, Math.round((minute ?? 0) * 60 * world.fps));
     const act = async () => {
       if (minute !== null || this.calm) this.write({ playing: false });
-      if (map) await this.look({ map: named(this.life.frame.maps, map), goal });
+      const cell = isWhole(0, MOST_SEED)(goal) ? goal : null;
+      if (map) await this.look({ map: named(this.life.frame.maps, map), goal: cell });
       if (Object.hasOwn(starts, start)) await starts[start]();
       this.refresh();
     };

@@ -324,6 +324,7 @@ const REQUESTS = {
   look({ type, at, ...choice }) {
     lookAt(choice);
     const cell = at && cellSeenAt(at);
+    if (look.goal >= Number(run.parameters.maps.cells[mapNames(run.choices).indexOf(look.map)])) look.goal = null;
     if (at && !learnsContacts(mapNames(run.choices).indexOf(look.map))) look.goal = cell === look.goal ? null : cell;
     return frame();
   },
