@@ -33,7 +33,7 @@ class Controls {
     if (type !== (["text", "number"].includes(kind) ? "change" : "input")) return null;
     this.touched = true;
     if (kind === "number" && !target.checkValidity()) return this.refuse(target, WHOLE(target));
-    if (kind === "number") this.accept(target);
+    if (kind === "number") this.forgive();
     const act = { resolutions: () => this.writeResolutions(target), "open-preset": () => this.limitRun(),
       preset: () => this.write(initialSettings(this.presets, value)),
       modality: () => this.write({ modality: value }), speed: () => this.write({ speed: SPEEDS[value] }),
@@ -86,7 +86,7 @@ class Controls {
   openRun() {
     const [preset, run] = [this.control("open-preset").value, this.control("open-run")];
     if (!run.checkValidity()) return this.refuse(run, WHOLE(run));
-    this.accept(run);
+    this.forgive();
     if (!this.life.frame) this.abandon();
     this.write({ preset });
     return this.fresh({ run: run.valueAsNumber, speed: 0, playing: true });
@@ -100,7 +100,7 @@ class Controls {
     const numbers = field.value.split(/[\s,;]+/).filter(Boolean).map(Number);
     const valid = isList(numbers, isWhole(1, 90));
     if (!valid) return this.refuse(field, ALLOWED);
-    this.accept(field);
+    this.forgive();
     return this.write({ resolutions: inOrder(numbers) });
   }
 
@@ -112,8 +112,9 @@ class Controls {
     this.showControls();
   }
 
-  accept(field) {
-    field.ariaInvalid = null;
+  /** What was refused is over as soon as something else has been taken. */
+  forgive() {
+    for (const field of this.root.querySelectorAll("[aria-invalid]")) field.ariaInvalid = null;
     this.part(".refused").textContent = "";
   }
 

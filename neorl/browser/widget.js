@@ -126,6 +126,7 @@ class Explorer extends Address {
       if (problem || !this.near) break;
       const names = [...noted];
       noted.clear();
+      if (names.some((name) => name !== "near")) this.forgive();
       this.condition = conditionOf(model.get("_layout").plane, presets, modalities, this.settings());
       this.showControls();
       if (!this.engine || names.some((name) => NEW_RUN.includes(name))) await this.begin();

@@ -117,6 +117,17 @@ def test_refused_input_goes_back_to_what_was(visit, name, typed, kept):
     expect(page.locator(".refused")).to_have_text("")
 
 
+def test_what_was_refused_is_forgotten_with_another_agent(visit):
+    page = visit()
+    field = page.locator('[name="resolutions"]')
+    field.fill("none")
+    field.press("Enter")
+    expect(field).to_have_attribute("aria-invalid", "true")
+    page.locator('[name="preset"]').select_option("things")
+    expect(field).not_to_have_attribute("aria-invalid", "true")
+    expect(page.locator(".refused")).to_have_text("")
+
+
 def test_nothing_moves_between_play_and_pause(visit):
     page = visit("", viewport={"width": 1200, "height": 900})
     page.locator('[name="speed"]').fill("2")
