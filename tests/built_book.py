@@ -9,8 +9,10 @@ from playwright.sync_api import expect
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS
 
 HTML = Path(__file__).parent.parent / "_build" / "html"
-PAGES = {"index.html": "Figure 5: PC + OVC", "chapters/paper_a.html": "Figure 7: all",
-         "chapters/paper_b.html": "Figure 5: PC + OVC", "chapters/paper_c.html": "Figure 4e: D"}
+BOTH_MODALITIES = "Paper B, figure 5: place + object-vector cells"
+PAGES = {"index.html": BOTH_MODALITIES, "explorer.html": BOTH_MODALITIES,
+         "chapters/paper_a.html": "Paper A, figure 7: all three maps",
+         "chapters/paper_b.html": BOTH_MODALITIES, "chapters/paper_c.html": "Paper C, figure 4e: network D"}
 pytestmark = pytest.mark.skipif(not HTML.exists(), reason="no book: run make book first")
 
 

@@ -1,4 +1,4 @@
-"""The WebAssembly module run from Python by wasmtime, on copies of a run's arrays."""
+"""The WebAssembly modules run from Python by wasmtime, on copies of a run's arrays."""
 
 import ctypes
 from functools import cache
@@ -6,27 +6,32 @@ from functools import cache
 import numpy as np
 import wasmtime
 
-from neorl.browser import wasm
-from neorl.browser.worlds import EitherState, rules_of
+from neorl.browser import wasm, worlds
+from neorl.browser.worlds import IN_THE_PLANE, PlaneState, rules_of
 from neorl.core.kernel import arrays, length, mapped, new_tuple
 
 PAGE = 2**16
 
 
 @cache
-def compiled():
+def compiled(name="plane"):
     engine = wasmtime.Engine()
-    return engine, wasmtime.Module(engine, wasm.module())
+    return engine, wasmtime.Module(engine, wasm.module(name))
 
 
-layout_of_the_module = cache(wasm.layout)
+layout_of = cache(wasm.layout)
+
+
+def module_of(run):
+    return "plane" if isinstance(run.world, IN_THE_PLANE) else "helm"
 
 
 class Machine:
     """A module with a memory of its own, into which arrays are put once and then found again."""
 
-    def __init__(self, megabytes=64):
-        engine, module = compiled()
+    def __init__(self, megabytes=64, name="plane"):
+        engine, module = compiled(name)
+        self.layout = layout_of(name)
         self.store = wasmtime.Store(engine)
         pages = megabytes * 2**20 // PAGE
         self.memory = wasmtime.Memory(self.store, wasmtime.MemoryType(wasmtime.Limits(pages, None)))
@@ -49,7 +54,7 @@ class Machine:
 
     def call(self, name, sizes, **arguments):
         """Call an export as its layout says; arrays are given as (address, view) pairs."""
-        export = layout_of_the_module()["exports"][name]
+        export = self.layout["exports"][name]
         values = [int(sizes[each]) for each in export["sizes"]]
         for argument, kind in export["arguments"]:
             values += self.passed(arguments[argument], kind, sizes, argument)
@@ -60,7 +65,7 @@ class Machine:
     def passed(self, value, kind, sizes, name):
         """An argument as the numbers that the module takes."""
         if isinstance(kind, str):
-            return [number for field, inner in layout_of_the_module()["tuples"][kind]
+            return [number for field, inner in self.layout["tuples"][kind]
                     for number in self.passed(getattr(value, field), inner, sizes, f"{name}.{field}")]
         dtype, shape = kind
         if shape is None:
@@ -80,23 +85,25 @@ def sizes_of(run):
             "frames": len(parameters.frames), "left": parameters.contacts.trace,
             "values": maps.first_value[-1], "cells": maps.first_cell[-1], "tracks": maps.first_track[-1],
             "trace": parameters.learning.trace, "traces": len(tracks.strength), "trace_rows": len(tracks.trace_weight),
-            "things": run.world.things, "obstacles": len(rules_of(run.world).arena.obstacle), "words": 0, "bins": 1,
-            "kinds": len(run.world.kinds)}
+            "things": run.world.things, "words": 0, "bins": 1, "kinds": len(run.world.kinds),
+            **{name: worlds.sizes_of(run.world)[name] for name in ("obstacles", "places", "trials")}}
 
 
-def either_of(run):
-    """The state of a run's world as that of either."""
-    either = new_tuple(EitherState, sizes_of(run), {})
+def state_of(run):
+    """The state of a run's world as that of the world of its module."""
+    if module_of(run) != "plane":
+        return run.world_state
+    plane = new_tuple(PlaneState, sizes_of(run), {})
     given = arrays(run.world_state)
-    for name, array in arrays(either).items():
+    for name, array in arrays(plane).items():
         array[...] = given.get(name, 0)
-    return either
+    return plane
 
 
 def copied(run):
     """A machine with copies of a run's arrays, and the arguments of its exports."""
-    machine = Machine(megabytes=32 + run.state.values.q.nbytes // 2**20)
-    world_state = machine.put_tuple(either_of(run))
+    machine = Machine(32 + run.state.values.q.nbytes // 2**20, module_of(run))
+    world_state = machine.put_tuple(state_of(run))
     return machine, sizes_of(run), {
         "parameters": machine.put_tuple(run.parameters), "state": machine.put_tuple(run.state),
         "rules": machine.put_tuple(rules_of(run.world)), "world_state": world_state, "scene": world_state.scene,

@@ -31,7 +31,9 @@ class Controls {
   turned({ type, target }) {
     const { name, type: kind, value } = target;
     if (type !== (["text", "number"].includes(kind) ? "change" : "input")) return null;
-    if (kind === "number" && !target.reportValidity()) return null;
+    this.touched = true;
+    if (kind === "number" && !target.checkValidity()) return this.refuse(target, WHOLE(target));
+    if (kind === "number") this.forgive();
     const act = { resolutions: () => this.writeResolutions(target), "open-preset": () => this.limitRun(),
       preset: () => this.write(initialSettings(this.presets, value)),
       modality: () => this.write({ modality: value }), speed: () => this.write({ speed: SPEEDS[value] }),
@@ -45,11 +47,14 @@ class Controls {
     return this.write(node ? { gains: this.model.get("gains").with(node, Number(value)) } : { [name]: Number(value) });
   }
 
-  clicked({ action, chip: resolution }) {
+  clicked({ action, chip: resolution }, detail) {
     if (resolution) return this.toggleResolution(Number(resolution));
     const acts = { play: () => this.togglePlay(), step: () => this.step(), reset: () => this.reset(),
-      open: () => this.openRun(), drop: () => this.dropElement({ x: 0.5, y: 0.5 }), delete: () => this.deleteElement(),
+      "new-run": () => this.newRun(), open: () => this.openRun(), drop: () => this.beginDrop(detail === 0),
+      delete: () => this.deleteElement(), link: () => this.copyLink(), watch: () => this.watch(),
+      red: () => this.revalueRed(), corner: () => this.showCorner(),
       game: () => (this.life.game ? this.leaveGame() : this.joinGame()) };
+    this.touched ||= action in acts;
     return acts[action]?.();
   }
 
@@ -64,26 +69,27 @@ class Controls {
     return this.life.advancing ? null : this.advance(1, TIMED_BUDGET);
   }
 
-  /** Begin again; after a failure, with the preset's own settings, as those of now may be what has failed. */
+  /** Begin again, with the preset's own settings: those of now may be what has failed. */
   reset() {
     if (!this.life.frame) this.abandon();
-    if (this.failed) {
-      const keys = [this.model.get("preset"), ...orderedKeys(this.presets)];
-      const key = keys.find((each) => Object.hasOwn(this.presets, each));
-      this.write({ ...initialSettings(this.presets, key), seed: this.presets[key].seed, run: 0, speed: SPEEDS[4] });
-    }
-    this.elements = [];
-    this.life.held = null;
-    this.select(null);
-    this.note("run");
+    const keys = [this.model.get("preset"), ...orderedKeys(this.presets)];
+    const preset = keys.find((each) => Object.hasOwn(this.presets, each));
+    this.write(this.failed ? { preset, speed: SPEEDS[4] } : { preset });
+    this.fresh();
+  }
+
+  /** The next run of these settings, with the same elements. */
+  newRun() {
+    this.write({ run: (this.model.get("run") + 1) % (MOST_SEED + 1) });
   }
 
   openRun() {
-    const [key, run] = [this.control("open-preset").value, this.control("open-run")];
-    if (!run.reportValidity()) return;
-    this.reset();
-    this.write({ ...initialSettings(this.presets, key), seed: this.presets[key].seed,
-      run: run.valueAsNumber, speed: 0, playing: true });
+    const [preset, run] = [this.control("open-preset").value, this.control("open-run")];
+    if (!run.checkValidity()) return this.refuse(run, WHOLE(run));
+    this.forgive();
+    if (!this.life.frame) this.abandon();
+    this.write({ preset });
+    return this.fresh({ run: run.valueAsNumber, speed: 0, playing: true });
   }
 
   limitRun() {
@@ -93,9 +99,23 @@ class Controls {
   writeResolutions(field) {
     const numbers = field.value.split(/[\s,;]+/).filter(Boolean).map(Number);
     const valid = isList(numbers, isWhole(1, 90));
-    field.setCustomValidity(valid ? "" : ALLOWED);
-    if (valid) this.write({ resolutions: inOrder(numbers) });
-    else field.reportValidity();
+    if (!valid) return this.refuse(field, ALLOWED);
+    this.forgive();
+    return this.write({ resolutions: inOrder(numbers) });
+  }
+
+  /** What was typed and is not allowed gives way to what was, and a sentence says so. */
+  refuse(field, allowed) {
+    field.ariaInvalid = "true";
+    this.part(".refused").textContent = `${allowed} It stays as it was.`;
+    if (field.name === "open-run") field.value = 0;
+    this.showControls();
+  }
+
+  /** What was refused is over as soon as something else has been taken. */
+  forgive() {
+    for (const field of this.root.querySelectorAll("[aria-invalid]")) field.ariaInvalid = null;
+    this.part(".refused").textContent = "";
   }
 
   toggleResolution(one) {
@@ -121,16 +141,17 @@ class Controls {
     if (running && before !== "running") Object.assign(life, { since: performance.now(), counted: 0 });
     if (!running && before === "running" && frame) life.rate = 0, this.report();
     this.action("play").textContent = frame?.ended ? "Play again" : model.get("playing") ? "Pause" : "Play";
-    this.action("game").textContent = game ? "Leave the game" : "Play against it";
-    this.action("game").ariaPressed = Boolean(game);
     this.action("drop").disabled = !frame || this.elements.length >= MOST_ELEMENTS;
-    for (const name of ["step", "game"]) this.action(name).disabled = !frame || frame.ended;
-    this.action("game").disabled ||= !this.hasCreeps();
+    this.action("drop").ariaPressed = Boolean(this.dropping);
+    this.action("step").disabled = !frame || frame.ended;
+    this.action("link").disabled = !frame;
+    this.offerStarters();
     for (const name of ["map", "field"]) this.control(name).disabled = !frame;
     this.part(".pad").hidden = !game;
     this.showSpeed();
     this.part(".element").hidden = this.selected === null;
     this.showLegend();
+    this.writeAddress();
     this.wake();
   }
 
@@ -143,14 +164,15 @@ class Controls {
 
   showControls() {
     const { model } = this;
-    const { nodes, recursion, red, can_remember, parameters: { learning } } = this.presets[model.get("preset")];
+    const { nodes, modality, recursion, red, avoided, can_remember, parameters: { learning } } =
+      this.presets[model.get("preset")];
+    this.control("valence_red").previousElementSibling.textContent = `Valence of ${AVOIDED[avoided] ?? "red"}`;
     for (const name of ["modality", "seed", "run"]) this.control(name).value = model.get(name);
-    this.offer("modality", nodes.length === 1);
+    this.offer("modality", nodes.length === 1 && modality !== "");
     this.offer("recursion", recursion !== null);
     this.offer("valence_red", red.length > 0);
     this.offer("n_creeps", this.hasCreeps());
     this.control("resolutions").value = model.get("resolutions").join(", ");
-    this.control("resolutions").setCustomValidity("");
     for (const chip of this.part(".chips").children) {
       chip.ariaPressed = model.get("resolutions").includes(Number(chip.dataset.chip));
     }
@@ -200,14 +222,24 @@ class Controls {
     if (!this.arena.clientWidth || (isLoading && this.drawn)) return; // the last picture stays for that long
     Object.assign(this, { drawn: now, stale: false });
     drawArena(this.arena, colours, frame, cursor);
+    this.part(".limb").hidden = !frame?.arm;
+    if (frame?.arm) drawLimb(this.limb, colours, frame);
     drawCurve(this.curve, colours, { seconds: length.steps / world.fps, binSeconds: length.bin / world.fps,
-      rewards: frame?.rewards, bins: frame?.ended ? frame.rewards.length : Math.floor((frame?.step ?? 0) / length.bin),
-      band: this.presets[condition]?.band });
+      rewards: frame?.rewards ?? [], lived: (frame?.step ?? 0) / world.fps, band: this.presets[condition]?.band });
     this.placeHandles();
-    const speed = `${grouped(rate)} steps per second, ${grouped(rate / world.fps)} × real time`;
-    this.part(".lived").textContent = this.livedText() + (this.running() && rate ? ` · ${speed}` : "");
+    this.showKey();
+    if (frame && !this.running()) this.part(".unseen").textContent = describe(frame);
+    this.part(".lived").textContent = this.livedText();
+    this.part(".pace").textContent = this.running() && rate
+      ? `${grouped(rate)} steps per second, ${grouped(rate / world.fps)} × real time` : "";
     const hint = this.hasCreeps() ? `${HINT} Drag the creeps.` : HINT;
     this.part(".said").textContent = this.sentences().join(" ") || hint;
+  }
+
+  showKey() {
+    const { frame } = this.life;
+    const markup = frame ? keyOf(frame).map(entryMarkup).join("") : "";
+    if (markup !== this.keyMarkup) this.part(".key").innerHTML = this.keyMarkup = markup;
   }
 
   livedText() {
@@ -216,8 +248,9 @@ class Controls {
   }
 
   sentences() {
-    const { life: { frame, game, changed }, presets, condition, model } = this;
+    const { life: { frame, game, changed, due, news }, presets, condition, model } = this;
     if (!frame) return [];
+    if (this.dropping) return [WHERE];
     const [said, run, score, { seen }] = [[], model.get("run"), shown(frame.reward), frame];
     const { totals = [], seed, steps } = presets[condition] ?? {};
     if (frame.ended) said.push(`Run ${run} is over: its score is ${score}.`);
@@ -230,8 +263,9 @@ class Controls {
     if (seen.goal !== null) {
       const ways = { position: "how to get there", velocity: "how to come to move so" };
       const what = ways[seen.vector] ?? "how to get a thing there";
-      said.push(`Cell ${seen.goal} of ${seen.name}: ${what}. Nobody asked for it.`);
+      said.push(`Cell ${seen.goal} of ${seen.name}: ${what}, learned without being asked.`);
     }
+    if (due?.news ?? news) said.push(due?.news ?? news);
     return said;
   }
 }

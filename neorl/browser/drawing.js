@@ -1,4 +1,4 @@
-/* Drawings of the Explorer: the world and the reward over the run, each on a canvas of its own.
+/* Drawings of the Explorer: the world, on a canvas of its own.
 
 Nothing here keeps anything or listens to anything: a drawing is made from what it is given. Places are in units of the
 world's size, y downward, as in the frames of the engine. Positions are drawn as they are, so that discs reach over the
@@ -46,16 +46,19 @@ function drawArena(canvas, colours, frame, cursor) {
   else walls.rect(0, 0, unit, unit);
   context.save();
   context.clip(walls);
-  if (frame?.seen) drawMap(board, cellsOf(frame.seen, frame.agent), frame);
-  if (frame?.field) drawField(board, frame.field);
+  const cells = frame?.seen && cellsOf(frame.seen, frame.agent, frame.heading);
+  if (cells) drawMap(board, cells, frame);
   drawObstacles(board, frame?.obstacles ?? []);
   context.restore();
+  if (cells && frame.seen.goal !== null) drawWays(board, cells, frame);
+  else if (frame?.field) drawField(board, frame);
   stroke(board, colours.ink, 1.4, 0.75, (path) => path.addPath(walls));
+  if (frame?.current) drawCurrent(board, frame.current);
   if (frame) drawMovers(board, frame);
   if (cursor) drawCursor(board, cursor);
 }
 
-function drawMap(board, cells, { active, seen: { goal, ways } }) {
+function drawMap(board, cells, { active, seen: { goal } }) {
   const { unit, colours } = board;
   for (const cell of active) fillPath(board, colours.agent, 0.24, (path) => cells.addRegion(path, cell, unit));
   stroke(board, colours.ink, 0.8, cells.count > 16 ? 0.3 : 0.5, (path) => cells.addBorders(path, unit));
@@ -63,15 +66,19 @@ function drawMap(board, cells, { active, seen: { goal, ways } }) {
   const addGoal = (path) => cells.addRegion(path, goal, unit);
   fillPath(board, colours.goal, 0.25, addGoal);
   stroke(board, colours.goal, 2.4, 1, addGoal);
-  drawVectors(board, colours.goal, 1.5, 0.95, ways, (cell) => cells.middle(cell));
+}
+
+/** The way to the chosen cell from every other, as long as the cells allow. */
+function drawWays(board, cells, { seen: { ways }, round }) {
+  drawVectors(board, board.colours.goal, 2.2, 1, ways, (cell) => cells.middle(cell), round);
 }
 
 /** The receptive fields of a map in the world: their borders, the region of a cell, and its middle with its size. */
-function cellsOf(map, agent) {
+function cellsOf(map, agent, heading) {
   const origin = map.vector === "position" ? { x: 0, y: 0 } : agent;
   const scale = map.vector === "velocity" ? HALF_A_SECOND : 1; // where a velocity takes the agent in half a second
-  const isRound = map.axes.some(({ feature }) => ["length", "direction"].includes(feature));
-  return (isRound ? roundCells : squareCells)(map, origin, scale);
+  const isRound = map.axes.some(({ feature }) => ["length", "direction", "bearing"].includes(feature));
+  return isRound ? roundCells(map, origin, scale, heading) : squareCells(map, origin, scale);
 }
 
 /** The number of a cell's interval along an axis, the only one if there is no such axis. */
@@ -93,29 +100,46 @@ function squareCells({ axes }, { x, y }, scale) {
     const last = borders.length - 2;
     return [index > 0 ? clampedToBoard(borders[index]) : 0, index < last ? clampedToBoard(borders[index + 1]) : 1];
   };
-  const corners = (cell) => [...shown(xs, intervalOf(cell, across)), ...shown(ys, intervalOf(cell, down))];
+  // Where an axis closes on itself, cells go on at the other side of the board.
+  const shiftsOf = (axis) => (axis?.closed ? [-1, 0, 1] : [0]);
+  const along = (borders, axis, cell) => {
+    const index = intervalOf(cell, axis);
+    return axis?.closed ? [borders[index], borders[index + 1]] : shown(borders, index);
+  };
+  const corners = (cell) => [...along(xs, across, cell), ...along(ys, down, cell)];
+  const wrapped = (middle, axis) => (axis?.closed ? middle - Math.floor(middle) : middle);
   return {
     count: Math.max(intervalsOf(across), intervalsOf(down)),
     addBorders(path, unit) {
-      for (const x of xs.slice(1, -1)) path.moveTo(x * unit, 0), path.lineTo(x * unit, unit);
-      for (const y of ys.slice(1, -1)) path.moveTo(0, y * unit), path.lineTo(unit, y * unit);
+      const between = (borders, axis) => shiftsOf(axis).flatMap((shift) =>
+        borders.slice(axis?.closed ? 0 : 1, -1).map((border) => (border + shift) * unit));
+      for (const x of between(xs, across)) path.moveTo(x, 0), path.lineTo(x, unit);
+      for (const y of between(ys, down)) path.moveTo(0, y), path.lineTo(unit, y);
     },
     addRegion(path, cell, unit) {
       const [left, right, top, bottom] = corners(cell);
-      path.rect(left * unit, top * unit, (right - left) * unit, (bottom - top) * unit);
+      for (const aside of shiftsOf(across)) {
+        for (const below of shiftsOf(down)) {
+          path.rect((left + aside) * unit, (top + below) * unit, (right - left) * unit, (bottom - top) * unit);
+        }
+      }
     },
     middle(cell) {
       const [left, right, top, bottom] = corners(cell);
-      return { x: (left + right) / 2, y: (top + bottom) / 2, size: Math.min(right - left, bottom - top) };
+      return { x: wrapped((left + right) / 2, across), y: wrapped((top + bottom) / 2, down),
+        size: Math.min(right - left, bottom - top) };
     },
   };
 }
 
-function roundCells({ axes }, { x, y }, scale) {
-  const [away, around] = ["length", "direction"].map((feature) => axes.find((each) => each.feature === feature));
+/** heading: of the agent, from which a bearing starts, as a direction starts from the east. */
+function roundCells({ axes }, { x, y }, scale, heading) {
+  const away = axes.find(({ feature }) => feature === "length");
+  const around = axes.find(({ feature }) => ["direction", "bearing"].includes(feature));
+  const ahead = around?.feature === "bearing" ? Math.atan2(heading[1], heading[0]) : 0;
   const [rings, sectors] = [intervalsOf(away), intervalsOf(around)];
   const radii = (away?.borders ?? [0, 1]).map((radius) => scale * radius);
-  const angles = (around?.borders ?? [0, 1]).map((turns) => FULL_TURN * turns);
+  const angles = (around?.borders ?? [0, 1]).map((turns) => ahead + FULL_TURN * turns);
   const extent = (cell) => {
     const [ring, sector] = [intervalOf(cell, away), intervalOf(cell, around)];
     const [from, to] = sectors > 1 ? [angles[sector], angles[sector + 1]] : [0, FULL_TURN];
@@ -152,14 +176,14 @@ function roundCells({ axes }, { x, y }, scale) {
   };
 }
 
-function drawField(board, field) {
+function drawField(board, { field, round }) {
   const [size, rowOf] = [1 / FIELD_TILES, (tile) => Math.floor(tile / FIELD_TILES)];
   drawVectors(board, board.colours.ink, 1.2, 0.5, field, (tile) =>
-    ({ x: size * ((tile % FIELD_TILES) + 0.5), y: size * (rowOf(tile) + 0.5), size }));
+    ({ x: size * ((tile % FIELD_TILES) + 0.5), y: size * (rowOf(tile) + 0.5), size }), round);
 }
 
 /** An arrow for each vector (x, y, x, y, …) around its middle, as long as the fourth root of it, as in the book. */
-function drawVectors(board, colour, width, alpha, vectors, middle) {
+function drawVectors(board, colour, width, alpha, vectors, middle, round) {
   let longest = 0;
   for (let i = 0; i < vectors.length; i += 2) longest = Math.max(longest, Math.hypot(vectors[i], vectors[i + 1]));
   if (!longest) return;
@@ -167,12 +191,22 @@ function drawVectors(board, colour, width, alpha, vectors, middle) {
     for (let i = 0; i < vectors.length; i += 2) {
       const length = Math.hypot(vectors[i], vectors[i + 1]);
       const { x, y, size } = middle(i / 2);
-      if (!length || size <= 0 || x < 0 || x > 1 || y < 0 || y > 1) continue;
+      if (!length || size <= 0 || !isInside(x, y, round)) continue;
       const drawn = 0.8 * Math.min(size, 0.2) * (length / longest) ** 0.25;
       const [dx, dy] = [(drawn * vectors[i]) / length, (drawn * vectors[i + 1]) / length];
-      addArrow(path, board.unit, x - dx / 2, y - dy / 2, dx, dy, Math.min(6, 0.35 * drawn * board.unit));
+      addArrow(path, board.unit, x - dx / 2, y - dy / 2, dx, dy, Math.min(9, 0.35 * drawn * board.unit));
     }
   });
+}
+
+const isInside = (x, y, round) =>
+  (round ? Math.hypot(x - 0.5, y - 0.5) < 0.5 : x >= 0 && x <= 1 && y >= 0 && y <= 1);
+
+/** The share of a vector from a place that the canvas has room for. */
+function roomFor(x, y, dx, dy) {
+  const [least, most] = [-0.9 * BOARD_MARGIN, 1 + 0.9 * BOARD_MARGIN];
+  const along = (place, change) => (change ? ((change > 0 ? most : least) - place) / change : 1);
+  return Math.max(0, Math.min(1, along(x, dx), along(y, dy)));
 }
 
 function addArrow(path, unit, x, y, dx, dy, head) {
@@ -198,75 +232,6 @@ function drawObstacles(board, obstacles) {
   });
 }
 
-function drawMovers(board, { agent, things, player, nodes, landings, radius, body }) {
-  const { colours, unit } = board;
-  const movers = [...things, ...(player ? [player] : []), agent];
-  stroke(board, colours.ink, 1.4, 0.8, (path) => {
-    for (const { x, y, vx, vy } of movers.filter((each) => Math.hypot(each.vx, each.vy) > 0.02)) {
-      addArrow(path, unit, x, y, HALF_A_SECOND * vx, HALF_A_SECOND * vy, 6);
-    }
-  });
-  for (const thing of things) drawThing(board, thing, radius);
-  drawDisc(board, agent, body, colours.agent, "");
-  if (player) {
-    drawDisc(board, player, body, colours.ink, "");
-    drawDisc(board, player, 0.78 * body, colours.paper, "Y", colours.ink);
-  }
-  nodes.forEach((node, index) => drawDesire(board, agent, node, index));
-  const isElsewhere = ({ x, y }) => Math.hypot(x - agent.x, y - agent.y) > body;
-  for (const landing of landings.filter(isElsewhere)) drawLanding(board, landing);
-}
-
-/** A creep with its sign, or a place as far as it reaches. */
-function drawThing(board, thing, radius) {
-  const { colours, unit } = board;
-  const signs = { green: 1, red: -1 };
-  if (thing.kind in signs) return drawDisc(board, thing, radius, ...signOf(board, signs[thing.kind]));
-  const addPlace = (path) => path.arc(thing.x * unit, thing.y * unit, radius * unit, 0, FULL_TURN);
-  fillPath(board, colours.place, 0.35, addPlace);
-  stroke(board, colours.place, 2, 1, addPlace);
-}
-
-function drawDisc(board, { x, y }, radius, colour, sign, signColour = "#fff") {
-  const { unit } = board;
-  fillPath(board, colour, 1, (path) => path.arc(x * unit, y * unit, radius * unit, 0, FULL_TURN));
-  write(board, sign, x * unit, y * unit, `bold ${1.4 * radius * unit}px`, signColour);
-}
-
-/** A node's desire, dashed, with the node's name at its end. Long ones are shortened, so that all stay in sight. */
-function drawDesire(board, agent, { name, x, y }, index) {
-  const length = Math.hypot(x, y);
-  const drawn = LONGEST_DESIRE * (1 - Math.exp(-2 * length));
-  if (drawn < 0.05) return;
-  const [dx, dy, ahead] = [(drawn * x) / length, (drawn * y) / length, 1 + 0.028 / drawn];
-  board.context.setLineDash([5, 4]);
-  stroke(board, board.colours.agent, 2, 1, (path) => addArrow(path, board.unit, agent.x, agent.y, dx, dy, 0));
-  board.context.setLineDash([]);
-  stroke(board, board.colours.agent, 2, 1, (path) => addHead(path, board.unit, agent.x + dx, agent.y + dy, dx, dy, 7));
-  const aside = (index % 2 ? -1 : 1) * (0.022 / drawn); // so that the names of two that agree stay apart
-  const [textX, textY] = [agent.x + dx * ahead - dy * aside, agent.y + dy * ahead + dx * aside].map(clampedToBoard);
-  write(board, name, textX * board.unit, textY * board.unit, "600 12px", board.colours.agent, board.colours.paper);
-}
-
-/** Where the desire of one node lands for another: a diamond with its sign, at the border if it lands outside. */
-function drawLanding(board, { x, y, valence }) {
-  const half = 0.028 * board.unit;
-  const [left, top] = [x, y].map((place) => inSight(place) * board.unit);
-  const [colour, sign] = signOf(board, valence);
-  const addDiamond = (path) => {
-    path.moveTo(left, top - half);
-    for (const [dx, dy] of [[half, 0], [0, half], [-half, 0]]) path.lineTo(left + dx, top + dy);
-    path.closePath();
-  };
-  stroke(board, board.colours.paper, 3, 1, addDiamond);
-  fillPath(board, colour, 1, addDiamond);
-  write(board, sign, left, top, `bold ${1.3 * half}px`, "#fff");
-}
-
-function signOf({ colours }, valence) {
-  return valence < 0 ? [colours.red, "−"] : [colours.green, "+"];
-}
-
 function drawCursor(board, { x, y }) {
   stroke(board, board.colours.goal, 2, 1, (path) => {
     for (const [dx, dy] of [[0.03, 0], [-0.03, 0], [0, 0.03], [0, -0.03]]) {
@@ -275,45 +240,8 @@ function drawCursor(board, { x, y }) {
   });
 }
 
-/** Reward per second over the run. curve: {seconds, binSeconds, rewards, bins (lived to their end), band or none}. */
-function drawCurve(canvas, colours, { seconds, binSeconds, rewards, bins, band }) {
-  const board = { context: fittedContext(canvas), colours };
-  const [left, top, right, bottom] = [34, 8, canvas.clientWidth - 8, canvas.clientHeight - 20];
-  const edges = Array.from({ length: bins + 1 }, (_, bin) => Math.min(bin * binSeconds, seconds));
-  const rates = Array.from({ length: bins }, (_, bin) => rewards[bin] / (edges[bin + 1] - edges[bin]));
-  const values = [0, 0.5, ...rates, ...(band ? [...band.low, ...band.high] : [])];
-  const [least, most] = [Math.min(...values), Math.max(...values)];
-  const [step, minutes] = [roundStep((most - least) / 3), roundStep(seconds / 240)];
-  const xOf = (second) => left + ((right - left) * second) / seconds;
-  const yOf = (rate) => bottom - ((bottom - top) * (rate - least)) / (most - least);
-  const label = (text, x, y, align) => write(board, text, x, y, "11px", colours.ink, null, align);
-  for (let tick = Math.ceil(least / step); tick * step <= most; tick += 1) {
-    const [text, y] = [String(Number((tick * step).toFixed(6))).replace("-", "−"), yOf(tick * step)];
-    stroke(board, colours.ink, 0.8, tick ? 0.15 : 0.7, (path) => addLine(path, [[left, y], [right, y]]));
-    label(text, left - 6, y, "right");
-  }
-  for (let at = 0; at <= seconds / 60; at += minutes) {
-    const isLast = at + minutes > seconds / 60;
-    label(`${Number(at.toFixed(3))}${isLast ? " min" : ""}`, xOf(60 * at), bottom + 13, isLast ? "right" : "center");
-  }
-  const pointsOf = (borders, heights) => Array.from(heights, (rate, bin) =>
-    [xOf((borders[bin] + borders[bin + 1]) / 2), yOf(rate)]);
-  if (band) {
-    const outline = [...pointsOf(band.edges, band.low), ...pointsOf(band.edges, band.high).reverse()];
-    fillPath(board, colours.ink, 0.2, (path) => addLine(path, outline));
-    stroke(board, colours.ink, 1, 0.8, (path) => addLine(path, pointsOf(band.edges, band.middle)));
-  }
-  stroke(board, colours.agent, 1.8, 1, (path) => addLine(path, pointsOf(edges, rates)));
-}
-
 function addLine(path, points) {
   for (const point of points) path.lineTo(...point);
-}
-
-/** The 1, 2 or 5 times a power of ten next above a number. */
-function roundStep(least) {
-  const power = 10 ** Math.floor(Math.log10(least));
-  return power * ([1, 2, 5].find((times) => times * power >= least) ?? 10);
 }
 
 function stroke({ context }, colour, width, alpha, add) {

@@ -6,8 +6,8 @@
 // Places and velocities go out in units of the world's size, y downward; inside WaterWorld they are pixels.
 
 const SLICE_MS = 4; // between two looks at the clock
-const BODY_IN_ARENA = 0.03; // of the arena's size, as which the agent is drawn, which is a point there
 
+const modules = {}; // by name, {layout, compiled}
 let run = null;
 let look = { map: "", goal: null, field: 0 }; // the name of a map, a cell of it, and tiles a side
 
@@ -17,8 +17,9 @@ function newRun({ parameters: choices, world, steps, bin_steps }) {
   const sizes = {
     maps: maps.resolution.length, map_axes: mapAxes(choices), nodes: nodes.follows.length,
     node_axes: axes.what.length, boundaries: axes.boundary.length, landmarks: nodes.landmark.length,
-    frames: frames.length, left: contacts.trace, desires: desires.source.length, coordinates: choices.coordinates, trace: learning.trace, actions: push.length,
-    axes: push[0].length, things: world.things, obstacles: world.rules.arena.obstacle?.length ?? 0,
+    frames: frames.length, left: contacts.trace, desires: desires.source.length, coordinates: choices.coordinates,
+    trace: learning.trace, actions: push.length,
+    axes: push[0].length, things: world.things, ...world.sizes,
     kinds: world.kinds.length, bins: Math.ceil(steps / bin_steps),
   };
   const draft = new Machine(2 ** 20 + bytesOf("Parameters", sizes)); // what a run needs follows from its parameters
@@ -30,15 +31,15 @@ function newRun({ parameters: choices, world, steps, bin_steps }) {
   sizes.trace_rows = 2 * sizes.actions * sizes.traces;
 
   const bytes = 2 ** 20 + 8 * sizes.bins + bytesOf("Parameters", sizes) + bytesOf("State", sizes)
-    + bytesOf("State", { ...sizes, values: 0 }) + 3 * bytesOf("EitherState", sizes) + bytesOf("EitherRules", sizes);
+    + bytesOf("State", { ...sizes, values: 0 }) + 3 * bytesOf(layout.state, sizes) + bytesOf(layout.rules, sizes);
   const machine = new Machine(bytes);
   const state = machine.tuple("State", sizes);
-  const worldState = machine.tuple("EitherState", sizes);
+  const worldState = machine.tuple(layout.state, sizes);
   const { position, velocity, ...shared } = worldState.scene;
   const { q, goal_range } = state.values;
   const made = {
     machine, sizes, world, steps, bin_steps, choices, state, world_state: worldState, scene: worldState.scene,
-    rules: machine.tuple("EitherRules", sizes, world.rules), step: 0, reward: 0,
+    rules: machine.tuple(layout.rules, sizes, world.rules), step: 0, reward: 0,
     parameters: machine.tuple("Parameters", sizes, choices),
     clock: machine.put("int64", [1]),
     rewards: machine.put("float32", [sizes.bins]),
@@ -63,6 +64,7 @@ const call = (name, more = {}) => run.machine.call(name, { ...run.sizes, ...more
 
 function begin(request) {
   run = null; // so that its memory can go before the next is made
+  ({ layout, compiled } = modules[request.world.module]);
   run = newRun(request);
   run.changes = [...(request.changes ?? [])];
   const { seed, run: index } = request;
@@ -122,8 +124,10 @@ function axesOf(m) {
     const inner = axes.boundary.slice(axes.first_boundary[first + axis], axes.first_boundary[first + axis + 1]);
     const borders = nameOf("Cut", cut) === "boundaries" ? [axes.low[first + axis], ...inner, axes.high[first + axis]]
       : Array.from({ length: last + 2 }, (_, index) => low + index / scale);
-    if (vector !== nodes.follows[n]) return [];
-    return [{ feature: nameOf("Feature", feature), along, stride, borders, high: axes.high[first + axis] }];
+    const isBearing = nameOf("Vector", vector) === "own"; // the only axis of its own that a module has
+    if (vector !== nodes.follows[n] && !isBearing) return [];
+    return [{ feature: isBearing ? "bearing" : nameOf("Feature", feature), along, stride, borders,
+      closed: nameOf("Cut", cut) === "closed", high: axes.high[first + axis] }];
   });
 }
 
@@ -239,24 +243,16 @@ function drag({ creep, x, y }) {
 }
 
 function frame(steps = 0) {
-  const { state, scene, world, world_state: { direction, speed }, second, player, rules, parameters, choices } = run;
-  const size = choices.size;
+  const { state, scene, world, second, player, parameters, choices, choices: { size } } = run;
   const body = ({ position: at, velocity: moving }) =>
     ({ x: at[0] / size, y: at[1] / size, vx: moving[0] / size, vy: moving[1] / size });
-  const things = Array.from(scene.kinds, (kind, i) => ({
-    x: scene.things[2 * i] / size, y: scene.things[2 * i + 1] / size, kind: world.kinds[kind],
-    vx: (speed[i] * direction[2 * i]) / size, vy: (speed[i] * direction[2 * i + 1]) / size, // 0 in the arena
-  }));
-  const radius = rules.in_arena ? rules.arena.radius : rules.waterworld.radius / size; // of things
   const agent = body(scene);
   const maps = mapNames(choices);
   const m = maps.indexOf(look.map);
   const [from, to] = [parameters.maps.first_track[m], parameters.maps.first_track[m + 1]].map(Number);
   return {
     type: "frame", step: run.step, ended: run.step >= run.steps, reward: run.reward, rewards: run.rewards.slice(),
-    maps, seen: seen(m), steps, agent, things, radius, body: rules.in_arena ? BODY_IN_ARENA : radius,
-    round: Boolean(rules.in_arena && rules.arena.round),
-    obstacles: rules.in_arena ? Array.from(rules.arena.obstacle) : [],
+    maps, seen: seen(m), steps, agent, things: thingsOf(run), round: false, obstacles: [], ...VIEWS[world.name](run),
     player: player && { ...body(second), reward: player.reward },
     active: learnsContacts(m) ? [] : Array.from(state.tracks.cell.subarray(from, to), Number),
     nodes: choices.names.map((name, n) => ({ name, ...desire(n) })),
@@ -274,7 +270,7 @@ function desire(node) {
   const total = { x: 0, y: 0, valence: 0 };
   run.parameters.desires.target.forEach((target, e) => {
     if (Number(target) !== node) return;
-    const [x, y] = asVector((action) => q[4 * e + action]);
+    const [x, y] = asVector(run, (action) => q[run.sizes.actions * e + action]);
     total.x += Math.sign(valence[e]) * x;
     total.y += Math.sign(valence[e]) * y;
     total.valence += valence[e];
@@ -282,36 +278,41 @@ function desire(node) {
   return total;
 }
 
-/** Values of actions as a vector in the arena. */
-function asVector(valueOf) {
-  const { N, S, E, W } = layout.enumerations.Action;
-  return [valueOf(E) - valueOf(W), valueOf(S) - valueOf(N)];
-}
-
 function vectors(count, valueOf) {
   const found = new Float32Array(2 * count);
-  for (let place = 0; place < count; place += 1) found.set(asVector((action) => valueOf(place, action)), 2 * place);
+  for (let place = 0; place < count; place += 1) {
+    found.set(asVector(run, (action) => valueOf(place, action)), 2 * place);
+  }
   return found;
 }
 
 function field(side) {
-  const tiles = side * side;
-  run.values = run.values?.length === 4 * tiles ? run.values : run.machine.put("float64", [tiles, 4]);
+  const [tiles, { actions }] = [side * side, run.sizes];
+  run.values = run.values?.length === actions * tiles ? run.values : run.machine.put("float64", [tiles, actions]);
   call("survey", { side, tiles });
-  return vectors(tiles, (tile, action) => run.values[4 * tile + action]);
+  return vectors(tiles, (tile, action) => run.values[actions * tile + action]);
 }
 
 /** What the agent knows of the way to one goal, in every cell of a map. */
 function valueFunction(map, goal) {
   const { first_value, cells: counts } = run.parameters.maps;
-  const [first, cells] = [Number(first_value[map]), Number(counts[map])];
-  return vectors(cells, (cell, action) => run.state.values.q[first + (4 * cell + action) * cells + goal]);
+  const [first, cells, { actions }] = [Number(first_value[map]), Number(counts[map]), run.sizes];
+  return vectors(cells, (cell, action) => run.state.values.q[first + (actions * cell + action) * cells + goal]);
+}
+
+/** The cell of the map that is looked at for a place. What an axis of its own knows of it is that of a thing there. */
+function cellSeenAt(at) {
+  const { scene: { things }, choices: { size } } = run;
+  const before = things.slice(0, 2);
+  things.set([at.x * size, at.y * size].slice(0, things.length));
+  const cell = call("cell_seen_at", { m: mapNames(run.choices).indexOf(look.map), ...at });
+  things.set(before);
+  return cell;
 }
 
 const REQUESTS = {
   async load(request) {
-    layout = request.layout;
-    compiled = await WebAssembly.compile(request.wasm);
+    modules[request.name] = { layout: request.layout, compiled: await WebAssembly.compile(request.wasm) };
     return { type: "ready" };
   },
   begin,
@@ -322,7 +323,8 @@ const REQUESTS = {
   /** `at`: a place, whose cell becomes the goal, or is no longer if it was. */
   look({ type, at, ...choice }) {
     lookAt(choice);
-    const cell = at && call("cell_seen_at", { m: mapNames(run.choices).indexOf(look.map), ...at });
+    const cell = at && cellSeenAt(at);
+    if (look.goal >= Number(run.parameters.maps.cells[mapNames(run.choices).indexOf(look.map)])) look.goal = null;
     if (at && !learnsContacts(mapNames(run.choices).indexOf(look.map))) look.goal = cell === look.goal ? null : cell;
     return frame();
   },

@@ -5,8 +5,10 @@ its *presets* (agents as parameters, with the band of the runs that a page has o
 controls.
 
 - `settings.js` makes parameters of a preset and of the traits, `engine.js` runs them in a worker, in the memory of
-  `machine.js`, and nothing else decides a run: run k of a seed is the run that `neorl.Run` makes of it.
-- `drawing.js` draws; `page.js`, `controls.js`, `hands.js` and `widget.js` are what the reader sees and turns.
+  `machine.js`, and nothing else decides a run: run k of a seed is the run that `neorl.Run` makes of it. `views.js` says
+  what a frame shows of each world.
+- `drawing.js`, `movers.js` and `curve.js` draw; `page.js`, `legend.js`, `controls.js`, `hands.js` and `widget.js` are
+  what the reader sees and turns; `starters.js` has things to try, and `address.js` the state in the page's address.
 """
 
 import math
@@ -16,11 +18,11 @@ from pathlib import Path
 import numpy as np
 
 from neorl import checks
-from neorl.agents import beyond, papers
+from neorl.agents import beyond, papers, spaces
 from neorl.agents.agent import LEARNED, Agent, Desire, Learning, Node, Policy
 from neorl.agents.compile import chosen, constants_of
 from neorl.browser import wasm
-from neorl.browser.worlds import rules_of
+from neorl.browser.worlds import IN_THE_PLANE, NAMES, rules_of, sizes_of
 from neorl.core.kernel import is_tuple
 from neorl.core.modality import MODALITIES, PLACE_CELL, axis_parameters
 from neorl.evidence.priors import TO_THE_LETTER as LETTER
@@ -30,6 +32,9 @@ from neorl.experiments.run import bin_steps
 from neorl.experiments.simulation import Result
 from neorl.extras import require
 from neorl.worlds.arena import Arena
+from neorl.worlds.arm import Arm
+from neorl.worlds.vessel import Vessel
+from neorl.worlds.water_maze import WaterMaze
 from neorl.worlds.waterworld import WaterWorld
 
 AnyWidget = require("anywidget", extra="wasm").AnyWidget
@@ -49,10 +54,16 @@ IN_THE_ARENA = {  # since the platform never moves, only exploration gets an age
         [Node("PC", PLACE_CELL, [5, 9, 13])], [Desire("platform", "PC", 1.0)],
         Learning(learning_rate=0.05, discount=0.8, memory=2.0, memory_value="discounted"), Policy(exploration=0.5))}
 BEYOND = {"Foveated cells, contacts alone": beyond.forager(valence_green=1.0, valence_red=-1.0)}
-AGENTS = CALIBRATED | TO_THE_LETTER | BEYOND | IN_THE_ARENA
+OTHER_SPACES = {  # agents, and the worlds that they live in
+    "Arm of two links": (spaces.reacher(2), Arm((0.5, 0.5), radius=0.15)),
+    "Vessel with a radar": (spaces.pilot(), Vessel()),
+    "Water maze, platform moved": (spaces.swimmer(), WaterMaze([(0.65, 0.35), (0.3, 0.3), (0.35, 0.7), (0.7, 0.6)]))}
+AGENTS = CALIBRATED | TO_THE_LETTER | BEYOND | IN_THE_ARENA | {name: agent for name, (agent, _) in OTHER_SPACES.items()}
 STEPS = 300_000  # of a run, where the page has no condition
+AVOIDED = ("red", "obstacle", "vessel")  # the kinds whose valence is a control
 CURVE_BINS = 50
-SCRIPTS = ("settings.js", "drawing.js", "page.js", "controls.js", "hands.js", "widget.js")
+SCRIPTS = ("settings.js", "drawing.js", "movers.js", "curve.js", "page.js", "legend.js", "controls.js", "hands.js",
+           "starters.js", "address.js", "widget.js")
 
 
 def _text(*names):
@@ -62,21 +73,21 @@ def _text(*names):
 class Explorer(AnyWidget):
     """A neoRL agent to watch, change and play against; in JupyterLab and, from its stored state, in a static page.
 
-    conditions: {name: `Result`}, the conditions of the page, in WaterWorld or the arena, whose bands and runs it shows.
-        Each of their agents has the same resolutions in every node, one valence of red and one of recursion, and no
-        kernels of the user's own.
+    conditions: {name: `Result`}, the conditions of the page, in worlds of the package, whose bands and runs it shows.
+        Each of their agents has one valence of what is red, or to be avoided, and one of recursion, and no kernels of
+        the user's own.
     preset: the name of a condition or of one of `neorl.browser.explorer.AGENTS`; by default the first condition or
         agent.
     traits: any of those below, to begin with.
 
     Traits: resolutions (1 … 90 each), modality (the name of one, with the ranges of the preset if it is that of the
     preset; "" if the preset has more than one node or a modality of its own), recursion (None if there is none),
-    valence_red, gains (one a node), learning_rate and discount (0 … 1), memory (≥ 0, in the unit of the preset; 0 if it
-    has a trace or learns at every step), n_creeps (1 … 20; None in the arena), seed (below 2³²), run, speed (times real
-    time, 0 for as fast as it goes), playing.
+    valence_red (of obstacles or vessels, where these are to be avoided), gains (one a node), learning_rate and discount
+    (0 … 1), memory (≥ 0, in the unit of the preset; 0 if it has a trace or learns at every step), n_creeps (1 … 20;
+    None outside WaterWorld), seed (below 2³²), run, speed (times real time, 0 for as fast as it goes), playing.
     Choosing a preset sets those that it determines. An agent that is no condition lives in the tank of the first
     condition that has one, or else in one of 3 creeps; one to the letter at the letter's steps per second, and with its
-    contacts; those in the arena in `neorl.Arena()`.
+    contacts; those in the arena in `neorl.Arena()`, and those of other spaces in theirs.
     seconds and score follow the run, about once per second.
 
     Raises ValueError for a condition that cannot be shown, TraitError for a bad trait, RuntimeError if the WebAssembly
@@ -85,8 +96,8 @@ class Explorer(AnyWidget):
 
     _esm = _text(*SCRIPTS)
     _css = _text("widget.css")
-    _engine = traitlets.Unicode(_text("machine.js", "engine.js")).tag(sync=True)
-    _wasm = traitlets.Bytes().tag(sync=True)
+    _engine = traitlets.Unicode(_text("machine.js", "views.js", "engine.js")).tag(sync=True)
+    _wasm = traitlets.Dict().tag(sync=True)
     _layout = traitlets.Dict().tag(sync=True)
     _presets = traitlets.Dict().tag(sync=True)
     _modalities = traitlets.Dict().tag(sync=True)
@@ -117,7 +128,7 @@ class Explorer(AnyWidget):
         tank = tanks[0] if tanks else WaterWorld()
         as_printed = replace(tank, fps=LETTER.fps, contact=LETTER.contact)
         agents = {name: (agent, as_printed if name in TO_THE_LETTER else Arena() if name in IN_THE_ARENA else tank)
-                  for name, agent in AGENTS.items()}
+                  for name, agent in AGENTS.items()} | OTHER_SPACES
         own = {name: (result.agent, result.world) for name, result in conditions.items()}
         self._lives = own | agents | own  # a condition stands before an agent, and for one of its name
         presets = {name: _preset(name, agent, world, conditions.get(name)) | {"place": place}
@@ -126,18 +137,21 @@ class Explorer(AnyWidget):
         for name in traits:
             checks.one_of("trait", name, tuple(each for each in self.traits(sync=True) if not each.startswith("_")))
         begin = {"preset": preset, "seed": first.seed if first else 0, **_settings(presets[preset]), **traits}
-        super().__init__(_wasm=wasm.module(), _layout=wasm.layout(), _presets=presets, _modalities=_modalities(),
-                         **begin)
+        super().__init__(_wasm={name: wasm.module(name) for name in wasm.MODULES},
+                         _layout={name: wasm.layout(name) for name in wasm.MODULES}, _presets=presets,
+                         _modalities=_modalities(), **begin)
 
     @property
     def agent(self):
         """The `Agent` that the traits describe, without elements dropped in the page."""
         preset, _ = self._lives[self.preset]
         named = {each.name: each for each in MODALITIES}
-        nodes = [replace(node, resolutions=self.resolutions, gain=gain) for node, gain in zip(preset.nodes, self.gains)]
+        own = self.resolutions == self._presets[self.preset]["resolutions"]
+        nodes = [replace(node, resolutions=node.resolutions if own else self.resolutions, gain=gain)
+                 for node, gain in zip(preset.nodes, self.gains)]
         if self.modality not in ("", self._presets[self.preset]["modality"]) and len(nodes) == 1:
             nodes = [replace(nodes[0], modality=named[self.modality])]
-        desires = [replace(each, valence=self.valence_red) if each.source == "red" else
+        desires = [replace(each, valence=self.valence_red) if each.source in AVOIDED else
                    replace(each, valence=self.recursion) if each.source == each.target else each
                    for each in preset.desires]
         learning = replace(preset.learning, learning_rate=self.learning_rate, discount=self.discount,
@@ -146,7 +160,7 @@ class Explorer(AnyWidget):
 
     @property
     def world(self):
-        """The `WaterWorld` or `Arena` that it lives in."""
+        """The world that it lives in."""
         _, world = self._lives[self.preset]
         return replace(world, n_creeps=self.n_creeps) if isinstance(world, WaterWorld) else world
 
@@ -161,7 +175,7 @@ class Explorer(AnyWidget):
                 return checks.one_of(name, value, ("",) if own else ("", *self._modalities))
             agent, world = self._lives[self.preset]
             if name == "n_creeps" and value is not None and not isinstance(world, WaterWorld):
-                raise ValueError(f"n_creeps is {value!r}, allowed in the arena is None")
+                raise ValueError(f"n_creeps is {value!r}, allowed outside WaterWorld is None")
             nodes = len(agent.nodes)
             if name == "gains" and len(value) != nodes:
                 raise ValueError(f"gains is {value!r}, allowed is one for each of the {nodes} nodes")
@@ -185,18 +199,17 @@ class Explorer(AnyWidget):
 def _check_condition(name, result):
     checks.instance(f"condition {name}", result, Result)
     agent = result.agent
-    for what, values in (("resolutions", {node.resolutions for node in agent.nodes}),
-                         ("valences of red", {each.valence for each in agent.desires if each.source == "red"}),
+    for what, values in (("valences of red", {each.valence for each in agent.desires if each.source in AVOIDED}),
                          ("recursions", {each.valence for each in agent.desires if each.source == each.target})):
         if len(values) > 1:
             raise ValueError(f"condition {name} has different {what}, {values}, allowed are the same throughout")
     if any(each.valence == LEARNED for each in agent.desires):
         raise ValueError(f"condition {name} has valences that are learned, allowed in the Explorer are numbers")
     checks.integer(f"seed of condition {name}", result.seed, at_least=0, at_most=2**32 - 1)
-    if not isinstance(result.world, WaterWorld | Arena):
-        raise ValueError(f"condition {name} is in {result.world!r}, allowed in the Explorer are WaterWorld and Arena")
+    if not isinstance(result.world, (*IN_THE_PLANE, Vessel)):
+        raise ValueError(f"condition {name} is in {result.world!r}, allowed in the Explorer are the package's worlds")
     for each in (agent, *(later for _, later in result.changes)):
-        if constants_of(each, result.world) != wasm.CONSTANTS:
+        if constants_of(each, result.world) != wasm.MODULES[_module_of(result.world)].constants:
             raise ValueError(f"condition {name} has kernels of its own, for an axis, the credit or the choice of an "
                              "action, allowed in the Explorer are those compiled for the page, with the greedy choice")
 
@@ -209,7 +222,7 @@ def _settings(preset):
 
 def _preset(name, agent, world, result):
     """A preset as the page takes it: its settings, the chosen parameters, and what its runs brought."""
-    red = [e for e, desire in enumerate(agent.desires) if desire.source == "red"]
+    red = [e for e, desire in enumerate(agent.desires) if desire.source in AVOIDED]
     recurring = [e for e, desire in enumerate(agent.desires) if desire.source == desire.target]
     names = [node.name for node in agent.nodes]
     steps = result.steps if result else STEPS
@@ -219,7 +232,7 @@ def _preset(name, agent, world, result):
         "label": name, "nodes": names,
         "group": ("On this page" if result else "To the letter" if name in TO_THE_LETTER else
                   "In the arena" if name in IN_THE_ARENA else "Beyond the thesis" if name in BEYOND else
-                  "Calibrated"),
+                  "In other spaces" if name in OTHER_SPACES else "Calibrated"),
         "resolutions": list(agent.nodes[0].resolutions),
         "modality": _named(modality) if len(names) == 1 else "",
         "gains": [node.gain for node in agent.nodes], "learning_rate": learning.learning_rate,
@@ -228,7 +241,7 @@ def _preset(name, agent, world, result):
         "valence_red": agent.desires[red[0]].valence if red else 0.0,
         "recursion": agent.desires[recurring[0]].valence if recurring else None,
         "n_creeps": world.n_creeps if isinstance(world, WaterWorld) else None, "world": _world(world),
-        "steps": steps, "red": red, "recurring": recurring,
+        "steps": steps, "red": red, "avoided": agent.desires[red[0]].source if red else "", "recurring": recurring,
         "seed": result.seed if result else 0, "runs": result.runs if result else 0,
         "band": _band(result) if result else None, "totals": result.totals.tolist() if result else [],
         "changes": [{"step": step, "parameters": _parameters(later, world)}
@@ -237,11 +250,18 @@ def _preset(name, agent, world, result):
 
 
 def _world(world):
-    """A world as the page takes it; of the arena's rules in WaterWorld, where there are none, only the numbers."""
-    rules = _as_json(rules_of(world))
-    if not rules["in_arena"]:
-        rules["arena"] = {name: value for name, value in rules["arena"].items() if not isinstance(value, list)}
-    return {"fps": world.fps, "kinds": list(world.kinds), "things": world.things, "rules": rules}
+    """A world as the page takes it; of the rules that do not hold in it only the numbers."""
+    rules, module = _as_json(rules_of(world)), _module_of(world)
+    name = NAMES[rules["world"]] if module == "plane" else "vessel"
+    for other in NAMES if module == "plane" else ():
+        if other != name:
+            rules[other] = {key: value for key, value in rules[other].items() if not isinstance(value, list)}
+    return {"name": name, "module": module, "fps": world.fps, "kinds": list(world.kinds), "things": world.things,
+            "sizes": {key: sizes_of(world)[key] for key in ("obstacles", "places", "trials")}, "rules": rules}
+
+
+def _module_of(world):
+    return "plane" if isinstance(world, IN_THE_PLANE) else "helm"
 
 
 def _named(modality):

@@ -35,8 +35,17 @@ class Hands extends Controls {
     this.life.held = { index: indexOf(thing), isCreep: thing.matches(".grip"), clientX, clientY };
   }
 
+  /** Time slows while the pointer reaches for a creep, or has hold of one: it would be gone otherwise. */
+  isReaching() {
+    const { held, pointer, frame, game } = this.life;
+    if (held?.isCreep) return true;
+    if (!pointer || game || !this.hasCreeps() || performance.now() - pointer.at > REACHING) return false;
+    return frame.things.some(({ x, y }) => Math.hypot(x - pointer.x, y - pointer.y) < frame.radius + REACH);
+  }
+
   pull(event) {
     const { life, life: { held } } = this;
+    if (event.pointerType === "mouse") life.pointer = { ...this.placeOf(event), at: performance.now() };
     life.slid ||= held && Math.hypot(event.clientX - held.clientX, event.clientY - held.clientY) > 3;
     if (!held || !life.slid) return;
     if (!held.isCreep) return this.changeElement(held.index, this.placeOf(event));
@@ -55,6 +64,7 @@ class Hands extends Controls {
     const { life, life: { frame, tapped: before } } = this;
     if (life.slid || life.game || !frame || !event.target.matches("canvas, .grip")) return;
     const place = this.placeOf(event);
+    if (this.dropping) return this.dropElement(place);
     life.tapped = { ...place, at: event.timeStamp, goal: frame.seen.goal };
     this.select(null);
     this.arena.focus({ preventScroll: true });
@@ -62,7 +72,7 @@ class Hands extends Controls {
     if (!(late < DOUBLE_TAP && far < NEARBY)) return this.look({ at: place });
     life.tapped = null;
     this.dropElement(place);
-    await this.look({ goal: before.goal });
+    return this.look({ goal: before.goal });
   }
 
   pressed(event) {
@@ -73,6 +83,7 @@ class Hands extends Controls {
     if (key === "Escape" && game) return this.leaveGame();
     if (!onMark && !onTank || (action === undefined && !["Enter", " ", "Escape", "Delete"].includes(key))) return null;
     if (onMark && ["Enter", " "].includes(key)) return null;
+    if (key === "Escape" && this.dropping) this.dropping = false, this.refresh();
     event.preventDefault();
     if (key === "Escape") return this.arena.focus(), this.select(null), life.cursor = null, this.look({ goal: null });
     if (onMark && key === "Delete") return this.deleteElement();
@@ -80,10 +91,19 @@ class Hands extends Controls {
     if (game) return this.hold(action);
     life.cursor = shifted(life.cursor ?? { x: 0.5, y: 0.5 }, dx ?? 0, dy ?? 0, 0.025);
     this.wake();
+    if (action === undefined && this.dropping) return this.dropElement(life.cursor);
     return action === undefined ? this.look({ at: life.cursor }) : null;
   }
 
+  /** The next click says where; by keyboard it is the middle, from where the arrow keys move it. */
+  beginDrop(byKeyboard) {
+    if (byKeyboard) return this.dropElement({ x: 0.5, y: 0.5 });
+    this.dropping = !this.dropping;
+    return this.refresh();
+  }
+
   dropElement(place) {
+    this.dropping = false;
     if (this.elements.length >= MOST_ELEMENTS || !this.life.frame) return;
     this.elements.push({ ...place, valence: 1 });
     this.placeHandles();
@@ -103,6 +123,12 @@ class Hands extends Controls {
     this.select(null);
     this.action("drop").focus();
     this.note("elements");
+  }
+
+  dropElements() {
+    Object.assign(this, { elements: [], dropping: false });
+    this.life.held = null;
+    this.select(null);
   }
 
   select(index) {

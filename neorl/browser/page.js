@@ -6,12 +6,15 @@ const [MOST_ELEMENTS, MOST_SEED, NO_ACTION] = [5, 2 ** 32 - 1, 4];
 const [DOUBLE_TAP, NEARBY] = [350, 0.06]; // milliseconds and board widths between the two taps
 const NO_MEMORY = -1; // the place on its slider, which has logarithms to the base of ten
 const THRUST_EVERY = 90; // milliseconds; a held key pushes one step at a time, or nobody could steer
-// The action of the game, and the direction in the tank
+const [REACH, SLOW, REACHING] = [0.05, 0.2, 1500]; // of a pointer at a creep: board widths, times real time, milliseconds
 const KEYS = { ArrowUp: [0, 0, -1], ArrowDown: [1, 0, 1], ArrowRight: [2, 1, 0], ArrowLeft: [3, -1, 0] };
 const NEW_RUN = ["preset", "memory", "resolutions", "modality", "n_creeps", "seed", "run"];
 const ALLOWED = "Resolutions are whole numbers from 1 to 90, such as 3, 5, 7.";
+const AVOIDED = { red: "red", obstacle: "obstacles", vessel: "vessels" };
+const WHOLE = ({ min, max }) => `Whole numbers from ${min} to ${max} are allowed here.`;
 const STOPPED = "The simulation has stopped. Reset begins it again.";
 const HINT = "Click a cell: how to get there. Double-click: drop an element of interest.";
+const WHERE = "Click where the element of interest is to be dropped.";
 
 const slide = (name, label, least, most, step) => `<label class="slide"><span>${label}</span><input type="range"
   name="${name}" min="${least}" max="${most}" step="${step}"><output></output></label>`;
@@ -22,30 +25,40 @@ const press = (action, label) => `<button type="button" data-action="${action}">
 const chip = (n) => `<button type="button" data-chip="${n}" aria-label="Resolution ${n}">${n}</button>`;
 const pad = (key) => `<button type="button" data-key="Arrow${key.slice(0, -2)}" aria-label="${key.slice(0, -2)}">
   ${key.at(-1)}</button>`;
-const PAGE = `<p role="alert" hidden></p>
+const pageOf = (id) => `<p role="alert" hidden></p>
+  <div class="starters buttons" role="group" aria-label="Things to try">${press("watch", "Watch it learn")}
+    ${press("red", "Make red desirable half-way")}${press("corner", "Show the way to a corner")}
+    ${press("game", "Play against it")}</div>
   <div class="bar">${choice("preset", "Agent")}<div class="buttons">${press("play", "Play")}${press("step", "Step")}
-    ${press("reset", "Reset")}</div>${slide("speed", "Speed", 0, SPEEDS.length - 1, 1)}</div>
+    ${press("new-run", "New run")}${press("reset", "Reset")}</div>
+    ${slide("speed", "Speed", 0, SPEEDS.length - 1, 1)}</div>
   <div class="columns"><div class="board">
-    <div class="arena"><canvas tabindex="0" role="application" aria-label="The world. Arrow keys move a cursor, Enter
-      chooses the cell under it, Escape lets go of it."></canvas><div class="grips"></div><div class="marks"></div>
+    <div class="arena"><canvas tabindex="0" role="application" aria-describedby="${id}" aria-label="The world. Arrow
+      keys move a cursor, Enter chooses the cell under it, Escape lets go of it."></canvas><div class="grips"></div>
+      <div class="marks"></div>
       <div class="pad" hidden>${["Up ↑", "Left ←", "Down ↓", "Right →"].map(pad).join("")}</div></div>
-    <p class="said"></p>
+    <p class="unseen" id="${id}"></p><p class="said"></p>
     <div class="element" hidden>${slide("element-valence", "It is worth", -2, 2, 0.1)}
       ${press("delete", "Delete")}</div>
-    <div class="buttons">${press("drop", "Drop an element")}${press("game", "Play against it")}</div>
+    <div class="buttons">${press("drop", "Drop an element")}
+      ${press("link", "Copy link")}</div>
     <div class="shown">${choice("map", "Map shown")}<label class="tick"><input type="checkbox" name="field" checked>Show
       field</label></div></div>
-  <div class="side"><p class="title">Reward per second</p>
+  <ul class="key" aria-label="What the tank shows"></ul>
+  <div class="side"><div class="limb" hidden><p class="title">The arm</p>
+    <canvas role="img" aria-label="The arm in the plane, with the points that it seeks and avoids"></canvas></div>
+    <p class="title">Reward per second</p>
     <canvas role="img" aria-label="Reward per simulated second over the minutes of the run"></canvas>
-    <p class="legend"></p><p class="lived"></p>${choice("modality", "Modality")}
-    <label class="labelled"><span>Resolutions</span><input type="text" name="resolutions"></label>
+    <p class="legend"></p><p class="lived"></p><p class="pace"></p>${choice("modality", "Modality")}
+    <label class="labelled"><span>Resolutions</span><input type="text" name="resolutions" autocomplete="off"></label>
     <div class="chips" role="group" aria-label="Resolutions">${[2, 3, 5, 7, 11, 13].map(chip).join("")}</div>
     ${slide("recursion", "Recursion", -3, 1, 0.1)}${slide("valence_red", "Valence of red", -2, 2, 0.1)}</div></div>
   <div class="open">${number("open-run", "Open run")}${choice("open-preset", "of")}${press("open", "Open")}</div>
+  <p class="refused" role="status"></p>
   <details><summary>More</summary><div class="more">${slide("learning_rate", "Learning rate α", -3, 0, 0.01)}
     ${slide("horizon", "Horizon, cells", 0, 3, 0.01)}${slide("memory", "Memory", NO_MEMORY, 3, 0.01)}
     ${slide("n_creeps", "Creeps", 1, 12, 1)}<div class="gains"></div>
-    ${number("seed", "Seed")}${number("run", "Run")}</div></details><p class="unseen" aria-live="polite"></p>`;
+    ${number("seed", "Seed")}${number("run", "Run")}</div></details><p class="unseen told" aria-live="polite"></p>`;
 
 const power = (exponent) => Number((10 ** exponent).toPrecision(2)); // as the sliders of logarithms have it
 const shown = (value) => String(Number(Number(value).toPrecision(value >= 1000 ? 9 : 3))).replace("-", "−");
@@ -63,7 +76,7 @@ class Refusal extends Error {}
 /** All that the page holds of one run: another run has another of these, and nothing of it. */
 const newLife = (given = {}) => ({ frame: null, world: { fps: 1 }, length: { steps: 1, bin: 1 }, changed: false,
   advancing: false, owed: 0, counted: 0, rate: 0, cursor: null, game: null, held: null, slid: false, dragged: null,
-  tapped: null, ...given });
+  tapped: null, pointer: null, due: null, news: "", ...given });
 
 /** Makes or removes children until there are as many as wanted. */
 function grow(parent, count, markupOf) {

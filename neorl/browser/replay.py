@@ -22,7 +22,7 @@ class Replay(AnyWidget):
     Raises ValueError for anything else.
     """
 
-    _esm = _text("drawing.js", "replay.js")
+    _esm = _text("drawing.js", "movers.js", "replay.js")
     _css = _text("widget.css")
     _recordings = traitlets.List().tag(sync=True)
 

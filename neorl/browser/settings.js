@@ -17,13 +17,16 @@ function chosenParameters(layout, presets, modalities, settings, elements = []) 
   const preset = presets[settings.preset];
   const parameters = structuredClone(preset.parameters);
   const { names, maps, nodes, axes, desires, learning } = parameters;
-  maps.resolution = names.flatMap(() => settings.resolutions);
-  nodes.first_map = [0, ...names.map((_, n) => (n + 1) * settings.resolutions.length)];
+  if (settings.resolutions.join() !== preset.resolutions.join()) { // as those of each node may differ in the preset
+    maps.resolution = names.flatMap(() => settings.resolutions);
+    nodes.first_map = [0, ...names.map((_, n) => (n + 1) * settings.resolutions.length)];
+  }
   if (names.length === 1 && settings.modality !== preset.modality && !nodes.learns_contacts[0]) { // the preset's may have ranges of its own
     Object.assign(nodes, modalities[settings.modality].nodes);
     Object.assign(axes, modalities[settings.modality].axes);
     parameters.coordinates = Math.max(parameters.push[0].length, axes.what.length);
     desires.at = desires.at.map((at) => padded(at, parameters.coordinates));
+    if (settings.modality) rename(parameters, settings.modality); // so that its maps do not go by what they were
   }
   nodes.gain = [...settings.gains];
   learning.learning_rate = Math.fround(settings.learning_rate);
@@ -37,6 +40,15 @@ function chosenParameters(layout, presets, modalities, settings, elements = []) 
     nodes.gain.forEach((gain, n) => gain !== 0 && addElement(parameters, n, source, element));
   }
   return parameters;
+}
+
+/** Give the only node another name. */
+function rename({ names, edges }, name) {
+  for (const edge of edges) {
+    edge.target = name;
+    if (edge.source === names[0]) edge.source = name;
+  }
+  names[0] = name;
 }
 
 /** A point with so many coordinates, 0 where it has none. */

@@ -1,8 +1,9 @@
-"""The kernels as a WebAssembly module, so that a page without Python runs what the figures were made with.
+"""The kernels as WebAssembly modules, so that a page without Python runs what the figures were made with.
 
-Numba's LLVM code of each kernel is compiled for WebAssembly by llvmlite, all in one module, so that what several call
-is there once, and linked by LLD. Nothing is written twice: the arguments of an exported function follow from the
-annotations of its kernel, in their order,
+There is one for each of `MODULES`, since the numbers of actions and axes are constants of the code. Numba's LLVM code
+of its kernels is compiled for WebAssembly by llvmlite, all together, so that what several call is there once, and
+linked by LLD. Nothing is written twice: the arguments of an exported function follow from the annotations of its
+kernel, in their order,
 
 1. the sizes of its arrays, by name, as int32;
 2. each argument, a named tuple field by field, and so the tuples within it: a pointer for an array, int32 for integers
@@ -11,7 +12,7 @@ annotations of its kernel, in their order,
 before them a pointer to the result, and 0. Its own result is 0. Memory is the only import; the caller's part of it
 begins at the exported global __heap_base.
 
-The module ships with a wheel, beside a digest of all source that it comes from; elsewhere it is built once and kept on
+A module ships with a wheel, beside a digest of all source that it comes from; elsewhere it is built once and kept on
 disk. It is built in a process of its own, for a generic processor, so that it does not depend on where it was built,
 and in which numba leaves it to this module to optimise: what is rarely called is kept out of line, and small.
 """
@@ -24,6 +25,7 @@ import sys
 import tempfile
 import warnings
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -31,7 +33,8 @@ from neorl import files
 from neorl.agents.compile import constants_of
 from neorl.agents.individual import OF_A_MAP
 from neorl.agents.papers import brownian
-from neorl.browser.worlds import EITHER, EitherRules, EitherState
+from neorl.agents.spaces import pilot
+from neorl.browser.worlds import PLANE
 from neorl.core import contacts, life, parameters
 from neorl.core.choices import Action, Cut, Feature, Source, Vector
 from neorl.core.kernel import fields, is_tuple
@@ -41,41 +44,64 @@ from neorl.core.steps import steps_with
 from neorl.core.stream import start_stream
 from neorl.experiments.cache import source_digest
 from neorl.extras import require
-from neorl.worlds import arena, waterworld
+from neorl.worlds import arena, arm, vessel, water_maze, waterworld
 from neorl.worlds.probe import probes_with
 from neorl.worlds.rollout import rollout_in
+from neorl.worlds.vessel import Vessel
 from neorl.worlds.waterworld import WaterWorld, WaterWorldState
+from neorl.worlds.world import Dynamics
 
-CONSTANTS = constants_of(brownian(), WaterWorld())  # those of every agent without kernels of the user's own
-EXPORTS = (start_stream, derive, begin_values, EITHER.reset, steps_with(CONSTANTS).begin,
-           rollout_in(EITHER, CONSTANTS), *probes_with(CONSTANTS))
-TUPLES = (Parameters, State, EitherState, EitherRules, WaterWorldState)
+
+class Module(NamedTuple):
+    """What a module is made of: worlds, and what is compiled into the kernels of the agents that live in them."""
+
+    dynamics: Dynamics
+    constants: Any  # `neorl.core.constants.Constants`
+    exports: tuple
+    tuples: tuple
+
+
+def _module(dynamics, constants, with_second):
+    survey, cell_seen_at, step_second = probes_with(constants)
+    exports = (start_stream, derive, begin_values, dynamics.reset, steps_with(constants).begin,
+               rollout_in(dynamics, constants), survey, cell_seen_at)
+    tuples = Parameters, State, fields(dynamics.reset)["state"], fields(dynamics.reset)["rules"]
+    if with_second:
+        exports, tuples = (*exports, step_second), (*tuples, WaterWorldState)
+    return Module(dynamics, constants, exports, tuples)
+
+
+MODULES = {  # by the name by which a page asks for it
+    "plane": _module(PLANE, constants_of(brownian(), WaterWorld()), True),  # agents without kernels of the user's own
+    "helm": _module(Vessel().dynamics, constants_of(pilot(), Vessel()), False)}  # for the two actions of a rudder
 ENUMERATIONS = (Action, Cut, Feature, Source, Vector)
 SCALARS = {bool: "bool", int: "int64", float: "float64", np.float32: "float32"}
 HOT = "rollout"  # of the exports; the others are called once in a picture or less
-RARE = (life.begin, waterworld.reset, waterworld.draw_creep, arena.reset, parameters.cut_axes, parameters.find_inputs,
-        contacts.begin_contacts)
+RARE = (life.begin, waterworld.reset, waterworld.draw_creep, arena.reset, arm.reset, arm.draw_point, water_maze.reset,
+        vessel.reset, vessel.draw_thing, parameters.cut_axes, parameters.find_inputs, contacts.begin_contacts)
 APART = (contacts.observe_contacts, contacts.evaluate_contacts)  # fast, but once
-SHIPPED = Path(__file__).with_name("kernels.wasm")  # in a wheel
+SHIPPED = {name: Path(__file__).with_name(f"{name}.wasm") for name in MODULES}  # in a wheel
 TRIPLE = "wasm32-unknown-unknown"
 LAYOUT = "e-m:e-p:32:32-p10:8:8-p20:8:8-i64:64-i128:128-n32:64-S128-ni:1:10:20"
 LINK = ("--no-entry", "--allow-undefined", "--import-memory", "--gc-sections", "--strip-all", "-O2",
         "--export=__heap_base")
 
 
-def module():
-    """The WebAssembly module: bytes. Built if it is neither shipped nor on disk, which takes about a minute.
+def module(name="plane"):
+    """The WebAssembly module of a name of `MODULES`: bytes.
+
+    Built if it is neither shipped nor on disk, which takes about a minute.
 
     Raises ImportError if that needs a package that is not installed, RuntimeError if it fails.
     """
-    shipped = files.read_checked(SHIPPED) or b""
-    digest = _digest()
+    shipped = files.read_checked(SHIPPED[name]) or b""
+    digest = _digest(name)
     path = files.cache_folder() / "wasm" / digest.hex()
     if shipped[: len(digest)] == digest:
         return shipped[len(digest) :]
     content = files.read_checked(path)
     if content is None:
-        content = _built_in_a_process_of_its_own()
+        content = _built_in_a_process_of_its_own(name)
         try:
             files.write_checked(path, content)
         except OSError as error:
@@ -85,24 +111,28 @@ def module():
 
 
 def ship(package):
-    """Write the module into a folder that becomes the package of a wheel."""
-    target = Path(package) / SHIPPED.relative_to(Path(__file__).parents[1])
-    files.write_checked(target, _digest() + _built_in_a_process_of_its_own())
+    """Write the modules into a folder that becomes the package of a wheel."""
+    for name, path in SHIPPED.items():
+        target = Path(package) / path.relative_to(Path(__file__).parents[1])
+        files.write_checked(target, _digest(name) + _built_in_a_process_of_its_own(name))
 
 
-def layout():
-    """What a caller of the module has to know, ready for JSON; lists where the order matters.
+def layout(name="plane"):
+    """What a caller of a module has to know, ready for JSON; lists where the order matters.
 
     "tuples": for each named tuple its fields, [name, kind], a kind being [dtype, shape], the shape of a scalar None, or
     the name of a tuple within. "exports": for each function its "sizes", its "arguments", [name, kind], and the dtype
-    of its "result". "enumerations": {name: {member: number}}. "of_a_map": what an agent's state has of each map, by the
-    field of its parameters that says where it begins.
+    of its "result". "state" and "rules": the names of the tuples that the world has. "enumerations": {name: {member:
+    number}}. "of_a_map": what an agent's state has of each map, by the field of its parameters that says where it
+    begins.
     """
-    return {"tuples": {kind.__name__: [[name, _described(each)] for name, each in fields(kind).items()]
-                       for each in TUPLES for kind in _with_those_within(each)},
+    _, _, exports, tuples = MODULES[name]
+    return {"state": tuples[2].__name__, "rules": tuples[3].__name__,
+            "tuples": {kind.__name__: [[name, _described(each)] for name, each in fields(kind).items()]
+                       for each in tuples for kind in _with_those_within(each)},
             "exports": {each.__name__: {"sizes": _sizes(each), "arguments": [[name, _described(field)] for name, field
                                                                             in _arguments(each).items()],
-                                        "result": SCALARS.get(fields(each)["return"])} for each in EXPORTS},
+                                        "result": SCALARS.get(fields(each)["return"])} for each in exports},
             "enumerations": {kind.__name__: {each.name: int(each) for each in kind} for kind in ENUMERATIONS},
             "of_a_map": OF_A_MAP}
 
@@ -134,40 +164,41 @@ def _sizes(kernel):
     return sorted(names)
 
 
-def _digest():
+def _digest(name):
     """Of the sources alone: by the rules of `neorl.core.kernel`, no version of a compiler changes what they compute."""
-    here = [Path(__file__).with_name(name).read_bytes() for name in ("wasm.py", "worlds.py")]
-    return hashlib.sha256(b"".join([source_digest().encode(), *here])).digest()
+    here = [Path(__file__).with_name(file).read_bytes() for file in ("wasm.py", "worlds.py")]
+    return hashlib.sha256(b"".join([source_digest().encode(), name.encode(), *here])).digest()
 
 
-def _built_in_a_process_of_its_own():
+def _built_in_a_process_of_its_own(name):
     require("ziglang", extra="wasm")
-    environment = {name: value for name, value in os.environ.items() if name != "NUMBA_DISABLE_JIT"}
-    built = subprocess.run([sys.executable, "-m", "neorl.browser.wasm"], capture_output=True,
+    environment = {key: value for key, value in os.environ.items() if key != "NUMBA_DISABLE_JIT"}
+    built = subprocess.run([sys.executable, "-m", "neorl.browser.wasm", name], capture_output=True,
                            env=environment | {"NUMBA_CPU_NAME": "generic", "NUMBA_OPT": "0"})
     if built.returncode:
         raise RuntimeError(f"the WebAssembly module was not built:\n{built.stderr.decode()}")
     return built.stdout
 
 
-def _build():
-    """The module, for the processor that this process compiles for."""
+def _build(name):
+    """A module, for the processor that this process compiles for."""
     import llvmlite.binding as llvm
 
+    exports = MODULES[name].exports
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
     for kernel in RARE + APART:
         kernel.dispatcher.targetoptions.pop("forceinline", None)
     target = llvm.Target.from_triple(TRIPLE).create_target_machine(features="+simd128,+bulk-memory", opt=3)
-    together = _together([_code(kernel) for kernel in EXPORTS])
+    together = _together({kernel.__name__: _code(kernel) for kernel in exports})
     passes = llvm.create_pass_builder(target, llvm.create_pipeline_tuning_options(speed_level=3))
     passes.getModulePassManager().run(together, passes)
     with tempfile.TemporaryDirectory() as folder:
         compiled, linked = Path(folder) / "module.o", Path(folder) / "module.wasm"
         compiled.write_bytes(target.emit_object(together))
-        exports = [f"--export={kernel.__name__}" for kernel in EXPORTS]
+        wanted = [f"--export={kernel.__name__}" for kernel in exports]
         linker = [sys.executable, "-m", "ziglang", "wasm-ld"]
-        subprocess.run([*linker, *LINK, *exports, compiled, "-o", linked], check=True)
+        subprocess.run([*linker, *LINK, *wanted, compiled, "-o", linked], check=True)
         return linked.read_bytes()
 
 
@@ -175,10 +206,10 @@ def _together(codes):
     """One LLVM module of several, in which all but the exports can be changed and left out."""
     import llvmlite.binding as llvm
 
-    module = llvm.parse_assembly(codes[0])
-    for code in codes[1:]:
-        module.link_in(llvm.parse_assembly(code))
-    exports = {kernel.__name__ for kernel in EXPORTS}
+    exports = set(codes)
+    module, *others = map(llvm.parse_assembly, codes.values())
+    for other in others:
+        module.link_in(other)
     rare, apart = ([_mangled(kernel) for kernel in kernels] for kernels in (RARE, RARE + APART))
     for function in module.functions:
         is_rare = any(name in function.name for name in rare)
@@ -231,7 +262,8 @@ def _entry(kernel):
     names = [f"size_{name}" for name in sizes] + [name for name, *_ in flat]
     taken = ", ".join(_taken(*argument) for argument in arguments)
     source = f"def entry({', '.join(names)}):\n    return kernel({taken})"
-    tuples = {kind.__name__: kind for each in TUPLES for kind in _with_those_within(each)}
+    kinds = [each for module in MODULES.values() for each in module.tuples]
+    tuples = {kind.__name__: kind for each in kinds for kind in _with_those_within(each)}
     scope = {"kernel": kernel, "carray": carray, "np": np, **tuples}
     exec(source, scope)
     kinds = [types.int32] * len(sizes) + [_passed(dtype, shape) for _, dtype, shape in flat]
@@ -261,4 +293,4 @@ def _taken(name, field):
 
 
 if __name__ == "__main__":
-    sys.stdout.buffer.write(_build())
+    sys.stdout.buffer.write(_build(sys.argv[1]))

@@ -34,19 +34,23 @@ function startEngine(source, onFailure) {
   return { ask, stop };
 }
 
-class Explorer extends Hands {
+let explorers = 0; // so far, for names that are the only ones of their kind on the page
+
+class Explorer extends Address {
   constructor(model, place) {
     super();
     Object.assign(this, { model, presets: model.get("_presets"), modalities: model.get("_modalities"),
       life: newLife(), elements: [], selected: null, noted: new Set(), undo: [], drawn: 0, told: 0, failed: false });
     this.calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
-    this.root = Object.assign(document.createElement("div"), { className: "neorl-explorer", innerHTML: PAGE });
-    [this.arena, this.curve] = this.root.querySelectorAll("canvas");
+    this.root = Object.assign(document.createElement("div"), { className: "neorl-explorer",
+      innerHTML: pageOf(`neorl-tank-${explorers += 1}`) });
+    [this.arena, this.limb, this.curve] = this.root.querySelectorAll("canvas");
     this.fillMenus();
     place.append(this.root);
     this.listen();
     this.recolour();
     if (this.calm) this.write({ playing: false });
+    this.visit();
     this.refresh();
   }
 
@@ -61,7 +65,7 @@ class Explorer extends Hands {
       this.undo.push(() => observer.disconnect());
     };
     on(this.root, "input change", (event) => this.turned(event));
-    on(this.root, "click", ({ target }) => this.clicked(target.closest("button")?.dataset ?? {}));
+    on(this.root, "click", ({ target, detail }) => this.clicked(target.closest("button")?.dataset ?? {}, detail));
     on(this.root, "keydown", (event) => this.pressed(event));
     on(this.root, "focusin", ({ target }) => target.matches(".interest") && this.select(indexOf(target)));
     const tank = this.part(".arena");
@@ -69,7 +73,9 @@ class Explorer extends Hands {
     on(tank, "pointermove", (event) => this.pull(event));
     on(tank, "pointerup pointercancel keyup focusout", () => this.life.game && (this.life.game.held = NO_ACTION));
     on(tank, "lostpointercapture", () => { this.life.held = null; });
+    on(tank, "pointerleave", () => { this.life.pointer = null; });
     on(tank, "click", (event) => this.tap(event));
+    on(window, "hashchange", () => this.visit());
     on(document, "visibilitychange", () => this.refresh());
     on(window, "resize", () => this.wake()); // also when the page gets to a screen with other dots
     on(matchMedia("(prefers-color-scheme: dark)"), "change", () => this.recolour());
@@ -120,7 +126,8 @@ class Explorer extends Hands {
       if (problem || !this.near) break;
       const names = [...noted];
       noted.clear();
-      this.condition = conditionOf(model.get("_layout"), presets, modalities, this.settings());
+      if (names.some((name) => name !== "near")) this.forgive();
+      this.condition = conditionOf(model.get("_layout").plane, presets, modalities, this.settings());
       this.showControls();
       if (!this.engine || names.some((name) => NEW_RUN.includes(name))) await this.begin();
       else if (names.some((name) => name === "elements" || GOES_ON.includes(name))) await this.change();
@@ -134,7 +141,7 @@ class Explorer extends Hands {
   }
 
   parameters() {
-    const layout = this.model.get("_layout");
+    const layout = this.model.get("_layout").plane; // its enumerations are those of all
     return chosenParameters(layout, this.presets, this.modalities, this.settings(), this.elements);
   }
 
@@ -142,19 +149,28 @@ class Explorer extends Hands {
     const { presets, model } = this;
     const [{ steps, band }, seed, run] = [presets[model.get("preset")], model.get("seed"), model.get("run")];
     const [world, bin] = [worldOf(presets, this.settings()), band?.steps_per_bin ?? Math.ceil(steps / 50)];
-    this.life = newLife({ world, length: { steps, bin }, changed: this.elements.length > 0 });
+    this.life = newLife({ world, length: { steps, bin }, changed: this.elements.length > 0, due: this.due });
+    this.due = null;
     this.refresh();
-    if (!this.engine) await this.load();
+    if (!this.engine) this.startEngine();
+    if (!this.loaded.has(world.module)) await this.load(world.module);
     const changes = this.condition === model.get("preset") ? presets[this.condition].changes : [];
     this.take(await this.ask({ type: "begin", parameters: this.parameters(), world, seed, run, steps, bin_steps: bin,
       changes, map: this.control("map").value, field: this.fieldTiles() }));
+    await this.meet();
   }
 
-  async load() {
-    const { buffer, byteOffset, byteLength } = this.model.get("_wasm");
+  startEngine() {
     this.engine = startEngine(this.model.get("_engine"), (message) => this.fail(message));
+    this.loaded = new Set();
+  }
+
+  /** A module of kernels, when its first run begins. */
+  async load(name) {
+    const { buffer, byteOffset, byteLength } = this.model.get("_wasm")[name];
     const wasm = buffer.slice(byteOffset, byteOffset + byteLength);
-    await this.ask({ type: "load", wasm, layout: this.model.get("_layout") }, [wasm]);
+    this.loaded.add(name);
+    await this.ask({ type: "load", name, wasm, layout: this.model.get("_layout")[name] }, [wasm]);
   }
 
   /** What the engine answers, unless the run for which it was asked has gone: then nothing ever follows. */
@@ -190,15 +206,19 @@ class Explorer extends Hands {
   async advance(steps, budget) {
     const { life } = this;
     life.advancing = true;
-    const frame = await this.ask({ type: "advance", steps, budget });
+    const until = life.due ? Math.max(0, life.due.step - life.frame.step) : steps;
+    const frame = await this.ask({ type: "advance", steps: Math.min(steps, until), budget });
     life.advancing = false;
     this.take(frame);
     this.count(frame.steps);
+    await this.meet();
     if (this.running() && this.speed() === 0) this.safely(() => this.advance(STEPS_WITHOUT_END, FREE_BUDGET))();
   }
 
   speed() {
-    return this.life.game ? 1 : this.model.get("speed");
+    const { game, due, frame } = this.life;
+    if (due?.hurries) return 0;
+    return game ? 1 : frame && this.isReaching() ? SLOW : this.model.get("speed");
   }
 
   take(frame) {
@@ -213,9 +233,9 @@ class Explorer extends Hands {
   /** The menu of maps, which change with the agent, as it does on the way in some conditions. */
   showMaps({ maps, seen }) {
     const menu = this.control("map");
-    if (maps.join() === Array.from(menu.options, (option) => option.value).join()) return;
-    menu.replaceChildren(...maps.map((name) => new Option(name, name)));
-    menu.value = seen.name;
+    const isSame = maps.join() === Array.from(menu.options, (option) => option.value).join();
+    if (!isSame) menu.replaceChildren(...maps.map((name) => new Option(name, name)));
+    if (menu.value !== seen.name) menu.value = seen.name;
   }
 
   count(steps) {
@@ -236,7 +256,8 @@ class Explorer extends Hands {
     model.save_changes();
     if (this.running() && performance.now() - this.told < 5000) return;
     this.told = performance.now();
-    this.part(".unseen").textContent = [this.livedText(), ...this.sentences()].join(". ");
+    this.part(".unseen").textContent = describe(frame);
+    this.part(".told").textContent = [this.livedText(), ...this.sentences()].join(". ");
   }
 
   wake() {
@@ -326,7 +347,7 @@ function problemOf(presets, modalities, model) {
 function damageOf(model) {
   const isFull = (value) => value !== null && typeof value === "object" && Object.keys(value).length > 0;
   const sound = { _presets: isFull, _modalities: isFull, _layout: isFull, _engine: (text) => Boolean(text),
-    _wasm: (bytes) => ArrayBuffer.isView(bytes) && bytes.byteLength > 0 };
+    _wasm: (all) => isFull(all) && Object.values(all).every((each) => ArrayBuffer.isView(each) && each.byteLength) };
   const missing = Object.keys(sound).filter((name) => !sound[name](model.get(name)));
   return missing.length ? `The Explorer cannot start: this page does not hold its ${missing.join(", ")}.` : "";
 }

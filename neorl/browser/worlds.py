@@ -1,62 +1,100 @@
-"""The worlds of the Explorer as one, so that its module holds the life of an agent once: WaterWorld or the arena.
+"""The worlds of the Explorer in the plane as one, so that its module holds the life of an agent there once.
 
-The state has room for what either needs, and the rules say which of the two it is.
+The state has room for what any of them needs, and the rules say which of them it is.
 """
 
 from typing import NamedTuple
 
-from neorl.core.kernel import array, kernel
+from neorl.core.kernel import array, fields, is_tuple, kernel, new_tuple
 from neorl.core.scene import Scene
-from neorl.worlds import arena, waterworld
+from neorl.worlds import arena, arm, water_maze, waterworld
 from neorl.worlds.arena import Arena, ArenaRules, ArenaState
+from neorl.worlds.arm import Arm, ArmRules, ArmState
+from neorl.worlds.water_maze import WaterMaze, WaterMazeRules, WaterMazeState
 from neorl.worlds.waterworld import WaterWorld, WaterWorldState
 from neorl.worlds.world import Dynamics
 
+IN_THE_PLANE = (WaterWorld, Arena, Arm, WaterMaze)  # in the order of their numbers
+WATERWORLD, ARENA, ARM, WATER_MAZE = range(len(IN_THE_PLANE))
+NAMES = ("waterworld", "arena", "arm", "water_maze")
 
-class EitherState(NamedTuple):
-    """The fields of `WaterWorldState` and of `ArenaState`."""
+
+class PlaneState(NamedTuple):
+    """The fields of the states of all these worlds."""
 
     scene: Scene
     direction: array("float64", "things", 2)
     speed: array("float64", "things")
     jitter: array("float64", "things")
     inside: array("bool", "things")
+    hand: array("float64", 2)
+    point: array("float64", "things", 2)
+    platform: array("float64", 2)
+    trial: array("int64", 1)
     clock: array("int64", 1)
+    latency: array("float64", "trials")
     stream: array("uint64", 4)
 
 
-class EitherRules(NamedTuple):
-    """The rules of both worlds, and which of them holds."""
+class PlaneRules(NamedTuple):
+    """The rules of all these worlds, and which of them holds."""
 
-    in_arena: bool
+    world: int  # its number
     waterworld: waterworld.Rules
     arena: ArenaRules
+    arm: ArmRules
+    water_maze: WaterMazeRules
 
 
 def rules_of(world):
-    """The `EitherRules` of a `WaterWorld` or an `Arena`; those of the other mean nothing."""
-    if isinstance(world, Arena):
-        return EitherRules(True, WaterWorld().rules, world.rules)
-    return EitherRules(False, world.rules, Arena(places=[("", 0.0, 0.0)] * world.things).rules)
+    """The `PlaneRules` of a world in the plane, where those of the others are all 0; of another world its own rules."""
+    if not isinstance(world, IN_THE_PLANE):
+        return world.rules
+    number = IN_THE_PLANE.index(type(world))
+    sizes = sizes_of(world)
+    rules = {name: world.rules if each == number else _blank(fields(PlaneRules)[name], sizes)
+             for each, name in enumerate(NAMES)}
+    return PlaneRules(number, **rules)
+
+
+def sizes_of(world):
+    """The sizes of arrays that such a world may have and others do not, by name."""
+    return {"obstacles": 0, "places": 0, "trials": 0} | world.sizes
+
+
+def _blank(kind, sizes):
+    given = {name: field(0) for name, field in fields(kind).items() if isinstance(field, type) and not is_tuple(field)}
+    return new_tuple(kind, sizes, given)
 
 
 @kernel
-def reset(state: EitherState, rules: EitherRules) -> None:
+def reset(state: PlaneState, rules: PlaneRules) -> None:
     """Start an episode."""
-    if rules.in_arena:
-        arena.reset(ArenaState(state.scene, state.inside, state.clock, state.stream), rules.arena)
+    scene, stream = state.scene, state.stream
+    if rules.world == ARENA:
+        arena.reset(ArenaState(scene, state.inside, state.clock, stream), rules.arena)
+    elif rules.world == ARM:
+        arm.reset(ArmState(scene, state.hand, state.point, stream), rules.arm)
+    elif rules.world == WATER_MAZE:
+        water_maze.reset(WaterMazeState(scene, state.platform, state.trial, state.clock, state.latency, stream),
+                         rules.water_maze)
     else:
-        waterworld.reset(WaterWorldState(state.scene, state.direction, state.speed, state.jitter, state.stream),
-                         rules.waterworld)
+        waterworld.reset(WaterWorldState(scene, state.direction, state.speed, state.jitter, stream), rules.waterworld)
 
 
 @kernel
-def step(state: EitherState, rules: EitherRules, action: int):
+def step(state: PlaneState, rules: PlaneRules, action: int):
     """One step. Returns (reward, done)."""
-    if rules.in_arena:
-        return arena.step(ArenaState(state.scene, state.inside, state.clock, state.stream), rules.arena, action)
-    return waterworld.step(WaterWorldState(state.scene, state.direction, state.speed, state.jitter, state.stream),
+    scene, stream = state.scene, state.stream
+    if rules.world == ARENA:
+        return arena.step(ArenaState(scene, state.inside, state.clock, stream), rules.arena, action)
+    if rules.world == ARM:
+        return arm.step(ArmState(scene, state.hand, state.point, stream), rules.arm, action)
+    if rules.world == WATER_MAZE:
+        return water_maze.step(WaterMazeState(scene, state.platform, state.trial, state.clock, state.latency, stream),
+                               rules.water_maze, action)
+    return waterworld.step(WaterWorldState(scene, state.direction, state.speed, state.jitter, stream),
                            rules.waterworld, action)
 
 
-EITHER = Dynamics(reset, step)
+PLANE = Dynamics(reset, step)

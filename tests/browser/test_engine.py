@@ -10,7 +10,7 @@ from golden import learning
 
 from neorl import Arena, Explorer, Learning, NresMap, Run, WaterWorld, network_d, place_cells, simulate
 from neorl.browser import wasm
-from neorl.browser.explorer import _parameters, _world
+from neorl.browser.explorer import OTHER_SPACES, _parameters, _world
 from neorl.core.horde import as_vectors
 from neorl.core.kernel import execute, mapped
 from neorl.worlds.probe import probes_with
@@ -23,14 +23,17 @@ const ask = (worker, request) => new Promise((resolve, reject) => {
 });
 async function answers(requests) {
   const worker = new Worker(URL.createObjectURL(new Blob([state._engine])));
-  const wasm = Uint8Array.from(atob(state.wasm), (byte) => byte.charCodeAt(0)).buffer;
-  const all = [await ask(worker, { type: "load", wasm, layout: state._layout })];
+  for (const [name, layout] of Object.entries(state._layout)) {
+    const wasm = Uint8Array.from(atob(state.wasm[name]), (byte) => byte.charCodeAt(0)).buffer;
+    await ask(worker, { type: "load", name, wasm, layout });
+  }
+  const all = [];
   for (const request of requests) all.push(await ask(worker, request));
   worker.terminate();
-  return JSON.parse(JSON.stringify(all.slice(1), (_, value) => ArrayBuffer.isView(value) ? [...value] : value));
+  return JSON.parse(JSON.stringify(all, (_, value) => ArrayBuffer.isView(value) ? [...value] : value));
 }
 """
-PROBES = probes_with(wasm.CONSTANTS)
+PROBES = probes_with(wasm.MODULES["plane"].constants)
 TANK = WaterWorld(n_creeps=4)
 AGENT = network_d([4, 5])
 STEPS, SEED, K = 3_000, 5, 2
@@ -42,7 +45,7 @@ def state():
     large = simulate(place_cells([90]), TANK, steps=1, runs=1, progress=False)
     state = Explorer({"D": result, "N90": large}).get_state()
     return {name: state[name] for name in ("_engine", "_layout", "_presets")} | {
-        "wasm": base64.b64encode(state["_wasm"]).decode()}
+        "wasm": {name: base64.b64encode(each).decode() for name, each in state["_wasm"].items()}}
 
 
 @pytest.fixture
@@ -125,6 +128,42 @@ def test_a_life_in_the_arena_is_that_of_python_to_the_last_bit(ask, maze):
     assert (frame["round"], frame["radius"]) == (maze.shape == "round", maze.radius)
     assert np.reshape(frame["obstacles"], (-1, 4)).tolist() == [list(each) for each in maze.obstacles]
     assert np.count_nonzero(frame["field"]) > 20
+
+
+def test_in_another_space_a_frame_shows_the_world_as_it_is(ask):
+    for name, (agent, world) in OTHER_SPACES.items():
+        frame = ask(advance(STEPS), parameters=_parameters(agent, world), world=_world(world))[-1]
+        run = Run(agent, world, SEED, K)
+        assert frame["reward"] == run.advance(STEPS), name
+        state, scene = run.world_state, run.world_state.scene
+        assert [frame["agent"][each] for each in ("x", "y", "vx", "vy")] == [*scene.position, *scene.velocity]
+        assert [(each["x"], each["y"]) for each in frame["things"]] == [
+            tuple(place) for place, kind in zip(scene.things, scene.kinds) if kind >= 0]
+        if name.startswith("Arm"):
+            hand = frame["arm"]["links"][-1]
+            assert (hand["x"], hand["y"]) == pytest.approx(tuple(state.hand))
+            assert [(each["x"], each["y"]) for each in frame["arm"]["points"]] == [tuple(each) for each in state.point]
+        elif name.startswith("Vessel"):
+            assert frame["heading"] == state.heading.tolist() and frame["current"] == list(world.current)
+            assert [(each["vx"], each["vy"]) for each in frame["things"]] == [tuple(each) for each in state.course]
+        else:
+            assert [frame["hidden"][each] for each in "xy"] == state.platform.tolist()
+
+
+def test_a_radar_finds_a_place_by_its_bearing(ask):
+    agent, world = OTHER_SPACES["Vessel with a radar"]
+    places = [(0.1, 0.9), (0.55, 0.3), (0.9, 0.52)]
+    found = ask(*({"type": "look", "map": "far N8", "goal": None, "at": {"x": x, "y": y}} for x, y in places),
+                advance(1), parameters=_parameters(agent, world), world=_world(world))[1:]
+    run = Run(agent, world, SEED, K)
+    scene, (node, _) = run.world_state.scene, agent.nodes
+    for place, frame in zip(places, found):
+        things = np.vstack([place, scene.things[1:]])
+        coordinates = node.modality.coordinates(scene._replace(things=things), 1.0)[0]
+        assert frame["seen"]["goal"] == agent.maps[0].encode(coordinates)
+    assert found[-1]["reward"] == run.advance(1)
+    assert [(each["x"], each["y"]) for each in found[-1]["things"]] == [tuple(each) for each in scene.things]
+    assert [each["feature"] for each in found[0]["seen"]["axes"]] == ["length", "bearing"]
 
 
 RULES = [

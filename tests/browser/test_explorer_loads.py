@@ -142,7 +142,7 @@ def test_a_fault_is_a_sentence_and_reset_revives_from_it(explorer, what, fault):
 
 
 def test_an_element_that_is_deleted_while_it_is_dragged_is_gone(explorer):
-    explorer.locator('[data-action="drop"]').click()
+    explorer.locator('[data-action="drop"]').press("Enter")
     mark = explorer.locator(".interest")
     mark.hover()
     explorer.mouse.down()

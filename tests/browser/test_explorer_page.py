@@ -9,7 +9,7 @@ from playwright.sync_api import expect
 
 from neorl import (Arena, Desire, Explorer, Learning, Place, Run, WaterWorld, multimodal, network_d, place_cells,
                    simulate)
-from neorl.browser.explorer import IN_THE_ARENA, STEPS
+from neorl.browser.explorer import IN_THE_ARENA, OTHER_SPACES, STEPS
 from neorl.core.modality import BOUNDARY_VECTOR_CELL, OBJECT_VECTOR_CELL
 
 SIZE = {"steps": 30_000, "runs": 12, "seed": 3, "progress": False}
@@ -50,6 +50,10 @@ def wait(page, state):
 
 def press(page, action):
     page.locator(f'.neorl-explorer [data-action="{action}"]').first.click()
+
+
+def drop_by_keyboard(page):
+    page.locator('[data-action="drop"]').press("Enter")
 
 
 def play_to_the_end(page):
@@ -179,7 +183,7 @@ def test_the_modality_of_a_preset_stands_in_the_menu_and_comes_back_with_its_ran
 def test_what_is_dropped_is_an_element_of_interest_for_the_nodes_that_count(open_page, site, name, agent):
     page = open_page(*site(name))
     explorer_of(page)
-    press(page, "drop")
+    drop_by_keyboard(page)
     page.keyboard.press("ArrowLeft")
     page.locator('[name="element-valence"]').fill("-1.5")
     element = page.locator(".interest")
@@ -193,7 +197,7 @@ def test_what_is_dropped_is_an_element_of_interest_for_the_nodes_that_count(open
 def test_elements_and_creeps_are_dragged_to_where_the_pointer_goes(open_page, site):
     page = open_page(*site("both"))
     explorer_of(page)
-    press(page, "drop")
+    drop_by_keyboard(page)
     box = page.locator(".arena").bounding_box()
     for thing, x, y in ((".interest", 0.2, 0.8), (".grip", 0.7, 0.3)):
         place = page.locator(thing).first
@@ -238,7 +242,7 @@ def test_a_click_on_a_cell_shows_how_to_get_there(open_page, site, over):
     arena.click(position={"x": 0.32 * box["width"], "y": 0.68 * box["height"]})
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal !== ''")
     assert explorer.get_attribute("data-goal") == str(int(place_cells([5]).maps[0].encode([0.3, 0.7])))
-    expect(explorer).to_contain_text("Nobody asked for it")
+    expect(explorer).to_contain_text("learned without being asked")
     page.wait_for_timeout(300)
     assert arena.screenshot() != before
     page.keyboard.press("Escape")
@@ -268,7 +272,7 @@ def test_in_the_arena_it_lives_the_run_that_python_lives_and_offers_nothing_of_c
     ((name, agent),) = IN_THE_ARENA.items()
     page = open_page(*site(name))
     explorer_of(page)
-    page.locator("summary").click()
+    page.locator(".neorl-explorer summary").click()
     for control in ("n_creeps", "valence_red"):
         expect(page.locator(f'[name="{control}"]')).to_be_hidden()
     expect(page.locator('[data-action="game"]')).to_be_disabled()
@@ -287,6 +291,25 @@ def test_in_the_arena_it_lives_the_run_that_python_lives_and_offers_nothing_of_c
     assert page.evaluate("window.offered")
 
 
+@pytest.mark.parametrize("name", OTHER_SPACES)
+def test_in_another_space_it_lives_the_run_that_python_lives(open_page, site, name):
+    page = open_page(*site(name))
+    explorer_of(page)
+    for action in ("game", "red"):
+        expect(page.locator(f'[data-action="{action}"]')).to_be_disabled()
+    expect(page.locator(".limb")).to_be_visible(visible=name.startswith("Arm"))
+    assert play_to_the_end(page) == lived(*OTHER_SPACES[name], steps=STEPS)
+
+
+def test_a_pilot_keeps_the_maps_of_each_node_until_others_are_chosen(open_page, site):
+    page = open_page(*site("Vessel with a radar"))
+    explorer_of(page)
+    expect(page.locator('[name="map"] option')).to_have_text(["far N8", "near N4"])
+    page.locator('[name="resolutions"]').fill("6")
+    page.locator('[name="resolutions"]').press("Enter")
+    expect(page.locator('[name="map"] option')).to_have_text(["far N6", "near N6"])
+
+
 def test_a_condition_in_another_maze_is_not_the_one_that_is_seen(open_page, tmp_path):
     ((name, agent),) = IN_THE_ARENA.items()
     walls = simulate(agent, Arena(obstacles=[(0.4, 0.4, 0.6, 0.6)]), steps=500, runs=2, progress=False)
@@ -303,7 +326,7 @@ def test_what_is_dropped_into_the_arena_draws_the_agent_there(open_page, site):
     ((name, agent),) = IN_THE_ARENA.items()
     page = open_page(*site(name))
     explorer_of(page)
-    press(page, "drop")
+    drop_by_keyboard(page)
     page.locator('[name="modality"]').select_option("boundary-vector cell")
     dropped = Desire(Place(0.5, 0.5), "PC", 1.0)
     node = replace(agent.nodes[0], modality=BOUNDARY_VECTOR_CELL)
@@ -345,7 +368,7 @@ def test_less_motion_begins_paused(open_page, site):
 def test_every_control_has_a_name_for_those_who_hear_the_page(open_page, site):
     page = open_page(*site("D"))
     explorer_of(page)
-    page.locator("summary").click()
+    page.locator(".neorl-explorer summary").click()
     unnamed = page.evaluate("""[...document.querySelectorAll(".neorl-explorer :is(input, select, button, canvas)")]
         .filter((each) => !each.labels?.[0]?.textContent.trim() && !each.ariaLabel && !each.textContent.trim())
         .map((each) => each.outerHTML)""")
@@ -357,7 +380,7 @@ def test_every_number_of_a_slider_has_room_on_a_phone(open_page, site):
     page = open_page(*site("Network D, to the letter", memory=0.123, discount=0.99), **phone)
     explorer_of(page)
     page.evaluate("document.body.style.width = 'auto'")
-    page.locator("summary").click()
+    page.locator(".neorl-explorer summary").click()
     crowded = page.evaluate("""[...document.querySelectorAll(".neorl-explorer output")].filter(
         (each) => each.scrollWidth > each.clientWidth).map((each) => each.textContent)""")
     assert crowded == [] and page.evaluate("document.documentElement.scrollWidth") == 400

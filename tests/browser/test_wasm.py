@@ -1,18 +1,19 @@
-"""The WebAssembly module: what it needs, how large it is, and that it lives the same runs as native code."""
+"""The WebAssembly modules: what they need, how large they are, and that each lives the same runs as native code."""
 
 import subprocess
 import sys
 
 import numpy as np
 import pytest
-from webassembly import Machine, compiled, copied, sizes_of
+from webassembly import Machine, compiled, copied, module_of, sizes_of, state_of
 
 import neorl
 from neorl import (Agent, Arena, Desire, Learning, Node, Place, Policy, Run, WaterWorld, files, multimodal,
                    network_a, network_b, network_c, network_d, object_vector_cells, place_cells)
 from neorl.agents.compile import chosen
 from neorl.browser import wasm
-from neorl.browser.worlds import EitherState, rules_of
+from neorl.browser.explorer import OTHER_SPACES
+from neorl.browser.worlds import rules_of
 from neorl.core import modality
 from neorl.core.kernel import arrays, execute, mapped, new_tuple
 from neorl.core.parameters import Parameters
@@ -90,6 +91,13 @@ def test_a_run_in_the_arena_equals_a_native_run_to_the_last_bit(name):
     assert run.state.values.q.any()
 
 
+@pytest.mark.parametrize("name", OTHER_SPACES)
+def test_a_run_in_another_space_equals_a_native_run_to_the_last_bit(name):
+    run = Run(*OTHER_SPACES[name], seed=2, run=3)
+    assert assert_lives_alike(run) != 0
+    assert run.state.values.q.any()
+
+
 def assert_lives_alike(run):
     """Let a run live, in the module and natively. Returns what it is paid."""
     machine, sizes, arguments = copied(run)
@@ -102,18 +110,19 @@ def assert_lives_alike(run):
 
 BEGINNINGS = {name: (PAPERS[name][0], WaterWorld(n_creeps=PAPERS[name][1]))
               for name in ("A, cells", "B, multimodal", "C, network_d", "every modality", "axes of several kinds")}
-BEGINNINGS["water maze"] = Agent([Node("PC", modality.PLACE_CELL, [5])], [Desire("platform", "PC", 1.0)]), Arena()
+BEGINNINGS["pool"] = Agent([Node("PC", modality.PLACE_CELL, [5])], [Desire("platform", "PC", 1.0)]), Arena()
+BEGINNINGS |= OTHER_SPACES
 
 
 @pytest.mark.parametrize("name", BEGINNINGS)
 def test_a_run_begins_as_in_python_without_any_python(name):
     agent, world = BEGINNINGS[name]
     run = Run(agent, world, seed=2**32 - 1, run=17)
-    machine, sizes = Machine(), sizes_of(run)
+    machine, sizes = Machine(name=module_of(run)), sizes_of(run)
     choices, _ = chosen(agent, run.world)
     parameters = machine.put_tuple(new_tuple(Parameters, sizes, choices))
     machine.call("derive", sizes, parameters=parameters, n_things=world.things)
-    world_state = machine.put_tuple(new_tuple(EitherState, sizes, {}))
+    world_state = machine.put_tuple(new_tuple(type(state_of(run)), sizes, {}))
     state = machine.put_tuple(new_tuple(State, sizes, {}))
     for words, stream in (([2**32 - 1, 0, 0, 0, 17], world_state.stream), ([2**32 - 1, 0, 0, 0, 17, 0], state.stream)):
         machine.call("start_stream", sizes | {"words": len(words)}, words=machine.put(np.array(words, np.uint64)),
@@ -132,7 +141,7 @@ def test_looking_and_joining_in_equal_native_calls():
     run.advance(20_000)
     machine, sizes, arguments = copied(run)
     agent, rules, board = (run._parameters, run._state), run.world.rules, run.world_state
-    probes, scene = probes_with(wasm.CONSTANTS), board.scene
+    probes, scene = probes_with(wasm.MODULES["plane"].constants), board.scene
 
     there, elsewhere = scene._replace(position=np.zeros(2)), mapped(np.copy, run._state)
     values = np.zeros((81, 4))
@@ -161,11 +170,12 @@ def test_looking_and_joining_in_equal_native_calls():
     assert_equal_to(run, arguments)
 
 
-def test_the_module_is_small_and_asks_for_memory_alone():
-    _, module = compiled()
-    assert len(wasm.module()) <= 88_000
+@pytest.mark.parametrize("name", wasm.MODULES)
+def test_a_module_is_small_and_asks_for_memory_alone(name):
+    _, module = compiled(name)
+    assert len(wasm.module(name)) <= 88_000
     assert [each.name for each in module.imports] == ["memory"]
-    assert {each.name for each in module.exports} == {"__heap_base", *wasm.layout()["exports"]}
+    assert {each.name for each in module.exports} == {"__heap_base", *wasm.layout(name)["exports"]}
 
 
 @pytest.fixture
@@ -178,7 +188,7 @@ def content(tmp_path, monkeypatch):
 
 
 def test_a_module_on_disk_is_taken_and_a_damaged_one_is_not(content, tmp_path):
-    path = tmp_path / "wasm" / wasm._digest().hex()
+    path = tmp_path / "wasm" / wasm._digest("plane").hex()
     files.write_checked(path, content)
     assert wasm.module() == content
     path.write_bytes(path.read_bytes()[:-1])
@@ -187,13 +197,13 @@ def test_a_module_on_disk_is_taken_and_a_damaged_one_is_not(content, tmp_path):
 
 
 def test_a_wheel_ships_the_module_of_its_own_sources(content, tmp_path, monkeypatch):
-    monkeypatch.setattr(wasm, "_built_in_a_process_of_its_own", lambda: content)
+    monkeypatch.setattr(wasm, "_built_in_a_process_of_its_own", lambda name: content)
     wasm.ship(tmp_path / "neorl")
     monkeypatch.undo()
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path / "empty"))
-    monkeypatch.setattr(wasm, "SHIPPED", tmp_path / "neorl" / "browser" / "kernels.wasm")
+    monkeypatch.setattr(wasm, "SHIPPED", {"plane": tmp_path / "neorl" / "browser" / "plane.wasm"})
     assert wasm.module() == content
-    monkeypatch.setattr(wasm, "_built_in_a_process_of_its_own", lambda: b"of other sources")
+    monkeypatch.setattr(wasm, "_built_in_a_process_of_its_own", lambda name: b"of other sources")
     monkeypatch.setattr(wasm, "source_digest", lambda: "other sources")
     assert wasm.module() == b"of other sources"
 
@@ -209,7 +219,7 @@ def test_without_a_linker_the_error_says_what_to_install(tmp_path, monkeypatch):
 def test_a_module_that_cannot_be_kept_is_built_with_a_warning(content, tmp_path, monkeypatch):
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path / "file"))
-    monkeypatch.setattr(wasm, "_built_in_a_process_of_its_own", lambda: content)
+    monkeypatch.setattr(wasm, "_built_in_a_process_of_its_own", lambda name: content)
     with pytest.warns(RuntimeWarning, match="cannot be kept"):
         assert wasm.module() == content
 

@@ -68,11 +68,13 @@ def test_neighbours_differ_in_one_choice():
 def test_the_explorer_offers_both_readings_and_one_control(results):
     calibrated, letter = results | {CONTROL: "control"}, dict.fromkeys(results, "letter")
     offered = explorer_conditions({"to the letter": letter, "calibrated": calibrated})
-    assert next(iter(offered)) == "Figure 7: all" and len(offered) == 2 * (1 + len(LAYERS) + len(SINGLE)) + 1
-    assert offered["Figure 7: all"] is results["layers"] and offered["Figure 7: all, to the letter"] == "letter"
-    assert offered["Figure 7: N23"] is results["layer", 23] and offered["Figure 6: N90"] is results["single", 90]
-    assert offered["Figure 7: N23, to the letter"] == offered["Figure 6: N90, to the letter"] == "letter"
-    assert offered["Figure 6: Brownian"] == "control"
+    six, seven, late = "Paper A, figure 6", "Paper A, figure 7", "to the letter"
+    assert next(iter(offered)) == f"{seven}: all three maps" and len(offered) == 2 * (1 + len(LAYERS) + len(SINGLE)) + 1
+    assert offered[f"{seven}: all three maps"] is results["layers"]
+    assert offered[f"{seven}: N23 alone"] is results["layer", 23] and offered[f"{six}: N90"] is results["single", 90]
+    assert {offered[f"{each}, {late}"] for each in (f"{seven}: all three maps", f"{seven}: N23 alone", f"{six}: N90")
+            } == {"letter"}
+    assert offered[f"{six}: Brownian motion"] == "control"
 
 
 def test_numbers_stand_beside_those_of_the_thesis(results):

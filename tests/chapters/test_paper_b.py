@@ -84,10 +84,13 @@ def test_the_explorer_offers_the_figures_and_what_changes(lived):
     offered = experiments.explorer_conditions(lived | {"to the letter": dict.fromkeys(lived["calibrated"], "letter")},
                                               "moving")
     results = lived["calibrated"]
-    assert next(iter(offered)) == "Figure 5: PC + OVC" and len(offered) == 1 + 2 * 7 + 3 + 3
-    assert offered["Figure 4A: N13"] is results["place", 13] and offered["Figure 4B: all"] is results["objects", "all"]
-    assert offered["Figure 5, to the letter: OVC"] == "letter" and offered["A desire that moves"] == "moving"
-    assert offered["Red revalued half-way"] is results["revalued"] and offered["OVC joins"] is results["joined"]
+    assert next(iter(offered)) == "Paper B, figure 5: place + object-vector cells" and len(offered) == 1 + 2 * 7 + 3 + 3
+    assert offered["Paper B, figure 4A: place cells, N13"] is results["place", 13]
+    assert offered["Paper B, figure 4B: object-vector cells, all"] is results["objects", "all"]
+    assert offered["Paper B, figure 5, to the letter: object-vector cells"] == "letter"
+    assert offered["Paper B: a desire that moves"] == "moving"
+    assert offered["Paper B: red revalued half-way"] is results["revalued"]
+    assert offered["Paper B: object-vector cells join"] is results["joined"]
 
 
 def watched(runs=12):

@@ -72,8 +72,9 @@ def test_neighbours_differ_in_one_choice_and_are_more_with_many_runs():
 def test_the_explorer_offers_the_networks_of_both_readings(results):
     letter = dict.fromkeys(results, "letter")
     offered = explorer_conditions({"to the letter": letter, "calibrated": results})
-    assert [*offered][:5] == [*(f"Figure 4e: {name}" for name in NETWORKS), "Figure 4e: A, to the letter"]
-    assert offered["Figure 4e: D"] is results["network", "D"] and offered["Figure 4e: D, to the letter"] == "letter"
+    name = "Paper C, figure 4e: network"
+    assert [*offered][:5] == [*(f"{name} {each}" for each in NETWORKS), f"{name} A, to the letter"]
+    assert offered[f"{name} D"] is results["network", "D"] and offered[f"{name} D, to the letter"] == "letter"
 
 
 def test_recursion_has_to_lift_a_network_that_earns_something(results):

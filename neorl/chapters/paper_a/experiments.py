@@ -57,7 +57,7 @@ def explorer_conditions(results):
     """The conditions that the Explorer of the page offers: {name: Result}. results: as `live` has them, by reading."""
     offered = {}
     for name, suffix in ((CALIBRATED, ""), (LETTER, ", to the letter")):
-        offered[f"Figure 7: all{suffix}"] = results[name]["layers"]
-        offered |= {f"Figure 7: {n}{suffix}": result for n, result in layers(results[name]).items()}
-        offered |= {f"Figure 6: {n}{suffix}": result for n, result in singles(results[name]).items()}
-    return offered | {"Figure 6: Brownian": results[CALIBRATED][CONTROL]}
+        offered[f"Paper A, figure 7: all three maps{suffix}"] = results[name]["layers"]
+        offered |= {f"Paper A, figure 7: {n} alone{suffix}": result for n, result in layers(results[name]).items()}
+        offered |= {f"Paper A, figure 6: {n}{suffix}": result for n, result in singles(results[name]).items()}
+    return offered | {"Paper A, figure 6: Brownian motion": results[CALIBRATED][CONTROL]}

@@ -16,6 +16,7 @@ from neorl.experiments.cache import Condition
 
 MAIN, GROUPS = ("modal", "pace"), ("layers", "resolutions", "revaluing")  # of `neorl.evidence.reading.GROUPS`
 AGENTS = {"PC": ("place", "all"), "OVC": ("objects", "all"), "PC + OVC": "both"}  # of figure 5, by key
+CELLS = {"PC": "place", "OVC": "object-vector", "PC + OVC": "place + object-vector"}  # these in words
 
 
 def live(readings, steps, runs, seed=0):
@@ -77,9 +78,11 @@ def explorer_conditions(lived, moving):
     lived: results by reading, as `live` has them. moving: that of `neorl.chapters.paper_b.trials`, whose desire moves.
     """
     calibrated = lived[CALIBRATED]
-    offered = {"Figure 5: PC + OVC": calibrated["both"]}
-    for figure, modality in (("4A", "place"), ("4B", "objects")):
-        offered |= {f"Figure {figure}: {n}": result for n, result in of_figure_4(calibrated, modality).items()}
-    offered |= {f"Figure 5, to the letter: {name}": result for name, result in of_figure_5(lived[LETTER]).items()}
-    return offered | {"Red revalued half-way": calibrated["revalued"], "A desire that moves": moving,
-                      "OVC joins": calibrated["joined"]}
+    offered = {"Paper B, figure 5: place + object-vector cells": calibrated["both"]}
+    for figure, modality in (("4A: place", "place"), ("4B: object-vector", "objects")):
+        offered |= {f"Paper B, figure {figure} cells, {n}": result
+                    for n, result in of_figure_4(calibrated, modality).items()}
+    offered |= {f"Paper B, figure 5, to the letter: {CELLS[name]} cells": result
+                for name, result in of_figure_5(lived[LETTER]).items()}
+    return offered | {"Paper B: red revalued half-way": calibrated["revalued"], "Paper B: a desire that moves": moving,
+                      "Paper B: object-vector cells join": calibrated["joined"]}

@@ -57,5 +57,6 @@ def neighbours(reading, runs):
 
 def explorer_conditions(results):
     """The conditions that the Explorer of the page offers: {name: Result}. results: as `live` has them, by reading."""
-    return {f"Figure 4e: {name}{suffix}": result for reading, suffix in ((CALIBRATED, ""), (LETTER, ", to the letter"))
-            for name, result in networks(results[reading]).items()}
+    readings = ((CALIBRATED, ""), (LETTER, ", to the letter"))
+    return {f"Paper C, figure 4e: network {name}{suffix}": result
+            for reading, suffix in readings for name, result in networks(results[reading]).items()}

@@ -1,0 +1,61 @@
+"""Agents for other spaces than the plane of WaterWorld: an arm, a vessel, and the water maze.
+
+One rule of learning and one policy; only nodes and desires, what cells stand for and what is sought, differ between
+them. `RULE` is plain bootstrapping at changes of cell, without memory of earlier cells.
+"""
+
+from collections.abc import Sequence
+
+from neorl.agents.agent import Agent, Desire, Learning, Node, Policy
+from neorl.core.geometry import turn
+from neorl.core.kernel import kernel
+from neorl.core.modality import PLACE_CELL, Axis, Modality
+
+RULE = Learning(learning_rate=0.1, discount=0.9, update_on="cell", credit="share", absent_decay=0.0, terminal=True,
+                memory=0.0, bootstrap=True, causes="any", capture="contact", attention="each")
+POLICY = Policy(exploration=0.1)
+AVERSION = -0.3  # the valence of what is to be avoided, beside 1 of what is sought
+FARTHEST, NEAR = 1.0, 0.3  # to which the two maps of a radar reach, in widths of the area
+
+
+def seeker(nodes: Sequence[Node], desires: Sequence[Desire] = ()) -> Agent:
+    """An agent of these nodes and desires, with the common rule and policy."""
+    return Agent(nodes, desires, RULE, POLICY, "silent")
+
+
+def reacher(links: int, valence: float = AVERSION) -> Agent:
+    """An agent for an arm of two or three links: cells for the way from its posture to another, joint by joint, closed.
+
+    valence: of obstacles.
+    """
+    axes = [Axis("objects", "component", joint, -0.5, 0.5, closed=True) for joint in range(links)]
+    desires = [Desire("target", "joints", 1.0), Desire("obstacle", "joints", valence)]
+    return seeker([Node("joints", Modality("joint-vector cell", axes), [{2: 9, 3: 7}[links]])], desires)
+
+
+@kernel
+def bearing(scene, point):
+    """The direction of a thing as seen from the bow, in turns: 0 ahead, a quarter to starboard."""
+    x, y = scene.things[point, 0] - scene.position[0], scene.things[point, 1] - scene.position[1]
+    ahead, aside = scene.velocity[0], scene.velocity[1]
+    return turn(ahead * x + aside * y, ahead * y - aside * x)
+
+
+def radar_node(name: str, reach: float, rings: int) -> Node:
+    """Cells for the distance of a thing, up to `reach`, and its bearing."""
+    return Node(name, Modality("radar cell", [Axis("objects", "length", high=reach),
+                                              Axis(bearing, closed=True, intervals=8)]), [rings])
+
+
+FAR_RADAR, NEAR_RADAR = radar_node("far", FARTHEST, 8), radar_node("near", NEAR, 4)
+
+
+def pilot() -> Agent:
+    """A pilot with both maps of a radar, which avoids the vessels that are near."""
+    return seeker([FAR_RADAR, NEAR_RADAR], [
+        Desire("waypoint", "far", 1.0), Desire("waypoint", "near", 1.0), Desire("vessel", "near", AVERSION)])
+
+
+def swimmer() -> Agent:
+    """A swimmer with place cells of two resolutions, which seeks the platform where it remembers it."""
+    return seeker([Node("place", PLACE_CELL, [5, 9])], [Desire("platform", "place", 1.0)])

@@ -1,0 +1,116 @@
+/* The Explorer's state in the address of its page, so that a link can name a run, its settings and a moment of it.
+
+The first Explorer of a page has the fragment that begins with `#explorer`, in JupyterLab none. What differs from the
+preset stands there by its name in `SHORT`; beside it `run`, `seed`, `minute`, at which the run stands still, the `map`
+shown with the `goal` chosen in it, and `start`, one of the things to try, as in #explorer_agent-network-d_run-7_red-0p5.
+Names are in small letters, a p is a decimal point: pages take a fragment for a selector, which allows little else. */
+
+const PREFIX = "#explorer";
+const SHORT = { agent: "preset", run: "run", seed: "seed", resolutions: "resolutions", modality: "modality",
+  recursion: "recursion", red: "valence_red", gains: "gains", rate: "learning_rate", discount: "discount",
+  memory: "memory", creeps: "n_creeps" };
+const LISTS = ["resolutions", "gains"];
+
+const slug = (text) => text.toLowerCase().replaceAll(/[^a-z0-9]+/g, "-").replaceAll(/^-|-$/g, "");
+const named = (names, text) => names.find((name) => slug(name) === text) ?? text;
+const written = (number) => String(number).replace(".", "p");
+const numberOf = (text) => (text.trim() === "" ? NaN : Number(text.replace("p", ".")));
+
+/** What an address says, {settings, minute, map, goal, start}, or null if it is not for an Explorer. */
+function readAddress(hash, presets, modalities, preset) {
+  if (!hash.startsWith(PREFIX)) return null;
+  const said = Object.fromEntries(hash.slice(PREFIX.length).split("_").filter(Boolean).map((part) => {
+    const [, name, value] = part.match(/^([a-z]*)-?(.*)$/i);
+    return [name, value];
+  }));
+  const valueOf = (name, text) => {
+    if (name === "preset") return named(Object.keys(presets), text);
+    if (name === "modality") return named(Object.keys(modalities), text);
+    return LISTS.includes(name) ? text.split("-").map(numberOf) : numberOf(text);
+  };
+  const given = Object.entries(SHORT).filter(([short]) => Object.hasOwn(said, short))
+    .map(([short, name]) => [name, valueOf(name, said[short])]);
+  const { preset: key = preset } = Object.fromEntries(given);
+  const defaults = Object.hasOwn(presets, key) ? { ...initialSettings(presets, key), seed: presets[key].seed } : {};
+  const isSaid = (name) => Object.hasOwn(said, name);
+  return { settings: { ...defaults, preset: key, run: 0, ...Object.fromEntries(given) },
+    minute: isSaid("minute") ? numberOf(said.minute) : null, start: said.start, map: said.map,
+    goal: isSaid("goal") ? numberOf(said.goal) : null };
+}
+
+/** The address of settings, in full where they differ from their preset's, and of what is looked at. */
+function addressOf(presets, settings, { minute, map, goal }) {
+  const { preset } = settings;
+  const defaults = { ...initialSettings(presets, preset), preset: null, run: null, seed: presets[preset].seed };
+  const parts = [PREFIX];
+  for (const [short, name] of Object.entries(SHORT)) {
+    const value = settings[name];
+    if (JSON.stringify(value) === JSON.stringify(defaults[name])) continue;
+    parts.push(`${short}-${Array.isArray(value) ? value.map(written).join("-")
+      : typeof value === "string" ? slug(value) : written(value)}`);
+  }
+  if (minute) parts.push(`minute-${written(minute)}`);
+  if (goal !== null) parts.push(`map-${slug(map)}`, `goal-${goal}`);
+  return parts.join("_");
+}
+
+class Address extends Starters {
+  hasAddress() {
+    return document.querySelector(".neorl-explorer:not(.neorl-replay)") === this.root
+      && !document.body.hasAttribute("data-jp-theme-name");
+  }
+
+  /** Go to the run that the address names, if it names one. Returns whether it does. */
+  visit() {
+    const { presets, modalities, model } = this;
+    const said = this.hasAddress() ? readAddress(location.hash, presets, modalities, model.get("preset")) : null;
+    if (!said) return false;
+    const { settings, minute, map, goal, start } = said;
+    const starts = { watch: () => this.watch(), red: () => this.revalueRed(), corner: () => this.showCorner(),
+      game: () => this.joinGame() };
+    const wishes = { get: (name) => (Object.hasOwn(settings, name) ? settings[name] : model.get(name)) };
+    const isMoment = minute === null || (minute >= 0 && minute < 1e6);
+    const problem = problemOf(presets, modalities, wishes) || (isMoment ? "" : "The address names no minute.");
+    if (problem) {
+      this.refuse(this.control("preset"), `The address describes no run of this Explorer. ${problem}`);
+      return false;
+    }
+    this.root.scrollIntoView({ block: "nearest" });
+    const { world, steps } = presets[settings.preset];
+    const step = Math.min(steps, Math.round((minute ?? 0) * 60 * world.fps));
+    const act = async () => {
+      if (minute !== null || this.calm) this.write({ playing: false });
+      const cell = isWhole(0, MOST_SEED)(goal) ? goal : null;
+      if (map) await this.look({ map: named(this.life.frame.maps, map), goal: cell });
+      if (Object.hasOwn(starts, start)) await starts[start]();
+      this.refresh();
+    };
+    this.fresh({ ...settings, playing: true }, { step, hurries: true, act, news: "On the way to that moment …" });
+    return true;
+  }
+
+  /** The address of now. Of a run that was changed on the way only the settings can be named. */
+  addressOfNow() {
+    const { life: { frame, changed, world }, presets, model } = this;
+    const settings = { ...this.settings(), seed: model.get("seed"), run: model.get("run") };
+    const minute = frame && !changed ? Number((frame.step / world.fps / 60).toFixed(5)) : 0;
+    const { name: map = "", goal = null } = frame?.seen ?? {};
+    return addressOf(presets, settings, { minute, map, goal });
+  }
+
+  /** Put the address of now into the page's, once the reader has turned something, without a new entry of history. */
+  writeAddress() {
+    if (!this.touched || this.running() || this.failed || !this.hasAddress()) return;
+    if (!this.life.frame || this.life.due) return;
+    clearTimeout(this.writing);
+    this.writing = setTimeout(() => history.replaceState(history.state, "", this.addressOfNow()), 300);
+  }
+
+  async copyLink() {
+    const link = new URL(this.addressOfNow(), location.href).href;
+    if (this.hasAddress()) history.replaceState(history.state, "", link);
+    this.life.news = await navigator.clipboard?.writeText(link).then(() => "The link is copied.", () => null)
+      ?? "The link to this moment is in the address of the page.";
+    this.refresh();
+  }
+}

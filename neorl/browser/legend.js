@@ -1,0 +1,84 @@
+/* What the tank shows, in words: the key beside it, and a description for those who hear the page. */
+
+const SPELLED_OUT = { PC: "place cells", OVC: "object-vector cells", "OVC × V": "object vector and velocity",
+  joints: "the way to a posture, joint by joint", far: "radar, the whole area", near: "radar, what is near",
+  place: "place cells" };
+const [LINE, HEAD] = ["M2 8H21", "M16 4L21 8L16 12"];
+const picture = (content) => `<svg viewBox="0 0 24 16" aria-hidden="true">${content}</svg>`;
+const disc = (kind, sign) => picture(`<circle class="${kind} full" cx="12" cy="8" r="7.5"/>
+  <path class="sign" d="M8 8h8${sign > 0 ? "M12 4v8" : ""}"/>`);
+const arrow = (kind) => picture(`<path class="${kind}" d="${LINE}"/><path class="${kind} solid" d="${HEAD}"/>`);
+const PICTURES = {
+  agent: picture(`<path class="motion" d="M12 8H23"/><circle class="agent full" cx="9" cy="8" r="7.5"/>`),
+  green: disc("green", 1), red: disc("red", -1), player: picture(`<circle class="player" cx="12" cy="8" r="6.5"/>
+    <text x="12" y="12">Y</text>`),
+  place: picture(`<circle class="place" cx="12" cy="8" r="6.5"/>`),
+  active: picture(`<rect class="active" x="4" y="0.5" width="16" height="15"/>`),
+  hidden: picture(`<circle class="hidden" cx="12" cy="8" r="6.5"/>`),
+  hull: picture(`<path class="agent full" d="M22 8L12 13H3V3H12Z"/>`),
+  vessel: picture(`<path class="red full" d="M22 8L12 13H3V3H12Z"/>`), current: arrow("current"),
+  field: arrow("field"), desire: arrow("desire"), way: arrow("way"),
+  landing: picture(`<path class="green full" d="M12 0L20 8L12 16L4 8Z"/><path class="sign" d="M9 8h6M12 5v6"/>`),
+};
+
+/** The entries of the key, [picture, text], for a frame and the world that it is of. */
+function keyOf({ things, nodes, landings, player, active, field, seen, arm, heading, hidden, current }) {
+  const kinds = new Set(things.map(({ kind }) => kind));
+  const names = nodes.filter(({ valence }) => valence).map(({ name }) => {
+    const long = SPELLED_OUT[name];
+    return long ? `<b>${name}</b>, ${long}` : `<b>${name}</b>`;
+  });
+  const entries = [
+    ["agent", arm ? "The posture of the arm: across the angle of its first joint, down that of its second"
+      : "The agent; the line ends where it will be in half a second", !heading],
+    ["hull", "The vessel; the line ends where it will be in half a second", heading],
+    ["green", "Target: pays +1 (one of its postures)", kinds.has("target")],
+    ["red", "Obstacle: pays −1 (one of its postures)", kinds.has("obstacle")],
+    ["place", "Waypoint: pays +1", kinds.has("waypoint")], ["vessel", "Another vessel: a collision pays −1",
+      kinds.has("vessel")],
+    ["current", "The current, which the agent does not perceive", current?.some(Boolean)],
+    ["hidden", "The platform, under the surface: pays +1 and ends the trial", hidden],
+    ["player", "You", player],
+    ["green", "Green creep: pays +1", kinds.has("green")], ["red", "Red creep: pays −1", kinds.has("red")],
+    ["place", hidden ? "Where the animal remembers the platform" : "Platform", kinds.has("platform")],
+    ["active", "Shaded: the active cell of the map shown", active.length],
+    ["field", `Grey: what the agent would do at that place${heading ? ", on this heading" : ""}, all maps together`,
+      field && seen.goal === null],
+    ["desire", `Dashed: the desire vector of a node: ${names.join("; ")}`, names.length],
+    ["landing", "Where the desire of one node lands as an element for another", landings.length],
+    ["way", "The chosen cell, and the way to it from every other", seen.goal !== null],
+  ];
+  return entries.filter((entry) => entry.length < 3 || entry[2]);
+}
+
+const entryMarkup = ([kind, text]) => `<li>${PICTURES[kind]}<span>${text}</span></li>`;
+
+/** A frame in a sentence or three. */
+function describe({ agent, things, player, ended }) {
+  const moving = Math.hypot(agent.vx, agent.vy) > 0.02;
+  const said = [`The agent is ${whereabouts(agent)}, ${moving ? `moving ${heading(agent.vx, agent.vy)}` : "at rest"}.`];
+  const counts = Object.entries(Object.groupBy(things, ({ kind }) => kind ?? "hidden place"))
+    .map(([kind, { length }]) => `${length} ${kind}`);
+  if (counts.length) said.push(`With it: ${counts.join(", ")}.`);
+  const away = ({ x, y }) => Math.hypot(x - agent.x, y - agent.y);
+  const nearest = things.filter(({ kind }) => kind).sort((one, other) => away(one) - away(other))[0];
+  if (nearest) {
+    const side = heading(nearest.x - agent.x, nearest.y - agent.y);
+    said.push(`The nearest is ${nearest.kind}, ${shown(away(nearest).toFixed(2))} board widths away, ${side}.`);
+  }
+  if (player) said.push(`You are ${whereabouts(player)}.`);
+  if (ended) said.push("The run is over.");
+  return said.join(" ");
+}
+
+function whereabouts({ x, y }) {
+  const [across, down] = [x, y].map((each) => Math.max(0, Math.min(2, Math.floor(3 * each))));
+  if (across === 1 && down === 1) return "in the middle";
+  return `at the ${[["top", "", "bottom"][down], ["left", "", "right"][across]].filter(Boolean).join(" ")}`;
+}
+
+const HEADINGS = ["right", "down right", "down", "down left", "left", "up left", "up", "up right"];
+
+function heading(dx, dy) {
+  return HEADINGS[(Math.round((8 * Math.atan2(dy, dx)) / FULL_TURN) + 8) % 8];
+}

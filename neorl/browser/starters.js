@@ -1,0 +1,73 @@
+/* Things to try at one click. Each sets the controls as a reader would, and what it waits for is `due` at a step. */
+
+const [LEARNED, CORNER, FINE_ENOUGH] = [60_000, { x: 0.04, y: 0.04 }, 7]; // steps, a place, a resolution
+
+class Starters extends Hands {
+  /** A new life with the settings of the preset, and with what it waits for, if anything. */
+  fresh(values = {}, due = null) {
+    const key = this.model.get("preset");
+    this.dropElements();
+    this.due = due;
+    this.write({ ...initialSettings(this.presets, key), seed: this.presets[key].seed, run: 0, ...values });
+    this.note("run");
+  }
+
+  watch() {
+    this.fresh({ speed: 50, playing: true });
+  }
+
+  revalueRed() {
+    const { steps } = this.presets[this.model.get("preset")];
+    const half = Math.floor(steps / 2);
+    const after = "Red is desirable now, its valence +1, and the agent seeks it at once. It still pays −1.";
+    const act = () => {
+      this.life.news = after;
+      this.write({ valence_red: 1, speed: 50 });
+    };
+    const before = "In the middle of the run, red creeps become desirable.";
+    this.fresh({ speed: 1000, playing: true }, { step: half, hurries: false, act, news: before });
+  }
+
+  /** As soon as enough is learned, the way to a corner in a map of places, or else in the first. */
+  async showCorner() {
+    const { life, life: { frame } } = this;
+    const act = async () => {
+      this.write({ playing: false });
+      await this.look({ map: this.mapOfPlaces(), goal: null });
+      await this.look({ at: CORNER });
+      this.life.news = "The shaded corner has never been a goal, and the agent knows the way from everywhere.";
+      this.refresh();
+    };
+    if (frame.step >= Math.min(LEARNED, life.length.steps)) return act();
+    life.due = { step: Math.min(LEARNED, life.length.steps), hurries: true, act, news: "Learning for a moment …" };
+    return this.write({ playing: true });
+  }
+
+  mapOfPlaces() {
+    const { names, nodes: { follows } } = this.parameters();
+    const { position } = this.model.get("_layout").plane.enumerations.Vector;
+    const name = names[Math.max(0, follows.indexOf(position))];
+    const resolutions = this.model.get("resolutions");
+    const near = resolutions.toSorted((a, b) => Math.abs(a - FINE_ENOUGH) - Math.abs(b - FINE_ENOUGH))[0];
+    return `${name} N${near}`;
+  }
+
+  /** Do what is due, once the run has come to its step. */
+  async meet() {
+    const { life, life: { frame, due } } = this;
+    if (!due || frame.step < due.step) return;
+    life.due = null;
+    await due.act();
+  }
+
+  offerStarters() {
+    const { life: { frame, game }, model, presets } = this;
+    const preset = presets[model.get("preset")];
+    const knowsCells = preset && !preset.parameters.nodes.learns_contacts.every(Boolean);
+    const able = { watch: preset, red: preset?.avoided === "red", corner: frame && knowsCells,
+      game: frame && !frame.ended && this.hasCreeps() };
+    for (const [name, isAble] of Object.entries(able)) this.action(name).disabled = !isAble;
+    this.action("game").textContent = game ? "Leave the game" : "Play against it";
+    this.action("game").ariaPressed = Boolean(game);
+  }
+}

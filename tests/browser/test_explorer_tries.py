@@ -1,0 +1,228 @@
+"""What the Explorer offers to try, and its state in the address: at one click or by a link, as Python has it."""
+
+import re
+from dataclasses import replace
+
+import pytest
+from explorer_page import write_page
+from playwright.sync_api import expect
+
+from neorl import Explorer, Run, WaterWorld, object_vector_cells, place_cells, simulate
+
+TANK = WaterWorld()
+PLACES = place_cells([5, 3])
+SIZE = {"steps": 20_000, "runs": 12, "seed": 3, "progress": False}
+
+
+@pytest.fixture(scope="module")
+def conditions():
+    return {"places": simulate(PLACES, TANK, **SIZE), "things": simulate(object_vector_cells([4]), TANK, **SIZE)}
+
+
+@pytest.fixture
+def visit(open_page, tmp_path, conditions):
+    """`visit(address)` opens a page of an Explorer at an address."""
+    def visit(address="", **options):
+        write_page(tmp_path, [Explorer(conditions, playing=False, speed=0.0)])
+        page = open_page(tmp_path, f"page.html{address}", **options)
+        wait(page, "paused|running|ended")
+        return page
+    return visit
+
+
+def wait(page, state):
+    page.wait_for_function("""wanted => wanted.split("|").includes(
+        document.querySelector(".neorl-explorer")?.dataset.state)""", arg=state)
+
+
+def press(page, action):
+    page.locator(f'[data-action="{action}"]').click()
+
+
+def told(page, name):
+    return page.locator(".neorl-explorer").get_attribute(f"data-{name}")
+
+
+def test_red_becomes_desirable_in_the_middle_of_the_run(visit):
+    page = visit()
+    press(page, "red")
+    wait(page, "ended")
+    run = Run(PLACES, TANK, SIZE["seed"], 0)
+    reward = run.advance(10_000)
+    run.change(replace(PLACES, desires=[replace(each, valence=1.0) for each in PLACES.desires]))
+    assert float(told(page, "score")) == reward + run.advance(10_000)
+    expect(page.locator('[name="valence_red"]')).to_have_value("1")
+    expect(page.locator(".said")).to_contain_text("Red is desirable now")
+
+
+def test_the_way_to_a_corner_is_shown_once_it_is_learned(visit):
+    page = visit()
+    press(page, "corner")
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal === '0'")
+    wait(page, "ended")
+    assert told(page, "step") == "20000"
+    assert page.locator('[name="map"]').input_value() == "PC N5"
+    expect(page.locator(".key")).to_contain_text("The chosen cell, and the way to it")
+    expect(page.locator(".key")).not_to_contain_text("Grey:")
+
+
+def test_watching_it_learn_begins_anew_with_the_settings_of_the_preset(visit):
+    page = visit()
+    page.locator('[name="valence_red"]').fill("2")
+    press(page, "watch")
+    wait(page, "running")
+    expect(page.locator('[name="valence_red"]')).to_have_value("-1")
+    assert told(page, "condition") == "places"
+
+
+def test_reset_restores_the_settings_and_a_new_run_keeps_them(visit):
+    page = visit()
+    page.locator('[name="valence_red"]').fill("2")
+    page.locator('[name="resolutions"]').fill("4")
+    page.locator('[name="resolutions"]').press("Enter")
+    press(page, "new-run")
+    expect(page.locator('[name="run"]')).to_have_value("1")
+    expect(page.locator('[name="valence_red"]')).to_have_value("2")
+    press(page, "reset")
+    expect(page.locator('[name="run"]')).to_have_value("0")
+    expect(page.locator('[name="valence_red"]')).to_have_value("-1")
+    expect(page.locator('[name="resolutions"]')).to_have_value("5, 3")
+
+
+def test_an_element_drops_where_the_next_click_is(visit):
+    page = visit()
+    press(page, "drop")
+    expect(page.locator(".said")).to_contain_text("Click where")
+    tank = page.locator(".arena canvas")
+    box = tank.bounding_box()
+    tank.click(position={"x": 0.25 * box["width"], "y": 0.75 * box["height"]})
+    expect(page.locator(".interest")).to_have_attribute("style", re.compile(r"left: 2[45].*top: 7[45]"))
+    expect(page.locator('[data-action="drop"]')).to_have_attribute("aria-pressed", "false")
+
+
+@pytest.mark.parametrize("name, typed, kept", [
+    ("resolutions", "0, 3", "5, 3"), ("resolutions", "three", "5, 3"), ("seed", "-1", "3"), ("run", "1.5", "0")])
+def test_refused_input_goes_back_to_what_was(visit, name, typed, kept):
+    page = visit()
+    page.locator("summary").click()
+    field = page.locator(f'[name="{name}"]')
+    field.fill(typed)
+    field.press("Enter")
+    expect(field).to_have_value(kept)
+    expect(field).to_have_attribute("aria-invalid", "true")
+    expect(page.locator(".refused")).to_contain_text("hole numbers from")
+    field.fill("7")
+    field.press("Enter")
+    expect(field).not_to_have_attribute("aria-invalid", "true")
+    expect(page.locator(".refused")).to_have_text("")
+
+
+def test_what_was_refused_is_forgotten_with_another_agent(visit):
+    page = visit()
+    field = page.locator('[name="resolutions"]')
+    field.fill("none")
+    field.press("Enter")
+    expect(field).to_have_attribute("aria-invalid", "true")
+    page.locator('[name="preset"]').select_option("things")
+    expect(field).not_to_have_attribute("aria-invalid", "true")
+    expect(page.locator(".refused")).to_have_text("")
+
+
+def test_nothing_moves_between_play_and_pause(visit):
+    page = visit("", viewport={"width": 1200, "height": 900})
+    page.locator('[name="speed"]').fill("2")
+    explorer, heights = page.locator(".neorl-explorer"), set()
+    for _ in range(4):
+        press(page, "play")
+        page.wait_for_timeout(1_200)
+        heights.add(explorer.bounding_box()["height"])
+    assert len(heights) == 1
+
+
+def test_a_curve_begins_with_the_first_second(visit):
+    page = visit()
+    rates = page.evaluate("""async () => {
+        const source = document.querySelector('script[type*="widget-state"]').textContent;
+        const { _esm } = Object.values(JSON.parse(source).state).find((each) => each.state._esm).state;
+        const text = `${_esm.replace("export default { render };", "")}; export default ratesOf;`;
+        const ratesOf = (await import(URL.createObjectURL(new Blob([text], { type: "text/javascript" })))).default;
+        return [[[0, 0], 0.5], [[2, 0], 5], [[4, 3], 15], [[4, 3], 20]].map(([rewards, lived]) =>
+            ratesOf(rewards, 10, lived, 20));
+    }""")
+    assert rates == [{"edges": [0], "rates": []}, {"edges": [0, 5], "rates": [0.4]},
+                     {"edges": [0, 10, 15], "rates": [0.4, 0.5]}, {"edges": [0, 10, 20], "rates": [0.4, 0.3]}]
+
+
+def test_a_creep_slows_under_the_pointer(visit):
+    page = visit()
+    page.locator('[name="speed"]').fill("8")
+    press(page, "play")
+    wait(page, "running")
+    creep = page.locator(".grip").first
+    page.wait_for_timeout(300)
+    box = creep.bounding_box()
+    rates = []
+    for _ in range(40):
+        page.mouse.move(box["x"] + 22, box["y"] + 22)
+        begin = int(told(page, "step"))
+        page.wait_for_timeout(50)
+        box = creep.bounding_box()
+        rates.append(int(told(page, "step")) - begin)
+    assert min(rates) <= 2 < max(rates)
+
+
+def test_maps_go_by_the_modality_that_they_are_of(visit):
+    page = visit()
+    page.locator('[name="modality"]').select_option("border cell")
+    expect(page.locator('[name="map"] option')).to_have_text(["border cell N5", "border cell N3"])
+    page.locator('[name="modality"]').select_option("place cell")
+    expect(page.locator('[name="map"] option')).to_have_text(["PC N5", "PC N3"])
+
+
+def test_a_link_leads_to_a_moment_of_a_run(visit):
+    page = visit("#explorer_agent-things_run-7_minute-2_map-ovc-n4_goal-5")
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal === '5'")
+    assert (told(page, "state"), told(page, "step"), told(page, "condition")) == ("paused", "6000", "things")
+    assert float(told(page, "score")) == Run(object_vector_cells([4]), TANK, SIZE["seed"], 7).advance(6_000)
+
+
+def test_the_address_of_a_moment_leads_back_to_it(visit):
+    page = visit()
+    page.locator("summary").click()
+    page.locator('[name="valence_red"]').fill("0.5")
+    page.locator('[name="run"]').fill("4")
+    page.locator('[name="run"]').press("Enter")
+    page.locator('[name="speed"]').fill("9")
+    press(page, "play")
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step > 500")
+    press(page, "play")
+    page.wait_for_function("location.hash.includes('_minute-')")
+    before = {name: told(page, name) for name in ("step", "score")}
+    assert "_red-0p5" in page.url and "_run-4" in page.url
+    again = visit(page.url[page.url.index("#"):])
+    again.wait_for_function(f"document.querySelector('.neorl-explorer').dataset.step == {before['step']}")
+    wait(again, "paused")
+    assert {name: told(again, name) for name in before} == before
+
+
+def test_a_link_within_the_page_is_followed(visit):
+    page = visit()
+    page.evaluate("location.hash = '#explorer_start-corner'")
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal === '0'")
+
+
+@pytest.mark.parametrize("address, reason", [
+    ("#explorer_agent-nobody", "There is no agent “nobody”"), ("#explorer_run--1", "run = -1"),
+    ("#explorer_resolutions-3-x", "resolutions"), ("#explorer_minute-soon", "no minute")])
+def test_an_address_of_no_run_is_a_sentence_and_the_page_stays_as_it_is(visit, address, reason):
+    page = visit(address)
+    expect(page.locator(".refused")).to_contain_text(reason)
+    assert (told(page, "condition"), told(page, "step")) == ("places", "0")
+
+
+def test_those_who_hear_the_page_are_told_what_is_in_the_tank(visit):
+    page = visit()
+    tank = page.locator(".arena canvas")
+    described = page.locator(f"#{tank.get_attribute('aria-describedby')}")
+    expect(described).to_have_text(re.compile(
+        r"^The agent is in the middle, at rest\. With it: .*(green|red).* The nearest is \w+, [\d.]+ board widths "))
