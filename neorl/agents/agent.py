@@ -266,7 +266,8 @@ class Desire(checks.Final):
         target's space, which whatever the node follows is to reach; or the name of a node, whose desire vector
         Σ |w| (Q_E − Q_W, Q_S − Q_N) over its elements (in other worlds: the pushes of all actions, times their values),
         times `scale`, says where, as seen from the agent in units of the world's size, the element lies (paper C,
-        section 1). A node that desires of itself does so by its desire vector of the step before: recursion.
+        section 1); for a target of velocities it is the velocity desired, in sizes of the world per second. A node that
+        desires of itself does so by its desire vector of the step before: recursion.
     valence: how much an element matters, and its sign. For a desire between nodes None stands for the sum of the
         valences that the vector comes from; recursion needs a number, the weight r. "learned" stands for a number that
         is learned from reward alone, for a kind of thing; it begins with 1.
@@ -360,7 +361,7 @@ class Agent(Described, checks.Final):
             raise ValueError(f"desire {desire}: a point is no goal of the node, allowed are kinds of things, places "
                              "and nodes: it learns of contacts alone")
         modality = nodes[desire.target].modality
-        if isinstance(desire.source, str | Place) and not modality.takes_places:
+        if isinstance(desire.source, str | Place) and desire.source not in nodes and not modality.takes_places:
             raise ValueError(f"desire {desire}: what lies at a place has no point among {modality.name}s, allowed are "
                              f"points of their own space")
         if isinstance(desire.source, tuple) and len(desire.source) != len(modality.axes):

@@ -108,8 +108,6 @@ def test_resolutions_may_be_numbers_of_numpy_but_not_a_single_one():
      "'HD' → 'PC': .* HD → PC → OVC → HD), allowed is recursion"),
     ([Desire("green", "speed", 1.0)], "desire 'green' → 'speed': what lies at a place has no point among speed cells"),
     ([Desire(Place(0.5, 0.5), "speed", 1.0)], "desire Place.* → 'speed': what lies at a place"),
-    ([Desire("PC", "speed")], "desire 'PC' → 'speed': .* allowed are points of their own space"),
-    ([Desire("speed", "speed", 1.0)], "desire 'speed' → 'speed': what lies at a place"),
     ([Desire((0.5,), "PC", 1.0)], r"desire \(0.5,\) → 'PC': allowed for place cells are points of 2 coordinates: x, y"),
     ([Desire((0.5, 0.5), "HD", 1.0)], r"desire \(0.5, 0.5\) → 'HD': .* points of 1 coordinates: direction"),
     ([Desire((), "OVC", 1.0)], r"desire \(\) → 'OVC': .* points of 2 coordinates"),

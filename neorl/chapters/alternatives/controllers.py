@@ -8,7 +8,7 @@
 3. *planner*: at every step it copies the world, tries some first moves in the copy, each followed by the PD controller
    up to a horizon, and takes the first action of the best one (a rollout policy; Tesauro and Galperin 1996). Creeps
    that are to come are left out: it knows the rules and not the future. What it earns is an achieved level, not a
-   bound.
+   bound. Parts of what it knows can be taken from it: how creeps move, the red ones, what follows a capture.
 """
 
 import math
@@ -46,6 +46,9 @@ class Plan(NamedTuple):
     gains: Gains
     horizon: int  # steps
     discount: float  # a step
+    captures: int  # of green creeps, after which it ends
+    moving: bool  # whether creeps move in the copy of the world
+    avoiding: bool  # whether red creeps are in it
 
 
 class Nothing(NamedTuple):
@@ -70,10 +73,14 @@ def pd(gains):
     return Contestant(act_pd, learn_nothing, gains, _nothing)
 
 
-def planner(gains, horizon=100, discount=0.99):
-    """The `Contestant` that plans with the exact model, and follows a PD controller in its plans."""
-    return Contestant(act_planner, learn_nothing, Plan(gains, horizon, discount), lambda world, stream: Copy(
-        world.reset(0)))
+def planner(gains, horizon=100, discount=0.99, captures=100, moving=True, avoiding=True):
+    """The `Contestant` that plans with the exact model, and follows a PD controller in its plans.
+
+    captures: of green creeps, after which a plan ends. moving, avoiding: whether creeps move, and whether there are red
+    ones, in its model.
+    """
+    plan = Plan(gains, horizon, discount, captures, moving, avoiding)
+    return Contestant(act_planner, learn_nothing, plan, lambda world, stream: Copy(world.reset(0)))
 
 
 def _nothing(world, stream):
@@ -152,7 +159,7 @@ def act_pd(setting, memory, state, rules):
 
 
 @inlined_kernel
-def copy_world(source, target):
+def copy_world(source, target, moving, avoiding):
     for axis in range(2):
         target.scene.position[axis] = source.scene.position[axis]
         target.scene.velocity[axis] = source.scene.velocity[axis]
@@ -161,8 +168,17 @@ def copy_world(source, target):
             target.scene.things[thing, axis] = source.scene.things[thing, axis]
             target.direction[thing, axis] = source.direction[thing, axis]
         target.scene.kinds[thing] = source.scene.kinds[thing]
-        target.speed[thing] = source.speed[thing]
+        target.speed[thing] = source.speed[thing] if moving else 0.0
         target.jitter[thing] = source.jitter[thing]
+        if source.scene.kinds[thing] == RED and not avoiding:
+            leave(target, thing)
+
+
+@inlined_kernel
+def leave(world, thing):
+    """Let a creep be nowhere, so nothing meets it."""
+    world.scene.kinds[thing] = ABSENT
+    world.scene.things[thing, 0] = world.scene.things[thing, 1] = np.nan
 
 
 @inlined_kernel
@@ -171,8 +187,8 @@ def value_of_plan(plan, world, state, rules, action, hold, target):
 
     It holds an action for some steps, goes for a creep until something is met, and is the PD controller's after that.
     """
-    copy_world(state, world)
-    total, weight, first = 0.0, 1.0, action
+    copy_world(state, world, plan.moving, plan.avoiding)
+    total, weight, first, captured = 0.0, 1.0, action, 0
     for now in range(plan.horizon):
         if now >= hold:
             action = pd_action(plan.gains, world, rules.width,
@@ -185,10 +201,12 @@ def value_of_plan(plan, world, state, rules, action, hold, target):
         if done:
             break
         for thing in range(world.speed.shape[0]):
-            if world.scene.met[thing] > 0:  # what comes next is not known: it is nowhere, so nothing meets it
-                world.scene.kinds[thing] = ABSENT
-                world.scene.things[thing, 0] = world.scene.things[thing, 1] = np.nan
+            if world.scene.met[thing] > 0:
+                captured += world.scene.met[thing] == GREEN + 1
+                leave(world, thing)  # what comes in its place is not known
                 target = -1
+        if captured >= plan.captures:
+            break
     return total, first
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from neorl.chapters.beyond_agents.adapting import SEGMENT
 from neorl.chapters.beyond_agents.experiments import PARTS, THESIS, hits_per_second, last_third
 from neorl.drawing.curves import draw_curves, draw_proficiency
 from neorl.drawing.style import CURVES, INK, axes_or_new
@@ -56,3 +57,34 @@ def draw_revalued(lived):
     axes = draw_curves(minutes, rates, "simulated minutes", "creeps per second")
     axes.axvline(lived.revalued.seconds / 120, color=INK, linewidth=0.7)
     return axes
+
+
+def draw_oracles(boards, ax=None):
+    """Reward per second of foragers and planners, means and 95 % intervals: a row each, a colour a board.
+
+    boards: {creeps: as `neorl.chapters.beyond_agents.oracles.rates_of_oracles` returns them}.
+    """
+    axes = axes_or_new(ax, figsize=(4.9, 3.6))
+    for colour, (creeps, rates) in zip((CURVES[0], CURVES[5]), boards.items()):
+        found = [estimate(np.mean, each) for each in rates.values()]
+        axes.errorbar([each.value for each in found], range(len(found)), xerr=_bars(found), fmt="o" if creeps == 3 else
+                      "D", color=colour, label=f"{creeps} creeps")
+    axes.set_yticks(range(len(rates)), list(rates))
+    axes.invert_yaxis()
+    axes.set_xlabel("reward per second")
+    axes.legend(frameon=False, fontsize=9, loc="lower left")
+    return axes
+
+
+def draw_adapting(of_ways, parts=10):
+    """Reward per second by simulated minutes, of lives that are fixed, shaken and adapted.
+
+    of_ways: what `neorl.chapters.beyond_agents.adapting.lives` returns for one agent, whose segments are averaged in
+    `parts` groups or less.
+    """
+    segments = next(iter(of_ways.values()))[1].shape[1]
+    groups = np.array_split(np.arange(segments), min(parts, segments))
+    minutes = [SEGMENT * (group.mean() + 0.5) / 3_000 for group in groups]
+    curves = {way: np.array([rewards[:, group].mean(axis=1) for group in groups]).T
+              for way, (_, rewards) in of_ways.items()}
+    return draw_curves(minutes, curves, "simulated minutes", "reward per second")

@@ -2,6 +2,10 @@
 
 import numpy as np
 
+from neorl.chapters.beyond_agents import oracles
+from neorl.chapters.beyond_agents.adapting import ADAPTABLE, ADAPTED, FIXED, SHAKEN
+from neorl.chapters.beyond_agents.adapting import last_third as late_reward
+from neorl.chapters.beyond_agents.control import ALONE, FORAGER, NETWORKS, SETTINGS
 from neorl.chapters.beyond_agents.experiments import BARE, PARTS, TARGETS, THESIS, last_third, reached
 from neorl.chapters.beyond_agents.search import RANGES, read_record, score_of
 from neorl.chapters.shared.wording import listed, number, table
@@ -99,3 +103,46 @@ def cost_in_words(cost):
     """What the forager costs."""
     return (f"A step of world and agent takes {number(cost.microseconds, 1)} µs on one core of this machine. The agent "
             f"holds {cost.held:,.0f} KiB of values, of which it has used {cost.used:,.0f} KiB.")
+
+
+def gaps_in_words(boards):
+    """How far the forager is from the planner, and what lies between them. boards: as `figures.draw_oracles` has it."""
+    parts = []
+    for creeps, rates in boards.items():
+        of_forager, of_planner = (mean_of(rates[name]) for name in (oracles.FORAGER, oracles.ALL))
+        gaps = sorted(oracles.shares(rates).items(), key=lambda item: -item[1])
+        parts.append(f"With {creeps} creeps the forager earns {interval(of_forager)} per second and the planner "
+                     f"{interval(of_planner)}. Of the distance between them "
+                     + listed([f"{name} is {100 * share:.0f} %" for name, share in gaps]) + ".")
+    return " ".join(parts)
+
+
+def gap_table(boards):
+    """What each kind of perfect knowledge would bring, in rewards per second: a row each, a column a board."""
+    gaps = {creeps: oracles.gaps(rates) for creeps, rates in boards.items()}
+    return table(["perfect", *(f"{creeps} creeps (95 % interval)" for creeps in boards)],
+                 [[name, *(interval(mean_of(each[name])) for each in gaps.values())]
+                  for name in next(iter(gaps.values()))])
+
+
+def networks_in_words(results):
+    """What networks down to control earn beside the object vectors alone and the forager."""
+    earned = {name: mean_of(last_third(result)) for name, result in results.items()}
+    return ("; ".join(f"{name}: {interval(earned[name])}" for name in (*NETWORKS, ALONE, FORAGER))
+            + f" per second over the last third. {SETTINGS} settings were tried for each network.")
+
+
+def adapting_in_words(lives):
+    """What adapting brings. lives: as `neorl.chapters.beyond_agents.adapting.lives` returns them."""
+    parts = []
+    for name, of_ways in lives.items():
+        rates = {way: late_reward(rewards) for way, (_, rewards) in of_ways.items()}
+        brought = estimate(difference, rates[ADAPTED], rates[SHAKEN])
+        verdict = "more" if brought.low > 0 else "less" if brought.high < 0 else "neither more nor less for certain"
+        last = listed([f"{parameter} from {number(first)} to {number(float(value))}" for parameter, first, value in zip(
+            ADAPTABLE[name].names, ADAPTABLE[name].start, of_ways[ADAPTED][0][:, -1].mean(axis=0))])
+        parts.append(f"**{name}**: {number(float(rates[FIXED].mean()))} per second over the last third with fixed "
+                     f"parameters, {number(float(rates[SHAKEN].mean()))} when they are merely shaken, "
+                     f"{number(float(rates[ADAPTED].mean()))} when they adapt; adapting brings {interval(brought)} "
+                     f"beyond shaking, {verdict}. On average the {last}.")
+    return "\n\n".join(parts)

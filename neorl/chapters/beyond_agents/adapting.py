@@ -1,0 +1,103 @@
+"""Gains and recursion weights that adapt to reward, while the agent learns: the future work of paper C.
+
+Simultaneous perturbation (Spall 1992). A life is cut into pairs of segments. In one of each pair all parameters are
+raised or lowered together, each by a coin; in the other, the other way round; a coin says which comes first, since an
+agent that learns earns more later. Each parameter then moves in proportion to the difference in reward. Nothing but
+reward is looked at, and nothing learned is forgotten. Without the last step the parameters are merely *shaken*: what
+that alone brings has to be taken from what adapting brings.
+"""
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+
+from neorl.agents.papers import multimodal, network_d
+from neorl.experiments.run import Run
+from neorl.worlds.waterworld import WaterWorld
+
+SEGMENT = 1_000  # steps
+SPREAD, RATE = 0.5, 0.5  # of a perturbation; of a move, for a reward per second more at 1 more of the parameter
+HIGHEST = 4.0  # a parameter at most, and its negative at least
+THREADS = 2
+FIXED, SHAKEN, ADAPTED = "fixed", "shaken", "adapted"
+
+
+@dataclass(frozen=True)
+class Adaptable:
+    """An agent with parameters that can adapt.
+
+    agent_of: from its parameters, numbers, to an `Agent`. names: of these. start: their first values.
+    """
+
+    agent_of: object
+    names: tuple[str, ...]
+    start: tuple[float, ...]
+
+
+def _gains(octaves):
+    """Gains of places and objects, the first 4 to the power of `octaves` times the second."""
+    return {"place_gain": 2.0**octaves, "object_gain": 2.0**-octaves}
+
+
+RATIO = "log₄ of the gain of places over that of objects"
+ADAPTABLE = {
+    "paper B, places and objects": Adaptable(lambda octaves: multimodal(**_gains(octaves)), (RATIO,), (-1.0,)),
+    "paper C, network D": Adaptable(lambda octaves, weight: network_d(**_gains(octaves), recursion=weight),
+                                    (RATIO, "recursion weight"), (0.0, -1.0))}
+
+
+def adapt(adaptable, steps, seed=0, run=0, rate=RATE, segment=SEGMENT):
+    """One life of so many steps: parameters before each pair of segments, and reward per second of each segment.
+
+    Returns float64 (pairs + 1, parameters) and (2 · pairs,); `steps` is rounded to pairs of segments, one at least.
+    """
+    now, rng = np.array(adaptable.start), np.random.default_rng([seed, run])
+    life = Run(adaptable.agent_of(*now), WaterWorld(), seed, run)
+    path, rewards, seconds = [now], [], segment / life.world.fps
+    for _ in range(max(1, round(steps / (2 * segment)))):
+        signs, gained = rng.choice([-1.0, 1.0], len(now)), 0.0
+        for way in rng.permutation([1.0, -1.0]):
+            life.change(adaptable.agent_of(*_within(now + way * SPREAD * signs)))
+            rewards.append(life.advance(segment) / seconds)
+            gained += way * rewards[-1]
+        now = _within(now + rate * gained / (2 * SPREAD) * signs)
+        path.append(now)
+    return np.array(path), np.array(rewards)
+
+
+def _within(parameters):
+    return np.clip(parameters, -HIGHEST, HIGHEST)
+
+
+def lives(steps, runs, seed=0):
+    """Lives of every `ADAPTABLE` agent, fixed, shaken and adapted.
+
+    Returns {name: {way: (paths, float64 (runs, pairs + 1, parameters), rewards, float64 (runs, 2 · pairs))}}.
+    """
+    ways = {FIXED: None, SHAKEN: 0.0, ADAPTED: RATE}
+    segment = min(SEGMENT, max(1, steps // 4))
+
+    def live_one(adaptable, rate, run):
+        return (_fixed(adaptable, steps, seed, run, segment) if rate is None else
+                adapt(adaptable, steps, seed, run, rate, segment))
+
+    with ThreadPoolExecutor(THREADS) as pool:
+        begun = {(name, way): [pool.submit(live_one, adaptable, rate, run) for run in range(runs)]
+                 for name, adaptable in ADAPTABLE.items() for way, rate in ways.items()}
+        found = {key: [np.array(each) for each in zip(*(future.result() for future in futures))]
+                 for key, futures in begun.items()}
+    return {name: {way: tuple(found[name, way]) for way in ways} for name in ADAPTABLE}
+
+
+def _fixed(adaptable, steps, seed, run, segment):
+    """The same of an agent whose parameters stay as they are."""
+    life = Run(adaptable.agent_of(*adaptable.start), WaterWorld(), seed, run)
+    pairs = max(1, round(steps / (2 * segment)))
+    rewards = [life.advance(segment) * life.world.fps / segment for _ in range(2 * pairs)]
+    return np.tile(np.array(adaptable.start), (pairs + 1, 1)), np.array(rewards)
+
+
+def last_third(rewards):
+    """Reward per second of each run in the last third: float64 (runs,). rewards: float64 (runs, segments)."""
+    return rewards[:, -max(1, rewards.shape[1] // 3):].mean(axis=1)
