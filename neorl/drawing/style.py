@@ -23,7 +23,7 @@ CURVES = ("#3d6ad1", "#ae2c47", "#b68f0c", "#00a1c0", "#85498f", "#ae6411", "#af
 LIGHT_OF_LETTERS = 0.165  # relative luminance
 DASHES = ("-", "--", ":", "-.")  # of curves: one for each time that the colours have gone round
 LOW_PANEL = 0.17  # of the height of a panel, for the name of a curve
-SMALL = 9  # points: the least that letters have
+SMALL, CROWDED = 9, 6  # points: the least that letters have, and that the names of more than a dozen curves have
 STYLE: dict[Any, Any] = {
     "figure.facecolor": "none", "axes.facecolor": "none", "savefig.facecolor": "none", "figure.figsize": (4.9, 3.5),
     "font.size": 11, "text.color": TEXT, "axes.labelcolor": TEXT, "axes.edgecolor": INK, "xtick.color": INK,
@@ -112,7 +112,7 @@ def name_ends(axes, ends, line=0.075):
     share = min(1.0, 1.0 / (line * len(ends))) if ends else 1.0
     apart = share * line * (high - low) * np.arange(len(ends))
     heights = apart + scipy.optimize.isotonic_regression([height for height, *_ in ends] - apart).x
-    size = max(SMALL, share * plt.rcParams["font.size"])
+    size = max(CROWDED, share * plt.rcParams["font.size"])
     for at, (_, name, colour) in zip(heights, ends):
         axes.annotate(name, (1.02, at), xycoords=("axes fraction", "data"), color=letters(colour), va="center",
                       fontsize=size, annotation_clip=False)
