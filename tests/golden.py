@@ -162,17 +162,27 @@ def digest(name, steps):
         if step < steps:
             run.change(later)
     reward += run.advance(steps - run.step)
-    return recorded(name, reward, run.state.values.q, run.world_state)
+    return recorded(name, reward, run.agent, run.state.values.q, run.world_state)
 
 
-def recorded(name, reward, q, state):
-    """What is on record of a run, from what it was paid, its values and the state of its world."""
+def recorded(name, reward, agent, q, state):
+    """What is on record of a run, from what it was paid, what it has become, its values and the state of its world."""
     scene = state.scene
     own = ((state.inside, state.clock) if isinstance(world_of(name), Arena) else
            (state.direction, state.speed, scene.kinds == 0, state.jitter))
-    arrays = (q, scene.position, scene.velocity, scene.things, *own, state.stream)
+    arrays = (*in_order(agent, q), scene.position, scene.velocity, scene.things, *own, state.stream)
     content = b"".join(np.ascontiguousarray(each).tobytes() for each in arrays)
     return f"{float(reward)} {hashlib.sha256(content).hexdigest()}"
+
+
+def in_order(agent, q):
+    """The values of each map as q[state, action, goal], or as they are if its goals are contacts."""
+    for node in agent.nodes:
+        for each in node.maps:
+            contacts = node.goals == "contacts"
+            one, q = np.split(q, [4 * each.cells * (3 if contacts else each.cells)])
+            in_place = contacts or agent.learning.bootstrap
+            yield one if in_place else one.reshape(each.cells, each.cells, 4).swapaxes(1, 2)
 
 
 if __name__ == "__main__":

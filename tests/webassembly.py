@@ -84,7 +84,9 @@ def sizes_of(run):
             "coordinates": parameters.desires.at.shape[1], "actions": actions, "axes": axes,
             "frames": len(parameters.frames), "left": parameters.contacts.trace,
             "values": maps.first_value[-1], "cells": maps.first_cell[-1], "tracks": maps.first_track[-1],
-            "trace": parameters.learning.trace, "traces": len(tracks.strength), "trace_rows": len(tracks.trace_weight),
+            "scratch": actions * maps.first_cell[-1],
+            "trace": parameters.learning.trace, "traces": len(tracks.strength),
+            "trace_weights": len(tracks.trace_weight),
             "things": run.world.things, "words": 0, "bins": 1, "kinds": len(run.world.kinds),
             **{name: worlds.sizes_of(run.world)[name] for name in ("obstacles", "places", "trials")}}
 

@@ -17,7 +17,7 @@ from neorl.agents.memory import fitting_runs, kept_apart, read_only
 from neorl.core.description import described, restored
 from neorl.core.horde import as_vectors
 from neorl.core.kernel import arrays, execute, mapped
-from neorl.core.parameters import Parameters
+from neorl.core.parameters import ENTRIES, Parameters
 from neorl.core.state import State, new_state
 from neorl.core.steps import steps_with
 from neorl.files import read_arrays, write_arrays
@@ -79,15 +79,13 @@ class Individual:
     def q(self, index: int = 0) -> NDArray[np.float32]:
         """The values of one of the agent's maps, a view that cannot be written to.
 
-        float32 (cells, actions, cells), q[state, action, goal]; of a node whose goals are contacts (cells, actions, 3):
-        approach, fear and number of visits (see `neorl.core.contacts`).
+        float32 (cells, actions, cells), q[state, action, goal]; not contiguous unless the agent bootstraps. Of a node
+        whose goals are contacts (cells, actions, 3): approach, fear, number of visits (see `neorl.core.contacts`).
 
         index: the place of the map in `Agent.maps`. Raises ValueError if there is none.
         """
-        maps = self.agent.maps
-        index = checks.integer("index", index, at_least=0, at_most=len(maps) - 1)
-        first, end = self._parameters.maps.first_value[index : index + 2]
-        return read_only(self._state.values.q[first:end].reshape(maps[index].cells, len(self.world.actions.names), -1))
+        index = checks.integer("index", index, at_least=0, at_most=len(self.agent.maps) - 1)
+        return read_only(_values_of(self.agent, self._parameters, self._state, index))
 
     def output(self, name: str) -> Output:
         """The `Output` of the node of that name. Raises ValueError if there is none."""
@@ -121,6 +119,8 @@ class Individual:
                     for name in names:
                         width = len(new[name]) // max(of_new[-1], 1)
                         new[name][width * begin : width * end] = old[name][width * begin_old : width * end_old]
+                _values_of(agent, parameters, state, m)[...] = _values_of(self.agent, self._parameters, self._state,
+                                                                          old_maps[key])
         for name in ("last_event", "activity", "attended"):
             new[name][:] = old[name]
         for e, desire in enumerate(agent.desires):
@@ -139,7 +139,8 @@ class Individual:
         if maps != self.agent.maps or len(other.world.actions.names) != len(self.world.actions.names):
             raise ValueError(f"other has the maps {maps} and {len(other.world.actions.names)} actions, allowed are "
                              f"{self.agent.maps} and {len(self.world.actions.names)}")
-        self._state.values.q[:] = other._state.values.q
+        for m in range(len(maps)):
+            _values_of(self.agent, self._parameters, self._state, m)[...] = other.q(m)
         self._state.values.goal_range[:] = other._state.values.goal_range
 
     def copy(self) -> Self:
@@ -188,6 +189,17 @@ class Individual:
                                      f"{mine.dtype} {mine.shape}: it is of another version of neorl")
                 mine[...] = saved
         return loaded
+
+
+def _values_of(agent, parameters, state, m):
+    """The values of a map as `Individual.q` has them, a view."""
+    first, end = parameters.maps.first_value[m : m + 2]
+    values, cells, actions = state.values.q[first:end], agent.maps[m].cells, len(parameters.push)
+    if [node.goals for node in agent.nodes for _ in node.resolutions][m] == "contacts":
+        return values.reshape(cells, actions, ENTRIES)
+    if agent.learning.bootstrap:  # see `neorl.core.learning.Order`
+        return values.reshape(cells, actions, cells)
+    return values.reshape(cells, cells, actions).swapaxes(1, 2)
 
 
 def _map_keys(agent):

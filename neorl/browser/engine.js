@@ -28,7 +28,8 @@ function newRun({ parameters: choices, world, steps, bin_steps }) {
   const last = (name) => Number(derived.maps[name].at(-1));
   Object.assign(sizes, { values: last("first_value"), cells: last("first_cell"), tracks: last("first_track") });
   sizes.traces = learning.memory_retained > 0 ? last("first_trace") : 0;
-  sizes.trace_rows = 2 * sizes.actions * sizes.traces;
+  sizes.scratch = sizes.actions * sizes.cells;
+  sizes.trace_weights = 2 * sizes.actions * sizes.traces;
 
   const bytes = 2 ** 20 + 8 * sizes.bins + bytesOf("Parameters", sizes) + bytesOf("State", sizes)
     + bytesOf("State", { ...sizes, values: 0 }) + 3 * bytesOf(layout.state, sizes) + bytesOf(layout.rules, sizes);
@@ -197,9 +198,25 @@ function keepMap(old, from, to) {
     for (const [part, name] of fields.map((field) => field.split("."))) {
       const kept = old.state[part][name];
       const width = kept.length / Number(ofOld.at(-1));
-      run.state[part][name].set(kept.subarray(begin * width, end * width), Number(ofNew[to]) * width);
+      const moved = kept.subarray(begin * width, end * width);
+      run.state[part][name].set(name === "q" ? reordered(moved, old, from) : moved, Number(ofNew[to]) * width);
     }
   }
+}
+
+/** The values of a map of an old run in the order that the run has them in (neorl.core.learning.Order). */
+function reordered(values, old, m) {
+  const { nodes, maps } = old.parameters;
+  const byGoal = old.choices.learning.bootstrap;
+  if (byGoal === run.choices.learning.bootstrap || nodes.learns_contacts[nodeOf([...nodes.first_map].map(Number), m)]) {
+    return values;
+  }
+  const [cells, actions] = [Number(maps.cells[m]), old.sizes.actions];
+  const [rows, columns] = byGoal ? [actions, cells] : [cells, actions];
+  return values.map((_, at) => {
+    const [column, row] = [Math.floor(at / rows) % columns, at % rows];
+    return values[at - (at % (rows * columns)) + row * columns + column];
+  });
 }
 
 function advance({ steps, budget }) {
@@ -297,7 +314,8 @@ function field(side) {
 function valueFunction(map, goal) {
   const { first_value, cells: counts } = run.parameters.maps;
   const [first, cells, { actions }] = [Number(first_value[map]), Number(counts[map]), run.sizes];
-  return vectors(cells, (cell, action) => run.state.values.q[first + (actions * cell + action) * cells + goal]);
+  return vectors(cells, (cell, action) => run.state.values.q[first + actions * cell * cells
+    + (run.choices.learning.bootstrap ? action * cells + goal : goal * actions + action)]);
 }
 
 /** The cell of the map that is looked at for a place. What an axis of its own knows of it is that of a thing there. */

@@ -29,6 +29,8 @@ def learn(q: NDArray[np.float32], cell_tm1: int, cell_t: int, credit: Sequence[f
     Raises ValueError for anything else.
     """
     cells, actions = _check_q(q)
+    if not q.flags.c_contiguous:
+        raise ValueError("q is not C-contiguous, allowed are arrays that are, such as a copy")
     if not q.flags.writeable:
         raise ValueError("q is read-only, allowed are arrays that can be written to")
     cell_tm1 = checks.integer("cell_tm1", cell_tm1, at_least=0, at_most=cells - 1)
@@ -79,7 +81,6 @@ def as_vectors(values: ArrayLike, actions: Actions = CARDINAL) -> NDArray[np.flo
 def _check_q(q):
     checks.instance("q", q, np.ndarray)
     cells, actions = q.shape[:2] if q.ndim == 3 else (0, 0)
-    if (q.dtype != np.float32 or not q.dtype.isnative or q.shape != (cells, actions, cells) or not q.size
-            or not q.flags.c_contiguous):
-        raise ValueError(f"q is {q.dtype} {q.shape}, allowed are C-contiguous float32 arrays (cells, actions, cells)")
+    if q.dtype != np.float32 or not q.dtype.isnative or q.shape != (cells, actions, cells) or not q.size:
+        raise ValueError(f"q is {q.dtype} {q.shape}, allowed are float32 arrays (cells, actions, cells)")
     return cells, actions

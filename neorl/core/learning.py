@@ -33,12 +33,23 @@ INACTIVE = np.float32(0.01)
 class MapValues(NamedTuple):
     """The values of one map, and what it takes to learn them."""
 
-    q: array("float32", "values")  # q[state, action, goal], of this map and maybe of others
+    q: array("float32", "values")  # of this map and maybe of others, see `Order`
     first: int  # where in q the map begins
     cells: int
     actions: int
     goal_range: array("int64", "cells", 2)  # the goals, from and to, of which a cell may know anything: others are 0
-    scratch: array("float32", "cells")  # working memory, a number a goal
+    scratch: array("float32", "scratch")  # working memory: a number a goal, or with memory for each goal and action
+
+
+class Order(NamedTuple):
+    """How far apart in q the values of two goals lie that follow each other, and of two actions.
+
+    An agent that bootstraps goes through all goals of an action, so its maps are q[state, action, goal]. One that does
+    not goes through all actions for one goal in many cells, which are far apart: its maps are q[state, goal, action].
+    """
+
+    goal: np.uint64
+    action: np.uint64
 
 
 class Rule(NamedTuple):
@@ -53,15 +64,16 @@ class Rule(NamedTuple):
 class Trace(NamedTuple):
     """What one track remembers.
 
-    The list `cells` is in no order. Rows are contiguous, so that the processor can work on several places at a time.
+    The list `cells` is in no order. Weights and worths have a number for each place in it and each event, first all for
+    the event's having happened, then all for its having been absent.
     """
 
     cells: array("int64", "cells")  # a list of those remembered
     places: array("int64", "cells")  # where in the list each cell of the map stands, plus one; 0 is nowhere
-    strength: array("float32", "cells")  # by place in the list, and so are the rows below
-    weight: array("float32", "trace_rows")  # a row for each event's having happened, then for its having been absent
-    goal_worth: array("float32", "trace_rows")  # weight times what a goal is worth
-    rows: int
+    strength: array("float32", "cells")  # by place in the list
+    weight: array("float32", "trace_weights")
+    goal_worth: array("float32", "trace_weights")  # weight times what a goal is worth
+    actions: tuple  # their numbers, see `neorl.core.constants.Constants`
 
 
 @inlined_kernel
@@ -74,12 +86,12 @@ def learn_transition(parameters, constants, state, m, point, cell_t, caused):
     remembers = learning.memory_retained > ZERO
     if remembers:
         tracks.remembered_count[track] = fade(
-            trace_of(parameters, tracks, m, point), tracks.remembered_count[track],
+            trace_of(parameters, constants, tracks, m, point), tracks.remembered_count[track],
             retained_since(learning, constants, tracks, track),
             learning.discount if learning.memory_discounts else UNIT)
     if not caused:
         return
-    values = values_of(parameters, state, m)
+    values, order = values_of(parameters, state, m), order_of(parameters, m)
     slot = tracks.trace_count[track] % learning.trace
     tracks.trace_cell[track, slot] = cell_tm1
     rates = tracks.trace_rates[track, slot]
@@ -88,20 +100,20 @@ def learn_transition(parameters, constants, state, m, point, cell_t, caused):
     if learning.bootstrap:
         learn_all_goals(values, rule, cell_tm1, cell_t, rates)
     if remembers:
-        trace = trace_of(parameters, tracks, m, point)
+        trace = trace_of(parameters, constants, tracks, m, point)
         for turn in range(2):
             if turn == learning.bootstrap:  # the cell just left joins late if it has learned by bootstrapping already
                 tracks.remembered_count[track] = join(trace, tracks.remembered_count[track], cell_tm1, rates,
                                                       rule.absent_rate)
             else:
-                learn_remembered(values, rule, trace, tracks.remembered_count[track], cell_t)
+                learn_remembered(values, order, rule, trace, tracks.remembered_count[track], cell_t)
         return
     fading = UNIT
     for back in range(min(tracks.trace_count[track], learning.trace)):
         if back > 0 or not learning.bootstrap:
             slot = (tracks.trace_count[track] - 1 - back) % learning.trace
-            learn_one_goal(values, rule, tracks.trace_cell[track, slot], cell_t, tracks.trace_rates[track, slot],
-                           fading)
+            learn_one_goal(values, order, rule, tracks.trace_cell[track, slot], cell_t,
+                           tracks.trace_rates[track, slot], fading)
         fading *= learning.discount
 
 
@@ -155,13 +167,23 @@ def values_of(parameters, state, m):
 
 
 @inlined_kernel
-def trace_of(parameters, tracks, m, point):
+def order_of(parameters, m):
+    """The `Order` of a map's values."""
+    cells, actions = np.uint64(parameters.maps.cells[m]), np.uint64(parameters.push.shape[0])
+    if parameters.learning.bootstrap:
+        return Order(np.uint64(1), cells)
+    return Order(actions, np.uint64(1))
+
+
+@inlined_kernel
+def trace_of(parameters, constants, tracks, m, point):
     """The `Trace` of a track."""
-    maps, rows = parameters.maps, 2 * parameters.push.shape[0]
+    maps, actions = parameters.maps, len(constants.actions)
     begin = maps.first_trace[m] + point * maps.cells[m]
     end = begin + maps.cells[m]
+    first, last = 2 * actions * begin, 2 * actions * end
     return Trace(tracks.remembered[begin:end], tracks.remembered_at[begin:end], tracks.strength[begin:end],
-                 tracks.trace_weight[rows * begin : rows * end], tracks.trace_worth[rows * begin : rows * end], rows)
+                 tracks.trace_weight[first:last], tracks.trace_worth[first:last], constants.actions)
 
 
 @inlined_kernel
@@ -171,7 +193,7 @@ def start_track(parameters, constants, tracks, m, point, cell):
     enter(constants, tracks, track, cell)
     tracks.trace_count[track] = 0
     if tracks.remembered_count[track] > 0:
-        forget_all(trace_of(parameters, tracks, m, point), tracks.remembered_count[track])
+        forget_all(trace_of(parameters, constants, tracks, m, point), tracks.remembered_count[track])
         tracks.remembered_count[track] = 0
 
 
@@ -232,15 +254,21 @@ def higher(one, other):
 
 
 @kernel
-def learn_one_goal(values, rule, cell_tm1, goal, rates, fading):
+def learn_one_goal(values, order, rule, cell_tm1, goal, rates, fading):
     """Move one goal's value of each event in a cell towards 1, at `rates` times `fading`; of absent events it sinks."""
     widen(values.goal_range, cell_tm1, goal)
     for event in range(values.actions):
-        index = values.first + (cell_tm1 * values.actions + event) * values.cells + goal
+        index = place_of(values, order, cell_tm1, goal) + np.uint64(event) * order.action
         if rates[event] > ZERO:
             values.q[index] += fading * rates[event] * (UNIT - values.q[index])
         elif rule.absent_rate > ZERO:
             values.q[index] = sunk(values.q[index], fading * rule.absent_rate, UNIT, rule.away, UNIT)
+
+
+@inlined_kernel
+def place_of(values, order, cell, goal):
+    """Where in q the values of a cell's actions for a goal begin; unsigned, since it cannot count from the end."""
+    return np.uint64(values.first + cell * values.actions * values.cells) + np.uint64(goal) * order.goal
 
 
 @inlined_kernel
@@ -266,10 +294,10 @@ def fade(trace, count, retained, discount):
     """Let all that is remembered fade to a share of `retained`, and return how many cells still are remembered."""
     for i in range(count):
         trace.strength[i] *= retained
-    for row in range(trace.rows):
-        begin = row * trace.cells.shape[0]
-        weights, worths = trace.weight[begin : begin + count], trace.goal_worth[begin : begin + count]
-        for i in range(count):
+    size, half = count * len(trace.actions), trace.cells.shape[0] * len(trace.actions)
+    for begin in range(0, 2 * half, half):
+        weights, worths = trace.weight[begin : begin + size], trace.goal_worth[begin : begin + size]
+        for i in range(size):
             weights[i] *= retained
             reached = worths[i] * retained * discount
             worths[i] = reached if reached > SMALLEST else ZERO
@@ -286,13 +314,14 @@ def fade(trace, count, retained, discount):
 @kernel
 def forget(trace, i, last):
     """Put the last of the list in place of one to be forgotten."""
-    cells, rows = trace.cells, trace.cells.shape[0]
+    cells, actions = trace.cells, len(trace.actions)
     trace.places[cells[last]] = i + 1
     trace.places[cells[i]] = 0
     cells[i], trace.strength[i] = cells[last], trace.strength[last]
-    for begin in range(0, trace.rows * rows, rows):
-        trace.weight[begin + i] = trace.weight[begin + last]
-        trace.goal_worth[begin + i] = trace.goal_worth[begin + last]
+    for begin in range(0, 2 * cells.shape[0] * actions, cells.shape[0] * actions):
+        for event in range(actions):
+            into, of = np.uint64(begin + i * actions + event), np.uint64(begin + last * actions + event)
+            trace.weight[into], trace.goal_worth[into] = trace.weight[of], trace.goal_worth[of]
 
 
 @kernel
@@ -305,18 +334,19 @@ def forget_all(trace, count):
 @kernel
 def join(trace, count, cell, rates, absent_rate):
     """Remember a cell that is left, and return how many cells are remembered."""
-    rows = trace.cells.shape[0]
+    actions, half = len(trace.actions), trace.cells.shape[0] * len(trace.actions)
     i = trace.places[cell] - 1
     if i < 0:
         i = count
         count += 1
         trace.cells[i], trace.places[cell], trace.strength[i] = cell, count, ZERO
-        for row in range(trace.rows):
-            trace.weight[row * rows + i] = trace.goal_worth[row * rows + i] = ZERO
+        for begin in range(i * actions, i * actions + 2 * half, half):
+            for at in range(begin, begin + actions):
+                trace.weight[at] = trace.goal_worth[at] = ZERO
     trace.strength[i] += UNIT
-    for event in range(rates.shape[0]):
+    for event in range(actions):
         absent = rates[event] == ZERO
-        at = (event + absent * rates.shape[0]) * rows + i
+        at = i * actions + event + absent * half
         rate = absent_rate if absent else rates[event]
         trace.weight[at] += rate
         trace.goal_worth[at] += rate
@@ -324,29 +354,31 @@ def join(trace, count, cell, rates, absent_rate):
 
 
 @kernel
-def learn_remembered(values, rule, trace, count, goal):
+def learn_remembered(values, order, rule, trace, count, goal):
     """Learn in all remembered cells that the goal is where they led to.
 
-    The values of an event are all read before any is used: those of a fine map lie far apart, and so the processor can
-    wait for many at a time.
+    The values are all read before any is used: those of a fine map lie far apart, and so the processor can wait for
+    many at a time.
     """
-    cells, stride, read = trace.cells, values.actions * values.cells, values.scratch
+    cells, actions, read = trace.cells, len(trace.actions), values.scratch
     for i in range(count):
         widen(values.goal_range, np.uint64(cells[i]), goal)
-    for event in range(values.actions):
-        column = values.first + event * values.cells + goal
-        for i in range(count):
-            read[i] = values.q[np.uint64(column + cells[i] * stride)]  # unsigned, since it cannot count from the end
-        happened, absent = event * values.cells, (event + values.actions) * values.cells
-        move(read, count, trace.weight[happened : happened + count], trace.goal_worth[happened : happened + count],
-             trace.weight[absent : absent + count], trace.goal_worth[absent : absent + count], rule.away)
-        for i in range(count):
-            values.q[np.uint64(column + cells[i] * stride)] = read[i]
+    for i in range(count):
+        place = place_of(values, order, cells[i], goal)
+        for event in range(actions):
+            read[np.uint64(i * actions + event)] = values.q[place + np.uint64(event) * order.action]
+    size, half = count * actions, cells.shape[0] * actions
+    move(read, size, trace.weight[:size], trace.goal_worth[:size], trace.weight[half : half + size],
+         trace.goal_worth[half : half + size], rule.away)
+    for i in range(count):
+        place = place_of(values, order, cells[i], goal)
+        for event in range(actions):
+            values.q[place + np.uint64(event) * order.action] = read[np.uint64(i * actions + event)]
 
 
 @kernel
 def move(values, count, happened, reached, absent, missed, away):
-    """Move values of an event towards what the goal is worth where it happened, and let them sink where it did not."""
+    """Move values towards what the goal is worth where an event happened, and let them sink where it did not."""
     for i in range(count):
         value = values[i]
         weight = happened[i] if happened[i] > ZERO else UNIT

@@ -19,6 +19,7 @@ from neorl.core.choices import Source, Vector
 from neorl.core.contacts import evaluate_contacts
 from neorl.core.geometry import cell_of, contact_cell, locate, maps_of
 from neorl.core.kernel import inlined_kernel
+from neorl.core.learning import order_of, place_of, values_of
 from neorl.core.stream import randint, uniform
 
 
@@ -160,6 +161,7 @@ def add_value(parameters, constants, state, m, cell, goal, valence, q):
     """Add one goal's value of each action in a cell, times its valence and the weight of the map."""
     maps, actions = parameters.maps, len(constants.actions)
     if goal != cell or parameters.own_cell_counts:
-        weight, index = maps.weight[m] * valence, maps.first_value[m] + cell * actions * maps.cells[m] + goal
+        weight, order = maps.weight[m] * valence, order_of(parameters, m)
+        place = place_of(values_of(parameters, state, m), order, cell, goal)
         for action in range(actions):
-            q[action] += weight * state.values.q[np.uint64(index + action * maps.cells[m])]
+            q[action] += weight * state.values.q[place + np.uint64(action) * order.action]

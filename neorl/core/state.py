@@ -5,16 +5,16 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl.core.kernel import array, execute, kernel, new_tuple
-from neorl.core.learning import values_of
+from neorl.core.learning import order_of, place_of, values_of
 from neorl.core.parameters import ENTRIES, Parameters
 
 
 class ValueState(NamedTuple):
     """The values of all maps, one map after the other. See `learning.MapValues` for one map's."""
 
-    q: array("float32", "values")
+    q: array("float32", "values")  # see `learning.Order`
     goal_range: array("int64", "cells", 2)
-    scratch: array("float32", "cells")
+    scratch: array("float32", "scratch")
 
 
 class TrackState(NamedTuple):
@@ -29,8 +29,8 @@ class TrackState(NamedTuple):
     remembered_at: array("int64", "traces")
     remembered_count: array("int64", "tracks")
     strength: array("float32", "traces")
-    trace_weight: array("float32", "trace_rows")
-    trace_worth: array("float32", "trace_rows")
+    trace_weight: array("float32", "trace_weights")
+    trace_worth: array("float32", "trace_weights")
 
 
 class ContactState(NamedTuple):
@@ -83,7 +83,8 @@ def new_state(parameters, stream, n_things, old=None):
     maps, (actions, axes) = parameters.maps, parameters.push.shape
     traces = maps.first_trace[-1] if parameters.learning.memory_retained > 0 else 0
     sizes = {"values": maps.first_value[-1], "cells": maps.first_cell[-1], "tracks": maps.first_track[-1],
-             "trace": parameters.learning.trace, "traces": traces, "trace_rows": 2 * actions * traces,
+             "scratch": actions * maps.first_cell[-1],
+             "trace": parameters.learning.trace, "traces": traces, "trace_weights": 2 * actions * traces,
              "desires": len(parameters.desires.source), "things": n_things, "actions": actions, "axes": axes,
              "coordinates": parameters.desires.at.shape[1], "maps": len(maps.cells),
              "left": parameters.contacts.trace}
@@ -99,19 +100,20 @@ def new_state(parameters, stream, n_things, old=None):
 @kernel
 def clear_q(parameters: Parameters, state: State) -> None:
     """Set all values to zero that are not."""
-    nodes = parameters.nodes
+    maps, nodes = parameters.maps, parameters.nodes
     for n in range(nodes.follows.shape[0]):
         for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
-            values = values_of(parameters, state, m)
+            values, order = values_of(parameters, state, m), order_of(parameters, m)
             if nodes.learns_contacts[n]:
-                for i in range(values.first, parameters.maps.first_value[m + 1]):
+                for i in range(values.first, maps.first_value[m + 1]):
                     values.q[i] = 0.0
                 continue
             for cell in range(values.cells):
-                for event in range(values.actions):
-                    row = values.first + (cell * values.actions + event) * values.cells
-                    for goal in range(values.goal_range[cell, 0], values.goal_range[cell, 1]):
-                        values.q[row + goal] = 0.0
+                begin = place_of(values, order, cell, values.goal_range[cell, 0])
+                end = place_of(values, order, cell, values.goal_range[cell, 1])
+                for event in range(1 if order.action == 1 else values.actions):  # if 1, all events are among the goals
+                    for i in range(begin, end):
+                        values.q[i + np.uint64(event) * order.action] = 0.0
 
 
 @kernel

@@ -126,6 +126,20 @@ def test_a_learner_that_gets_a_second_modality_keeps_what_it_knows():
             learner.change(agent)
 
 
+@pytest.mark.parametrize("bootstrap", [True, False])
+def test_values_stay_those_of_their_goals_when_the_order_of_q_changes(bootstrap):
+    rules = [plain_rule(memory=3.0, bootstrap=each) for each in (bootstrap, not bootstrap)]
+    learner, state = newborn(multimodal([3, 4], learning=rules[0]), TANK)
+    live(learner, TANK, state, 3_000)
+    knows = [learner.q(m).copy() for m in range(4)]
+    other = newborn(multimodal([3, 4], learning=rules[1]), TANK)[0]
+    other.transfer(learner)
+    learner.change(multimodal([3, 4], learning=rules[1]))
+    for each in (learner, other):
+        assert all(np.array_equal(each.q(m), knows[m]) and knows[m].any() for m in range(4))
+    assert learner.q(0).flags.c_contiguous is not bootstrap
+
+
 @pytest.mark.parametrize("kind", [Run, Learner])
 def test_what_is_transferred_is_learned_on_as_by_its_source(kind):
     """Bootstrapping goes by the goals that a cell knows of, so these have to come along."""

@@ -68,6 +68,7 @@ def test_all_goals_move_the_rows_of_two_cells_and_one_of_them_twice():
     found = bound.moved(run, 500)
     assert found.ordered / found.changes == pytest.approx(4 * 4 * 4 * 3)  # 4 bytes, 4 goals, 4 actions
     assert found.scattered == found.remembered == 0 and found.working_set == 4 * 4 * 4 * 4
+    assert found.standing == 3 * 4 * 4 + 8 + 2 * 8  # values of three creeps, one track
 
 
 def test_events_without_a_rate_are_not_moved():
@@ -78,9 +79,15 @@ def test_events_without_a_rate_are_not_moved():
 def test_lone_values_move_lines_in_a_map_that_is_larger_than_the_nearest_cache():
     small, large = (bound.moved(lived(n, memory=1.0), 500) for n in (3, 11))
     assert small.scattered == 0 and small.ordered > 0
-    assert large.scattered / large.changes == pytest.approx(large.remembered * 4 * 2 * 64)
-    assert large.ordered / large.changes == pytest.approx(large.remembered * (4 * 2 * 17 + 8 + 32))
-    assert large.working_set % 64 == 0 and large.working_set <= large.scattered * 500
+    far = large.scattered / (2 * 64)  # values of a cell's actions, which share a line
+    near = (large.ordered - large.changes * large.remembered * (4 * 2 * 17 + 8 + 32)) / (4 * 2 * 4)
+    assert far + near == pytest.approx(large.changes * large.remembered) and min(far, near) > 0
+    assert large.working_set <= large.scattered * 500
+
+
+def test_the_values_of_a_cell_move_a_line_each_if_goals_lie_together():
+    found = bound.moved(lived(11, memory=1.0, bootstrap=True), 500)
+    assert 2 * 64 * found.changes * found.remembered < found.scattered < 4 * 2 * 64 * found.changes * found.remembered
 
 
 def test_to_count_bytes_takes_the_same_steps():
@@ -91,7 +98,7 @@ def test_to_count_bytes_takes_the_same_steps():
 
 
 SPEEDS = bandwidth.Bandwidths(np.array([1e4, 1e6]), np.array([8e9, 2e9]), np.array([4e9, 1e9]))
-LOOP = bound.Loop(bound.Moved(200.0, 400.0, 10**5, 0.5, 3.0), np.array([2e-7, 1e-7]), np.array([5e-7, 6e-7]))
+LOOP = bound.Loop(bound.Moved(50.0, 150.0, 400.0, 10**5, 0.5, 3.0), np.array([2e-7, 1e-7]), np.array([5e-7, 6e-7]))
 LOOPS = {name: LOOP for name in bound.AGENTS}
 
 

@@ -77,6 +77,9 @@ def test_an_element_in_the_own_cell_counts_unless_it_is_silent():
     q = np.ones((4, 4, 4), np.float32)
     assert superpose(q, 1, [1, 2], [1.0, 1.0]).tolist() == [2.0] * 4
     assert superpose(q, 1, [1, 2], [1.0, 1.0], own_cell="silent").tolist() == [1.0] * 4
+    assert superpose(np.asfortranarray(q), 1, [1, 2], [1.0, 1.0]).tolist() == [2.0] * 4  # a view, as Run.q returns
+    with pytest.raises(ValueError, match="q is not C-contiguous"):
+        learn(np.asfortranarray(q), 0, 1, [1, 0, 0, 0])
 
 
 @pytest.mark.parametrize("change, message", [

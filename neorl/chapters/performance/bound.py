@@ -1,16 +1,22 @@
-"""The least that a step can take: the world's own step, and the bytes that learning moves at the machine's bandwidth.
+"""The least that a step can take: the world's own step, and the bytes that the agent moves at the machine's bandwidth.
 
 What an update must move, in each map for each change of cell that it learns from, with A actions:
 
 1. Learning all goals (bootstrapping) reads the A rows of the cell entered, and reads and writes those of the cell left
    whose events have a rate. A row has 4 bytes for each goal that the cells may know of.
-2. A memory of k cells reads and writes A values of each. They lie far apart in a large map, so each moves its line of
-   64 bytes; in a map that fits into the cache nearest to the processor it moves 4.
+2. A memory of k cells reads and writes A values of each, which lie together unless the agent bootstraps
+   (`neorl.core.learning.Order`). The cells lie far apart in a large map, so the values move their lines of 64 bytes.
+   In a map that fits into the cache nearest to the processor, and on lines that the change before has brought there,
+   each value moves 4 bytes.
 3. What is remembered fades at every change of cell: of each cell 2 A weights, as many worths and a strength, all read
    and written, 4 bytes each. To learn, a cell's number is read, and its range of goals read and written: 8 and 2 × 16.
 
-Choosing and seeing move nothing that learning does not, and count for nothing. The *working set* is all lines of values
-that learning touches in the stretch that is timed.
+And in every step:
+
+4. Choosing reads A values of each creep in each map, 4 bytes each.
+5. Every track compares its cell, 8 bytes, and counts an event, 8 bytes read and written.
+
+The *working set* is all lines of values that learning touches in the stretch that is timed, and what is remembered.
 """
 
 from dataclasses import replace
@@ -37,13 +43,19 @@ STRETCH = 5_000  # steps that are timed, at most
 
 
 class Moved(NamedTuple):
-    """What learning moved in a stretch of a run."""
+    """What an agent moved in a stretch of a run."""
 
+    standing: float  # bytes of every step, whatever is learned
     ordered: float  # bytes a step that lie side by side
     scattered: float  # bytes a step of lines for a value each
     working_set: int  # bytes
     changes: float  # changes of cell a step that something was learned from
     remembered: float  # cells remembered at such a change, in the mean
+
+    @property
+    def bytes(self):
+        """All bytes a step."""
+        return self.standing + self.ordered + self.scattered
 
 
 class Loop(NamedTuple):
@@ -55,7 +67,7 @@ class Loop(NamedTuple):
 
     def moving(self, bandwidths):
         """The seconds a step that the bytes take where they are copied in order."""
-        return (self.moved.ordered + self.moved.scattered) / bandwidths.at(self.moved.working_set)
+        return self.moved.bytes / bandwidths.at(self.moved.working_set)
 
     def ratio(self, bandwidths):
         """How many times its bound the loop takes, as an `Estimate` over repetitions."""
@@ -116,12 +128,17 @@ def drawn_steps(state: WaterWorldState, rules: Rules, stream: array("uint64", 4)
 
 
 def moved(run, steps):
-    """What learning moves in the coming steps of a `Run`, which takes them: `Moved`."""
+    """What the agent of a `Run` moves in the coming steps, which it takes: `Moved`.
+
+    It desires every creep in each map.
+    """
     maps, state, learning = run.parameters.maps, run.state, run.agent.learning
     tracks, actions = state.tracks, run.parameters.push.shape[0]
     touched = np.zeros(-(-state.values.q.nbytes // LINE), bool)
     map_of = np.repeat(np.arange(len(maps.cells)), np.diff(maps.first_track))
-    ordered = scattered = changes = remembered = 0
+    standing = len(maps.cells) * run.world.things * actions * 4 + len(tracks.cell) * (8 + 2 * 8)
+    ordered = scattered = changes = remembered = most = 0
+    near = [np.empty(0, int)] * len(tracks.cell)  # lines that the change before has touched
     for _ in range(steps):
         before, learned_before = tracks.cell.copy(), tracks.trace_count.copy()
         run.advance(1)
@@ -144,11 +161,14 @@ def moved(run, steps):
             if learning.memory > 0:
                 ordered += count * (8 + 2 * 16)
                 known = tracks.remembered[maps.first_trace[m] + (track - maps.first_track[m]) * cells:][:count]
-                values = first + np.add.outer(known * actions, np.arange(actions)) * cells + entered
-                touched[4 * values.ravel() // LINE] = True
-                if 4 * actions * cells**2 > NEAREST_CACHE:
-                    scattered += 2 * LINE * values.size
-                else:
-                    ordered += 2 * 4 * values.size
-    return Moved(ordered / steps, scattered / steps, LINE * int(touched.sum()), changes / steps,
+                apart, of_goal = (cells, 1) if learning.bootstrap else (1, actions)
+                values = np.add.outer(first + known * actions * cells + entered * of_goal, np.arange(actions) * apart)
+                lines, values_of_line = np.unique(4 * values.ravel() // LINE, return_counts=True)
+                touched[lines] = True
+                is_near = np.isin(lines, near[track]) | (4 * actions * cells**2 <= NEAREST_CACHE)
+                scattered += 2 * LINE * np.count_nonzero(~is_near)
+                ordered += 2 * 4 * values_of_line[is_near].sum()
+                near[track], most = lines, max(most, tracks.remembered_count.sum())
+    working_set = LINE * int(touched.sum()) + int(most) * (4 * (4 * actions + 1) + 8 + 16)
+    return Moved(standing, ordered / steps, scattered / steps, working_set, changes / steps,
                  remembered / max(1, changes))

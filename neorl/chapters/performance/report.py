@@ -31,7 +31,7 @@ def bound_table(loops, bandwidths):
     return table(
         ["agent", "changes of cell per step", "bytes per step", "working set", "world", "bytes take", "loop",
          "loop / bound"],
-        [[name, number(loop.moved.changes), f"{loop.moved.ordered + loop.moved.scattered:,.0f}",
+        [[name, number(loop.moved.changes), f"{loop.moved.bytes:,.0f}",
           f"{loop.moved.working_set / 2**20:.1f} MiB", _seconds(loop.world.min()), _seconds(loop.moving(bandwidths)),
           _seconds(loop.loop.min()), _interval(loop.ratio(bandwidths))] for name, loop in loops.items()])
 
