@@ -136,7 +136,8 @@ function axesOf(m) {
 function become(choices) {
   const old = run;
   const keys = mapKeys(choices);
-  if (choices.desires.source.length === old.sizes.desires && keys.join() === mapKeys(old.choices).join()) {
+  const isOrdered = choices.learning.bootstrap === old.choices.learning.bootstrap;
+  if (isOrdered && choices.desires.source.length === old.sizes.desires && keys.join() === mapKeys(old.choices).join()) {
     take(run.parameters, choices);
     run.choices = choices;
     call("derive", { n_things: run.sizes.things });

@@ -194,6 +194,7 @@ def test_what_is_learned_with_a_memory_is_what_python_learns_to_the_last_bit(ask
     network_d([4, 5], learning=Learning(memory=100.0, discount=0.95)),
     network_d([5, 7], learning=Learning(memory=3.0)),
     network_d([4, 5], learning=Learning(memory=0.0)),
+    network_d([4, 5], learning=Learning(memory=30.0, bootstrap=True)),
 ])
 def test_a_memory_that_changes_on_the_way_goes_on_as_in_python(ask, later):
     agent, goal = network_d([4, 5], learning=Learning(memory=30.0)), 9

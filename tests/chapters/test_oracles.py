@@ -16,7 +16,7 @@ from neorl.core.modality import Modality, cartesian
 
 @pytest.fixture(scope="module")
 def boards():
-    return {creeps: oracles.rates_of_oracles(creeps, 9_000, 2, 5) for creeps in (3, 8)}
+    return oracles.rates_by_creeps(9_000, 2, 5)
 
 
 def test_gaps_add_up_to_the_distance(boards):

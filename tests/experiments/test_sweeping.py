@@ -255,7 +255,7 @@ def test_a_killed_worker_of_a_cluster_loses_no_more_than_what_it_was_at(cluster,
 
 
 PAGE = Path(__file__).parents[2] / "book" / "running.md"
-RECIPES = re.findall("```python\n(.*?)```", PAGE.read_text("utf-8"), re.S)
+RECIPES = re.findall("^```python\n(.*?)^```", PAGE.read_text("utf-8"), re.S | re.M)
 
 
 def small(recipe):

@@ -62,7 +62,7 @@ def draw_revalued(lived):
 def draw_oracles(boards, ax=None):
     """Reward per second of foragers and planners, means and 95 % intervals: a row each, a colour a board.
 
-    boards: {creeps: as `neorl.chapters.beyond_agents.oracles.rates_of_oracles` returns them}.
+    boards: as `neorl.chapters.beyond_agents.oracles.rates_by_creeps` returns them.
     """
     axes = axes_or_new(ax, figsize=(4.9, 3.6))
     for colour, (creeps, rates) in zip((CURVES[0], CURVES[5]), boards.items()):

@@ -43,6 +43,11 @@ def rates_of_oracles(creeps, steps, runs, seed=0):
     return rates
 
 
+def rates_by_creeps(steps, runs, seed=0):
+    """The same on both boards: {creeps: {name: float64 (runs,)}}."""
+    return {creeps: rates_of_oracles(creeps, steps, runs, seed) for creeps in BOARDS}
+
+
 def gaps(rates):
     """What lies between the forager and the planner, in rewards per second of each run: {name: float64 (runs,)}.
 
