@@ -98,7 +98,7 @@ def test_the_page_compares_networks():
     results = control.compared(1_000, 2)
     text = report.networks_in_words(results)
     assert list(results) == [*control.NETWORKS, control.ALONE, control.FORAGER]
-    assert all(f"{name}: " in text for name in results)
+    assert all(f"{name} " in text for name in results)
 
 
 def test_gains_move_to_where_reward_is(monkeypatch):

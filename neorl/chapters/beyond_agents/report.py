@@ -113,7 +113,7 @@ def gaps_in_words(boards):
         gaps = sorted(oracles.shares(rates).items(), key=lambda item: -item[1])
         parts.append(f"With {creeps} creeps the forager earns {interval(of_forager)} per second and the planner "
                      f"{interval(of_planner)}. Of the distance between them "
-                     + listed([f"{name} is {100 * share:.0f} %" for name, share in gaps]) + ".")
+                     + listed([f"{name} is {number(100 * share, 0)} %" for name, share in gaps]) + ".")
     return " ".join(parts)
 
 
@@ -128,8 +128,9 @@ def gap_table(boards):
 def networks_in_words(results):
     """What networks down to control earn beside the object vectors alone and the forager."""
     earned = {name: mean_of(last_third(result)) for name, result in results.items()}
-    return ("; ".join(f"{name}: {interval(earned[name])}" for name in (*NETWORKS, ALONE, FORAGER))
-            + f" per second over the last third. {SETTINGS} settings were tried for each network.")
+    return ("Reward per second over the last third: "
+            + listed([f"{name} {interval(earned[name])}" for name in (*NETWORKS, ALONE, FORAGER)])
+            + f". {SETTINGS} settings were tried for each network.")
 
 
 def adapting_in_words(lives):
