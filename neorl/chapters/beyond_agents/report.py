@@ -139,11 +139,11 @@ def adapting_in_words(lives):
     for name, of_ways in lives.items():
         rates = {way: late_reward(rewards) for way, (_, rewards) in of_ways.items()}
         brought = estimate(difference, rates[ADAPTED], rates[SHAKEN])
-        verdict = "more" if brought.low > 0 else "less" if brought.high < 0 else "neither more nor less for certain"
-        last = listed([f"{parameter} from {number(first)} to {number(float(value))}" for parameter, first, value in zip(
-            ADAPTABLE[name].names, ADAPTABLE[name].start, of_ways[ADAPTED][0][:, -1].mean(axis=0))])
+        doubt = ", which may be nothing" if brought.low <= 0 <= brought.high else ""
+        ends = zip(ADAPTABLE[name].names, ADAPTABLE[name].start, of_ways[ADAPTED][0][:, -1].mean(axis=0))
+        last = listed([f"{each} goes from {number(first)} to {number(float(end))}" for each, first, end in ends])
         parts.append(f"**{name}**: {number(float(rates[FIXED].mean()))} per second over the last third with fixed "
                      f"parameters, {number(float(rates[SHAKEN].mean()))} when they are merely shaken, "
-                     f"{number(float(rates[ADAPTED].mean()))} when they adapt; adapting brings {interval(brought)} "
-                     f"beyond shaking, {verdict}. On average the {last}.")
+                     f"{number(float(rates[ADAPTED].mean()))} when they adapt. Beyond shaking, adapting brings "
+                     f"{interval(brought)}{doubt}. On average, {last}.")
     return "\n\n".join(parts)
