@@ -196,7 +196,10 @@ def test_the_address_of_a_moment_leads_back_to_it(visit):
     press(page, "play")
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step > 500")
     press(page, "play")
-    page.wait_for_function("location.hash.includes('_minute-')")
+    page.wait_for_function("""() => {
+        const minute = (document.querySelector('.neorl-explorer').dataset.step / 3000).toFixed(5);
+        return location.hash.endsWith(`_minute-${Number(minute)}`.replace(".", "p"));
+    }""")  # and not the address of a moment before
     before = {name: told(page, name) for name in ("step", "score")}
     assert "_red-0p5" in page.url and "_run-4" in page.url
     again = visit(page.url[page.url.index("#"):])
