@@ -265,9 +265,8 @@ class Desire(checks.Final):
     source: a kind of the world's things, such as "green"; a `Place`, like a thing that does not move; a point in the
         target's space, which whatever the node follows is to reach; or the name of a node, whose desire vector
         Σ |w| (Q_E − Q_W, Q_S − Q_N) over its elements (in other worlds: the pushes of all actions, times their values),
-        times `scale`, says where, as seen from the agent in units of the world's size, the element lies (paper C,
-        section 1); for a target of velocities it is the velocity desired, in sizes of the world per second. A node that
-        desires of itself does so by its desire vector of the step before: recursion.
+        times `scale`, says where the element lies from the agent, in sizes of the world (paper C, section 1), or in a
+        space of velocities is the one desired. A node's desire of itself is that of the step before: recursion.
     valence: how much an element matters, and its sign. For a desire between nodes None stands for the sum of the
         valences that the vector comes from; recursion needs a number, the weight r. "learned" stands for a number that
         is learned from reward alone, for a kind of thing; it begins with 1.

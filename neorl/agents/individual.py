@@ -117,6 +117,8 @@ class Individual:
                     begin_old, end_old = of_old[old_maps[key] : old_maps[key] + 2]
                     begin, end = of_new[m : m + 2]
                     for name in names:
+                        if name == "values.q":  # copied below, since its order follows the learning rule
+                            continue
                         width = len(new[name]) // max(of_new[-1], 1)
                         new[name][width * begin : width * end] = old[name][width * begin_old : width * end_old]
                 _values_of(agent, parameters, state, m)[...] = _values_of(self.agent, self._parameters, self._state,

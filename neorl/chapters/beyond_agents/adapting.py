@@ -47,23 +47,28 @@ ADAPTABLE = {
                                     (RATIO, "recursion weight"), (0.0, -1.0))}
 
 
-def adapt(adaptable, steps, seed=0, run=0, rate=RATE, segment=SEGMENT):
+def adapt(adaptable, steps, seed=0, run=0, rate=RATE):
     """One life of so many steps: parameters before each pair of segments, and reward per second of each segment.
 
-    Returns float64 (pairs + 1, parameters) and (2 · pairs,); `steps` is rounded to pairs of segments, one at least.
+    Returns float64 (pairs + 1, parameters) and (2 · pairs,), see `pairs_in`.
     """
     now, rng = np.array(adaptable.start), np.random.default_rng([seed, run])
     life = Run(adaptable.agent_of(*now), WaterWorld(), seed, run)
-    path, rewards, seconds = [now], [], segment / life.world.fps
-    for _ in range(max(1, round(steps / (2 * segment)))):
+    path, rewards, seconds = [now], [], SEGMENT / life.world.fps
+    for _ in range(pairs_in(steps)):
         signs, gained = rng.choice([-1.0, 1.0], len(now)), 0.0
         for way in rng.permutation([1.0, -1.0]):
             life.change(adaptable.agent_of(*_within(now + way * SPREAD * signs)))
-            rewards.append(life.advance(segment) / seconds)
+            rewards.append(life.advance(SEGMENT) / seconds)
             gained += way * rewards[-1]
         now = _within(now + rate * gained / (2 * SPREAD) * signs)
         path.append(now)
     return np.array(path), np.array(rewards)
+
+
+def pairs_in(steps):
+    """The pairs of segments in a life of about so many steps, one at least."""
+    return max(1, round(steps / (2 * SEGMENT)))
 
 
 def _within(parameters):
@@ -76,11 +81,9 @@ def lives(steps, runs, seed=0):
     Returns {name: {way: (paths, float64 (runs, pairs + 1, parameters), rewards, float64 (runs, 2 · pairs))}}.
     """
     ways = {FIXED: None, SHAKEN: 0.0, ADAPTED: RATE}
-    segment = min(SEGMENT, max(1, steps // 4))
 
     def live_one(adaptable, rate, run):
-        return (_fixed(adaptable, steps, seed, run, segment) if rate is None else
-                adapt(adaptable, steps, seed, run, rate, segment))
+        return _fixed(adaptable, steps, seed, run) if rate is None else adapt(adaptable, steps, seed, run, rate)
 
     with ThreadPoolExecutor(THREADS) as pool:
         begun = {(name, way): [pool.submit(live_one, adaptable, rate, run) for run in range(runs)]
@@ -90,11 +93,10 @@ def lives(steps, runs, seed=0):
     return {name: {way: tuple(found[name, way]) for way in ways} for name in ADAPTABLE}
 
 
-def _fixed(adaptable, steps, seed, run, segment):
+def _fixed(adaptable, steps, seed, run):
     """The same of an agent whose parameters stay as they are."""
-    life = Run(adaptable.agent_of(*adaptable.start), WaterWorld(), seed, run)
-    pairs = max(1, round(steps / (2 * segment)))
-    rewards = [life.advance(segment) * life.world.fps / segment for _ in range(2 * pairs)]
+    life, pairs = Run(adaptable.agent_of(*adaptable.start), WaterWorld(), seed, run), pairs_in(steps)
+    rewards = [life.advance(SEGMENT) * life.world.fps / SEGMENT for _ in range(2 * pairs)]
     return np.tile(np.array(adaptable.start), (pairs + 1, 1)), np.array(rewards)
 
 

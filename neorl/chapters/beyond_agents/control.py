@@ -28,7 +28,7 @@ SEED, SETTINGS, RUNS, STEPS = 1_000, 128, 2, 150_000
 RECORD = Path(__file__).with_name("control.json")
 NETWORKS = {"two layers": 2, "three layers": 3}
 ALONE, FORAGER = "object vectors alone", "forager"
-RESOLUTIONS = (5, 9, 15, 25)
+RESOLUTIONS = forager().nodes[0].resolutions
 # A pair is the ends of a range from which a number is drawn log-uniformly, a list holds the choices.
 RANGES = {"scale": (3.0, 1_000.0),  # of the velocity desired
           "reach": (1.0, 100.0),  # of the place desired

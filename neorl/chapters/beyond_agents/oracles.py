@@ -5,13 +5,14 @@
 2. *still*: creeps stand still in the model. What a planner earns more without it is the worth of perfect prediction.
 3. *red ignored*: the model has no red creeps. What a planner earns more without it is the worth of perfect avoidance.
    The forager that ignores red is one to which red is worth 0.
-4. A planner does not learn, so it is watched for `WATCHED` of the steps of a forager, whose last third counts.
+4. A planner does not learn, so it is watched for `PLANNED` of the steps of a forager, whose last third counts.
 """
 
 import numpy as np
 
 from neorl import checks
 from neorl.agents.beyond import forager
+from neorl.chapters.alternatives.contestants import PLANNED
 from neorl.chapters.alternatives.controllers import planner
 from neorl.chapters.alternatives.living import BOARDS, live
 from neorl.chapters.alternatives.search import best_settings
@@ -26,13 +27,12 @@ ORACLES = {STILL_CONTROL: {"captures": 1, "moving": False, "avoiding": False},
            CONTROL: {"captures": 1, "avoiding": False},
            STILL_AVOIDANCE: {"captures": 1, "moving": False},
            AVOIDANCE: {"captures": 1}, TWO: {"captures": 2}, ALL: {}}
-WATCHED = 1 / 30
 
 
 def rates_of_oracles(creeps, steps, runs, seed=0):
     """Reward per second of foragers and planners on a board of 3 or 8 creeps: {name: float64 (runs,)}."""
     checks.one_of("creeps", creeps, tuple(BOARDS))
-    board, watched = BOARDS[creeps], max(1, round(WATCHED * steps))
+    board, watched = BOARDS[creeps], max(1, round(PLANNED * steps))
     agents = {BLIND_FORAGER: forager(valence_red=0.0), FORAGER: forager()}
     results = sweep([Condition(agent, board, steps, runs, seed) for agent in agents.values()], progress=False)
     rates = {name: result.rate(2 / 3, 1.0) for name, result in zip(agents, results)}
