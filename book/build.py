@@ -27,6 +27,7 @@ import nbformat
 import papermill
 import psutil
 import workers
+from excerpts import save_figures, save_widgets
 from jupyter_client import AsyncKernelManager
 from nbclient.exceptions import DeadKernelError
 from page_order import results_first
@@ -52,8 +53,6 @@ ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1"}
 STALL_SECONDS = 300  # a cell computes, and waits for nothing: one that takes no processor time for so long has hung
 ROOM = 2**20  # bytes: less than a page of the book takes
 CLAIMS, FRONT, ERRATA, PICTURES = INCLUDED = "claims-table.md", "claims-front.html", "errata-table.md", "contents.md"
-WIDGET_STATE = "application/vnd.jupyter.widget-state+json"
-WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 
 
 def main():
@@ -300,51 +299,6 @@ def terms():
     """The terms of the glossary by the names that links have for them, in lower case with hyphens: {name: term}."""
     _, listed = (ROOT / "book" / "glossary.md").read_text(encoding="utf-8").split("```{glossary}\n")
     return {term.lower().replace(" ", "-"): term for term in re.findall(r"^\w.*", listed, re.MULTILINE)}
-
-
-def save_figures(notebook, folder):
-    """Keep each named figure as a file of its own, so that other pages can show it."""
-    for cell in notebook.cells:
-        name = cell.metadata.get("mystnb", {}).get("figure", {}).get("name")
-        for output in cell.get("outputs", []):
-            image = output.get("data", {}).get("image/svg+xml")
-            if name and image:
-                (folder / f"{name}.svg").write_text(image)
-
-
-def save_widgets(notebook, folder):
-    """Keep each named widget as a file of its own, and in the notebook no state but that of the widgets it shows."""
-    stored = notebook.metadata.get("widgets", {}).get(WIDGET_STATE, {"state": {}})
-    kept = {}
-    for cell in notebook.cells:
-        name, outputs = cell.metadata.get("widget", {}).get("name"), cell.get("outputs", [])
-        views = [each.data[WIDGET_VIEW] for each in outputs if WIDGET_VIEW in each.get("data", {})]
-        if name and len(views) != 1:
-            raise ValueError(f"cell of widget {name} shows {len(views)} widgets, allowed is 1")
-        for view in views:
-            records = reachable(stored["state"], view["model_id"])
-            kept.update(records)
-            if name:
-                tags = [script(WIDGET_STATE, {**stored, "state": records}), script(WIDGET_VIEW, view)]
-                (folder / f"{name}.html").write_text("\n".join(tags) + "\n")
-    stored["state"] = kept
-
-
-def reachable(state, model):
-    """The records of a model and of all that it refers to, directly or through others."""
-    found, waiting = {}, [model]
-    while waiting:
-        model = waiting.pop()
-        if model in state and model not in found:
-            found[model] = state[model]
-            waiting += re.findall(r'"(?:IPY_MODEL_|anywidget:)(\w+)"', json.dumps(state[model]["state"]))
-    return found
-
-
-def script(kind, content):
-    """A tag that holds JSON. No "<" is left in it, so nothing that a string says can end the tag."""
-    text = json.dumps(content).replace("<", r"\u003c")
-    return f'<script type="{kind}">{text}</script>'
 
 
 def write_tables():

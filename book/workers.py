@@ -2,8 +2,8 @@
 
 A worker's standard input is a pipe that its starter holds open. When that closes, however the starter has ended, the
 worker ends with all that it has started in turn. It is in a session of its own, so that an interruption at the keyboard
-reaches its starter alone, which then
-ends it. This file as a program is a worker that runs a script: ``python workers.py SCRIPT …``.
+reaches its starter alone, which then ends it. This file as a program is a worker that runs a script:
+``python workers.py SCRIPT …``.
 """
 
 import os

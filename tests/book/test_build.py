@@ -13,6 +13,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "book"))
 import build  # noqa: E402
+import excerpts  # noqa: E402
 
 
 @pytest.fixture
@@ -88,10 +89,10 @@ def page_of_widgets(*cells):
     state = {"one": anywidget(layout="IPY_MODEL_two", parts=[{"part": "anywidget:three"}], lost="IPY_MODEL_lost"),
              "two": {"model_module": "@jupyter-widgets/base", "state": {"_view_name": "LayoutView"}},
              "three": anywidget(parent="IPY_MODEL_one"), "four": anywidget()}
-    widgets = {build.WIDGET_STATE: {"version_major": 2, "version_minor": 0, "state": state}}
+    widgets = {excerpts.WIDGET_STATE: {"version_major": 2, "version_minor": 0, "state": state}}
     page = nbformat.v4.new_notebook(metadata={"widgets": widgets})
     for name, models in cells:
-        views = [nbformat.v4.new_output("display_data", {build.WIDGET_VIEW: {"model_id": model}}) for model in models]
+        views = [nbformat.v4.new_output("display_data", {excerpts.WIDGET_VIEW: {"model_id": model}}) for model in models]
         cell = nbformat.v4.new_code_cell(outputs=views, metadata={"widget": {"name": name}} if name else {})
         page.cells += [cell, nbformat.v4.new_markdown_cell("Prose.")]
     return page
@@ -100,7 +101,7 @@ def page_of_widgets(*cells):
 def contents(name):
     """The JSON of the two tags of a named widget: the state by model, and the view."""
     lines = (build.CHAPTERS / f"{name}.html").read_text().splitlines()
-    tags = [f'<script type="{kind}">' for kind in (build.WIDGET_STATE, build.WIDGET_VIEW)]
+    tags = [f'<script type="{kind}">' for kind in (excerpts.WIDGET_STATE, excerpts.WIDGET_VIEW)]
     state, view = [json.loads(line.removeprefix(tag).removesuffix("</script>"))
                    for line, tag in zip(lines, tags, strict=True)]
     return state["state"], view
@@ -114,8 +115,8 @@ def chapters(tmp_path, monkeypatch):
 
 def test_a_named_widget_is_saved_with_the_state_of_all_that_it_refers_to(chapters):
     page = page_of_widgets(("first", ["one"]), (None, ["four"]), ("last", ["four"]))
-    stored = page.metadata.widgets[build.WIDGET_STATE].state.copy()
-    build.save_widgets(page, build.CHAPTERS)
+    stored = page.metadata.widgets[excerpts.WIDGET_STATE].state.copy()
+    excerpts.save_widgets(page, build.CHAPTERS)
     assert contents("first") == ({model: stored[model] for model in ["one", "two", "three"]}, {"model_id": "one"})
     assert contents("last") == ({"four": stored["four"]}, {"model_id": "four"})
     assert sorted(path.name for path in chapters.iterdir()) == ["first.html", "last.html"]
@@ -124,10 +125,10 @@ def test_a_named_widget_is_saved_with_the_state_of_all_that_it_refers_to(chapter
 def test_the_state_of_widgets_that_a_page_does_not_show_is_dropped(chapters):
     for models, kept in [(["four"], {"four"}), (["one", "four"], {"one", "two", "three", "four"}), ([], set())]:
         page = page_of_widgets((None, models))
-        build.save_widgets(page, build.CHAPTERS)
-        assert set(page.metadata.widgets[build.WIDGET_STATE].state) == kept
+        excerpts.save_widgets(page, build.CHAPTERS)
+        assert set(page.metadata.widgets[excerpts.WIDGET_STATE].state) == kept
     page = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell()])
-    build.save_widgets(page, build.CHAPTERS)
+    excerpts.save_widgets(page, build.CHAPTERS)
     assert page.metadata == {}
     assert not list(chapters.iterdir())
 
@@ -136,11 +137,11 @@ def test_the_state_of_widgets_that_a_page_does_not_show_is_dropped(chapters):
 def test_a_named_cell_shows_one_widget(chapters, models):
     message = f"cell of widget first shows {len(models)} widgets, allowed is 1"
     with pytest.raises(ValueError, match=message):
-        build.save_widgets(page_of_widgets(("first", models)), chapters)
+        excerpts.save_widgets(page_of_widgets(("first", models)), chapters)
 
 
 def test_a_saved_widget_lives_on_any_page(chapters, open_page):
-    build.save_widgets(page_of_widgets(("first", ["one"])), chapters)
+    excerpts.save_widgets(page_of_widgets(("first", ["one"])), chapters)
     shutil.copy(ROOT / "book" / "vendor" / "widgets.js", chapters)
     head = '<!doctype html><link rel="icon" href="data:,"><script defer src="widgets.js"></script><body>'
     (chapters / "page.html").write_text(f"{head}{(chapters / 'first.html').read_text()}<p>The end.</p>")
@@ -168,7 +169,7 @@ counter"""
     assert state[view["model_id"]]["state"]["_esm"] == "export default {}"
     (buffer,) = state[view["model_id"]]["buffers"]
     assert buffer["path"] == ["data"] and base64.b64decode(buffer["data"]) == bytes(range(256))
-    kept = nbformat.read(build.CHAPTERS / "page.ipynb", 4).metadata.widgets[build.WIDGET_STATE]["state"]
+    kept = nbformat.read(build.CHAPTERS / "page.ipynb", 4).metadata.widgets[excerpts.WIDGET_STATE]["state"]
     assert kept == state
 
 

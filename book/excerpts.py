@@ -1,0 +1,52 @@
+"""What other pages show of a computed notebook: its named figures and widgets, each kept as a file of its own."""
+
+import json
+import re
+
+WIDGET_STATE = "application/vnd.jupyter.widget-state+json"
+WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
+
+
+def save_figures(notebook, folder):
+    """Keep each named figure as a file of its own, so that other pages can show it."""
+    for cell in notebook.cells:
+        name = cell.metadata.get("mystnb", {}).get("figure", {}).get("name")
+        for output in cell.get("outputs", []):
+            image = output.get("data", {}).get("image/svg+xml")
+            if name and image:
+                (folder / f"{name}.svg").write_text(image)
+
+
+def save_widgets(notebook, folder):
+    """Keep each named widget as a file of its own, and in the notebook no state but that of the widgets it shows."""
+    stored = notebook.metadata.get("widgets", {}).get(WIDGET_STATE, {"state": {}})
+    kept = {}
+    for cell in notebook.cells:
+        name, outputs = cell.metadata.get("widget", {}).get("name"), cell.get("outputs", [])
+        views = [each.data[WIDGET_VIEW] for each in outputs if WIDGET_VIEW in each.get("data", {})]
+        if name and len(views) != 1:
+            raise ValueError(f"cell of widget {name} shows {len(views)} widgets, allowed is 1")
+        for view in views:
+            records = reachable(stored["state"], view["model_id"])
+            kept.update(records)
+            if name:
+                tags = [script(WIDGET_STATE, {**stored, "state": records}), script(WIDGET_VIEW, view)]
+                (folder / f"{name}.html").write_text("\n".join(tags) + "\n")
+    stored["state"] = kept
+
+
+def reachable(state, model):
+    """The records of a model and of all that it refers to, directly or through others."""
+    found, waiting = {}, [model]
+    while waiting:
+        model = waiting.pop()
+        if model in state and model not in found:
+            found[model] = state[model]
+            waiting += re.findall(r'"(?:IPY_MODEL_|anywidget:)(\w+)"', json.dumps(state[model]["state"]))
+    return found
+
+
+def script(kind, content):
+    """A tag that holds JSON. No "<" is left in it, so nothing that a string says can end the tag."""
+    text = json.dumps(content).replace("<", r"\u003c")
+    return f'<script type="{kind}">{text}</script>'
