@@ -2,11 +2,13 @@
 
 import re
 
+import numpy as np
 import pytest
 from contrast import GROUNDS, STYLE_SHEET, contrast
+from matplotlib.colors import to_hex, to_rgb
 
 from neorl import drawing
-from neorl.drawing.style import TEXT, letters
+from neorl.drawing.style import FILL, TEXT, UNDER_WHITE, letters
 
 LINES = (*drawing.CURVES, drawing.INK, drawing.AGENT, drawing.GREEN, drawing.RED)
 DISCS = (drawing.AGENT, drawing.GREEN, drawing.RED)  # which carry a white sign
@@ -35,6 +37,19 @@ def test_letters_are_legible(mode):
 def test_signs_stand_out_from_their_discs(mode):
     for colour in DISCS:
         assert contrast(shown(colour, mode), "#ffffff") >= 3, colour
+
+
+@pytest.mark.parametrize("mode", GROUNDS)
+def test_white_letters_are_legible_on_the_ground_that_is_meant_for_them(mode):
+    assert contrast(shown(UNDER_WHITE, mode), "#ffffff") >= 4.5
+    assert contrast(shown(UNDER_WHITE, mode), GROUNDS[mode][0]) >= 3
+
+
+@pytest.mark.parametrize("mode", GROUNDS)
+def test_arrows_stand_out_from_the_fills_that_they_cross(mode):
+    for colour in DISCS:
+        above, below = (np.array(to_rgb(each)) for each in (shown(colour, mode), GROUNDS[mode][0]))
+        assert contrast(shown(drawing.AGENT, mode), to_hex(FILL * above + (1 - FILL) * below)) >= 3, colour
 
 
 def test_the_measure_is_that_of_wcag():

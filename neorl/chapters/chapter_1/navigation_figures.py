@@ -5,7 +5,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.patches import Circle
 
 from neorl.drawing.boards import inside, new_boards
-from neorl.drawing.style import AGENT, GREEN, INK, RED
+from neorl.drawing.style import AGENT, GREEN, INK, RED, UNDER_WHITE
 
 
 def draw_walls(axes):
@@ -19,7 +19,7 @@ def draw_route(axes, path, waypoints):
     _draw_path(axes, path, np.ones(len(path) - 1, bool))
     axes.plot(*path[0], "o", color=AGENT, markersize=9)
     for number, (x, y) in enumerate(waypoints, start=1):
-        _draw_disc(axes, (x, y), 0.045, INK, str(number))
+        _draw_disc(axes, (x, y), 0.045, UNDER_WHITE, str(number))
 
 
 def draw_recordings(recordings):

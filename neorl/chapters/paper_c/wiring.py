@@ -8,6 +8,7 @@ import numpy as np
 from neorl.experiments.run import Run
 
 WELL_INSIDE = 0.2  # board widths from the middle
+FAR = 0.1  # board widths from the agent
 PATIENCE = 5_000  # steps
 LINE = 66  # characters
 
@@ -20,19 +21,26 @@ def make_up(network, desires, reading):
 
 
 def moment_of_desire(network, world, steps, seed=0):
-    """A `Run` of so many steps, and of some more until the agent is well inside the board and its place cells desire.
+    """A `Run` of so many steps, and of some more until the agent is well inside the board and a node's desire lands far
+    from it.
 
     It waits for that no longer than `PATIENCE`.
     """
     run = Run(network, world, seed)
     run.advance(steps)
-    while run.step < steps + PATIENCE and not (_is_inside(run) and run.output("PC").q.any()):
+    while run.step < steps + PATIENCE and not (_is_inside(run) and _reach(run) > FAR):
         run.advance(1)
     return run
 
 
 def _is_inside(run):
     return np.abs(run.world_state.scene.position / run.world.size - 0.5).max() < WELL_INSIDE
+
+
+def _reach(run):
+    """How far from the agent the desires between its nodes land, in board widths: the farthest one."""
+    return max((np.hypot(*target[:2]) for desire, target in zip(run.agent.desires, run.state.desires.target)
+                if run.agent.comes_from_node(desire)), default=0.0)
 
 
 def landings(run):
