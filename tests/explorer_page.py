@@ -8,7 +8,7 @@ from ipywidgets.embed import embed_data
 
 BOOK = Path(__file__).parent.parent / "book"
 sys.path.insert(0, str(BOOK))
-from build import WIDGET_STATE, WIDGET_VIEW, script  # noqa: E402
+from excerpts import WIDGET_STATE, WIDGET_VIEW, script  # noqa: E402
 
 
 def write_page(folder, explorers, change=None):
