@@ -88,13 +88,15 @@ def _row(record, name):
     judged = f"{marks.html(verdict)} {verdict}"
     if found:
         judged += f" {{ref}}`figure <{statement.figure}>`, {{ref}}`rule <{report.label(statement.rule)}>`"
-    cells = [f'<span id="{anchor(name)}"></span>**{name}** {statement.text}', statement.thesis,
+    cells = [f'<span id="{anchor(name)}"></span>**{name}** {statement.text} <small>{statement.statistic}</small>',
+             statement.thesis,
              *(_marked(record[part].get(name)) for part in ("letter", "claims")), judged, *_shares(share)]
     return f"| {' | '.join(cells)} |"
 
 
 def _marked(found):
-    return f"{marks.html(found['verdict'])} {report.number(found)}" if found else ""
+    mark = f"{marks.html(found['verdict'])} " if found and found["verdict"] in VERDICTS[:3] else ""  # not a –
+    return f"{mark}{report.number(found)}" if found else ""
 
 
 def _shares(share):
