@@ -23,7 +23,7 @@ def judge_changes(revalued, moved=None):
     kept, turn = estimate(ratio, after, later), estimate(difference, after, before)
     settled = estimate(difference, later, before)
     whole, room = [turn.low > 0 and kept.low >= 0.8], [turn.high > 0 and kept.high >= 0.8]
-    detail = (f"A minute, {estimate(np.mean, before)} before the turn, {estimate(np.mean, after)} after it and "
+    detail = (f"Per minute, {estimate(np.mean, before)} before the turn, {estimate(np.mean, after)} after it and "
               f"{estimate(np.mean, later)} finally. At once is read as four fifths of the later level.")
     if moved:
         first, others = moved["experienced"][:, :2].mean(axis=1), moved["experienced"][:, 2:].mean(axis=1)
