@@ -95,8 +95,11 @@ def _row(record, name):
 
 
 def _marked(found):
-    mark = f"{marks.html(found['verdict'])} " if found and found["verdict"] in VERDICTS[:3] else ""  # not a –
-    return f"{mark}{report.number(found)}" if found else ""
+    """A number behind the symbol of its verdict; alone without one, since a dash before it would be read as a minus."""
+    if not found:
+        return ""
+    mark = "" if found["verdict"] == "no verdict" else f"{marks.html(found['verdict'])} "
+    return f"{mark}{report.number(found)}"
 
 
 def _shares(share):

@@ -14,7 +14,6 @@ from neorl.evidence.errata import ERRATA
 from neorl.evidence.marks import NOT_COMPUTED, symbol
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 from neorl.evidence.statistics import Estimate
-from neorl.evidence.verdict import VERDICTS
 from neorl.experiments.cache import source_digest
 from neorl.files import cache_folder, write_whole
 
@@ -157,8 +156,7 @@ def _row(record, name):
 
 
 def _marked(found):
-    mark = f"{symbol(found['verdict'])}\u00a0" if found and found["verdict"] in VERDICTS[:3] else ""  # not a –
-    return f"{mark}{number(found)}" if found else ""
+    return f"{symbol(found['verdict'])}\u00a0{number(found)}" if found else ""
 
 
 def _share(share):

@@ -34,9 +34,6 @@ def prose():
         for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
             if cell["cell_type"] == "markdown":
                 yield path.name, "".join(cell["source"])
-            shown = cell["metadata"].get("mystnb", {})
-            yield from ((path.name, shown.get(part, {}).get(text, "")) for part, text in (("figure", "caption"),
-                                                                                         ("image", "alt")))
     for room in ROOMS:
         for path in sorted((ROOT / "neorl" / room).rglob("*.py")):
             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
