@@ -152,7 +152,7 @@ def draw_space(paths, ax=None):
         axes.plot(*path.T, color=AGENT, linewidth=1.0, alpha=0.6)
     for name, bird in birds.NAMED.items():
         draw_bird(bird, axes, GREEN)
-        axes.text(bird[0] - 0.04, bird[1] - 0.04, name, color=TEXT, ha="center", va="bottom", fontsize=9)
+        axes.text(bird[0] + 0.02, bird[1] - 0.04, name, color=TEXT, ha="right", va="bottom", fontsize=9)
     for bird in birds.NAMELESS:
         draw_bird(bird, axes, INK)
     axes.text(0.5, 1.11, "neck →", color=TEXT, ha="center", va="top")
