@@ -11,8 +11,8 @@ from pathlib import Path
 
 
 ASKED = "% The repository is at <URL>."
-UNNAMED = ("This copy of the book was built without the address of its repository: `Repository` under `[project.urls]` "
-           "in `pyproject.toml`.")
+UNNAMED = ("This copy of the book was built without the address of its repository. It goes into `pyproject.toml`, as "
+           "`Repository` under `[project.urls]`.")
 FOR_URL = '"`, with the address of the repository for `URL`'
 
 

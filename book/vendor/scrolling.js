@@ -10,10 +10,14 @@ const wrap = (table) => {
   box.append(table);
 };
 
+const names = new WeakMap(); // of boxes
+
+// What a table is called: its columns, below the heading that it stands under, since others may have the same ones.
 const nameOf = (box) => {
   const heads = [...box.querySelectorAll("thead th")].map((cell) => cell.textContent.trim()).filter(Boolean);
   const caption = box.querySelector("caption .caption-text, caption")?.textContent.trim();
-  return `Table, scrolls sideways: ${caption || heads.join(", ") || "no headings"}`;
+  const heading = box.closest("section")?.querySelector("h1, h2, h3, h4, h5")?.firstChild?.textContent.trim();
+  return `${heading ? `${heading}: table` : "Table"}, scrolls sideways: ${caption || heads.join(", ") || "no headings"}`;
 };
 
 const mark = (box) => {
@@ -24,7 +28,7 @@ const mark = (box) => {
   if (scrolls) {
     box.tabIndex = 0;
     box.setAttribute("role", "region");
-    box.setAttribute("aria-label", nameOf(box));
+    box.setAttribute("aria-label", names.get(box));
   } else {
     for (const each of ["tabindex", "role", "aria-label"]) box.removeAttribute(each);
   }
@@ -35,7 +39,11 @@ const start = () => {
     if (!table.closest(BOXES)) wrap(table);
   }
   const watch = new ResizeObserver((entries) => entries.forEach((entry) => mark(entry.target)));
+  const counts = {};
   for (const box of document.querySelectorAll(BOXES)) {
+    const name = nameOf(box);
+    counts[name] = (counts[name] ?? 0) + 1;
+    names.set(box, counts[name] > 1 ? `${name} (${counts[name]})` : name);
     box.addEventListener("scroll", () => mark(box), { passive: true });
     watch.observe(box);
   }

@@ -47,6 +47,11 @@
     }
   }
 
+  // Browsers since 2025 decode base64 by themselves, many times as fast.
+  function bytesOf(base64) {
+    return Uint8Array.fromBase64?.(base64) ?? Uint8Array.from(atob(base64), (byte) => byte.charCodeAt(0));
+  }
+
   function modelOf(id) {
     if (!models.has(id)) models.set(id, new Model(records.get(id)));
     return models.get(id);
@@ -61,7 +66,7 @@
         this.values = record.state;
         for (const { path, data } of record.buffers ?? []) {
           const owner = path.slice(0, -1).reduce((values, key) => values[key], this.values);
-          owner[path.at(-1)] = new DataView(Uint8Array.from(atob(data), (byte) => byte.charCodeAt(0)).buffer);
+          owner[path.at(-1)] = new DataView(bytesOf(data).buffer);
         }
       } catch {
         throw new Refusal(DAMAGED);

@@ -32,6 +32,7 @@ class Starters extends Hands {
   async showCorner() {
     const { life, life: { frame } } = this;
     const act = async () => {
+      life.due = null; // of another of these
       this.write({ playing: false });
       await this.look({ map: this.mapOfPlaces(), goal: null });
       await this.look({ at: CORNER });

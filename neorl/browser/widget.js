@@ -52,6 +52,8 @@ class Explorer extends Address {
     if (this.calm) this.write({ playing: false });
     this.visit();
     this.refresh();
+    const { top, height } = this.root.getBoundingClientRect();
+    this.approach({ isIntersecting: height > 0 && top < innerHeight }); // before the page's first picture, not after it
   }
 
   listen() {

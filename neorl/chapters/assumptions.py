@@ -108,8 +108,8 @@ def holding_in_short_runs(shares, judged, judged_part, steps, runs):
             f"runs per condition, which show early behaviour: {len(shares)} claims were judged under "
             f"{len(judged)} readings within the text, the expensive ones ({', '.join(judged_part[0])}) under "
             f"{len(judged_part)} of these. On average a claim holds under "
-            f"**{_percent(np.mean([*holding.values()]))}** of the readings. Under more than half hold "
-            f"{listed(name for name, share in holding.items() if share > 0.5)}; under no reading "
+            f"**{_percent(np.mean([*holding.values()]))}** of the readings. Under more than half of "
+            f"them: {listed(name for name, share in holding.items() if share > 0.5)}; under none of them: "
             f"{listed(name for name, share in holding.items() if share == 0)}. Of the {len(judged[0])} claims that "
             f"were judged under every reading, the best reading has {max(counts)}, and the average is "
             f"{np.mean(counts):.1f}.")

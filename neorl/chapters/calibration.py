@@ -149,4 +149,4 @@ def equal(pairs):
 
 
 def _marked(target, value, error):
-    return f"{'●' if target.holds(value) else '○'} {value:.2f} ± {error:.2f}".replace("-", "−")
+    return f"{'●' if target.holds(value) else '○'} {value:.2f}\u00a0±\u00a0{error:.2f}".replace("-", "−")

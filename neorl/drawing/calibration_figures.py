@@ -21,6 +21,7 @@ from neorl.evidence.priors import WITHIN
 
 ROW = 0.15  # inches, of a bar with its name
 NARROW = 12  # letters in a line
+ROOMY = 4  # levels of a pair whose labels do not touch
 POINTS = 100  # of a predicted curve
 LEVELS, MINUTES = (0.29, 0.55), (160, 15)  # of place cells and of both: what paper B prints
 SINGLE = {f"N{n}": ("single", n) for n in (10, 30, 50)}
@@ -84,14 +85,19 @@ def draw_pairs(remaining, names, figure=None):
                 axes.imshow(shares, aspect="auto", cmap=SHADES, vmin=0, interpolation="nearest")
             axes.set(xticks=[], yticks=[])
             if j == 0 and i > 0:
-                axes.set_yticks(range(len(below)), [level.split(" … ")[0] for level in below], fontsize=SMALL)
+                axes.set_yticks(*_spaced(below), fontsize=SMALL)
                 axes.set_ylabel(fill(WITHIN[names[i]].label, NARROW), fontsize=SMALL)
             if i == len(names) - 1:
-                axes.set_xticks(range(len(beside)), [level.split(" … ")[0] for level in beside], fontsize=SMALL,
-                                rotation=90)
+                axes.set_xticks(*_spaced(beside), fontsize=SMALL, rotation=90)
                 axes.set_xlabel(fill(WITHIN[names[j]].label, NARROW), fontsize=SMALL)
             axes.tick_params(length=0)
     return grid
+
+
+def _spaced(levels):
+    """Where labels of levels stand, and the labels: the lower ends of intervals, and of many only every second."""
+    every = slice(None, None, 2 if len(levels) > ROOMY else 1)
+    return range(len(levels))[every], [level.split(" … ")[0] for level in levels[every]]
 
 
 def draw_together(together, ax=None):

@@ -212,7 +212,7 @@ def draw_costs(labels: Sequence[str], measured: ArrayLike, predicted: ArrayLike,
     axes = axes_or_new(ax)
     axes.plot(labels, sums, color=INK, linewidth=1.2)
     axes.plot(labels, costs, color=CURVES[0], linestyle="none", marker="o", markersize=5)
-    axes.set(ylabel="microseconds a step", ylim=(0, None))
+    axes.set(ylabel="microseconds per step", ylim=(0, None))
     axes.tick_params(axis="x", rotation=60)
     name_ends(axes, [(costs[-1], "measured", CURVES[0]), (sums[-1], "sum", INK)])
     return axes

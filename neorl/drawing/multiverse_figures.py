@@ -161,7 +161,7 @@ def draw_importance(importance, choices=WITHIN, ax=None):
     for column, shares in enumerate(importance.values()):
         for key, share in shares.items():
             axes.plot(column, keys.index(key), marker="o", color=AGENT, markersize=13 * np.sqrt(np.clip(share, 0, 1)))
-    axes.set_xticks(range(len(importance)), importance, fontsize=SMALL)
+    axes.set_xticks(range(len(importance)), importance, fontsize=SMALL, rotation=90)  # side by side they would touch
     axes.set_yticks(range(len(keys)), [choices[key].label for key in keys], fontsize=SMALL)
     axes.set(xlim=(-0.6, len(importance) - 0.4), ylim=(len(keys) - 0.4, -0.6))
     axes.xaxis.tick_top()

@@ -88,13 +88,18 @@ def _row(record, name):
     judged = f"{marks.html(verdict)} {verdict}"
     if found:
         judged += f" {{ref}}`figure <{statement.figure}>`, {{ref}}`rule <{report.label(statement.rule)}>`"
-    cells = [f'<span id="{anchor(name)}"></span>**{name}** {statement.text}', statement.thesis,
+    cells = [f'<span id="{anchor(name)}"></span>**{name}** {statement.text} <small>{statement.statistic}</small>',
+             statement.thesis,
              *(_marked(record[part].get(name)) for part in ("letter", "claims")), judged, *_shares(share)]
     return f"| {' | '.join(cells)} |"
 
 
 def _marked(found):
-    return f"{marks.html(found['verdict'])} {report.number(found)}" if found else ""
+    """A number behind the symbol of its verdict; alone without one, since a dash before it would be read as a minus."""
+    if not found:
+        return ""
+    mark = "" if found["verdict"] == "no verdict" else f"{marks.html(found['verdict'])} "
+    return f"{mark}{report.number(found)}"
 
 
 def _shares(share):

@@ -57,7 +57,7 @@ def agreement(reading):
 
 def table():
     """All pins as a Markdown table, what is pinned first."""
-    rows = ["| Choice | What the text says | Where | So | |", "|---|---|---|---|---|"]
+    rows = ["| Choice | What the text says | Where | So | Status |", "|---|---|---|---|---|"]
     for status in ("pinned", "open"):
         rows += [f"| {pin.choice} | {f'“{pin.quotation}”' if pin.quotation else '–'} | {pin.place or '–'} | "
                  f"{pin.follows} | {status} |" for pin in PINS if pin.status == status]

@@ -116,7 +116,7 @@ WITHIN = {
     "credit": Choice("credit, ψ(N)", ("happened", "share", "count", "activity"), "ABCT"),
     "absent_decay": Choice("absence, −ψ(0)", LogUniform(1e-3, 1), "ABCT"),
     "absent_form": Choice("form of absence", ("away", "decay"), "ABCT"),
-    "memory": Choice("memory, cells or 0.1 s", LogUniform(1, 1_001, "1 + value"), "ABCT"),
+    "memory": Choice("memory, cells or 0.1\u00a0s", LogUniform(1, 1_001, "1 + value"), "ABCT"),
     "memory_unit": Choice("memory fades with", ("cells", "seconds"), "ABCT"),
     "memory_value": Choice("value in memory", ("reached", "discounted"), "ABCT"),
     "activity": Choice("activity, in seconds", LogUniform(0.05, 5), "ABCT"),
@@ -139,7 +139,7 @@ TO_THE_LETTER = Reading(**PINNED, **{name: choice.plainest for name, choice in W
 _BEYOND = WITHIN | {
     "credit": Choice("credit, ψ(N)", ("happened", "share", "count", "activity", "last", "step"), "ABCT"),
     "absent_decay": Choice("absence, −ψ(0)", LogUniform(1e-3, 1, zero=0.4), "ABCT"),
-    "memory": Choice("memory, cells or 0.1 s", LogUniform(1, 1_001, "1 + value", zero=0.2), "ABCT"),
+    "memory": Choice("memory, cells or 0.1\u00a0s", LogUniform(1, 1_001, "1 + value", zero=0.2), "ABCT"),
     "own_cell": Choice("own cell", ("counts", "silent"), "ABCT"),
     "tiled_fraction": Choice("range of places", (1.0, 0.5), "ABCT"),
     "weighting": Choice("map weights", ("resolution", "cells", "equal"), "ABCT"),

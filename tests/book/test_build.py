@@ -93,8 +93,7 @@ def page_of_widgets(*cells):
     widgets = {excerpts.WIDGET_STATE: {"version_major": 2, "version_minor": 0, "state": state}}
     page = nbformat.v4.new_notebook(metadata={"widgets": widgets})
     for name, models in cells:
-        views = [nbformat.v4.new_output("display_data", {excerpts.WIDGET_VIEW: {"model_id": model}})
-                 for model in models]
+        views = [nbformat.v4.new_output("display_data", {excerpts.WIDGET_VIEW: {"model_id": each}}) for each in models]
         cell = nbformat.v4.new_code_cell(outputs=views, metadata={"widget": {"name": name}} if name else {})
         page.cells += [cell, nbformat.v4.new_markdown_cell("Prose.")]
     return page

@@ -422,3 +422,10 @@ def test_a_browser_without_what_it_needs_is_told_so(chromium, open_page, site, m
     page_path.write_text(page_path.read_text().replace("<body", f"<script>delete window.{missing}</script><body", 1))
     page = open_page(folder, name)
     expect(page.locator("[role=alert]:visible")).to_contain_text("needs WebAssembly and web workers")
+
+
+def test_with_colours_of_the_readers_own_every_button_has_a_border(open_page, site):
+    page = open_page(*site("both"), forced_colors="active")
+    explorer_of(page)
+    assert set(page.locator(".neorl-explorer button").evaluate_all(
+        "buttons => buttons.map(button => getComputedStyle(button).borderTopStyle)")) == {"solid"}

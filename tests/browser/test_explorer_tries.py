@@ -66,6 +66,15 @@ def test_the_way_to_a_corner_is_shown_once_it_is_learned(visit):
     expect(page.locator(".key")).not_to_contain_text("Grey:")
 
 
+def test_of_two_things_to_try_the_later_one_counts(visit):
+    page = visit("#explorer_agent-place-cells")
+    press(page, "red")
+    page.wait_for_function("Number(document.querySelector('.neorl-explorer').dataset.step) > 60_000")
+    press(page, "corner")
+    expect(page.locator(".said")).to_contain_text("The shaded corner has never been a goal")
+    expect(page.locator(".said")).not_to_contain_text("In the middle of the run")
+
+
 def test_watching_it_learn_begins_anew_with_the_settings_of_the_preset(visit):
     page = visit()
     page.locator('[name="valence_red"]').fill("2")

@@ -11,7 +11,9 @@ def write_page(folder):
     (folder / "page.html").write_text(
         '<!doctype html><link rel="icon" href="data:,"><link rel="stylesheet" href="book.css">'
         '<body class="bd-content" style="width: 600px"><div class="pst-scrollable-table-container" id="narrow">'
-        f'{narrow}</div><div class="cell_output">{wide}</div><script src="scrolling.js"></script>')
+        f'{narrow}</div><div class="cell_output">{wide}</div>'
+        f'<section><h2>Again<a>#</a></h2><div class="cell_output">{wide}{wide}</div></section>'
+        '<script src="scrolling.js"></script>')
     for name in ("scrolling.js", "book.css"):
         (folder / name).write_text((VENDOR / name).read_text())
 
@@ -19,7 +21,7 @@ def write_page(folder):
 def test_a_wide_table_scrolls_by_keyboard_and_shows_where_there_is_more(open_page, tmp_path):
     write_page(tmp_path)
     page = open_page(tmp_path, "page.html")
-    wide = page.locator(".wide-table[role=region]")
+    wide = page.locator(".wide-table[role=region]").first
     wide.wait_for()
     assert wide.get_attribute("aria-label") == "Table, scrolls sideways: Claim, Share"
     assert wide.get_attribute("class") == "wide-table more-right"
@@ -29,3 +31,12 @@ def test_a_wide_table_scrolls_by_keyboard_and_shows_where_there_is_more(open_pag
     page.wait_for_function("document.querySelector('.wide-table').scrollLeft > 1")
     page.wait_for_selector(".more-left.more-right")
     assert page.locator("#narrow").get_attribute("tabindex") is None
+
+
+def test_tables_with_the_same_columns_have_names_of_their_own(open_page, tmp_path):
+    write_page(tmp_path)
+    page = open_page(tmp_path, "page.html")
+    page.locator(".wide-table[role=region]").first.wait_for()
+    names = page.locator(".wide-table").evaluate_all("boxes => boxes.map(box => box.getAttribute('aria-label'))")
+    assert names == ["Table, scrolls sideways: Claim, Share", "Again: table, scrolls sideways: Claim, Share",
+                     "Again: table, scrolls sideways: Claim, Share (2)"]

@@ -86,12 +86,13 @@ def test_claims_that_hold_in_short_runs_are_counted(shares):
     text = plain(assumptions.holding_in_short_runs(shares, judged, part, 30_000, 2))
     assert "In short runs, 10 minutes of simulated time at 50 steps per second and 2 runs per condition" in text
     assert "3 claims were judged under 3 readings within the text, the expensive ones (A2) under 2" in text
-    assert "a claim holds under **42 %** of the readings. Under more than half hold A2; under no reading B1." in text
+    assert ("a claim holds under **42 %** of the readings. Under more than half of them: A2; under none of them: B1."
+            in text)
     assert text.endswith("Of the 2 claims that were judged under every reading, the best reading has 2, and the "
                          "average is 1.0.")
     shares |= {"A2": shares["C1"], "B1": shares["C1"]}
     text = assumptions.holding_in_short_runs(shares, judged, part, 30_000, 2)
-    assert "Under more than half hold none; under no reading none." in text
+    assert "Under more than half of them: none; under none of them: none." in text
 
 
 def test_claims_are_listed_by_the_choice_that_matters_most():

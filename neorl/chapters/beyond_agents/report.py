@@ -30,8 +30,8 @@ def summary(lived):
     thesis, ours = (mean_of(last_third(each)) for each in (lived.thesis[THESIS], lived.way[f"+ {PARTS[-1]}"]))
     parts = {part: mean_of(last_third(result)).value for part, result in lived.without.items()}
     most = sorted(parts, key=parts.get)[:3]
-    return (f"**The forager earns {interval(ours)} per second over the last third of the runs, while it learns; the "
-            f"best agent of the thesis earns {interval(thesis)} in the calibrated reading.** It meets {len(met)} of "
+    return (f"The forager earns {interval(ours)} per second over the last third of the runs, while it learns; the "
+            f"best agent of the thesis earns {interval(thesis)} in the calibrated reading. It meets {len(met)} of "
             f"{len(TARGETS)} aims" + (f"; missed: {listed(missed)}" if missed else "") + ". It loses most without "
             f"{', '.join(f'{part} ({number(parts[part])})' for part in most)}. It has no network of neurons, no replay "
             "and no model, and passes through its experience once; elements that are moved or revalued need no "
@@ -56,7 +56,7 @@ def part_table(lived):
         lost = estimate(difference, last_third(lived.without[part]), last_third(whole))
         rows.append([part, interval(gained), interval(lost)])
         before = after
-    return table(["part", "adds on the way", "its absence changes the whole by"], rows)
+    return table(["part", "reward per second that it adds on the way", "its absence changes the whole by"], rows)
 
 
 def search_in_words():
@@ -79,7 +79,7 @@ def revalued_in_words(lived):
     before, after = (lived.revalued.hits[:, part].sum(axis=1) / seconds
                      for part in (slice(0, bins // 2), slice(bins // 2, bins)))
     return (f"Up to half-time the agents meet {number(before[:, 0].mean())} green and "
-            f"{number(before[:, 1].mean())} red creeps per second; from then on, with nothing learned anew, "
+            f"{number(before[:, 1].mean())} red creeps per second; from then on, with no value relearned, "
             f"{number(after[:, 0].mean())} green and {number(after[:, 1].mean())} red ones.")
 
 
@@ -120,7 +120,7 @@ def gaps_in_words(boards):
 def gap_table(boards):
     """What each kind of perfect knowledge would bring, in rewards per second: a row each, a column a board."""
     gaps = {creeps: oracles.gaps(rates) for creeps, rates in boards.items()}
-    return table(["perfect", *(f"{creeps} creeps (95 % interval)" for creeps in boards)],
+    return table(["more reward per second by perfect", *(f"{creeps} creeps (95 % interval)" for creeps in boards)],
                  [[name, *(interval(mean_of(each[name])) for each in gaps.values())]
                   for name in next(iter(gaps.values()))])
 

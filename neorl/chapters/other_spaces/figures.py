@@ -18,11 +18,12 @@ SEEN = 12  # postures of an arm that are drawn on its way to a target
 BIRD = 0.05  # half the length of a bird's body, as a share of the square
 
 
-def pair(widths=(1, 1.25)):
-    """Two panels side by side, the left one a board."""
-    width = 1.5 * width_of_figures()
-    figure, (left, right) = plt.subplots(1, 2, figsize=(width, 0.42 * width), width_ratios=widths, layout="constrained")
-    return as_board(left), right
+def pair(heights=(1, 0.8)):
+    """Two panels, the upper one a board: side by side their letters would be too small on a phone."""
+    width = width_of_figures()
+    _, (above, below) = plt.subplots(2, 1, figsize=(width, 0.7 * width * sum(heights)), height_ratios=heights,
+                                     layout="constrained")
+    return as_board(above), below
 
 
 def draw_arms(reached, seen):
@@ -30,13 +31,13 @@ def draw_arms(reached, seen):
 
     reached: of `lives.reach`. seen: of `lives.watch`, with an arm of two links.
     """
-    left, right = pair()
-    draw_reaching(seen, left)
+    above, below = pair()
+    draw_reaching(seen, above)
     minutes = lives.curve(reached[2, "agent"])[0]
     curves = {f"{links} links{name}": lives.curve(reached[links, key])[1]
               for links in (2, 3) for key, name in (("agent", ""), ("random", ", random"))}
-    draw_curves(minutes, curves, "simulated minutes", "reward per second", right)
-    return left, right
+    draw_curves(minutes, curves, "simulated minutes", "reward per second", below)
+    return above, below
 
 
 def draw_reaching(seen, ax=None, targets=2):
@@ -72,12 +73,12 @@ def draw_vessel(sailed, seen):
 
     sailed: of `lives.sail`. seen: of `lives.watch`.
     """
-    left, right = pair()
-    draw_track(seen, left)
+    above, below = pair()
+    draw_track(seen, above)
     minutes = lives.curve(sailed["radar"])[0]
     draw_curves(minutes, {name: lives.curve(result)[1] for name, result in sailed.items()}, "simulated minutes",
-                "reward per second", right)
-    return left, right
+                "reward per second", below)
+    return above, below
 
 
 def draw_track(seen, ax=None):
@@ -105,17 +106,17 @@ def draw_pool(swum, paths):
 
     swum: of `pool.swim`. paths: (first, second), float64 (steps, 2) each.
     """
-    left, right = pair()
-    draw_paths(paths, left)
+    above, below = pair()
+    draw_paths(paths, above)
     trials = np.arange(pool.DAYS * pool.TRIALS_A_DAY) + 0.5
     draw_curves(trials / pool.TRIALS_A_DAY, {
         **{name: each.reshape(len(each), -1) for name, each in swum["moved"].items()},
         "neoRL, fixed": swum["fixed"]["neoRL"].reshape(len(swum["fixed"]["neoRL"]), -1)}, "days",
-        "seconds to the platform", right)
-    right.set_ylim(0, None)
+        "seconds to the platform", below)
+    below.set_ylim(0, None)
     for day in range(1, pool.DAYS):
-        right.axvline(day, color=INK, linewidth=0.4)
-    return left, right
+        below.axvline(day, color=INK, linewidth=0.4)
+    return above, below
 
 
 def draw_paths(paths, ax=None):
@@ -134,13 +135,13 @@ def draw_birds(asked, paths):
 
     asked: of `birds.ask`. paths: float64 (steps, 2) each, of `birds.path`.
     """
-    left, right = pair((1, 1))
-    draw_space(paths, left)
+    above, below = pair((1, 0.5))
+    draw_space(paths, above)
     draw_rows({name: estimate(np.mean, each.mean(axis=1)) for name, each in asked.items()}, "times the fewest steps",
-              right)
-    right.set_xscale("log")
-    right.axvline(1, color=INK, linewidth=0.7)
-    return left, right
+              below)
+    below.set_xscale("log")
+    below.axvline(1, color=INK, linewidth=0.7)
+    return above, below
 
 
 def draw_space(paths, ax=None):
@@ -151,7 +152,7 @@ def draw_space(paths, ax=None):
         axes.plot(*path.T, color=AGENT, linewidth=1.0, alpha=0.6)
     for name, bird in birds.NAMED.items():
         draw_bird(bird, axes, GREEN)
-        axes.text(bird[0] - 0.04, bird[1] - 0.04, name, color=TEXT, ha="center", va="bottom", fontsize=9)
+        axes.text(bird[0] + 0.02, bird[1] - 0.04, name, color=TEXT, ha="right", va="bottom", fontsize=9)
     for bird in birds.NAMELESS:
         draw_bird(bird, axes, INK)
     axes.text(0.5, 1.11, "neck →", color=TEXT, ha="center", va="top")
@@ -174,11 +175,11 @@ def draw_car(driven, learner):
 
     driven: of `hill.drive`. learner: a driver that has learned, a `neorl.Learner`.
     """
-    left, right = pair()
-    draw_pushes(learner, left)
+    above, below = pair()
+    draw_pushes(learner, above)
     decisions = (np.arange(hill.POINTS) + 1) * hill.DECISIONS / hill.POINTS
-    draw_curves(decisions, driven, "decisions", "steps of an episode", right)
-    return left, right
+    draw_curves(decisions, driven, "decisions", "steps of an episode", below)
+    return above, below
 
 
 def draw_pushes(learner, ax=None):

@@ -64,7 +64,8 @@ def reaching(reached, feared):
 
 def sailing(sailed):
     """What pilots meet, in a table: of `lives.sail`."""
-    return table(["Pilot", "Waypoints a minute", "Collisions a minute", "Reward a minute, first tenth", "Last fifth"], [
+    return table(["Pilot", "Waypoints per minute", "Collisions per minute", "Reward per minute, first tenth",
+                  "Reward per minute, last fifth"], [
         [name, *(estimate(np.mean, 60 * result.hit_rate(*FINAL)[:, kind]) for kind in range(2)),
          estimate(np.mean, 60 * result.rate(*EARLY)), estimate(np.mean, 60 * result.rate(*FINAL))]
         for name, result in sailed.items()])
@@ -75,7 +76,7 @@ def swimming(swum):
     rows = [[f"{name}, platform {platform}", *(estimate(np.mean, seconds[:, scores.LATER, trial].mean(axis=1))
                                                for trial in range(seconds.shape[2]))]
             for platform, by_name in swum.items() for name, seconds in by_name.items()]
-    return table(["Swimmer", *(f"Trial {trial}" for trial in range(1, len(rows[0])))], rows)
+    return table(["Seconds to the platform", *(f"Trial {trial}" for trial in range(1, len(rows[0])))], rows)
 
 
 def savings(swum):
@@ -91,7 +92,7 @@ def savings(swum):
 
 def thinking(asked, named):
     """How many times the fewest steps questions take, for birds with a name and without. named: how many have one."""
-    return table(["Agent", "Birds with a name", "Birds without"], [
+    return table(["Steps, in multiples of the fewest", "Birds with a name", "Birds without"], [
         [name, estimate(np.mean, each[:, :named].mean(axis=1)), estimate(np.mean, each[:, named:].mean(axis=1))]
         for name, each in asked.items()])
 
@@ -102,7 +103,7 @@ def driving(driven):
     rows = [[name, *(estimate(np.mean, each) for each in of_driver)] for name, of_driver in quarters.items()]
     rows.append(["probability that a run of neoRL beats one at random", *(
         probability_of_improvement(-agent, -chance) for agent, chance in zip(quarters["neoRL"], quarters["random"]))])
-    return table(["Driver", "First quarter", "Second", "Third", "Last"], rows)
+    return table(["Steps of an episode", "First quarter", "Second", "Third", "Last"], rows)
 
 
 def searched():

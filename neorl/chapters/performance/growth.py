@@ -96,7 +96,7 @@ def learning(steps, rounds, seed=0):
     agents = {n: place_cells([n], learning=ALL_GOALS, **INDIFFERENT) for n in RESOLUTIONS}
     idle = {-n: place_cells([n], learning=LEARNS_NOTHING, **INDIFFERENT) for n in RESOLUTIONS}
     found = _a_step({**agents, **idle}, steps, rounds, seed)
-    return _series("N", "learning all goals, a step", "seconds", RESOLUTIONS,
+    return _series("N", "learning all goals, per step", "seconds", RESOLUTIONS,
                    [found[n] - found[-n] for n in RESOLUTIONS], 3, at_most=True)
 
 
@@ -104,7 +104,7 @@ def maps(steps, rounds, seed=0):
     """What maps of N11 add to a step, by how many there are."""
     agents = {count: place_cells([11] * count, **INDIFFERENT) for count in MAPS}
     found = _a_step({**agents, 0: WITHOUT_A_MAP}, steps, rounds, seed)
-    return _series("maps", "maps of N11, a step", "seconds", MAPS, [found[count] - found[0] for count in MAPS], 1)
+    return _series("maps", "maps of N11, per step", "seconds", MAPS, [found[count] - found[0] for count in MAPS], 1)
 
 
 def creeps(steps, rounds, seed=0):
@@ -126,7 +126,7 @@ def memory(steps, rounds, seed=0):
     agents = {seconds: place_cells([23], learning=Learning(memory=seconds), **INDIFFERENT) for seconds in MEMORIES}
     idle = place_cells([23], learning=LEARNS_NOTHING, **INDIFFERENT)
     found = _a_step({**agents, 0: idle}, steps, rounds, seed)
-    return _series("seconds remembered", "learning from memory, a step", "seconds", MEMORIES,
+    return _series("seconds remembered", "learning from memory, per step", "seconds", MEMORIES,
                    [found[each] - found[0] for each in MEMORIES], 1, at_most=True)
 
 

@@ -16,7 +16,8 @@ def draw_bandwidths(bandwidths, loops):
     ways = {"in order": (bandwidths.copied, CURVES[0]), "lone values": (bandwidths.scattered, CURVES[1])}
     for speeds, colour in ways.values():
         axes.plot(bandwidths.working_sets, speeds / GIGA, color=colour, marker="o", markersize=3)
-    axes.set(xscale="log", xlabel="working set", ylabel="gigabytes per second", ylim=(0, None))
+    top = 1.15 * max(speeds.max() for speeds, _ in ways.values()) / GIGA  # names of lines stand above the curves
+    axes.set(xscale="log", xlabel="working set", ylabel="gigabytes per second", ylim=(0, top))
     for name, side in (("N23 (memory)", "left"), ("twelve maps (memory)", "right")):
         axes.axvline(loops[name].moved.working_set, color=INK, linewidth=0.8, linestyle="--")
         axes.annotate(name.split(" (")[0], (loops[name].moved.working_set, 1), xycoords=("data", "axes fraction"),
@@ -36,7 +37,7 @@ def draw_bounds(loops, bandwidths):
         axes.annotate(f"{loop.ratio(bandwidths).value:.1f} ×", (whole, place - 0.18), xytext=(4, 0),
                       textcoords="offset points", va="center")
     axes.set(yticks=range(len(loops)), yticklabels=[name.replace(" (", "\n(") for name in loops],
-             xlabel="nanoseconds a step")
+             xlabel="nanoseconds per step")
     axes.invert_yaxis()
     _legend(axes, {"loop": AGENT, "world": CURVES[2], "bytes": CURVES[1]})
 
@@ -50,7 +51,7 @@ def draw_contests(*contests):
     for place, (_, taken, other) in enumerate(bars):
         axes.barh(place, taken, 0.6, color=INK if other else AGENT)
         axes.annotate(f"{taken:,.0f}", (taken, place), xytext=(4, 0), textcoords="offset points", va="center")
-    axes.set(yticks=range(len(bars)), yticklabels=names, xscale="log", xlabel="nanoseconds a step")
+    axes.set(yticks=range(len(bars)), yticklabels=names, xscale="log", xlabel="nanoseconds per step")
     axes.margins(x=0.15)
     axes.invert_yaxis()
 

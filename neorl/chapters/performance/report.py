@@ -20,10 +20,10 @@ def summary(loops, bandwidths, rivals, worlds):
     several = ", ".join(f"{_times(ratio.value)} by {name}" for name, ratio in rivals.ratios.items())
     original = "".join(f" {name} takes {_times(ratio.value)} times as long for a step of the world." for name, ratio in
                        worlds.ratios.items())
-    return (f"**On this machine one core takes {_seconds(quickest)} to {_seconds(slowest)} for a step of world and "
+    return (f"On this machine one core takes {_seconds(quickest)} to {_seconds(slowest)} for a step of world and "
             f"agent. That is {least:.1f} to {most:.1f} times the lower bound set by world and memory; "
-            f"{listed(within)} meet the aim of {AIM}. The agent's part with N23 takes longer in other "
-            f"implementations, by a factor of {several}.{original}**")
+            f"the aim of {AIM} is met by {listed(within)}. The agent's part with N23 takes longer in other "
+            f"implementations, by a factor of {several}.{original}")
 
 
 def bound_table(loops, bandwidths):
