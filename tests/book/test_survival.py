@@ -176,10 +176,12 @@ def test_a_build_that_is_killed_again_and_again_ends_with_the_same_book(tree, fi
 def test_an_interrupted_build_says_so_and_a_second_one_meanwhile_is_refused(tree, moment):
     process = small_book.start(tree)
     wait_for(tree / moment, process)
+    process.send_signal(signal.SIGSTOP)  # lest it ends before the second one has begun
+    started = offspring(process)
     code, said = small_book.build(tree)
     assert code == 1 and f"another make book is at work in this tree, process {process.pid} since" in said, said
-    started = offspring(process)
     process.send_signal(signal.SIGINT)
+    process.send_signal(signal.SIGCONT)
     said, _ = process.communicate()
     assert_failed_well(tree, process.returncode, said, {}, "\ninterrupted; make book resumes from here")
     assert "Traceback" not in said and len(written(tree)) >= 1
