@@ -10,14 +10,17 @@ const wrap = (table) => {
   box.append(table);
 };
 
-const names = new WeakMap(); // of boxes
+const [names, counts] = [new WeakMap(), {}]; // of boxes that scroll, and how many have the same one
 
 // What a table is called: its columns, below the heading that it stands under, since others may have the same ones.
 const nameOf = (box) => {
   const heads = [...box.querySelectorAll("thead th")].map((cell) => cell.textContent.trim()).filter(Boolean);
   const caption = box.querySelector("caption .caption-text, caption")?.textContent.trim();
   const heading = box.closest("section")?.querySelector("h1, h2, h3, h4, h5")?.firstChild?.textContent.trim();
-  return `${heading ? `${heading}: table` : "Table"}, scrolls sideways: ${caption || heads.join(", ") || "no headings"}`;
+  const name = `${heading ? `${heading}: table` : "Table"}, scrolls sideways: ${caption || heads.join(", ")
+    || "no headings"}`;
+  counts[name] = (counts[name] ?? 0) + 1;
+  return counts[name] > 1 ? `${name} (${counts[name]})` : name;
 };
 
 const mark = (box) => {
@@ -28,6 +31,7 @@ const mark = (box) => {
   if (scrolls) {
     box.tabIndex = 0;
     box.setAttribute("role", "region");
+    if (!names.has(box)) names.set(box, nameOf(box));
     box.setAttribute("aria-label", names.get(box));
   } else {
     for (const each of ["tabindex", "role", "aria-label"]) box.removeAttribute(each);
@@ -39,11 +43,7 @@ const start = () => {
     if (!table.closest(BOXES)) wrap(table);
   }
   const watch = new ResizeObserver((entries) => entries.forEach((entry) => mark(entry.target)));
-  const counts = {};
   for (const box of document.querySelectorAll(BOXES)) {
-    const name = nameOf(box);
-    counts[name] = (counts[name] ?? 0) + 1;
-    names.set(box, counts[name] > 1 ? `${name} (${counts[name]})` : name);
     box.addEventListener("scroll", () => mark(box), { passive: true });
     watch.observe(box);
   }
