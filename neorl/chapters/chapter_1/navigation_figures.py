@@ -29,7 +29,7 @@ def draw_recordings(recordings):
 
 
 def draw_recording(axes, recording):
-    """The path of the agent of a `Recording`, fainter the longer ago, and where it took creeps, with their signs.
+    """The path of the agent of a `Recording`, thinner the longer ago, and where it took creeps, with their signs.
 
     The path breaks off where taking the last green creep has put the agent back into the middle.
     """
@@ -48,8 +48,8 @@ def draw_recording(axes, recording):
 
 def _draw_path(axes, path, shown):
     pieces = np.stack([path[:-1], path[1:]], axis=1)
-    opacity = np.linspace(0.3, 1, len(pieces))
-    axes.add_collection(LineCollection(pieces[shown], colors=AGENT, linewidths=1.6, alpha=opacity[shown]))
+    width = np.linspace(0.7, 2.4, len(pieces))
+    axes.add_collection(LineCollection(pieces[shown], colors=AGENT, linewidths=width[shown]))
 
 
 def _draw_disc(axes, place, radius, colour, sign):

@@ -30,15 +30,14 @@ def in_short(results):
     calibrated, letter = results[CALIBRATED], results[LETTER]
     together, alone = _finals(calibrated)
     surplus = estimate(lead_over_sum, together, *alone)
-    beyond = by_interval(surplus, "that is more than", "that is less than", "that cannot be distinguished from")
+    beside = by_interval(surplus, "more than", "less than", "not distinguishable from")
     control = calibrated["brownian", 8]
     return (f"In the calibrated reading, N3, N7 and N23 together finally earn {estimate(np.mean, together)} per "
-            f"second: {_gain(calibrated)} times as much as N7 alone, where the thesis has {THESIS[REWARD]}. The "
-            f"difference from the sum of what the three earn alone is {surplus}: {beyond} the sum. To the letter they "
-            f"earn {_gain(letter)} times as much as N7. Of single maps {_order(calibrated)[0]} earns most per "
-            f"second, where the thesis has N50. Motion at random clears the board {number(resets(control).mean())} "
-            f"times in {control.steps:,} steps, where the thesis has it “incapable” of clearing it once. Brackets are "
-            "95 % intervals over runs.")
+            f"second: {_gain(calibrated)} times as much as N7 alone (thesis: {THESIS[REWARD]}), and {beside} the sum "
+            f"of what the three earn alone (difference {surplus}). To the letter the ratio to N7 is {_gain(letter)}. "
+            f"Of single maps {_order(calibrated)[0]} earns most (thesis: N50). Random motion clears the board "
+            f"{number(resets(control).mean())} times in {control.steps:,} steps (thesis: never). Brackets are 95 % "
+            "intervals.")
 
 
 def in_words(results):

@@ -46,7 +46,7 @@ def in_short(lived):
     by_letter = level[LETTER]
     return (f"In the calibrated reading, {_found(level[CALIBRATED], minute[CALIBRATED])} To the letter, place cells "
             f"earn {by_letter['PC']} per second, object-vector cells {by_letter['OVC']}, and both "
-            f"{by_letter['PC + OVC']}. Brackets are 95 % intervals over runs.")
+            f"{by_letter['PC + OVC']}. Brackets are 95 % intervals.")
 
 
 def in_words(lived):
