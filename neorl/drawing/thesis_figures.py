@@ -48,7 +48,7 @@ def draw_against_thesis(thesis: Mapping[str, float], readings: Mapping[str, Mapp
     for row, number in zip(rows, told):
         axes.annotate(f"thesis {number:g}".replace("-", "−"), (number, row - 0.38), fontsize=SMALL, ha="center",
                       va="bottom")
-    intervals = []
+    intervals: list[tuple[float, float, float, str]] = []
     shifts = 0.5 * (np.arange(len(readings)) - (len(readings) - 1) / 2) / max(len(readings), 1)
     for (name, found), shift, colour, marker in zip(readings.items(), shifts, CURVES, MARKERS):
         value, low, high = np.array([found[label] for label in thesis]).T

@@ -8,6 +8,7 @@ from matplotlib import pyplot as plt
 
 from neorl.chapters.chapter_3 import decision, decision_figures, temporality
 from neorl.chapters.shared.grid import Grid
+from neorl.drawing.style import FILL
 
 CLIFF = Grid(("....", ".CCG"))
 WORTH = {CLIFF.marked("C")[0]: -1.0, CLIFF.marked("C")[1]: -1.0, CLIFF.marked("G")[0]: 1.0}
@@ -157,9 +158,9 @@ def test_plans_are_shaded_by_value_and_show_the_marks_of_the_grid():
     values = np.linspace(0, 1, CLIFF.states)
     decision_figures.draw_plans(panels, CLIFF, {"a": (values, None), "b": (values / 2, np.eye(CLIFF.states)[:, :4])})
     fills = [[patch.get_alpha() for patch in axes.patches[-CLIFF.states:]] for axes in panels]
-    np.testing.assert_allclose(fills[0], 0.7 * values)
-    np.testing.assert_allclose(fills[1], 0.35 * values)
-    assert [text.get_text() for text in panels[0].texts if text.get_text()] == ["C", "C", "G"]
+    np.testing.assert_allclose(fills[0], FILL * values)
+    np.testing.assert_allclose(fills[1], FILL / 2 * values)
+    assert [text.get_text() for text in panels[0].texts] == ["C", "C", "G"]
     assert not panels[0].collections and panels[1].collections
 
 
