@@ -57,6 +57,7 @@ CLAIMS, FRONT, ERRATA, PICTURES = INCLUDED = "claims-table.md", "claims-front.ht
 
 def main():
     chosen = parse_arguments()
+    os.environ["NEORL_CACHE"] = str(cache_folder().absolute())  # notebooks run in a folder of theirs
     if chosen.notebook:
         return attempt(chosen.notebook, json.loads(chosen.parameters))
     if chosen.pages:
@@ -216,11 +217,12 @@ def compute(notebook, parameters):
         shutil.copy(claims, work / f"{notebook.stem}.claims.json")
     nbformat.write(executed, work / notebook.name)
     wanted["outputs"] = {path.name: digest([path]) for path in sorted(work.iterdir())}
-    record_of(notebook).unlink(missing_ok=True)
-    for name in wanted["outputs"]:
+    record = record_of(notebook)
+    write_whole(work / record.name, json.dumps(wanted).encode())  # all that takes room, before the last page goes
+    record.unlink(missing_ok=True)
+    for name in (*wanted["outputs"], record.name):
         os.replace(work / name, CHAPTERS / name)
     work.rmdir()
-    write_whole(record_of(notebook), json.dumps(wanted).encode())
     say(f"{notebook.name}: {time.monotonic() - began:.0f} s")
 
 
@@ -326,9 +328,12 @@ def build():
         shutil.rmtree(BUILT / "next", ignore_errors=True)
         sys.exit("the book was not built, see above" if free > ROOM else
                  f"the book was not built, for {BUILT} is on a disk that has no room left; make book goes on from here")
-    shutil.rmtree(HTML.parent, ignore_errors=True)
+    shutil.rmtree(BUILT / "last", ignore_errors=True)
+    if HTML.parent.exists():  # to remove it page by page would leave a part of a book to a reader, or if killed
+        os.replace(HTML.parent, BUILT / "last")
     os.replace(BUILT / "next" / "_build" / "html", HTML.parent)
-    shutil.rmtree(BUILT / "next")
+    for name in ("last", "next"):
+        shutil.rmtree(BUILT / name, ignore_errors=True)
     write_whole(record, wanted.encode())
 
 

@@ -50,8 +50,8 @@ def with_values(source, values):
 def run_it_yourself(name, seconds):
     """The text that stands above the parameters of a page."""
     took = f"{seconds:.0f} seconds" if seconds < 90 else f"{seconds / 60:.0f} minutes"
-    return (f"## Run it yourself\n\nThis page took {took} to compute, less what earlier builds had cached. `make lab` "
-            f"opens its notebook, `notebooks/{name}.ipynb`, in JupyterLab: change the parameters below, and run it "
-            f"again. Papermill computes it with other ones in one line:\n\n```bash\n.venv/bin/papermill "
-            f"notebooks/{name}.ipynb out.ipynb -p runs 4\n```\n\n[Running it](../running.md) has other machines, "
+    return (f"## Run it yourself\n\nThis page took {took} to compute, apart from what earlier builds had cached. `make "
+            f"lab` opens its notebook, `notebooks/{name}.ipynb`, in JupyterLab: change the parameters below, and run "
+            f"it again. Papermill runs it with other values in one line:\n\n```bash\n.venv/bin/papermill "
+            f"notebooks/{name}.ipynb out.ipynb -p runs 4\n```\n\n[Running it](../running.md) covers other machines, "
             "clusters and the cloud.")

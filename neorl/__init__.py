@@ -17,11 +17,12 @@ The package is built in rooms, and a module imports only from its own room and f
 - `neorl.core`: the kernels, scenes, modalities and maps.
 """
 
-from neorl.agents.agent import Agent, Contacts, Desire, Learning, Node, Place, Policy
+from neorl.agents.agent import Agent, Desire, Node, Place
 from neorl.agents.beyond import forager
+from neorl.agents.learner import Learner
 from neorl.agents.papers import (brownian, multimodal, network_a, network_b, network_c, network_d, object_vector_cells,
                                  place_cells)
-from neorl.agents.learner import Learner
+from neorl.agents.rules import Contacts, Learning, Policy
 from neorl.core.horde import learn, superpose
 from neorl.core.kernel import kernel, kernel_maker
 from neorl.core.maps import NresMap

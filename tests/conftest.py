@@ -33,7 +33,7 @@ def closed():
 @pytest.fixture
 def cache_folder(tmp_path, monkeypatch):
     """An empty folder for what is kept, but for compiled kernels, in place of the user's."""
-    compiled = files.cache_folder() / "compiled"
+    compiled = files.cache_folder().resolve() / "compiled"
     compiled.mkdir(parents=True, exist_ok=True)
     (tmp_path / "compiled").symlink_to(compiled)
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path))

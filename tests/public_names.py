@@ -353,17 +353,17 @@ TABLE = {
            "step": entry(space.step, state=st.integers(0, 5).map(space.reset), action=[space.actions.names[0], 0]),
            "check_state": entry(space.check_state, state=st.integers(0, 5).map(space.reset)),
        }.items()},
-    "neorl.agents.agent.Learning": entry(
+    "neorl.agents.rules.Learning": entry(
         Learning, learning_rate=shares, discount=shares, update_on=["cell"], credit=["happened", "activity", "share"],
         activity=st.floats(0, 9), absent_decay=shares, absent_form=["decay", "away"], terminal=[True, False],
         trace=[1], memory=st.floats(0, 9), memory_unit=["cells", "seconds"], memory_value=["reached", "discounted"],
         bootstrap=[True, False], causes=["any", "own"], capture=["contact", "leap", "silent"],
         attention=["each", "nearest", "wanted"],
         then=lambda learning: live(neorl.multimodal([3], learning=learning))),
-    "neorl.agents.agent.Learning, traces": entry(
+    "neorl.agents.rules.Learning, traces": entry(
         Learning, trace=st.integers(1, 9), memory=[0], discount=shares, update_on=["cell"],
         then=lambda learning: live(neorl.multimodal([3], learning=learning))),
-    "neorl.agents.agent.Contacts": entry(
+    "neorl.agents.rules.Contacts": entry(
         Contacts, horizon=st.floats(0.01, 9), learning_rate=shares, familiarity=st.floats(0, 99), first_value=shares,
         trace_rate=shares, caution=st.floats(0, 9), fear=["avoidance", "approach"], rivals=["highest", "add"],
         then=lambda contacts: live(forager([3, 5], contacts=contacts))),
@@ -373,7 +373,7 @@ TABLE = {
     "neorl.agents.beyond.foveated_cells": entry(
         foveated_cells, foveated=[True, False], velocity=[True, False], mirrored=[True, False],
         also=("feature", "low", "axes")),
-    "neorl.agents.agent.Policy": entry(
+    "neorl.agents.rules.Policy": entry(
         Policy, exploration=shares, when_indifferent=["random", "no-op"],
         choose=st.sampled_from([greedy, softmax(1.0)]),
         then=lambda policy: live(neorl.multimodal([3], policy=policy)), also="kernel"),

@@ -3,8 +3,9 @@
 from collections.abc import Sequence
 
 from neorl import checks
-from neorl.agents.agent import LEARNED, Agent, Contacts, Desire, Node
+from neorl.agents.agent import LEARNED, Agent, Desire, Node
 from neorl.agents.papers import paper_agent
+from neorl.agents.rules import Contacts
 from neorl.core.modality import Axis, Modality
 
 FASTEST = 2.5  # of the velocities that are told apart, in sizes of the world per second

@@ -13,7 +13,8 @@ from inspect import Parameter, signature
 from typing import Any, TypeVar, get_type_hints
 
 from neorl import checks
-from neorl.agents.agent import Agent, Desire, Learning, Node, Policy
+from neorl.agents.agent import Agent, Desire, Node
+from neorl.agents.rules import Learning, Policy
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL
 
 Maker = TypeVar("Maker", bound=Callable[..., Agent])

@@ -6,7 +6,8 @@ them. `RULE` is plain bootstrapping at changes of cell, without memory of earlie
 
 from collections.abc import Sequence
 
-from neorl.agents.agent import Agent, Desire, Learning, Node, Policy
+from neorl.agents.agent import Agent, Desire, Node
+from neorl.agents.rules import Learning, Policy
 from neorl.core.geometry import turn
 from neorl.core.kernel import kernel
 from neorl.core.modality import PLACE_CELL, Axis, Modality

@@ -19,8 +19,9 @@ import numpy as np
 
 from neorl import checks
 from neorl.agents import beyond, papers, spaces
-from neorl.agents.agent import LEARNED, Agent, Desire, Learning, Node, Policy
+from neorl.agents.agent import LEARNED, Agent, Desire, Node
 from neorl.agents.compile import chosen, constants_of
+from neorl.agents.rules import Learning, Policy
 from neorl.browser import wasm
 from neorl.browser.worlds import IN_THE_PLANE, NAMES, rules_of, sizes_of
 from neorl.core.kernel import is_tuple

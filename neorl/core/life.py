@@ -8,7 +8,7 @@
    is a thing's appearing or vanishing.
 5. At rest, or at distance 0, a track keeps the direction that it had.
 6. What a capture is, which changes of cell a thing's tracks learn from and which things have any are choices of
-   `neorl.agents.agent.Learning`; a track that does not learn follows its point all the same.
+   `neorl.agents.rules.Learning`; a track that does not learn follows its point all the same.
 7. A node that learns of contacts alone does so by rules of its own, see `neorl.core.contacts`.
 
 `scene` is what the agent perceives of its world (`neorl.core.scene.Scene`).

@@ -75,7 +75,7 @@ class DesireParameters(NamedTuple):
 
 
 class LearningParameters(NamedTuple):
-    """How the Horde learns, see `neorl.agents.agent.Learning`."""
+    """How the Horde learns, see `neorl.agents.rules.Learning`."""
 
     learning_rate: np.float32
     discount: np.float32
@@ -96,7 +96,7 @@ class LearningParameters(NamedTuple):
 
 
 class ContactParameters(NamedTuple):
-    """How nodes learn that learn of contacts alone, see `neorl.agents.agent.Contacts`."""
+    """How nodes learn that learn of contacts alone, see `neorl.agents.rules.Contacts`."""
 
     discount: float  # for each step
     learning_rate: float
@@ -110,7 +110,7 @@ class ContactParameters(NamedTuple):
 
 
 class PolicyParameters(NamedTuple):
-    """How the agent chooses, see `neorl.agents.agent.Policy`."""
+    """How the agent chooses, see `neorl.agents.rules.Policy`."""
 
     exploration: float
     indifferent_is_no_op: bool

@@ -8,12 +8,13 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
-from neorl.drawing.style import AGENT, INK, RED, SMALL, TEXT, axes_or_new, figure_or_new, width_of_figures
+from neorl.drawing.style import AGENT, FILL, INK, RED, SMALL, TEXT, axes_or_new, figure_or_new, width_of_figures
 from neorl.evidence.multiverse import outcome
 from neorl.evidence.priors import WITHIN
 from neorl.evidence.statements import STATEMENTS
 
 COLOURS = {"holds": AGENT, "undecided": RED, "fails": INK}
+UNDECIDED = {"facecolor": (RED, FILL), "edgecolor": RED, "linewidth": 1}  # of bars
 OUTCOMES = {"holds": "o", "undecided": "D", "fails": "."}  # markers
 SHADES = LinearSegmentedColormap.from_list("shades", [AGENT + "10", AGENT + "ff"])
 ROW = 0.2  # inches
@@ -133,7 +134,8 @@ def draw_standing(record, names, ax=None):
         if share:
             holds, undecided = (100 * share[kind] / share["readings"] for kind in ("holds", "undecided"))
             axes.barh(row, holds, 0.55, color=COLOURS["holds"])
-            axes.barh(row, undecided, 0.55, left=holds, color=COLOURS["undecided"], alpha=0.45)
+            if undecided:
+                axes.barh(row, undecided, 0.55, left=holds, **UNDECIDED)
             if share.get("measured"):
                 axes.plot(100 * share["agrees"] / share["measured"], row, "D", color=INK, markersize=5, clip_on=False)
         else:
@@ -141,10 +143,9 @@ def draw_standing(record, names, ax=None):
     verdicts = {name: record["claims"].get(name, {"verdict": "not computed"})["verdict"] for name in names}
     axes.set_yticks(range(len(names)), [f"{name}  {verdicts[name]}" for name in names], fontsize=10)
     axes.set(xlim=(0, 100), ylim=(len(names) - 0.4, -0.6), xlabel="% of readings")
-    axes.tick_params(axis="y", length=0)
+    axes.tick_params(axis="y", length=0, pad=8)  # a diamond at 0 reaches beyond the axis
     axes.spines["left"].set_visible(False)
-    handles = [Rectangle((0, 0), 1, 1, color=COLOURS[kind], alpha=alpha)
-               for kind, alpha in (("holds", 1.0), ("undecided", 0.45))]
+    handles = [Rectangle((0, 0), 1, 1, color=COLOURS["holds"]), Rectangle((0, 0), 1, 1, **UNDECIDED)]
     handles.append(Line2D([], [], color=INK, marker="D", markersize=5, linestyle="none"))
     axes.legend(handles, ["holds", "undecided", "agrees, in long runs"], frameon=False, fontsize=SMALL, ncols=3,
                 labelcolor=TEXT, loc="lower left", bbox_to_anchor=(0, 1.0), borderpad=0)

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from neorl import checks
 from neorl.agents.agent import Agent, Desire, Place
 from neorl.drawing.boards import desire_colour
-from neorl.drawing.style import AGENT, INK, axes_or_new, by_name, figure_or_new, width_of_figures
+from neorl.drawing.style import AGENT, INK, TEXT, axes_or_new, by_name, figure_or_new, width_of_figures
 
 LARGEST = 11  # points an em
 SMALL = 0.92  # of an em: all letters but those of names
@@ -31,6 +31,7 @@ ARROW = 1.7  # what an arrow needs beside its label
 RADIUS = 0.65  # of an element
 CORNER = 0.45
 Q_WIDTH = 1.7
+BOX = "0f"  # the opacity of a box, so little that letters in it stay legible
 HEAD = 0.4  # above a network, and below it
 
 
@@ -228,7 +229,7 @@ def _draw_input(axes, em, desire, box, boxes):
 
 def _draw_box(axes, em, left, top, width, height):
     axes.add_patch(FancyBboxPatch((left, top), width, height, boxstyle=f"round,pad=0,rounding_size={CORNER}",
-                                  facecolor=AGENT + "22", edgecolor=INK, linewidth=0.11 * em))
+                                  facecolor=AGENT + BOX, edgecolor=INK, linewidth=0.11 * em))
 
 
 def _draw_arrow(axes, em, points, colour):
@@ -248,8 +249,8 @@ def _near(corner, point):
     return tuple(at + share * (to - at) for at, to in zip(corner, point))
 
 
-def _write(axes, em, x, y, text, colour=INK, ha="center", weight="normal"):
-    axes.text(x, y, text, color=colour, ha=ha, va="center_baseline", weight=weight,
+def _write(axes, em, x, y, text, colour=TEXT, ha="center", weight="normal"):
+    axes.text(x, y, text, color=TEXT if colour == INK else colour, ha=ha, va="center_baseline", weight=weight,
               fontsize=em if weight == "bold" else SMALL * em)
 
 

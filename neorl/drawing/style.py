@@ -18,6 +18,8 @@ from matplotlib.figure import Figure, SubFigure
 from neorl import checks
 
 INK, TEXT = "#808080", "#6e6e6e"  # lines, letters
+FILL = 0.3  # the greatest opacity of a fill that arrows cross
+UNDER_WHITE = "#5a5a5a"  # the ground of white letters, where a sign such as + would need less contrast
 AGENT, GREEN, RED = "#3175b9", "#0e825f", "#ba5323"
 CURVES = ("#3d6ad1", "#ae2c47", "#b68f0c", "#00a1c0", "#85498f", "#ae6411", "#af77ff")
 LIGHT_OF_LETTERS = 0.165  # relative luminance
@@ -94,6 +96,15 @@ def letters(colour):
     else:
         linear = linear + (1 - linear) * (LIGHT_OF_LETTERS - light) / (1 - light)
     return to_hex(np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055))
+
+
+def mark(axes, place, text, **options):
+    """Write a few letters in white on a dark ground of their own, so that they are legible on any fill and over curves.
+
+    place, options: as in `Axes.annotate`.
+    """
+    ground = {"boxstyle": "round,pad=0.12", "facecolor": UNDER_WHITE, "edgecolor": "none"}
+    axes.annotate(text, place, color="white", fontsize=SMALL, bbox=ground, zorder=5, **options)
 
 
 def looks(count):

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.text import Annotation
 
 from neorl import checks
-from neorl.drawing.style import CURVES, INK, SMALL, axes_or_new, by_name, name_ends, numbers, width_of_figures
+from neorl.drawing.style import CURVES, INK, SMALL, axes_or_new, by_name, mark, name_ends, numbers, width_of_figures
 from neorl.evidence.statistics import Estimate
 
 MARKERS = "osD^vP*"  # of readings, one for each colour
@@ -25,7 +25,7 @@ def draw_against_thesis(thesis: Mapping[str, float], readings: Mapping[str, Mapp
 
     thesis: {label: number}, all in one unit, that of `xlabel`. readings: {name: {label: Estimate}}, with the same
     labels, at most 7; an estimate without bounds (NaN) is a dot alone. An interval that reaches far beyond all numbers
-    leaves the picture. Returns the axes, `ax` or those of a new figure.
+    leaves the picture, which an arrow shows. Returns the axes, `ax` or those of a new figure.
     Raises ValueError for no labels, for labels that differ, and for more readings.
 
     >>> from neorl.evidence.statistics import Estimate
@@ -48,16 +48,22 @@ def draw_against_thesis(thesis: Mapping[str, float], readings: Mapping[str, Mapp
     for row, number in zip(rows, told):
         axes.annotate(f"thesis {number:g}".replace("-", "−"), (number, row - 0.38), fontsize=SMALL, ha="center",
                       va="bottom")
+    intervals = []
     shifts = 0.5 * (np.arange(len(readings)) - (len(readings) - 1) / 2) / max(len(readings), 1)
     for (name, found), shift, colour, marker in zip(readings.items(), shifts, CURVES, MARKERS):
         value, low, high = np.array([found[label] for label in thesis]).T
         axes.plot(value, rows + shift, color=colour, linestyle="none", marker=marker, markersize=6, label=name)
         axes.hlines(rows + shift, low, high, color=colour)
+        intervals += zip(rows + shift, low, high, [colour] * len(rows))
     axes.set(yticks=rows, yticklabels=thesis, ylim=(len(rows) - 0.5, -0.75), xlabel=xlabel)
     values = [*told, *(estimate.value for found in readings.values() for estimate in found.values())]
     low, high = sorted(axes.get_xlim())
     reach = REACH * (max(values) - min(values)) or np.inf
-    axes.set_xlim(max(low, min(values) - reach), min(high, max(values) + reach))
+    left, right = axes.set_xlim(max(low, min(values) - reach), min(high, max(values) + reach))
+    for height, low, high, colour in intervals:
+        for cut, end, sign in ((low < left, left, "<"), (high > right, right, ">")):
+            if cut:
+                axes.plot(end, height, color=colour, marker=sign, markersize=6, clip_on=False)
     if readings:
         axes.legend(frameon=False, ncols=len(readings), loc="lower center", bbox_to_anchor=(0.5, 1), borderpad=0.2)
     return axes
@@ -80,8 +86,8 @@ def mark_levels(axes: Axes, levels: Mapping[str, float]) -> Axes:
                   max([top, *(height + room for height in heights)]))
     for name, height in zip(levels, heights):
         axes.axhline(height, color=INK, linewidth=1.1, linestyle=(0, (5, 3)), zorder=1)
-        axes.annotate(name, (0.015, height), xycoords=("axes fraction", "data"), xytext=(0, 2),
-                      textcoords="offset points", fontsize=SMALL, va="bottom")
+        mark(axes, (0.02, height), name, xycoords=("axes fraction", "data"), xytext=(0, 4),
+             textcoords="offset points", va="bottom")
     names = [text for text in axes.texts if isinstance(text, Annotation) and text.xy[0] > 1]
     for text in names:
         text.remove()

@@ -14,7 +14,7 @@ from dataclasses import dataclass, fields
 from typing import Any, NamedTuple
 
 from neorl.agents import papers
-from neorl.agents.agent import WHEN_INDIFFERENT
+from neorl.agents.rules import WHEN_INDIFFERENT
 from neorl.evidence.reading import LAYERS, Reading
 from neorl.worlds.waterworld import CONTACTS
 

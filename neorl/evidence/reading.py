@@ -11,7 +11,8 @@ from typing import Any
 
 from neorl import checks
 from neorl.agents import papers
-from neorl.agents.agent import Agent, Desire, Learning, Node, Policy
+from neorl.agents.agent import Agent, Desire, Node
+from neorl.agents.rules import Learning, Policy
 from neorl.evidence import claims
 from neorl.evidence.pins import agreement
 from neorl.experiments.cache import Condition

@@ -7,6 +7,7 @@ all claims of records.
 """
 
 import json
+from collections import Counter
 
 import numpy as np
 
@@ -19,6 +20,9 @@ from neorl.files import cache_folder, write_whole
 
 LETTER, CALIBRATED = "to the letter", "calibrated"  # names of readings
 HEADER = "| Claim | Thesis | To the letter | Calibrated | Verdict | Share within the text |\n|---|---|---|---|---|---|"
+LEGEND = ("● reproduced, ◐ partly, ○ not reproduced, – no learning to test; without a symbol, no verdict. An empty "
+          "cell was not computed, or no choice of the text bears on it. Numbers, with 95\u00a0% intervals over runs, "
+          "are {}.")
 PARTS = ("claims", "letter", "shares")  # of a record
 
 
@@ -29,15 +33,20 @@ def table(claims, letter=(), shares=None):
     """
     record = {"claims": _kept(claims), "letter": _kept(letter), "shares": shares or {}}
     names = [claim.name for claim in claims]
-    return "\n".join([HEADER, *(_row(record, name) for name in names), "", *evidence(record, names)])
+    return "\n".join([HEADER, *(_row(record, name) for name in names), "",
+                      LEGEND.format("the quantities in italics below"), "", *evidence(record, names)])
 
 
 def comparison(judged):
-    """Verdicts under several readings as a Markdown table, `LETTER` first: judged {reading: [Claim, …]}."""
-    names = sorted({claim.name for claims in judged.values() for claim in claims})
+    """Verdicts under several readings as a Markdown table, `LETTER` first: judged {reading: [Claim, …]}.
+
+    Claims that half of the readings or fewer have judged are left out.
+    """
+    counts = Counter(claim.name for claims in judged.values() for claim in claims)
+    names = sorted(name for name, count in counts.items() if 2 * count > len(judged))
     rows = ["| Reading | " + " | ".join(names) + " |", "|---" * (len(names) + 1) + "|"]
     for reading in _in_order(judged):
-        cells = {claim.name: f"{symbol(claim.verdict)}\u00a0{claim.here.value:z.2f}" for claim in judged[reading]}
+        cells = {claim.name: _with_symbol(claim.verdict, f"{claim.here.value:z.2f}") for claim in judged[reading]}
         rows.append(f"| {reading} | " + " | ".join(cells.get(name, "") for name in names).replace("-", "−") + " |")
     return "\n".join(rows)
 
@@ -67,7 +76,7 @@ def summary(judged):
 
 def errata(place=""):
     """The errata of the source as a Markdown table: all, or those of a place such as "paper A"."""
-    rows = ["| Where | The thesis says | Right is |", "|---|---|---|"]
+    rows = ["| Where | The thesis says | Correct |", "|---|---|---|"]
     return "\n".join([*rows, *(f"| {each.place} | {each.says} | {each.right} |" for each in ERRATA
                                if place in each.place)])
 
@@ -104,7 +113,8 @@ def verdict(record, name):
 
 def extract(record, names):
     """Some claims of a record, as `load` has it, as a Markdown table."""
-    return "\n".join([HEADER, *(_row(record, name) for name in names)])
+    return "\n".join([HEADER, *(_row(record, name) for name in names), "",
+                      LEGEND.format("those that the page of the claim explains")])
 
 
 def in_short(record):
@@ -156,7 +166,12 @@ def _row(record, name):
 
 
 def _marked(found):
-    return f"{symbol(found['verdict'])}\u00a0{number(found)}" if found else ""
+    return _with_symbol(found["verdict"], number(found)) if found else ""
+
+
+def _with_symbol(verdict, text):
+    """A number behind the symbol of its verdict; alone without one, since a dash before it would be read as a minus."""
+    return text if verdict == "no verdict" else f"{symbol(verdict)}\u00a0{text}"
 
 
 def _share(share):

@@ -17,7 +17,8 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl import checks, files
-from neorl.agents.agent import Agent, Learning, Policy
+from neorl.agents.agent import Agent
+from neorl.agents.rules import Learning, Policy
 from neorl.core.description import described
 from neorl.experiments.cache import PARTS, Condition, source_digest
 from neorl.experiments.exchange import OF_A_CONDITION

@@ -179,10 +179,14 @@ def live(agent, world, steps, seed, k, changes, rewards, hits, each_slice, after
 
 
 def progress_bar(steps, name, shown):
-    """A bar that moves by steps, with the time that is left at the pace so far."""
+    """A bar that moves by steps, with the time that is left at the pace so far.
+
+    Raises ValueError unless `shown`, the argument `progress` of what runs, is True or False.
+    """
     from tqdm import tqdm
 
-    return tqdm(total=steps, desc=name, unit="step", unit_scale=True, leave=False, disable=not shown)
+    disable = not checks.flag("progress", shown)
+    return tqdm(total=steps, desc=name, unit="step", unit_scale=True, leave=False, disable=disable)
 
 
 def label(agent):

@@ -1,6 +1,7 @@
 """The building of the book: what it refuses, and when it has nothing to do."""
 
 import base64
+import contextlib
 import json
 import shutil
 import subprocess
@@ -255,6 +256,76 @@ def test_what_is_damaged_or_of_another_version_is_made_again(notebook, cache_fol
     build.compute(notebook, {"runs": 3})
     assert {path.name: path.read_bytes() for path in build.CHAPTERS.iterdir()} == whole
     assert "nothing has changed" not in capsys.readouterr().out
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("writes", [0, 1, 2])
+def test_a_disk_that_becomes_full_leaves_the_last_page_and_its_record(notebook, cache_folder, monkeypatch, writes):
+    def execute(source, target, parameters):
+        target.write_text(json.dumps(json.loads(source.read_text()) | {"metadata": parameters}))
+        build.report.save("page")
+
+    def write_whole(path, content):
+        if not left:
+            raise OSError(28, "No space left on device")
+        left.pop()
+        original(path, content)
+
+    original, left = build.write_whole, [None] * 9
+    monkeypatch.setattr(build, "execute", execute)
+    monkeypatch.setattr(build, "write_whole", write_whole)
+    monkeypatch.setattr(build.report, "write_whole", write_whole)
+    build.compute(notebook, {"runs": 3})
+    whole = {path.name: path.read_bytes() for path in build.CHAPTERS.iterdir()}
+    left[writes:] = []
+    if writes < 2:  # the claims, and the record
+        with pytest.raises(OSError, match="No space"):
+            build.compute(notebook, {"runs": 4})
+        assert {path.name: path.read_bytes() for path in build.CHAPTERS.iterdir() if path.is_file()} == whole
+    else:
+        build.compute(notebook, {"runs": 4})
+    assert build.is_whole(notebook)
+
+
+class Killed(BaseException):
+    """In place of a signal."""
+
+
+@pytest.mark.parametrize("kill_at", range(4))
+def test_a_build_that_is_killed_while_it_replaces_the_book_leaves_a_whole_one_or_none(chapters, monkeypatch, kill_at):
+    def make_pages(command):
+        for page in pages:
+            target = build.BUILT / "next" / "_build" / "html" / page
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_text("new")
+        return 0
+
+    def remove(folder, ignore_errors=False):
+        for path in sorted(Path(folder).rglob("*.html"), reverse=True):
+            count_down()
+            path.unlink()
+        original(folder, ignore_errors)
+
+    def count_down():
+        left.append(None)
+        if len(left) > kill_at:
+            raise Killed
+
+    left, original, pages = [], shutil.rmtree, ("index.html", "page.html")
+    for name, value in (("BUILT", chapters), ("HTML", chapters / "html" / "index.html")):
+        monkeypatch.setattr(build, name, value)
+    monkeypatch.setattr(build.workers, "run", make_pages)
+    (chapters / "html").mkdir()
+    for page in pages:
+        (chapters / "html" / page).write_text("old")
+    with monkeypatch.context() as patch, contextlib.suppress(Killed):
+        patch.setattr(shutil, "rmtree", remove)
+        build.build()
+    found = [path.read_text() for path in (chapters / "html").glob("*")]
+    assert found in ([], ["old"] * 2, ["new"] * 2)
+    build.build()
+    assert [(chapters / "html" / page).read_text() for page in pages] == ["new"] * 2
+    assert sorted(path.name for path in chapters.iterdir()) == ["html", "inputs.txt"]
 
 
 def test_what_no_notebook_has_made_is_removed(notebook, chapters):

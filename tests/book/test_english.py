@@ -32,13 +32,24 @@ def prose():
         yield path.name, path.read_text(encoding="utf-8")
     for path in sorted((ROOT / "notebooks").glob("*.ipynb")):
         for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
+            source = "".join(cell["source"])
+            shown = cell["metadata"].get("mystnb", {})
+            yield path.name, shown.get("figure", {}).get("caption", "")
+            yield path.name, shown.get("image", {}).get("alt", "")
             if cell["cell_type"] == "markdown":
-                yield path.name, "".join(cell["source"])
+                yield path.name, source
+            else:
+                yield from ((path.name, text) for text in strings(source))
     for room in ROOMS:
         for path in sorted((ROOT / "neorl" / room).rglob("*.py")):
-            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-                if isinstance(node, ast.Constant) and isinstance(node.value, str) and " " in node.value:
-                    yield str(path.relative_to(ROOT)), node.value
+            yield from ((str(path.relative_to(ROOT)), text) for text in strings(path.read_text(encoding="utf-8")))
+
+
+def strings(source):
+    """The strings of Python code that are more than a word."""
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and " " in node.value:
+            yield node.value
 
 
 def telltales(text):

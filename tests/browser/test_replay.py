@@ -76,6 +76,16 @@ def test_a_replay_plays_to_its_end_in_real_time_and_can_be_moved(open_page, tmp_
     expect(replay).to_have_attribute("data-frame", "50", timeout=15_000)
 
 
+@pytest.mark.parametrize("width", [1200, 400])
+def test_the_tanks_stand_side_by_side(open_page, tmp_path, recordings, width):
+    write_page(tmp_path, [Replay(recordings, playing=False)])
+    page = open_page(tmp_path, "page.html", viewport={"width": width, "height": 800})
+    page.locator(".neorl-replay canvas").nth(1).wait_for()
+    left, right = (board.bounding_box() for board in page.locator(".neorl-replay .board").all())
+    assert left["x"] + left["width"] <= right["x"] and left["y"] == right["y"]
+    assert left["width"] == pytest.approx(right["width"], abs=1) and left["width"] > 0.4 * min(width, 620)
+
+
 def test_the_agents_are_drawn_where_they_were(open_page, tmp_path, recordings):
     write_page(tmp_path, [Replay(recordings, playing=False)])
     page = open_page(tmp_path, "page.html")

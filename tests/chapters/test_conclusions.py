@@ -47,7 +47,7 @@ def test_each_reading_has_verdicts_of_its_own():
 def test_the_box_counts_verdicts():
     text = conclusions.in_short(verdicts(all_claims("reproduced") | {"A1": "partly", "G2": "partly"}, {"A2": "partly"}))
     text = re.sub("<[^>]+>", "", text).replace("\u00a0", " ")
-    assert (f"results: to the letter, ◐ 1 partly, – {len(CLAIMS) - 1} not computed in this build; calibrated, ● "
+    assert (f"results: to the letter, ◐ 1 partly, {len(CLAIMS) - 1} not computed in this build; calibrated, ● "
             f"{len(CLAIMS) - 2} reproduced, ◐ 2 partly. How far its two conclusions hold in the calibrated reading: "
             "*Superposition*: *whole* (") in text
     assert text.endswith("the pages beyond the thesis judge 5: ● 4 reproduced, ◐ 1 partly.")
@@ -109,7 +109,7 @@ def test_claims_that_hold_in_no_short_run_or_are_undecided_in_most_are_named():
     shares = {"A2": {"holds": 0, "undecided": 2, "readings": 4}, "A3": {"holds": 1, "undecided": 3, "readings": 4},
               "H1": {"holds": 0, "undecided": 8, "readings": 8}}
     assert what_did_not_hold(all_claims("reproduced"), {}, shares)[-1] == (
-        "In short runs under 4 readings within the text, A2 held in none that could be decided; A3 were undecided "
+        "In short runs under 4 readings within the text, A2 held in none that could be decided; A3 was undecided "
         "in more than half of them.")
     del shares["A2"], shares["A3"]
     assert len(what_did_not_hold(all_claims("reproduced"), {}, shares)) == 2  # H1 is a demonstration

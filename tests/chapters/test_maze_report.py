@@ -104,6 +104,6 @@ def test_the_box_has_each_learner_and_the_demonstration():
     record = SimpleNamespace(errors=errors)
     by_learner = {name: {"delayed": record} for name in ("neoRL", "Q-learning", "Sarsa(λ)")}
     text = in_short(by_learner, SimpleNamespace(here="−0.13 [−0.29, 0.02]"))
-    assert "from 5.0 errors on that day to 1.5 on the next with neoRL" in text
-    assert "from 5.0 to 1.5 with Q-learning and from 5.0 to 1.5 with Sarsa(λ)" in text
-    assert "less those of animals fed throughout, are −0.13 [−0.29, 0.02]: they overtake if" in text
+    assert "from 5.0 errors on that day to 1.5 on the next if they learn as the thesis proposes (neoRL)" in text
+    assert "from 5.0 to 1.5 with Q-learning and 5.0 to 1.5 with Sarsa(λ)" in text
+    assert "make −0.13 [−0.29, 0.02] errors per day more than animals fed throughout" in text

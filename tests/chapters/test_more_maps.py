@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from neorl import WaterWorld
-from neorl.agents.agent import CAUSES
+from neorl.agents.rules import CAUSES
 from neorl.chapters.chapter_5 import more_maps
 from neorl.chapters.chapter_5.more_maps import COUNTS
 from neorl.evidence.reading import Reading, conditions

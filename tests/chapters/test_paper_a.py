@@ -93,9 +93,9 @@ def test_what_was_found_is_put_in_words(results):
     assert "together finally earn 0.70 per second, 3." in words and "(thesis: 3.5)" in words
     assert "alone they earn 0.10, 0.20, 0.30, in total 0.60." in words
     short = in_short(both)
-    assert "together finally earn 0.70 per second: 3." in short
-    assert "and more than the sum of the three alone, 0.60" in short
-    assert "N50 (0.40) earns most" in short and "resets the board 0.00 times in 150,000 steps" in short
+    assert "together finally earn 0.70 [0.69, 0.71] per second: 3." in short
+    assert "(thesis: 3.5), and more than the sum of what the three earn alone (difference 0.10 [" in short
+    assert "N50 (0.40) earns most" in short and "clears the board 0.00 times in 150,000 steps" in short
 
 
 def test_the_second_experiment_is_judged_by_itself(results):

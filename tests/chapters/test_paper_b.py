@@ -125,7 +125,7 @@ def test_what_was_found_is_put_in_words_reading_by_reading(lived):
     assert f"after {minute['PC'].value:.0f} minutes (thesis: more than 160), {minute['OVC'].value:.0f}, and" in letter
     short = findings.in_short(both)
     assert calibrated.removeprefix("**Calibrated**, ") in short
-    assert short.endswith(f"and both {level['PC + OVC'].value:.2f}.")
+    assert short.endswith(f"and both {level['PC + OVC']}. Brackets are 95 % intervals.")
 
 
 def test_levels_are_those_of_the_last_fifth_and_minutes_those_of_longer_lives(lived):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from neorl import Result, WaterWorld, brownian
+from neorl.chapters.paper_c import wiring
 from neorl.chapters.paper_c.experiments import NETWORKS, explorer_conditions, live, neighbours, networks, recur
 from neorl.chapters.paper_c.findings import drastic_level, final_rates, finals, in_short, in_words, recursion_in_words
 from neorl.evidence.priors import TO_THE_LETTER
@@ -102,3 +103,14 @@ def test_the_table_has_a_row_for_each_network_and_reading(results):
     rows = final_rates({"one": results, "other": results}).splitlines()[2:]
     assert [row.split(" | ")[:2] for row in rows[:3]] == [["| A", "one"], ["| A", "other"], ["| B", "one"]]
     assert len(rows) == 8 and rows[-1].endswith("| 0.0 |")
+
+
+def test_desires_that_land_on_the_agent_are_told_from_those_that_do_not():
+    near, far = (wiring.distances({"book": replace(Reading(), scale=scale)}, 20_000, runs=2) for scale in (1e-6, 1e6))
+    assert list(near) == [("book", name) for name in NETWORKS]
+    for name in NETWORKS:
+        widths, share = near["book", name]
+        assert widths.shape == (2,) and np.all(widths < 0.01) and np.all(share == 1)
+    widths, share = far["book", "D"]
+    assert np.all(widths > 1) and np.all(share < 1)
+    assert wiring.distance_table(near).count("\n") == 1 + len(NETWORKS)

@@ -9,7 +9,7 @@ from neorl.chapters.chapter_2.psychology_report import describe_latencies, descr
 def test_a_law_is_told_by_its_first_and_last_trial_and_by_when_times_have_halved():
     falling = np.array([[80.0, 60.0, 40.0, 30.0], [80.0, 60.0, 40.0, 20.0]])
     words = describe_latencies({"gain": falling, "none": np.full((2, 4), 50.0)}, published=[60, 80])
-    assert words.startswith("In the mean, with *gain* a cat takes 80.00 [80.00, 80.00] seconds in the first trial and "
+    assert words.startswith("On average, with *gain* a cat takes 80.00 [80.00, 80.00] seconds in the first trial and "
                             "25.00 [20.00, 30.00] in the last, and trial 3 is the first that takes half of that time "
                             "or less; with *none*")
     assert "no trial is one that takes half of that time or less. Over" in words

@@ -35,7 +35,7 @@ def test_an_element_fills_its_cell_by_the_sign_and_the_size_of_its_valence():
     axes = plt.gca()
     filled = {patch.get_xy(): (to_hex(patch.get_facecolor()), patch.get_alpha()) for patch in axes.patches
               if patch.get_alpha()}
-    assert filled == {(0.5, 0.5): (GREEN, 0.3), (0.0, 0.5): (RED, 0.6)}
+    assert filled == {(0.5, 0.5): (GREEN, 0.15), (0.0, 0.5): (RED, 0.3)}
     assert [text.get_text() for text in axes.texts] == ["+0.5", "−1"]
     assert [text.get_ha() for text in axes.texts] == ["left", "left"]  # the upper left corner, where no arrow falls
     (arrows,) = axes.collections
@@ -53,4 +53,4 @@ def test_a_valence_stands_in_a_corner_that_its_arrow_does_not_cross():
     values[0], values[1] = [0, 1, 1, 0], [1, 0, 1, 0]  # to the south-east, to the north-east
     resolution_figures.draw_elements(NresMap(2), [(0.2, 0.2), (0.7, 0.2)], [1.0, 1.0], values)
     assert [(text.get_ha(), round(text.get_position()[0], 3)) for text in plt.gca().texts] == [
-        ("right", 0.475), ("left", 0.525)]
+        ("right", 0.46), ("left", 0.54)]

@@ -25,7 +25,8 @@ def test_a_desire_of_another_scale_is_not_that_of_the_network():
     assert not wiring.make_up(networks(Reading())["B"], OF_B, Reading(scale=0.5))
 
 
-def test_the_moment_is_the_first_at_which_the_agent_is_well_inside_and_desires():
+def test_the_moment_is_the_first_at_which_the_agent_is_well_inside_and_desires_something_far(monkeypatch):
+    monkeypatch.setattr(wiring, "FAR", 0.001)
     network, world = network_b([2, 3]), WaterWorld()
     run, other = wiring.moment_of_desire(network, world, 300, seed=1), Run(network, world, 1)
     assert 300 <= run.step < 300 + wiring.PATIENCE
@@ -33,7 +34,8 @@ def test_the_moment_is_the_first_at_which_the_agent_is_well_inside_and_desires()
     fits = []
     for _ in range(run.step - 300 + 1):
         at = other.world_state.scene.position / world.size
-        fits.append(np.abs(at - 0.5).max() < 0.2 and other.output("PC").q.any())
+        lands = np.hypot(*other.state.desires.target[2:, :2].T)  # after the desires of creeps
+        fits.append(np.abs(at - 0.5).max() < 0.2 and lands.max() > 0.001)
         other.advance(1)
     assert fits[-1] and not any(fits[:-1])
 

@@ -11,7 +11,7 @@ from matplotlib.path import Path
 from neorl import (Agent, Desire, Node, Place, multimodal, network_a, network_b, network_c, network_d,
                    object_vector_cells, place_cells)
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL, OBJECT_VECTOR_CELL, PLACE_CELL
-from neorl.drawing.style import GREEN, INK, RED
+from neorl.drawing.style import GREEN, RED, TEXT
 from neorl.drawing.network_figures import draw_network, draw_networks
 
 CREEPS = (Desire("green", "PC", 1.0), Desire("red", "PC", -1.0))
@@ -133,7 +133,7 @@ def test_desires_of_some_elements_are_told_apart():
     assert heights["+1"] < heights["−1"] and heights["green: Σ w"] < heights["red: Σ w"]  # y runs downward
     draw_network(network_a())
     labels = {text.get_text(): text.get_color() for text in plt.gca().texts}
-    assert labels["Σ w"] == INK and "× 0" not in labels
+    assert labels["Σ w"] == TEXT and "× 0" not in labels
 
 
 def test_recursion_is_a_loop():

@@ -7,7 +7,7 @@ import pytest
 from matplotlib import pyplot as plt
 
 from neorl import Learning, Policy, multimodal, network_a, network_b, network_c, network_d, place_cells, simulate
-from neorl.agents.agent import AT_EVERY_STEP
+from neorl.agents.rules import AT_EVERY_STEP
 from neorl.drawing.multiverse_figures import OUTCOMES, draw_importance, draw_specification, draw_specifications
 from neorl.evidence import multiverse
 from neorl.evidence.claims import Claim

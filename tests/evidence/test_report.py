@@ -94,7 +94,8 @@ def test_the_short_table_has_every_claim_of_the_thesis_and_says_which_were_not_c
 
 
 def test_some_claims_of_a_record_make_a_table(record):
-    header, _, *rows = report.extract(record, ["A6", "C2", "C5"]).splitlines()
+    header, _, *rows, _, legend = report.extract(record, ["A6", "C2", "C5"]).splitlines()
+    assert legend.startswith("● reproduced, ◐ partly")
     assert header.startswith("| Claim | Thesis | To the letter |") and len(rows) == 3
     assert rows == [row(report.in_short(record), name) for name in ("A6", "C2", "C5")]
 

@@ -9,7 +9,7 @@ import pytest
 from saved_files import rewrite
 
 from neorl import Agent, Arena, Desire, Node, Result, Run, WaterWorld, World, kernel, network_d, place_cells
-from neorl.agents.agent import Policy
+from neorl.agents.rules import Policy
 from neorl.core.modality import PLACE_CELL
 from neorl.experiments.run import new_bins
 

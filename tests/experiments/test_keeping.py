@@ -269,3 +269,13 @@ def test_a_file_that_cannot_be_written_leaves_nothing(tmp_path, monkeypatch):
     with pytest.raises(OSError, match="No space left"):
         files.write_whole(tmp_path / "folder" / "new", b"whole")
     assert list((tmp_path / "folder").iterdir()) == []
+
+
+def test_two_sweeps_of_the_same_conditions_at_once_do_not_disturb_each_other(cache_folder):
+    processes = [started(), started()]
+    printed = [process.communicate() for process in processes]
+    alone = [simulate(place_cells([3]), WaterWorld(), steps=100_000, runs=20, seed=seed, progress=False)
+             for seed in range(3)]
+    assert printed == [(f"{[float(result.totals.sum()) for result in alone]}\n", "")] * 2
+    assert damaged(cache_folder) == [] and kept(cache_folder, "runs") == []
+    assert len(kept(cache_folder, "conditions")) == 3

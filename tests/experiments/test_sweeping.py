@@ -19,7 +19,7 @@ import pytest
 from distributed import Client, LocalCluster
 from tqdm import tqdm
 
-from neorl import Condition, WaterWorld, multimodal, place_cells, sweep
+from neorl import Condition, WaterWorld, multimodal, place_cells, simulate_once, sweep
 from neorl.experiments import cache, sweeping
 from neorl.experiments.simulation import simulate
 
@@ -189,6 +189,16 @@ def test_workers_are_threads_at_most_so_many(monkeypatch):
 def test_what_is_no_number_of_workers_is_refused(workers):
     with pytest.raises(ValueError, match="workers is .*, allowed are integers ≥ 1"):
         sweep(CONDITIONS, workers=workers)
+
+
+@pytest.mark.parametrize("progress", ["no", None, np.array([0.5, np.nan])])
+def test_what_is_no_choice_of_a_bar_is_refused_before_anything_runs(progress, lived):
+    with pytest.raises(ValueError, match="progress is .*, allowed are True, False"):
+        sweep(CONDITIONS, progress=progress)
+    for run in (simulate, simulate_once):
+        with pytest.raises(ValueError, match="progress is .*, allowed are True, False"):
+            run(**CONDITIONS[0].choices, progress=progress)
+    assert lived == []
 
 
 def test_workers_beside_an_executor_are_refused():

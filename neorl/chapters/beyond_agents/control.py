@@ -15,8 +15,9 @@ from pathlib import Path
 import numpy as np
 
 from neorl import checks
-from neorl.agents.agent import Agent, Contacts, Desire, Learning, Node
+from neorl.agents.agent import Agent, Desire, Node
 from neorl.agents.beyond import forager, foveated_cells
+from neorl.agents.rules import Contacts, Learning
 from neorl.chapters.alternatives.search import drawn
 from neorl.core.modality import PLACE_CELL, Modality, cartesian
 from neorl.experiments.cache import Condition

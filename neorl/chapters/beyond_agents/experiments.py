@@ -11,9 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from neorl.agents.agent import Agent, Contacts, Desire, Node
+from neorl.agents.agent import Agent, Desire, Node
 from neorl.agents.beyond import forager, foveated_cells
 from neorl.agents.papers import multimodal
+from neorl.agents.rules import Contacts
 from neorl.core.contacts import APPROACH, FEAR, VISITS
 from neorl.experiments.cache import Condition
 from neorl.experiments.run import Run

@@ -111,9 +111,10 @@ def gaps_in_words(boards):
     for creeps, rates in boards.items():
         of_forager, of_planner = (mean_of(rates[name]) for name in (oracles.FORAGER, oracles.ALL))
         gaps = sorted(oracles.shares(rates).items(), key=lambda item: -item[1])
+        (first, most), *others = ((name, f"{number(100 * share, 0)}\u00a0%") for name, share in gaps)
         parts.append(f"With {creeps} creeps the forager earns {interval(of_forager)} per second and the planner "
-                     f"{interval(of_planner)}. Of the distance between them "
-                     + listed([f"{name} is {number(100 * share, 0)} %" for name, share in gaps]) + ".")
+                     f"{interval(of_planner)}. Perfect {first} would close {most} of the distance between them, "
+                     + listed([f"{name} {share}" for name, share in others]) + ".")
     return " ".join(parts)
 
 

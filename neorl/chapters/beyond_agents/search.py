@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from neorl.agents.agent import Contacts
 from neorl.agents.beyond import forager
+from neorl.agents.rules import Contacts
 from neorl.experiments.simulation import simulate
 from neorl.worlds.waterworld import WaterWorld
 

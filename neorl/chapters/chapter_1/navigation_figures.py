@@ -5,7 +5,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.patches import Circle
 
 from neorl.drawing.boards import inside, new_boards
-from neorl.drawing.style import AGENT, GREEN, INK, RED
+from neorl.drawing.style import AGENT, GREEN, INK, RED, UNDER_WHITE
 
 
 def draw_walls(axes):
@@ -19,7 +19,7 @@ def draw_route(axes, path, waypoints):
     _draw_path(axes, path, np.ones(len(path) - 1, bool))
     axes.plot(*path[0], "o", color=AGENT, markersize=9)
     for number, (x, y) in enumerate(waypoints, start=1):
-        _draw_disc(axes, (x, y), 0.045, INK, str(number))
+        _draw_disc(axes, (x, y), 0.045, UNDER_WHITE, str(number))
 
 
 def draw_recordings(recordings):
@@ -29,7 +29,7 @@ def draw_recordings(recordings):
 
 
 def draw_recording(axes, recording):
-    """The path of the agent of a `Recording`, fainter the longer ago, and where it took creeps, with their signs.
+    """The path of the agent of a `Recording`, thinner the longer ago, and where it took creeps, with their signs.
 
     The path breaks off where taking the last green creep has put the agent back into the middle.
     """
@@ -48,8 +48,8 @@ def draw_recording(axes, recording):
 
 def _draw_path(axes, path, shown):
     pieces = np.stack([path[:-1], path[1:]], axis=1)
-    opacity = np.linspace(0.3, 1, len(pieces))
-    axes.add_collection(LineCollection(pieces[shown], colors=AGENT, linewidths=1.6, alpha=opacity[shown]))
+    width = np.linspace(0.7, 2.4, len(pieces))
+    axes.add_collection(LineCollection(pieces[shown], colors=AGENT, linewidths=width[shown]))
 
 
 def _draw_disc(axes, place, radius, colour, sign):

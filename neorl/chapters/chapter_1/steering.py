@@ -14,7 +14,7 @@ from neorl.core.choices import Action
 from neorl.core.kernel import execute, kernel
 from neorl.worlds.waterworld import GREEN, reset, step
 
-HASTE = 4.0  # what share of the way to go the helmsman wants to cover in a second; higher earns more, up to about 10
+HASTE = 4.0  # what share of the way to go the helmsman means to cover in one second; higher earns more, up to about 10
 CLOSE = 0.05  # of the width: a way-point is reached
 
 

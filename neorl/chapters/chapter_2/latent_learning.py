@@ -20,9 +20,10 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl import checks
-from neorl.agents.agent import Agent, Desire, Learning, Node, Policy
+from neorl.agents.agent import Agent, Desire, Node
 from neorl.agents.compile import compiled, constants_of
 from neorl.agents.learner import Surroundings
+from neorl.agents.rules import Learning, Policy
 from neorl.chapters.chapter_2.maze import Maze
 from neorl.chapters.shared.tabular import Rates, exploring_action, greedy_action, learn_q
 from neorl.core.kernel import array, execute, kernel, new_tuple

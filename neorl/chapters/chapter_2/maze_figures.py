@@ -45,7 +45,7 @@ def draw_errors(by_learner, first_reward):
             axes.fill_between(days, *mean_band(record.errors), color=colour, alpha=0.25, linewidth=0)
             ends.append((mean[-1], NAMES[group].format(first_reward), colour))
         axes.axvline(first_reward, color=INK, linewidth=1, linestyle=":")
-        axes.set(ylabel="errors a day", title=learner, ylim=(0, None), xlim=(1, days[-1]))
+        axes.set(ylabel="errors a day", title=learner, ylim=(-3, None), xlim=(1, days[-1]))
         axes.title.set_color(TEXT)
         axes.ends = ends
     axes.set(xlabel="day", xticks=days[::2])

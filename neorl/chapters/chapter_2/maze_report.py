@@ -14,12 +14,12 @@ def in_short(by_learner, claim):
     drops = [(name, by_learner[name]["delayed"].errors.mean(axis=0)) for name in LEARNERS]
     (first, errors), *others = ((name, [f"{daily[day]:.1f}" for day in (FIRST_REWARD - 1, FIRST_REWARD)])
                                 for name, daily in drops)
-    also = " and ".join(f"from {before} to {after} with {name}" for name, (before, after) in others)
+    also = " and ".join(f"{before} to {after} with {name}" for name, (before, after) in others)
     return (f"In Tolman and Honzik's maze of 1930, rats that first found food on day {FIRST_REWARD} overtook rats fed "
-            f"throughout. Simulated animals go from {errors[0]} errors on that day to {errors[1]} on the next with "
-            f"{first}, the thesis's kind of learning, and {also}. From then on, the errors per day of the {first} "
-            f"animals, less those of animals fed throughout, are {claim.here}: they overtake if the whole interval "
-            "lies below 0.")
+            f"throughout. Simulated animals go from {errors[0]} errors on that day to {errors[1]} on the next if they "
+            f"learn as the thesis proposes ({first}), and two standard kinds of learner go from {also}. From then on "
+            f"the {first} animals make {claim.here} errors per day more than animals fed throughout, with the 95 % "
+            "interval in brackets; they overtake if all of it lies below 0.")
 
 
 def describe_errors(by_learner):

@@ -18,7 +18,7 @@ def describe_latencies(latencies, published):
         paces.append(f"with *{law}* a cat takes {first} seconds in the first trial and {last} in the last, and {when} "
                      "that takes half of that time or less")
         early.append(f"{mean[: len(published)].mean():.0f} with *{law}*")
-    return (f"In the mean, {'; '.join(paces)}. Over its first {len(published)} trials the cat of 1899 took "
+    return (f"On average, {'; '.join(paces)}. Over its first {len(published)} trials the cat of 1899 took "
             f"{np.mean(published):.0f} seconds; the simulated ones take {', '.join(early)}.")
 
 

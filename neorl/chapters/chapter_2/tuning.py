@@ -28,7 +28,7 @@ class Trajectory(NamedTuple):
     """Where an animal was, and how it moved."""
 
     position: np.ndarray  # float64 (steps, 2), box widths from the upper left
-    velocity: np.ndarray  # float64 (steps, 2), box widths a second
+    velocity: np.ndarray  # float64 (steps, 2), box widths per second
     step: float  # seconds between two rows
 
     @property
@@ -95,7 +95,7 @@ def spikes(active, step, seed=0, inside=20.0, outside=0.2):
 class TuningCurve(NamedTuple):
     """How a cell fires in each bin of a variable; first the axis that the variable's values name first."""
 
-    rate: np.ndarray  # float64 (…, bins) or (…, bins, bins), spikes a second; NaN where the animal never was
+    rate: np.ndarray  # float64 (…, bins) or (…, bins, bins), spikes per second; NaN where the animal never was
     seconds: np.ndarray  # float64 (bins,) or (bins, bins), time spent there, smoothed as the spikes are
 
 

@@ -7,7 +7,7 @@ from matplotlib.ticker import MultipleLocator
 
 from neorl.chapters.shared.grid import WALL
 from neorl.chapters.shared.grid_figures import draw_grid, draw_policy
-from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, letters, name_ends
+from neorl.drawing.style import AGENT, CURVES, FILL, GREEN, INK, RED, letters, mark, name_ends
 from neorl.evidence.statistics import mean_band
 
 
@@ -43,8 +43,8 @@ def draw_loop():
     axes.axis("off")
     for y, name, colour in ((1.95, "agent", AGENT), (0.15, "environment", GREEN)):
         axes.add_patch(FancyBboxPatch((1.75, y), 1.5, 0.6, boxstyle="round,pad=0.02,rounding_size=0.1",
-                                      facecolor=colour, edgecolor="none"))
-        axes.text(2.5, y + 0.3, name, color="white", ha="center", va="center", weight="bold")
+                                      facecolor="none", edgecolor=colour, linewidth=1.8))
+        axes.text(2.5, y + 0.3, name, color=letters(colour), ha="center", va="center", weight="bold")
     for begin, turn, end, low, high in ((3.27, 3.65, 3.3, 2.25, 0.45), (1.73, 1.35, 1.7, 0.45, 2.25)):
         axes.plot([begin, turn, turn, end], [low, low, high, high], color=INK)
         axes.annotate("", (end, high), (turn, high), arrowprops={"arrowstyle": "-|>", "color": INK, "linewidth": 1.8,
@@ -61,11 +61,12 @@ def draw_plans(panels, grid, plans):
     """
     largest = max(max(values.max() for values, _ in plans.values()), 1e-9)
     for axes, (title, (values, q)) in zip(panels, plans.items()):
-        draw_grid(axes, grid, {state: (GREEN, 0.7 * max(value, 0) / largest) for state, value in enumerate(values)})
+        draw_grid(axes, grid, {state: (GREEN, FILL * max(value, 0) / largest) for state, value in enumerate(values)})
         if q is not None:
             draw_policy(axes, grid, q)
-        for (x, y), mark in zip(grid.places, "".join(grid.rows).replace(WALL, "")):
-            axes.text(x - 0.28, y - 0.24, mark.replace(".", ""), ha="center", va="center", zorder=3)
+        for (x, y), letter in zip(grid.places, "".join(grid.rows).replace(WALL, "")):
+            if letter != ".":
+                mark(axes, (x - 0.28, y - 0.24), letter, ha="center", va="center")
         axes.set_title(title, fontsize=11)
 
 

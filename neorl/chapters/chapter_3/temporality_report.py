@@ -16,11 +16,12 @@ def in_short(needed, paid, memory, states, share):
     full table of transitions that ever differ from 0, in %.
     """
     short, enough = (estimate(np.mean, paid["sum"][:, length]) for length in (memory - 1, memory))
-    return (f"Each further step of the past that matters prolongs Q-learning by a factor of "
-            f"{experience_factors(needed)}. No step can be spared: agents that remember {memory - 1} of {memory} such "
-            f"steps earn {short} per step, where a guess earns 0.50 and agents that remember all earn {enough}. A full "
-            f"table of transitions grows with the square of the states, as the thesis says; but in a grid of {states} "
-            f"states only {share:.1f} % of it ever differ from 0.")
+    return (f"In a world that shows one of Ψ symbols at each step, each further step of the past that matters prolongs "
+            f"Q-learning by a factor of {experience_factors(needed)}. No step can be "
+            f"spared: agents that remember {memory - 1} of {memory} such steps earn {short} per step, where a guess "
+            f"earns 0.50 and agents that remember all earn {enough}. A full table of transitions grows with the "
+            f"square of the states, as the thesis says; but in a grid of {states} states only {share:.1f} % "
+            "of it ever differ from 0.")
 
 
 def states_met(met):

@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl import checks
-from neorl.agents.agent import Learning
+from neorl.agents.rules import Learning
 from neorl.core.choices import Credit
 from neorl.core.kernel import execute, kernel
 from neorl.core.learning import UNIT, ZERO, MapValues, Rule, learn_all_goals

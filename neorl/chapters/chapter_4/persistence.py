@@ -63,11 +63,11 @@ def in_words(lived, judged):
 
 
 def share_in_words(judged):
-    """What learning at every step keeps of the gain, in a sentence: {name: `Claim`}."""
+    """What learning at every step gains over Brownian motion, as a multiple, in a sentence: {name: `Claim`}."""
     return "; ".join(f"{name}, {_share_that_is_kept(claim)}" for name, claim in judged.items()).capitalize() + "."
 
 
 def _share_that_is_kept(claim):
     if claim.outcome == "not testable":
         return "agents that learn at changes of cell show no gain to compare with"
-    return f"learning at every step keeps {claim.here} of the gain of learning at changes of cell"
+    return f"learning at every step gains {claim.here} times what learning at changes of cell gains"

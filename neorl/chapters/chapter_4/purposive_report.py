@@ -11,11 +11,12 @@ from neorl.evidence.statistics import estimate
 def in_short(school, agreed, load):
     """What holds of the chapter's arguments, in three sentences.
 
-    school: what learning at every step keeps, in a sentence. agreed: the share of cells in which a sum of value
+    school: what learning at every step gains, in a sentence. agreed: the share of cells in which a sum of value
     functions takes one of a plan's best actions. load: shares of a core, float64 (windows,).
     """
-    return (f"The thesis holds that learning needs persistence, so that temporal difference at every step fails. "
-            f"{school} A sum of value functions is not a plan: with three elements wanted and one feared on a grid, "
+    return (f"The thesis holds that an agent has to learn when it passes from one cell of its map to the next, and "
+            f"that temporal difference at every step fails. {school} (A gain is the reward beyond that of random "
+            f"motion.) A sum of value functions is not a plan: with three elements wanted and one feared on a grid, "
             f"it takes one of the plan's best actions in {100 * agreed:.0f} % of cells. Learning in real time, with "
             f"twelve maps at 50 steps per second, takes {100 * load.mean():.1f} % of a core.")
 

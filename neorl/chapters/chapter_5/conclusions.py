@@ -18,6 +18,7 @@ SEPARATION = ("T1", "T7", "C1", "C2", "C3", "C4")
 BEYOND = ("C5", "G1", "G2", "G3", "G4")  # which the pages beyond the thesis judge
 GROUND = tuple(name for name in CLAIMS if name not in SUPERPOSITION + SEPARATION + BEYOND)
 CONCLUSIONS = {"Superposition": SUPERPOSITION, "Learning apart from behaviour": SEPARATION}
+WITHOUT = {"no verdict": "without a verdict"}  # how a sentence says it
 OTHER_VERDICTS = {"partly": "Partly: {}; the page of claims gives the details.",
                   "not testable": "Not testable, because the agents have not learned: {}.",
                   NOT_COMPUTED: "Not computed when this page was built: {}."}
@@ -42,7 +43,12 @@ def in_short(verdicts):
 def _tally(found):
     """How many claims have which verdict, with its symbol: "● 6 reproduced, ◐ 11 partly"."""
     counts = {each: len(_with(each, found)) for each in (*VERDICTS, NOT_COMPUTED)}
-    return ", ".join(f"{html(each)}\u00a0{count} {each}" for each, count in counts.items() if count)
+    return ", ".join(f"{_symbol(each)}{count} {WITHOUT.get(each, each)}" for each, count in counts.items() if count)
+
+
+def _symbol(verdict):
+    """The symbol of a verdict and a space; nothing where there is none, since a dash would be read as a minus."""
+    return "" if verdict in ("no verdict", NOT_COMPUTED) else f"{html(verdict)}\u00a0"
 
 
 def overview(verdicts):
@@ -56,7 +62,8 @@ def overview(verdicts):
 def beyond(record, verdicts):
     """What the pages beyond the thesis have found of its claims, as a Markdown list."""
     return "\n".join(
-        f"- {html(verdicts[CALIBRATED][name])} **{name}** {STATEMENTS[name].text}: *{verdicts[CALIBRATED][name]}*"
+        f"- {_symbol(verdicts[CALIBRATED][name])}**{name}** {STATEMENTS[name].text}: "
+        f"*{_said(verdicts, CALIBRATED, name)}*"
         + (f" ({STATEMENTS[name].statistic}: {report.number(record['claims'][name])})."
            if name in record["claims"] else ".") for name in BEYOND)
 
@@ -72,8 +79,12 @@ def _held(found, names):
 
 def both_verdicts(verdicts):
     """The verdicts on each claim under both readings, in Markdown: {name: text}."""
-    return {name: f"*{verdicts[CALIBRATED][name]}* calibrated, *{verdicts[LETTER][name]}* to the letter"
+    return {name: f"*{_said(verdicts, CALIBRATED, name)}* calibrated, *{_said(verdicts, LETTER, name)}* to the letter"
             for name in CLAIMS}
+
+
+def _said(verdicts, reading, name):
+    return WITHOUT.get(verdicts[reading][name], verdicts[reading][name])
 
 
 def what_did_not_hold(record, verdicts):
@@ -113,8 +124,9 @@ def _in_short_runs(shares):
     """Claims that hold under no reading, and claims that are undecided under most."""
     never = [name for name, share in shares.items() if not share["holds"]]
     unclear = [name for name, share in shares.items() if share["undecided"] > share["readings"] / 2]
+    verb = "was" if len(unclear) == 1 else "were"
     return (f"In short runs under {max(share['readings'] for share in shares.values())} readings within the text, "
-            f"{_listed(never)} held in none that could be decided; {_listed(unclear)} were undecided in more than "
+            f"{_listed(never)} held in none that could be decided; {_listed(unclear)} {verb} undecided in more than "
             f"half of them.")
 
 

@@ -23,13 +23,14 @@ def rates(result, points=20):
 def trials(name, finds, steps):
     """A sentence on how many steps it took to find something, in the first and the last tenth of a run."""
     early, late = (np.mean([low <= find < low + steps / 10 for find in finds]) * len(finds) for low in (0, 0.9 * steps))
-    return f"{name} was found {len(finds)} times: {early:.0f} in the first tenth of the run and {late:.0f} in the last."
+    return (f"{name} was found {len(finds)} times in {steps:,} steps: {early:.0f} in the first tenth of the run and "
+            f"{late:.0f} in the last.")
 
 
 def speeds(python_seconds, kernel_seconds, steps, kernel_steps):
     """A sentence on the cost of a step in either form."""
     return (f"A step of the loop took {1e6 * python_seconds / steps:.0f} microseconds. As kernels, on all cores, it "
-            f"took {1e9 * kernel_seconds / kernel_steps:.0f} nanoseconds.")
+            f"took {1e6 * kernel_seconds / kernel_steps:.2g} microseconds.")
 
 
 def in_short(finds, python_seconds, kernel_seconds, steps, runs):
@@ -40,7 +41,7 @@ def in_short(finds, python_seconds, kernel_seconds, steps, runs):
 
 def table(results):
     """Finds per thousand steps in the last fifth of the runs, mean and standard deviation: {name: `Result`}."""
-    rows = ["| agent | finds per thousand steps |", "|---|---|"]
+    rows = ["| agent | finds per thousand steps, mean ± standard deviation over runs |", "|---|---|"]
     for name, result in results.items():
         last = 1_000 * result.rate(0.8) / result.world.fps
         rows.append(f"| {name} | {last.mean():.1f} ± {last.std():.1f} |")

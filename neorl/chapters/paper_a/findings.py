@@ -7,12 +7,12 @@ import numpy as np
 
 from neorl.chapters.shared import side_by_side
 from neorl.chapters.shared.side_by_side import each_in_words
-from neorl.chapters.shared.wording import number
+from neorl.chapters.shared.wording import by_interval, number
 from neorl.evidence.claims import judge_multiple_layers
 from neorl.evidence.priors import BEYOND
 from neorl.evidence.reading import LAYERS, SINGLE
 from neorl.evidence.report import CALIBRATED, LETTER
-from neorl.evidence.statistics import Estimate, estimate, ratio, resets
+from neorl.evidence.statistics import Estimate, estimate, lead_over_sum, ratio, resets
 from neorl.evidence.verdict import FINAL
 
 REWARD, STATES = "reward, all three ÷ N7", "states, all three ÷ N7"
@@ -26,17 +26,18 @@ def beside_thesis(results):
 
 
 def in_short(results):
-    """The findings in three sentences, beside the thesis's numbers."""
+    """The findings in a few sentences, beside the thesis's numbers."""
     calibrated, letter = results[CALIBRATED], results[LETTER]
-    gain, by_letter = _gain(calibrated), _gain(letter)
     together, alone = _finals(calibrated)
+    surplus = estimate(lead_over_sum, together, *alone)
+    beside = by_interval(surplus, "more than", "less than", "not distinguishable from")
     control = calibrated["brownian", 8]
-    return (f"In the calibrated reading, N3, N7 and N23 together finally earn {number(together)} per second: "
-            f"{gain} times as much as N7 alone, where the thesis has {THESIS[REWARD]}, and "
-            f"{'more' if together > sum(alone) else 'not more'} than the sum of the three alone, "
-            f"{number(sum(alone))}. To the letter they earn {by_letter} times as much as N7. Of single maps "
-            f"{_order(calibrated)[0]} earns most, where the thesis has N50; Brownian motion resets the board "
-            f"{number(resets(control).mean())} times in {control.steps:,} steps, where it is “incapable of” one.")
+    return (f"In the calibrated reading, N3, N7 and N23 together finally earn {estimate(np.mean, together)} per "
+            f"second: {_gain(calibrated)} times as much as N7 alone (thesis: {THESIS[REWARD]}), and {beside} the sum "
+            f"of what the three earn alone (difference {surplus}). To the letter the ratio to N7 is {_gain(letter)}. "
+            f"Of single maps {_order(calibrated)[0]} earns most (thesis: N50). Random motion clears the board "
+            f"{number(resets(control).mean())} times in {control.steps:,} steps (thesis: never). Brackets are 95 % "
+            "intervals.")
 
 
 def in_words(results):
@@ -46,7 +47,7 @@ def in_words(results):
 
 def _found(results):
     control = results["brownian", 8]
-    together, alone = _finals(results)
+    together, alone = (np.mean(each, axis=-1) for each in _finals(results))
     return (f"By reward per second over the whole run, the order of single maps is "
             f"{', '.join(_order(results))}; Brownian motion earns {number(control.rate().mean())} and resets the board "
             f"{number(resets(control).mean())} times in {control.steps:,} steps. N3, N7 and N23 together finally earn "
@@ -61,8 +62,8 @@ def _order(results):
 
 
 def _finals(results):
-    """Final reward per second of all three maps together, and of each alone."""
-    return results["layers"].rate(*FINAL).mean(), [results["layer", n].rate(*FINAL).mean() for n in LAYERS]
+    """Final reward per second of all three maps together, (runs,), and of each alone, [(runs,), …]."""
+    return results["layers"].rate(*FINAL), [results["layer", n].rate(*FINAL) for n in LAYERS]
 
 
 def _gain(results):

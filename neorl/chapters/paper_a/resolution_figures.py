@@ -8,7 +8,7 @@ from neorl.core.horde import as_vectors
 from neorl.core.scene import CARDINAL
 from neorl.drawing.boards import new_board
 from neorl.drawing.curves import draw_proficiency
-from neorl.drawing.style import AGENT, GREEN, INK, RED
+from neorl.drawing.style import AGENT, FILL, GREEN, INK, RED, mark
 from neorl.drawing.thesis_figures import mark_levels
 from neorl.drawing.value_maps import draw_cells, draw_values
 from neorl.evidence.verdict import FINAL
@@ -31,7 +31,7 @@ def draw_elements(nres_map, places, valences, values):
 
     places: (elements, 2), in board widths. valences: (elements,).
     """
-    fills = {goal: (GREEN if valence > 0 else RED, 0.6 * abs(valence))
+    fills = {goal: (GREEN if valence > 0 else RED, FILL * abs(valence))
              for goal, valence in zip(nres_map.encode(places), valences)}
     axes = draw_cells(nres_map, fills=fills)
     draw_values(nres_map, values, ax=axes)
@@ -39,8 +39,8 @@ def draw_elements(nres_map, places, valences, values):
     for cell, (east, south), valence in zip(cells, as_vectors(np.asarray(values), CARDINAL)[cells], valences):
         left, top = side * (cell % nres_map.resolution), side * (cell // nres_map.resolution)
         falling = east * south > 0  # an arrow that leaves the upper right corner free
-        axes.text(left + side * (0.95 if falling else 0.05), top + 0.05 * side, f"{valence:+g}".replace("-", "−"),
-                  ha="right" if falling else "left", va="top", weight="bold")
+        mark(axes, (left + side * (0.92 if falling else 0.08), top + 0.08 * side), f"{valence:+g}".replace("-", "−"),
+             ha="right" if falling else "left", va="top")
 
 
 def draw_maps(maps):

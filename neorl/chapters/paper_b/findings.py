@@ -43,9 +43,10 @@ def _judged(results, watched):
 def in_short(lived):
     """The findings in a few sentences, beside the thesis's numbers."""
     level, minute = levels(lived), minutes(lived)
-    short = {agent: f"{each.value:.2f}" for agent, each in level[LETTER].items()}
+    by_letter = level[LETTER]
     return (f"In the calibrated reading, {_found(level[CALIBRATED], minute[CALIBRATED])} To the letter, place cells "
-            f"earn {short['PC']}, object-vector cells {short['OVC']}, and both {short['PC + OVC']}.")
+            f"earn {by_letter['PC']} per second, object-vector cells {by_letter['OVC']}, and both "
+            f"{by_letter['PC + OVC']}. Brackets are 95 % intervals.")
 
 
 def in_words(lived):

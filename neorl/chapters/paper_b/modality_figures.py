@@ -35,9 +35,10 @@ def draw_modalities(world, state):
 
 
 def draw_revaluing(minutes, curves):
-    """Red creeps a minute over the run, {reading: (runs, stretches)}, with a line at half-time, when they are revalued.
+    """Red creeps per minute over the run, {reading: (runs, stretches)}, with a line at half-time, where they are
+    revalued.
     """
-    axes = draw_curves(minutes, curves, "simulated minutes", "red creeps a minute")
+    axes = draw_curves(minutes, curves, "simulated minutes", "red creeps per minute")
     axes.axvline((minutes[0] + minutes[-1]) / 2, color=INK, linewidth=0.7)
 
 

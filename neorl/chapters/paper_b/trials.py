@@ -12,7 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl.agents import papers
-from neorl.agents.agent import Desire, Node, Place, Policy
+from neorl.agents.agent import Desire, Node, Place
+from neorl.agents.rules import Policy
 from neorl.core.modality import PLACE_CELL
 from neorl.evidence.reading import PRIMES
 from neorl.experiments.sweeping import simulate_once

@@ -5,9 +5,14 @@ from textwrap import wrap
 
 import numpy as np
 
+from neorl.evidence.reading import networks
+from neorl.evidence.statistics import estimate
 from neorl.experiments.run import Run
+from neorl.worlds.waterworld import WaterWorld
 
+LOOKS = 500  # at each run, in its second half
 WELL_INSIDE = 0.2  # board widths from the middle
+FAR = 0.1  # board widths from the agent
 PATIENCE = 5_000  # steps
 LINE = 66  # characters
 
@@ -20,19 +25,26 @@ def make_up(network, desires, reading):
 
 
 def moment_of_desire(network, world, steps, seed=0):
-    """A `Run` of so many steps, and of some more until the agent is well inside the board and its place cells desire.
+    """A `Run` of so many steps, and of some more until the agent is well inside the board and a node's desire lands far
+    from it.
 
     It waits for that no longer than `PATIENCE`.
     """
     run = Run(network, world, seed)
     run.advance(steps)
-    while run.step < steps + PATIENCE and not (_is_inside(run) and run.output("PC").q.any()):
+    while run.step < steps + PATIENCE and not (_is_inside(run) and _reach(run) > FAR):
         run.advance(1)
     return run
 
 
 def _is_inside(run):
     return np.abs(run.world_state.scene.position / run.world.size - 0.5).max() < WELL_INSIDE
+
+
+def _reach(run):
+    """How far from the agent the desires between its nodes land, in board widths: the farthest one."""
+    return max((np.hypot(*target[:2]) for desire, target in zip(run.agent.desires, run.state.desires.target)
+                if run.agent.comes_from_node(desire)), default=0.0)
 
 
 def landings(run):
@@ -42,6 +54,38 @@ def landings(run):
         if run.agent.comes_from_node(desire):
             row = f"{desire.source} to {desire.target}, {' and '.join(desire.of)} creeps"
             rows.append(f"| {row} | ({east:z.3f}, {south:z.3f}) | {valence:+g} |".replace("-", "−"))
+    return "\n".join(rows)
+
+
+def distances(readings, steps, runs, seed=0):
+    """How far from the agent desires between nodes land in the second half of runs, and how often in its own cell.
+
+    readings: {name: Reading}. Returns {(name, network): (board widths, share)}, float64 (runs,) each: the median of the
+    farther desire, and the share of `LOOKS` moments at which all are in the cell of distance 0 of the finest map.
+    """
+    return {(name, network): np.array([_distances(Run(agent, WaterWorld(), seed, k), steps) for k in range(runs)]).T
+            for name, reading in readings.items() for network, agent in networks(reading).items()}
+
+
+def _distances(run, steps):
+    finest = run.agent.nodes[-1].maps[-1]
+    passed = [e for e, desire in enumerate(run.agent.desires)
+              if run.agent.comes_from_node(desire) and desire.source != desire.target]
+    landed = np.empty((LOOKS, len(passed), 2))
+    run.advance(steps // 2)
+    for look in range(LOOKS):
+        run.advance(max(1, steps // 2 // LOOKS))
+        landed[look] = run.state.desires.target[passed, :2]
+    at_agent = finest.encode(landed) == finest.encode([0.0, 0.0])
+    return np.median(np.hypot(*landed.transpose(2, 0, 1)).max(axis=1)), at_agent.all(axis=1).mean()
+
+
+def distance_table(found):
+    """What `distances` has found, as a Markdown table."""
+    rows = ["| Reading | Network | Desires land at, in board widths | In the agent's own cell, % of the time |",
+            "|---|---|---|---|"]
+    for (reading, network), (widths, share) in found.items():
+        rows.append(f"| {reading} | {network} | {estimate(np.mean, widths)} | {estimate(np.mean, 100 * share)} |")
     return "\n".join(rows)
 
 

@@ -24,8 +24,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl.agents.agent import Learning
 from neorl.agents.papers import multimodal, place_cells
+from neorl.agents.rules import Learning
 from neorl.chapters.performance.bandwidth import LINE
 from neorl.chapters.performance.timing import again, always, in_turns
 from neorl.core.kernel import array, execute, kernel

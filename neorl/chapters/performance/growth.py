@@ -16,8 +16,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl.agents.agent import Learning
 from neorl.agents.papers import place_cells
+from neorl.agents.rules import Learning
 from neorl.chapters.performance.bound import ALL_GOALS, LIVED, STRETCH
 from neorl.chapters.performance.timing import again, always, exponent, in_turns
 from neorl.core.kernel import array, execute, kernel

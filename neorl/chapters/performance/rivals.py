@@ -20,8 +20,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl.agents.agent import Learning
 from neorl.agents.papers import place_cells
+from neorl.agents.rules import Learning
 from neorl.core.kernel import array, execute, kernel
 from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
 from neorl.experiments.run import Run

@@ -5,7 +5,7 @@ import numpy as np
 
 def last_fifth(results, unit="reward per second"):
     """A table of what runs earn in their last fifth, mean and standard deviation: {name: `neorl.Result`}."""
-    rows = [f"| agent | {unit} |", "|---|---|"]
+    rows = [f"| agent | {unit}, mean ± standard deviation over runs |", "|---|---|"]
     for name, result in results.items():
         rate = result.rate(0.8)
         rows.append(f"| {name} | {rate.mean():.3f} ± {rate.std():.3f} |")
@@ -16,8 +16,9 @@ def transfer(found, steps):
     """A sentence on what agents earn with and without what others have learned: [(with, without), …] a run each."""
     taught, new = np.median(found, axis=0)
     better = sum(one > other for one, other in found)
-    return (f"In {steps:,} steps agents with the values of another earned {taught:.0f} (median), and those without "
-            f"{new:.0f}; the former earned more in {better} of {len(found)} runs.")
+    return (f"In {steps:,} steps, agents that began with the values of another earned {taught:.0f} points (median over "
+            f"runs), and agents that began without earned {new:.0f}; the former earned more in {better} of "
+            f"{len(found)} runs.")
 
 
 def same_bits(name, one, other):
@@ -28,8 +29,9 @@ def same_bits(name, one, other):
 
 def in_short(found, steps, one, other, away):
     """What the tasks of the page show, in three sentences. Arguments as below and above."""
-    return (f"{transfer(found, steps)} {same_bits('A run that was saved and loaded continues', one, other)} An agent "
-            f"steers an animal in another simulator by the firing of its neurons. {distances(away)}")
+    resumed = same_bits("A run that was saved and loaded, beside the same run without a break", one, other)
+    return (f"{transfer(found, steps)} {resumed} An agent steers an animal in another simulator by the firing "
+            f"of its neurons. {distances(away)}")
 
 
 def distances(by_name):

@@ -1,0 +1,209 @@
+"""``make book`` under kills, interruptions, disks that are full or refuse, a second build, and a notebook that raises.
+
+Of a small book (`small_book`), whatever ends a build: a page that stands in its place is whole, what was whole stays,
+the cause is named, and the next build goes on from there to the same book.
+"""
+
+import random
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import psutil
+import pytest
+import small_book
+
+from neorl import WaterWorld, place_cells, simulate
+
+KILOBYTE = 1024
+FULL = "No space left on device|disk that has no room left"
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """A tree whose book is built, to copy."""
+    tree = small_book.make_tree(tmp_path_factory.mktemp("finished") / "tree")
+    code, said = small_book.build(tree)
+    assert code == 0, said
+    assert small_book.whole_pages(tree) == list(small_book.NOTEBOOKS)
+    small_book.assert_no_half_page(tree)
+    assert_figures(tree, runs=2)
+    return tree
+
+
+def assert_figures(tree, runs):
+    """The numbers on the built pages are those of runs made here."""
+    for seed, name in enumerate(("assumptions", "paper_a")):
+        alone = simulate(place_cells([3]), WaterWorld(), steps=10_000, runs=runs, seed=seed, progress=False)
+        assert f"{alone.totals.sum():.6f}" in small_book.pages(tree)[f"chapters/{name}.html"]
+
+
+@pytest.fixture
+def tree(tmp_path):
+    return small_book.make_tree(tmp_path / "tree")
+
+
+@pytest.fixture
+def built(finished, tmp_path):
+    return shutil.copytree(finished, tmp_path / "tree", symlinks=True)
+
+
+@pytest.fixture
+def mount(tmp_path):
+    """Mount a disk in memory at a folder: mount(folder, options)."""
+    mounted = []
+
+    def mount(folder, options):
+        folder.mkdir(exist_ok=True)
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", options, "none", folder], capture_output=True).returncode:
+            pytest.skip("no permission to mount a disk")
+        mounted.append(folder)
+        return folder
+
+    if sys.platform != "linux" or not shutil.which("mount"):
+        pytest.skip("mounts are Linux's")
+    yield mount
+    for folder in mounted:
+        subprocess.run(["umount", folder], check=True)
+
+
+def leave_room(disk, size):
+    """Let so many bytes be free on a disk in memory."""
+    blocks = -(-(shutil.disk_usage(disk).used + size) // 4096)
+    subprocess.run(["mount", "-o", f"remount,size={4096 * blocks}", disk], check=True)
+
+
+def written(tree):
+    """When each page that is whole was written: {notebook: time}."""
+    return {name: (tree / "book" / "chapters" / f"{name}.ipynb").stat().st_mtime_ns
+            for name in small_book.whole_pages(tree)}
+
+
+def assert_failed_well(tree, code, said, kept, cause):
+    """A build failed, says why, and left alone what was whole."""
+    assert code == 1 and re.search(cause, said), said
+    small_book.assert_no_half_page(tree)
+    assert kept.items() <= written(tree).items()
+
+
+def assert_goes_on(tree, finished, kept):
+    """The next build does the rest, and brings the same book."""
+    code, said = small_book.build(tree)
+    assert code == 0, said
+    assert said.count("nothing has changed") == len(kept)
+    assert kept.items() <= written(tree).items()
+    assert small_book.pages(tree) == small_book.pages(finished)
+
+
+# The disk is full while a notebook keeps what it computes, while a page is written, and near the end of the book.
+def test_a_book_on_a_full_disk_goes_on_as_soon_as_there_is_room(finished, mount, tmp_path):
+    disk = mount(tmp_path / "disk", "size=100m")
+    tree, reached = small_book.make_tree(disk / "tree"), []
+    for room in (8, 1_500, 9_000):
+        leave_room(disk, room * KILOBYTE)
+        kept = written(tree)
+        assert_failed_well(tree, *small_book.build(tree), kept, FULL)
+        assert not (tree / "_build" / "html").exists()
+        reached.append(len(written(tree)))
+    assert reached[0] == 0 and reached[-1] == len(small_book.NOTEBOOKS)
+    leave_room(disk, 100_000 * KILOBYTE)
+    assert_goes_on(tree, finished, written(tree))
+
+
+def test_a_full_disk_leaves_the_last_book_as_it_was(built, mount, tmp_path):
+    disk = mount(tmp_path / "disk", "size=100m")
+    tree = shutil.copytree(built, disk / "tree", symlinks=True)
+    book = small_book.pages(tree)
+    for room in (100, 9_000):
+        leave_room(disk, room * KILOBYTE)
+        code, said = small_book.build(tree, runs=3)
+        assert code == 1 and re.search(FULL, said), said
+        small_book.assert_no_half_page(tree)
+        assert small_book.pages(tree) == book
+    assert len(written(tree)) == 3
+    leave_room(disk, 100_000 * KILOBYTE)
+    code, said = small_book.build(tree, runs=3)
+    assert code == 0 and said.count("nothing has changed") == 3, said
+    assert_figures(tree, runs=3)
+
+
+@pytest.mark.parametrize("size", [100, 1_200])
+def test_a_file_that_cannot_be_written_whole_is_no_page(tree, size):
+    """Without a mount: a limit of the size of files ends a write in its middle, as a full disk does."""
+    limit = (size * KILOBYTE, resource.getrlimit(resource.RLIMIT_FSIZE)[1])
+    code, said = small_book.build(tree, limits={resource.RLIMIT_FSIZE: limit})
+    assert_failed_well(tree, code, said, {}, "File too large")
+    assert len(written(tree)) == (3 if size == 1_200 else 0) and not (tree / "_build" / "html").exists()
+
+
+def offspring(process):
+    return psutil.Process(process.pid).children(recursive=True)
+
+
+def wait_for(path, process):
+    """Wait until a path is there, or the process has ended."""
+    while not path.exists() and process.poll() is None:
+        time.sleep(0.005)
+
+
+# What a build makes, in its order: it is ended soon after each.
+MOMENTS = (".cache/conditions", "book/chapters/assumptions.inputs.json", "book/chapters/.paper_a",
+           "_build/next/_build/html/index.html")
+
+
+def test_a_build_that_is_killed_again_and_again_ends_with_the_same_book(tree, finished):
+    moments, draw = [*MOMENTS], random.Random(5)
+    while moments:
+        kept, process = written(tree), small_book.start(tree)
+        wait_for(tree / moments.pop(0), process)
+        time.sleep(draw.uniform(0, 1))
+        started = offspring(process) if process.poll() is None else []
+        process.kill()
+        process.communicate()
+        assert not psutil.wait_procs(started, timeout=60)[1]  # all that it had started ends with it
+        small_book.assert_no_half_page(tree)
+        assert kept.items() <= written(tree).items()
+    assert_goes_on(tree, finished, written(tree))
+
+
+@pytest.mark.parametrize("moment", ["book/chapters/.paper_a", "_build/next/_build/html"])
+def test_an_interrupted_build_says_so_and_a_second_one_meanwhile_is_refused(tree, moment):
+    process = small_book.start(tree)
+    wait_for(tree / moment, process)
+    process.send_signal(signal.SIGSTOP)  # lest it ends before the second one has begun
+    started = offspring(process)
+    code, said = small_book.build(tree)
+    assert code == 1 and f"another make book is at work in this tree, process {process.pid} since" in said, said
+    process.send_signal(signal.SIGINT)
+    process.send_signal(signal.SIGCONT)
+    said, _ = process.communicate()
+    assert_failed_well(tree, process.returncode, said, {}, "\ninterrupted; make book resumes from here")
+    assert "Traceback" not in said and len(written(tree)) >= 1
+    assert not psutil.wait_procs(started, timeout=60)[1]
+
+
+@pytest.mark.parametrize("folder", [".cache", "book/chapters", "_build"])
+def test_a_folder_that_is_read_only_is_named_and_the_book_stays(built, mount, folder):
+    mount(built / folder, "ro")
+    code, said = small_book.build(built)
+    assert code == 1 and said == f"{built / folder} cannot be written to: [Errno 30] Read-only file system: " + (
+        said.partition("system: ")[2]), said
+
+
+def test_a_notebook_that_raises_is_named_and_all_others_are_kept(built):
+    book, kept = small_book.pages(built), written(built)
+    small_book.write_notebook(built, "paper_a", "print(1 / 0)")
+    code, said = small_book.build(built)
+    assert_failed_well(built, code, said, kept, r"paper_a.ipynb, In \[3\]: ZeroDivisionError: division by zero")
+    assert "not computed, see above: paper_a.ipynb, chapter_5.ipynb; all others are kept" in said
+    assert small_book.pages(built) == book
+
+
+def test_a_folder_of_results_may_be_given_from_where_the_build_begins(tree):
+    """Notebooks run in a folder of theirs, and what they keep is looked for where it was asked for."""
+    code, said = small_book.build(tree, only="assumptions", NEORL_CACHE=".cache")
+    assert code == 0 and (tree / "book" / "chapters" / "assumptions.claims.json").exists(), said

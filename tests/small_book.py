@@ -1,0 +1,149 @@
+"""A book of three short notebooks in a tree of its own, which ``make book`` builds as it builds ours.
+
+Its notebooks are one that others need, one that needs it, and the conclusion, which reads the records of both.
+"""
+
+import hashlib
+import json
+import os
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import nbformat
+from nbformat.v4 import new_code_cell, new_markdown_cell
+
+from neorl.files import cache_folder
+
+ROOT = Path(__file__).parents[1]
+NOTEBOOKS = ("assumptions", "chapter_5", "paper_a")
+SIMULATE = """from pathlib import Path
+from IPython.display import SVG
+import neorl
+from neorl.evidence import report
+result = neorl.simulate_once(neorl.place_cells([3]), neorl.WaterWorld(), steps=10_000, runs=runs, seed={seed},
+                             progress=False)
+lines = "".join(f"<path d='M{{k}} 0V{{abs(paid):.0f}}'/>" for k, paid in enumerate(result.rewards.ravel()))
+print(f"{{result.totals.sum():.6f}}")"""
+DRAW = """SVG(f"<svg xmlns='http://www.w3.org/2000/svg' width='75pt' height='30pt'>{lines * 20}</svg>")"""
+FIND_SHARES = "report.save('assumptions', shares={'A2': {'holds': 1, 'undecided': 0, 'untestable': 0, 'readings': 4}})"
+CONCLUDE = """from neorl.evidence import report
+print(sorted(report.load()["shares"].items()))
+report.save("chapter_5")"""
+CONFIG = """title: A small book
+only_build_toc_files: true
+execute: {execute_notebooks: "off"}
+sphinx:
+  config:
+    extensions: [myst_nb, jupyter_book, sphinx_external_toc, sphinx_design, sphinx_comments, sphinx_book_theme]
+"""
+TOC = "format: jb-book\nroot: index\nchapters:\n  - file: glossary\n  - file: running\n" + "".join(
+    f"  - file: chapters/{name}\n" for name in NOTEBOOKS)
+INDEX = "# A small book\n\n```{include} chapters/contents.md\n```\n"
+
+
+def make_tree(tree):
+    """Write the sources of the book into a folder."""
+    (tree / "book").mkdir(parents=True)
+    (tree / "notebooks").mkdir()
+    for path in (ROOT / "book").glob("*.py"):
+        shutil.copy(path, tree / "book")  # links would lead the build to our tree
+    (tree / "neorl").mkdir()  # a page depends on what is here, and imports ours
+    compiled = cache_folder().resolve() / "compiled"
+    compiled.mkdir(parents=True, exist_ok=True)
+    (tree / ".cache").mkdir()
+    (tree / ".cache" / "compiled").symlink_to(compiled)
+    for name, content in {"_config.yml": CONFIG, "pyproject.toml": "[project]\n", "environment.txt": "",
+                          "book/_toc.yml": TOC, "book/index.md": INDEX, "book/running.md": "# Running it\n",
+                          "book/glossary.md": "# Glossary\n\n```{glossary}\nmap\n  Cells.\n```\n"}.items():
+        (tree / name).write_text(content)
+    write_notebook(tree, "assumptions", SIMULATE.format(seed=0), DRAW, FIND_SHARES, points=4)
+    write_notebook(tree, "paper_a", SIMULATE.format(seed=1), DRAW, "report.save('paper_a')")
+    write_notebook(tree, "chapter_5", CONCLUDE)
+    return tree
+
+
+def write_notebook(tree, name, *sources, **parameters):
+    """Write a notebook with these cells of code; of those that draw, the figure has the notebook's name."""
+    parameters = "".join(f"{each}: int = {value}\n" for each, value in {"runs": 2, **parameters}.items())
+    figure = {"mystnb": {"figure": {"name": f"fig-{name}", "caption": "What was paid."}, "image": {"alt": "Paths."}}}
+    cells = [new_markdown_cell(f"# Page {name}\n\nText."),
+             new_code_cell(parameters, metadata={"tags": ["parameters"]}),
+             *(new_code_cell(source, metadata=figure if source == DRAW else {}) for source in sources)]
+    for k, cell in enumerate(cells):
+        cell["id"] = f"cell-{k}"
+    metadata = {"kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"}}
+    nbformat.write(nbformat.v4.new_notebook(cells=cells, metadata=metadata), tree / "notebooks" / f"{name}.ipynb")
+
+
+def start(tree, runs=2, only=None, limits={}, **environment):
+    """A build of the tree, as a process whose output is one text.
+
+    only: the one notebook that is computed. limits: of resources, as `resource` has them.
+    """
+    of_one = ["--notebook", tree / "notebooks" / f"{only}.ipynb", "--parameters", json.dumps({"runs": runs})]
+    command = [sys.executable, tree / "book" / "build.py", *(of_one if only else ("--runs", str(runs)))]
+
+    def prepare():
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        for kind, limit in limits.items():
+            resource.setrlimit(kind, limit)
+
+    return subprocess.Popen(
+        command, text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, cwd=tree,
+        env=os.environ | {"NEORL_CACHE": str(tree / ".cache"), "PYTHONPATH": str(ROOT), **environment},
+        preexec_fn=prepare)
+
+
+def build(tree, **choices):
+    """Build the tree, with the choices of `start`: (exit code, all that was said)."""
+    process = start(tree, **choices)
+    said, _ = process.communicate()
+    return process.returncode, said
+
+
+def whole_pages(tree):
+    """The notebooks whose pages stand in the chapters as they were made, by their records."""
+    chapters = tree / "book" / "chapters"
+    found = []
+    for name in NOTEBOOKS:
+        record = chapters / f"{name}.inputs.json"
+        if record.exists():
+            outputs = json.loads(record.read_text())["outputs"]  # a record is complete or absent
+            assert outputs and all(digest(chapters / each) == kept for each, kept in outputs.items()), name
+            found.append(name)
+    return found
+
+
+def digest(path):
+    """The digest of a file that a record has."""
+    return hashlib.sha256(hashlib.sha256(path.read_bytes()).digest()).hexdigest()
+
+
+def assert_no_half_page(tree):
+    """Whatever stands in its place is complete: computed pages, records of claims, and the book in HTML."""
+    whole_pages(tree)
+    chapters = tree / "book" / "chapters"
+    for path in chapters.glob("*.ipynb"):
+        nbformat.read(path, nbformat.NO_CONVERT)
+    for path in [*chapters.glob("*.json"), *(tree / ".cache" / "claims").glob("[!.]*")]:
+        json.loads(path.read_text())
+    for path in chapters.glob("*.svg"):
+        assert path.read_text().rstrip().endswith("</svg>"), path
+    html = tree / "_build" / "html"
+    if html.exists():
+        pages = ["index", "glossary", "running", *(f"chapters/{name}" for name in NOTEBOOKS)]
+        for page in pages:
+            assert (html / f"{page}.html").read_text().rstrip().endswith("</html>"), page
+        assert len(list((html / "_images").glob("fig-*.svg"))) == 2
+
+
+def pages(tree):
+    """What a reader finds: {name: text} of all pages, less what differs from one build to the next."""
+    html = tree / "_build" / "html"
+    return {path.relative_to(html).as_posix(): re.sub(r"took \d+ seconds|\?digest=\w+", "", path.read_text())
+            for path in html.rglob("*.html")}
