@@ -60,7 +60,7 @@ class Controls {
 
   togglePlay() {
     const again = this.life.frame?.ended;
-    if (again) this.reset();
+    if (again) this.note("run"); // the same one, with what is set
     this.write({ playing: again || !this.model.get("playing") });
   }
 

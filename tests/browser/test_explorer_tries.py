@@ -66,6 +66,18 @@ def test_the_way_to_a_corner_is_shown_once_it_is_learned(visit):
     expect(page.locator(".key")).not_to_contain_text("Grey:")
 
 
+def test_to_play_again_is_the_same_run_with_the_same_settings(visit):
+    page = visit("#explorer_run-4_red-0p5")
+    wait(page, "ended")
+    score = told(page, "score")
+    press(page, "play")
+    wait(page, "running")
+    wait(page, "ended")
+    assert told(page, "score") == score
+    expect(page.locator('[name="run"]')).to_have_value("4")
+    expect(page.locator('[name="valence_red"]')).to_have_value("0.5")
+
+
 def test_of_two_things_to_try_the_later_one_counts(visit):
     page = visit("#explorer_agent-place-cells")
     press(page, "red")
