@@ -23,7 +23,7 @@ book: .venv/ready
 	$(BIN)/python book/build.py --runs $(RUNS) $(if $(STEPS),--steps $(STEPS))
 
 test: .venv/ready
-	$(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist loadfile $(ARGS)
+	$(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist loadfile --no-loadscope-reorder $(ARGS)
 
 exact: .venv/ready
 	$(BIN)/python tests/exactness.py $(PYTHONS)
