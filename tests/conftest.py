@@ -3,6 +3,8 @@
 import functools
 import http.server
 import shutil
+import subprocess
+import sys
 import threading
 
 import matplotlib
@@ -38,6 +40,25 @@ def cache_folder(tmp_path, monkeypatch):
     (tmp_path / "compiled").symlink_to(compiled)
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
     return tmp_path
+
+
+@pytest.fixture
+def mount():
+    """Mount a disk in memory at a folder for the length of a test: mount(folder, options) returns the folder."""
+    mounted = []
+
+    def mount(folder, options):
+        folder.mkdir(exist_ok=True)
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", options, "none", folder], capture_output=True).returncode:
+            pytest.skip("no permission to mount a disk")
+        mounted.append(folder)
+        return folder
+
+    if sys.platform != "linux" or not shutil.which("mount"):
+        pytest.skip("mounts are Linux's")
+    yield mount
+    for folder in mounted:
+        subprocess.run(["umount", folder], check=True)
 
 
 @pytest.fixture(scope="session")

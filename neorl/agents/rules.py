@@ -53,7 +53,7 @@ class Learning(checks.Final):
     causes: of changes of cell that things as seen from the agent learn from. "any", or "own": those that would have
         occurred had the thing stood still.
     capture: what the capture of a thing is to them: "contact", arrival at distance 0; "leap", a change to the cell of
-        the fresh thing like any other; "silent", nothing. They begin anew with the fresh thing, but for a leap.
+        the fresh thing like any other; "silent", nothing. Unless it is a leap, they start over with the fresh thing.
     attention: which things they follow: "each", the "nearest", or the one "wanted", the nearest of the kind that the
         world names first: in WaterWorld, green.
 

@@ -95,10 +95,10 @@ def _row(record, name):
 
 
 def _marked(found):
-    """A number behind the symbol of its verdict; alone without one, since a dash before it would be read as a minus."""
+    """A number, behind the symbol of its verdict."""
     if not found:
         return ""
-    mark = "" if found["verdict"] == "no verdict" else f"{marks.html(found['verdict'])} "
+    mark = f"{marks.html(found['verdict'])} " if marks.leads(found["verdict"]) else ""
     return f"{mark}{report.number(found)}"
 
 

@@ -31,6 +31,14 @@ def symbol(verdict: str) -> str:
     return MARKS[checks.one_of("verdict", verdict, MARKS)].symbol
 
 
+def leads(verdict: str) -> bool:
+    """Whether a verdict's symbol stands before a number: where there is no verdict, its dash would be read as a minus.
+
+    verdict: a key of `MARKS`. Raises ValueError for anything else.
+    """
+    return checks.one_of("verdict", verdict, MARKS) not in ("no verdict", NOT_COMPUTED)
+
+
 def html(verdict: str) -> str:
     """The symbol in its colour, as inline HTML for Markdown; its name is the verdict, for a reader of screens.
 

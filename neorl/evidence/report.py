@@ -12,7 +12,7 @@ from collections import Counter
 import numpy as np
 
 from neorl.evidence.errata import ERRATA
-from neorl.evidence.marks import NOT_COMPUTED, symbol
+from neorl.evidence.marks import NOT_COMPUTED, leads, symbol
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 from neorl.evidence.statistics import Estimate
 from neorl.experiments.cache import source_digest
@@ -170,8 +170,7 @@ def _marked(found):
 
 
 def _with_symbol(verdict, text):
-    """A number behind the symbol of its verdict; alone without one, since a dash before it would be read as a minus."""
-    return text if verdict == "no verdict" else f"{symbol(verdict)}\u00a0{text}"
+    return f"{symbol(verdict)}\u00a0{text}" if leads(verdict) else text
 
 
 def _share(share):

@@ -10,7 +10,6 @@ import resource
 import shutil
 import signal
 import subprocess
-import sys
 import time
 
 import psutil
@@ -50,25 +49,6 @@ def tree(tmp_path):
 @pytest.fixture
 def built(finished, tmp_path):
     return shutil.copytree(finished, tmp_path / "tree", symlinks=True)
-
-
-@pytest.fixture
-def mount(tmp_path):
-    """Mount a disk in memory at a folder: mount(folder, options)."""
-    mounted = []
-
-    def mount(folder, options):
-        folder.mkdir(exist_ok=True)
-        if subprocess.run(["mount", "-t", "tmpfs", "-o", options, "none", folder], capture_output=True).returncode:
-            pytest.skip("no permission to mount a disk")
-        mounted.append(folder)
-        return folder
-
-    if sys.platform != "linux" or not shutil.which("mount"):
-        pytest.skip("mounts are Linux's")
-    yield mount
-    for folder in mounted:
-        subprocess.run(["umount", folder], check=True)
 
 
 def leave_room(disk, size):

@@ -19,7 +19,11 @@ def test_a_mark_is_named_for_readers_who_do_not_see_it():
                                     'title="partly">◐</span>')
 
 
-@pytest.mark.parametrize("function", [marks.symbol, marks.html])
+def test_no_dash_stands_before_a_number_that_has_no_verdict():
+    assert [verdict for verdict in marks.MARKS if not marks.leads(verdict)] == ["no verdict", marks.NOT_COMPUTED]
+
+
+@pytest.mark.parametrize("function", [marks.symbol, marks.leads, marks.html])
 def test_anything_else_is_refused(function):
     with pytest.raises(ValueError, match="verdict is 'perhaps', allowed are"):
         function("perhaps")

@@ -1,7 +1,6 @@
 """What is finished is kept: under kills, interruptions, full disks, folders that refuse, and files of other kinds."""
 
 import os
-import shutil
 import signal
 import subprocess
 import sys
@@ -136,31 +135,11 @@ def test_a_field_more_does_no_harm(tmp_path, lived):
     assert not lived
 
 
-@pytest.fixture
-def mounted(cache_folder):
-    """Mount a small disk in place of the folder of what is kept."""
-    mounts = []
-
-    def mount(options):
-        compiled, disk = (cache_folder / "compiled").resolve(), cache_folder / "disk"
-        disk.mkdir()
-        if subprocess.run(["mount", "-t", "tmpfs", "-o", options, "none", disk], capture_output=True).returncode:
-            pytest.skip("no permission to mount a disk")
-        mounts.append(disk)
-        if "ro" not in options.split(","):
-            (disk / "compiled").symlink_to(compiled)
-        return disk
-
-    if sys.platform != "linux" or not shutil.which("mount"):
-        pytest.skip("mounts are Linux's")
-    yield mount
-    for disk in mounts:
-        subprocess.run(["umount", disk], check=True)
-
-
 @pytest.mark.parametrize("options, reason", [("size=8k", "No space left"), ("ro", "Read-only")])
-def test_a_disk_that_takes_nothing_costs_one_warning(at_once, mounted, monkeypatch, options, reason):
-    disk = mounted(options)
+def test_a_disk_that_takes_nothing_costs_one_warning(at_once, cache_folder, mount, monkeypatch, options, reason):
+    compiled, disk = (cache_folder / "compiled").resolve(), mount(cache_folder / "disk", options)
+    if options != "ro":
+        (disk / "compiled").symlink_to(compiled)
     monkeypatch.setenv("NEORL_CACHE", str(disk))
     conditions = [LONG, Condition(place_cells([3]), WaterWorld(), 20_000, 4)]
     with pytest.warns(RuntimeWarning, match=f"{disk} takes no results .{reason}") as warned:

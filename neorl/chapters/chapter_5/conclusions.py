@@ -8,7 +8,7 @@
 """
 
 from neorl.evidence import report
-from neorl.evidence.marks import html
+from neorl.evidence.marks import html, leads
 from neorl.evidence.report import CALIBRATED, LETTER, NOT_COMPUTED
 from neorl.evidence.statements import CLAIMS, STATEMENTS
 from neorl.evidence.verdict import VERDICTS
@@ -47,8 +47,8 @@ def _tally(found):
 
 
 def _symbol(verdict):
-    """The symbol of a verdict and a space; nothing where there is none, since a dash would be read as a minus."""
-    return "" if verdict in ("no verdict", NOT_COMPUTED) else f"{html(verdict)}\u00a0"
+    """The symbol of a verdict and a space, before a number."""
+    return f"{html(verdict)}\u00a0" if leads(verdict) else ""
 
 
 def overview(verdicts):

@@ -5,6 +5,7 @@ from textwrap import wrap
 
 import numpy as np
 
+from neorl.chapters.shared.wording import table
 from neorl.evidence.reading import networks
 from neorl.evidence.statistics import estimate
 from neorl.experiments.run import Run
@@ -43,8 +44,13 @@ def _is_inside(run):
 
 def _reach(run):
     """How far from the agent the desires between its nodes land, in board widths: the farthest one."""
-    return max((np.hypot(*target[:2]) for desire, target in zip(run.agent.desires, run.state.desires.target)
-                if run.agent.comes_from_node(desire)), default=0.0)
+    return np.hypot(*_landed(run).T).max(initial=0.0)
+
+
+def _landed(run):
+    """Where desires that one node has of another land, from the agent, in board widths: float64 (desires, 2)."""
+    passed = [run.agent.comes_from_node(desire) and desire.source != desire.target for desire in run.agent.desires]
+    return run.state.desires.target[passed, :2]
 
 
 def landings(run):
@@ -68,25 +74,20 @@ def distances(readings, steps, runs, seed=0):
 
 
 def _distances(run, steps):
-    finest = run.agent.nodes[-1].maps[-1]
-    passed = [e for e, desire in enumerate(run.agent.desires)
-              if run.agent.comes_from_node(desire) and desire.source != desire.target]
-    landed = np.empty((LOOKS, len(passed), 2))
+    finest, landed = run.agent.nodes[-1].maps[-1], []
     run.advance(steps // 2)
-    for look in range(LOOKS):
+    for _ in range(LOOKS):
         run.advance(max(1, steps // 2 // LOOKS))
-        landed[look] = run.state.desires.target[passed, :2]
+        landed.append(_landed(run))
     at_agent = finest.encode(landed) == finest.encode([0.0, 0.0])
-    return np.median(np.hypot(*landed.transpose(2, 0, 1)).max(axis=1)), at_agent.all(axis=1).mean()
+    return np.median(np.hypot(*np.moveaxis(landed, -1, 0)).max(axis=1)), at_agent.all(axis=1).mean()
 
 
 def distance_table(found):
     """What `distances` has found, as a Markdown table."""
-    rows = ["| Reading | Network | Desires land at, in board widths | In the agent's own cell, % of the time |",
-            "|---|---|---|---|"]
-    for (reading, network), (widths, share) in found.items():
-        rows.append(f"| {reading} | {network} | {estimate(np.mean, widths)} | {estimate(np.mean, 100 * share)} |")
-    return "\n".join(rows)
+    return table(["Reading", "Network", "Desires land at, in board widths", "In the agent's own cell, % of the time"],
+                 [[*names, estimate(np.mean, widths), estimate(np.mean, 100 * share)]
+                  for names, (widths, share) in found.items()])
 
 
 def refusal(network, desire):
