@@ -1,7 +1,8 @@
 """Sphinx extension: what the reference pages make of docstrings.
 
 Kernels are left out, since users of the package call the functions around them. The fields of a class are
-described by the comments beside them. A name in single backticks links to its entry, if the reference has one.
+described by the comments beside them. Defaults are as one would write them. A name in single backticks links to its
+entry, if the reference has one.
 """
 
 import ast
@@ -11,16 +12,19 @@ import pydoc
 import re
 import textwrap
 
-from numba.core.dispatcher import Dispatcher
 from sphinx.util.nodes import make_refnode
 
-ITEM = re.compile(r"(Raises|Returns) |(\w+(?:,? \w+){0,3}): ")
+from neorl.core.kernel import Kernel
+
+ITEM = re.compile(r"(Raises|Returns) |([a-z_]\w*(?:,? \w+){0,3}): ")
+ENDS = (".", ".)", ";", ":")  # of what an item may follow: in the middle of a sentence, a line may begin like one
 SENTENCE = re.compile(r"(?<=\.) (?=\w+(?:, \w+)*: )")
 
 
 def setup(app):
     app.setup_extension("sphinx.ext.autodoc")
     app.connect("autodoc-skip-member", skip_member)
+    app.connect("autodoc-process-signature", read_defaults)
     app.connect("autodoc-process-docstring", read_docstring)
     app.connect("missing-reference", find_name)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
@@ -28,9 +32,20 @@ def setup(app):
 
 def skip_member(app, what, name, member, skip, options):
     """Leave out kernels, and what Python itself writes about the fields of a named tuple."""
-    if isinstance(member, Dispatcher) or str(member.__doc__).startswith("Alias for field number"):
+    if isinstance(member, Kernel) or str(member.__doc__).startswith("Alias for field number"):
         return True
     return None
+
+
+def read_defaults(app, what, name, member, options, signature, returned):
+    """Write defaults as in code where Python has no code for them: made for each instance, or a kernel."""
+    if not signature:
+        return None
+    if dataclasses.is_dataclass(member):
+        for field in dataclasses.fields(member):
+            if field.default_factory is not dataclasses.MISSING:
+                signature = signature.replace("<factory>", f"{field.default_factory.__name__}()", 1)
+    return re.sub(r"<kernel [\w.]*?(\w+)>", r"\1", signature), returned
 
 
 def read_docstring(app, what, name, member, options, lines):
@@ -49,14 +64,14 @@ def read_docstring(app, what, name, member, options, lines):
 
 def as_list(lines):
     """The lines of a docstring, with an item for each sentence that starts as "name: " or "Raises "."""
-    made, in_item = [], False
+    made, in_item, before = [], False, "."
     for line in [part for line in lines for part in SENTENCE.split(escaped(line))]:
-        start = ITEM.match(line)
+        start = ITEM.match(line) if not before or before.endswith(ENDS) else None
         if start:
             made += ["", f"*{start[1]}*" if start[1] else f"``{start[2]}``", f"    {line[start.end():]}"]
         else:
             made.append(f"    {line.strip()}" if in_item and line else line)
-        in_item = bool(start or in_item and line)
+        in_item, before = bool(start or in_item and line), line
     return made
 
 

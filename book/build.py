@@ -315,11 +315,11 @@ def write_tables():
 
 
 def build():
-    """Build the book, with warnings as errors, and put it in the place of the last one."""
+    """Build the book, with warnings as errors, in the place of the last one, unless that is of the same and whole."""
     record = BUILT / "inputs.txt"
     settings = [ROOT / name for name in ("_config.yml", "pyproject.toml", "environment.txt")]
     wanted = digest([*settings, *sources(), *files(ROOT / "book")])
-    if HTML.exists() and record.exists() and record.read_text() == wanted:
+    if record.exists() and record.read_text() == wanted + digest(files(HTML.parent)):
         return
     record.unlink(missing_ok=True)
     shutil.rmtree(BUILT / "next", ignore_errors=True)
@@ -334,7 +334,7 @@ def build():
     os.replace(BUILT / "next" / "_build" / "html", HTML.parent)
     for name in ("last", "next"):
         shutil.rmtree(BUILT / name, ignore_errors=True)
-    write_whole(record, wanted.encode())
+    write_whole(record, (wanted + digest(files(HTML.parent))).encode())
 
 
 def make_pages():

@@ -10,8 +10,8 @@ import hashlib
 import io
 import json
 import os
-import tempfile
 import time
+import uuid
 from pathlib import Path
 
 import numpy as np
@@ -34,16 +34,16 @@ def write_whole(path, content):
     path.parent.mkdir(parents=True, exist_ok=True)
     _remove_stale(path.parent)
     prefix, suffix = UNFINISHED
-    file = tempfile.NamedTemporaryFile(dir=path.parent, prefix=prefix, suffix=suffix, delete=False)
+    unfinished = path.parent / f"{prefix}{uuid.uuid4().hex}{suffix}"  # `tempfile` would shut others out of the file
     try:
-        with file:
+        with open(unfinished, "xb") as file:
             file.write(content)
             file.flush()
             os.fsync(file.fileno())
-        os.replace(file.name, path)
+        os.replace(unfinished, path)
     except BaseException:
         with contextlib.suppress(OSError):
-            os.unlink(file.name)
+            os.unlink(unfinished)
         raise
 
 

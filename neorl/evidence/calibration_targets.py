@@ -41,10 +41,9 @@ class Measure(NamedTuple):
 class Target:
     """A statistic, and the interval in which it agrees with the thesis.
 
-    claim: a name of `neorl.evidence.statements`. statistic: from {key of the condition: `Result`} to a number. low,
-    high: the interval; a bound may be infinite. scale: how far outside counts as a distance of 1. thesis: what is
-        printed.
-    reason: why the interval is as wide as it is.
+    claim: a name of `neorl.evidence.statements`. statistic: from {key of the condition: `Result`} to a number.
+    low, high: the interval; a bound may be infinite. scale: how far outside counts as a distance of 1.
+    thesis: what is printed. reason: why the interval is as wide as it is.
     """
 
     claim: str

@@ -7,6 +7,7 @@ all claims of records.
 """
 
 import json
+import re
 from collections import Counter
 
 import numpy as np
@@ -77,8 +78,8 @@ def summary(judged):
 def errata(place=""):
     """The errata of the source as a Markdown table: all, or those of a place such as "paper A"."""
     rows = ["| Where | The thesis says | Correct |", "|---|---|---|"]
-    return "\n".join([*rows, *(f"| {each.place} | {each.says} | {each.right} |" for each in ERRATA
-                               if place in each.place)])
+    rows += [f"| {each.place} | {each.says} | {each.right} |" for each in ERRATA if place in each.place]
+    return re.sub(r"\^([A-Z]+)", r"<sup>\1</sup>", "\n".join(rows))
 
 
 def save(page, claims=(), shares=None, letter=()):

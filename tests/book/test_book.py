@@ -1,5 +1,6 @@
 """The book's own Sphinx extensions, on small books: buttons that lead to the repository, and the reference pages."""
 
+import html
 import re
 import shutil
 import subprocess
@@ -131,6 +132,22 @@ def test_a_docstring_opens_with_a_sentence_and_lists_what_follows():
     lines = ["Speeds: float64 (steps,). step: seconds.", "", "seed: integer ≥ 0."]
     api_links.read_docstring(None, "function", "speed", None, None, lines)
     assert lines[0] == "Speeds: float64 (steps,)." and lines.count("``step``") == lines.count("``seed``") == 1
+
+
+def test_a_line_in_the_middle_of_a_sentence_is_no_item_however_it_begins():
+    lines = ["A cell.", "", "Its neighbours have", "none: an edge counts. All: of a map."]
+    api_links.read_docstring(None, "function", "cell", None, None, lines)
+    assert lines == ["A cell.", "", "Its neighbours have", "none: an edge counts.", "All: of a map."]
+
+
+def test_the_reference_has_defaults_as_in_code(make_book):
+    _, reference = make_book(modules=["neorl.agents.agent", "neorl.agents.rules", "neorl.evidence.calibration_table"])
+    signatures = " ".join(re.findall(r'<dt class="sig[^>]*>(.*?)</dt>', reference, re.DOTALL))
+    signatures = " ".join(html.unescape(re.sub(r"<[^>]+>", "", signatures)).split())
+    for written in ("learning: Learning = Learning(), policy: Policy = Policy(),", "choose: Callable = greedy)",
+                    "statistics: dict = dict())", "read_table(path=SHIPPED)"):
+        assert written in signatures
+    assert not re.search(r"[~<]|Path\(", signatures)
 
 
 def test_the_reference_has_every_module():

@@ -291,15 +291,31 @@ class Killed(BaseException):
     """In place of a signal."""
 
 
-@pytest.mark.parametrize("kill_at", range(4))
-def test_a_build_that_is_killed_while_it_replaces_the_book_leaves_a_whole_one_or_none(chapters, monkeypatch, kill_at):
+PAGES = ("index.html", "page.html")
+
+
+@pytest.fixture
+def made_pages(chapters, monkeypatch):
+    """In place of Sphinx, what makes two pages: a list that grows by one with each time."""
+    made = []
+
     def make_pages(command):
-        for page in pages:
+        made.append(command)
+        for page in PAGES:
             target = build.BUILT / "next" / "_build" / "html" / page
             target.parent.mkdir(parents=True, exist_ok=True)
             target.write_text("new")
         return 0
 
+    for name, value in (("BUILT", chapters), ("HTML", chapters / "html" / "index.html")):
+        monkeypatch.setattr(build, name, value)
+    monkeypatch.setattr(build.workers, "run", make_pages)
+    return made
+
+
+@pytest.mark.parametrize("kill_at", range(4))
+def test_a_build_that_is_killed_while_it_replaces_the_book_leaves_a_whole_one_or_none(chapters, monkeypatch, kill_at,
+                                                                                      made_pages):
     def remove(folder, ignore_errors=False):
         for path in sorted(Path(folder).rglob("*.html"), reverse=True):
             count_down()
@@ -311,12 +327,9 @@ def test_a_build_that_is_killed_while_it_replaces_the_book_leaves_a_whole_one_or
         if len(left) > kill_at:
             raise Killed
 
-    left, original, pages = [], shutil.rmtree, ("index.html", "page.html")
-    for name, value in (("BUILT", chapters), ("HTML", chapters / "html" / "index.html")):
-        monkeypatch.setattr(build, name, value)
-    monkeypatch.setattr(build.workers, "run", make_pages)
+    left, original = [], shutil.rmtree
     (chapters / "html").mkdir()
-    for page in pages:
+    for page in PAGES:
         (chapters / "html" / page).write_text("old")
     with monkeypatch.context() as patch, contextlib.suppress(Killed):
         patch.setattr(shutil, "rmtree", remove)
@@ -324,8 +337,18 @@ def test_a_build_that_is_killed_while_it_replaces_the_book_leaves_a_whole_one_or
     found = [path.read_text() for path in (chapters / "html").glob("*")]
     assert found in ([], ["old"] * 2, ["new"] * 2)
     build.build()
-    assert [(chapters / "html" / page).read_text() for page in pages] == ["new"] * 2
+    assert [(chapters / "html" / page).read_text() for page in PAGES] == ["new"] * 2
     assert sorted(path.name for path in chapters.iterdir()) == ["html", "inputs.txt"]
+
+
+@pytest.mark.parametrize("damage", [Path.unlink, lambda page: page.write_text("ne"), lambda page: page.write_text("")])
+def test_a_built_book_is_made_again_only_if_a_page_of_it_is_damaged(chapters, made_pages, damage):
+    build.build()
+    build.build()
+    assert len(made_pages) == 1
+    damage(chapters / "html" / PAGES[1])
+    build.build()
+    assert len(made_pages) == 2 and (chapters / "html" / PAGES[1]).read_text() == "new"
 
 
 def test_what_no_notebook_has_made_is_removed(notebook, chapters):

@@ -104,6 +104,7 @@ def test_errata_are_a_table_and_their_arithmetic_is_right():
     rows = report.errata().splitlines()[2:]
     assert len(rows) == len(ERRATA) and all(line.count(" | ") == 2 for line in rows)
     assert 3**2 + 7**2 + 23**2 == 587 and "587" in rows[0] and round(587 / 49) == 12 and "twelvefold" in rows[0]
+    assert "discriminatory stimuli S<sup>R</sup> –" in rows[5] and "^" not in "".join(rows)
 
 
 def test_errata_of_a_place_are_those_that_name_it():

@@ -2,6 +2,7 @@
 
 import os
 import signal
+import stat
 import subprocess
 import sys
 import time
@@ -241,6 +242,17 @@ def test_what_a_killed_process_was_writing_is_removed_when_it_is_old(tmp_path):
         os.utime(path, (0, 0))
     files.write_whole(folder / "new", b"whole")
     assert sorted(path.name for path in folder.iterdir()) == [young.name, other.name, "new"]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no file modes")
+@pytest.mark.parametrize("mask, mode", [(0o022, 0o644), (0o027, 0o640), (0o077, 0o600)])
+def test_a_kept_file_is_as_open_to_others_as_any_other_new_file(tmp_path, mask, mode):
+    before = os.umask(mask)
+    try:
+        files.write_whole(tmp_path / "new", b"whole")
+    finally:
+        os.umask(before)
+    assert stat.S_IMODE((tmp_path / "new").stat().st_mode) == mode
 
 
 def test_a_file_that_cannot_be_written_leaves_nothing(tmp_path, monkeypatch):
