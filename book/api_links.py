@@ -1,8 +1,8 @@
 """Sphinx extension: what the reference pages make of docstrings.
 
 Kernels are left out, since users of the package call the functions around them. The fields of a class are
-described by the comments beside them. Defaults are as one would write them. A name in single backticks links to its
-entry, if the reference has one.
+described by the comments beside them. Types and defaults are as one would write them. A name in single backticks
+links to its entry, if the reference has one.
 """
 
 import ast
@@ -12,19 +12,23 @@ import pydoc
 import re
 import textwrap
 
+from numpy.typing import ArrayLike
 from sphinx.util.nodes import make_refnode
+from sphinx.util.typing import stringify_annotation
 
 from neorl.core.kernel import Kernel
 
 ITEM = re.compile(r"(Raises|Returns) |([a-z_]\w*(?:,? \w+){0,3}): ")
 ENDS = (".", ".)", ";", ":")  # of what an item may follow: in the middle of a sentence, a line may begin like one
+ARRAY_LIKE = stringify_annotation(ArrayLike, "smart")
+ARRAY = re.compile(r"~numpy\.ndarray\[tuple\[~typing\.Any, \.\.\.\], ~numpy\.dtype\[([^]]+)\]\]")
 SENTENCE = re.compile(r"(?<=\.) (?=\w+(?:, \w+)*: )")
 
 
 def setup(app):
     app.setup_extension("sphinx.ext.autodoc")
     app.connect("autodoc-skip-member", skip_member)
-    app.connect("autodoc-process-signature", read_defaults)
+    app.connect("autodoc-process-signature", read_signature)
     app.connect("autodoc-process-docstring", read_docstring)
     app.connect("missing-reference", find_name)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
@@ -37,15 +41,17 @@ def skip_member(app, what, name, member, skip, options):
     return None
 
 
-def read_defaults(app, what, name, member, options, signature, returned):
-    """Write defaults as in code where Python has no code for them: made for each instance, or a kernel."""
+def read_signature(app, what, name, member, options, signature, returned):
+    """Write types and defaults as in code where Python has spelt them out, or has no code for them."""
     if not signature:
         return None
     if dataclasses.is_dataclass(member):
         for field in dataclasses.fields(member):
             if field.default_factory is not dataclasses.MISSING:
                 signature = signature.replace("<factory>", f"{field.default_factory.__name__}()", 1)
-    return re.sub(r"<kernel [\w.]*?(\w+)>", r"\1", signature), returned
+    signature = re.sub(r"<kernel [\w.]*?(\w+)>", r"\1", signature)
+    return tuple(each and ARRAY.sub(r"NDArray[\1]", each.replace(ARRAY_LIKE, "ArrayLike"))
+                 for each in (signature, returned))
 
 
 def read_docstring(app, what, name, member, options, lines):
@@ -77,7 +83,7 @@ def as_list(lines):
 
 def escaped(line):
     """A line of a docstring without what reStructuredText would take for markup."""
-    return re.sub(r"`(\w+)`(?=\w)", r"`\1`\\ ", line.replace("|", r"\|"))
+    return re.sub(r"`(\w+)`(?=\w)", r"`\1`\\ ", line.replace("|", r"\|").replace("−`", "−\\ `"))
 
 
 def find_name(app, env, node, content):

@@ -140,14 +140,18 @@ def test_a_line_in_the_middle_of_a_sentence_is_no_item_however_it_begins():
     assert lines == ["A cell.", "", "Its neighbours have", "none: an edge counts.", "All: of a map."]
 
 
-def test_the_reference_has_defaults_as_in_code(make_book):
-    _, reference = make_book(modules=["neorl.agents.agent", "neorl.agents.rules", "neorl.evidence.calibration_table"])
+def test_the_reference_has_types_and_defaults_as_in_code(make_book):
+    _, reference = make_book(modules=[f"neorl.{name}" for name in (
+        "agents.agent", "agents.rules", "checks", "drawing.curves", "evidence.calibration_table")])
     signatures = " ".join(re.findall(r'<dt class="sig[^>]*>(.*?)</dt>', reference, re.DOTALL))
     signatures = " ".join(html.unescape(re.sub(r"<[^>]+>", "", signatures)).split())
     for written in ("learning: Learning = Learning(), policy: Policy = Policy(),", "choose: Callable = greedy)",
-                    "statistics: dict = dict())", "read_table(path=SHIPPED)"):
+                    "statistics: dict = dict())", "read_table(path=SHIPPED)",
+                    "draw_curves(xs: ArrayLike, curves: Mapping[str, ArrayLike],", "(name: str, array: NDArray[",
+                    "→ NDArray[float64]"):
         assert written in signatures
-    assert not re.search(r"[~<]|Path\(", signatures)
+    assert not re.search(r"[~<]|Path\(|_Buffer|ndarray", signatures)
+    assert "−`" not in reference
 
 
 def test_the_reference_has_every_module():
