@@ -65,12 +65,14 @@ class Kernel:
 
     @property
     def dispatcher(self):
-        """What numba compiles it with, the same one for all threads."""
+        """What numba compiles it with for other kernels, the same one for all threads."""
         with _making:
             if "_dispatcher" not in vars(self):
                 import numba
 
-                self._dispatcher = numba.njit(**self.options)(self.py_func)
+                from neorl.core.linking import LinkedCompiler
+
+                self._dispatcher = numba.njit(**self.options, pipeline_class=LinkedCompiler)(self.py_func)
             return self._dispatcher
 
     @property
@@ -78,20 +80,25 @@ class Kernel:
         """What a kernel is for the kernels that call it, which numba asks for."""
         return self.dispatcher._numba_type_
 
-    @functools.cached_property
+    @property
     def for_python(self):
-        """The dispatcher of a kernel that Python calls: only such a one is kept, with all that is inlined into it."""
-        from neorl.core.compile_cache import CompileCache
+        """What numba compiles it with for Python: only this code is kept on disk, with all that is linked into it."""
+        with _making:
+            if "_for_python" not in vars(self):
+                import numba
 
-        self.dispatcher._cache = CompileCache(self)
-        self.dispatcher._compile_for_args = self._compile
-        return self.dispatcher
+                from neorl.core.compile_cache import CompileCache
+
+                self._for_python = numba.njit(**self.options)(self.py_func)
+                self._for_python._cache = CompileCache(self)
+                self._for_python._compile_for_args = self._compile
+            return self._for_python
 
     def _compile(self, *arguments, **by_name):
         from numba.core.errors import NumbaError
 
         try:
-            return type(self.dispatcher)._compile_for_args(self.dispatcher, *arguments, **by_name)
+            return type(self.for_python)._compile_for_args(self.for_python, *arguments, **by_name)
         except NumbaError as error:
             raise TypeError(f"{self!r} cannot be compiled, with all kernels that it calls: {str(error)[:MOST_WORDS]}"
                             ) from error

@@ -66,7 +66,7 @@ def only_when_compiled():
 def called(own):
     """What the kernel answers, and whether it was found on disk."""
     answer = execute(own.answer, own.Pair(1.0, 4.0))
-    return answer, sum(own.answer.dispatcher.stats.cache_hits.values()) == 1
+    return answer, sum(own.answer.for_python.stats.cache_hits.values()) == 1
 
 
 def kept():

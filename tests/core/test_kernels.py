@@ -35,15 +35,15 @@ def compiled():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(CompileCache, "load_overload", lambda *_: None)
         for each in {**KERNELS, **MADE}.values():
-            if each.dispatcher.stats.cache_hits:
-                each.dispatcher.recompile()
+            if each.for_python.stats.cache_hits:
+                each.for_python.recompile()
 
 
 def test_the_kernels_are_found():
     assert {"neorl.core.learning.learn_all_goals", "neorl.core.stream.uniform", "neorl.worlds.waterworld.step",
             "neorl.worlds.arena.step"} <= set(KERNELS)
     assert {"WaterWorld: rollout", "Arena: rollout", "WaterWorld: observe", "softmax"} <= set(MADE)
-    assert all(rollout.dispatcher.signatures for name, rollout in MADE.items() if name.endswith("rollout"))
+    assert all(rollout.for_python.signatures for name, rollout in MADE.items() if name.endswith("rollout"))
 
 
 @pytest.mark.parametrize("name", [*KERNELS, *MADE])
@@ -52,7 +52,7 @@ def test_a_kernel_has_the_options_of_all_and_calls_no_library(name):
     assert tested.dispatcher.targetoptions in [each(lambda: None).dispatcher.targetoptions
                                                for each in (kernel, inlined_kernel)]
     assert "fastmath" not in tested.dispatcher.targetoptions
-    for code in tested.dispatcher.inspect_llvm().values():
+    for code in (tested.dispatcher.inspect_llvm() | tested.for_python.inspect_llvm()).values():
         calls = [line for line in code.splitlines() if " call " in line and "@" in line]
         called = {line.split("@", 1)[1].split("(")[0] for line in calls}
         # What is left are other kernels (_ZN…), LLVM's own, and the wrapper that Python calls.
@@ -68,9 +68,18 @@ def test_a_kernel_that_allocates_does_not_compile():
         execute(allocate, 3)
 
 
-def test_the_goal_loop_compiles_to_vector_instructions():
-    code = "".join(learning.learn_all_goals.dispatcher.inspect_llvm().values())
+def test_the_goal_loop_compiles_to_vector_instructions(monkeypatch):
+    monkeypatch.setattr(CompileCache, "load_overload", lambda *_: None)
+    (signature,) = learning.learn_all_goals.dispatcher.signatures
+    learning.learn_all_goals.for_python.compile(signature)
+    code = learning.learn_all_goals.for_python.inspect_llvm(signature)
     assert "x float> " in code and "fmul <" in code
+
+
+def test_a_kernel_within_kernels_is_linked_and_has_no_code_of_its_own():
+    (made,) = learning.learn_all_goals.dispatcher.overloads.values()
+    functions = [each.name for each in made.library.get_defined_functions()]
+    assert functions and not any(map(made.library.get_pointer_to_function, functions))
 
 
 def test_agents_of_any_network_share_one_compilation():
@@ -80,7 +89,7 @@ def test_agents_of_any_network_share_one_compilation():
             Run(agent, world, seed=0).advance(10)
             rollouts.add(rollout_in(world.dynamics, constants_of(agent, world)))
     (rollout,) = rollouts
-    assert len(rollout.dispatcher.signatures) == 1
+    assert len(rollout.for_python.signatures) == 1
 
 
 @pytest.mark.parametrize("name", KERNELS)

@@ -164,7 +164,7 @@ def test_a_number_of_another_type_compiles_nothing_anew():
     Run(agent, world).advance(1)
     assert rollout_in(world.dynamics, constants_of(agent, world)) is rollout_in(
         TANK.dynamics, constants_of(place_cells([3]), TANK))
-    assert len(rollout_in(TANK.dynamics, constants_of(agent, TANK)).dispatcher.signatures) == 1
+    assert len(rollout_in(TANK.dynamics, constants_of(agent, TANK)).for_python.signatures) == 1
 
 
 @pytest.mark.parametrize("make", [lambda: Learning(terminal=1), lambda: Learning(bootstrap=0.0),
