@@ -1,19 +1,19 @@
 """neorl: agents that navigate by neural representations of Euclidean space, and the experiments of their thesis.
 
-An `Agent` is a network of `Node`s and `Desire`s, a node tiles the space of a `Modality`, and `simulate` lets agents
-live in `WaterWorld`, an `Arena`, an `Arm`, a `Vessel`, a `WaterMaze` or another `World`; `sweep` does many `Condition`s
-at a time. A `Learner` is an agent in a loop of the user's own. The agents of the papers are values of these types.
+An `Agent` is a network of `Node`s and `Desire`s; each node tiles the space of a `Modality`. `simulate` runs agents in
+`WaterWorld`, an `Arena`, an `Arm`, a `Vessel`, a `WaterMaze` or any other `World`; `sweep` runs many `Condition`s in
+parallel. A `Learner` is an agent for a loop of the user's own. The agents of the papers are values of these types.
 
-The package is built in rooms, and a module imports only from its own room and from those below:
+The package is organised in rooms; a module imports only from its own room and from the rooms below it:
 
-- `neorl.chapters`: what the notebooks of the book run and draw;
-- `neorl.browser`: the kernels in a page, and the Explorer that runs them there;
+- `neorl.chapters`: the experiments and figures of the book's notebooks;
+- `neorl.browser`: the kernels compiled for web pages, and the Explorer that runs them there;
 - `neorl.drawing`: figures;
-- `neorl.gym`: worlds as Gymnasium environments, and agents in those of others;
+- `neorl.gym`: worlds as Gymnasium environments, and agents in any Gymnasium environment;
 - `neorl.evidence`: statistics, claims and their rules, readings of the thesis and their calibration;
-- `neorl.experiments`: runs, sweeps, and what is finished kept on disk;
+- `neorl.experiments`: runs, sweeps, and the cache of finished ones;
 - `neorl.agents`: agents as data, and the `Learner`;
-- `neorl.worlds`: what a world is, WaterWorld and others, and an agent's rollout in them;
+- `neorl.worlds`: the interface of worlds, WaterWorld and others, and the rollout of an agent in them;
 - `neorl.core`: the kernels, scenes, modalities and maps.
 """
 
@@ -50,7 +50,7 @@ __all__ = ["Actions", "Agent", "Arena", "Arm", "Axis", "CARDINAL", "Condition", 
 
 
 def __getattr__(name):
-    if name == "Explorer":  # imported when asked for, since the rest of the package does without anywidget
+    if name == "Explorer":  # imported on demand: the rest of the package does not need anywidget
         from neorl.browser.explorer import Explorer
         return Explorer
     raise AttributeError(f"module 'neorl' has no attribute {name!r}")

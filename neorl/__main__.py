@@ -1,4 +1,4 @@
-"""``python -m neorl``: run an experiment that a file describes, or see what is kept on disk."""
+"""``python -m neorl``: run an experiment described by a file, or inspect the cache on disk."""
 
 import sys
 

@@ -1,7 +1,7 @@
-"""Checks of what users pass in: each returns the value, or raises a ValueError that names argument, value and rule.
+"""Checks of user input: each returns the value, or raises a ValueError that names the argument, its value and the rule.
 
-Numbers may be NumPy's and arrays of no axis. They are finite, and not above `LARGEST`, so that sums and products of
-several do not overflow; what they are divided by is not below `SMALLEST`.
+NumPy scalars and zero-dimensional arrays count as numbers. Numbers are finite and at most `LARGEST` in magnitude, so
+that sums and products of several do not overflow; divisors are at least `SMALLEST`.
 """
 
 import math
@@ -29,11 +29,11 @@ _REPR.maxstring = _REPR.maxother = _REPR.maxlong = 500
 
 
 def shown(value: object) -> str:
-    """The repr of a value for a message, cut short, or its type if there is none."""
+    """The repr of a value for a message, truncated; its type if the repr fails."""
     try:
         text = _REPR.repr(value)
         return text if len(text) <= LONGEST else f"{text[:LONGEST // 2]}…{text[-LONGEST // 4:]}"
-    except Exception:  # a repr of the user's own, or that of an integer with too many digits
+    except Exception:  # a user-defined repr, or that of an integer with too many digits
         return f"a value of type {type(value).__name__}"
 
 
@@ -51,7 +51,7 @@ def integer(name: str, value: Any, at_least: int, at_most: int | None = None) ->
 
 
 def real(name: str, value: Any, at_least: float = -LARGEST, at_most: float = LARGEST) -> float:
-    """`value` as a float, if it is a number in the range; −0.0 as 0.0, since equal values are the same in every way."""
+    """`value` as a float, if it is a number in the range; −0.0 becomes 0.0, so that equal values are identical."""
     number = plain(value)
     if isinstance(number, numbers.Real) and not isinstance(number, bool):
         try:
@@ -65,20 +65,20 @@ def real(name: str, value: Any, at_least: float = -LARGEST, at_most: float = LAR
 
 
 def positive(name: str, value: Any) -> float:
-    """`value` as a float, if it is a number from `SMALLEST` on."""
+    """`value` as a float, if it is a number ≥ `SMALLEST`."""
     return real(name, value, SMALLEST)
 
 
 def one_of(name: str, value: Any, allowed: Iterable[Kind]) -> Kind:
-    """The one of `allowed` that `value` is."""
+    """The member of `allowed` that equals `value`."""
     for each in allowed:
-        if isinstance(value, type(each)) and type(each).__eq__(each, value) is True:  # whatever a subclass has for it
+        if isinstance(value, type(each)) and type(each).__eq__(each, value) is True:  # not that of a subclass
             return each
     raise ValueError(f"{name} is {shown(value)}, allowed are {', '.join(map(repr, allowed))}")
 
 
 def several(name: str, values: Any) -> tuple[Any, ...]:
-    """`values` as a tuple, if they are a list, a tuple, a range or an array of `MOST` values or fewer."""
+    """`values` as a tuple, if they are a list, a tuple, a range or an array of at most `MOST` values."""
     if isinstance(values, list | tuple | range) or isinstance(values, np.ndarray) and values.ndim:
         if _is_short(values):
             return tuple(values)
@@ -92,7 +92,7 @@ def flag(name: str, value: Any) -> bool:
 
 
 def finite(name: str, array: NDArray, at_most: float = LARGEST) -> NDArray:
-    """`array`, if every number in it is from −`at_most` to `at_most`."""
+    """`array`, if all its numbers lie between −`at_most` and `at_most`."""
     if np.all(np.abs(array) <= at_most):
         return array
     raise ValueError(f"{name} is {shown(array)}, allowed are finite numbers from {-at_most:g} to {at_most:g}")
@@ -110,20 +110,20 @@ def doubles(name: str, values: Any, at_most: float = LARGEST) -> NDArray[np.floa
         array = np.array(None)
     if array.dtype.kind not in "fiub":
         raise ValueError(f"{name} is {shown(values)}, allowed are numbers, in lists of equal lengths")
-    with np.errstate(over="ignore"):  # longer numbers than doubles, which are infinite then
+    with np.errstate(over="ignore"):  # wider floats than doubles, which may become infinite
         return finite(name, np.array(array, float, order="C"), at_most)
 
 
 def points(name: str, values: Any, axes: Sequence[str]) -> NDArray[np.float64]:
-    """`values` as an array (…, axes) of doubles, if they are finite and have a coordinate for each of the axes."""
-    array = doubles(name, values, sys.float_info.max)  # beyond the range of a map they are in the cell at its end
+    """`values` as an array (…, axes) of doubles, if they are finite and have one coordinate per axis."""
+    array = doubles(name, values, sys.float_info.max)  # points beyond a map's range are in the cell at its end
     if array.ndim == 0 or array.shape[-1] != len(axes):
         raise ValueError(f"{name} has the shape {array.shape}, allowed are (…, {len(axes)}): {', '.join(axes)}")
     return array
 
 
 def instance(name: str, value: Any, kind: type[Kind]) -> Kind:
-    """`value`, if it is of the kind."""
+    """`value`, if it is an instance of `kind`."""
     if isinstance(value, kind):
         return value
     article = "an" if kind.__name__[0] in "AEIOU" or kind is np.ndarray else "a"
@@ -131,7 +131,7 @@ def instance(name: str, value: Any, kind: type[Kind]) -> Kind:
 
 
 def plain(value):
-    """A number as Python's own, such as one of NumPy's, an array of no axis or a fraction; anything else as it is."""
+    """A NumPy scalar, zero-dimensional array or fraction as a Python number; anything else unchanged."""
     if isinstance(value, np.generic | np.ndarray) and value.ndim == 0:
         return value.item()
     try:
@@ -158,7 +158,7 @@ def path(name: str, value: Any) -> Path:
 
 
 class Final:
-    """A class that kernels read by its fields alone, and that therefore has no subclasses."""
+    """Base of classes that kernels read by their fields alone, and that therefore cannot be subclassed."""
 
     def __init_subclass__(cls, **keywords: Any) -> None:
         super().__init_subclass__(**keywords)
@@ -168,6 +168,6 @@ class Final:
 
 
 def assign(instance: object, **values: Any) -> None:
-    """Put checked values into the fields of a frozen dataclass, so that equal values are the same in every way."""
+    """Set fields of a frozen dataclass to their checked values, so that equal instances are identical."""
     for name, value in values.items():
         object.__setattr__(instance, name, value)

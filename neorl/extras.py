@@ -1,4 +1,4 @@
-"""Packages that only parts of neorl need, imported when they are used."""
+"""Packages that only parts of neorl need, imported on use."""
 
 import importlib
 

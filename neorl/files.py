@@ -1,7 +1,7 @@
-"""Files that are complete or absent, whatever moment the process is killed at, and the folder of those that may go.
+"""Files that are complete or absent, even if the process is killed while writing them, and the cache folder.
 
-What takes long to make is kept in the folder that the environment variable ``NEORL_CACHE`` names, or in the user's
-cache folder; all of it may be deleted at any time. What a killed process was writing is removed by a later one.
+Whatever takes long to compute is kept in the folder named by the environment variable ``NEORL_CACHE``, or in the user's
+cache folder; all of it may be deleted at any time. What a killed process left unfinished is removed by a later one.
 """
 
 import contextlib
@@ -18,23 +18,23 @@ import numpy as np
 import platformdirs
 
 DIGEST_BYTES = hashlib.sha256().digest_size
-UNFINISHED = (".neorl-", ".tmp")  # how the name of a file that is being written begins and ends
-STALE_SECONDS = 3_600  # since its last byte: no process writes on after that
-FORMAT = 1  # of files of arrays
+UNFINISHED = (".neorl-", ".tmp")  # prefix and suffix of the name of a file being written
+STALE_SECONDS = 3_600  # since the last write: by then no process is still writing
+FORMAT = 1  # the version of array files
 
 
 def cache_folder():
-    """Where what may be deleted is kept: a `pathlib.Path`."""
+    """The folder of files that may be deleted at any time: a `pathlib.Path`."""
     return Path(os.environ.get("NEORL_CACHE") or platformdirs.user_cache_path("neorl-companion"))
 
 
 def write_whole(path, content):
-    """Write bytes to a file that others see complete or not at all. Raises OSError, and leaves nothing behind then."""
+    """Write bytes to a file that is complete or absent at any time. Raises OSError, and then leaves nothing behind."""
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     _remove_stale(path.parent)
     prefix, suffix = UNFINISHED
-    unfinished = path.parent / f"{prefix}{uuid.uuid4().hex}{suffix}"  # `tempfile` would shut others out of the file
+    unfinished = path.parent / f"{prefix}{uuid.uuid4().hex}{suffix}"  # `tempfile` would deny other users access
     try:
         with open(unfinished, "xb") as file:
             file.write(content)
@@ -47,9 +47,9 @@ def write_whole(path, content):
         raise
 
 
-@functools.cache  # a look at every name in the folder, so once a process is enough
+@functools.cache  # it goes through the whole folder, so once per process is enough
 def _remove_stale(folder):
-    """Remove what killed processes have left half-written in a folder."""
+    """Remove the unfinished files of killed processes from a folder."""
     with contextlib.suppress(OSError):
         for path in folder.glob("*".join(UNFINISHED)):
             if time.time() - path.stat().st_mtime > STALE_SECONDS:
@@ -57,12 +57,12 @@ def _remove_stale(folder):
 
 
 def write_checked(path, content):
-    """Write bytes to a file, after a digest of them."""
+    """Write bytes to a file, preceded by their digest."""
     write_whole(path, hashlib.sha256(content).digest() + content)
 
 
 def read_checked(path):
-    """What `write_checked` has written, or None if there is no such file or it is damaged."""
+    """The bytes written by `write_checked`, or None if the file is missing or damaged."""
     try:
         content = path.read_bytes()
     except OSError:
@@ -71,9 +71,9 @@ def read_checked(path):
 
 
 def write_arrays(path, kind, about, arrays, write=np.savez):
-    """Write arrays to an npz file, with a readable text about them in JSON, and a digest.
+    """Write arrays to an npz file, with readable metadata in JSON, and a digest.
 
-    kind, about: what is written, and a dict about it. write: `numpy.savez` or `numpy.savez_compressed`.
+    kind, about: the kind of content, and its metadata, a dict. write: `numpy.savez` or `numpy.savez_compressed`.
     """
     about = {"format": FORMAT, "is": kind, **about, "digest": _digest(arrays)}
     content = io.BytesIO()
@@ -82,7 +82,7 @@ def write_arrays(path, kind, about, arrays, write=np.savez):
 
 
 def read_arrays(path, kind):
-    """What `write_arrays` has written: (about, arrays).
+    """The metadata and arrays written by `write_arrays`: (about, arrays).
 
     Raises OSError if there is no such file, ValueError if it is damaged, or of another kind or version.
     """
@@ -92,7 +92,7 @@ def read_arrays(path, kind):
                 arrays = {name: file[name] for name in file.files}
             about = json.loads(str(arrays.pop("about")))
             digest, known, holds = about["digest"], about.get("format"), about.get("is")
-        except Exception as error:  # whatever zip, NumPy and JSON make of the content of another file
+        except Exception as error:  # zip, NumPy and JSON may raise anything for a foreign file
             raise ValueError(f"{path} is damaged, or was not written by neorl: {error!r}") from error
     if isinstance(known, int) and known > FORMAT:
         raise ValueError(f"{path} is of format {known}, which a newer neorl has written, allowed is {FORMAT}")

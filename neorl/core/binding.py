@@ -1,7 +1,7 @@
-"""Calls of a kernel with the same arguments again and again, at the cost of one argument.
+"""Repeated calls of a kernel with the same arguments, at the cost of passing one.
 
-An agent is some eighty arrays, and handing them from Python to compiled code takes ten microseconds. So their addresses
-are put into a table once, and a compiled entry finds them there.
+An agent consists of some eighty arrays, and passing them from Python to compiled code takes ten microseconds. So their
+addresses are put into a table once, and a compiled entry point reads them from it.
 """
 
 import functools
@@ -12,7 +12,7 @@ from neorl.core.kernel import Kernel, execute, fields, is_tuple, kernel_maker
 
 
 def bound(called, *arguments):
-    """A function without arguments that executes a kernel with these named tuples of arrays and numbers."""
+    """A function without arguments that executes a kernel on these named tuples of arrays and numbers."""
     if not isinstance(called, Kernel):
         return lambda: execute(called, *arguments)
     numbers, table = [], []
@@ -48,11 +48,11 @@ def _entry(called):
     kinds = [kind for name, kind in fields(called).items() if name != "return"]
     source = f"def entry(table, numbers):\n    return called({', '.join(_taken(kind, scope, place) for kind in kinds)})"
     exec(source, scope)
-    return Kernel(scope["entry"], {"error_model": "numpy", "nogil": True})  # an array of an address needs _nrt
+    return Kernel(scope["entry"], {"error_model": "numpy", "nogil": True})  # making an array from an address needs _nrt
 
 
 def _taken(kind, scope, place):
-    """The expression that makes a value from the table and the numbers, from a place in each that it moves on."""
+    """The expression that reads a value from the table or the numbers; advances `place`, the positions in both."""
     if is_tuple(kind):
         scope[kind.__name__] = kind
         return f"{kind.__name__}({', '.join(_taken(each, scope, place) for each in fields(kind).values())})"
@@ -72,7 +72,7 @@ def _taken(kind, scope, place):
 
 @functools.cache
 def _pointer_to(dtype):
-    """A function of compiled code from an address to the pointer to an array."""
+    """A function for compiled code that turns an address into a pointer to an array."""
     from numba import from_dtype, types
     from numba.extending import intrinsic
 

@@ -1,4 +1,4 @@
-"""What the kernels know by number; everywhere else it goes by these names."""
+"""Choices that kernels know by number; everywhere else they go by these names."""
 
 from enum import IntEnum
 
@@ -8,7 +8,7 @@ UpdateOn = IntEnum("UpdateOn", "cell step", start=0)
 Credit = IntEnum("Credit", "share happened last count activity own", start=0)
 Capture = IntEnum("Capture", "contact leap silent", start=0)
 Attention = IntEnum("Attention", "each nearest wanted", start=0)
-Vector = IntEnum("Vector", "position velocity objects boundaries landmarks own", start=0)  # what an axis starts from
-Feature = IntEnum("Feature", "component foveated margin length direction", start=0)  # what it keeps of that
-Cut = IntEnum("Cut", "equal closed boundaries", start=0)  # of an axis into intervals; closed: that is no direction
+Vector = IntEnum("Vector", "position velocity objects boundaries landmarks own", start=0)  # that an axis is based on
+Feature = IntEnum("Feature", "component foveated margin length direction", start=0)  # of that vector, along an axis
+Cut = IntEnum("Cut", "equal closed boundaries", start=0)  # of an axis into intervals; closed: other than a direction
 Action = IntEnum("Action", "N S E W no_op", start=0)  # of worlds whose actions are `scene.CARDINAL`

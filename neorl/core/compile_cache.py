@@ -1,9 +1,9 @@
-"""Compiled kernels on disk, so that a process need not compile what another has compiled.
+"""Compiled kernels on disk, so that a process need not recompile the kernels of another.
 
-A kernel that is called from Python is kept with all that is inlined into it, under a key of all that its code was made
-from: the source of the rooms `core` and `worlds`, the source and constants of every kernel of the user's own, the types
-that it takes, numba, LLVM and the processor. So nothing needs to be cleared after a change, and what is deleted is
-compiled again. A file is whole or absent; one that is damaged, or cannot be read or written, is as good as absent.
+A kernel called from Python is cached with everything inlined into it, under a key of all that its code depends on: the
+source of the rooms `core` and `worlds`, the source and constants of every user-defined kernel, the types of its
+arguments, numba, LLVM and the processor. So the cache need not be cleared after a change, and deleted files are
+compiled again. A file is complete or absent; one that is damaged, or cannot be read or written, counts as absent.
 """
 
 import hashlib
@@ -21,18 +21,18 @@ from neorl import files
 from neorl.core.identity import digest_of_source, identity, name_of
 
 
-SETTINGS = ("BOUNDSCHECK", "LOOP_VECTORIZE", "OPT", "SLP_VECTORIZE")  # of numba, that change compiled code
+SETTINGS = ("BOUNDSCHECK", "LOOP_VECTORIZE", "OPT", "SLP_VECTORIZE")  # of numba that affect compiled code
 
 
 class CompileCache(NullCache):
-    """What numba asks for the compiled code of one kernel."""
+    """The cache that numba asks for the compiled code of one kernel."""
 
     def __init__(self, kernel):
         self._kernel = kernel
 
     @property
     def cache_path(self):
-        """The folder of all kernels."""
+        """The folder of all compiled kernels."""
         return str(files.cache_folder() / "compiled")
 
     def load_overload(self, sig, target_context):
@@ -44,11 +44,11 @@ class CompileCache(NullCache):
             return None
         try:
             return CompileResult._rebuild(target_context, *pickle.loads(content))
-        except (ImportError, AttributeError):  # a type that is not where it was
+        except (ImportError, AttributeError):  # a type that has moved or gone
             return None
 
     def save_overload(self, sig, data):
-        """Keep what was compiled for a signature."""
+        """Cache the code compiled for a signature."""
         path = self._path(sig, data.codegen)
         if path is None:
             return
@@ -69,7 +69,7 @@ class CompileCache(NullCache):
 
 
 def _name_of(kind):
-    """The name of a type of numba, for a named tuple with those of its fields."""
+    """The name of a numba type; for a named tuple, with the types of its fields."""
     if not isinstance(kind, types.BaseNamedTuple):
         return str(kind)
     of_fields = [f"{name}: {_name_of(each)}" for name, each in zip(kind.fields, kind)]

@@ -1,6 +1,6 @@
-"""The constants of an agent's compiled code: kernels of the user's own, and the numbers of actions and axes.
+"""The constants of an agent's compiled code: user-defined kernels, and the numbers of actions and axes.
 
-They are constants so that the loops of every step are unrolled, and a function of the user's own costs no call.
+As constants, they let the loops of every step be unrolled and user-defined functions be called at no cost.
 """
 
 from typing import NamedTuple
@@ -13,22 +13,22 @@ from neorl.core.kernel import Kernel, kernel, kernel_maker
 class Constants(NamedTuple):
     """What is compiled into an agent's kernels."""
 
-    feature: Kernel  # (number, scene, point) → the coordinate along an axis of the user's own
+    feature: Kernel  # (number, scene, point) → the coordinate along a user-defined axis
     credit: Kernel  # (count, steps, last, activity) → ψ of an event, if the credit is `choices.Credit.own`
     choose: Kernel  # (value, stream) → the action
-    actions: tuple  # their numbers; the length of a tuple is part of its type, and so known where loops are compiled
+    actions: tuple  # their numbers; a tuple's length is part of its type, so it is known when loops are compiled
     axes: tuple  # the numbers of the world's axes
 
 
 @kernel
 def no_credit(count, steps, last, activity):
-    """The credit of an agent that has none of the user's own."""
+    """The placeholder for agents without a user-defined credit rule."""
     return 0.0
 
 
 @kernel_maker
 def features(*kernels):
-    """One kernel (number, scene, point) for any number of kernels (scene, point)."""
+    """One kernel (number, scene, point) that selects among any number of kernels (scene, point)."""
     if not kernels:
         @kernel
         def feature(number, scene, point):

@@ -1,21 +1,22 @@
-"""How a node learns of contacts alone, and what it then makes of the things around: beyond the thesis.
+"""Nodes whose only goals are contacts: how they learn, and how they value actions among things. Beyond the thesis.
 
-Such a node's maps hold no value for every cell. Of each action in a cell they know two general value functions, both
-discounted by time, both learned off policy, for every thing alike, whatever it is worth:
+The maps of such a node hold no value for each goal cell. For each action in a cell they hold two general value
+functions, discounted by time and learned off-policy, the same for every thing, whatever its worth:
 
 - *approach*, the value of a contact to an agent that seeks one: max over the next actions (eq. 4.6);
 - *fear*, its value to an agent that would flee: min over the next actions. It stays near 0 while there is a way out.
 
-1. After every step, the action taken moves its two values towards what the cell entered is worth, a contact being worth
-   1, at the rate n^(−3/4) after n visits, or at the learning rate if that is more.
-2. The maps of a node learn together, coarsest first. The value of an action is that of the coarsest map, from which
-   each finer map takes it nearer to its own by n / (n + familiarity). This is what all of them learn from, and what an
-   action begins with that a finer map has never seen.
-3. A contact is remembered back: each action on the way to it whose approach falls short of what the contact was worth
-   then moves there by the trace rate, and none is lowered (section 4.1.3: occurrence affects learning positively).
-4. Cells may be *mirrored*: reflections along the axes of the world and exchanges of two of them do not change a cell.
-   A cell's actions are then those of the mirrored world. Which of the mirror images it is, is called the *frame*.
-5. Of all things of positive worth, the one counts whose approach is worth most. Fears add.
+1. After every step, the two values of the action taken move towards the value of the cell entered, or 1 for a contact,
+   at the rate n^(−3/4) after n visits, or at the learning rate if that is higher.
+2. The maps of a node learn together, coarsest first. The value of an action is that of the coarsest map, which each
+   finer map in turn moves towards its own by the fraction n / (n + familiarity). All maps bootstrap from this value,
+   and an action that a finer map has not seen yet starts from it.
+3. A contact is credited backwards: if the approach of an action on the way to it is below the value that the contact
+   had at that step, it moves there at the trace rate; none is lowered (section 4.1.3: occurrence affects learning
+   positively).
+4. Cells may be *mirrored*, that is, invariant under reflections along the axes of the world and exchanges of two axes.
+   The actions of a cell are then those of the mirrored world. Each mirror image is called a *frame*.
+5. Of all things of positive worth, only the one whose approach is worth most counts. Fears add up.
 
 `scene` is what the agent perceives of its world (`neorl.core.scene.Scene`).
 """
@@ -31,15 +32,15 @@ from neorl.core.parameters import ENTRIES
 from neorl.core.scene import ABSENT
 
 APPROACH, FEAR, VISITS = range(3)
-MOST_VISITS = 1e6  # that are counted; a count is a float32
+MOST_VISITS = 1e6  # counted at most; a count is a float32
 
 
 @inlined_kernel
 def mirror(parameters, constants, n, coordinates):
-    """Mirror coordinates in place so that those of the first vector are ≥ 0 and fall; returns the number of the frame.
+    """Mirror coordinates in place so that those of the first vector are ≥ 0 and descending; return the frame's number.
 
-    Vectors follow one another in `coordinates`, with a component along every axis of the world. Where one decides
-    nothing, the next one does.
+    Vectors follow one another in `coordinates`, with a component along every axis of the world. Where a component is 0,
+    that of the next vector decides the sign.
     """
     n_axes, end = len(constants.axes), parameters.nodes.first_axis[n + 1] - parameters.nodes.first_axis[n]
     frame, flips, orders = 0, 1, 1
@@ -69,7 +70,7 @@ def mirror(parameters, constants, n, coordinates):
 
 @inlined_kernel
 def seen_cells(parameters, constants, state, n):
-    """Turn state.coordinates into the cell of every map of a node, in state.seen; returns the frame."""
+    """Find the cell of state.coordinates in every map of a node, into state.seen; return the frame."""
     frame = 0
     if parameters.nodes.mirrored[n]:
         frame = mirror(parameters, constants, n, state.coordinates)
@@ -80,13 +81,13 @@ def seen_cells(parameters, constants, state, n):
 
 @inlined_kernel
 def entry_of(parameters, constants, m, cell, event):
-    """Where in q the values of an event in a cell of a map are."""
+    """The index in q of the values of an event in a cell of a map."""
     return np.uint64(parameters.maps.first_value[m] + (cell * len(constants.actions) + event) * ENTRIES)
 
 
 @kernel
 def blended(parameters, constants, state, n, event, which):
-    """The approach or the fear of an event, by all maps of a node, in the cells of state.seen."""
+    """The approach or fear of an event in the cells of state.seen, blended over all maps of a node."""
     q, first = state.values.q, parameters.nodes.first_map[n]
     value = np.float64(q[entry_of(parameters, constants, first, state.seen[first], event) + which])
     for m in range(np.uint64(first + 1), np.uint64(parameters.nodes.first_map[n + 1])):
@@ -100,7 +101,7 @@ def blended(parameters, constants, state, n, event, which):
 
 @inlined_kernel
 def see_track(parameters, state, n, point):
-    """Let state.seen be the cells that a point of a node is in; returns the frame."""
+    """Copy the cells that a point of a node is in to state.seen; return the frame."""
     maps, track = parameters.maps, np.uint64(0)
     for m in maps_of(parameters.nodes, n):
         track = np.uint64(maps.first_track[m] + point)
@@ -110,7 +111,7 @@ def see_track(parameters, state, n, point):
 
 @inlined_kernel
 def follow(parameters, state, n, point, frame, absent):
-    """Let the tracks of a point be in the cells of state.seen, or nowhere."""
+    """Move the tracks of a point to the cells of state.seen, or to none if it is absent."""
     for m in maps_of(parameters.nodes, n):
         track = np.uint64(parameters.maps.first_track[m] + point)
         state.tracks.cell[track], state.contacts.frame[track] = ABSENT if absent else state.seen[m], frame
@@ -118,7 +119,7 @@ def follow(parameters, state, n, point, frame, absent):
 
 @kernel
 def begin_contacts(parameters, constants, state, scene, n, point):
-    """Start the tracks of a point where it is now, with nothing that led there."""
+    """Start the tracks of a point at its present place, without a history."""
     locate(parameters, constants, scene, n, point, False, state.offset, state.coordinates)
     follow(parameters, state, n, point, seen_cells(parameters, constants, state, n), scene.kinds[point] < 0)
     for m in maps_of(parameters.nodes, n):
@@ -127,7 +128,7 @@ def begin_contacts(parameters, constants, state, scene, n, point):
 
 @kernel
 def observe_contacts(parameters, constants, state, scene, n, point):
-    """Let the maps of a node learn from what the last step has done to one thing, and follow it."""
+    """Learn, in the maps of a node, from the effect of the last step on one thing, and follow the thing."""
     maps, contacts, event = parameters.maps, parameters.contacts, state.last_event[0]
     first_track = np.uint64(maps.first_track[parameters.nodes.first_map[n]] + point)
     met, absent = scene.met[point] != 0, scene.kinds[point] < 0
@@ -154,7 +155,7 @@ def observe_contacts(parameters, constants, state, scene, n, point):
 
 @inlined_kernel
 def learn_step(parameters, constants, state, n, point, event, approach, fear):
-    """Move the values of an event, in the cells that a thing was in, towards what it has led to."""
+    """Move the values of an event, in the cells that a thing was in, towards its outcome."""
     q, contacts = state.values.q, parameters.contacts
     coarser, feared = 0.0, 0.0
     for m in maps_of(parameters.nodes, n):
@@ -182,7 +183,7 @@ def learn_step(parameters, constants, state, n, point, event, approach, fear):
 
 @kernel
 def remember_back(contacts, state, track):
-    """Raise the approach of the actions that led to a contact, from the last but one back."""
+    """Raise the approach of the actions that led to a contact, backwards from the last but one."""
     q, left, count, worth = state.values.q, state.contacts.left, state.contacts.count[track], 1.0
     for back in range(2, min(count, left.shape[1]) + 1):
         worth *= contacts.discount
@@ -194,7 +195,7 @@ def remember_back(contacts, state, track):
 
 @kernel
 def evaluate_contacts(parameters, constants, state, scene, n):
-    """What the desires of a node add to its Q-vector, into state.desires: see rule 5 of this module."""
+    """Compute the contributions of a node's desires to its Q-vector, in state.desires: see rule 5 of this module."""
     nodes, chosen, desires, contacts = parameters.nodes, parameters.desires, state.desires, parameters.contacts
     most, best = -1.0, -1
     for i in range(nodes.first_input[n], nodes.first_input[n + 1]):
@@ -230,7 +231,7 @@ def evaluate_contacts(parameters, constants, state, scene, n):
             if adds or highest > most:
                 if not adds:
                     most = highest
-                    if best >= 0:  # the one before does not count
+                    if best >= 0:  # the previous best no longer counts
                         for action in range(len(constants.actions)):
                             desires.q[best, action] -= state.favourite[action]
                     best = e
@@ -243,10 +244,10 @@ def evaluate_contacts(parameters, constants, state, scene, n):
 
 @inlined_kernel
 def learn_worth(parameters, state, scene):
-    """Let desires for kinds of things learn what these are worth, from what they have paid (Rescorla and Wagner 1972).
+    """Learn, for desires, the worth of kinds of things from the rewards on meeting them (Rescorla and Wagner 1972).
 
-    What a step pays beyond what was expected of the things met in it is shared by their kinds, at the rate 1 / n for
-    the n-th time, or a tenth if that is more.
+    The reward of a step beyond the worths of the things met in it updates the worth of each of their kinds, at the rate
+    1 / n for the n-th meeting, or a tenth if that is higher.
     """
     chosen, desires = parameters.desires, state.desires
     surprise = state.reward[0]

@@ -1,14 +1,14 @@
 """Agents, worlds and conditions as plain data, ready for TOML and JSON, and back.
 
-- A frozen dataclass is a table of its fields, {field: value, …}. Where its place leaves open what it is, such as that
-  of a world, the table names it: {"is": "WaterWorld", …}. It may also name a function for an agent of the papers, and
-  what that takes: {"is": "place_cells", "resolutions": [3, 7]}.
-- A kernel is {"kernel": "module:name"}, or, if a function of the user's has made it (`neorl.kernel_maker`),
+- A frozen dataclass is a table of its fields, {field: value, …}. Where its place does not determine its type, as for a
+  world, the table names it: {"is": "WaterWorld", …}. It may also name a function that makes an agent of the papers,
+  with its arguments: {"is": "place_cells", "resolutions": [3, 7]}.
+- A kernel is {"kernel": "module:name"}, or, if a function has made it (`neorl.kernel_maker`),
   {"kernel": "module:name of the function", "of": arguments}.
-- A text where a table is expected is the name of a modality, "place cell", or of a constant, "module:NAME".
-- A tuple is a list. None is left out where it is the default, since TOML has no word for it.
+- A text in place of a table is the name of a modality, "place cell", or of a constant, "module:NAME".
+- A tuple is a list. None is left out where it is the default, since TOML cannot express it.
 
-A name without a module is one of `neorl`'s. A module that is named is imported, so a file is as good as a program.
+A name without a module is one of `neorl`'s. A named module is imported, so a file can run code just as a program can.
 """
 
 import difflib
@@ -35,20 +35,21 @@ PLAIN = {bool: "true or false", int: "an integer", float: "a number", str: "a te
 
 
 class Described:
-    """A frozen dataclass whose values can be written as plain data, and read again to an equal value of equal key."""
+    """A frozen dataclass that can be written as plain data, and read back as an equal value with the same key."""
 
     def to_dict(self) -> dict[str, Any]:
         """The value as plain data, see `neorl.core.description`.
 
-        Raises ValueError for what no name finds again, such as a kernel within a function, and what is no plain data.
+        Raises ValueError for values that cannot be found by name, such as a kernel defined in a function, or that are
+        not plain data.
         """
         return described(self)
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Self:
-        """The value that plain data describe.
+        """The value described by plain data.
 
-        data: as `to_dict` gives them; what has a default may be left out.
+        data: as `to_dict` returns them; fields with a default may be left out.
 
         Raises ValueError for anything else, with the path to it, such as "nodes[0].resolutions is (), …".
         """
@@ -61,16 +62,16 @@ class Described:
         """Write the value to a file.
 
         path: a name that ends in .toml, which needs the package tomli-w, or .json.
-        Raises ValueError for another name, and for what `to_dict` refuses.
+        Raises ValueError for any other name, and for values that `to_dict` refuses.
         """
         write_data(path, self.to_dict())
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Self:
-        """The value that a file describes.
+        """The value described by a file.
 
         path: a name that ends in .toml or .json.
-        Raises OSError if there is no such file, ValueError for what `from_dict` refuses.
+        Raises OSError if there is no such file, ValueError for data that `from_dict` refuses.
         """
         data = read_data(path)
         try:
@@ -80,8 +81,8 @@ class Described:
 
 
 def read_data(path):
-    """The table in a TOML or JSON file: a dict. Raises OSError if it is not there, ValueError for anything else."""
-    import tomllib  # not with the package, which is to be there at once
+    """The table in a TOML or JSON file: a dict. Raises OSError if the file is missing, ValueError for anything else."""
+    import tomllib  # here, so that importing the package stays fast
 
     suffix = _suffix(path)
     try:
@@ -95,7 +96,7 @@ def read_data(path):
 
 
 def write_data(path, data):
-    """Write a table to a TOML or JSON file. Raises ValueError for another name, and for what these cannot hold."""
+    """Write a table to a TOML or JSON file. Raises ValueError for other names, and for values they cannot hold."""
     if _suffix(path) == ".json":
         text = json.dumps(data, indent=1, ensure_ascii=False, allow_nan=False)
     else:
@@ -114,9 +115,9 @@ def _suffix(path):
 
 
 def described(value, expected=object, path=""):
-    """A value as plain data. expected: the type that its place has, which therefore need not be named.
+    """A value as plain data. expected: the type that its place implies, which need not be named.
 
-    Raises ValueError for what no name finds again, and what is no plain data.
+    Raises ValueError for values that cannot be found by name, or that are not plain data.
     """
     if is_dataclass(value) and not isinstance(value, type):
         kind = type(value)
@@ -136,7 +137,7 @@ def described(value, expected=object, path=""):
 
 
 def restored(data, expected=object, path=""):
-    """What plain data describe. expected: its type. Raises ValueError if that cannot be, with the path to it."""
+    """The value described by plain data. expected: its type. Raises ValueError, with the path, if they do not fit."""
     if isinstance(data, np.generic) or isinstance(data, np.ndarray) and data.ndim == 0:
         return data.item()
     if isinstance(data, dict):
@@ -153,7 +154,7 @@ def restored(data, expected=object, path=""):
 
 
 def _instance(data, expected, path):
-    """The dataclass that a table describes."""
+    """The dataclass instance described by a table."""
     kind = _kind(data, expected, path)
     taken = kind.takes if hasattr(kind, "takes") else _taken(kind)
     for name in data:
@@ -175,7 +176,7 @@ def _instance(data, expected, path):
 
 
 def _kind(data, expected, path):
-    """What a table describes: a dataclass, or a function that makes one."""
+    """The type described by a table: a dataclass, or a function that makes one."""
     options = [each for each in _options(expected) if isinstance(each, type) and each not in PLAIN]
     allowed = " or ".join(each.__name__ for each in options) or _words(expected)
     if "is" not in data:
@@ -193,7 +194,7 @@ def _kind(data, expected, path):
 
 
 def _kernel(data, path):
-    """The kernel that a table describes."""
+    """The kernel described by a table."""
     found = _found(data["kernel"], _at(path, "kernel"))
     for name in data.keys() - {"kernel", "of"}:
         raise ValueError(f"{_at(path, name)} is unknown, allowed are kernel, of")
@@ -209,7 +210,7 @@ def _kernel(data, path):
 
 
 def _constant(name, options, path):
-    """The value, of one of the types, that has a name."""
+    """The value of a name, which is of one of the types."""
     modalities = {each.name: each for each in MODALITIES if type(each) in options}
     found = modalities.get(name)
     if found is None and ":" in name:
@@ -221,7 +222,7 @@ def _constant(name, options, path):
 
 
 def checked(value, hint, path=""):
-    """`value`, if it is of the type that a hint says, as far as that can be seen; else raises ValueError."""
+    """`value`, if it matches a type hint, as far as that can be checked; raises ValueError otherwise."""
     options = _options(hint)
     if any(_is_of(value, each) for each in options) or callable(value) and str in options:  # a kernel
         for i, (each, inner) in enumerate(_members(value, hint) if isinstance(value, tuple | list) else ()):
@@ -237,7 +238,7 @@ def _is_of(value, option):
     try:
         inner = get_args(option)
         return isinstance(value, kind) and (kind is not tuple or ... in inner or len(value) == len(inner) or not inner)
-    except TypeError:  # a hint that only a checker of types understands
+    except TypeError:  # a hint that only a type checker understands
         return True
 
 
@@ -254,7 +255,7 @@ def _options(hint):
 
 
 def _members(values, hint):
-    """Each value of a list with its own hint."""
+    """The values of a list, each with its own hint."""
     inner = next((get_args(each) for each in _options(hint) if get_origin(each)), ())
     if inner[1:] in ((), (...,)):
         inner = (inner or (object,))[:1] * len(values)
@@ -265,10 +266,10 @@ def _members(values, hint):
 
 @functools.cache
 def _taken(kind):
-    """What a dataclass takes: {name: (hint, default)}, the default MISSING where there is none."""
+    """The arguments of a dataclass: {name: (hint, default)}, the default MISSING where there is none."""
     try:
         hints = get_type_hints(kind)
-    except (NameError, TypeError):  # a hint that only a checker of types understands
+    except (NameError, TypeError):  # a hint that only a type checker understands
         hints = {}
     return {each.name: (hints.get(each.name, object), each.default if each.default_factory is MISSING else ...)
             for each in fields(kind) if each.init}
@@ -284,7 +285,7 @@ def _at(path, name):
 
 
 def _name(value, path):
-    """The name by which a class, kernel or function is found again."""
+    """The name by which a class, kernel or function can be found."""
     for name in (value.__qualname__, name_of(value)):
         try:
             if _found(name, path) is value:
@@ -296,11 +297,11 @@ def _name(value, path):
 
 
 def _found(name, path):
-    """What a name stands for."""
+    """The object that a name refers to."""
     module, _, inner = str(name).rpartition(":")
     try:
         return getattr(importlib.import_module(module or "neorl"), inner)
-    except Exception as error:  # whatever the module raises
+    except Exception as error:  # importing a module may raise anything
         hint = "" if module else _nearest(name, importlib.import_module("neorl").__all__)
         raise ValueError(f"{path} is {name!r}, {hint}allowed are names of neorl, and 'module:name' of what can be "
                          f"imported: {error}") from error

@@ -1,13 +1,13 @@
-"""From where things are to the cells that are active.
+"""From the positions of things to active cells.
 
-A space is a list of axes. Along each an agent perceives one number, the axis's *coordinate*: a *feature* of a *vector*
-in units of the world's size (per second, for velocity); a direction is in turns, from the first axis of the world to
-the second. A map cuts each axis into intervals, and the intervals that hold the coordinates make the one active cell
-(`cell_of`). Without a direction, as at rest, the coordinate is not a number, and the interval stays as it was.
+A space is a list of axes. Along each, an agent perceives one number, the axis's *coordinate*: a *feature* of a *vector*
+in units of the world's size (per second, for velocity); a direction is in turns, from the first axis of the world
+towards the second. A map cuts each axis into intervals; those that contain the coordinates determine the one active
+cell (`cell_of`). Without a direction, as at rest, the coordinate is NaN and the interval does not change.
 
 A node *follows* one vector (`parameters.NodeParameters`): the agent's own, or that of each of several points. An
-element of interest is *placed* along the axes of that vector, but in a contact keeps the direction that it is in; along
-the axes of other vectors it is everywhere. In this order they make the number of a cell.
+element of interest is *placed* along the axes of that vector, except that a contact leaves its direction unchanged;
+along the axes of other vectors it is everywhere. Cells are numbered along the axes in this order.
 """
 
 import math
@@ -21,11 +21,11 @@ from neorl.core.kernel import array, inlined_kernel, kernel
 TAU = 2.0 * math.pi
 SQRT_3 = math.sqrt(3.0)
 TAN_15_DEGREES = 2.0 - SQRT_3
-TERMS = 14  # of the series of the arctangent, so that it is exact to the last few bits
+TERMS = 14  # of the series of the arctangent, exact to the last few bits
 
 
-# What an axis is: its `choices.Vector`; its `choices.Feature`; the axis of the world that it is along, or the number of
-# a feature of the user's own; how it is cut (`choices.Cut`); its own number of intervals, or 0 for the resolution.
+# What defines an axis: `choices.Vector`; `choices.Feature`; the axis of the world that it runs along, or the number of
+# a user-defined feature; `choices.Cut`; its own number of intervals, or 0 for the resolution of the map.
 VECTOR, FEATURE, ALONG, CUT, INTERVALS = range(5)
 
 
@@ -39,8 +39,8 @@ class AxisParameters(NamedTuple):
     boundary: array("float64", "boundaries")  # between unequal intervals
 
 
-# How a map cuts an axis: where the first interval begins, intervals a unit, the number of the last, that of the one
-# that lies beyond (the last, or the first if the axis closes), and by how much one more raises the number of the cell.
+# How a map cuts an axis: where the first interval begins; intervals per unit; the number of the last interval; that of
+# the interval beyond the range (the last, or the first if the axis closes); and the step in cell number per interval.
 LOW, SCALE, LAST, BEYOND, STRIDE = range(5)
 
 
@@ -88,17 +88,17 @@ def component(parameters, constants, scene, n, vector, point, axis):
         return scene.things[point, axis] / parameters.size - own
     if vector == Vector.landmarks:
         return parameters.nodes.landmark[parameters.nodes.first_landmark[n] + point, axis] - own
-    if point % len(constants.axes) != axis:  # of the walls: first those where each axis begins, then where it ends
+    if point % len(constants.axes) != axis:  # walls: first those where each axis begins, then where it ends
         return 0.0
     return -own if point < len(constants.axes) else 1.0 - own
 
 
 @inlined_kernel
 def locate(parameters, constants, scene, n, point, given, offset, coordinates):
-    """Put the coordinates of a point of a node into `coordinates`, not a number where there is no direction.
+    """Write the coordinates of a point of a node into `coordinates`, NaN where there is no direction.
 
-    given: whether the vector that the node follows is `offset` instead of what is perceived. Returns whether that
-    vector, and whether every vector has a direction where that matters.
+    given: whether `offset` takes the place of the perceived vector that the node follows. Returns whether that vector,
+    and whether every vector, has a direction where one is needed.
     """
     axes, nodes = parameters.axes, parameters.nodes
     followed_has, all_have, follows, first = True, True, nodes.follows[n], nodes.first_axis[n]
@@ -116,7 +116,7 @@ def locate(parameters, constants, scene, n, point, given, offset, coordinates):
         elif feature <= Feature.margin:
             coordinate = offset[along] if replaced else component(parameters, constants, scene, n, vector, point, along)
             if feature == Feature.foveated:
-                root = math.sqrt(abs(coordinate))  # abs() spares the compiler a library that takes negative ones
+                root = math.sqrt(abs(coordinate))  # abs() avoids a library call for negative arguments
                 coordinate = root if coordinate > 0.0 else -root
             elif feature == Feature.margin:
                 coordinate = into_margin(coordinate, axes.high[axis])
@@ -146,8 +146,8 @@ def maps_of(nodes, n):
 
 @inlined_kernel
 def cell_of(parameters, coordinates, n, m):
-    """The cell of a point in a map of a node; no direction counts as 0."""
-    cell, first = 0.0, np.uint64(parameters.maps.first_grid[m])  # unsigned, an index cannot count from the end
+    """The cell of a point in a map of a node; a missing direction counts as 0."""
+    cell, first = 0.0, np.uint64(parameters.maps.first_grid[m])  # an unsigned index cannot count from the end
     for axis in range(np.uint64(parameters.nodes.first_axis[n + 1] - parameters.nodes.first_axis[n])):
         cut = parameters.grid[first + axis]
         cell += cut[STRIDE] * interval_at(cut, coordinates[axis])
@@ -156,7 +156,7 @@ def cell_of(parameters, coordinates, n, m):
 
 @inlined_kernel
 def interval_at(cut, coordinate):
-    """The number of the interval that holds a coordinate, or of the one at the end of the range."""
+    """The number of the interval that contains a coordinate, or of the one at the end of the range."""
     interval = np.floor((coordinate - cut[LOW]) * cut[SCALE])
     interval = interval if interval > 0.0 else 0.0
     return cut[BEYOND] if interval > cut[LAST] else interval
@@ -164,7 +164,7 @@ def interval_at(cut, coordinate):
 
 @kernel
 def in_range(axes, axis, coordinate):
-    """A coordinate along an axis that closes on itself, in its range; among boundaries, the number of its interval."""
+    """A coordinate wrapped into the range of an axis that closes; among boundaries, the number of its interval."""
     if coordinate != coordinate or axes.what[axis, CUT] == Cut.equal:
         return coordinate
     if axes.what[axis, CUT] == Cut.closed:
@@ -178,7 +178,7 @@ def in_range(axes, axis, coordinate):
 
 @kernel
 def with_kept_directions(grid, g, coordinates, n_axes, cell, before):
-    """A cell with the intervals of another along the axes where there is no direction. g: of the map's first axis."""
+    """A cell with the intervals of `before` along the axes without a direction. g: the row of the map's first axis."""
     kept = 0
     for axis in range(n_axes):
         stride, intervals = int(grid[g + axis, STRIDE]), int(grid[g + axis, LAST]) + 1
@@ -188,7 +188,7 @@ def with_kept_directions(grid, g, coordinates, n_axes, cell, before):
 
 @inlined_kernel
 def contact_cell(maps, m, cell):
-    """Where a thing that is in a cell arrives when it meets the agent: at distance 0, in the same direction."""
+    """The cell that a thing enters when it meets the agent: distance 0, in the same direction."""
     if maps.placed[m] == maps.cells[m]:
         return maps.contact[m]
     return cell - cell % maps.placed[m] + maps.contact[m]

@@ -1,8 +1,8 @@
-"""What makes two values the same for a program that runs with them: their content, and the source of their code.
+"""The identity of values that a result depends on: their content, and the source of their code.
 
-A file is found again under a text of all that determined it (`neorl.experiments.cache`, `neorl.core.compile_cache`).
-The source of the rooms `core` and `worlds` is left out, since such a file stands under a digest of it as well
-(`digest_of_source`).
+A cached file is found by a text of everything that determined it (`neorl.experiments.cache`,
+`neorl.core.compile_cache`). The source of the rooms `core` and `worlds` is left out of the text, since the key of
+such a file also contains its digest (`digest_of_source`).
 """
 
 import functools
@@ -15,11 +15,11 @@ from types import CodeType, ModuleType
 import numpy as np
 
 OURS = ("neorl.core.", "neorl.worlds.")
-WITHOUT_SOURCE = ("math", "neorl", "numba", "numpy")  # modules whose functions are what their names say
+WITHOUT_SOURCE = ("math", "neorl", "numba", "numpy")  # modules whose functions are identified by name
 
 
 def identity(value):
-    """A text that is equal for values that are, and for kernels and worlds whose source and constants are.
+    """A text that is equal for equal values, and for kernels and worlds with equal source and constants.
 
     Raises ValueError for a kernel whose source cannot be read.
     """
@@ -78,7 +78,7 @@ def _constants(kind):
 
 
 def _code(code):
-    """What a function does, for its file may have changed since it was read."""
+    """The bytecode of a function, since its file may have changed after it was read."""
     constants = [_code(each) if isinstance(each, CodeType) else repr(each) for each in code.co_consts]
     return f"{code.co_code.hex()}({', '.join(constants)})"
 

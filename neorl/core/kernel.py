@@ -1,21 +1,22 @@
-"""How a kernel is compiled, and what it may contain.
+"""How kernels are compiled, and what they may contain.
 
-A *kernel* is a function that numba compiles. Every number that the project shows comes out of one, so a run must be
+A *kernel* is a function compiled by numba. Every number that the project shows is computed by kernels, so a run must be
 the same to the last bit on any machine, on any number of threads, and with the compiler switched off
-(``NUMBA_DISABLE_JIT=1``). That holds as long as a kernel keeps to these rules:
+(``NUMBA_DISABLE_JIT=1``). This holds as long as a kernel keeps to these rules:
 
-- it takes flat arrays, scalars and named tuples of them, and allocates, raises, prints and looks up nothing;
+- it takes flat arrays, scalars and named tuples of them, and does not allocate, raise, print or look anything up;
 - it uses only ``+ - * /``, square root, floor and comparisons, whose results IEEE 754 fixes, and no ``fastmath``;
-- it draws random numbers from a stream that it is handed (`neorl.core.stream`), never from ``np.random``;
-- it writes ``np.float32(...)`` where single precision is meant: a literal is double for numba, but weak for NumPy.
+- it draws random numbers from a stream passed to it (`neorl.core.stream`), never from ``np.random``;
+- it writes ``np.float32(...)`` where single precision is meant: a literal is a double in numba, but weakly typed in
+  NumPy.
 
-A kernel trusts what it is handed: an index out of range or a shape that does not fit would end the interpreter. So it
-refuses to be called from Python, and a public function that has checked every argument hands them over by `execute`.
+A kernel trusts its arguments: an index out of range or a shape that does not fit would crash the interpreter. So it
+cannot be called from Python directly; public functions check every argument and pass them on by `execute`.
 
-Annotations say what the arrays of a named tuple hold, and what a kernel takes that is called from outside Python
-(`neorl.browser.wasm`); numba does not read them.
+Annotations give the types of the arrays in a named tuple, and of the arguments of kernels that are called from outside
+Python (`neorl.browser.wasm`); numba does not read them.
 
-What is compiled for a call from Python is kept on disk (`neorl.core.compile_cache`).
+Code compiled for calls from Python is cached on disk (`neorl.core.compile_cache`).
 """
 
 import functools
@@ -30,17 +31,17 @@ import numpy as np
 
 from neorl import checks
 
-# Without numba's memory runtime (_nrt) a kernel cannot allocate, and counts no references to the arrays it is handed.
+# Without numba's memory runtime (_nrt) a kernel cannot allocate, and does not count references to its arrays.
 OPTIONS = {"error_model": "numpy", "nogil": True, "_nrt": False}
 INLINED = {"forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-MOST_WORDS = 2_000  # of what numba says
+MOST_WORDS = 2_000  # characters of numba's message
 _making = threading.RLock()
 
 
 class Kernel:
     """A compiled function that only other kernels and `execute` can call.
 
-    numba takes longer to import than all else, so it is imported when a kernel is first compiled.
+    numba is the slowest package to import, so it is imported when a kernel is first compiled.
     """
 
     def __init__(self, function, options):
@@ -52,7 +53,7 @@ class Kernel:
             return self.origin
         module = sys.modules.get(self.__module__)
         if getattr(module, self.__name__, None) is self:
-            return self.__name__  # what a module defines is the same kernel in another process
+            return self.__name__  # a kernel that a module defines is the same in another process
         return Kernel, (self.py_func, self.options)
 
     def __repr__(self):
@@ -65,7 +66,7 @@ class Kernel:
 
     @property
     def dispatcher(self):
-        """What numba compiles it with for other kernels, the same one for all threads."""
+        """The numba dispatcher that compiles the kernel for other kernels, the same for all threads."""
         with _making:
             if "_dispatcher" not in vars(self):
                 import numba
@@ -77,12 +78,12 @@ class Kernel:
 
     @property
     def _numba_type_(self):
-        """What a kernel is for the kernels that call it, which numba asks for."""
+        """The numba type of the kernel, for kernels that call it."""
         return self.dispatcher._numba_type_
 
     @property
     def for_python(self):
-        """What numba compiles it with for Python: only this code is kept on disk, with all that is linked into it."""
+        """The dispatcher for calls from Python: only its code is cached, with everything that is linked into it."""
         with _making:
             if "_for_python" not in vars(self):
                 import numba
@@ -110,21 +111,21 @@ def kernel(function: Callable) -> Any:
 
 
 def inlined_kernel(function):
-    """Compile a kernel for other kernels alone, into each of which it is inlined.
+    """Compile a kernel that is only inlined into other kernels.
 
-    An agent's parameters are so many arrays that handing them over costs more than most kernels that take them;
-    inlined, it costs nothing.
+    An agent's parameters are so many arrays that passing them costs more than running most kernels that take them;
+    inlining makes passing them free.
     """
     return _compiled(function, OPTIONS | INLINED)
 
 
 def inlined(kernel):
-    """The same kernel for other kernels alone, into each of which it is inlined."""
+    """The same kernel, only to be inlined into other kernels."""
     return inlined_kernel(function_of(kernel))
 
 
 def function_of(kernel):
-    """The Python function that a kernel is made of, or anything else as it is."""
+    """The Python function that a kernel was compiled from; anything else unchanged."""
     return getattr(kernel, "py_func", kernel)
 
 
@@ -135,31 +136,31 @@ def _compiled(function, options):
 
 
 def jit_is_off():
-    """Whether kernels stay functions of Python: by ``NUMBA_DISABLE_JIT=1``, or as numba says once it is imported."""
+    """Whether kernels stay Python functions: by ``NUMBA_DISABLE_JIT=1``, or by numba's setting once it is imported."""
     if "numba" in sys.modules:
         return bool(sys.modules["numba"].config.DISABLE_JIT)
     return os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0")
 
 
 def check_kernel(name, value):
-    """`value`, if it is a kernel. Raises ValueError for anything else, such as a function that is not decorated."""
+    """`value`, if it is a kernel. Raises ValueError for anything else, such as an undecorated function."""
     if isinstance(value, Kernel) or jit_is_off() and callable(value):
         return value
     raise ValueError(f"{name} is {checks.shown(value)}, allowed is a function that is decorated by neorl.kernel")
 
 
 def kernel_maker(function: Callable) -> Any:
-    """A function that makes kernels, the same one for the same arguments: a rule with parameters.
+    """Decorate a function that makes kernels, to return the same one for the same arguments: a rule with parameters.
 
-    A number of NumPy's, or an array of no axis, counts as the Python number that it is. Raises ValueError for anything
-    but a Python function. What it makes raises TypeError for arguments that cannot be hashed, and ValueError if the
-    function returns no kernel.
+    NumPy scalars and zero-dimensional arrays count as Python numbers. Raises ValueError for anything but a Python
+    function. The decorated function raises TypeError for arguments that cannot be hashed, and ValueError if it does not
+    return a kernel.
     """
     if not inspect.isfunction(function):
         raise ValueError(f"function is {checks.shown(function)}, allowed are Python functions that make kernels")
     signature = inspect.signature(function)
 
-    @functools.lru_cache(maxsize=None, typed=True)  # an integer may make another kernel than the same number as a float
+    @functools.lru_cache(maxsize=None, typed=True)  # an integer and an equal float may make different kernels
     def made_of(*arguments):
         made = check_kernel(f"what {function.__qualname__} returns", function(*arguments))
         made.origin = make, arguments
@@ -173,7 +174,7 @@ def kernel_maker(function: Callable) -> Any:
         try:
             hash(values)
         except TypeError:
-            function(*values)  # which may say more
+            function(*values)  # whose own error may say more
             raise TypeError(f"arguments of {function.__qualname__} are {checks.shown(values)}, allowed are values that "
                             "can be hashed") from None
         return made_of(*values)
@@ -185,7 +186,7 @@ def kernel_maker(function: Callable) -> Any:
 def execute(kernel, *arguments):
     """Call a kernel from Python. Raises TypeError for one that is only inlined into others."""
     if not isinstance(kernel, Kernel):
-        with np.errstate(all="ignore"):  # as in the compiled code, where streams of random numbers overflow
+        with np.errstate(all="ignore"):  # as in compiled code, where random streams overflow
             return kernel(*arguments)
     if "no_cpython_wrapper" in kernel.options:
         raise TypeError(f"{kernel.__module__}.{kernel.__name__} is only inlined into other kernels")
@@ -193,17 +194,17 @@ def execute(kernel, *arguments):
 
 
 def array(dtype, *shape):
-    """The annotation of an array: what it holds, and its shape in numbers, names of sizes, or names plus one."""
+    """The annotation of an array: its type, and its shape in numbers, names of sizes, or names plus one."""
     return Annotated[np.ndarray, dtype, shape]
 
 
 def fields(kind):
-    """What a named tuple or a kernel takes: {name: (dtype, shape)} for arrays, {name: type} for all else."""
+    """The fields of a named tuple or arguments of a kernel: {name: (dtype, shape)} for arrays, else {name: type}."""
     return {name: get_args(hint)[1:] or hint for name, hint in get_type_hints(kind, include_extras=True).items()}
 
 
 def new_tuple(kind, sizes, given):
-    """A named tuple of what is given, {name: value, or a dict of them for a tuple within}; other arrays are all 0."""
+    """A named tuple of given values, {name: value, or a dict for a nested tuple}; other arrays are filled with 0."""
     values = {}
     for name, field in fields(kind).items():
         if is_tuple(field):
@@ -222,13 +223,13 @@ def is_tuple(value):
 
 
 def mapped(function, values):
-    """The same named tuple with a function applied to every array in it, and to those of the tuples within."""
+    """A named tuple with a function applied to each of its arrays, and to those of nested tuples."""
     return type(values)(*(mapped(function, value) if is_tuple(value) else
                           function(value) if isinstance(value, np.ndarray) else value for value in values))
 
 
 def arrays(values):
-    """The arrays of a named tuple and of those within, by name, {"maps.cells": array, …}."""
+    """The arrays of a named tuple and of nested ones, by name, {"maps.cells": array, …}."""
     found = {}
     for name, value in values._asdict().items():
         if is_tuple(value):
@@ -239,7 +240,7 @@ def arrays(values):
 
 
 def length(dimension, sizes):
-    """How long a dimension is: a number, a name of `sizes`, or "name + 1"."""
+    """The length of a dimension, which is a number, a name in `sizes`, or "name + 1"."""
     if isinstance(dimension, int):
         return dimension
     name, _, more = dimension.partition(" + ")

@@ -1,17 +1,17 @@
-"""How the values of a map learn from the tracks that change cells (thesis 4.1.3 and 4.4).
+"""How the values of a map learn from tracks that change cells (thesis 4.1.3 and 4.4).
 
-All goals learn off policy at every update, whether they are wanted or not. A goal pays 1 when its cell is entered, and
-nothing else is ever paid.
+All goals learn off-policy at every update, whether they are desired or not. A goal pays 1 when its cell is entered;
+there is no other reward.
 
-1. A track's change of cell drives the update (*inference inversion*, eq. 4.7 and 4.8): each event that occurred in the
-   cell just left moves its value of every goal towards γ max q of the cell entered, at the rate ψ(a) α. Updated after
-   every step, with the action taken as its only event, it is *temporal difference* (eq. 4.6).
-2. What a track remembers, by a leaky integrator or by a trace of the cells left last, learns that the cell entered is
-   where it led to. With a leaky integrator, a cell that is left joins what is remembered: each event adds its rate to a
-   weight of its own, one for having happened there and one, by ψ(0), for having been absent. At every change of cell
-   the weights fade by one factor, and what a goal is worth to them by another (1, or γ). Each remembered event moves
-   its value for the cell entered towards what that is worth to it, at its weight or at 1, whichever is less. A cell is
-   forgotten when its strength, 1 more each time it is left, has faded below 1e-4.
+1. A track's change of cell drives the update (*inference inversion*, eq. 4.7 and 4.8): for each event that occurred in
+   the cell just left, the values of all goals move towards γ max q of the cell entered, at the rate ψ(a) α. With an
+   update after every step, and the action taken as its only event, this is *temporal difference* (eq. 4.6).
+2. The cells that a track remembers, by a leaky integrator or by a trace of the cells left most recently, learn that
+   they led to the cell entered. With a leaky integrator, a cell joins the memory when it is left: each event adds its
+   rate to a weight of its own, one for having occurred there and one, by ψ(0), for having been absent. At every change
+   of cell the weights fade by one factor, and the worth of a goal to them by another (1, or γ). The value of each
+   remembered event for the cell entered moves towards that worth, at its weight or at 1, whichever is less. A cell is
+   forgotten when its strength, which grows by 1 each time it is left, has faded below 1e-4.
 3. The value of an event that did not occur sinks, towards zero or away from the target.
 
 A value below 1e-30 counts as zero, because arithmetic on subnormal numbers is slow.
@@ -31,21 +31,21 @@ INACTIVE = np.float32(0.01)
 
 
 class MapValues(NamedTuple):
-    """The values of one map, and what it takes to learn them."""
+    """The values of one map, and what is needed to learn them."""
 
-    q: array("float32", "values")  # of this map and maybe of others, see `Order`
+    q: array("float32", "values")  # of this map and possibly others, see `Order`
     first: int  # where in q the map begins
     cells: int
     actions: int
-    goal_range: array("int64", "cells", 2)  # the goals, from and to, of which a cell may know anything: others are 0
-    scratch: array("float32", "scratch")  # working memory: a number a goal, or with memory for each goal and action
+    goal_range: array("int64", "cells", 2)  # for each cell, the range of goals whose values may differ from 0
+    scratch: array("float32", "scratch")  # working memory: a number per goal or, with memory, per goal and action
 
 
 class Order(NamedTuple):
-    """How far apart in q the values of two goals lie that follow each other, and of two actions.
+    """The strides in q of successive goals and of successive actions.
 
-    An agent that bootstraps goes through all goals of an action, so its maps are q[state, action, goal]. One that does
-    not goes through all actions for one goal in many cells, which are far apart: its maps are q[state, goal, action].
+    An agent that bootstraps runs through all goals of an action, so its maps are q[state, action, goal]. One that does
+    not runs through all actions for one goal in many cells, which are far apart: its maps are q[state, goal, action].
     """
 
     goal: np.uint64
@@ -53,32 +53,32 @@ class Order(NamedTuple):
 
 
 class Rule(NamedTuple):
-    """How values move towards what they are learned from."""
+    """How values move towards their targets."""
 
     discount: np.float32
     terminal: bool
-    absent_rate: np.float32  # −α ψ(0), at which the values of an event that did not occur sink
+    absent_rate: np.float32  # −α ψ(0), the rate at which the values of an event that did not occur sink
     away: bool  # away from the target instead of towards zero
 
 
 class Trace(NamedTuple):
-    """What one track remembers.
+    """The memory of one track.
 
-    The list `cells` is in no order. Weights and worths have a number for each place in it and each event, first all for
-    the event's having happened, then all for its having been absent.
+    The list `cells` is unordered. Weights and worths have a number for each place in it and each event, first all those
+    of events that occurred, then all those of absent events.
     """
 
-    cells: array("int64", "cells")  # a list of those remembered
-    places: array("int64", "cells")  # where in the list each cell of the map stands, plus one; 0 is nowhere
+    cells: array("int64", "cells")  # a list of the cells remembered
+    places: array("int64", "cells")  # the place in the list of each cell of the map, plus one; 0 if it is not in it
     strength: array("float32", "cells")  # by place in the list
     weight: array("float32", "trace_weights")
-    goal_worth: array("float32", "trace_weights")  # weight times what a goal is worth
+    goal_worth: array("float32", "trace_weights")  # weight times the worth of a goal
     actions: tuple  # their numbers, see `neorl.core.constants.Constants`
 
 
 @inlined_kernel
 def learn_transition(parameters, constants, state, m, point, cell_t, caused):
-    """Learn from a track's change of cell; one that the agent has not caused only lets what is remembered fade."""
+    """Learn from a track's change of cell; if the agent did not cause it, only let the memory fade."""
     learning, tracks = parameters.learning, state.tracks
     track = np.uint64(parameters.maps.first_track[m] + point)
     cell_tm1 = tracks.cell[track]
@@ -102,7 +102,7 @@ def learn_transition(parameters, constants, state, m, point, cell_t, caused):
     if remembers:
         trace = trace_of(parameters, constants, tracks, m, point)
         for turn in range(2):
-            if turn == learning.bootstrap:  # the cell just left joins late if it has learned by bootstrapping already
+            if turn == learning.bootstrap:  # a cell that has already learned by bootstrapping joins afterwards
                 tracks.remembered_count[track] = join(trace, tracks.remembered_count[track], cell_tm1, rates,
                                                       rule.absent_rate)
             else:
@@ -119,7 +119,7 @@ def learn_transition(parameters, constants, state, m, point, cell_t, caused):
 
 @inlined_kernel
 def steps_in_cell(constants, tracks, track):
-    """How many steps a track has spent in its active cell."""
+    """The number of steps that a track has spent in its active cell."""
     steps = 0
     for event in range(len(constants.actions) + 1):
         steps += tracks.events[track, event]
@@ -128,7 +128,7 @@ def steps_in_cell(constants, tracks, track):
 
 @inlined_kernel
 def retained_since(learning, constants, tracks, track):
-    """The share of what is remembered that is left when a track leaves its cell."""
+    """The share of the memory that is retained when a track leaves its cell."""
     retained = learning.memory_retained
     if learning.memory_by_time:
         for _ in range(steps_in_cell(constants, tracks, track) - 1):
@@ -208,7 +208,7 @@ def enter(constants, tracks, track, cell):
 def learn_all_goals(values, rule, cell_tm1, cell_t, rates):
     """One update of every goal of a map. rates: α ψ for each event.
 
-    All values outside of goal_range are zero and remain so, which spares fine maps most of the work.
+    All values outside goal_range are zero and remain so, which saves most of the work in fine maps.
     """
     q, cells, goal_range, target = values.q, values.cells, values.goal_range, values.scratch
     begin = min(min(goal_range[cell_tm1, 0], goal_range[cell_t, 0]), cell_t)
@@ -216,7 +216,7 @@ def learn_all_goals(values, rule, cell_tm1, cell_t, rates):
     goal_range[cell_tm1, 0], goal_range[cell_tm1, 1] = begin, end
     count, last = end - begin, values.actions - 1
     row = values.first + cell_t * values.actions * cells + begin
-    for event in range(0, values.actions, 4):  # four actions at a time, the last again if there are fewer
+    for event in range(0, values.actions, 4):  # four actions at a time; the last is repeated if there are fewer
         factor = UNIT if event + 4 <= last else rule.discount
         first, second = row + event * cells, row + min(event + 1, last) * cells
         third, fourth = row + min(event + 2, last) * cells, row + min(event + 3, last) * cells
@@ -249,13 +249,13 @@ def learn_all_goals(values, rule, cell_tm1, cell_t, rates):
 
 @inlined_kernel
 def higher(one, other):
-    """The higher of two values: by a comparison, and not by max(), so that loops compile to vector instructions."""
+    """The higher of two values, by comparison instead of max(), so that loops compile to vector instructions."""
     return one if one > other else other
 
 
 @kernel
 def learn_one_goal(values, order, rule, cell_tm1, goal, rates, fading):
-    """Move one goal's value of each event in a cell towards 1, at `rates` times `fading`; of absent events it sinks."""
+    """Move each event's value for one goal towards 1, at `rates` times `fading`; those of absent events sink."""
     widen(values.goal_range, cell_tm1, goal)
     for event in range(values.actions):
         index = place_of(values, order, cell_tm1, goal) + np.uint64(event) * order.action
@@ -267,20 +267,20 @@ def learn_one_goal(values, order, rule, cell_tm1, goal, rates, fading):
 
 @inlined_kernel
 def place_of(values, order, cell, goal):
-    """Where in q the values of a cell's actions for a goal begin; unsigned, since it cannot count from the end."""
+    """The index in q at which a cell's action values for a goal begin; unsigned, since it is never negative."""
     return np.uint64(values.first + cell * values.actions * values.cells) + np.uint64(goal) * order.goal
 
 
 @inlined_kernel
 def widen(goal_range, cell, goal):
-    """Let a cell know of a goal."""
+    """Widen the goal range of a cell to include a goal."""
     goal_range[cell, 0] = min(goal_range[cell, 0], goal)
     goal_range[cell, 1] = max(goal_range[cell, 1], goal + 1)
 
 
 @kernel
 def sunk(value, rate, target, away, highest):
-    """The value of an event that did not occur: nearer to zero, or away from its target but within 0 … `highest`."""
+    """The new value of an event that did not occur: closer to zero, or away from its target within 0 … `highest`."""
     if away:
         value -= rate * (target - value)
         value = value if value < highest else highest
@@ -291,7 +291,7 @@ def sunk(value, rate, target, away, highest):
 
 @kernel
 def fade(trace, count, retained, discount):
-    """Let all that is remembered fade to a share of `retained`, and return how many cells still are remembered."""
+    """Let the memory fade to the share `retained`, and return how many cells are still remembered."""
     for i in range(count):
         trace.strength[i] *= retained
     size, half = count * len(trace.actions), trace.cells.shape[0] * len(trace.actions)
@@ -313,7 +313,7 @@ def fade(trace, count, retained, discount):
 
 @kernel
 def forget(trace, i, last):
-    """Put the last of the list in place of one to be forgotten."""
+    """Forget a cell: replace it by the last of the list."""
     cells, actions = trace.cells, len(trace.actions)
     trace.places[cells[last]] = i + 1
     trace.places[cells[i]] = 0
@@ -326,14 +326,14 @@ def forget(trace, i, last):
 
 @kernel
 def forget_all(trace, count):
-    """Take all cells off the list."""
+    """Remove all cells from the list."""
     for i in range(count):
         trace.places[trace.cells[i]] = 0
 
 
 @kernel
 def join(trace, count, cell, rates, absent_rate):
-    """Remember a cell that is left, and return how many cells are remembered."""
+    """Add a cell just left to the memory, and return how many cells are remembered."""
     actions, half = len(trace.actions), trace.cells.shape[0] * len(trace.actions)
     i = trace.places[cell] - 1
     if i < 0:
@@ -355,10 +355,10 @@ def join(trace, count, cell, rates, absent_rate):
 
 @kernel
 def learn_remembered(values, order, rule, trace, count, goal):
-    """Learn in all remembered cells that the goal is where they led to.
+    """Learn, in all remembered cells, that they led to the goal.
 
-    The values are all read before any is used: those of a fine map lie far apart, and so the processor can wait for
-    many at a time.
+    All values are read before any is used: those of a fine map lie far apart, and the processor can then wait for many
+    at a time.
     """
     cells, actions, read = trace.cells, len(trace.actions), values.scratch
     for i in range(count):
@@ -378,7 +378,7 @@ def learn_remembered(values, order, rule, trace, count, goal):
 
 @kernel
 def move(values, count, happened, reached, absent, missed, away):
-    """Move values towards what the goal is worth where an event happened, and let them sink where it did not."""
+    """Move values towards the worth of the goal for events that occurred, and let those of absent events sink."""
     for i in range(count):
         value = values[i]
         weight = happened[i] if happened[i] > ZERO else UNIT

@@ -1,15 +1,15 @@
 """The life of an agent, step by step: choose, act, perceive, learn.
 
-1. The values of the actions come from desires through the network of nodes; the policy chooses among them.
-2. The action is an event in the active cell of every track until that track has moved on.
+1. Desires determine the values of the actions through the network of nodes; the policy chooses by these values.
+2. The action is an event in the active cell of every track until the track leaves that cell.
 3. A map learns all its goals from each track whose active cell changes (with update_on "step", after every step).
-4. A thing that is touched has met the agent: its tracks learn that, then follow the fresh thing as if it had always
-   been there. After the last one of an episode the world starts afresh. Neither leap is a transition to learn from, nor
-   is a thing's appearing or vanishing.
-5. At rest, or at distance 0, a track keeps the direction that it had.
-6. What a capture is, which changes of cell a thing's tracks learn from and which things have any are choices of
-   `neorl.agents.rules.Learning`; a track that does not learn follows its point all the same.
-7. A node that learns of contacts alone does so by rules of its own, see `neorl.core.contacts`.
+4. When the agent meets a thing, the thing's tracks learn from the contact, then follow the fresh thing as if it had
+   always been there. At the end of an episode the world is reset. Neither leap is a transition to learn from, nor is
+   the appearance or disappearance of a thing.
+5. At rest, or at distance 0, a track keeps its last direction.
+6. How a capture counts, which changes of cell a thing's tracks learn from and which things are learned about are
+   choices of `neorl.agents.rules.Learning`; a track that does not learn still follows its point.
+7. A node whose only goals are contacts learns by its own rules, see `neorl.core.contacts`.
 
 `scene` is what the agent perceives of its world (`neorl.core.scene.Scene`).
 """
@@ -27,7 +27,7 @@ from neorl.core.scene import ABSENT
 
 @inlined_kernel
 def act(parameters, constants, state, scene):
-    """Choose an action, and note it as an event in the active cell of every track."""
+    """Choose an action, and record it as an event in the active cell of every track."""
     action = choose(parameters, constants, state, scene)
     for track in range(state.tracks.cell.shape[0]):
         state.tracks.events[track, action] += 1
@@ -42,7 +42,7 @@ def act(parameters, constants, state, scene):
 
 @inlined_kernel
 def observe(parameters, constants, state, scene):
-    """Perceive what an action has led to, and learn from it."""
+    """Perceive the outcome of an action, and learn from it."""
     for n in range(parameters.nodes.points.shape[0]):
         for point in range(parameters.nodes.points[n]):
             if parameters.nodes.learns_contacts[n]:
@@ -55,7 +55,7 @@ def observe(parameters, constants, state, scene):
 
 @inlined_kernel
 def perceive(parameters, constants, state, scene, n, point):
-    """Let every map of a node find the active cell of a point, and learn if there is reason to."""
+    """Find the active cell of a point in every map of a node, and learn if it has changed or an update is due."""
     learning, tracks = parameters.learning, state.tracks
     things = parameters.nodes.follows[n] == Vector.objects
     met = things and scene.met[point] != 0
@@ -88,7 +88,7 @@ def perceive(parameters, constants, state, scene, n, point):
 
 @inlined_kernel
 def look_alone(parameters, constants, state, scene, n, point):
-    """See where a thing would be had it stood still in this step, into state.alone."""
+    """Locate a thing as if it had stood still in this step, into state.alone."""
     for axis in range(len(constants.axes)):
         state.offset[axis] = (state.things[point, axis] - scene.position[axis]) / parameters.size
     locate(parameters, constants, scene, n, point, True, state.offset, state.alone)
@@ -96,7 +96,7 @@ def look_alone(parameters, constants, state, scene, n, point):
 
 @inlined_kernel
 def attend(parameters, constants, state, scene):
-    """See where the things are, and which of them is to be learned about."""
+    """Record where the things are, and select the one to learn about."""
     attention = parameters.learning.attention
     if parameters.learning.own_causes:
         for thing in range(scene.things.shape[0]):
@@ -117,7 +117,7 @@ def attend(parameters, constants, state, scene):
 
 @inlined_kernel
 def begin(parameters, constants, state, scene):
-    """Take the present cells as given, with nothing that led to them, and desires without a past."""
+    """Start all tracks in their present cells, without a history, and clear the desires."""
     for n in range(parameters.nodes.points.shape[0]):
         for point in range(parameters.nodes.points[n]):
             begin_point(parameters, constants, state, scene, n, point)
@@ -132,7 +132,7 @@ def begin(parameters, constants, state, scene):
 
 @inlined_kernel
 def begin_point(parameters, constants, state, scene, n, point):
-    """Start the tracks of a point where it is now."""
+    """Start the tracks of a point at its present place."""
     if parameters.nodes.learns_contacts[n]:
         begin_contacts(parameters, constants, state, scene, n, point)
         return

@@ -1,10 +1,10 @@
 """NRES maps: neural representation of a Euclidean space by cells with mutually exclusive receptive fields.
 
 An N-map cuts each axis of a modality's space into N equal intervals, unless the axis has its own, so that exactly one
-cell is active for any point (one-hot; thesis section 4.1.2, paper B section 2.1). Cells are counted along the first
-axis first: a map of places row by row from the upper left. An interval holds its lower end and not its upper one. A
-point beyond the range of the map belongs to the cell at the end of the range; a direction closes on itself, its first
-interval centred on east.
+cell is active for any point (one-hot; thesis section 4.1.2, paper B section 2.1). Cells are numbered along the first
+axis first: in a map of places, row by row from the upper left. An interval contains its lower end but not its upper
+one. A point beyond the range of the map belongs to the cell at the end of the range; a direction closes on itself, its
+first interval centred on east.
 """
 
 import math
@@ -24,7 +24,7 @@ from neorl.core.parameters import SpaceParameters
 class NresMap(checks.Final):
     """A map of one modality.
 
-    resolution: N, intervals an axis, at least 1; there can be `neorl.core.modality.MOST_CELLS` cells.
+    resolution: N, intervals per axis, at least 1; at most `neorl.core.modality.MOST_CELLS` cells in all.
 
     Raises ValueError for anything else.
     """
@@ -45,7 +45,7 @@ class NresMap(checks.Final):
 
     @property
     def cells(self) -> int:
-        """The number of cells: the intervals of all axes, multiplied."""
+        """The number of cells: the product of the intervals of all axes."""
         return math.prod(self.intervals)
 
     def encode(self, points: ArrayLike) -> NDArray[np.int64]:
@@ -60,7 +60,7 @@ class NresMap(checks.Final):
         return cells
 
     def covers(self, points: ArrayLike) -> NDArray[np.bool]:
-        """Whether each point lies in the range of the map, so that encoding it clamps nothing: bool (…).
+        """Whether each point lies in the range of the map, so that encoding does not clamp it: bool (…).
 
         points: float (…, axes), coordinates of the modality. Raises ValueError for anything else.
         """
@@ -73,7 +73,7 @@ class NresMap(checks.Final):
 @kernel
 def encode(space: SpaceParameters, points: array("float64", "points", "coordinates"),
            cells: array("int64", "points")) -> None:
-    """The cell of each point, which is moved into its range, in the space's only map."""
+    """The cell of each point in the space's only map; points are brought into its range in place."""
     for point in range(cells.shape[0]):
         for axis in range(points.shape[1]):
             points[point, axis] = in_range(space.axes, axis, points[point, axis])

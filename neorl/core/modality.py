@@ -1,22 +1,21 @@
-"""Modalities: what the cells of a map stand for, as the axes of a Euclidean space.
+"""Modalities: the Euclidean spaces that the cells of maps represent, each given by its axes.
 
-Along each axis an agent perceives one number, made of a vector in units of the world's size (its width in WaterWorld)
-and seconds: its own position or velocity, or where things are as seen from it (objects, boundaries, landmarks), axes
-staying as they are in the world. An axis keeps a *feature* of the vector (thesis section 2.2 and table 2.1; paper B,
-table 1):
+Along each axis an agent perceives one number, computed from a vector in units of the world's size (its width in
+WaterWorld) and seconds: its own position or velocity, or the position of things relative to it (objects, boundaries,
+landmarks), along the axes of the world. The number is a *feature* of the vector (thesis section 2.2 and table 2.1;
+paper B, table 1):
 
-- *component*: one component as it is; the experiments use two for places and, as an emulation, for objects;
+- *component*: one component, unchanged; the experiments use two for places and, as an emulation, for objects;
 - *foveated*: the square root of a component, with its sign; equal intervals of it grow in proportion to the distance,
   as receptive fields grow with eccentricity;
 - *margin*: how far a component reaches into a margin along the walls, negative in the west and the north, and 0 in the
   middle of the board;
 - *length*, and *direction*.
 
-A direction runs from east (0) by way of south, since y points down, and closes on itself. A vector of length 0 has
-none: by itself it is taken to be east, and in the life of an agent it keeps the direction that it had (see
-`neorl.core.life`).
+A direction runs from east (0) by way of south, since y points down, and closes on itself. A vector of length 0 has no
+direction: by itself it counts as east, and in the life of an agent it keeps its last direction (see `neorl.core.life`).
 
-Axes of several vectors make *conjunctive* cells, such as of place and head direction: `PLACE_CELL.axes +
+Axes of several vectors make *conjunctive* cells, such as those of place and head direction: `PLACE_CELL.axes +
 HEAD_DIRECTION_CELL.axes`.
 """
 
@@ -36,9 +35,9 @@ from neorl.core.parameters import SpaceParameters, cut_axes
 from neorl.core.scene import MOST_AXES, Scene, checked_scene
 
 VECTORS = ("position", "velocity", "objects", "boundaries", "landmarks")
-SEVERAL = ("objects", "boundaries", "landmarks")  # there may be several of these, and a modality follows one kind
+SEVERAL = ("objects", "boundaries", "landmarks")  # there may be several of each; a modality follows one kind at most
 MOST_CELLS = 2**31 - 1  # of a map
-MOST_MIRRORED = 3  # axes of a world, which has 2ⁿ n! mirror images
+MOST_MIRRORED = 3  # axes of a world; one of n axes has 2ⁿ n! mirror images
 FEATURES = tuple(Feature.__members__)
 SEEN_FROM_AGENT = "centred on the agent, allocentric direction"
 FRAMES = {"position": "allocentric", "velocity": "allocentric direction"}
@@ -49,17 +48,18 @@ class Axis(checks.Final):
     """One axis of a space.
 
     of: "position", "velocity", "objects", "boundaries" (the nearest point of each wall) or "landmarks"; or a
-        `neorl.kernel` ``(scene, point) → number``, whose number is the coordinate: what it takes is the
-        `neorl.core.scene.Scene` and which of the things, walls or landmarks is looked at.
+        `neorl.kernel` ``(scene, point) → number`` that returns the coordinate, given the
+        `neorl.core.scene.Scene` and the number of the thing, wall or landmark.
     feature: of that vector: "component", "foveated", "margin" (of a position), "length" or "direction" (in the plane of
         the first two axes of the world).
     along: for a component, foveated or not, or a margin, the axis of the world: 0 for x, 1 for y, and so on.
-    low, high: the range, in units of the world's size (per second, for velocity); beyond it lies the interval at its
-        end. For a margin `high` is its width; of what is foveated they are square roots. A direction has none.
+    low, high: the range, in units of the world's size (per second, for velocity); points beyond it are in the
+        interval at its end. For a margin, `high` is its width; for a foveated component, both are square roots. A
+        direction has none.
     closed: whether the range closes on itself, as for an angle; a direction always does.
-    intervals: how many there are, whatever the resolution of the map; None stands for its resolution.
+    intervals: their number, whatever the resolution of the map; None stands for that resolution.
     boundaries: of unequal intervals, from the first to the last, in place of `low`, `high` and `intervals`.
-    name: of the coordinate; by default one that follows from the other fields.
+    name: of the coordinate; by default derived from the other fields.
 
     Raises ValueError for anything else.
     """
@@ -133,14 +133,14 @@ def polar(of: str, reach: float, intervals: int | None = None) -> tuple[Axis, ..
 
 @dataclass(frozen=True)
 class Modality(checks.Final):
-    """What the cells of a map stand for.
+    """The Euclidean space that the cells of a map represent.
 
     name: of such a cell in neuroscience.
-    axes: one `Axis` or more, of objects, boundaries or landmarks one kind at most.
-    landmarks: where they stand, in units of the world's size, if an axis is of landmarks.
-    mirrored: whether what is the same but for reflections along the axes of the world and exchanges of two of them is
-        in the same cell, and its actions are those of the mirror image. Its axes are then, for each of its vectors, a
-        component, foveated or not, along every axis of the world in turn, of the same range and intervals. Those of the
+    axes: one `Axis` or more; of objects, boundaries and landmarks, one kind at most.
+    landmarks: their positions, in units of the world's size, if an axis is of landmarks.
+    mirrored: whether points that differ only by reflections along the axes of the world and exchanges of two of them
+        share a cell, whose actions are those of the mirror image. The axes must then be, for each vector, a component,
+        foveated or not, along every axis of the world in turn, with the same range and intervals. Coordinates of the
         first vector are never below 0. Only nodes whose goals are contacts can have such maps.
 
     Raises ValueError for anything else.
@@ -183,7 +183,7 @@ class Modality(checks.Final):
 
     @property
     def follows(self) -> str:
-        """The vector that elements of interest have a place in: that of several points, or else of the agent."""
+        """The vector in which elements of interest have a place: that of several points, or else the agent's own."""
         vectors = [axis.of for axis in self.axes if not callable(axis.of)]
         several = [each for each in vectors if each in SEVERAL]
         return several[0] if several else "position" if "position" in vectors or not vectors else "velocity"
@@ -201,16 +201,16 @@ class Modality(checks.Final):
 
     @property
     def takes_places(self) -> bool:
-        """Whether an element of interest at a place in the world has a meaning here."""
+        """Whether a place in the world can be an element of interest for these cells."""
         return self.follows != "velocity" or [axis.feature for axis in self.axes] == ["direction"]
 
     @property
     def functions(self) -> tuple[Callable[..., float], ...]:
-        """The kernels of the user's own among its axes: a tuple."""
+        """The user-defined kernels among its axes: a tuple."""
         return tuple(axis.of for axis in self.axes if callable(axis.of))
 
     def coordinates(self, scene: Scene, size: float) -> NDArray[np.float64]:
-        """Where everything that the modality follows is in a `Scene`: float64 (points, axes), directions in radians.
+        """The coordinates of the followed points in a `Scene`: float64 (points, axes), directions in radians.
 
         size: of the world, its unit of length. Raises ValueError for a scene that does not fit.
         """
@@ -223,9 +223,9 @@ class Modality(checks.Final):
         return as_radians(self, found)
 
     def tune(self, vectors: ArrayLike) -> NDArray[np.float64]:
-        """The coordinates that vectors (…, axes of the world) have for these cells: float64 (…, axes).
+        """The coordinates of vectors (…, axes of the world) for these cells: float64 (…, axes).
 
-        Raises ValueError if a vector is not finite or not of two components or more, or for conjunctive cells.
+        Raises ValueError if a vector is not finite or has too few or too many components, or for conjunctive cells.
         """
         vectors = checks.doubles("vectors", vectors)
         if any(axis.of != self.follows for axis in self.axes):
@@ -241,14 +241,14 @@ class Modality(checks.Final):
         return as_radians(self, found)
 
     def _locate(self, size, scene, given, vectors, found):
-        """Put the coordinates of all points into `found`; given: by their vectors, and not by the scene."""
+        """Write the coordinates of all points into `found`; given: from their vectors instead of the scene."""
         uncut = replace(self, axes=[replace(axis, boundaries=()) for axis in self.axes])
         axes = tuple(range(len(scene.position)))
         constants = Constants(features(*self.functions), no_credit, no_credit, (0,), axes)
         execute(_locate_with(constants), space_of(uncut, 1, len(axes), size), scene, given, vectors, found)
 
     def check_axes(self, n_axes: int) -> None:
-        """Raise ValueError unless these cells have a meaning in a world of so many axes."""
+        """Raise ValueError unless these cells are defined in a world of `n_axes` axes."""
         if self.least_axes > n_axes:
             raise ValueError(f"{self.name}s need a world of {self.least_axes} axes or more, this one has {n_axes}")
         if self.mirrored and not self.least_axes == n_axes <= MOST_MIRRORED:
@@ -259,19 +259,19 @@ class Modality(checks.Final):
 
     @property
     def least_axes(self) -> int:
-        """How many axes a world has at least where these cells have a meaning."""
+        """The least number of axes of a world in which these cells are defined."""
         least = [2 if axis.feature == "direction" else axis.along + 1 for axis in self.axes if not callable(axis.of)]
         return max([1, *least, *(len(each) for each in self.landmarks)])
 
 
 def as_radians(modality, coordinates):
-    """Coordinates (…, axes) as the kernels have them, with directions in radians; none counts as east."""
+    """The kernels' coordinates (…, axes), with directions in radians; a missing direction counts as east."""
     scale = np.where([axis.is_direction for axis in modality.axes], TAU, 1.0)
     return np.nan_to_num(coordinates) * scale
 
 
 def as_turns(modality, points):
-    """Points (…, axes) as kernels take them: float64 (points, axes), directions in turns."""
+    """Points (…, axes) for the kernels: float64 (points, axes), directions in turns."""
     directions = [axis.is_direction for axis in modality.axes]
     points = np.array(points, float).reshape(-1, len(directions))
     points[:, directions] = points[:, directions] / TAU % 1.0
@@ -291,7 +291,7 @@ def space_of(modality, resolution, n_axes=None, size=1.0):
 
 
 def axis_parameters(modalities, n_axes):
-    """What kernels take of the modalities of all nodes, {"nodes": …, "axes": …}, and sizes."""
+    """The parameters of the modalities of all nodes, {"nodes": …, "axes": …}, and sizes."""
     axes = [axis for modality in modalities for axis in modality.axes]
     own = [axis for axis in axes if callable(axis.of)]
     inner = [axis.boundaries[1:-1] for axis in axes]
@@ -310,7 +310,7 @@ def axis_parameters(modalities, n_axes):
 
 
 def _what(axis, own):
-    """The row of an axis in `AxisParameters.what`. own: the axes that are of kernels of the user's own."""
+    """The row of an axis in `AxisParameters.what`. own: the axes with user-defined kernels."""
     cut = Cut.boundaries if axis.boundaries else Cut.closed if axis.closed and not axis.is_direction else Cut.equal
     vector, along = (Vector.own, own.index(axis)) if callable(axis.of) else (Vector[axis.of], axis.along)
     return vector, Feature[axis.feature], along, cut, axis.intervals or 0
@@ -322,7 +322,7 @@ def integers(values):
 
 
 def firsts(counts):
-    """Where each of several lists of so many entries begins, and where the last ends, one after the other: int64."""
+    """The start of each of several lists of given lengths, one after the other, and the end of the last: int64."""
     return np.concatenate([[0], np.cumsum(integers(counts))]).astype(np.int64)
 
 

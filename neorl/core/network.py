@@ -1,14 +1,14 @@
 """From desires to the values of actions, through the network of an agent's nodes (paper C, section 1).
 
-1. Every element of interest evaluates, in each map of its node, the value function of a goal at the cell of one point.
-   Where the map is about the agent itself (its place, its direction), the point is the agent's and the goal is the
-   element's. Where the map is about things as seen from the agent, the element is one of these things, and the goal is
-   that the two meet: distance 0, in a polar map at the direction that the thing is in. An element where the agent is
-   has no direction, and adds nothing to a map of directions. Along the axes of conjunctive cells that say nothing of
-   where it is, an element is everywhere: it is in several cells, and their values add.
-2. These values add, weighted by valence and by the weight of the map (thesis eq. 4.3, 4.4): the node's Q-vector.
-3. The pushes of all actions, times their values, make a Q-vector a vector in the world: a desire. It lands at the end
-   of that vector and is an element of interest there, for the next node.
+1. For every element of interest, each map of its node evaluates the value function of a goal at the cell of one point.
+   If the map represents the agent itself (its place, its direction), the point is the agent and the goal is the cell
+   of the element. If it represents things relative to the agent, the point is the element and the goal is the contact
+   of the two: distance 0, in a polar map in the direction of the thing. An element at the agent's own place has no
+   direction, and adds nothing to a map of directions. Along axes of conjunctive cells that do not represent its place,
+   an element is everywhere: it is in several cells, and their values add up.
+2. These values, weighted by valence and by the weight of the map, add up to the node's Q-vector (thesis eq. 4.3, 4.4).
+3. The sum of the pushes of all actions, times their values, turns a Q-vector into a vector in the world: a desire. The
+   end of that vector is an element of interest for the next node.
 
 `scene` is what the agent perceives of its world (`neorl.core.scene.Scene`).
 """
@@ -37,12 +37,12 @@ def choose(parameters, constants, state, scene):
         if wanted == 0:
             return len(constants.actions)
     action = constants.choose(value, state.stream)
-    return min(max(action, 0), len(constants.actions))  # a policy of the user's own may return any number
+    return min(max(action, 0), len(constants.actions))  # a user-defined policy may return any number
 
 
 @inlined_kernel
 def evaluate(parameters, constants, state, scene):
-    """The value of each action, into state.action_value: the nodes' Q-vectors times their gains, nodes in order."""
+    """Compute the value of each action, in state.action_value: the sum of Q-vectors times gains, nodes in order."""
     nodes, desires = parameters.nodes, state.desires
     for action in range(len(constants.actions)):
         state.action_value[action] = 0.0
@@ -51,7 +51,7 @@ def evaluate(parameters, constants, state, scene):
     for place in range(nodes.order.shape[0]):
         n = nodes.order[place]
         inputs = nodes.inputs[nodes.first_input[n] : nodes.first_input[n + 1]]
-        for i in range(inputs.shape[0]):  # all before any is renewed, because recursion takes those of the last step
+        for i in range(inputs.shape[0]):  # all before any is updated, since recursion uses those of the last step
             if parameters.desires.source[inputs[i]] == Source.node:
                 project(parameters, constants, desires, np.uint64(inputs[i]))
         if nodes.learns_contacts[n]:
@@ -66,7 +66,7 @@ def evaluate(parameters, constants, state, scene):
 
 @inlined_kernel
 def project(parameters, constants, desires, e):
-    """Where the desire of a node lands, and its valence, into desires.target."""
+    """Compute where the desire of a node lands, and its valence, in desires.target."""
     chosen, target, n_axes = parameters.desires, desires.target, len(constants.axes)
     for axis in range(n_axes):
         target[e, axis] = 0.0
@@ -87,7 +87,7 @@ def project(parameters, constants, desires, e):
 
 @inlined_kernel
 def evaluate_desire(parameters, constants, state, scene, n, e):
-    """What one desire adds to its node's Q-vector, and the valence of its elements together, into state.desires."""
+    """Compute a desire's contribution to its node's Q-vector, and its elements' total valence, in state.desires."""
     chosen, desires, n_axes = parameters.desires, state.desires, len(constants.axes)
     q, source, valence = desires.q[e], chosen.source[e], desires.worth[e]
     for action in range(len(constants.actions)):
@@ -127,7 +127,7 @@ def evaluate_desire(parameters, constants, state, scene, n, e):
 
 @inlined_kernel
 def add_element(parameters, constants, state, scene, n, valence, q):
-    """Add the values, in every map of a node, of an element: state.offset is the vector that the node follows."""
+    """Add the values of an element in every map of a node; state.offset is its vector, as followed by the node."""
     maps, nodes = parameters.maps, parameters.nodes
     has_direction, coordinates = True, state.offset
     if not nodes.is_cartesian[n]:
@@ -147,7 +147,7 @@ def add_element(parameters, constants, state, scene, n, valence, q):
 
 @inlined_kernel
 def add_goals(parameters, constants, state, m, cell, goal, valence, q):
-    """Add the values of all goals that differ from one along the axes alone on which an element has no place."""
+    """Add the values of all goals that differ from one only along axes on which an element has no place."""
     followed = parameters.maps.followed[m]
     if followed == parameters.maps.cells[m]:
         add_value(parameters, constants, state, m, cell, goal, valence, q)

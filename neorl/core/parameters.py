@@ -1,10 +1,10 @@
-"""All that is chosen of an agent, as the flat arrays that the kernels take: its maps, nodes, desires, learning, policy.
+"""The parameters of an agent, as flat arrays for the kernels: its maps, nodes, desires, learning and policy.
 
-Maps follow one another in the order of the agent's nodes. A *track* is one point that a map follows: the agent itself,
-or one of the things that its modality is about. All tracks of a map share its values. Desires keep the agent's order.
-What follows from other parameters is filled in by a kernel, so the browser can do it without Python.
+Maps are in the order of the agent's nodes. A *track* is one point that a map follows: the agent itself, or one of the
+things that its modality represents. All tracks of a map share its values. Desires keep the agent's order. Derived
+parameters are filled in by a kernel, so the browser can compute them without Python.
 
-Kernels of the user's own are not in here, see `neorl.core.constants`.
+User-defined kernels are not included, see `neorl.core.constants`.
 """
 
 from typing import NamedTuple
@@ -21,40 +21,40 @@ ENTRIES = 3  # values of an action in a cell of a map of contacts: `contacts.APP
 
 
 class MapParameters(NamedTuple):
-    """The maps of all nodes. `first_…` arrays have one more entry, for the end of the last map's."""
+    """The maps of all nodes. `first_…` arrays have one more entry, for the end of the last map."""
 
     resolution: array("int64", "maps")
     # derived
     cells: array("int64", "maps")
-    placed: array("int64", "maps")  # how many there are along the axes on which an element has a place in a contact
-    contact: array("int64", "maps")  # the cell of distance 0, the first one
-    followed: array("int64", "maps")  # how many there are along the axes of the vector that the node follows
+    placed: array("int64", "maps")  # number of cells along the axes on which a contact determines the place
+    contact: array("int64", "maps")  # the first cell at distance 0
+    followed: array("int64", "maps")  # number of cells along the axes of the vector that the node follows
     weight: array("float64", "maps")
     first_grid: array("int64", "maps + 1")  # where in `grid` its axes begin
     first_value: array("int64", "maps + 1")  # where in q the map begins
-    first_cell: array("int64", "maps + 1")  # how many cells the maps before it have
+    first_cell: array("int64", "maps + 1")  # number of cells in the maps before it
     first_track: array("int64", "maps + 1")
-    first_trace: array("int64", "maps + 1")  # where in what is remembered its tracks begin, each with all cells
+    first_trace: array("int64", "maps + 1")  # where its tracks' memory begins, which has room for all cells
 
 
 class NodeParameters(NamedTuple):
-    """The nodes. `first_…` arrays have one more entry, for the end of the last node's."""
+    """The nodes. `first_…` arrays have one more entry, for the end of the last node."""
 
-    follows: array("int64", "nodes")  # see `choices.Vector`: of its axes' the one that an element has a place in
+    follows: array("int64", "nodes")  # see `choices.Vector`: the one in which an element has a place
     weighting: array("int64", "nodes")  # see `choices.Weighting`
     gain: array("float64", "nodes")
     first_map: array("int64", "nodes + 1")
     first_axis: array("int64", "nodes + 1")
     first_landmark: array("int64", "nodes + 1")
-    order: array("int64", "nodes")  # nodes, each after those that it takes desires from
+    order: array("int64", "nodes")  # nodes, each after those whose desires it receives
     landmark: array("float64", "landmarks", "axes")
     # derived
-    points: array("int64", "nodes")  # how many it follows
+    points: array("int64", "nodes")  # number of points that it follows
     learns_contacts: array("bool", "nodes")  # see `neorl.core.contacts`
     mirrored: array("bool", "nodes")
-    is_cartesian: array("bool", "nodes")  # whether its coordinates are the components of what it follows
+    is_cartesian: array("bool", "nodes")  # whether its coordinates are the components of the vector it follows
     first_input: array("int64", "nodes + 1")  # where in `inputs` its desires begin
-    inputs: array("int64", "desires")  # desires, those of one node after those of the other
+    inputs: array("int64", "desires")  # desires, node by node
 
 
 class DesireParameters(NamedTuple):
@@ -64,12 +64,12 @@ class DesireParameters(NamedTuple):
     kind: array("int64", "desires")  # of the things that it is for
     target: array("int64", "desires")  # the node
     valence: array("float64", "desires")
-    learned: array("bool", "desires")  # whether the valence is only what it begins with
-    sums_valence: array("bool", "desires")  # whether the valence is that of its elements instead
+    learned: array("bool", "desires")  # whether the valence is only the initial one
+    sums_valence: array("bool", "desires")  # whether the valence is the sum of its elements' instead
     scale: array("float64", "desires")
     signed: array("bool", "desires")
-    elements: array("bool", "desires", "desires")  # which desires of its source its vector comes from
-    at: array("float64", "desires", "coordinates")  # of a point its coordinates, of a place where it is
+    elements: array("bool", "desires", "desires")  # the desires of its source that its vector comes from
+    at: array("float64", "desires", "coordinates")  # coordinates of a point, or position of a place
     # derived
     goal: array("int64", "desires", "maps")  # the cell of a point
 
@@ -83,10 +83,10 @@ class LearningParameters(NamedTuple):
     away: bool  # whether the value of an absent event sinks away from the target
     update_on: int  # see `choices.UpdateOn`
     credit: int  # see `choices.Credit`
-    activity_retained: np.float32  # what a step leaves of the activity of an event
+    activity_retained: np.float32  # share of an event's activity that a step retains
     terminal: bool
     trace: int
-    memory_retained: np.float32  # what a change of cell, or a step, leaves of what is remembered; 0 without memory
+    memory_retained: np.float32  # share that a change of cell, or a step, retains; 0 without memory
     memory_by_time: bool
     memory_discounts: bool
     bootstrap: bool
@@ -96,13 +96,13 @@ class LearningParameters(NamedTuple):
 
 
 class ContactParameters(NamedTuple):
-    """How nodes learn that learn of contacts alone, see `neorl.agents.rules.Contacts`."""
+    """How nodes whose only goals are contacts learn, see `neorl.agents.rules.Contacts`."""
 
-    discount: float  # for each step
+    discount: float  # per step
     learning_rate: float
     familiarity: float
     first_value: float
-    trace: int  # steps over which a contact is remembered back
+    trace: int  # steps back over which a contact is credited
     trace_rate: float
     caution: float
     flees: bool
@@ -117,7 +117,7 @@ class PolicyParameters(NamedTuple):
 
 
 class SpaceParameters(NamedTuple):
-    """What a modality alone is compiled to, without an agent; the part of `Parameters` that finds cells."""
+    """The parameters of a modality without an agent: the part of `Parameters` that finds cells."""
 
     size: float
     maps: MapParameters
@@ -127,14 +127,14 @@ class SpaceParameters(NamedTuple):
 
 
 class Parameters(NamedTuple):
-    """All that is chosen of an agent for one world."""
+    """The parameters of an agent for one world."""
 
     size: float  # of the world, in its own units of length
     own_cell_counts: bool
     push: array("float64", "actions", "axes")  # of each action that is an event
-    frames: array("int64", "frames", "actions")  # of each mirror image of the world the action that an action is there
+    frames: array("int64", "frames", "actions")  # what each action becomes in each mirror image of the world
     maps: MapParameters
-    grid: array("float64", "map_axes", 5)  # of each map how it cuts each axis of its node, see `geometry.LOW`
+    grid: array("float64", "map_axes", 5)  # how each map cuts each axis of its node, see `geometry.LOW`
     nodes: NodeParameters
     axes: AxisParameters
     desires: DesireParameters
@@ -145,7 +145,7 @@ class Parameters(NamedTuple):
 
 @kernel
 def derive(parameters: Parameters, n_things: int) -> None:
-    """Fill in the parameters that follow from the chosen ones."""
+    """Fill in the derived parameters."""
     maps, nodes = parameters.maps, parameters.nodes
     for n in range(nodes.follows.shape[0]):
         points = 1
@@ -195,7 +195,7 @@ def cut_axes(parameters, n, m):
         if is_direction:  # in turns, the first interval centred on 0
             low = -0.5 / intervals
             high = 1.0 + low
-        elif axes.what[axis, CUT] == Cut.boundaries:  # what is cut is the number of the interval
+        elif axes.what[axis, CUT] == Cut.boundaries:  # here the coordinate is the number of the interval
             low, high = 0.0, float(intervals)
         grid[g, LOW], grid[g, SCALE], grid[g, LAST] = low, intervals / (high - low), intervals - 1.0
         grid[g, BEYOND] = 0.0 if is_direction or axes.what[axis, CUT] == Cut.closed else intervals - 1.0
@@ -212,7 +212,7 @@ def cut_axes(parameters, n, m):
 
 @inlined_kernel
 def interval_in(axes, axis, cut, coordinate):
-    """The interval of a map that holds a coordinate along an axis."""
+    """The interval of a map that contains a coordinate along an axis."""
     return interval_at(cut, in_range(axes, axis, coordinate))
 
 

@@ -1,7 +1,7 @@
-"""How an action is chosen by the values of all: greedily, or by a softmax.
+"""Action selection from the values of all actions: greedy, or by a softmax.
 
-A user's own policy is a kernel of the same form, ``(value, stream) → action``: value, float64 (actions,), is that of
-each action; stream, of random numbers, is drawn from by `neorl.core.stream.uniform` and `randint`.
+A user-defined policy is a kernel of the same form, ``(value, stream) → action``: value, float64 (actions,), has the
+values of the actions; stream provides random numbers by `neorl.core.stream.uniform` and `randint`.
 """
 
 import math
@@ -15,7 +15,7 @@ from neorl.core.stream import randint, uniform
 
 LN_2 = math.log(2.0)
 LN_2_HIGH, LN_2_LOW = 6.93147180369123816490e-01, 1.90821492927058770002e-10  # in two parts, so that few bits are lost
-TERMS = 20  # of the series of the exponential function, so that it is exact to the last few bits
+TERMS = 20  # of the series of the exponential function, exact to the last few bits
 
 
 @inlined_kernel
@@ -43,7 +43,7 @@ def greedy(value, stream):
 
 @kernel_maker
 def softmax(temperature: float) -> Callable:
-    """The policy that draws an action a with a probability proportional to exp(value[a] / temperature).
+    """The policy that draws an action a with probability proportional to exp(value[a] / temperature).
 
     temperature: > 0, in units of value. Raises ValueError for anything else.
     """
@@ -68,7 +68,7 @@ def softmax(temperature: float) -> Callable:
 
 @kernel
 def exponential(x):
-    """e to the power of x ≤ 0, from its series near 0, halved as often as it takes."""
+    """e to the power of x ≤ 0, by its series near 0 and repeated halving."""
     if not x > -700.0:
         return 0.0
     halvings = np.floor(-x / LN_2)

@@ -1,4 +1,4 @@
-"""What an agent knows of a world: the `Scene` that it perceives, and the `Actions` that it can take."""
+"""The interface of agent and world: the `Scene` that an agent perceives, and the `Actions` that it can take."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from neorl import checks
 from neorl.core.kernel import array
 
 MOST_AXES, MOST_ACTIONS = 8, 1_024  # of a world; kernels are compiled for their numbers
-ABSENT = -1  # in place of the number of a kind
+ABSENT = -1  # instead of the number of a kind
 
 
 class Scene(NamedTuple):
@@ -19,16 +19,16 @@ class Scene(NamedTuple):
 
     position: array("float64", "axes")  # of the agent
     velocity: array("float64", "axes") = None
-    things: array("float64", "things", "axes") = ()  # where they are
+    things: array("float64", "things", "axes") = ()  # their positions
     kinds: array("int64", "things") = ()  # the number of each one's kind, or ABSENT
-    met: array("int64", "things") = ()  # 0, or 1 + the kind of a thing met in this step, whose slot is a fresh one's
+    met: array("int64", "things") = ()  # 0, or 1 + the kind of a thing met in this step; its slot is now a fresh one's
 
 
 def checked_scene(scene):
-    """A scene as arrays that kernels take.
+    """A scene as arrays for the kernels.
 
-    A velocity of None is rest; things without kinds have none, and none are met unless `met` says so.
-    Raises ValueError for a scene whose arrays are not numbers, or do not fit one another.
+    A velocity of None means rest; things without kinds count as absent, and none are met unless `met` says so.
+    Raises ValueError for a scene whose arrays are not numeric, or do not fit together.
     """
     checks.instance("scene", scene, Scene)
     position = checks.doubles("scene.position", scene.position)
@@ -51,13 +51,14 @@ def checked_scene(scene):
 
 @dataclass(frozen=True)
 class Actions(checks.Final):
-    """What an agent can do in a world.
+    """The actions that an agent can take in a world.
 
-    names: one string or more, each once. pushes: for each the direction in which it pushes the agent, a number along
-        every axis of the world; a node's desire vector is the sum of pushes times values (paper C, section 1).
-    idle: the name of doing nothing, which is no event to learn from; None if the agent cannot.
+    names: one string or more, all different. pushes: for each action, the direction in which it pushes the agent, a
+        number for every axis of the world; a node's desire vector is the sum of pushes times values (paper C,
+        section 1).
+    idle: the name of doing nothing, which is not an event to learn from; None if the agent cannot be idle.
 
-    The kernels know an action by its place in `names`, and idleness by the number of names.
+    In kernels, an action is its place in `names`, and idleness is the number of names.
     Raises ValueError for anything else.
     """
 

@@ -1,4 +1,4 @@
-"""All that changes in an agent, as the flat arrays that the kernels take: its values, tracks, desires and policy."""
+"""The state of an agent, as flat arrays for the kernels: its values, tracks, desires and policy."""
 
 from typing import NamedTuple
 
@@ -21,11 +21,11 @@ class TrackState(NamedTuple):
     """The tracks of all maps, one map after the other."""
 
     cell: array("int64", "tracks")  # the active cell, or ABSENT
-    events: array("int64", "tracks", "actions + 1")  # steps on which each was taken in the cell, idle last
-    trace_cell: array("int64", "tracks", "trace")  # cells left, a ring
+    events: array("int64", "tracks", "actions + 1")  # steps in the cell on which each action was taken, idleness last
+    trace_cell: array("int64", "tracks", "trace")  # cells left, a ring buffer
     trace_rates: array("float32", "tracks", "trace", "actions")  # the rates of their events
     trace_count: array("int64", "tracks")  # cells left since the track started
-    remembered: array("int64", "traces")  # the fields of a `learning.Trace`, a track after the other
+    remembered: array("int64", "traces")  # the fields of a `learning.Trace`, one track after the other
     remembered_at: array("int64", "traces")
     remembered_count: array("int64", "tracks")
     strength: array("float32", "traces")
@@ -34,25 +34,25 @@ class TrackState(NamedTuple):
 
 
 class ContactState(NamedTuple):
-    """What the tracks of maps of contacts have beside the others."""
+    """What the tracks of maps of contacts have in addition."""
 
-    frame: array("int64", "tracks")  # which mirror image the active cell is seen in
-    left: array("int64", "tracks", "left")  # where in q the actions are that were taken last, a ring
+    frame: array("int64", "tracks")  # the mirror image in which the active cell is seen
+    left: array("int64", "tracks", "left")  # indices in q of the actions taken last, a ring buffer
     count: array("int64", "tracks")  # of them, since the track started
 
 
 class DesireState(NamedTuple):
-    """The desires as of the last choice that was not drawn."""
+    """The desires at the last choice that was not random."""
 
-    q: array("float64", "desires", "actions")  # what each adds to the value of each action in its node
-    target: array("float64", "desires", "axes + 1")  # where a node's desire lands, from the agent, and its valence
+    q: array("float64", "desires", "actions")  # the contribution of each to the action values of its node
+    target: array("float64", "desires", "axes + 1")  # where a node's desire lands relative to the agent; valence
     valence: array("float64", "desires")  # of all its elements together
-    worth: array("float64", "desires")  # of one of them; what is not learned stays as it was chosen
+    worth: array("float64", "desires")  # of one of them; constant unless it is learned
     meetings: array("int64", "desires")  # from which the worth was learned
 
 
 class State(NamedTuple):
-    """All that changes in an agent."""
+    """The state of an agent."""
 
     values: ValueState
     tracks: TrackState
@@ -61,24 +61,24 @@ class State(NamedTuple):
     last_event: array("int64", 1)
     activity: array("float32", "actions")  # of each event
     things: array("float64", "things", "axes")  # where they were after the last step
-    attended: array("int64", 1)  # which of the things is learned about
+    attended: array("int64", 1)  # the thing that is learned about
     reward: array("float64", 1)  # of the last step
-    action_value: array("float64", "actions")  # as of the last choice that was not drawn
+    action_value: array("float64", "actions")  # at the last choice that was not random
     stream: array("uint64", 4)  # the random numbers of the policy
     here: array("float64", "axes")  # working memory: where the agent is, in units of the world's size
-    coordinates: array("float64", "coordinates")  # working memory: of the point that is looked at
-    alone: array("float64", "coordinates")  # working memory: of that point had it not moved
+    coordinates: array("float64", "coordinates")  # working memory: of the point being located
+    alone: array("float64", "coordinates")  # working memory: of that point if it had not moved
     offset: array("float64", "axes")  # working memory: of an element of interest from the agent
     seen: array("int64", "maps")  # working memory: the cells of a point
-    rival: array("float64", "actions")  # working memory: what a thing adds to the values of actions
-    favourite: array("float64", "actions")  # working memory: what the best of all things adds
+    rival: array("float64", "actions")  # working memory: a thing's contribution to the action values
+    favourite: array("float64", "actions")  # working memory: that of the best of all things
 
 
 def new_state(parameters, stream, n_things, old=None):
-    """The `State` of an agent that has learned nothing, in a world of so many things.
+    """The initial `State` of an agent in a world of `n_things` things.
 
-    old: the parameters and the state of one that is no longer needed, with as many values or more, whose room is used
-    again: to get a gigabyte from the system, page by page, takes longer than a run.
+    old: the parameters and the state of an agent no longer needed, with at least as many values, whose memory is
+    reused: getting a gigabyte from the system, page by page, takes longer than a run.
     """
     maps, (actions, axes) = parameters.maps, parameters.push.shape
     traces = maps.first_trace[-1] if parameters.learning.memory_retained > 0 else 0
@@ -99,7 +99,7 @@ def new_state(parameters, stream, n_things, old=None):
 
 @kernel
 def clear_q(parameters: Parameters, state: State) -> None:
-    """Set all values to zero that are not."""
+    """Reset all non-zero values to zero."""
     maps, nodes = parameters.maps, parameters.nodes
     for n in range(nodes.follows.shape[0]):
         for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
@@ -111,16 +111,16 @@ def clear_q(parameters: Parameters, state: State) -> None:
             for cell in range(values.cells):
                 begin = place_of(values, order, cell, values.goal_range[cell, 0])
                 end = place_of(values, order, cell, values.goal_range[cell, 1])
-                for event in range(1 if order.action == 1 else values.actions):  # if 1, all events are among the goals
+                for event in range(1 if order.action == 1 else values.actions):  # if 1, the range covers all events
                     for i in range(begin, end):
                         values.q[i + np.uint64(event) * order.action] = 0.0
 
 
 @kernel
 def begin_values(parameters: Parameters, state: State) -> None:
-    """Let no cell know of any goal, every contact promise its first value, and every desire be worth what was chosen.
+    """Set the goal ranges to empty, the approach of contacts to its first value, and worths to the chosen valences.
 
-    The values of the state are zero.
+    All values of the state must be zero.
     """
     maps, nodes = parameters.maps, parameters.nodes
     for n in range(nodes.follows.shape[0]):

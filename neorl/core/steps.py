@@ -23,7 +23,7 @@ class Steps(NamedTuple):
 
 @functools.cache
 def steps_with(constants):
-    """The `Steps` of agents with certain `neorl.core.constants.Constants`."""
+    """The `Steps` of agents with given `neorl.core.constants.Constants`."""
 
     @kernel
     def begin(parameters: Parameters, state: State, scene: Scene) -> None:

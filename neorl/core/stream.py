@@ -1,7 +1,7 @@
 """Streams of random numbers: NumPy's SFC64, in integer arithmetic that a kernel can run.
 
-A stream is four unsigned 64-bit integers, seeded as NumPy's `SeedSequence` does it. Draw for draw it equals
-``np.random.Generator(np.random.SFC64(seed_sequence)).random()``, so NumPy can check every number of a run.
+A stream is four unsigned 64-bit integers, seeded as by NumPy's `SeedSequence`. Draw for draw it equals
+``np.random.Generator(np.random.SFC64(seed_sequence)).random()``, so every draw of a run can be checked with NumPy.
 """
 
 import numpy as np
@@ -13,19 +13,19 @@ from neorl.core.kernel import array, execute, kernel
 NOTHING, ONE, U3, U11, U16, U24, U32, U40 = (np.uint64(value) for value in (0, 1, 3, 11, 16, 24, 32, 40))
 TO_UNIT = 2.0**-53
 
-# Of the hash of O'Neill's seed_seq, as NumPy has it. They multiply modulo 2**32, which the mask does to 64 bits.
+# Constants of O'Neill's seed_seq hash, as in NumPy. It multiplies modulo 2**32, hence the mask for 64-bit integers.
 POOL = 4
 MASK = np.uint64(2**32 - 1)
 INIT_A, MULTIPLY_A = np.uint64(0x43B0D7E5), np.uint64(0x931E8875)
 INIT_B, MULTIPLY_B = np.uint64(0x8B51F9DD), np.uint64(0x58F38DED)
 MIX, MIX_IN = np.uint64(0xCA01F9DD), np.uint64(2**32 - 0x4973F715)
-WARM_UP = 12  # draws that a fresh stream leaves out
+WARM_UP = 12  # draws that a fresh stream discards
 
 
 def new_stream(seed_sequence: np.random.SeedSequence) -> NDArray[np.uint64]:
-    """The stream at its start: uint64 (4,), the words of ``np.random.SFC64(seed_sequence)``.
+    """A fresh stream: uint64 (4,), the words of ``np.random.SFC64(seed_sequence)``.
 
-    Raises ValueError if the pool of the seed sequence is not of 4 words, as it is by default.
+    Raises ValueError unless the pool of the seed sequence has 4 words, the default.
     """
     checks.instance("seed_sequence", seed_sequence, np.random.SeedSequence)
     if seed_sequence.pool_size != POOL:
@@ -36,7 +36,7 @@ def new_stream(seed_sequence: np.random.SeedSequence) -> NDArray[np.uint64]:
 
 
 def _entropy(seed_sequence):
-    """The 32-bit words of a seed sequence, lowest first; if it was spawned, its key after four of its own or more."""
+    """The 32-bit words of a seed sequence, lowest first; if it was spawned, at least four words, then its key."""
     words = _words(seed_sequence.entropy)
     if seed_sequence.spawn_key:
         words += [0] * (POOL - len(words)) + _words(seed_sequence.spawn_key)
@@ -52,7 +52,7 @@ def _words(value):
 
 @kernel
 def start_stream(words: array("uint64", "words"), stream: array("uint64", 4)) -> None:
-    """Seed a stream with words of 32 bits."""
+    """Seed a stream with 32-bit words."""
     constant = INIT_A
     for i in range(POOL):
         stream[i], constant = scrambled(words[i] if i < words.shape[0] else NOTHING, constant, MULTIPLY_A)
@@ -75,7 +75,7 @@ def start_stream(words: array("uint64", "words"), stream: array("uint64", 4)) ->
 
 @kernel
 def scrambled(word, constant, multiplier):
-    """A word hashed, and the constant for the next one."""
+    """A hashed word, and the constant for the next one."""
     word ^= constant
     constant = constant * multiplier & MASK
     word = word * constant & MASK

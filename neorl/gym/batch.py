@@ -1,7 +1,7 @@
 """Many environments of one world side by side: their states, and the compiled step that advances them all.
 
-The state of the batch is the `State` of the world with a first dimension more, and every environment is a row of it.
-A single environment is a batch of one, so it lives the same to the last bit.
+The state of the batch is the `State` of the world with an additional first dimension; every environment is a row of it.
+A single environment is a batch of one, so it runs bit-identically.
 """
 
 import functools
@@ -18,41 +18,41 @@ from neorl.gym.observation import observe
 from neorl.worlds.arena import Arena, ArenaRules, ArenaState
 from neorl.worlds.world import World
 
-MOST_NUMBERS = 2**28  # of the observations of a batch, 1 GiB
+MOST_NUMBERS = 2**28  # in the observations of a batch, 1 GiB
 
 
 class Task(NamedTuple):
-    """What stays the same in a batch of environments."""
+    """The constants of a batch of environments."""
 
     size: float
     n_kinds: int
     egocentric: bool
-    continuing: bool  # what ends an episode of the world makes it begin another, and goes on
+    continuing: bool  # when an episode of the world ends, another begins and the environment goes on
     same_step: bool  # an environment whose episode is over begins another in the same step
-    last_step: int  # of an episode, which is truncated then
+    last_step: int  # of an episode, after which it is truncated
 
 
 class Slots(NamedTuple):
-    """What is handed to a batch of environments, and what it returns."""
+    """The inputs and outputs of a batch of environments."""
 
     action: np.ndarray  # int64 (environments,)
     begins: np.ndarray  # bool (environments,): whether an environment begins an episode instead of acting
     clock: np.ndarray  # int64 (environments,): steps since its episode began
     observation: np.ndarray  # float32 (environments, numbers)
-    last_observation: np.ndarray  # the same, of an episode that was over in this step
+    last_observation: np.ndarray  # the same, of an episode that ended in this step
     reward: np.ndarray  # float64 (environments,)
     terminated: np.ndarray  # bool (environments,)
     truncated: np.ndarray  # bool (environments,)
-    met: np.ndarray  # int64 (environments, kinds): things that were met in this step
+    met: np.ndarray  # int64 (environments, kinds): things met in this step
     restarted: np.ndarray  # bool (environments,): whether the world has begun an episode in this step
-    distance: np.ndarray  # float64 (things,), to work in
-    order: np.ndarray  # int64 (things,), to work in
+    distance: np.ndarray  # float64 (things,), working memory
+    order: np.ndarray  # int64 (things,), working memory
 
 
 class Batch:
     """Environments of one world side by side.
 
-    world: a `neorl.World`. n: how many, ≥ 1. egocentric, continuing, same_step, last_step: see `Task`.
+    world: a `neorl.World`. n: number of environments, ≥ 1. egocentric, continuing, same_step, last_step: see `Task`.
     Raises ValueError for anything else, and for more than 2²⁸ numbers in their observations.
     """
 
@@ -75,28 +75,28 @@ class Batch:
                            np.zeros(world.things), np.zeros(world.things, np.int64))
 
     def seed(self, row, sequence):
-        """Let an environment draw from the stream of a `numpy.random.SeedSequence` from its next episode on."""
+        """Seed the stream of an environment, from its next episode on, with a `numpy.random.SeedSequence`."""
         for each in arrays(self.states).values():
             each[row] = 0
         self.states.stream[row] = new_stream(sequence)
 
     def begin(self, rows):
-        """Begin an episode in the environments rows: bool (environments,)."""
+        """Begin an episode in the environments that `rows` marks: bool (environments,)."""
         self.slots.begins[:] = rows
         self._run(False)
 
     def step(self):
-        """Take the actions of `slots.action`, except where `slots.begins`, where an episode begins instead."""
+        """Take the actions of `slots.action`, or begin an episode where `slots.begins` is True."""
         self._run(True)
 
     def _run(self, acts):
         row = execute(self.step_kernel, self.states, self.rules, self.task, self.slots, acts)
         if row >= 0:
-            raise ValueError(f"environment {row} came into the state {self.state_of(row)}, or pays what is not finite; "
+            raise ValueError(f"environment {row} reached the state {self.state_of(row)}, or its reward is not finite; "
                              "allowed are finite numbers")
 
     def state_of(self, row):
-        """The state of one environment, views that cannot be written to."""
+        """The state of one environment, as read-only views."""
         def view(each):
             each = each[row]
             each.flags.writeable = False
@@ -107,13 +107,13 @@ class Batch:
 
 @kernel
 def never(state, rules):
-    """A world has no time limit of its own."""
+    """For worlds without a time limit of their own."""
     return False
 
 
 @kernel
 def arena_time_is_up(state: ArenaState, rules: ArenaRules):
-    """Whether a trial in an arena that is over has run out of time."""
+    """Whether a trial in an arena that is over ended by its time limit."""
     met = 0
     for place in range(state.scene.met.shape[0]):
         met += state.scene.met[place] > 0
@@ -121,13 +121,13 @@ def arena_time_is_up(state: ArenaState, rules: ArenaRules):
 
 
 def time_is_up_in(world):
-    """The kernel (state, rules) by which an episode of a world that is over is truncated, and not terminated."""
+    """The kernel (state, rules) that returns whether an episode that is over was truncated, not terminated."""
     return arena_time_is_up if isinstance(world, Arena) else never
 
 
 @kernel_maker
 def batch_step(dynamics, time_is_up):
-    """The kernel of a step of many environments of a world of certain `Dynamics`.
+    """The kernel that steps many environments of a world with given `Dynamics`.
 
     It returns −1, or the first environment whose state is not finite.
     """
@@ -178,7 +178,7 @@ def batch_step(dynamics, time_is_up):
 
 @functools.cache
 def rows_of(kind):
-    """The kernel (states, i) that makes the state of environment i, of a certain type, from those of all."""
+    """The kernel (states, i) that returns the state of environment i, of a given type, from those of all."""
     scope = {"__name__": __name__}
     source = f"def row_of(states, i):\n    return {_row(kind, 'states', scope)}\n"
     name = f"<row of {kind.__module__}.{kind.__qualname__}>"

@@ -4,21 +4,21 @@
 
 **Observations**: `neorl.gym.observation`.
 
-**Rewards**: what a step of the world pays, as it is.
+**Rewards**: those of the world, unchanged.
 
-**Episodes**: the worlds of this package never end for an agent of neorl: what ends an episode, such as the last green
-creep, pays and resets the board, and life goes on. A *continuing* environment does the same: it never terminates, and
-is truncated only by a limit of steps. One that is not continuing terminates where an episode of the world is over,
-save that a trial in an arena that has run out of time is truncated. By default WaterWorld is continuing, since to an
-agent that takes no account of what comes after the end the last green creep would be worth less than the others, and
-all else is not.
+**Episodes**: for a neoRL agent the worlds of this package never end: the event that ends an episode, such as taking the
+last green creep, pays and resets the board, and life goes on. A *continuing* environment does the same: it never
+terminates, and is truncated only by a step limit. One that is not continuing terminates when an episode of the world
+is over, except that a trial in an arena that has run out of time is truncated. By default only WaterWorld is
+continuing, since to an agent that ignores what follows the end of an episode, the last green creep would be worth less
+than the others.
 
-**Info**: "met", int64 (kinds,), how many things of each kind were met in the step; "restarted", whether the world has
-begun an episode of its own in the step, so that the observation has nothing to do with the one before.
+**Info**: "met", int64 (kinds,), the number of things of each kind met in the step; "restarted", whether the world has
+begun an episode of its own in the step, so that the observation does not follow from the one before.
 
 **Seeds**: ``reset(seed=5)`` begins the world of ``neorl.Run(agent, world, seed=5)``, and
 ``reset(seed=5, options={"run": 3})`` that of its run 3: the same actions lead to the same states, to the last bit.
-Without a seed the next episode draws on from the same stream of random numbers, as a run does.
+Without a seed the next episode continues the same stream of random numbers, as a run does.
 """
 
 from collections.abc import Mapping
@@ -42,9 +42,9 @@ gymnasium = require("gymnasium", extra="gym")
 class WorldEnv(gymnasium.Env):
     """A world as a Gymnasium environment; see the module for its rules.
 
-    world: a `neorl.World`. render_mode: None; "rgb_array", by which `render` returns a picture, uint8 (500, 500, 3); or
-    "human", a window that follows every step at the world's pace. egocentric: whether things are seen from the agent,
-    nearest first. continuing: whether an episode goes on when one of the world is over; by default in WaterWorld alone.
+    world: a `neorl.World`. render_mode: None; "rgb_array": `render` returns a picture, uint8 (500, 500, 3); or "human",
+    a window that shows every step at the world's frame rate. egocentric: whether things are relative to the agent,
+    nearest first. continuing: whether an episode goes on when one of the world is over; by default only in WaterWorld.
 
     Raises ValueError for anything else.
     """
@@ -69,14 +69,14 @@ class WorldEnv(gymnasium.Env):
 
     @property
     def world_state(self) -> Any:
-        """The state of the world, views that cannot be written to."""
+        """The state of the world, as read-only views."""
         return self._batch.state_of(0)
 
     def reset(self, *, seed: int | None = None,
               options: Mapping[str, Any] | None = None) -> tuple[NDArray[np.float32], dict[str, Any]]:
         """Begin an episode.
 
-        seed: an integer ≥ 0, or None to draw on. options: None, or {"run": k}, k ≥ 0, with a seed.
+        seed: an integer ≥ 0, or None to continue the random stream. options: None, or {"run": k}, k ≥ 0, with a seed.
         Returns (observation: float32 (numbers,), info). Raises ValueError for anything else.
         """
         seed, run = checked_seed(seed, options)
@@ -91,7 +91,7 @@ class WorldEnv(gymnasium.Env):
 
         action: an integer in 0 … actions − 1.
         Returns (observation: float32 (numbers,), reward: float, terminated: bool, truncated: bool, info).
-        Raises ValueError for another action, `gymnasium.error.ResetNeeded` before `reset` and after the end.
+        Raises ValueError for any other action, `gymnasium.error.ResetNeeded` before `reset` and after the end.
         """
         if not self._begun or self._over:
             raise gymnasium.error.ResetNeeded("step() came before reset(), allowed is step() in an episode")
@@ -160,7 +160,7 @@ class ArenaEnv(WorldEnv):
 
 
 def checked_seed(seed, options):
-    """The seed, and the number of the run of the options of a reset."""
+    """The seed, and the run number in the options, of a reset."""
     options = checks.instance("options", {} if options is None else options, Mapping)
     if set(options) - {"run"} or options and seed is None:
         raise ValueError(f"options is {checks.shown(options)}, allowed are None, and with a seed {{'run': k}}")
@@ -169,7 +169,7 @@ def checked_seed(seed, options):
 
 
 def seed_row(env, batch, row, seed, run, begun):
-    """Let a row of a batch draw from run `run` of a seed; without a seed, go on, or begin by the numbers of `env`."""
+    """Seed a row of a batch with run `run` of a seed; without one, continue, or draw the first seed from `env`."""
     if seed is None and not begun:
         seed = int(env.np_random.integers(2**63))
     if seed is not None:

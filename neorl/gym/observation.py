@@ -1,15 +1,15 @@
-"""What an environment returns of a scene: one flat array of single-precision numbers.
+"""Observations: a scene as one flat array of single-precision numbers.
 
-1. The agent's position, in units of the world's size: axes numbers in [0, 1].
-2. Its velocity, in sizes per second: axes numbers in [−10, 10], which in WaterWorld and in an arena with inertia no
-   velocity reaches.
-3. For every thing its place and its kind: axes numbers, and then as many as there are kinds, 1 for its own and 0 for
-   the others. If *egocentric*, the place is the way there from the agent, in sizes, in [−1, 1], and the nearest thing
-   comes first; otherwise it is a position in [0, 1], and things keep their order in the scene. All numbers of a thing
-   that is absent are 0; if egocentric, it comes last.
+1. The agent's position, in units of the world's size: one number per axis, in [0, 1].
+2. Its velocity, in sizes per second: one number per axis, in [−10, 10], a range that no velocity exceeds in WaterWorld
+   or in an arena with inertia.
+3. For every thing, its place and its kind: one number per axis, then one per kind, 1 for its own and 0 for the others.
+   If *egocentric*, the place is relative to the agent, in sizes, in [−1, 1], and the nearest thing comes first;
+   otherwise it is a position in [0, 1], and things keep their order in the scene. All numbers of an absent thing are 0;
+   if egocentric, it comes last.
 
-It is what agents of neorl perceive, too: nothing of how fast things move, for example. What lies beyond a range is
-clipped to it.
+A neoRL agent perceives the same: the velocities of things, for example, are missing. Values beyond a range are clipped
+to it.
 """
 
 import numpy as np
@@ -19,7 +19,7 @@ from neorl.extras import require
 
 gymnasium = require("gymnasium", extra="gym")
 
-FASTEST = 10.0  # sizes per second; in WaterWorld drag lets no velocity grow beyond 9.75
+FASTEST = 10.0  # sizes per second; in WaterWorld drag limits velocities to 9.75
 
 
 def observation_space(world, egocentric):
@@ -32,9 +32,9 @@ def observation_space(world, egocentric):
 
 @kernel
 def observe(scene, size, n_kinds, egocentric, distance, order, numbers):
-    """Write the observation of a scene into `numbers`, and return whether all that it shows is finite.
+    """Write the observation of a scene into `numbers`, and return whether everything observed is finite.
 
-    distance: float64 (things,) and order: int64 (things,), to work in.
+    distance: float64 (things,) and order: int64 (things,), working memory.
     """
     finite, axes = True, scene.position.shape[0]
     for axis in range(axes):
@@ -71,9 +71,9 @@ def clipped(number, least, most):
 
 @inlined_kernel
 def sort_by_distance(scene, distance, order):
-    """Order the things by their squared distance from the agent, equal ones by their number, absent ones last.
+    """Order the things by their squared distance from the agent, ties by their number, absent ones last.
 
-    Shell's sort: it needs no memory, and thousands of things take it no longer than observing them a few times.
+    Shellsort: it needs no memory, and sorting thousands of things takes no longer than observing them a few times.
     """
     things = order.shape[0]
     for thing in range(things):

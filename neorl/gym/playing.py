@@ -1,8 +1,8 @@
-"""An agent of neorl in a Gymnasium environment.
+"""A neoRL agent in a Gymnasium environment.
 
-The agent perceives a `Scene`, which a function of the user's makes of an observation: where the agent is in some space,
-and where things are in it. Any space in which near means similar will do, such as the position and the velocity of a
-car. Rewards are recorded and not perceived: what the agent wants are its desires.
+The agent perceives a `Scene`, which a user-defined function makes from an observation: where the agent is in some
+space, and where things are in it. Any space in which near means similar will do, such as the position and velocity of a
+car. Rewards are recorded but not perceived, except by desires of learned valence: the agent's goals are its desires.
 """
 
 from collections.abc import Callable, Sequence
@@ -23,10 +23,10 @@ gymnasium = require("gymnasium", extra="gym")
 
 @dataclass(frozen=True)
 class Played:
-    """What an agent did in an environment, and what it has become.
+    """The outcome of running an agent in an environment.
 
-    learner: the agent with all that it knows, a `neorl.Learner`. rewards: float64 (steps,). terminated, truncated: bool
-    (steps,), whether an episode was over after a step.
+    learner: the agent with all that it has learned, a `neorl.Learner`. rewards: float64 (steps,).
+    terminated, truncated: bool (steps,), whether an episode was over after a step.
     """
 
     learner: Learner
@@ -36,33 +36,33 @@ class Played:
 
     @property
     def ends(self) -> NDArray[np.int64]:
-        """int64 (episodes,): how many steps had been taken when each episode was over, except one that was cut off."""
+        """int64 (episodes,): the number of steps taken when each episode was over, without an unfinished last one."""
         return 1 + np.flatnonzero(self.terminated | self.truncated)
 
     @property
     def lengths(self) -> NDArray[np.int64]:
-        """int64 (episodes,): the steps of each episode that was over."""
+        """int64 (episodes,): the number of steps of each finished episode."""
         return np.diff(self.ends, prepend=0)
 
     @property
     def returns(self) -> NDArray[np.float64]:
-        """float64 (episodes,): the sum of the rewards of each episode that was over."""
+        """float64 (episodes,): the sum of the rewards of each finished episode."""
         return np.diff(np.cumsum(self.rewards)[self.ends - 1], prepend=0.0)
 
 
 def play(agent: Agent | Learner, env: Any, scene: Callable[[Any, dict[str, Any]], Scene], *, steps: int,
          actions: Actions | None = None, commands: Sequence[Any] | None = None, seed: int = 0,
          **surroundings: Any) -> Played:
-    """Let an agent live and learn in a Gymnasium environment, and return what it `Played`.
+    """Run a learning agent in a Gymnasium environment, and return the outcome, a `Played`.
 
-    agent: an `Agent`, which begins knowing nothing, or a `Learner`, which goes on from what it knows.
-    env: a `gymnasium.Env`. An episode that is over is followed by another.
-    scene: a function of (observation, info) that returns the `Scene` which the agent perceives.
-    steps: how many steps to take, ≥ 0.
-    actions: what the agent can do, an `Actions`; by default one for each command, with pushes of 0, which will do
-        unless a desire of the agent's is what a node wants.
-    commands: what `env.step` takes for each of the actions, in the order of `Actions.all_names`, idleness last; by
-        default the numbers of the Discrete space in their order.
+    agent: an `Agent`, which begins untrained, or a `Learner`, which continues from what it has learned.
+    env: a `gymnasium.Env`. A finished episode is followed by another.
+    scene: a function of (observation, info) that returns the `Scene` perceived by the agent.
+    steps: the number of steps to take, ≥ 0.
+    actions: the agent's `Actions`; by default one for each command, with pushes of 0, which suffices unless the source
+        of a desire is a node.
+    commands: the argument of `env.step` for each of the actions, in the order of `Actions.all_names`, idleness last; by
+        default the numbers of the Discrete space in order.
     seed: integer ≥ 0, of the environment and of the agent's random numbers.
     surroundings: things, kinds, size and fps, as in `Learner`, for an `Agent`.
 

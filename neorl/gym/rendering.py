@@ -1,6 +1,6 @@
-"""Pictures of a world, as arrays and in a window: the agent, the things by the colour of their kind, walls, obstacles.
+"""Pictures of a world, as arrays or in a window: the agent, the things coloured by kind, walls and obstacles.
 
-A world of more than two axes is seen along the others, one of a single axis is a line.
+A world of more than two axes is projected onto the first two; one of a single axis is drawn as a line.
 """
 
 import os
@@ -14,7 +14,7 @@ from neorl.worlds.waterworld import WaterWorld
 SIDE = 500  # pixels
 FLOOR, WALL, AGENT = (247, 247, 247), (128, 128, 128), (59, 138, 217)
 KINDS = ((18, 148, 109), (217, 98, 43), (172, 153, 15), (133, 72, 143), (1, 167, 191), (180, 100, 17))
-SMALL = 0.02  # of the size: the radius of what has none
+SMALL = 0.02  # of the size: the radius of agents and things that have none
 
 
 def frame(world, scene):
@@ -43,7 +43,7 @@ def in_plane(place):
 
 
 def draw_disc(picture, x, y, radius, colour):
-    """Draw a disc with a smooth edge; place and radius as shares of the picture's side."""
+    """Draw a disc with a smooth edge; position and radius as fractions of the picture's side."""
     rows, columns = (slice(*np.clip([round((at - radius) * SIDE) - 1, round((at + radius) * SIDE) + 2], 0, SIDE))
                      for at in (y, x))
     across, down = np.arange(SIDE)[columns] + 0.5 - x * SIDE, np.arange(SIDE)[rows, None] + 0.5 - y * SIDE
@@ -53,7 +53,7 @@ def draw_disc(picture, x, y, radius, colour):
 
 
 class Window:
-    """A window that shows pictures at a fixed rate. Pygame has one at a time, which all environments share."""
+    """A window that shows pictures at a fixed rate. Pygame has only one at a time, which all environments share."""
 
     def __init__(self, fps):
         os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
@@ -61,7 +61,7 @@ class Window:
         self._clock = self._pygame.time.Clock()
 
     def show(self, picture):
-        """Show a picture, uint8 (500, 500, 3), when its time has come."""
+        """Show a picture, uint8 (500, 500, 3), and wait for the time of the next one."""
         display = self._pygame.display
         if not display.get_init():
             display.init()

@@ -1,9 +1,9 @@
 """Many environments of one world in one compiled step.
 
-They are those of `neorl.gym.environment`, to the last bit, and follow Gymnasium's rules of `VectorEnv`s: environment i
-of a seed is that of seed + i; an environment whose episode is over begins the next one in the step after (the mode
-`NEXT_STEP`, whose action for it is ignored), in the same step (`SAME_STEP`, with the last observation of the episode in
-``infos["final_obs"]``), or when ``reset(options={"reset_mask": mask})`` asks for it (`DISABLED`).
+They equal those of `neorl.gym.environment`, to the last bit, and follow Gymnasium's rules for `VectorEnv`s: environment
+i of a seed is that of seed + i; an environment whose episode is over begins the next one in the following step (mode
+`NEXT_STEP`, which ignores its action in that step), in the same step (`SAME_STEP`, with the last observation of the
+episode in ``infos["final_obs"]``), or on ``reset(options={"reset_mask": mask})`` (`DISABLED`).
 """
 
 from collections.abc import Mapping, Sequence
@@ -29,7 +29,7 @@ Mode = gymnasium.vector.AutoresetMode
 class VectorWorldEnv(gymnasium.vector.VectorEnv):
     """Many environments of one world in one compiled step; see the module.
 
-    world: a `neorl.World`. num_envs: how many environments, ≥ 1. max_episode_steps: after which an episode is
+    world: a `neorl.World`. num_envs: the number of environments, ≥ 1. max_episode_steps: after which an episode is
     truncated, ≥ 1, or None. autoreset_mode: a `gymnasium.vector.AutoresetMode`, or its value. render_mode: None, or
     "rgb_array". egocentric, continuing: as in `neorl.gym.environment.WorldEnv`.
 
@@ -65,15 +65,15 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
 
     @property
     def world_states(self) -> tuple[Any, ...]:
-        """The states of the worlds, one for each environment, views that cannot be written to: a tuple."""
+        """The states of the worlds, one for each environment, as read-only views: a tuple."""
         return tuple(map(self._batch.state_of, range(self.num_envs)))
 
     def reset(self, *, seed: int | Sequence[int] | None = None,
               options: Mapping[str, Any] | None = None) -> tuple[NDArray[np.float32], dict[str, Any]]:
         """Begin an episode in every environment.
 
-        seed: an integer ≥ 0, of which environment i takes seed + i; a list of one for each; or None to draw on.
-        options: None, or {"run": k} as in `WorldEnv.reset`, and "reset_mask": bool (num_envs,), in which not all begin.
+        seed: an integer ≥ 0, with seed + i for environment i; a list of one for each; or None to continue the streams.
+        options: None, or {"run": k} as in `WorldEnv.reset`, and "reset_mask": bool (num_envs,), if not all begin.
         Returns (observations: float32 (num_envs, numbers), infos). Raises ValueError for anything else.
         """
         if not isinstance(options, Mapping | None):
@@ -110,8 +110,8 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
         actions: integers (num_envs,), each in 0 … actions − 1.
         Returns (observations: float32 (num_envs, numbers), rewards: float64 (num_envs,), terminated: bool (num_envs,),
         truncated: bool (num_envs,), infos).
-        Raises ValueError for other actions, `gymnasium.error.ResetNeeded` before `reset`, and where an episode is over
-        and does not begin again by itself.
+        Raises ValueError for other actions, `gymnasium.error.ResetNeeded` before `reset`, and when an episode is over
+        and is not reset automatically.
         """
         slots, mode = self._batch.slots, self._mode
         over = slots.terminated | slots.truncated
@@ -119,7 +119,7 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
             raise gymnasium.error.ResetNeeded("step() came before reset(), allowed is step() in an episode")
         try:
             given = np.asarray(actions)
-        except ValueError:  # lists of several lengths
+        except ValueError:  # lists of unequal lengths
             given = np.array(None)
         if (given.shape != (self.num_envs,) or given.dtype.kind not in "iu"
                 or not 0 <= given.min() <= given.max() < self.single_action_space.n):
@@ -135,7 +135,7 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
                 infos | self._infos(np.ones(self.num_envs, bool)))
 
     def _infos(self, about):
-        """The infos of those environments that have one: bool (num_envs,)."""
+        """The infos of the environments that `about` marks: bool (num_envs,)."""
         slots = self._batch.slots
         return {"met": np.where(about[:, None], slots.met, 0), "_met": about.copy(),
                 "restarted": slots.restarted & about, "_restarted": about.copy()}
@@ -167,7 +167,7 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
 def vector_waterworld(num_envs: int = 1, max_episode_steps: int | None = None, autoreset_mode: Any = Mode.NEXT_STEP,
                       render_mode: str | None = None, egocentric: bool = True, continuing: bool = True,
                       **rules: Any) -> VectorWorldEnv:
-    """Many tanks of `neorl.WaterWorld`: "neorl/WaterWorld-v0" of `gymnasium.make_vec`.
+    """Many environments of `neorl.WaterWorld`: "neorl/WaterWorld-v0" of `gymnasium.make_vec`.
 
     rules: the fields of `WaterWorld`. The others are those of `VectorWorldEnv`, which it returns.
     """
@@ -178,7 +178,7 @@ def vector_waterworld(num_envs: int = 1, max_episode_steps: int | None = None, a
 def vector_arena(num_envs: int = 1, max_episode_steps: int | None = None, autoreset_mode: Any = Mode.NEXT_STEP,
                  render_mode: str | None = None, egocentric: bool = True, continuing: bool = False,
                  **rules: Any) -> VectorWorldEnv:
-    """Many times `neorl.Arena`: "neorl/Arena-v0" of `gymnasium.make_vec`.
+    """Many environments of `neorl.Arena`: "neorl/Arena-v0" of `gymnasium.make_vec`.
 
     rules: the fields of `Arena`. The others are those of `VectorWorldEnv`, which it returns.
     """

@@ -1,11 +1,12 @@
-"""An arena in the plane, with walls, obstacles and places that matter; by default the water maze of Morris (1984).
+"""An arena in the plane, with walls, obstacles and places of interest; by default the water maze of Morris (1984).
 
-1. The agent moves as in WaterWorld, with inertia: an action adds a quarter of the size to its velocity along an axis,
-   which keeps 97.5 % of it a step; or in plain steps of one length. Along an axis where it would come into a wall or an
-   obstacle it stays where it is, and stops.
-2. The places are the things of the scene, and do not move. One is met when the agent comes within `radius` of it, which
-   pays what its kind pays, and, if `ends`, ends the trial; otherwise it can be met again once the agent has left it.
-3. A trial that is not over after `trial_seconds` ends without pay.
+1. The agent moves with inertia, as in WaterWorld: an action adds a quarter of the size to its velocity along an axis,
+   and each step retains 97.5 % of the velocity; or it moves in plain steps of one length. Along an axis on which it
+   would enter a wall or an obstacle, it stays in place and stops.
+2. The places are the things of the scene, and do not move. A place is met when the agent comes within `radius` of it.
+   That pays the reward of its kind and, if `ends`, ends the trial; otherwise the place can be met again once the agent
+   has left it.
+3. A trial that is not over after `trial_seconds` ends without reward.
 4. A trial starts at one of the four cardinal points of the rim, drawn at random, or at `start`.
 
 The origin is the upper left corner; the pool, if round, touches all four sides.
@@ -26,24 +27,24 @@ from neorl.worlds.world import Dynamics, World
 
 SHAPES = ("round", "square")
 MOTIONS = ("inertia", "steps")
-RIM = 0.05  # how far from the wall a trial starts, of the size
-PUSH = 0.25  # of the size per second, that an action adds to the velocity
+RIM = 0.05  # distance from the wall at which a trial starts, in sizes
+PUSH = 0.25  # sizes per second that an action adds to the velocity
 
 
 class ArenaState(NamedTuple):
-    """All that changes in an arena."""
+    """The state of an arena."""
 
     scene: Scene
     inside: array("bool", "things")  # whether the agent is within the radius of a place
     clock: array("int64", 1)  # steps since the trial began
-    stream: array("uint64", 4)  # the random numbers of starts
+    stream: array("uint64", 4)  # random numbers for the starts
 
 
 class ArenaRules(NamedTuple):
-    """All that stays the same in an arena, as the kernels take it."""
+    """The constants of an arena, as the kernels take them."""
 
     size: float
-    dt: float  # seconds a step
+    dt: float  # seconds per step
     round: bool
     stride: float  # of a plain step, as a share of the size; 0 with inertia
     radius: float
@@ -60,17 +61,17 @@ class ArenaRules(NamedTuple):
 
 @dataclass(frozen=True)
 class Arena(World, checks.Final):
-    """An arena in the plane, see the module for its rules. All lengths are shares of its size, its width and height.
+    """An arena in the plane, see the module for its rules. Lengths are fractions of its size, its width and height.
 
-    places: (kind, x, y) each, the kind a name. pay: for each kind, in the order in which they first come in `places`,
-        what it pays to meet one; 1 for those that are left out.
+    places: (kind, x, y) each, the kind a name. pay: the reward for meeting a place of each kind, in the order in which
+        kinds first appear in `places`; 1 for those left out.
     obstacles: (left, top, right, bottom) each.
     shape: of the walls, "round" or "square". motion: "inertia", or plain "steps" of `step_length`.
-    radius: within which a place is met, > 0. ends: whether that ends the trial.
+    radius: the distance within which a place is met, > 0. ends: whether a meeting ends the trial.
     start: where trials start, (x, y); () stands for one of four points of the rim.
-    trial_seconds: how long a trial lasts at most, > 0. fps: steps per second, 1 … 2³¹.
+    trial_seconds: the maximum duration of a trial, > 0. fps: steps per second, 1 … 2³¹.
 
-    Raises ValueError for anything else, and for a start that is not free.
+    Raises ValueError for anything else, and for a start in a wall or an obstacle.
     """
 
     places: Sequence[tuple[str, float, float]] = (("platform", 0.65, 0.35),)
@@ -127,7 +128,7 @@ class Arena(World, checks.Final):
 
     @property
     def things(self) -> int:
-        """How many places there are."""
+        """The number of places."""
         return len(self.places)
 
     @property
@@ -165,7 +166,7 @@ def reset(state: ArenaState, rules: ArenaRules) -> None:
 
 @kernel
 def step(state: ArenaState, rules: ArenaRules, action: int):
-    """One step of the rules. Returns (reward, done)."""
+    """Advance the state by one step of the rules. Returns (reward, done)."""
     scene, reward, met = state.scene, 0.0, 0
     move(scene, rules, action)
     for place in range(rules.place.shape[0]):

@@ -1,16 +1,16 @@
-"""A robot arm of two or three links, whose hand reaches for targets and keeps off obstacles; its space is its joints'.
+"""A robot arm of two or three links, whose hand reaches for targets and avoids obstacles, in the space of its joints.
 
-1. The base stands still. The angle of the first joint is that of the first link to the x axis, and the angle of every
-   other joint that of its link to the link before; in turns, 0 ≤ angle < 1, closed on themselves. All links together
-   are 1 long.
-2. An action adds `PUSH` turns per second to the velocity of one joint, or takes as much away. Then each joint turns by
+1. The base is fixed. The angle of the first joint is that of the first link to the x axis, the angle of every other
+   joint that of its link to the previous link; angles are in turns, 0 ≤ angle < 1, and close on themselves. The total
+   length of the links is 1.
+2. An action adds `PUSH` turns per second to the velocity of one joint, or subtracts as much. Then each joint turns by
    velocity · dt, and keeps `DRAG` of its velocity. Idleness adds nothing.
-3. A target, or an obstacle, is the point where the hand is in some posture. The scene has the posture: the arm's own as
-   the position, that of each point as the place of a thing. The hand can reach a point in other postures, too.
+3. A target, or an obstacle, is the point that the hand reaches in some posture. The scene contains postures: the arm's
+   own as the position, that of each point as the place of a thing. The hand can reach a point in other postures, too.
 4. A point is met when the hand is within `radius` of it. That pays 1 for a target and −1 for an obstacle, and a fresh
-   point of the same kind takes its place: of a posture whose angles are each drawn evenly, and drawn again as long as
-   the point is within two radii of the hand.
-5. The arm starts at rest, stretched along the x axis, among fresh points. There is no end.
+   point of the same kind takes its place: that of a posture whose angles are drawn uniformly, and redrawn while the
+   point is within two radii of the hand.
+5. The arm starts at rest, stretched along the x axis, among fresh points. The episode never ends.
 """
 
 from collections.abc import Sequence
@@ -28,23 +28,23 @@ from neorl.worlds.world import Dynamics, World
 
 PUSH = 0.05  # turns per second
 DRAG = 0.9
-TERMS = 10  # of the series of sine and cosine, so that they are exact to the last few bits
+TERMS = 10  # of the series of sine and cosine, exact to the last few bits
 TARGET, OBSTACLE = range(2)
 
 
 class ArmState(NamedTuple):
-    """All that changes of an arm."""
+    """The state of an arm."""
 
     scene: Scene
     hand: array("float64", 2)
-    point: array("float64", "things", 2)  # where the hand is in the posture of each thing
+    point: array("float64", "things", 2)  # position of the hand in the posture of each thing
     stream: array("uint64", 4)
 
 
 class ArmRules(NamedTuple):
-    """All that stays the same of an arm, as the kernels take it."""
+    """The constants of an arm, as the kernels take them."""
 
-    dt: float  # seconds a step
+    dt: float  # seconds per step
     radius: float
     targets: int
     length: array("float64", "axes")
@@ -52,11 +52,11 @@ class ArmRules(NamedTuple):
 
 @dataclass(frozen=True)
 class Arm(World, checks.Final):
-    """A robot arm, see the module for its rules. All lengths are shares of that of all links together.
+    """A robot arm, see the module for its rules. Lengths are fractions of the total length of the links.
 
     lengths: of the links, two or three numbers > 0 in any unit.
-    targets, obstacles: how many there are at any time, integers 0 … 64, one or more together.
-    radius: within which a point is met, 10⁻³ … 0.2. fps: steps per second, 1 … 2³¹.
+    targets, obstacles: their numbers at any time, integers 0 … 64, one or more together.
+    radius: the distance within which a point is met, 10⁻³ … 0.2. fps: steps per second, 1 … 2³¹.
 
     Raises ValueError for anything else.
     """
@@ -85,7 +85,7 @@ class Arm(World, checks.Final):
 
     @property
     def actions(self):
-        """An `Actions`: each joint forth and back, "1+", "1−", "2+" and so on."""
+        """An `Actions`: each joint forward and backward, "1+", "1−", "2+" and so on."""
         joints = range(len(self.lengths))
         return Actions([f"{joint + 1}{sign}" for joint in joints for sign in "+−"],
                        [[sign * (axis == joint) for axis in joints] for joint in joints for sign in (1.0, -1.0)],
@@ -98,7 +98,7 @@ class Arm(World, checks.Final):
 
     @property
     def things(self) -> int:
-        """How many targets and obstacles there are."""
+        """The number of targets and obstacles."""
         return self.targets + self.obstacles
 
     @property
@@ -122,7 +122,7 @@ def reset(state: ArmState, rules: ArmRules) -> None:
 
 @kernel
 def step(state: ArmState, rules: ArmRules, action: int):
-    """One step of the rules. Returns (reward, done)."""
+    """Advance the state by one step of the rules. Returns (reward, done)."""
     scene, reward = state.scene, 0.0
     if action < 2 * rules.length.shape[0]:
         scene.velocity[action // 2] += PUSH if action % 2 == 0 else -PUSH
@@ -163,7 +163,7 @@ def from_hand(state, thing):
 
 @kernel
 def find_hand(posture, length, hand):
-    """Where the hand is in a posture, into `hand`: (x, y), the base at the origin, y downward."""
+    """Compute the position of the hand in a posture, in `hand`: (x, y), the base at the origin, y downward."""
     along_x, along_y = 1.0, 0.0  # the direction of the link
     hand[0] = hand[1] = 0.0
     for joint in range(length.shape[0]):

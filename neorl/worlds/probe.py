@@ -1,4 +1,4 @@
-"""Kernels for viewers: probe the values of an agent where it is not, and add a second player to WaterWorld."""
+"""Kernels for viewers: probe the values of an agent anywhere, and add a second player to WaterWorld."""
 
 import functools
 from typing import NamedTuple
@@ -13,11 +13,11 @@ from neorl.core.scene import Scene
 from neorl.core.state import State
 from neorl.worlds.waterworld import Rules, WaterWorldState, move_agent, reset, touch_creeps
 
-HALF_SECOND = 0.5  # a velocity is seen where it would take the agent in this time
+HALF_SECOND = 0.5  # a velocity is shown at the place that the agent would reach in this time
 
 
 class Probes(NamedTuple):
-    """What `probes_with` makes."""
+    """The kernels that `probes_with` makes."""
 
     survey: Kernel
     cell_seen_at: Kernel
@@ -26,20 +26,20 @@ class Probes(NamedTuple):
 
 @functools.cache
 def probes_with(constants):
-    """The `Probes` of agents with certain `neorl.core.constants.Constants`, of a plane."""
+    """The `Probes` of agents with given `neorl.core.constants.Constants`, in the plane."""
 
     @kernel
     def survey(parameters: Parameters, state: State, elsewhere: State, there: Scene, side: int,
                values: array("float64", "tiles", "actions")) -> None:
-        """The value of each action as if the agent were in the middle of each of side × side tiles, row by row.
+        """The value of each action if the agent were in the middle of each of side × side tiles, row by row.
 
-        elsewhere: a state to work in, with the agent's q and goal_range. there: the scene, with a position to work in.
+        elsewhere: a scratch state with the agent's q and goal_range. there: the scene, with a scratch position.
         """
         for tile in range(side * side):
             there.position[0] = (tile % side + 0.5) / side * parameters.size
             there.position[1] = (tile // side + 0.5) / side * parameters.size
             life.begin(parameters, constants, elsewhere, there)
-            for e in range(state.desires.valence.shape[0]):  # recursion takes the agent's own of the step before
+            for e in range(state.desires.valence.shape[0]):  # recursion uses the agent's own of the previous step
                 elsewhere.desires.valence[e] = state.desires.valence[e]
                 elsewhere.desires.worth[e] = state.desires.worth[e]
                 for action in range(len(constants.actions)):
@@ -50,9 +50,9 @@ def probes_with(constants):
 
     @kernel
     def cell_seen_at(parameters: Parameters, elsewhere: State, scene: Scene, m: int, x: float, y: float) -> int:
-        """The cell of a map for a place in the world; if the map is about things, for a thing there.
+        """The cell of a map for a place in the world; if the map represents things, for a thing there.
 
-        elsewhere: a state to work in. Along the axes of other vectors it is the cell of what the agent perceives.
+        elsewhere: a scratch state. Along the axes of other vectors, the cell is that of what the agent perceives.
         """
         nodes, offset = parameters.nodes, elsewhere.offset
         n = 0
@@ -70,10 +70,10 @@ def probes_with(constants):
     @kernel
     def step_second(parameters: Parameters, state: State, board: WaterWorldState, rules: Rules, second: Scene,
                     action: int) -> float:
-        """Let a second agent on the same board do an action, and return what it is paid.
+        """Take an action of a second agent on the same board, and return its reward.
 
-        second: the scene of the board, with a position and a velocity of its own. A creep that it takes is one that
-        the first agent has not met: what its maps follow instead starts afresh, and nothing is learned from the leap.
+        second: the scene of the board, with the second agent's own position and velocity. The first agent does not meet
+        a creep that the second one takes: the creep's tracks restart at the fresh one, and nothing is learned from it.
         """
         move_agent(second, rules, action)
         reward, done = touch_creeps(WaterWorldState(second, board.direction, board.speed, board.jitter, board.stream),

@@ -1,7 +1,7 @@
-"""The rollout of an agent in a world: choose, act, let the world move on, perceive and learn, step after step.
+"""The rollout of an agent in a world: choose, act, advance the world, perceive and learn, step after step.
 
-The kernels of the world and of the agent's own functions are constants of the compiled code, so a world or a policy of
-one's own runs as fast as those of the package. Each combination is compiled once (`neorl.core.compile_cache`).
+The kernels of the world and the agent's user-defined functions are constants of the compiled code, so a user-defined
+world or policy runs as fast as those of the package. Each combination is compiled once (`neorl.core.compile_cache`).
 """
 
 import functools
@@ -14,12 +14,12 @@ from neorl.core.parameters import Parameters
 from neorl.core.state import State
 
 
-MOST_HITS = 32_767  # in a bin, that its type has room for
+MOST_HITS = 32_767  # in a bin, the maximum of its type
 
 
 @functools.cache
 def rollout_in(dynamics, constants):
-    """The kernel `rollout` of agents with certain `neorl.core.constants.Constants` in a world of certain `Dynamics`."""
+    """The kernel `rollout` of agents with given `neorl.core.constants.Constants` in a world of given `Dynamics`."""
     reset, step = dynamics.reset, inlined(dynamics.step)
     world_type, rules_type = fields(reset)["state"], fields(reset)["rules"]
 
@@ -27,9 +27,9 @@ def rollout_in(dynamics, constants):
     def rollout(parameters: Parameters, state: State, world_state: world_type, rules: rules_type,
                 clock: array("int64", 1), last_step: int, total: float, bin_steps: int,
                 rewards: array("float32", "bins"), hits: array("int16", "bins", "kinds")) -> float:
-        """Take the steps clock[0] … last_step − 1, adding what they pay to the bins of `rewards` and `hits`.
+        """Take the steps clock[0] … last_step − 1, adding rewards and contacts to the bins of `rewards` and `hits`.
 
-        total: reward so far, to which theirs is added and returned. hits: things met of each kind, up to `MOST_HITS`.
+        total: the reward so far; the new total is returned. hits: things met of each kind, up to `MOST_HITS`.
         """
         scene = world_state.scene
         for now in range(clock[0], last_step):

@@ -1,20 +1,20 @@
 """A vessel with a rudder in a current, which calls at waypoints among other vessels (thesis, figure 1.1).
 
-1. The vessel goes through the water at one `speed`, where its bow points. The `current` carries it along, so it moves
-   over the ground by (speed · heading + current) · dt. At the edge of the area it is held up along that axis.
-2. The rudder is to port, to starboard, or idle amidships. The rate of turn follows it with a lag (Nomoto et al. 1957):
-   rate += (rudder · `turning` − rate) · dt / `lag`. The heading, a vector of length 1, then turns by rate · dt, to
-   second order: by twice the angle whose tangent is rate · dt / 2.
-3. The scene has the position; as the velocity that through the water, as compass and log show it; and as things one
-   waypoint and the other vessels. How the current sets and how fast the vessel turns it does not show.
-4. A waypoint pays 1 when it is within `radius`; a fresh one takes its place. Another vessel within `radius` pays −1, a
-   collision, and another one takes its place. Each is drawn evenly over the area, and again as long as it is within
+1. The vessel moves through the water at a constant `speed` in the direction of its bow. The `current` carries it along,
+   so it moves over the ground by (speed · heading + current) · dt. At the edge of the area it stops along that axis.
+2. The rudder is to port, to starboard, or amidships when idle. The rate of turn follows it with a lag (Nomoto et al.
+   1957): rate += (rudder · `turning` − rate) · dt / `lag`. The heading, a vector of length 1, then turns by rate · dt,
+   to second order: by twice the angle whose tangent is rate · dt / 2.
+3. The scene contains the position; the velocity through the water, as compass and log show it; and, as things, one
+   waypoint and the other vessels. It shows neither the current nor the rate of turn.
+4. A waypoint within `radius` pays 1, and a fresh one takes its place. Another vessel within `radius` is a collision: it
+   pays −1, and a fresh one takes its place. Each is drawn uniformly over the area, and redrawn while it is within
    `CLEAR` of the vessel.
-5. The others keep their course, any one of eight, and their speed over the ground, drawn evenly from 0 to `speed`; at
-   the edge they turn back as light is reflected.
-6. The vessel starts in the middle, heading east, its rudder amidships. There is no end.
+5. The other vessels keep their course, one of eight, and their speed over the ground, drawn uniformly from 0 to
+   `speed`; at the edge they are reflected.
+6. The vessel starts in the middle, heading east, its rudder amidships. The episode never ends.
 
-The area is 1 wide and high, y points down, and east is x.
+The area is 1 wide and high; x points east and y points down, to the south.
 """
 
 import math
@@ -38,7 +38,7 @@ DIAGONAL = math.sqrt(0.5)
 
 
 class VesselState(NamedTuple):
-    """All that changes on the water."""
+    """The state of the vessel and its surroundings."""
 
     scene: Scene
     heading: array("float64", 2)  # of length 1
@@ -48,9 +48,9 @@ class VesselState(NamedTuple):
 
 
 class VesselRules(NamedTuple):
-    """All that stays the same on the water, as the kernels take it."""
+    """The constants of the waters, as the kernels take them."""
 
-    dt: float  # seconds a step
+    dt: float  # seconds per step
     speed: float
     turning: float
     lag: float
@@ -62,11 +62,11 @@ class VesselRules(NamedTuple):
 class Vessel(World, checks.Final):
     """A vessel among others, see the module for its rules. Lengths are in widths of the area.
 
-    traffic: how many other vessels there are, 0 … 64.
-    current: (x, y), widths per second, either below the speed in size.
-    speed: widths per second through the water, 10⁻³ … 1. turning: radians per second with the rudder over for long,
-        10⁻³ … 10. lag: seconds > 0 that the rate of turn takes to follow, a step at least.
-    radius: within which things are met, 10⁻³ … 0.1. fps: steps per second, 1 … 2³¹.
+    traffic: the number of other vessels, 0 … 64.
+    current: (x, y), widths per second, each at most `speed` in magnitude.
+    speed: widths per second through the water, 10⁻³ … 1. turning: the steady rate of turn with the rudder over, radians
+        per second, 10⁻³ … 10. lag: the time constant of the rate of turn, seconds, at least one step.
+    radius: the distance within which things are met, 10⁻³ … 0.1. fps: steps per second, 1 … 2³¹.
 
     Raises ValueError for anything else.
     """
@@ -103,7 +103,7 @@ class Vessel(World, checks.Final):
 
     @property
     def things(self) -> int:
-        """The waypoint and the other vessels."""
+        """The number of things: the waypoint and the other vessels."""
         return 1 + self.traffic
 
     @property
@@ -112,7 +112,7 @@ class Vessel(World, checks.Final):
         return VesselRules(1.0 / self.fps, self.speed, self.turning, self.lag, self.radius, np.array(self.current))
 
     def check_state(self, state: VesselState) -> None:
-        """Raise ValueError unless a state is of this world, finite, and its heading of length 1."""
+        """Raise ValueError unless a state fits this world, is finite, and has a heading of length 1."""
         super().check_state(state)
         if not abs(np.linalg.norm(state.heading) - 1.0) < 1e-6:
             raise ValueError(f"state.heading is {checks.shown(state.heading)}, allowed are vectors of length 1")
@@ -134,7 +134,7 @@ def reset(state: VesselState, rules: VesselRules) -> None:
 
 @kernel
 def step(state: VesselState, rules: VesselRules, action: int):
-    """One step of the rules. Returns (reward, done)."""
+    """Advance the state by one step of the rules. Returns (reward, done)."""
     scene, reward = state.scene, 0.0
     steer(state, rules, action)
     for axis in range(2):
@@ -152,7 +152,7 @@ def step(state: VesselState, rules: VesselRules, action: int):
 
 @kernel
 def steer(state, rules, action):
-    """Turn by the rudder."""
+    """Turn the vessel by its rudder."""
     rudder = 1.0 if action == STARBOARD else -1.0 if action == PORT else 0.0
     state.rate[0] += (rudder * rules.turning - state.rate[0]) * rules.dt / rules.lag
     tangent = 0.5 * state.rate[0] * rules.dt
@@ -160,7 +160,7 @@ def steer(state, rules, action):
     cosine, sine = (1.0 - square) / (1.0 + square), 2.0 * tangent / (1.0 + square)
     x, y = state.heading[0], state.heading[1]
     x, y = cosine * x - sine * y, sine * x + cosine * y
-    length = math.sqrt(x * x + y * y)  # which rounding would change in the course of many turns
+    length = math.sqrt(x * x + y * y)  # rounding would change it in the course of many turns
     state.heading[0], state.heading[1] = x / length, y / length
     for axis in range(2):
         state.scene.velocity[axis] = rules.speed * state.heading[axis]
@@ -168,7 +168,7 @@ def steer(state, rules, action):
 
 @kernel
 def sail(state, rules, thing):
-    """Move another vessel on; a waypoint has no course."""
+    """Advance another vessel along its course; that of a waypoint is 0."""
     for axis in range(2):
         at = state.scene.things[thing, axis] + state.course[thing, axis] * rules.dt
         if at < 0.0:

@@ -1,17 +1,17 @@
-"""The water maze (Morris 1984): a round pool with a platform under its surface, which is moved every few trials.
+"""The water maze (Morris 1984): a round pool with a submerged platform, which is moved every few trials.
 
 1. The pool touches all sides of the unit square. An action adds `PUSH`, diameters per second, to the animal's velocity
-   along an axis. It swims on by velocity · dt, and keeps `DRAG` of its velocity. Along an axis where it would come into
-   the wall it stays where it is, and stops.
-2. A trial starts at rest at one of the four cardinal points of the rim, drawn at random. It ends on the platform, which
-   is within `radius` of its centre; that pays 1. A trial that is not over after `trial_seconds` ends without pay.
-3. The platform stands at the first of `places` for `trials_a_day` trials, then at the second, and so on, and at the
-   first again after the last.
-4. The platform cannot be seen. What the scene has as a thing is where the animal remembers it: after a trial, where the
-   platform is, for an animal that has not found it is put on it. Nothing is remembered before the first trial, and
-   from when the animal comes within `radius` of the place remembered and there is no platform.
-5. The state holds how many seconds each trial took, for as many trials as there are days in `places`, one after the
-   other.
+   along an axis. The animal swims by velocity · dt, and keeps `DRAG` of its velocity. Along an axis on which it would
+   enter the wall, it stays in place and stops.
+2. A trial starts at rest at one of the four cardinal points of the rim, drawn at random. It ends when the animal is on
+   the platform, within `radius` of its centre; that pays 1. A trial that is not over after `trial_seconds` ends without
+   reward.
+3. The platform stands at the first of `places` for `trials_a_day` trials, then at the second, and so on; after the last
+   it returns to the first.
+4. The platform is invisible. The thing in the scene is its remembered place: after a trial, that of the platform, since
+   an animal that has not found it is put on it. No place is remembered during the first trial, nor after the animal has
+   come within `radius` of the remembered place and found no platform there.
+5. The state records how many seconds each trial took, for the trials of one pass through `places`.
 
 The origin is the upper left corner.
 """
@@ -35,20 +35,20 @@ PLATFORM = 0
 
 
 class WaterMazeState(NamedTuple):
-    """All that changes in the pool."""
+    """The state of the pool."""
 
     scene: Scene
     platform: array("float64", 2)
-    trial: array("int64", 1)  # how many have begun
+    trial: array("int64", 1)  # number of trials begun
     clock: array("int64", 1)  # steps since the trial began
     latency: array("float64", "trials")  # seconds that each trial took; 0 if it is not over
     stream: array("uint64", 4)
 
 
 class WaterMazeRules(NamedTuple):
-    """All that stays the same in the pool, as the kernels take it."""
+    """The constants of the pool, as the kernels take them."""
 
-    dt: float  # seconds a step
+    dt: float  # seconds per step
     radius: float
     last_step: int
     trials_a_day: int
@@ -59,11 +59,11 @@ class WaterMazeRules(NamedTuple):
 
 @dataclass(frozen=True)
 class WaterMaze(World, checks.Final):
-    """A water maze, see the module for its rules. All lengths are shares of the pool's diameter.
+    """A water maze, see the module for its rules. Lengths are fractions of the pool's diameter.
 
-    places: of the platform, (x, y) each, one a day, one to 1,024, within the pool.
+    places: positions of the platform, (x, y) each, one per day, one to 1,024, within the pool.
     trials_a_day: integer 1 … 1,024. radius: of the platform, 10⁻³ … 0.25.
-    trial_seconds: how long a trial lasts at most, > 0. fps: steps per second, 1 … 2³¹.
+    trial_seconds: the maximum duration of a trial, > 0. fps: steps per second, 1 … 2³¹.
 
     Raises ValueError for anything else.
     """
@@ -98,7 +98,7 @@ class WaterMaze(World, checks.Final):
 
     @property
     def trials(self) -> int:
-        """How many trials the days have together."""
+        """The number of trials of all days together."""
         return len(self.places) * self.trials_a_day
 
     @property
@@ -115,7 +115,7 @@ class WaterMaze(World, checks.Final):
             np.array(self.places), np.array([(0.5, near), (0.5, far), (far, 0.5), (near, 0.5)]), self.actions.table)
 
     def check_state(self, state: WaterMazeState) -> None:
-        """Raise ValueError unless a state is of this world, finite, and its trial has begun."""
+        """Raise ValueError unless a state fits this world, is finite, and its trial has begun."""
         super().check_state(state)
         if not state.trial[0] >= 1:
             raise ValueError(f"state.trial is {checks.shown(state.trial)}, allowed are integers ≥ 1")
@@ -137,7 +137,7 @@ def reset(state: WaterMazeState, rules: WaterMazeRules) -> None:
 
 @kernel
 def step(state: WaterMazeState, rules: WaterMazeRules, action: int):
-    """One step of the rules. Returns (reward, done)."""
+    """Advance the state by one step of the rules. Returns (reward, done)."""
     scene = state.scene
     swim(scene, rules, action)
     state.clock[0] += 1

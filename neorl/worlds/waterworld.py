@@ -2,14 +2,14 @@
 
 Rules, as in the PyGame Learning Environment (Tasfi 2016; thesis section 4.2), for a side of `width` pixels:
 
-1. The agent's action adds a quarter of the width to one component of its velocity (per step, not per second; north
-   is −y), or nothing. Then it moves. A component that stays inside [0, width − 2 radius] keeps 97.5 % of its
-   velocity, one that leaves is clamped to the wall and stopped.
-2. A creep is touched where the positions, in whole pixels, differ by less than two radii in both axes: squares, not
-   discs. Pygame rounds positions since version 2, and cut off what is behind the point before. A creep that is touched
-   pays +1 if green and −1 if red, and a fresh creep takes its place.
+1. An action adds a quarter of the width to one component of the agent's velocity (per step, not per second; north
+   is −y), or nothing. Then the agent moves. A coordinate that stays inside [0, width − 2 radius] keeps 97.5 % of its
+   velocity; one that leaves is clamped to the wall, and its velocity becomes 0.
+2. A creep is touched when the positions, in whole pixels, differ by less than two radii along both axes: squares, not
+   discs. Pygame rounds positions since version 2, and truncated them before. A touched creep pays +1 if green and −1 if
+   red, and a fresh creep takes its place.
 3. If no green creep is left, the step also pays `win_reward` and the episode is over.
-4. Every creep, fresh ones too, moves at its own constant speed. At a wall it is clamped and turns back with a jitter.
+4. Every creep, including fresh ones, moves at its own constant speed. At a wall it is clamped and bounces with jitter.
 
 The tank is 250 pixels wide with 50 steps per second by default; the origin is the upper left corner.
 """
@@ -34,33 +34,33 @@ DIAGONAL = 1.0 / math.sqrt(2.0)
 
 
 class WaterWorldState(NamedTuple):
-    """All that changes in a tank of n creeps, in pixels and seconds. The things of the scene are the creeps."""
+    """The state of a tank of n creeps, in pixels and seconds. The things of the scene are the creeps."""
 
     scene: Scene
     direction: array("float64", "things", 2)  # of each creep, of length 1
     speed: array("float64", "things")
     jitter: array("float64", "things")  # in [0, 1]
-    stream: array("uint64", 4)  # the random numbers of fresh creeps
+    stream: array("uint64", 4)  # random numbers for fresh creeps
 
 
 class Rules(NamedTuple):
-    """All that stays the same in a tank, as the kernels take it."""
+    """The constants of a tank, as the kernels take them."""
 
     width: float
     radius: float
-    dt: float  # seconds a step
+    dt: float  # seconds per step
     win_reward: float
-    rounding: float  # what is added to a coordinate before it is cut to whole pixels
+    rounding: float  # added to a coordinate before it is truncated to whole pixels
 
 
 @dataclass(frozen=True)
 class WaterWorld(World, checks.Final):
     """The rules of one tank.
 
-    width: pixels a side, 11 … 2³¹, so that the radius of 4.7 % rounds to a pixel or more.
+    width: pixels per side, 11 … 2³¹, so that the radius of 4.7 % rounds to a pixel or more.
     n_creeps: creeps in the tank at any time, 1 … 2²⁰.
-    fps: steps in a simulated second, 1 … 2³¹. An action works per step, so this changes the task.
-    win_reward: paid on top when the last green creep is taken: 5 in the original and in paper A, 0 in papers B and C.
+    fps: steps per simulated second, 1 … 2³¹. An action acts per step, so this changes the task.
+    win_reward: paid as well when the last green creep is taken: 5 in the original and in paper A, 0 in papers B and C.
         From −10³⁰ to 10³⁰, so that the rewards of a bin do not overflow.
     contact: whether positions are "rounded" to whole pixels before they are compared, as in pygame 2, or "truncated",
         as in pygame 1.9.
@@ -93,7 +93,7 @@ class WaterWorld(World, checks.Final):
 
     @property
     def size(self) -> int:
-        """The width, the unit of length in which agents see the tank."""
+        """The width, which is the unit of length for agents."""
         return self.width
 
     @property
@@ -113,7 +113,7 @@ class WaterWorld(World, checks.Final):
                      0.5 if self.contact == "rounded" else 0.0)
 
     def check_state(self, state: WaterWorldState) -> None:
-        """Raise ValueError unless a state has the creeps of the world, and is finite."""
+        """Raise ValueError unless a state fits this world and is finite."""
         super().check_state(state)
         if not np.all(np.abs(np.linalg.norm(state.direction, axis=1) - 1.0) < 1e-6):
             raise ValueError(f"state.direction is {checks.shown(state.direction)}, allowed are vectors of length 1")
@@ -155,7 +155,7 @@ def reset(state: WaterWorldState, rules: Rules) -> None:
 
 @kernel
 def step(state: WaterWorldState, rules: Rules, action: int):
-    """One step of the rules. Returns (reward, done)."""
+    """Advance the state by one step of the rules. Returns (reward, done)."""
     move_agent(state.scene, rules, action)
     reward, done = touch_creeps(state, rules)
     for creep in range(state.speed.shape[0]):

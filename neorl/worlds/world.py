@@ -1,16 +1,16 @@
-"""What a world is.
+"""The interface of worlds.
 
-A world is a frozen dataclass, its fields what is chosen of it, with a `State`, rules, and two kernels:
+A world is a frozen dataclass, whose fields users choose, with a `State`, rules, and two kernels:
 
-1. ``State``, a named tuple of arrays (`neorl.core.kernel.array`), holds all that changes. It has a field ``scene``, the
-   `neorl.core.scene.Scene` that agents perceive, and a field ``stream`` of random numbers, uint64 (4,).
-2. ``rules``, a named tuple of numbers, holds all that stays the same, as the kernels take it.
+1. ``State``, a named tuple of arrays (`neorl.core.kernel.array`), holds everything that changes. It has a field
+   ``scene``, the `neorl.core.scene.Scene` that agents perceive, and a field ``stream`` of random numbers, uint64 (4,).
+2. ``rules``, a named tuple of numbers and arrays, holds everything that stays constant, as the kernels take it.
 3. ``reset(state, rules)`` starts an episode; ``step(state, rules, action)`` takes a step, and returns the reward and
-   whether the episode is over. Both annotate what they take. A step fills ``scene.met``, for each thing, with 0 or 1 +
-   the number of the kind that it met as. Both keep to the rules of kernels (`neorl.core.kernel`).
-4. ``kinds`` names the kinds of its things, the one that an agent wants by default first; ``actions`` are its `Actions`,
-   whose numbers ``step`` takes. ``size`` is its unit of length, such as its width; ``fps`` are its steps per second;
-   ``things`` is how many things there are.
+   whether the episode is over. Both have annotated arguments. For each thing, a step sets ``scene.met`` to 0, or to 1 +
+   the number of its kind when it was met. Both keep to the rules of kernels (`neorl.core.kernel`).
+4. ``kinds`` names the kinds of its things, the one that agents want by default first; ``actions`` are its `Actions`,
+   whose numbers ``step`` takes. ``size`` is its unit of length, such as its width; ``fps`` is its number of steps per
+   second; ``things`` is its number of things.
 """
 
 from typing import Any, NamedTuple
@@ -89,7 +89,7 @@ class World(Described):
 
 
 def check_arrays(name, values, sizes):
-    """Raise ValueError unless the arrays of a named tuple are finite and as their annotations have them."""
+    """Raise ValueError unless the arrays of a named tuple are finite and match their annotations."""
     for field, kind in fields(type(values)).items():
         value, path = getattr(values, field), f"{name}.{field}"
         if is_tuple(kind):

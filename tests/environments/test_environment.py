@@ -241,7 +241,7 @@ def test_a_world_that_loses_its_numbers_says_so():
     env = WorldEnv(Broken())
     assert env.observation_space == observation_space(Broken(), True)
     env.reset(seed=0)
-    with pytest.raises(ValueError, match="environment 0 came into the state .*inf, "):
+    with pytest.raises(ValueError, match="environment 0 reached the state .*inf, "):
         env.step(0)
 
 
