@@ -20,7 +20,7 @@ from neorl.core.maps import NresMap
 from neorl.core.modality import Modality
 
 WEIGHTINGS = tuple(Weighting.__members__)
-MOST_PARTS = 4_096  # nodes, or desires: some checks compare all pairs of them
+MOST_PARTS = 4_096  # nodes, or desires; time and memory are quadratic in their number
 GOALS = ("cells", "contacts")
 LEARNED, FIRST_WORTH = "learned", 1.0  # optimistic, so that unknown things are approached
 
@@ -191,17 +191,17 @@ class Agent(Described, checks.Final):
             raise ValueError(f"valence of the desire {desire} is None, allowed are finite numbers unless it comes from "
                              f"another node, {', '.join(map(repr, nodes))}")
         if desire.of and desire.source not in nodes:
-            raise ValueError(f"of is {desire.of!r}, allowed for the desire {desire} is (): it comes from no node")
+            raise ValueError(f"of is {desire.of!r}, allowed for the desire {desire} is (): its source is not a node")
         if desire.valence == LEARNED and desire.source in nodes:
             raise ValueError(f"valence of the desire {desire} is 'learned', allowed for that of a node are numbers and "
                              "None")
         if isinstance(desire.source, tuple) and nodes[desire.target].goals == "contacts":
-            raise ValueError(f"desire {desire}: a point is no goal of the node, allowed are kinds of things, places "
-                             "and nodes: it learns of contacts alone")
+            raise ValueError(f"desire {desire}: a point is not a goal of the node, allowed are kinds of things, places "
+                             "and nodes: it learns only of contacts")
         modality = nodes[desire.target].modality
         if isinstance(desire.source, str | Place) and desire.source not in nodes and not modality.takes_places:
-            raise ValueError(f"desire {desire}: what lies at a place has no point among {modality.name}s, allowed are "
-                             f"points of their own space")
+            raise ValueError(f"desire {desire}: things and places have no coordinates for {modality.name}s, allowed "
+                             f"are points of their own space")
         if isinstance(desire.source, tuple) and len(desire.source) != len(modality.axes):
             raise ValueError(f"desire {desire}: allowed for {modality.name}s are points of {len(modality.axes)} "
                              f"coordinates: {', '.join(modality.names)}")

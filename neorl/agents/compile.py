@@ -17,7 +17,7 @@ from neorl.core.parameters import ENTRIES, Parameters, derive
 from neorl.worlds.arena import Arena
 from neorl.worlds.waterworld import WaterWorld
 
-TRACE_STEPS = 64  # the trace that a contact updates; after 1.3 s its discounted value is small
+TRACE_STEPS = 64  # of the trace behind a contact; the contact's value, discounted over 1.3 s, is small
 
 
 def compiled(agent, world):
@@ -104,7 +104,7 @@ def _check_meeting(agent, world):
                 raise ValueError(f"desire {desire}: the place is not on the board, allowed are coordinates from 0 to "
                                  "1, in units of its width")
     if agent.policy.when_indifferent == "no-op" and world.actions.idle is None:
-        raise ValueError("when_indifferent is 'no-op', allowed in a world without idleness is 'random'")
+        raise ValueError("when_indifferent is 'no-op', allowed in a world without an idle action is 'random'")
 
 
 def _desires(agent, world, coordinates):

@@ -16,7 +16,7 @@ FINENESS = 1_000  # positions are stored as integers, in this fraction of a boar
 class Replay(AnyWidget):
     """Recorded runs side by side.
 
-    recordings: one or more `Recording`, all of the same length.
+    recordings: one or more `Recording`, all of the same length and steps per second.
     playing: whether it starts to play when it comes into view. With reduced motion, playback is started by a button.
 
     Raises ValueError for anything else.

@@ -12,7 +12,7 @@ function initialSettings(presets, key) {
   return { preset: key, ...Object.fromEntries(OF_PRESET.map((name) => [name, presets[key][name]])) };
 }
 
-/** `elements`: [{x, y, valence}], dropped by the reader; every node with a gain desires them. */
+/** `elements`: [{x, y, valence}], dropped by the reader; every node with a nonzero gain desires them. */
 function chosenParameters(layout, presets, modalities, settings, elements = []) {
   const preset = presets[settings.preset];
   const parameters = structuredClone(preset.parameters);

@@ -25,7 +25,7 @@ CURVES = ("#3d6ad1", "#ae2c47", "#b68f0c", "#00a1c0", "#85498f", "#ae6411", "#af
 LIGHT_OF_LETTERS = 0.165  # relative luminance
 DASHES = ("-", "--", ":", "-.")  # of curves: one for each cycle through the colours
 LOW_PANEL = 0.17  # the room for a curve's name, as a share of the height of a low panel
-SMALL, CROWDED = 9, 6  # points: the smallest letters, and those for the names of more than a dozen curves
+SMALL, CROWDED = 9, 6  # points: the least size of letters, and the size of the names of more than a dozen curves
 STYLE: dict[Any, Any] = {
     "figure.facecolor": "none", "axes.facecolor": "none", "savefig.facecolor": "none", "figure.figsize": (4.9, 3.5),
     "font.size": 11, "text.color": TEXT, "axes.labelcolor": TEXT, "axes.edgecolor": INK, "xtick.color": INK,
