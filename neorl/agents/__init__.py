@@ -1,4 +1,4 @@
-"""Agents as data (nodes, desires, learning, policy), the agents of the papers, and what the kernels take of them.
+"""Agents as data (nodes, desires, learning, policy), the papers' agents, and the arrays that kernels take of them.
 
-The room uses `neorl.core`.
+The room uses `neorl.core` and `neorl.worlds`.
 """

@@ -1,10 +1,10 @@
-"""A neoRL agent as data: a network of nodes, what they desire, and the rules by which they learn and choose.
+"""A neoRL agent as data: a network of nodes, their desires, and the rules by which they learn and choose actions.
 
 A *node* holds the maps of one modality at several resolutions (paper C, section 1 and figure 3). *Desires* are the
-edges of the network. Each makes an element of interest of something for one node: of the things of one kind, of a place
-or a point of the node's own space, or of what another node wants, or the node itself wanted a step ago. An agent knows
-no world: the names of kinds get their meaning when it meets one. What the thesis leaves open is a field, as in
-`neorl.agents.rules`. Nothing here runs.
+edges of the network. Each gives one node elements of interest: the things of one kind, a place, a point of the node's
+own space, or the desire vector of another node, or of the node itself one step earlier. An agent is independent of any
+world; kinds are matched by name when it enters one. Everything the thesis leaves open is a field, as in
+`neorl.agents.rules`. This module holds data only; kernels elsewhere run it.
 """
 
 from collections.abc import Sequence
@@ -20,20 +20,21 @@ from neorl.core.maps import NresMap
 from neorl.core.modality import Modality
 
 WEIGHTINGS = tuple(Weighting.__members__)
-MOST_PARTS = 4_096  # nodes, or desires, whose number squared is looked at
+MOST_PARTS = 4_096  # nodes, or desires; time and memory are quadratic in their number
 GOALS = ("cells", "contacts")
-LEARNED, FIRST_WORTH = "learned", 1.0  # what is not yet known is worth a meeting
+LEARNED, FIRST_WORTH = "learned", 1.0  # optimistic, so that unknown things are approached
 
 
 @dataclass(frozen=True)
 class Node(checks.Final):
-    """The maps of one modality, which learn side by side and add up their values (paper A, experiment 2).
+    """The maps of one modality, which learn in parallel and sum their values (paper A, experiment 2).
 
-    name: a string that is no kind of thing in the worlds it is to live in. resolutions: one integer ≥ 1 or more.
-    weighting: of the maps in the sum. "equal"; "resolution", by N; "cells", by N². The weights add up to 1.
-    gain: of the node's values in the agent's; with 0 only the node's desires count.
-    goals: what the node learns to reach: all "cells", the Horde of the thesis, or "contacts" with things alone, see
-        `Contacts`. Its modality is then of objects, its resolutions grow, and its weighting has no effect.
+    name: a string that is not a kind of thing in the agent's worlds. resolutions: one or more integers ≥ 1.
+    weighting: how the maps are weighted in the sum: "equal"; "resolution", by N; "cells", by N². The weights sum to 1.
+    gain: weight of the node's values in the agent's; with 0 only the node's desires count.
+    goals: what the node learns to reach: all "cells", the Horde of the thesis, or only "contacts" with things, see
+        `Contacts`. With contacts, the modality must be of objects, the resolutions must increase, and the weighting
+        has no effect.
 
     Raises ValueError for anything else.
     """
@@ -71,12 +72,12 @@ class Node(checks.Final):
 
 @dataclass(frozen=True, init=False)
 class Place(checks.Final):
-    """A place in the world, an element of interest that stays where it is: `Place(x, y)` in the plane.
+    """A fixed place in the world as an element of interest: `Place(x, y)` in the plane.
 
     coordinates: a finite number for each axis of the world, in units of its size; in WaterWorld and the arena, board
         widths from the upper left corner, 0 … 1.
 
-    Raises ValueError for anything else; for a place that is not on the board, as soon as the world is known.
+    Raises ValueError for anything else; for a place outside the board, once the world is known.
     """
 
     coordinates: tuple[float, ...]
@@ -88,7 +89,7 @@ class Place(checks.Final):
 
     @classmethod
     def of_fields(cls, coordinates: Sequence[float]) -> "Place":
-        """The place with these coordinates, in one tuple. Raises ValueError for anything else."""
+        """The place with these coordinates, given as one tuple. Raises ValueError for anything else."""
         return cls(*checks.several("coordinates", coordinates))
 
     def __repr__(self):
@@ -100,14 +101,15 @@ class Desire(checks.Final):
     """One edge of a network: `source` as an element of interest of the node `target`.
 
     source: a kind of the world's things, such as "green"; a `Place`, like a thing that does not move; a point in the
-        target's space, which whatever the node follows is to reach; or the name of a node, whose desire vector
-        Σ |w| (Q_E − Q_W, Q_S − Q_N) over its elements (in other worlds: the pushes of all actions, times their values),
-        times `scale`, says where the element lies from the agent, in sizes of the world (paper C, section 1), or in a
-        space of velocities is the one desired. A node's desire of itself is that of the step before: recursion.
-    valence: how much an element matters, and its sign. For a desire between nodes None stands for the sum of the
-        valences that the vector comes from; recursion needs a number, the weight r. "learned" stands for a number that
-        is learned from reward alone, for a kind of thing; it begins with 1.
-    of: the names of the sources that the vector of a node comes from; () stands for all its elements.
+        target's space, to be reached by the vector that the node follows; or the name of a node. Its desire vector
+        Σ |w| (Q_E − Q_W, Q_S − Q_N) over its elements (in other worlds, the sum of the actions' pushes times their
+        values), times `scale`, is the element's position relative to the agent, in units of the world's size (paper C,
+        section 1), or, in a space of velocities, the desired velocity. A node's desire for itself uses the vector of
+        the previous step: recursion.
+    valence: the signed weight of an element. For a desire between nodes, None stands for the sum of the valences that
+        the vector is computed from; recursion requires a number, the weight r. For a kind of thing, "learned" stands
+        for a number learned from reward alone; its initial value is 1.
+    of: the names of the sources from which the vector of a node is computed; () stands for all its elements.
     scale: units of the world's size for a vector of length 1, ≥ 0. signed: sum w instead of |w|.
 
     Raises ValueError for anything else.
@@ -122,7 +124,7 @@ class Desire(checks.Final):
 
     def __post_init__(self):
         if isinstance(self.source, str):
-            checks.assign(self, source=str(self.source))  # and no subclass, such as NumPy's
+            checks.assign(self, source=str(self.source))  # not a subclass, such as NumPy's
         elif not isinstance(self.source, Place):
             point = checks.several("source", self.source)
             checks.assign(self, source=tuple(checks.real("source", value) for value in point))
@@ -143,15 +145,15 @@ class Desire(checks.Final):
 
 @dataclass(frozen=True)
 class Agent(Described, checks.Final):
-    """One neoRL agent: a network of nodes. Its value of an action is the sum of those of its nodes, times their gains.
+    """One neoRL agent: a network of nodes, whose action values, times their gains, sum to the agent's.
 
-    nodes: one `Node` or more, each name once. desires: any number of `Desire`. Of either 4,096 at most.
-    learning: how its maps learn, a `Learning`. policy: how it chooses, a `Policy`.
-    contacts: how those of nodes learn whose goals are contacts, a `Contacts`.
-    own_cell: whether an element in the cell that it is to be reached from is "silent", its desire met, or "counts".
+    nodes: one `Node` or more, with distinct names. desires: any number of `Desire`. At most 4,096 of each.
+    learning: how its maps learn, a `Learning`. policy: how it chooses actions, a `Policy`.
+    contacts: how nodes with contacts as goals learn, a `Contacts`.
+    own_cell: whether an element in the currently active cell is "silent", its desire being satisfied, or "counts".
 
     Raises ValueError for anything else, and for a network that cannot be evaluated: a desire from or to a node that
-    there is not, of elements that its node does not have, in a space where it has no meaning, or in a cycle of nodes.
+    does not exist, of elements that its node does not have, in a space where it has no meaning, or in a cycle of nodes.
     """
 
     nodes: Sequence[Node]
@@ -178,7 +180,7 @@ class Agent(Described, checks.Final):
         checks.assign(self, own_cell=checks.one_of("own_cell", self.own_cell, OWN_CELL))
         for desire in self.desires:
             self._check_desire(desire)
-        self.evaluation_order  # which raises ValueError for a cycle
+        self.evaluation_order  # raises ValueError for a cycle
 
     def _check_desire(self, desire):
         nodes = {node.name: node for node in self.nodes}
@@ -189,17 +191,17 @@ class Agent(Described, checks.Final):
             raise ValueError(f"valence of the desire {desire} is None, allowed are finite numbers unless it comes from "
                              f"another node, {', '.join(map(repr, nodes))}")
         if desire.of and desire.source not in nodes:
-            raise ValueError(f"of is {desire.of!r}, allowed for the desire {desire} is (): it comes from no node")
+            raise ValueError(f"of is {desire.of!r}, allowed for the desire {desire} is (): its source is not a node")
         if desire.valence == LEARNED and desire.source in nodes:
             raise ValueError(f"valence of the desire {desire} is 'learned', allowed for that of a node are numbers and "
                              "None")
         if isinstance(desire.source, tuple) and nodes[desire.target].goals == "contacts":
-            raise ValueError(f"desire {desire}: a point is no goal of the node, allowed are kinds of things, places "
-                             "and nodes: it learns of contacts alone")
+            raise ValueError(f"desire {desire}: a point is not a goal of the node, allowed are kinds of things, places "
+                             "and nodes: it learns only of contacts")
         modality = nodes[desire.target].modality
         if isinstance(desire.source, str | Place) and desire.source not in nodes and not modality.takes_places:
-            raise ValueError(f"desire {desire}: what lies at a place has no point among {modality.name}s, allowed are "
-                             f"points of their own space")
+            raise ValueError(f"desire {desire}: things and places have no coordinates for {modality.name}s, allowed "
+                             f"are points of their own space")
         if isinstance(desire.source, tuple) and len(desire.source) != len(modality.axes):
             raise ValueError(f"desire {desire}: allowed for {modality.name}s are points of {len(modality.axes)} "
                              f"coordinates: {', '.join(modality.names)}")
@@ -210,7 +212,7 @@ class Agent(Described, checks.Final):
                                  f"are {', '.join(map(repr, inputs)) or 'none'}")
 
     def comes_from_node(self, desire: Desire) -> bool:
-        """Whether a `Desire` comes from a node, and not from something in the world.
+        """Whether the source of a `Desire` is a node rather than something in the world.
 
         desire: one of the agent's. Raises ValueError for anything but a `Desire`.
         """
@@ -219,7 +221,7 @@ class Agent(Described, checks.Final):
 
     @property
     def evaluation_order(self) -> tuple[str, ...]:
-        """The names of the nodes, each after those that it takes desires from."""
+        """The names of the nodes, each after the nodes it receives desires from."""
         before: dict[str, list[str]] = {node.name: [] for node in self.nodes}
         for desire in self.desires:
             if desire.source in before and desire.source != desire.target:
@@ -233,5 +235,5 @@ class Agent(Described, checks.Final):
 
     @property
     def maps(self) -> tuple[NresMap, ...]:
-        """The maps of all nodes, one node after the other."""
+        """The maps of all nodes, node by node."""
         return tuple(nres_map for node in self.nodes for nres_map in node.maps)

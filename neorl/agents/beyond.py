@@ -1,4 +1,4 @@
-"""The agent of the part beyond the thesis, as a value of `Agent`, like those of `neorl.agents.papers`."""
+"""The agent that goes beyond the thesis, as a value of `Agent`, like those of `neorl.agents.papers`."""
 
 from collections.abc import Sequence
 
@@ -8,15 +8,15 @@ from neorl.agents.papers import paper_agent
 from neorl.agents.rules import Contacts
 from neorl.core.modality import Axis, Modality
 
-FASTEST = 2.5  # of the velocities that are told apart, in sizes of the world per second
+FASTEST = 2.5  # highest speed along an axis that cells resolve, in sizes of the world per second
 
 
 def foveated_cells(foveated: bool = True, velocity: bool = True, mirrored: bool = True) -> Modality:
     """Conjunctive cells of an object vector and the agent's velocity in the plane.
 
-    foveated: whether receptive fields grow with distance. velocity: whether the cells know the agent's velocity.
-    mirrored: whether mirror images share a cell. Ranges are twice as wide if not, so a map of 2N − 1 has the receptive
-        fields that one of N has if so.
+    foveated: whether receptive fields grow with distance. velocity: whether cells are also tuned to the velocity.
+    mirrored: whether mirror images share a cell. If not, ranges are twice as wide, so that a map of 2N − 1 has the
+        receptive fields of a mirrored map of N.
     Raises ValueError for anything but flags.
     """
     foveated, velocity = checks.flag("foveated", foveated), checks.flag("velocity", velocity)
@@ -31,10 +31,10 @@ def foveated_cells(foveated: bool = True, velocity: bool = True, mirrored: bool 
 @paper_agent
 def forager(resolutions: Sequence[int] = (5, 9, 15, 25), valence_green: float | str = LEARNED,
             valence_red: float | str = LEARNED, contacts: Contacts = Contacts()) -> Agent:
-    """One node of foveated cells at several resolutions, whose goals are contacts.
+    """One node of foveated cells at several resolutions, with contacts as goals.
 
-    resolutions: integers ≥ 1 that grow. valence_green, valence_red: what a creep is worth, a number or "learned".
-    contacts: how it learns.
+    resolutions: increasing integers ≥ 1. valence_green, valence_red: of a creep, a number or "learned".
+    contacts: how it learns, a `Contacts`.
     """
     return Agent([Node("OVC × V", foveated_cells(), resolutions, goals="contacts")],
                  [Desire("green", "OVC × V", valence_green), Desire("red", "OVC × V", valence_red)], contacts=contacts)

@@ -1,7 +1,7 @@
-"""An agent's choices as the flat arrays that the kernels take, for one world.
+"""Compilation of an agent for one world, into the flat arrays that the kernels take.
 
-Of a world an agent needs no more than its `size`, `fps`, `kinds`, `actions` and the number of its `things`: see
-`neorl.worlds.world`. The names of kinds in its desires get their meaning here.
+The agent depends on a world only through its `size`, `fps`, `kinds`, `actions` and the number of its `things`: see
+`neorl.worlds.world`. The kinds in its desires are matched by name here.
 """
 
 import itertools
@@ -17,13 +17,13 @@ from neorl.core.parameters import ENTRIES, Parameters, derive
 from neorl.worlds.arena import Arena
 from neorl.worlds.waterworld import WaterWorld
 
-TRACE_STEPS = 64  # over which a contact is remembered back; in 1.3 s little is left of what it is worth
+TRACE_STEPS = 64  # of the trace behind a contact; the contact's value, discounted over 1.3 s, is small
 
 
 def compiled(agent, world):
     """The `Parameters` of an agent in a world.
 
-    Raises ValueError if the agent desires what the world does not have, or has cells that have no meaning there.
+    Raises ValueError if the agent desires something that the world lacks, or has cells that have no meaning there.
     """
     choices, sizes = chosen(agent, world)
     parameters = new_tuple(Parameters, sizes, choices)
@@ -40,13 +40,13 @@ def constants_of(agent, world):
 
 
 def n_values(agent, world):
-    """How many values an agent holds in a world; each takes four bytes."""
+    """The number of values that an agent holds in a world, of four bytes each."""
     return sum(len(world.actions.names) * nres_map.cells * (ENTRIES if node.goals == "contacts" else nres_map.cells)
                for node in agent.nodes for nres_map in node.maps)
 
 
 def n_bytes(agent, world):
-    """How many bytes the values of an agent in a world take, with all that is remembered of the cells it has left."""
+    """The bytes that an agent in a world needs for its values and for its memory of the cells it has left."""
     rule, actions, axes = agent.learning, len(world.actions.names), world.actions.axes
     total = 4 * n_values(agent, world)
     for node in agent.nodes:
@@ -58,7 +58,7 @@ def n_bytes(agent, world):
 
 
 def chosen(agent, world):
-    """The chosen `Parameters`, a dict for a tuple within, from which `derive` makes the others; and all sizes."""
+    """The chosen `Parameters` (nested tuples as dicts), from which `derive` computes the others, and all sizes."""
     _check_meeting(agent, world)
     names, n_axes = [node.name for node in agent.nodes], world.actions.axes
     modalities = [node.modality for node in agent.nodes]
@@ -104,7 +104,7 @@ def _check_meeting(agent, world):
                 raise ValueError(f"desire {desire}: the place is not on the board, allowed are coordinates from 0 to "
                                  "1, in units of its width")
     if agent.policy.when_indifferent == "no-op" and world.actions.idle is None:
-        raise ValueError("when_indifferent is 'no-op', allowed in a world without idleness is 'random'")
+        raise ValueError("when_indifferent is 'no-op', allowed in a world without an idle action is 'random'")
 
 
 def _desires(agent, world, coordinates):
@@ -168,7 +168,7 @@ def _contacts(agent, fps):
 
 
 def _frames(actions, name):
-    """For each mirror image of the world, as `neorl.core.contacts.mirror` counts them, the action that each one is."""
+    """The action that each action becomes in each mirror image, as `neorl.core.contacts.mirror` numbers them."""
     frames = []
     exchanges = itertools.product(*(range(actions.axes - axis) for axis in reversed(range(actions.axes - 1))))
     for far, flips in itertools.product(exchanges, itertools.product((1, -1), repeat=actions.axes)):
@@ -188,5 +188,5 @@ def _action_of(actions, push, name):
 
 
 def _retained(constant):
-    """What one step, or change, leaves of what fades with a time constant of so many."""
+    """The share that remains after one step, or change, of a decay with this time constant in steps, or changes."""
     return np.float32(constant / (1.0 + constant))

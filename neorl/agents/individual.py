@@ -1,7 +1,7 @@
-"""An agent with all that it knows, in a world: what a `neorl.Learner` and a `neorl.Run` have in common.
+"""An agent in a world, with everything it has learned: the base of `neorl.Learner` and `neorl.Run`.
 
-Parameters, state and values are views that cannot be written to. A saved file holds every array, and the agent and its
-world as plain data (`neorl.core.description`), with a digest by which damage is noticed.
+Parameters, state and values are read-only views. A saved file holds every array, the agent and its world as plain data
+(`neorl.core.description`), and a digest that reveals damage.
 """
 
 from os import PathLike
@@ -22,7 +22,7 @@ from neorl.core.state import State, new_state
 from neorl.core.steps import steps_with
 from neorl.files import read_arrays, write_arrays
 
-# What `State` has of each map, by the array that says where it begins.
+# The arrays of `State` that have a part for each map, by the array of where each part begins.
 OF_A_MAP = {"first_value": ("values.q",), "first_cell": ("values.goal_range",),
             "first_track": ("tracks.cell", "tracks.events", "tracks.trace_cell", "tracks.trace_rates",
                             "tracks.trace_count", "tracks.remembered_count", "contacts.frame"),
@@ -31,7 +31,7 @@ OF_A_MAP = {"first_value": ("values.q",), "first_cell": ("values.goal_range",),
 
 
 class Output(NamedTuple):
-    """What a node puts out (paper C, figure 3), as of the agent's last choice that was not drawn."""
+    """The output of a node (paper C, figure 3), as of the agent's last choice that was not exploratory."""
 
     q: np.ndarray  # float64 (actions,): the value of each action
     desire: np.ndarray  # float64 (axes,): Σ |w| push · Q over its elements; in WaterWorld (Q_E − Q_W, Q_S − Q_N)
@@ -39,14 +39,14 @@ class Output(NamedTuple):
 
 
 class Individual:
-    """An agent with all that it knows, in a world: what `Learner` and `neorl.Run` have in common.
+    """An agent in a world, with everything it has learned: the base of `Learner` and `neorl.Run`.
 
-    Raises ValueError if the agent and the world do not go together, MemoryError if its values do not fit into the free
+    Raises ValueError if the agent and the world are incompatible, MemoryError if its values do not fit into the free
     memory.
     """
 
     def _live(self, agent, world, stream, after=None):
-        """Begin as an agent that knows nothing. after: one that is over and gives up its memory, if there is enough."""
+        """Begin as an untrained agent. after: a finished one, whose memory is reused if it is large enough."""
         old = None
         if after is not None and len(after._state.values.q) >= n_values(agent, world):
             old = after._parameters, after._state
@@ -63,32 +63,32 @@ class Individual:
 
     @property
     def world(self) -> Any:
-        """The world, or for a `Learner` what it knows of it."""
+        """The world, or the `Surroundings` of a `Learner`."""
         return self._world
 
     @property
     def parameters(self) -> Parameters:
-        """The agent's `Parameters`, views that cannot be written to."""
+        """The agent's `Parameters`, as read-only views."""
         return mapped(read_only, self._parameters)
 
     @property
     def state(self) -> State:
-        """The agent's `State`, views that cannot be written to."""
+        """The agent's `State`, as read-only views."""
         return mapped(read_only, self._state)
 
     def q(self, index: int = 0) -> NDArray[np.float32]:
-        """The values of one of the agent's maps, a view that cannot be written to.
+        """The values of one of the agent's maps, as a read-only view.
 
-        float32 (cells, actions, cells), q[state, action, goal]; not contiguous unless the agent bootstraps. Of a node
-        whose goals are contacts (cells, actions, 3): approach, fear, number of visits (see `neorl.core.contacts`).
+        float32 (cells, actions, cells), q[state, action, goal]; contiguous only if the agent bootstraps. For a node
+        with contacts as goals (cells, actions, 3): approach, fear, number of visits (see `neorl.core.contacts`).
 
-        index: the place of the map in `Agent.maps`. Raises ValueError if there is none.
+        index: the map's position in `Agent.maps`. Raises ValueError if there is none.
         """
         index = checks.integer("index", index, at_least=0, at_most=len(self.agent.maps) - 1)
         return read_only(_values_of(self.agent, self._parameters, self._state, index))
 
     def output(self, name: str) -> Output:
-        """The `Output` of the node of that name. Raises ValueError if there is none."""
+        """The `Output` of the node called `name`. Raises ValueError if there is none."""
         checks.one_of("name", name, tuple(node.name for node in self.agent.nodes))
         inputs = [e for e, desire in enumerate(self.agent.desires) if desire.target == name]
         q, valence = self._state.desires.q[inputs], self._state.desires.valence[inputs]
@@ -96,12 +96,12 @@ class Individual:
         return Output(q.sum(axis=0), np.sign(valence) @ vectors, float(valence.sum()))
 
     def change(self, agent: Agent) -> None:
-        """Go on as another agent, which keeps what this one knows.
+        """Continue as another agent, which keeps what this one has learned.
 
-        A map keeps its values, its active cells and what led to them if both agents have it, in a node of the same
-        name with the same goals, and as much trace; a desire that both have keeps a valence that it has learned. All
-        else starts afresh; so do the desires of the step before.
-        Raises ValueError unless it is an `Agent` that goes with the world, MemoryError if its values do not fit into
+        A map keeps its values, its active cells and its memory of how they were reached if both agents have it, in a
+        node of the same name with the same goals, and an equally long trace; a desire that both have keeps its learned
+        valence. Everything else is reset, including the desires of the previous step.
+        Raises ValueError unless it is an `Agent` compatible with the world, MemoryError if its values do not fit into
         the free memory.
         """
         fitting_runs(checks.instance("agent", agent, Agent), self.world)
@@ -117,7 +117,7 @@ class Individual:
                     begin_old, end_old = of_old[old_maps[key] : old_maps[key] + 2]
                     begin, end = of_new[m : m + 2]
                     for name in names:
-                        if name == "values.q":  # copied below, since its order follows the learning rule
+                        if name == "values.q":  # copied below, since its order depends on the learning rule
                             continue
                         width = len(new[name]) // max(of_new[-1], 1)
                         new[name][width * begin : width * end] = old[name][width * begin_old : width * end_old]
@@ -133,7 +133,7 @@ class Individual:
         self._bind()
 
     def transfer(self, other: "Individual") -> None:
-        """Take over the values of another `Learner` or `Run`, and which goals its cells know of.
+        """Copy the values of another `Learner` or `Run`, and the range of goals that its cells have learned about.
 
         other: one with the same maps and as many actions. Raises ValueError for anything else.
         """
@@ -146,7 +146,7 @@ class Individual:
         self._state.values.goal_range[:] = other._state.values.goal_range
 
     def copy(self) -> Self:
-        """One that goes on by itself from here, to the same bits."""
+        """An independent copy, which continues from here bit for bit the same."""
         other = object.__new__(type(self))
         vars(other).update(vars(self))
         for name in self._kept:
@@ -154,16 +154,16 @@ class Individual:
         other._bind()
         return other
 
-    __copy__ = copy  # any other would share what is written to
+    __copy__ = copy  # a shallow copy would share the arrays that kernels write
 
     def __deepcopy__(self, memo):
         return self.copy()
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write all to a file, by which `load` goes on to the same bits.
+        """Save everything to a file, from which `load` continues bit for bit the same.
 
-        path: of the file, a string or a `pathlib.Path`; what was there is replaced. Raises OSError if it cannot be
-        written, ValueError for anything else, and for an agent with a kernel that no module has.
+        path: of the file, a string or a `pathlib.Path`; an existing file is replaced. Raises OSError if it cannot be
+        written, ValueError for anything else, and for an agent with a kernel that is not defined in a module.
         """
         about = {"agent": described(self.agent, Agent), "world": described(self.world), "progress": self._progress}
         write_arrays(checks.path("path", path), type(self).__name__, about, {
@@ -171,7 +171,7 @@ class Individual:
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Self:
-        """What `save` has written.
+        """Load a `Learner` or `Run` that `save` has written.
 
         path: of the file, a string or a `pathlib.Path`. Raises OSError if there is no such file, ValueError if it is
         damaged, or of another kind or version.
@@ -194,7 +194,7 @@ class Individual:
 
 
 def _values_of(agent, parameters, state, m):
-    """The values of a map as `Individual.q` has them, a view."""
+    """The values of a map in the layout of `Individual.q`, as a view."""
     first, end = parameters.maps.first_value[m : m + 2]
     values, cells, actions = state.values.q[first:end], agent.maps[m].cells, len(parameters.push)
     if [node.goals for node in agent.nodes for _ in node.resolutions][m] == "contacts":

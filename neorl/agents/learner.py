@@ -1,4 +1,4 @@
-"""An agent in a loop of the user's own, step by step. What the kernels take is checked before they see it."""
+"""An agent in the user's own loop, step by step. Scenes are validated before they reach the kernels."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ LARGEST = checks.LARGEST
 
 @dataclass(frozen=True)
 class Surroundings(checks.Final):
-    """What an agent knows of a world that is not made of kernels.
+    """What an agent has to know of a world that is not made of kernels.
 
     things, kinds, actions, size, fps: as in `Learner`. Raises ValueError for anything else.
     """
@@ -44,14 +44,14 @@ class Surroundings(checks.Final):
 
 
 class Learner(Individual):
-    """An agent in a loop of the user's own: `begin` with a scene, then `act` and `observe` by turns.
+    """An agent in the user's own loop: `begin` with a scene, then alternate `act` and `observe`.
 
-    agent: an `Agent`. things: how many things there are at any time at most. kinds: the names of their kinds, that
-    which an agent wants by default first. actions: what the agent can do, an `Actions`; by default N, S, E, W, and to
-    be idle. seed: integer ≥ 0, of the agent's random numbers. size: the world's unit of length, such as its width.
-    fps: steps per second, which memories in seconds depend on.
+    agent: an `Agent`. things: the greatest number of things at any time. kinds: the names of their kinds, first the
+    one that an agent wants by default. actions: the agent's actions, an `Actions`; by default N, S, E, W, and being
+    idle. seed: integer ≥ 0, of the agent's random numbers. size: the world's unit of length, such as its width.
+    fps: steps per second, on which memories in seconds depend.
 
-    Raises ValueError for anything else, or if agent and world do not go together, MemoryError if the agent's values do
+    Raises ValueError for anything else, or if agent and world are incompatible, MemoryError if the agent's values do
     not fit into the free memory.
     """
 
@@ -81,7 +81,7 @@ class Learner(Individual):
                          **{number: number for number in range(ABSENT, len(self.world.kinds))}}
 
     def begin(self, scene: Any) -> None:
-        """Begin, or start afresh after a leap, such as at the start of an episode: nothing is learned from it.
+        """Begin, or begin again after a discontinuity such as a new episode: nothing is learned across it.
 
         scene: a `neorl.Scene`, as in `observe`. Raises ValueError for one that does not fit.
         """
@@ -92,7 +92,7 @@ class Learner(Individual):
     def act(self) -> int:
         """Choose an action, and return its number, 0 … actions − 1, or the number of actions for being idle.
 
-        Raises RuntimeError before the first scene, or if what the last action has led to was not observed.
+        Raises RuntimeError before the first scene, or if the outcome of the last action was not observed.
         """
         if self._progress != "to act":
             raise RuntimeError(f"act() came {self._progress}, allowed is act() after begin(scene) or observe(scene)")
@@ -101,15 +101,15 @@ class Learner(Individual):
         return action
 
     def observe(self, scene: Any, reward: float = 0.0) -> None:
-        """Perceive what the last action has led to, and learn from it.
+        """Perceive the outcome of the last action, and learn from it.
 
-        scene: a `neorl.Scene` of numbers, or anything with its fields: position and velocity, (axes,), if velocity is
-            None at rest; things, (things, axes), where they are; kinds, for each its kind's name or number, or None
-            while it is absent; met, for each whether it was met in this step, () if none was. A thing that was met may
-            have moved, changed its kind or vanished: its slot is that of a fresh one.
-        reward: what the action has paid, which desires of learned valence learn from.
+        scene: a `neorl.Scene` of numbers, or anything with its fields: position and velocity, (axes,), a velocity of
+            None meaning at rest; things, (things, axes), their positions; kinds, the name or number of each thing's
+            kind, or None while it is absent; met, for each whether it was met in this step, () if none was. A thing
+            that was met may have moved, changed its kind or vanished: its slot then holds a new thing.
+        reward: of the action, from which desires with learned valence learn.
 
-        Raises ValueError for one that does not fit or is not finite, RuntimeError unless the agent has acted.
+        Raises ValueError for a scene that does not fit or is not finite, RuntimeError unless the agent has acted.
         """
         if self._progress != "twice":
             raise RuntimeError("observe(scene) came before act(), allowed is observe(scene) after it")
@@ -135,7 +135,7 @@ class Learner(Individual):
         if self.world.things or not _is_empty(things):
             _put("things", offered.things, things)
             try:
-                if len(kinds) != len(offered.kinds):  # which may be too many to look at
+                if len(kinds) != len(offered.kinds):  # which may be too many to iterate over
                     raise TypeError
                 offered.kinds[:] = [self._numbers[each] for each in kinds]
             except (KeyError, TypeError, OverflowError):
@@ -151,7 +151,7 @@ class Learner(Individual):
 
 
 class Offer(NamedTuple):
-    """A scene to be checked."""
+    """A scene to be validated."""
 
     n_kinds: int
     scene: Scene
@@ -159,7 +159,7 @@ class Offer(NamedTuple):
 
 @kernel
 def accept(offer: Offer, scene: Scene) -> bool:
-    """Take over a scene if its numbers are finite but for things that are absent; whether they are."""
+    """Copy a scene if its numbers are finite, except those of absent things; returns whether they are."""
     offered = offer.scene
     for axis in range(offered.position.shape[0]):
         if not (abs(offered.position[axis]) <= LARGEST and abs(offered.velocity[axis]) <= LARGEST):
@@ -175,7 +175,7 @@ def accept(offer: Offer, scene: Scene) -> bool:
     for thing in range(offered.kinds.shape[0]):
         for axis in range(offered.position.shape[0]):
             scene.things[thing, axis] = offered.things[thing, axis]
-        was = max(scene.kinds[thing], 0)  # of the kind that it was seen as before
+        was = max(scene.kinds[thing], 0)  # the kind as last seen
         scene.met[thing] = 1 + was if offered.met[thing] != 0 else 0
         scene.kinds[thing] = offered.kinds[thing]
     return True
@@ -193,7 +193,7 @@ def _put(name, mine, given):
     if values.shape != mine.shape or values.dtype.kind not in "fiub":
         raise ValueError(f"scene.{name} is {checks.shown(given)}, allowed are numbers of the shape {mine.shape}")
     if values.dtype.itemsize > 8:
-        values = checks.doubles(f"scene.{name}", values)  # so that no number is cut off
+        values = checks.doubles(f"scene.{name}", values)  # so that no number is truncated
     if mine.dtype.kind == "i" and values.dtype.kind in "fu":
         values = checks.doubles(f"scene.{name}", values) != 0
     mine[...] = values

@@ -1,4 +1,4 @@
-"""The memory of an agent's arrays: whether they fit, and how they lie."""
+"""Memory of an agent's arrays: whether it suffices, and its layout."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ PAGE = 4_096
 
 
 def fitting_runs(agent, world):
-    """How many runs of an agent fit into nine tenths of the free memory. Raises MemoryError if there is none."""
+    """The number of runs of an agent that fit into nine tenths of the free memory. Raises MemoryError if none fits."""
     import psutil
 
     free = psutil.virtual_memory().available
@@ -21,9 +21,9 @@ def fitting_runs(agent, world):
 
 
 def kept_apart(values):
-    """The same named tuple, its small arrays on cache lines of their own.
+    """The same named tuple, with its small arrays on cache lines of their own.
 
-    Two cores that write to one line have to take turns, which made runs side by side a sixth slower.
+    Cores that write to the same line have to take turns (false sharing), which made parallel runs a sixth slower.
     """
     return mapped(lambda array: on_lines_of_its_own(array) if array.nbytes < PAGE else array, values)
 
@@ -37,7 +37,7 @@ def on_lines_of_its_own(array):
 
 
 def read_only(array):
-    """A view of an array that cannot be written to."""
+    """A read-only view of an array."""
     view = array.view()
     view.flags.writeable = False
     return view

@@ -1,10 +1,10 @@
 """The agents of the thesis's papers, as values of `Agent`.
 
 `choices` are other fields of `Agent` (learning, policy, own_cell) or, for all nodes, `weighting` of `Node` and
-`tiled_fraction`: the share of either axis's range, about its middle, that the maps cut into equal cells. What lies
-beyond belongs to the outermost ones. `object_tiled_fraction` is that of object-vector cells, if they have another.
+`tiled_fraction`: the central fraction of each axis's range that the maps divide into equal cells. Values beyond it
+belong to the outermost cells. `object_tiled_fraction` is the one of object-vector cells, if it differs.
 
-Every function raises ValueError for what `Agent` and its parts refuse, and TypeError for a choice that there is not.
+Every function raises ValueError for values that `Agent` and its parts refuse, and TypeError for an unknown choice.
 """
 
 from collections.abc import Callable, Sequence
@@ -18,16 +18,16 @@ from neorl.agents.rules import Learning, Policy
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL
 
 Maker = TypeVar("Maker", bound=Callable[..., Agent])
-LAYERS = (3, 7, 23)  # the resolutions of paper A's last experiment, and of paper C as its figures have them
+LAYERS = (3, 7, 23)  # the resolutions of paper A's last experiment, and of paper C by its figures
 PRIMES = (2, 3, 5, 7, 11, 13)  # the resolutions of paper B
 TILED_FRACTION = 1.0
-OF_NODES = ("weighting", "tiled_fraction", "object_tiled_fraction")  # of choices, those that are not of the agent
+OF_NODES = ("weighting", "tiled_fraction", "object_tiled_fraction")  # the choices that are not fields of the agent
 CHOICES = (*OF_NODES, *(each.name for each in fields(Agent)[2:]))
 HINTS = get_type_hints(Agent)
 
 
 def paper_agent(function: Maker) -> Maker:
-    """Mark a function as one that a file may name for an agent (`neorl.core.description`)."""
+    """Mark a function as one that a file may name to describe an agent (`neorl.core.description`)."""
     own = list(signature(function).parameters.values())
     names = [each.name for each in own if each.kind is not Parameter.VAR_KEYWORD]
     names += CHOICES if len(names) < len(own) else ()
@@ -41,14 +41,14 @@ def place_cells(resolutions: Sequence[int] = PRIMES, valence_green: float = 1.0,
                 valence_red: float = -1.0, **choices: Any) -> Agent:
     """The agent of paper A, and PC of paper B: one node of place cells that desires green creeps and fears red ones.
 
-    resolutions: integers ≥ 1. valence_green, valence_red: how much a creep matters. choices: see the module.
+    resolutions: integers ≥ 1. valence_green, valence_red: of a creep. choices: see the module.
     """
     return _network([("PC", PLACE_CELL, 1.0)], resolutions, _creeps("PC", valence_green, valence_red), choices)
 
 
 @paper_agent
 def brownian() -> Agent:
-    """The control: every action drawn (ε = 1), so the agent moves as in Brownian motion (paper A, fig. 6)."""
+    """The control: every action is random (ε = 1), so the agent performs Brownian motion (paper A, fig. 6)."""
     return place_cells([1], policy=Policy(exploration=1.0))
 
 
@@ -66,9 +66,9 @@ def object_vector_cells(resolutions: Sequence[int] = PRIMES, valence_green: floa
 @paper_agent
 def multimodal(resolutions: Sequence[int] = PRIMES, place_gain: float = 5.0, object_gain: float = 1.0,
                **choices: Any) -> Agent:
-    """PC + OVC of paper B (fig. 5): both nodes see the creeps, and their values add.
+    """PC + OVC of paper B (fig. 5): both nodes desire the creeps, and their values add.
 
-    resolutions, choices: as in `place_cells`. place_gain, object_gain: what the values of either node count.
+    resolutions, choices: as in `place_cells`. place_gain, object_gain: the gains of the two nodes.
     """
     return _network(_both(place_gain, object_gain), resolutions, _creeps("PC") + _creeps("OVC"), choices)
 
@@ -76,7 +76,7 @@ def multimodal(resolutions: Sequence[int] = PRIMES, place_gain: float = 5.0, obj
 @paper_agent
 def network_a(resolutions: Sequence[int] = LAYERS, scale: float = Desire.scale, signed: bool = Desire.signed,
               **choices: Any) -> Agent:
-    """Agent A of paper C (fig. 4a): place cells make one desire of all creeps, object-vector cells act on it.
+    """Agent A of paper C (fig. 4a): place cells merge all creeps into one desire, on which object-vector cells act.
 
     resolutions, choices: as in `place_cells`. scale, signed: of the desire between the nodes, see `Desire`.
     """
@@ -87,7 +87,7 @@ def network_a(resolutions: Sequence[int] = LAYERS, scale: float = Desire.scale, 
 @paper_agent
 def network_b(resolutions: Sequence[int] = LAYERS, scale: float = Desire.scale, signed: bool = Desire.signed,
               **choices: Any) -> Agent:
-    """Agent B of paper C (fig. 4b): a desire of the green creeps, and one of the red.
+    """Agent B of paper C (fig. 4b): one desire for the green creeps, and one for the red.
 
     resolutions, scale, signed, choices: as in `network_a`.
     """
@@ -99,7 +99,7 @@ def network_c(resolutions: Sequence[int] = LAYERS, scale: float = Desire.scale, 
               place_gain: float = 1.0, object_gain: float = 1.0, **choices: Any) -> Agent:
     """Agent C of paper C (fig. 4c): as B, and the values of both nodes add.
 
-    resolutions, scale, signed, choices: as in `network_a`. place_gain, object_gain: what the values of either count.
+    resolutions, scale, signed, choices: as in `network_a`. place_gain, object_gain: the gains of the two nodes.
     """
     desires = tuple(Desire("PC", "OVC", of=(colour,), scale=scale, signed=signed) for colour in ("green", "red"))
     return _network(_both(place_gain, object_gain), resolutions, _creeps("PC") + desires, choices)
@@ -108,7 +108,7 @@ def network_c(resolutions: Sequence[int] = LAYERS, scale: float = Desire.scale, 
 @paper_agent
 def network_d(resolutions: Sequence[int] = LAYERS, recursion: float = -1.0, scale: float = Desire.scale,
               signed: bool = Desire.signed, place_gain: float = 1.0, object_gain: float = 1.0, **choices: Any) -> Agent:
-    """Agent D of paper C (fig. 4d): as C, and the object-vector cells desire what they desired, with valence r.
+    """Agent D of paper C (fig. 4d): as C, and object-vector cells receive their own previous desire, with valence r.
 
     recursion: r, which is negative in the thesis. The others are as in `network_c`: resolutions, scale, signed,
     place_gain, object_gain, choices.
@@ -141,7 +141,7 @@ def _network(nodes, resolutions, desires, choices):
 
 
 def _covering(share, modality):
-    """The modality with the ranges of its axes cut down to a share about their middle."""
+    """The modality with the ranges of its axes reduced to their central fraction `share`."""
     margin = (1 - share) / 2
     cut = [margin * (axis.high - axis.low) for axis in modality.axes]
     return replace(modality, axes=[replace(axis, low=axis.low + each, high=axis.high - each)

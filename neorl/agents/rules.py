@@ -1,7 +1,7 @@
-"""How an agent learns, and how it chooses: the rules that all its nodes share. Nothing here runs.
+"""How an agent learns and how it chooses actions: the rules that all its nodes share, as data.
 
-Whatever the thesis leaves open is a field. Its default is that of the calibrated reading, which of all readings within
-the text that were run came nearest to the thesis's numbers (see `neorl.evidence.calibration`).
+Everything the thesis leaves open is a field whose default is that of the calibrated reading, the one nearest to the
+thesis's numbers of all the readings within the text that were run (see `neorl.evidence.calibration`).
 """
 
 from collections.abc import Callable
@@ -29,31 +29,33 @@ class Learning(checks.Final):
 
     learning_rate: α in [0, 1]. discount: γ in [0, 1] for each update. It has no effect unless something discounts:
         bootstrapping, a trace of several cells, or a memory with `memory_value` "discounted".
-    update_on: what makes an update. "cell": a change of cell, inference inversion (eq. 4.7, 4.8); "step": every step,
-        temporal difference (eq. 4.6), to which no field below but `terminal` applies: see `AT_EVERY_STEP`.
+    update_on: when values are updated. "cell": at a change of cell, inference inversion (eq. 4.7, 4.8); "step": at
+        every step, temporal difference (eq. 4.6), to which no field below except `terminal` applies: see
+        `AT_EVERY_STEP`.
     credit: ψ of an event in the cell just left. "share": the share of the steps there on which it occurred;
         "happened": 1 if it occurred at all; "count": the number of steps on which it occurred, α ψ being 1 at most;
         "activity": how active it was at the end, see `activity`; "last": 1 for the last event only. Or a
-        `neorl.kernel` ``(count, steps, last, activity) → ψ``: on how many of the steps in the cell it occurred, out of
-        how many; whether it was the last; how active it was. A ψ below 0 counts as 0, and α ψ is 1 at most.
-    activity: seconds > 0, the time constant of the leaky integrator of the credit "activity". It is 1 for an event
-        that has occurred on every step for long; below 0.01 it counts as 0 (section 4.4).
-    absent_decay: −ψ(0) in [0, 1]: the values of events that did not occur sink at the rate α · absence.
-    absent_form: towards zero, "decay", or "away" from the target as eq. 4.8 has it with a negative rate; values then
-        stay within 0 and the highest that there can be.
-    terminal: a goal reached is worth 1; otherwise 1 plus the discounted value of reaching it again.
-    trace: how many of the cells left most recently learn that the cell now entered is where they led to, the k-th
-        before the last at γ^k times its rate. 1 is the cell just left alone.
-    memory: a leaky integrator over all cells left, ≥ 0. They all learn that the cell now entered is where they led to,
-        at rates that fade with time or with each cell left since. 0 is none. It takes the place of a trace.
+        `neorl.kernel` ``(count, steps, last, activity) → ψ`` of the number of steps in the cell on which it occurred,
+        the number of all steps there, whether it was the last, and its activity. A ψ below 0 counts as 0, and α ψ is 1
+        at most.
+    activity: seconds > 0, the time constant of the leaky integrator behind the credit "activity". The activity of an
+        event that has long occurred on every step is 1; below 0.01 it counts as 0 (section 4.4).
+    absent_decay: −ψ(0) in [0, 1]: the values of events that did not occur decrease at the rate α · absence.
+    absent_form: "decay" towards zero, or "away" from the target, as in eq. 4.8 with a negative rate; values are then
+        kept between 0 and the highest possible value.
+    terminal: reaching a goal is worth 1; otherwise 1 plus the discounted value of reaching it again.
+    trace: the number of most recently left cells that learn to reach the cell just entered, the k-th before the last at
+        γ^k times its rate. With 1, only the cell just left learns.
+    memory: a leaky integrator over all cells left, ≥ 0. All of them learn to reach the cell just entered, at rates that
+        fade with time or with each cell left since. 0 disables it. It takes the place of a trace.
     memory_unit: "seconds", a time constant: rates fade at each step. "cells": they fade by memory / (1 + memory) at
         each change of cell, so that `memory` is the mean number of earlier cells remembered.
-    memory_value: what the goal is worth to a cell left k cells ago: 1, "reached", or γ^k, "discounted".
+    memory_value: the value of the goal for a cell left k cells ago: 1, "reached", or γ^k, "discounted".
     bootstrap: the cell just left also learns about all other goals from the cell entered (the γ max Q of eq. 4.8).
-    causes: of changes of cell that things as seen from the agent learn from. "any", or "own": those that would have
+    causes: from which changes of cell the maps of things learn: "any", or the agent's "own", those that would have
         occurred had the thing stood still.
-    capture: what the capture of a thing is to them: "contact", arrival at distance 0; "leap", a change to the cell of
-        the fresh thing like any other; "silent", nothing. Unless it is a leap, they start over with the fresh thing.
+    capture: what the capture of a thing is to these maps: "contact", arrival at distance 0; "leap", a change to the
+        cell of the new thing like any other; "silent", nothing. Except with "leap", they start over with the new thing.
     attention: which things they follow: "each", the "nearest", or the one "wanted", the nearest of the kind that the
         world names first: in WaterWorld, green.
 
@@ -106,26 +108,26 @@ class Learning(checks.Final):
             raise ValueError(f"trace is {self.trace}, allowed with memory, here {self.memory}, is 1")
 
 
-# What temporal difference leaves no choice of, and what stands in place of the defaults with it.
+# The fields that temporal difference fixes, with the values that then replace the defaults.
 AT_EVERY_STEP = {"credit": "share", "absent_decay": 0.0, "trace": 1, "memory": 0.0, "bootstrap": True, "causes": "any",
                  "capture": "contact", "attention": "each"}
 
 
 @dataclass(frozen=True)
 class Contacts(checks.Final):
-    """How nodes learn whose goals are contacts alone, see `neorl.core.contacts`: beyond the thesis.
+    """How nodes with contacts as their only goals learn, see `neorl.core.contacts`: beyond the thesis.
 
-    The defaults are the best of what `neorl.chapters.beyond_agents.search` has tried.
+    The defaults are the best values found by `neorl.chapters.beyond_agents.search`.
 
-    horizon: seconds > 0, the time constant by which what is to come is discounted.
-    learning_rate: α in [0, 1], the least; after n visits it is n^(−3/4) or this.
-    familiarity: ≥ 0. What a finer map knows of an action counts n / (n + familiarity) after n visits.
-    first_value: in [0, 1], of the approach of what has not been tried: optimism in place of ε.
-    trace_rate: in [0, 1], at which actions learn that they have led to a contact; 0 without a trace.
-    caution: ≥ 0, what harm weighs against the best approach.
-    fear: what the value of harm is: "avoidance", of a contact to an agent that would flee, or "approach", as the
-        superposition of the thesis has it (eq. 4.4).
-    rivals: of several things of positive worth, the approach that is worth the "highest" counts alone, or all "add" up.
+    horizon: seconds > 0, the time constant of discounting.
+    learning_rate: α in [0, 1], the minimum; after n visits the rate is n^(−3/4) or this, whichever is greater.
+    familiarity: ≥ 0. After n visits of an action, a finer map's own value has the weight n / (n + familiarity).
+    first_value: in [0, 1], the initial approach value of untried actions: optimism in place of ε.
+    trace_rate: in [0, 1], the rate at which actions on the way to a contact learn of it; 0 for no trace.
+    caution: ≥ 0, the weight of harm against the best approach.
+    fear: the value used for harm: "avoidance", the value of a contact to an agent that would flee, or "approach", as
+        in the superposition of the thesis (eq. 4.4).
+    rivals: of several things of positive valence, only the approach of "highest" value counts, or all "add" up.
 
     Raises ValueError for anything else.
     """
@@ -156,11 +158,11 @@ class Contacts(checks.Final):
 class Policy(checks.Final):
     """How the agent chooses: the action of highest value, ties broken at random (paper A, The Control Problem).
 
-    exploration: ε in [0, 1], the share of steps on which the action is drawn instead.
-    when_indifferent: what to do while every action is worth exactly 0: "random", that is to choose as ever, or "no-op",
-        to be idle.
+    exploration: ε in [0, 1], the probability that the action of a step is drawn at random instead.
+    when_indifferent: what to do while every action has a value of exactly 0: "random", that is to choose as usual, or
+        "no-op", to be idle.
     choose: a `neorl.kernel` (value, stream) → action: `neorl.greedy`, `neorl.softmax` of a temperature, or the user's
-        own; see `neorl.core.policy`. A number that is none of an action counts as the nearest that is.
+        own; see `neorl.core.policy`. A number outside the range of actions counts as the nearest action.
 
     Raises ValueError for anything else.
     """

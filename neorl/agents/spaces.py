@@ -1,7 +1,7 @@
-"""Agents for other spaces than the plane of WaterWorld: an arm, a vessel, and the water maze.
+"""Agents for spaces other than the plane of WaterWorld: an arm, a vessel, and the water maze.
 
-One rule of learning and one policy; only nodes and desires, what cells stand for and what is sought, differ between
-them. `RULE` is plain bootstrapping at changes of cell, without memory of earlier cells.
+They share one learning rule and one policy, and differ only in nodes and desires: in what their cells represent and in
+what they seek. `RULE` is plain bootstrapping at changes of cell, without memory of earlier cells.
 """
 
 from collections.abc import Sequence
@@ -15,19 +15,19 @@ from neorl.core.modality import PLACE_CELL, Axis, Modality
 RULE = Learning(learning_rate=0.1, discount=0.9, update_on="cell", credit="share", absent_decay=0.0, terminal=True,
                 memory=0.0, bootstrap=True, causes="any", capture="contact", attention="each")
 POLICY = Policy(exploration=0.1)
-AVERSION = -0.3  # the valence of what is to be avoided, beside 1 of what is sought
-FARTHEST, NEAR = 1.0, 0.3  # to which the two maps of a radar reach, in widths of the area
+AVERSION = -0.3  # the valence of things to avoid; that of things sought is 1
+FARTHEST, NEAR = 1.0, 0.3  # the ranges of a radar's two maps, in widths of the area
 
 
 def seeker(nodes: Sequence[Node], desires: Sequence[Desire] = ()) -> Agent:
-    """An agent of these nodes and desires, with the common rule and policy."""
+    """An agent of these nodes and desires, with the shared rule and policy."""
     return Agent(nodes, desires, RULE, POLICY, "silent")
 
 
 def reacher(links: int, valence: float = AVERSION) -> Agent:
-    """An agent for an arm of two or three links: cells for the way from its posture to another, joint by joint, closed.
+    """An agent for an arm of two or three links: cells for the offset of a posture, joint by joint, on closed axes.
 
-    valence: of obstacles.
+    links: 2 or 3. valence: of obstacles.
     """
     axes = [Axis("objects", "component", joint, -0.5, 0.5, closed=True) for joint in range(links)]
     desires = [Desire("target", "joints", 1.0), Desire("obstacle", "joints", valence)]
@@ -43,7 +43,7 @@ def bearing(scene, point):
 
 
 def radar_node(name: str, reach: float, rings: int) -> Node:
-    """Cells for the distance of a thing, up to `reach`, and its bearing."""
+    """A node of cells for the distance of a thing, up to `reach`, and its bearing, in `rings` × 8 cells."""
     return Node(name, Modality("radar cell", [Axis("objects", "length", high=reach),
                                               Axis(bearing, closed=True, intervals=8)]), [rings])
 
@@ -52,11 +52,11 @@ FAR_RADAR, NEAR_RADAR = radar_node("far", FARTHEST, 8), radar_node("near", NEAR,
 
 
 def pilot() -> Agent:
-    """A pilot with both maps of a radar, which avoids the vessels that are near."""
+    """A pilot with both maps of a radar, which avoids nearby vessels."""
     return seeker([FAR_RADAR, NEAR_RADAR], [
         Desire("waypoint", "far", 1.0), Desire("waypoint", "near", 1.0), Desire("vessel", "near", AVERSION)])
 
 
 def swimmer() -> Agent:
-    """A swimmer with place cells of two resolutions, which seeks the platform where it remembers it."""
+    """A swimmer with place cells of two resolutions, which seeks the platform at its remembered place."""
     return seeker([Node("place", PLACE_CELL, [5, 9])], [Desire("platform", "place", 1.0)])

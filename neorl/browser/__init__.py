@@ -1,5 +1,5 @@
-"""The kernels in a page, with their WebAssembly module, the Explorer, and the JavaScript that runs them.
+"""The kernels in a web page: their WebAssembly modules, the Explorer, and the JavaScript that runs them.
 
 The room uses every room below it: `neorl.drawing`, `neorl.evidence`, `neorl.experiments`, `neorl.agents`,
-    `neorl.worlds`, `neorl.core`.
+`neorl.worlds`, `neorl.core`.
 """

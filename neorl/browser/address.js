@@ -1,9 +1,10 @@
-/* The Explorer's state in the address of its page, so that a link can name a run, its settings and a moment of it.
+/* The Explorer's state in the address of its page, so that a link can identify a run, its settings and a moment of it.
 
-The first Explorer of a page has the fragment that begins with `#explorer`, in JupyterLab none. What differs from the
-preset stands there by its name in `SHORT`; beside it `run`, `seed`, `minute`, at which the run stands still, the `map`
-shown with the `goal` chosen in it, and `start`, one of the things to try, as in #explorer_agent-network-d_run-7_red-0p5.
-Names are in small letters, a p is a decimal point: pages take a fragment for a selector, which allows little else. */
+The first Explorer of a page uses the fragment that begins with `#explorer`; in JupyterLab there is none. The fragment
+has the settings that differ from the preset, by their names in `SHORT`, also `run` and `seed`; the `minute` at which
+the run pauses; the `map` shown, with the `goal` chosen in it; and `start`, one of the things to try. An example is
+#explorer_agent-network-d_run-7_red-0p5. Names are in lower case, and p is the decimal point, because pages use a
+fragment as a selector, which allows few other characters. */
 
 const PREFIX = "#explorer";
 const SHORT = { agent: "preset", run: "run", seed: "seed", resolutions: "resolutions", modality: "modality",
@@ -16,7 +17,7 @@ const named = (names, text) => names.find((name) => slug(name) === text) ?? text
 const written = (number) => String(number).replace(".", "p");
 const numberOf = (text) => (text.trim() === "" ? NaN : Number(text.replace("p", ".")));
 
-/** What an address says, {settings, minute, map, goal, start}, or null if it is not for an Explorer. */
+/** Parse an address into {settings, minute, map, goal, start}, or null if it is not for an Explorer. */
 function readAddress(hash, presets, modalities, preset) {
   if (!hash.startsWith(PREFIX)) return null;
   const said = Object.fromEntries(hash.slice(PREFIX.length).split("_").filter(Boolean).map((part) => {
@@ -38,7 +39,7 @@ function readAddress(hash, presets, modalities, preset) {
     goal: isSaid("goal") ? numberOf(said.goal) : null };
 }
 
-/** The address of settings, in full where they differ from their preset's, and of what is looked at. */
+/** The address of the settings that differ from their preset's, and of the view. */
 function addressOf(presets, settings, { minute, map, goal }) {
   const { preset } = settings;
   const defaults = { ...initialSettings(presets, preset), preset: null, run: null, seed: presets[preset].seed };
@@ -60,7 +61,7 @@ class Address extends Starters {
       && !document.body.hasAttribute("data-jp-theme-name");
   }
 
-  /** Go to the run that the address names, if it names one. Returns whether it does. */
+  /** Open the run in the address, if there is one. Returns whether there is. */
   visit() {
     const { presets, modalities, model } = this;
     const said = this.hasAddress() ? readAddress(location.hash, presets, modalities, model.get("preset")) : null;
@@ -70,9 +71,9 @@ class Address extends Starters {
       game: () => this.joinGame() };
     const wishes = { get: (name) => (Object.hasOwn(settings, name) ? settings[name] : model.get(name)) };
     const isMoment = minute === null || (minute >= 0 && minute < 1e6);
-    const problem = problemOf(presets, modalities, wishes) || (isMoment ? "" : "The address names no minute.");
+    const problem = problemOf(presets, modalities, wishes) || (isMoment ? "" : "Its minute must be a number ≥ 0.");
     if (problem) {
-      this.refuse(this.control("preset"), `The address describes no run of this Explorer. ${problem}`);
+      this.refuse(this.control("preset"), `The address does not describe a run of this Explorer. ${problem}`);
       return false;
     }
     this.root.scrollIntoView({ block: "nearest" });
@@ -85,11 +86,11 @@ class Address extends Starters {
       if (Object.hasOwn(starts, start)) await starts[start]();
       this.refresh();
     };
-    this.fresh({ ...settings, playing: true }, { step, hurries: true, act, news: "On the way to that moment …" });
+    this.fresh({ ...settings, playing: true }, { step, hurries: true, act, news: "Running up to that moment …" });
     return true;
   }
 
-  /** The address of now. Of a run that was changed on the way only the settings can be named. */
+  /** The address of the present state; for a run that was changed on the way, only of its settings. */
   addressOfNow() {
     const { life: { frame, changed, world }, presets, model } = this;
     const settings = { ...this.settings(), seed: model.get("seed"), run: model.get("run") };
@@ -98,7 +99,7 @@ class Address extends Starters {
     return addressOf(presets, settings, { minute, map, goal });
   }
 
-  /** Put the address of now into the page's, once the reader has turned something, without a new entry of history. */
+  /** Update the page's address, once the reader has used a control, without a new entry in the history. */
   writeAddress() {
     if (!this.touched || this.running() || this.failed || !this.hasAddress()) return;
     if (!this.life.frame || this.life.due) return;
@@ -109,8 +110,8 @@ class Address extends Starters {
   async copyLink() {
     const link = new URL(this.addressOfNow(), location.href).href;
     if (this.hasAddress()) history.replaceState(history.state, "", link);
-    this.life.news = await navigator.clipboard?.writeText(link).then(() => "The link is copied.", () => null)
-      ?? "The link to this moment is in the address of the page.";
+    this.life.news = await navigator.clipboard?.writeText(link).then(() => "Link copied.", () => null)
+      ?? "The address of the page is the link to this moment.";
     this.refresh();
   }
 }

@@ -1,4 +1,4 @@
-/* The Explorer's controls: what the reader turns becomes a trait, and what the traits say is shown. */
+/* The Explorer's controls: they write the reader's settings into the traits, and display the traits. */
 
 class Controls {
   part(selector) {
@@ -60,7 +60,7 @@ class Controls {
 
   togglePlay() {
     const again = this.life.frame?.ended;
-    if (again) this.note("run"); // the same one, with what is set
+    if (again) this.note("run"); // the same run, with the present settings
     this.write({ playing: again || !this.model.get("playing") });
   }
 
@@ -69,7 +69,7 @@ class Controls {
     return this.life.advancing ? null : this.advance(1, TIMED_BUDGET);
   }
 
-  /** Begin again, with the preset's own settings: those of now may be what has failed. */
+  /** Restart with the preset's own settings: the present ones may be the cause of a failure. */
   reset() {
     if (!this.life.frame) this.abandon();
     const keys = [this.model.get("preset"), ...orderedKeys(this.presets)];
@@ -104,15 +104,15 @@ class Controls {
     return this.write({ resolutions: inOrder(numbers) });
   }
 
-  /** What was typed and is not allowed gives way to what was, and a sentence says so. */
+  /** Restore the old value of a field whose new one is not allowed, with a message. */
   refuse(field, allowed) {
     field.ariaInvalid = "true";
-    this.part(".refused").textContent = `${allowed} It stays as it was.`;
+    this.part(".refused").textContent = `${allowed} Nothing was changed.`;
     if (field.name === "open-run") field.value = 0;
     this.showControls();
   }
 
-  /** What was refused is over as soon as something else has been taken. */
+  /** Clear the message of a refusal, once another input has been accepted. */
   forgive() {
     for (const field of this.root.querySelectorAll("[aria-invalid]")) field.ariaInvalid = null;
     this.part(".refused").textContent = "";
@@ -194,7 +194,7 @@ class Controls {
     });
   }
 
-  /** Whether there is such a control for this agent and its world. */
+  /** Show a control and enable it, or hide it where the agent or its world has no such setting. */
   offer(name, isOffered) {
     this.control(name).disabled = this.control(name).parentElement.hidden = !isOffered;
   }
@@ -206,7 +206,7 @@ class Controls {
   showSpeed() {
     const speed = this.speed();
     const notch = speed ? SPEEDS.findLastIndex((each) => each && each <= Math.max(1, speed)) : SPEEDS.length - 1;
-    this.showSlider("speed", notch, speed ? `${shown(speed)}× real time` : "as fast as it goes");
+    this.showSlider("speed", notch, speed ? `${shown(speed)}× real time` : "full speed");
     this.control("speed").disabled = Boolean(this.life.game);
   }
 
@@ -219,7 +219,7 @@ class Controls {
   draw(now = performance.now()) {
     const { life: { frame, cursor, length, world, rate }, colours, condition } = this;
     const isLoading = !frame && !this.failed;
-    if (!this.arena.clientWidth || (isLoading && this.drawn)) return; // the last picture stays for that long
+    if (!this.arena.clientWidth || (isLoading && this.drawn)) return; // keep the last picture while loading
     Object.assign(this, { drawn: now, stale: false });
     drawArena(this.arena, colours, frame, cursor);
     this.part(".limb").hidden = !frame?.arm;
@@ -244,7 +244,7 @@ class Controls {
 
   livedText() {
     const { frame, world } = this.life;
-    return frame ? `${(frame.step / world.fps / 60).toFixed(1)} minutes lived · score ${shown(frame.reward)}` : "";
+    return frame ? `${(frame.step / world.fps / 60).toFixed(1)} simulated minutes · score ${shown(frame.reward)}` : "";
   }
 
   sentences() {
@@ -259,9 +259,9 @@ class Controls {
       said.push(`The notebook computed ${shown(totals[run])} for this run: ${same}.`);
     }
     if (game) said.push(`You: ${shown(frame.player?.reward ?? 0)}. neoRL: ${shown(frame.reward - game.score)}.`,
-      "Steer with the arrows; Escape leaves.");
+      "Steer with the arrow keys; Escape leaves the game.");
     if (seen.goal !== null) {
-      const ways = { position: "how to get there", velocity: "how to come to move so" };
+      const ways = { position: "how to get there", velocity: "how to reach that velocity" };
       const what = ways[seen.vector] ?? "how to get a thing there";
       said.push(`Cell ${seen.goal} of ${seen.name}: ${what}, learned without being asked.`);
     }

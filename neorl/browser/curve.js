@@ -1,4 +1,4 @@
-/* The drawing of the reward over the run, on a canvas of its own, made from what it is given as those of the world. */
+/* The curve of reward over the run, on a canvas of its own, drawn purely from its arguments, as in drawing.js. */
 
 /** Reward per second over the run. curve: {seconds, binSeconds, rewards (of bins), lived (seconds), band or none}. */
 function drawCurve(canvas, colours, { seconds, binSeconds, rewards, lived, band }) {
@@ -32,8 +32,8 @@ function drawCurve(canvas, colours, { seconds, binSeconds, rewards, lived, band 
   stroke(board, colours.agent, 1.8, 1, (path) => addLine(path, own));
 }
 
-/** Reward per second in each bin that has begun. In the last, unfinished one it is over as long a time as in the others,
- * which reaches back into the bin before. */
+/** Reward per second in each bin that has begun. The last, unfinished one is averaged over the full length of a bin,
+ * and so reaches back into the bin before. */
 function ratesOf(rewards, binSeconds, lived, seconds) {
   const bins = lived < 1 ? 0 : Math.ceil(Math.min(lived, seconds) / binSeconds - 1e-9);
   const edges = Array.from({ length: bins + 1 }, (_, bin) => Math.min(bin * binSeconds, lived, seconds));
@@ -45,7 +45,7 @@ function ratesOf(rewards, binSeconds, lived, seconds) {
   return { edges, rates };
 }
 
-/** The 1, 2 or 5 times a power of ten next above a number. */
+/** The least number of the form 1, 2 or 5 times a power of ten that is not below `least`. */
 function roundStep(least) {
   const power = 10 ** Math.floor(Math.log10(least));
   return power * ([1, 2, 5].find((times) => times * power >= least) ?? 10);

@@ -1,13 +1,12 @@
 /* Drawings of the Explorer: the world, on a canvas of its own.
 
-Nothing here keeps anything or listens to anything: a drawing is made from what it is given. Places are in units of the
-world's size, y downward, as in the frames of the engine. Positions are drawn as they are, so that discs reach over the
-border of the tank as they do in the figures of the book. Colours come from the style sheet, which takes them from the
-page. */
+These functions keep no state and listen to no events: a drawing depends only on their arguments. Places are in units of
+the world's size, y downward, as in the frames of the engine. Positions are not clipped, so discs may overlap the border
+of the tank, as in the figures of the book. Colours come from the style sheet, which takes them from the page. */
 
-const [BOARD_MARGIN, LONGEST_DESIRE, BEYOND] = [0.055, 0.3, 3]; // in board widths; no drawing reaches beyond the last
-const [HALF_A_SECOND, FULL_TURN] = [0.5, 2 * Math.PI]; // a velocity is drawn that far ahead
-const FIELD_TILES = 15; // a side, for the superposed value
+const [BOARD_MARGIN, LONGEST_DESIRE, BEYOND] = [0.055, 0.3, 3]; // in board widths; no drawing reaches BEYOND
+const [HALF_A_SECOND, FULL_TURN] = [0.5, 2 * Math.PI]; // a velocity is drawn as the distance covered in half a second
+const FIELD_TILES = 15; // along each side, for the superposed value
 
 /** The colours and the font that the style sheet gives the widget on this page. */
 function readColours(root) {
@@ -24,7 +23,7 @@ const placeAt = (share) => share * (1 + 2 * BOARD_MARGIN) - BOARD_MARGIN;
 const inSight = (place) => Math.max(-0.03, Math.min(1.03, place));
 const clampedToBoard = (place) => Math.max(0, Math.min(1, place));
 
-/** A context on which a unit is a pixel of the page, with as many dots as the screen has. */
+/** A context in units of CSS pixels, at the resolution of the screen. */
 function fittedContext(canvas) {
   const { clientWidth, clientHeight } = canvas;
   const [width, height] = [clientWidth, clientHeight].map((side) => Math.round(side * devicePixelRatio));
@@ -35,7 +34,7 @@ function fittedContext(canvas) {
   return context;
 }
 
-/** The arena. frame: as the engine has it, or null; cursor: a place, or none. */
+/** Draw the arena. frame: from the engine, or null; cursor: a place, or none. */
 function drawArena(canvas, colours, frame, cursor) {
   const context = fittedContext(canvas);
   const unit = canvas.clientWidth / (1 + 2 * BOARD_MARGIN);
@@ -68,7 +67,7 @@ function drawMap(board, cells, { active, seen: { goal } }) {
   stroke(board, colours.goal, 2.4, 1, addGoal);
 }
 
-/** The way to the chosen cell from every other, as long as the cells allow. */
+/** Draw the way to the chosen cell from every other, with arrows as long as the cells allow. */
 function drawWays(board, cells, { seen: { ways }, round }) {
   drawVectors(board, board.colours.goal, 2.2, 1, ways, (cell) => cells.middle(cell), round);
 }
@@ -92,15 +91,15 @@ function squareCells({ axes }, { x, y }, scale) {
   const [across, down] = [0, 1].map((along) => axes.find((each) => each.along === along));
   const placed = (axis, start) => (axis?.borders ?? [0, 1]).map((border) => {
     if (axis?.feature !== "margin") return start + scale * border;
-    return border < 1e-9 ? border + axis.high : border + 1 - axis.high; // the middle of the board is a single value, 0
+    return border < 1e-9 ? border + axis.high : border + 1 - axis.high; // the middle of the board is the single value 0
   });
   const [xs, ys] = [placed(across, x), placed(down, y)];
-  // What lies beyond the range of a map belongs to the cell at its end.
+  // Places beyond the range of a map belong to the cell at its end.
   const shown = (borders, index) => {
     const last = borders.length - 2;
     return [index > 0 ? clampedToBoard(borders[index]) : 0, index < last ? clampedToBoard(borders[index + 1]) : 1];
   };
-  // Where an axis closes on itself, cells go on at the other side of the board.
+  // On a closed axis, cells continue at the other side of the board.
   const shiftsOf = (axis) => (axis?.closed ? [-1, 0, 1] : [0]);
   const along = (borders, axis, cell) => {
     const index = intervalOf(cell, axis);
@@ -132,7 +131,7 @@ function squareCells({ axes }, { x, y }, scale) {
   };
 }
 
-/** heading: of the agent, from which a bearing starts, as a direction starts from the east. */
+/** heading: of the agent, from which bearings are measured, as directions are from the east. */
 function roundCells({ axes }, { x, y }, scale, heading) {
   const away = axes.find(({ feature }) => feature === "length");
   const around = axes.find(({ feature }) => ["direction", "bearing"].includes(feature));
@@ -182,7 +181,7 @@ function drawField(board, { field, round }) {
     ({ x: size * ((tile % FIELD_TILES) + 0.5), y: size * (rowOf(tile) + 0.5), size }), round);
 }
 
-/** An arrow for each vector (x, y, x, y, …) around its middle, as long as the fourth root of it, as in the book. */
+/** Draw an arrow for each vector (x, y, x, y, …) around its middle, scaled by the fourth root, as in the book. */
 function drawVectors(board, colour, width, alpha, vectors, middle, round) {
   let longest = 0;
   for (let i = 0; i < vectors.length; i += 2) longest = Math.max(longest, Math.hypot(vectors[i], vectors[i + 1]));
@@ -202,7 +201,7 @@ function drawVectors(board, colour, width, alpha, vectors, middle, round) {
 const isInside = (x, y, round) =>
   (round ? Math.hypot(x - 0.5, y - 0.5) < 0.5 : x >= 0 && x <= 1 && y >= 0 && y <= 1);
 
-/** The share of a vector from a place that the canvas has room for. */
+/** The share of a vector from a place that fits on the canvas. */
 function roomFor(x, y, dx, dy) {
   const [least, most] = [-0.9 * BOARD_MARGIN, 1 + 0.9 * BOARD_MARGIN];
   const along = (place, change) => (change ? ((change > 0 ? most : least) - place) / change : 1);
@@ -260,7 +259,7 @@ function pathOf(add) {
   return path;
 }
 
-/** Write a text around a point, if wanted with a halo that keeps it legible over anything. */
+/** Write a text around a point, optionally with a halo that keeps it legible over anything. */
 function write({ context, colours }, text, x, y, size, colour, halo = null, textAlign = "center") {
   Object.assign(context, { font: `${size} ${colours.font}`, textAlign, textBaseline: "middle", globalAlpha: 1,
     fillStyle: colour, strokeStyle: halo, lineWidth: 3 });

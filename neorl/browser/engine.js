@@ -1,17 +1,17 @@
-// The worker that runs an agent: the book's own kernels, in WebAssembly, and nothing else that decides a run.
+// The worker that runs an agent: the book's own kernels, in WebAssembly. Nothing else affects a run.
 //
-// 1. `layout` (from Python) says what each kernel takes, of which fields its tuples consist, and what its numbers mean.
-// 2. A run has a WebAssembly memory of its own, into which its arrays are laid one after the other.
-// 3. Every request gets one answer, in order: `REQUESTS` at the end has them all.
-// Places and velocities go out in units of the world's size, y downward; inside WaterWorld they are pixels.
+// 1. `layout` (from Python) describes the arguments of each kernel, the fields of its tuples, and its enumerations.
+// 2. A run has a WebAssembly memory of its own, in which its arrays are placed one after the other.
+// 3. Every request gets one answer, in order: `REQUESTS` at the end lists them all.
+// Places and velocities are sent in units of the world's size, y downward; inside WaterWorld they are in pixels.
 
-const SLICE_MS = 4; // between two looks at the clock
+const SLICE_MS = 4; // between two readings of the clock
 
 const modules = {}; // by name, {layout, compiled}
 let run = null;
-let look = { map: "", goal: null, field: 0 }; // the name of a map, a cell of it, and tiles a side
+let look = { map: "", goal: null, field: 0 }; // the name of a map, a cell of it, and the field's tiles along each side
 
-/** A run in a machine of its own: its parameters derived, all else at 0. */
+/** A run in a machine of its own, with its parameters derived and everything else at 0. */
 function newRun({ parameters: choices, world, steps, bin_steps }) {
   const { maps, nodes, axes, desires, learning, contacts, frames, push } = choices;
   const sizes = {
@@ -22,7 +22,7 @@ function newRun({ parameters: choices, world, steps, bin_steps }) {
     axes: push[0].length, things: world.things, ...world.sizes,
     kinds: world.kinds.length, bins: Math.ceil(steps / bin_steps),
   };
-  const draft = new Machine(2 ** 20 + bytesOf("Parameters", sizes)); // what a run needs follows from its parameters
+  const draft = new Machine(2 ** 20 + bytesOf("Parameters", sizes)); // the memory of a run follows from its parameters
   const derived = draft.tuple("Parameters", sizes, choices);
   draft.call("derive", sizes, { parameters: derived, n_things: sizes.things });
   const last = (name) => Number(derived.maps[name].at(-1));
@@ -54,7 +54,7 @@ function newRun({ parameters: choices, world, steps, bin_steps }) {
   return made;
 }
 
-/** How many axes all maps have together. */
+/** The number of axes of all maps together. */
 function mapAxes({ nodes: { first_map, first_axis, follows } }) {
   return follows.reduce((sum, _, n) =>
     sum + (first_map[n + 1] - first_map[n]) * (first_axis[n + 1] - first_axis[n]), 0);
@@ -64,7 +64,7 @@ function mapAxes({ nodes: { first_map, first_axis, follows } }) {
 const call = (name, more = {}) => run.machine.call(name, { ...run.sizes, ...more }, { ...run, ...more });
 
 function begin(request) {
-  run = null; // so that its memory can go before the next is made
+  run = null; // so that its memory can be freed before the next is allocated
   ({ layout, compiled } = modules[request.world.module]);
   run = newRun(request);
   run.changes = [...(request.changes ?? [])];
@@ -81,7 +81,7 @@ function begin(request) {
   return frame();
 }
 
-/** Look at a map, or, if there is none of its name, at one whose cells are large enough to click. */
+/** Show a map, or, if there is none of that name, one whose cells are large enough to click. */
 function lookAt(choice) {
   const { maps: { resolution }, nodes: { first_map } } = run.choices;
   const names = mapNames(run.choices);
@@ -97,24 +97,24 @@ function mapNames({ names, maps, nodes }) {
   return maps.resolution.map((each, m) => `${names[nodeOf(nodes.first_map, m)]} N${each}`);
 }
 
-/** The name of a number of an enumeration. */
+/** The name of an enumeration's member, by number. */
 const nameOf = (enumeration, number) =>
   Object.entries(layout.enumerations[enumeration]).find(([, each]) => each === Number(number))[0];
 
 const learnsContacts = (m) => run.choices.nodes.learns_contacts[nodeOf(run.choices.nodes.first_map, m)];
 
-/** The map that is looked at, as it is drawn, and the way to the goal that is chosen in it. */
+/** The map that is shown, as it is drawn, and the way to the goal chosen in it. */
 function seen(m) {
   const { follows } = run.choices.nodes;
   const vector = nameOf("Vector", follows[nodeOf(run.choices.nodes.first_map, m)]);
-  if (learnsContacts(m)) return { name: look.map, vector, axes: [], goal: null, ways: null }; // its cells are no goals
+  if (learnsContacts(m)) return { name: look.map, vector, axes: [], goal: null, ways: null }; // its cells are not goals
   return {
     name: look.map, vector, axes: axesOf(m), goal: look.goal,
     ways: look.goal === null ? null : valueFunction(m, look.goal),
   };
 }
 
-/** How a map cuts the axes of the vector that its node follows: the others have no place in the world. */
+/** How a map divides the axes of the vector that its node follows: other axes cannot be drawn in the world. */
 function axesOf(m) {
   const { choices: { nodes, axes }, parameters: { grid, maps } } = run;
   const n = nodeOf(nodes.first_map, m);
@@ -125,14 +125,14 @@ function axesOf(m) {
     const inner = axes.boundary.slice(axes.first_boundary[first + axis], axes.first_boundary[first + axis + 1]);
     const borders = nameOf("Cut", cut) === "boundaries" ? [axes.low[first + axis], ...inner, axes.high[first + axis]]
       : Array.from({ length: last + 2 }, (_, index) => low + index / scale);
-    const isBearing = nameOf("Vector", vector) === "own"; // the only axis of its own that a module has
+    const isBearing = nameOf("Vector", vector) === "own"; // the only user-defined axis in a module
     if (vector !== nodes.follows[n] && !isBearing) return [];
     return [{ feature: isBearing ? "bearing" : nameOf("Feature", feature), along, stride, borders,
       closed: nameOf("Cut", cut) === "closed", high: axes.high[first + axis] }];
   });
 }
 
-/** Go on as another agent, as `Run.change` does: a map that both have stays as it is, the desires of before do not. */
+/** Continue as another agent, as `Run.change` does: maps that both have are kept, the last step's desires are not. */
 function become(choices) {
   const old = run;
   const keys = mapKeys(choices);
@@ -162,7 +162,7 @@ function become(choices) {
   }
 }
 
-/** Copy the arrays of a named tuple, and of those within. */
+/** Copy the arrays of a named tuple, also of nested ones. */
 function copy(to, from) {
   for (const [name, value] of Object.entries(to)) {
     if (ArrayBuffer.isView(value)) value.set(from[name]);
@@ -170,7 +170,7 @@ function copy(to, from) {
   }
 }
 
-/** Put what is chosen into parameters; a field that is not chosen is derived. */
+/** Write the chosen parameters; a field that is not chosen is derived. */
 function take(parameters, choices) {
   for (const [name, value] of Object.entries(parameters)) {
     if (!(name in choices)) continue;
@@ -191,7 +191,7 @@ function mapKeys({ names, maps, nodes, axes, learning }) {
   });
 }
 
-/** Take over all that an old run knows of a map, and what led to its active cells. */
+/** Copy an old run's values of a map, its active cells, and its memory of how they were reached. */
 function keepMap(old, from, to) {
   for (const [firsts, fields] of Object.entries(layout.of_a_map)) {
     const [ofOld, ofNew] = [old.parameters.maps[firsts], run.parameters.maps[firsts]];
@@ -205,7 +205,7 @@ function keepMap(old, from, to) {
   }
 }
 
-/** The values of a map of an old run in the order that the run has them in (neorl.core.learning.Order). */
+/** The values of a map of an old run, reordered as in the present run (neorl.core.learning.Order). */
 function reordered(values, old, m) {
   const { nodes, maps } = old.parameters;
   const byGoal = old.choices.learning.bootstrap;
@@ -256,7 +256,7 @@ function drag({ creep, x, y }) {
   const { width, radius } = run.rules.waterworld;
   const inside = [x, y].map((each) => Math.min(width - radius, Math.max(radius, each * width)));
   run.scene.things.set(inside, 2 * creep);
-  call("begin"); // a leap by another's hand is nothing to learn from
+  call("begin"); // nothing is learned from a jump that the reader caused
   return frame();
 }
 
@@ -311,7 +311,7 @@ function field(side) {
   return vectors(tiles, (tile, action) => run.values[actions * tile + action]);
 }
 
-/** What the agent knows of the way to one goal, in every cell of a map. */
+/** The learned value function of one goal, as a vector in every cell of a map. */
 function valueFunction(map, goal) {
   const { first_value, cells: counts } = run.parameters.maps;
   const [first, cells, { actions }] = [Number(first_value[map]), Number(counts[map]), run.sizes];
@@ -319,7 +319,7 @@ function valueFunction(map, goal) {
     + (run.choices.learning.bootstrap ? action * cells + goal : goal * actions + action)]);
 }
 
-/** The cell of the map that is looked at for a place. What an axis of its own knows of it is that of a thing there. */
+/** The cell of the map shown that contains a place. User-defined axes see the place as a thing there. */
 function cellSeenAt(at) {
   const { scene: { things }, choices: { size } } = run;
   const before = things.slice(0, 2);
@@ -339,7 +339,7 @@ const REQUESTS = {
     become(parameters);
     return frame();
   },
-  /** `at`: a place, whose cell becomes the goal, or is no longer if it was. */
+  /** `at`: a place, whose cell becomes the goal, or ceases to be it. */
   look({ type, at, ...choice }) {
     lookAt(choice);
     const cell = at && cellSeenAt(at);

@@ -1,14 +1,14 @@
 """The Explorer: a widget that runs the book's own kernels in the reader's browser.
 
-What it needs is in its state, so it works in a page without Python: the kernels in WebAssembly (`neorl.browser.wasm`),
-its *presets* (agents as parameters, with the band of the runs that a page has of them), and its traits, which are the
-controls.
+Everything it needs is in its state, so it works in a page without Python: the kernels in WebAssembly
+(`neorl.browser.wasm`), its *presets* (agents as parameters, with the tolerance band of the page's runs of them), and
+its traits, which are the controls.
 
-- `settings.js` makes parameters of a preset and of the traits, `engine.js` runs them in a worker, in the memory of
-  `machine.js`, and nothing else decides a run: run k of a seed is the run that `neorl.Run` makes of it. `views.js` says
-  what a frame shows of each world.
+- `settings.js` turns a preset and the traits into parameters, and `engine.js` runs them in a worker, in the memory of
+  `machine.js`. Nothing else affects a run: run k of a seed is the same as in `neorl.Run`. `views.js` defines what a
+  frame shows of each world.
 - `drawing.js`, `movers.js` and `curve.js` draw; `page.js`, `legend.js`, `controls.js`, `hands.js` and `widget.js` are
-  what the reader sees and turns; `starters.js` has things to try, and `address.js` the state in the page's address.
+  the interface; `starters.js` has things to try, and `address.js` keeps the state in the page's address.
 """
 
 import math
@@ -55,13 +55,13 @@ IN_THE_ARENA = {  # since the platform never moves, only exploration gets an age
         [Node("PC", PLACE_CELL, [5, 9, 13])], [Desire("platform", "PC", 1.0)],
         Learning(learning_rate=0.05, discount=0.8, memory=2.0, memory_value="discounted"), Policy(exploration=0.5))}
 BEYOND = {"Foveated cells, contacts alone": beyond.forager(valence_green=1.0, valence_red=-1.0)}
-OTHER_SPACES = {  # agents, and the worlds that they live in
+OTHER_SPACES = {  # agents, and their worlds
     "Arm of two links": (spaces.reacher(2), Arm((0.5, 0.5), radius=0.15)),
     "Vessel with a radar": (spaces.pilot(), Vessel()),
     "Water maze, platform moved": (spaces.swimmer(), WaterMaze([(0.65, 0.35), (0.3, 0.3), (0.35, 0.7), (0.7, 0.6)]))}
 AGENTS = CALIBRATED | TO_THE_LETTER | BEYOND | IN_THE_ARENA | {name: agent for name, (agent, _) in OTHER_SPACES.items()}
-STEPS = 300_000  # of a run, where the page has no condition
-AVOIDED = ("red", "obstacle", "vessel")  # the kinds whose valence is a control
+STEPS = 300_000  # of a run of an agent that is not a condition of the page
+AVOIDED = ("red", "obstacle", "vessel")  # the kinds whose valence has a control
 CURVE_BINS = 50
 SCRIPTS = ("settings.js", "drawing.js", "movers.js", "curve.js", "page.js", "legend.js", "controls.js", "hands.js",
            "starters.js", "address.js", "widget.js")
@@ -74,21 +74,21 @@ def _text(*names):
 class Explorer(AnyWidget):
     """A neoRL agent to watch, change and play against; in JupyterLab and, from its stored state, in a static page.
 
-    conditions: {name: `Result`}, the conditions of the page, in worlds of the package, whose bands and runs it shows.
-        Each of their agents has one valence of what is red, or to be avoided, and one of recursion, and no kernels of
-        the user's own.
+    conditions: {name: `Result`}, the conditions of the page, in worlds of the package; their bands and runs are shown.
+        Each agent has a single valence for red (or for obstacles or vessels) and a single one for recursion, and no
+        kernels of the user's own.
     preset: the name of a condition or of one of `neorl.browser.explorer.AGENTS`; by default the first condition or
         agent.
-    traits: any of those below, to begin with.
+    traits: initial values of any of the traits below.
 
-    Traits: resolutions (1 … 90 each), modality (the name of one, with the ranges of the preset if it is that of the
-    preset; "" if the preset has more than one node or a modality of its own), recursion (None if there is none),
-    valence_red (of obstacles or vessels, where these are to be avoided), gains (one a node), learning_rate and discount
+    Traits: resolutions (1 … 90 each), modality (by name, with the preset's ranges if it is the preset's own; "" if the
+    preset has more than one node or a modality of its own), recursion (None if there is none), valence_red (of
+    obstacles or vessels in worlds where these are to be avoided), gains (one per node), learning_rate and discount
     (0 … 1), memory (≥ 0, in the unit of the preset; 0 if it has a trace or learns at every step), n_creeps (1 … 20;
-    None outside WaterWorld), seed (below 2³²), run, speed (times real time, 0 for as fast as it goes), playing.
-    Choosing a preset sets those that it determines. An agent that is no condition lives in the tank of the first
-    condition that has one, or else in one of 3 creeps; one to the letter at the letter's steps per second, and with its
-    contacts; those in the arena in `neorl.Arena()`, and those of other spaces in theirs.
+    None outside WaterWorld), seed (below 2³²), run, speed (times real time, 0 for as fast as possible), playing.
+    Choosing a preset sets the traits that it determines. An agent that is not a condition is in the tank of the first
+    condition in WaterWorld, or else in one with 3 creeps; an agent to the letter has the letter's steps per second and
+    contacts; agents in the arena are in `neorl.Arena()`, and agents of other spaces in their own worlds.
     seconds and score follow the run, about once per second.
 
     Raises ValueError for a condition that cannot be shown, TraitError for a bad trait, RuntimeError if the WebAssembly
@@ -131,7 +131,7 @@ class Explorer(AnyWidget):
         agents = {name: (agent, as_printed if name in TO_THE_LETTER else Arena() if name in IN_THE_ARENA else tank)
                   for name, agent in AGENTS.items()} | OTHER_SPACES
         own = {name: (result.agent, result.world) for name, result in conditions.items()}
-        self._lives = own | agents | own  # a condition stands before an agent, and for one of its name
+        self._lives = own | agents | own  # conditions come first, and replace agents of the same name
         presets = {name: _preset(name, agent, world, conditions.get(name)) | {"place": place}
                    for place, (name, (agent, world)) in enumerate(self._lives.items())}
         preset = checks.one_of("preset", preset or next(iter(presets)), tuple(presets))
@@ -161,7 +161,7 @@ class Explorer(AnyWidget):
 
     @property
     def world(self):
-        """The world that it lives in."""
+        """The agent's world."""
         _, world = self._lives[self.preset]
         return replace(world, n_creeps=self.n_creeps) if isinstance(world, WaterWorld) else world
 
@@ -222,7 +222,7 @@ def _settings(preset):
 
 
 def _preset(name, agent, world, result):
-    """A preset as the page takes it: its settings, the chosen parameters, and what its runs brought."""
+    """A preset in the page's format: its settings, the chosen parameters, and the results of its runs."""
     red = [e for e, desire in enumerate(agent.desires) if desire.source in AVOIDED]
     recurring = [e for e, desire in enumerate(agent.desires) if desire.source == desire.target]
     names = [node.name for node in agent.nodes]
@@ -251,7 +251,7 @@ def _preset(name, agent, world, result):
 
 
 def _world(world):
-    """A world as the page takes it; of the rules that do not hold in it only the numbers."""
+    """A world in the page's format; of the rules of other worlds, only the scalars."""
     rules, module = _as_json(rules_of(world)), _module_of(world)
     name = NAMES[rules["world"]] if module == "plane" else "vessel"
     for other in NAMES if module == "plane" else ():
@@ -266,7 +266,7 @@ def _module_of(world):
 
 
 def _named(modality):
-    """The name of a modality, if it is one of `MODALITIES` but for its ranges, or else ""."""
+    """The name of a modality if it is one of `MODALITIES`, apart from its ranges, else ""."""
     return modality.name if _without_ranges(modality) in map(_without_ranges, MODALITIES) else ""
 
 
@@ -304,6 +304,6 @@ def _band(result):
 
 
 def _modalities():
-    """For each modality the parameters of a node that has it."""
+    """The parameters of a node of each modality, by name."""
     return {each.name: _as_json(axis_parameters([each], WaterWorld.actions.axes)[0])
             for each in MODALITIES if each.takes_places}

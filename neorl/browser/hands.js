@@ -1,9 +1,9 @@
-/* The reader's hands in the tank: choosing a cell, dropping and dragging things, and playing against the agent. */
+/* Direct interaction with the tank: choosing a cell, dropping and dragging things, playing against the agent. */
 
 class Hands extends Controls {
   placeHandles() {
     const { elements, selected, life: { frame } } = this;
-    const creeps = this.hasCreeps() ? frame?.things ?? [] : []; // places stay where they are
+    const creeps = this.hasCreeps() ? frame?.things ?? [] : []; // places cannot be dragged
     const [grips, marks] = [this.part(".grips"), this.part(".marks")];
     grow(grips, creeps.length, () => "<span class='grip'></span>");
     grow(marks, elements.length, () => "<button type='button' class='interest'></button>");
@@ -12,7 +12,7 @@ class Hands extends Controls {
     elements.forEach(({ valence }, index) => {
       const [mark, worth] = [marks.children[index], signed(valence)];
       mark.textContent = worth;
-      mark.ariaLabel = `Element ${index + 1}, worth ${worth}. Arrow keys move it, Delete takes it away.`;
+      mark.ariaLabel = `Element ${index + 1}, valence ${worth}. Arrow keys move it, Delete removes it.`;
       mark.classList.toggle("red", valence < 0);
       mark.classList.toggle("chosen", index === selected);
     });
@@ -24,7 +24,7 @@ class Hands extends Controls {
     return { x, y };
   }
 
-  /** Things that can be dragged lie over the canvas, so that the page scrolls wherever there is none. */
+  /** Draggable things are elements over the canvas, so that elsewhere a touch scrolls the page. */
   grasp(event) {
     const { target, clientX, clientY, pointerId } = event;
     const thing = target.closest(".grip, .interest");
@@ -35,7 +35,7 @@ class Hands extends Controls {
     this.life.held = { index: indexOf(thing), isCreep: thing.matches(".grip"), clientX, clientY };
   }
 
-  /** Time slows while the pointer reaches for a creep, or has hold of one: it would be gone otherwise. */
+  /** Whether the pointer is near a creep or holds one: time then slows, or the creep would escape. */
   isReaching() {
     const { held, pointer, frame, game } = this.life;
     if (held?.isCreep) return true;
@@ -49,7 +49,7 @@ class Hands extends Controls {
     life.slid ||= held && Math.hypot(event.clientX - held.clientX, event.clientY - held.clientY) > 3;
     if (!held || !life.slid) return;
     if (!held.isCreep) return this.changeElement(held.index, this.placeOf(event));
-    life.dragged = { creep: held.index, ...this.placeOf(event) }; // sent once a picture
+    life.dragged = { creep: held.index, ...this.placeOf(event) }; // sent once per picture
     this.wake();
   }
 
@@ -59,7 +59,7 @@ class Hands extends Controls {
     this.take(await this.ask({ type: "drag", ...dragged }));
   }
 
-  /** A tap chooses a cell; a second one at the same place takes that back and drops an element. */
+  /** A tap chooses a cell; a second one at the same place undoes that and drops an element. */
   async tap(event) {
     const { life, life: { frame, tapped: before } } = this;
     if (life.slid || life.game || !frame || !event.target.matches("canvas, .grip")) return;
@@ -95,7 +95,7 @@ class Hands extends Controls {
     return action === undefined ? this.look({ at: life.cursor }) : null;
   }
 
-  /** The next click says where; by keyboard it is the middle, from where the arrow keys move it. */
+  /** Drop an element where the next click is; by keyboard in the middle, from where the arrow keys move it. */
   beginDrop(byKeyboard) {
     if (byKeyboard) return this.dropElement({ x: 0.5, y: 0.5 });
     this.dropping = !this.dropping;

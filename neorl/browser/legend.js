@@ -1,7 +1,7 @@
-/* What the tank shows, in words: the key beside it, and a description for those who hear the page. */
+/* What the tank shows, in words: the key beside it, and a description for screen readers. */
 
 const SPELLED_OUT = { PC: "place cells", OVC: "object-vector cells", "OVC × V": "object vector and velocity",
-  joints: "the way to a posture, joint by joint", far: "radar, the whole area", near: "radar, what is near",
+  joints: "the way to a posture, joint by joint", far: "radar, whole area", near: "radar, near range",
   place: "place cells" };
 const [LINE, HEAD] = ["M2 8H21", "M16 4L21 8L16 12"];
 const picture = (content) => `<svg viewBox="0 0 24 16" aria-hidden="true">${content}</svg>`;
@@ -21,7 +21,7 @@ const PICTURES = {
   landing: picture(`<path class="green full" d="M12 0L20 8L12 16L4 8Z"/><path class="sign" d="M9 8h6M12 5v6"/>`),
 };
 
-/** The entries of the key, [picture, text], for a frame and the world that it is of. */
+/** The entries of the key for a frame: [picture, text]. */
 function keyOf({ things, nodes, landings, player, active, field, seen, arm, heading, hidden, current }) {
   const kinds = new Set(things.map(({ kind }) => kind));
   const names = nodes.filter(({ valence }) => valence).map(({ name }) => {
@@ -29,7 +29,7 @@ function keyOf({ things, nodes, landings, player, active, field, seen, arm, head
     return long ? `<b>${name}</b>, ${long}` : `<b>${name}</b>`;
   });
   const entries = [
-    ["agent", arm ? "The posture of the arm: across the angle of its first joint, down that of its second"
+    ["agent", arm ? "The posture of the arm: the angle of its first joint across, of its second down"
       : "The agent; the line ends where it will be in half a second", !heading],
     ["hull", "The vessel; the line ends where it will be in half a second", heading],
     ["green", "Target: pays +1 (one of its postures)", kinds.has("target")],
@@ -37,15 +37,15 @@ function keyOf({ things, nodes, landings, player, active, field, seen, arm, head
     ["place", "Waypoint: pays +1", kinds.has("waypoint")], ["vessel", "Another vessel: a collision pays −1",
       kinds.has("vessel")],
     ["current", "The current, which the agent does not perceive", current?.some(Boolean)],
-    ["hidden", "The platform, under the surface: pays +1 and ends the trial", hidden],
+    ["hidden", "The hidden platform: pays +1 and ends the trial", hidden],
     ["player", "You", player],
     ["green", "Green creep: pays +1", kinds.has("green")], ["red", "Red creep: pays −1", kinds.has("red")],
     ["place", hidden ? "Where the animal remembers the platform" : "Platform", kinds.has("platform")],
     ["active", "Shaded: the active cell of the map shown", active.length],
-    ["field", `Grey: what the agent would do at that place${heading ? ", on this heading" : ""}, all maps together`,
+    ["field", `Grey: what the agent would do at each place${heading ? ", on this heading" : ""}, by all maps together`,
       field && seen.goal === null],
-    ["desire", `Dashed: the desire vector of a node: ${names.join("; ")}`, names.length],
-    ["landing", "Where the desire of one node lands as an element for another", landings.length],
+    ["desire", `Dashed: the desire vectors of nodes: ${names.join("; ")}`, names.length],
+    ["landing", "Where the desire of one node places an element for another", landings.length],
     ["way", "The chosen cell, and the way to it from every other", seen.goal !== null],
   ];
   return entries.filter((entry) => entry.length < 3 || entry[2]);
@@ -53,13 +53,13 @@ function keyOf({ things, nodes, landings, player, active, field, seen, arm, head
 
 const entryMarkup = ([kind, text]) => `<li>${PICTURES[kind]}<span>${text}</span></li>`;
 
-/** A frame in a sentence or three. */
+/** A description of a frame, in a few sentences. */
 function describe({ agent, things, player, ended }) {
   const moving = Math.hypot(agent.vx, agent.vy) > 0.02;
   const said = [`The agent is ${whereabouts(agent)}, ${moving ? `moving ${heading(agent.vx, agent.vy)}` : "at rest"}.`];
   const counts = Object.entries(Object.groupBy(things, ({ kind }) => kind ?? "hidden place"))
     .map(([kind, { length }]) => `${length} ${kind}`);
-  if (counts.length) said.push(`With it: ${counts.join(", ")}.`);
+  if (counts.length) said.push(`Around it: ${counts.join(", ")}.`);
   const away = ({ x, y }) => Math.hypot(x - agent.x, y - agent.y);
   const nearest = things.filter(({ kind }) => kind).sort((one, other) => away(one) - away(other))[0];
   if (nearest) {

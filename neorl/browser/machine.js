@@ -1,6 +1,6 @@
-// The memory in which the engine's kernels work: arrays, named tuples of them, and calls with these.
+// The memory of the engine's kernels: arrays, named tuples of them, and calls with these.
 //
-// What tuples consist of and what kernels take is in `layout`; nothing here knows what any of it means.
+// `layout` has the fields of tuples and the arguments of kernels; this file is independent of their meaning.
 
 const ARRAYS = {
   float64: Float64Array, float32: Float32Array, int64: BigInt64Array, uint64: BigUint64Array, int16: Int16Array,
@@ -12,7 +12,7 @@ const MOST_GIGABYTES = 3;
 let compiled = null;
 let layout = null;
 
-/** An error that the reader can mend, as a sentence. The words of all others are kept from the page. */
+/** An error that the reader can fix, with a message to show. The messages of other errors are not shown. */
 class Refusal extends Error {}
 
 /** Arrays in a WebAssembly memory, and the kernels that work on them. */
@@ -26,7 +26,7 @@ class Machine {
     try {
       this.memory = new WebAssembly.Memory({ initial: Math.ceil(bytes / PAGE) });
     } catch {
-      throw new Refusal("This device has not enough memory for these maps. Choose coarser ones.");
+      throw new Refusal("This device does not have enough memory for these maps. Choose coarser ones.");
     }
     this.exports = new WebAssembly.Instance(compiled, { env: { memory: this.memory } }).exports;
     this.end = this.exports.__heap_base.value;
@@ -42,7 +42,7 @@ class Machine {
     return array;
   }
 
-  /** A named tuple: its scalars are given, and so may arrays be, in another tuple or in JSON; all else is 0. */
+  /** A named tuple. Its scalars are given; arrays may be given, from another tuple or JSON, and are otherwise 0. */
   tuple(kind, sizes, given = {}) {
     return Object.fromEntries(layout.tuples[kind].map(([name, field]) => {
       if (typeof field === "string") return [name, this.tuple(field, sizes, given[name])];
@@ -62,7 +62,7 @@ class Machine {
   }
 }
 
-/** An argument as the numbers that the module takes: those of a tuple field by field, an array's address. */
+/** An argument as the module's numbers: a tuple field by field, an array as its address. */
 function flat(kind, value) {
   if (value === undefined) throw new Error(`Something of kind ${kind} is missing.`);
   if (typeof kind === "string") return layout.tuples[kind].flatMap(([name, field]) => flat(field, value[name]));

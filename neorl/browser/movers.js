@@ -1,4 +1,4 @@
-/* Drawings of all that moves in the tank, or can be met there, and of what the agent desires. */
+/* Drawings of moving bodies and things in the tank, and of the agent's desires. */
 
 function drawMovers(board, frame) {
   const { agent, things, player, nodes, landings, radius, body, heading, hidden } = frame;
@@ -23,7 +23,7 @@ function drawMovers(board, frame) {
   for (const landing of landings.filter(isElsewhere)) drawLanding(board, landing);
 }
 
-/** A thing with its sign, a vessel on its course, or a place as far as it reaches. */
+/** Draw a thing with its sign, a vessel on its course, or a place with its extent. */
 function drawThing(board, thing, radius) {
   const { colours, unit } = board;
   const signs = { green: 1, red: -1, target: 1, obstacle: -1 };
@@ -34,7 +34,7 @@ function drawThing(board, thing, radius) {
   stroke(board, colours.place, 2, 1, addPlace);
 }
 
-/** A vessel as a wedge that points along its heading. */
+/** Draw a vessel as a wedge that points along its heading. */
 function drawHull(board, { x, y }, [east, south], size, colour) {
   const length = Math.hypot(east, south) || 1;
   const [dx, dy] = [(size * east) / length, (size * south) / length];
@@ -48,7 +48,7 @@ function drawHull(board, { x, y }, [east, south], size, colour) {
   stroke(board, board.colours.paper, 1, 1, addHull);
 }
 
-/** A platform under the surface. */
+/** Draw a hidden platform. */
 function drawHidden(board, { x, y, radius }) {
   board.context.setLineDash([4, 4]);
   stroke(board, board.colours.ink, 1.6, 0.9, (path) =>
@@ -56,7 +56,7 @@ function drawHidden(board, { x, y, radius }) {
   board.context.setLineDash([]);
 }
 
-/** Which way the water sets, in a corner of the chart. */
+/** Draw the direction of the current, in a corner of the board. */
 function drawCurrent(board, [east, south]) {
   const strength = Math.hypot(east, south);
   if (!strength) return;
@@ -66,7 +66,7 @@ function drawCurrent(board, [east, south]) {
   write(board, "current", 0.09 * board.unit, 0.095 * board.unit, "11px", board.colours.ink, board.colours.paper);
 }
 
-/** An arm in the plane that it works in. frame: of the engine. */
+/** Draw an arm in its workspace, the plane. frame: from the engine. */
 function drawLimb(canvas, colours, { arm: { links, points, radius } }) {
   const context = fittedContext(canvas);
   const unit = Math.min(canvas.clientWidth, canvas.clientHeight) / 2.3;
@@ -91,7 +91,7 @@ function drawDisc(board, { x, y }, radius, colour, sign, signColour = "#fff") {
   write(board, sign, x * unit, y * unit, `bold ${1.4 * radius * unit}px`, signColour);
 }
 
-/** A node's desire, dashed, with the node's name at its end. Long ones are shortened, so that all stay in sight. */
+/** Draw a node's desire, dashed, with the node's name at its end. Long ones are shortened to stay visible. */
 function drawDesire(board, agent, { name, x, y }, index) {
   const length = Math.hypot(x, y);
   const drawn = LONGEST_DESIRE * (1 - Math.exp(-2 * length));
@@ -102,12 +102,12 @@ function drawDesire(board, agent, { name, x, y }, index) {
   stroke(board, board.colours.agent, 2, 1, (path) => addArrow(path, board.unit, agent.x, agent.y, dx, dy, 0));
   board.context.setLineDash([]);
   stroke(board, board.colours.agent, 2, 1, (path) => addHead(path, board.unit, agent.x + dx, agent.y + dy, dx, dy, 7));
-  const aside = (index % 2 ? -1 : 1) * (0.022 / drawn); // so that the names of two that agree stay apart
+  const aside = (index % 2 ? -1 : 1) * (0.022 / drawn); // so that the names of parallel desires do not overlap
   const [textX, textY] = [agent.x + dx * ahead - dy * aside, agent.y + dy * ahead + dx * aside].map(clampedToBoard);
   write(board, name, textX * board.unit, textY * board.unit, "600 12px", board.colours.agent, board.colours.paper);
 }
 
-/** Where the desire of one node lands for another: a diamond with its sign, at the border if it lands outside. */
+/** Draw where one node's desire places an element for another: a signed diamond, at the border if outside. */
 function drawLanding(board, { x, y, valence }) {
   const half = 0.028 * board.unit;
   const [left, top] = [x, y].map((place) => inSight(place) * board.unit);

@@ -1,20 +1,20 @@
-/* What the Explorer's page consists of, and small helpers of its parts. */
+/* The Explorer's markup and constants, and small helpers of its parts. */
 
-const SPEEDS = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 0]; // times real time; 0: as fast as it goes
+const SPEEDS = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 0]; // times real time; 0: as fast as possible
 const [TIMED_BUDGET, FREE_BUDGET, STEPS_WITHOUT_END] = [12, 32, 1e9]; // milliseconds, milliseconds, steps
 const [MOST_ELEMENTS, MOST_SEED, NO_ACTION] = [5, 2 ** 32 - 1, 4];
 const [DOUBLE_TAP, NEARBY] = [350, 0.06]; // milliseconds and board widths between the two taps
-const NO_MEMORY = -1; // the place on its slider, which has logarithms to the base of ten
-const THRUST_EVERY = 90; // milliseconds; a held key pushes one step at a time, or nobody could steer
-const [REACH, SLOW, REACHING] = [0.05, 0.2, 1500]; // of a pointer at a creep: board widths, times real time, milliseconds
+const NO_MEMORY = -1; // its position on the slider, which has logarithms to base ten
+const THRUST_EVERY = 90; // milliseconds; a held key pushes for single steps, since the player could not steer otherwise
+const [REACH, SLOW, REACHING] = [0.05, 0.2, 1500]; // near a creep: board widths, times real time, milliseconds
 const KEYS = { ArrowUp: [0, 0, -1], ArrowDown: [1, 0, 1], ArrowRight: [2, 1, 0], ArrowLeft: [3, -1, 0] };
 const NEW_RUN = ["preset", "memory", "resolutions", "modality", "n_creeps", "seed", "run"];
 const ALLOWED = "Resolutions are whole numbers from 1 to 90, such as 3, 5, 7.";
 const AVOIDED = { red: "red", obstacle: "obstacles", vessel: "vessels" };
 const WHOLE = ({ min, max }) => `Whole numbers from ${min} to ${max} are allowed here.`;
-const STOPPED = "The simulation has stopped. Reset begins it again.";
-const HINT = "Click a cell: how to get there. Double-click: drop an element of interest.";
-const WHERE = "Click where the element of interest is to be dropped.";
+const STOPPED = "The simulation has stopped. Reset restarts it.";
+const HINT = "Click a cell to see the way to it. Double-click to drop an element of interest.";
+const WHERE = "Click where to drop the element of interest.";
 
 const slide = (name, label, least, most, step) => `<label class="slide"><span>${label}</span><input type="range"
   name="${name}" min="${least}" max="${most}" step="${step}"><output></output></label>`;
@@ -34,11 +34,11 @@ const pageOf = (id) => `<p role="alert" hidden></p>
     ${slide("speed", "Speed", 0, SPEEDS.length - 1, 1)}</div>
   <div class="columns"><div class="board">
     <div class="arena"><canvas tabindex="0" role="application" aria-describedby="${id}" aria-label="The world. Arrow
-      keys move a cursor, Enter chooses the cell under it, Escape lets go of it."></canvas><div class="grips"></div>
+      keys move a cursor, Enter chooses the cell under it, Escape deselects it."></canvas><div class="grips"></div>
       <div class="marks"></div>
       <div class="pad" hidden>${["Up ↑", "Left ←", "Down ↓", "Right →"].map(pad).join("")}</div></div>
     <p class="unseen" id="${id}"></p><p class="said"></p>
-    <div class="element" hidden>${slide("element-valence", "It is worth", -2, 2, 0.1)}
+    <div class="element" hidden>${slide("element-valence", "Its valence", -2, 2, 0.1)}
       ${press("delete", "Delete")}</div>
     <div class="buttons">${press("drop", "Drop an element")}
       ${press("link", "Copy link")}</div>
@@ -48,7 +48,7 @@ const pageOf = (id) => `<p role="alert" hidden></p>
   <div class="side"><div class="limb" hidden><p class="title">The arm</p>
     <canvas role="img" aria-label="The arm in the plane, with the points that it seeks and avoids"></canvas></div>
     <p class="title">Reward per second</p>
-    <canvas role="img" aria-label="Reward per simulated second over the minutes of the run"></canvas>
+    <canvas role="img" aria-label="Reward per simulated second over the run, in minutes"></canvas>
     <p class="legend"></p><p class="lived"></p><p class="pace"></p>${choice("modality", "Modality")}
     <label class="labelled"><span>Resolutions</span><input type="text" name="resolutions" autocomplete="off"></label>
     <div class="chips" role="group" aria-label="Resolutions">${[2, 3, 5, 7, 11, 13].map(chip).join("")}</div>
@@ -60,7 +60,7 @@ const pageOf = (id) => `<p role="alert" hidden></p>
     ${slide("n_creeps", "Creeps", 1, 12, 1)}<div class="gains"></div>
     ${number("seed", "Seed")}${number("run", "Run")}</div></details><p class="unseen told" aria-live="polite"></p>`;
 
-const power = (exponent) => Number((10 ** exponent).toPrecision(2)); // as the sliders of logarithms have it
+const power = (exponent) => Number((10 ** exponent).toPrecision(2)); // as on the logarithmic sliders
 const shown = (value) => String(Number(Number(value).toPrecision(value >= 1000 ? 9 : 3))).replace("-", "−");
 const signed = (value) => (value > 0 ? "+" : "") + shown(value);
 const grouped = (value) => Math.round(value).toLocaleString("en-GB");
@@ -70,15 +70,15 @@ const inOrder = (numbers) => [...new Set(numbers)].sort((a, b) => a - b);
 const shifted = ({ x, y }, dx, dy, by) => ({ x: clampedToBoard(x + by * dx), y: clampedToBoard(y + by * dy) });
 const indexOf = (element) => [...element.parentElement.children].indexOf(element);
 
-/** An error that the reader can mend, as a sentence. The words of all others are kept from the page. */
+/** An error that the reader can fix, with a message to show. The messages of other errors are not shown. */
 class Refusal extends Error {}
 
-/** All that the page holds of one run: another run has another of these, and nothing of it. */
+/** Everything the page holds of one run; every run has its own, and they share nothing. */
 const newLife = (given = {}) => ({ frame: null, world: { fps: 1 }, length: { steps: 1, bin: 1 }, changed: false,
   advancing: false, owed: 0, counted: 0, rate: 0, cursor: null, game: null, held: null, slid: false, dragged: null,
   tapped: null, pointer: null, due: null, news: "", ...given });
 
-/** Makes or removes children until there are as many as wanted. */
+/** Add or remove children until there are `count`. */
 function grow(parent, count, markupOf) {
   while (parent.children.length > count) parent.lastChild.remove();
   while (parent.children.length < count) parent.insertAdjacentHTML("beforeend", markupOf(parent.children.length));

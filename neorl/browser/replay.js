@@ -1,6 +1,6 @@
-/* The Replay in the page: recorded runs side by side, in step, at the speed at which they were lived.
+/* The Replay in the page: recorded runs side by side, in step, in real time.
 
-It draws while it plays and is in sight, and whenever the page changes its colours or its size. */
+It draws while it plays and is in view, and whenever the page changes its colours or its size. */
 
 const CONTROLS = `<div class="tanks"></div><div class="bar"><div class="buttons">
   <button type="button" data-action="play"></button></div>
@@ -8,7 +8,7 @@ const CONTROLS = `<div class="tanks"></div><div class="bar"><div class="buttons"
 const TANK = `<div class="board"><p class="title"></p><div class="arena"><canvas role="img"></canvas></div>
   <p class="legend"></p></div>`;
 
-/** A frame as `drawMovers` takes it, of a recording. */
+/** A frame of a recording in the form that `drawMovers` takes. */
 function frameOf({ agent, creeps, green, radius, fineness }, at) {
   const mover = (numbers) => {
     const [x, y, vx, vy] = numbers.map((number) => number / fineness);

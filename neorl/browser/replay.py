@@ -1,6 +1,6 @@
-"""The Replay: a widget that plays recorded runs again, side by side and in step, in JupyterLab and in a static page.
+"""The Replay: a widget that replays recorded runs side by side and in step, in JupyterLab and in a static page.
 
-It computes nothing: what it shows is in its state, and `replay.js` draws it as the Explorer draws.
+It computes nothing: the recordings are in its state, and `replay.js` draws them in the Explorer's style.
 """
 
 import numpy as np
@@ -10,14 +10,14 @@ from neorl.browser.explorer import AnyWidget, _text, traitlets
 from neorl.experiments.recording import Recording
 
 FRAMES_A_SECOND = 25
-FINENESS = 1_000  # places are kept as integers, in so many parts of a board
+FINENESS = 1_000  # positions are stored as integers, in this fraction of a board
 
 
 class Replay(AnyWidget):
     """Recorded runs side by side.
 
-    recordings: one or more of `Recording`, of as many steps each.
-    playing: whether it begins to play when it comes into sight. With reduced motion, playback starts by a button.
+    recordings: one or more `Recording`, all of the same length and steps per second.
+    playing: whether it starts to play when it comes into view. With reduced motion, playback is started by a button.
 
     Raises ValueError for anything else.
     """
@@ -38,7 +38,7 @@ class Replay(AnyWidget):
 
 
 def _thinned(recording):
-    """A recording as the page takes it: a number of frames, the fields of each flat and in integers."""
+    """A recording in the page's format: a subset of its frames, with positions as integers."""
     frames = np.arange(0, len(recording.agent), max(1, recording.fps // FRAMES_A_SECOND))
     return {"name": recording.name, "radius": recording.radius, "fineness": FINENESS,
             "seconds": (frames / recording.fps).tolist(), "hits": recording.hits[frames].tolist(),

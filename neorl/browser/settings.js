@@ -1,9 +1,9 @@
-// From the controls to the parameters that the engine runs: a preset's, with what the reader has set put in their place.
+// From the controls to the engine's parameters: those of a preset, overridden by the reader's settings.
 
-const GOES_ON = ["recursion", "valence_red", "gains", "learning_rate", "discount"]; // may change while a run lives
-const OF_PRESET = [...GOES_ON, "memory", "resolutions", "modality", "n_creeps"]; // what a preset has defaults of
+const GOES_ON = ["recursion", "valence_red", "gains", "learning_rate", "discount"]; // may change during a run
+const OF_PRESET = [...GOES_ON, "memory", "resolutions", "modality", "n_creeps"]; // settings with defaults in a preset
 
-/** The keys of the presets as Python had them; what is stored may come in another order. */
+/** The keys of the presets in Python's order; the stored state may have another. */
 function orderedKeys(presets) {
   return Object.keys(presets).sort((a, b) => presets[a].place - presets[b].place);
 }
@@ -12,21 +12,22 @@ function initialSettings(presets, key) {
   return { preset: key, ...Object.fromEntries(OF_PRESET.map((name) => [name, presets[key][name]])) };
 }
 
-/** `elements`: [{x, y, valence}], what the reader has dropped; every node whose values count sees them. */
+/** `elements`: [{x, y, valence}], dropped by the reader; every node with a nonzero gain desires them. */
 function chosenParameters(layout, presets, modalities, settings, elements = []) {
   const preset = presets[settings.preset];
   const parameters = structuredClone(preset.parameters);
   const { names, maps, nodes, axes, desires, learning } = parameters;
-  if (settings.resolutions.join() !== preset.resolutions.join()) { // as those of each node may differ in the preset
+  if (settings.resolutions.join() !== preset.resolutions.join()) { // the preset's may differ between nodes
     maps.resolution = names.flatMap(() => settings.resolutions);
     nodes.first_map = [0, ...names.map((_, n) => (n + 1) * settings.resolutions.length)];
   }
-  if (names.length === 1 && settings.modality !== preset.modality && !nodes.learns_contacts[0]) { // the preset's may have ranges of its own
+  // Only for another modality, since the preset's may have ranges of its own.
+  if (names.length === 1 && settings.modality !== preset.modality && !nodes.learns_contacts[0]) {
     Object.assign(nodes, modalities[settings.modality].nodes);
     Object.assign(axes, modalities[settings.modality].axes);
     parameters.coordinates = Math.max(parameters.push[0].length, axes.what.length);
     desires.at = desires.at.map((at) => padded(at, parameters.coordinates));
-    if (settings.modality) rename(parameters, settings.modality); // so that its maps do not go by what they were
+    if (settings.modality) rename(parameters, settings.modality); // so that its maps are named after the new modality
   }
   nodes.gain = [...settings.gains];
   learning.learning_rate = Math.fround(settings.learning_rate);
@@ -51,7 +52,7 @@ function rename({ names, edges }, name) {
   names[0] = name;
 }
 
-/** A point with so many coordinates, 0 where it has none. */
+/** A point extended with zeros to this number of coordinates. */
 function padded(point, coordinates) {
   return Array.from({ length: coordinates }, (_, axis) => point[axis] ?? 0);
 }
@@ -66,16 +67,16 @@ function addElement({ names, edges, desires, coordinates }, target, source, { x,
   for (const [field, value] of Object.entries(desire)) desires[field].push(value);
 }
 
-/** The condition of the page, if it has one, whose agent and world these settings are. */
+/** The key of the page's condition with the agent and the world of these settings, or null. */
 function conditionOf(layout, presets, modalities, settings) {
   const chosen = JSON.stringify(chosenParameters(layout, presets, modalities, settings));
   const world = JSON.stringify(worldOf(presets, settings));
-  // Conditions that differ only in what they become later are told apart by the preset.
+  // Conditions that differ only in later changes of the agent are distinguished by the preset.
   return [settings.preset, ...orderedKeys(presets)].find((key) => presets[key].totals.length > 0
     && JSON.stringify(presets[key].world) === world && JSON.stringify(presets[key].parameters) === chosen) ?? null;
 }
 
-/** The world of the preset, with as many creeps as are set if it has any. */
+/** The world of the preset, with the set number of creeps if it has creeps. */
 function worldOf(presets, settings) {
   const { world } = presets[settings.preset];
   return { ...world, things: settings.n_creeps ?? world.things };

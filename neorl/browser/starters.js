@@ -1,9 +1,9 @@
-/* Things to try at one click. Each sets the controls as a reader would, and what it waits for is `due` at a step. */
+/* Things to try with one click. Each sets the controls as a reader would; a later action is `due` at a step. */
 
 const [LEARNED, CORNER, FINE_ENOUGH] = [60_000, { x: 0.04, y: 0.04 }, 7]; // steps, a place, a resolution
 
 class Starters extends Hands {
-  /** A new life with the settings of the preset, and with what it waits for, if anything. */
+  /** A new run with the settings of the preset, and with an action that is due later, if any. */
   fresh(values = {}, due = null) {
     const key = this.model.get("preset");
     this.dropElements();
@@ -19,7 +19,7 @@ class Starters extends Hands {
   revalueRed() {
     const { steps } = this.presets[this.model.get("preset")];
     const half = Math.floor(steps / 2);
-    const after = "Red is desirable now, its valence +1, and the agent seeks it at once. It still pays −1.";
+    const after = "Red is desirable now: its valence is +1, and the agent seeks it at once. It still pays −1.";
     const act = () => {
       this.life.news = after;
       this.write({ valence_red: 1, speed: 50 });
@@ -28,11 +28,11 @@ class Starters extends Hands {
     this.fresh({ speed: 1000, playing: true }, { step: half, hurries: false, act, news: before });
   }
 
-  /** As soon as enough is learned, the way to a corner in a map of places, or else in the first. */
+  /** Once enough has been learned, show the way to a corner, in a map of places or else in the first map. */
   async showCorner() {
     const { life, life: { frame } } = this;
     const act = async () => {
-      life.due = null; // of another of these
+      life.due = null; // an action of another starter
       this.write({ playing: false });
       await this.look({ map: this.mapOfPlaces(), goal: null });
       await this.look({ at: CORNER });
@@ -53,7 +53,7 @@ class Starters extends Hands {
     return `${name} N${near}`;
   }
 
-  /** Do what is due, once the run has come to its step. */
+  /** Perform the action that is due, once the run has reached its step. */
   async meet() {
     const { life, life: { frame, due } } = this;
     if (!due || frame.step < due.step) return;

@@ -1,6 +1,6 @@
-// What a frame shows of each world beside its scene: {radius (of things), body (of the agent), …}, in the world's size.
+// What a frame shows of each world besides its scene: {radius (of things), body (of the agent), …}, in world sizes.
 
-const [POINT, HULL] = [0.03, 0.035]; // as which agents are drawn that are points in their world
+const [POINT, HULL] = [0.03, 0.035]; // the sizes at which agents are drawn that are points in their world
 
 const VIEWS = {
   waterworld({ rules: { waterworld }, choices: { size } }) {
@@ -9,7 +9,7 @@ const VIEWS = {
   arena({ rules: { arena } }) {
     return { radius: arena.radius, body: POINT, round: Boolean(arena.round), obstacles: Array.from(arena.obstacle) };
   },
-  /** The tank shows the space of the joints; `arm` has the links as they are, the base at the origin. */
+  /** The tank shows joint space; `arm` has the links in the plane, with the base at the origin. */
   arm({ rules: { arm }, scene, world, world_state: { point } }) {
     let [x, y, angle] = [0, 0, 0];
     const links = Array.from(arm.length, (length, joint) => {
@@ -29,14 +29,14 @@ const VIEWS = {
   },
 };
 
-/** How the things of a world move, sizes a second. */
+/** The velocities of a world's things, in world sizes per second. */
 const MOTIONS = {
   waterworld: ({ world_state: { direction, speed }, choices: { size } }, i) =>
     [0, 1].map((axis) => (speed[i] * direction[2 * i + axis]) / size),
   vessel: ({ world_state: { course } }, i) => [0, 1].map((axis) => course[2 * i + axis]),
 };
 
-/** The things that a scene has, as they are drawn. */
+/** The things of a scene in the form in which they are drawn. */
 function thingsOf(run) {
   const { scene, world, choices: { size } } = run;
   return Array.from(scene.kinds, (kind, i) => {
@@ -45,7 +45,7 @@ function thingsOf(run) {
   }).filter(({ kind }) => kind);
 }
 
-/** Values of actions as a vector: the sum of what each pushes towards; of a rudder, to the side that it turns to. */
+/** Action values as a vector: the sum of pushes times values; for a rudder, towards the side of the turn. */
 function asVector({ choices: { push }, scene: { velocity } }, valueOf) {
   if (push.every((each) => each.every((along) => along === 0))) {
     const side = (valueOf(1) - valueOf(0)) / Math.hypot(...velocity);

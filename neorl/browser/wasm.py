@@ -1,20 +1,20 @@
-"""The kernels as WebAssembly modules, so that a page without Python runs what the figures were made with.
+"""The kernels as WebAssembly modules, so that a page without Python runs the same code as the figures.
 
-There is one for each of `MODULES`, since the numbers of actions and axes are constants of the code. Numba's LLVM code
-of its kernels is compiled for WebAssembly by llvmlite, all together, so that what several call is there once, and
-linked by LLD. Nothing is written twice: the arguments of an exported function follow from the annotations of its
-kernel, in their order,
+There is one for each of `MODULES`, since the numbers of actions and axes are compile-time constants. Numba's LLVM code
+of a module's kernels is compiled for WebAssembly by llvmlite as a whole, so that shared functions occur once, and
+linked by LLD. No interface is written by hand: the arguments of an exported function follow from the annotations of
+its kernel. After a pointer to the result, and 0, they are, in order,
 
 1. the sizes of its arrays, by name, as int32;
-2. each argument, a named tuple field by field, and so the tuples within it: a pointer for an array, int32 for integers
-   and flags, else a number;
+2. each argument, with named tuples, also nested ones, field by field: a pointer for an array, int32 for integers and
+   flags, else a number.
 
-before them a pointer to the result, and 0. Its own result is 0. Memory is the only import; the caller's part of it
-begins at the exported global __heap_base.
+The function itself returns 0. Memory is the only import; the caller's part of it begins at the exported global
+__heap_base.
 
-A module ships with a wheel, beside a digest of all source that it comes from; elsewhere it is built once and kept on
-disk. It is built in a process of its own, for a generic processor, so that it does not depend on where it was built,
-and in which numba leaves it to this module to optimise: what is rarely called is kept out of line, and small.
+A module ships with a wheel, together with a digest of all its sources; elsewhere it is built once and kept on disk. It
+is built in a separate process, for a generic processor, so that it does not depend on the machine that built it. There
+numba leaves optimisation to this module: rarely called functions are not inlined, and are optimised for size.
 """
 
 import hashlib
@@ -53,7 +53,7 @@ from neorl.worlds.world import Dynamics
 
 
 class Module(NamedTuple):
-    """What a module is made of: worlds, and what is compiled into the kernels of the agents that live in them."""
+    """The contents of a module: worlds, and the constants compiled into the kernels of their agents."""
 
     dynamics: Dynamics
     constants: Any  # `neorl.core.constants.Constants`
@@ -71,15 +71,15 @@ def _module(dynamics, constants, with_second):
     return Module(dynamics, constants, exports, tuples)
 
 
-MODULES = {  # by the name by which a page asks for it
+MODULES = {  # by the name under which a page requests it
     "plane": _module(PLANE, constants_of(brownian(), WaterWorld()), True),  # agents without kernels of the user's own
     "helm": _module(Vessel().dynamics, constants_of(pilot(), Vessel()), False)}  # for the two actions of a rudder
 ENUMERATIONS = (Action, Cut, Feature, Source, Vector)
 SCALARS = {bool: "bool", int: "int64", float: "float64", np.float32: "float32"}
-HOT = "rollout"  # of the exports; the others are called once in a picture or less
+HOT = "rollout"  # the other exports are called at most once per picture
 RARE = (life.begin, waterworld.reset, waterworld.draw_creep, arena.reset, arm.reset, arm.draw_point, water_maze.reset,
         vessel.reset, vessel.draw_thing, parameters.cut_axes, parameters.find_inputs, contacts.begin_contacts)
-APART = (contacts.observe_contacts, contacts.evaluate_contacts)  # fast, but once
+APART = (contacts.observe_contacts, contacts.evaluate_contacts)  # optimised for speed, but not inlined
 SHIPPED = {name: Path(__file__).with_name(f"{name}.wasm") for name in MODULES}  # in a wheel
 TRIPLE = "wasm32-unknown-unknown"
 LAYOUT = "e-m:e-p:32:32-p10:8:8-p20:8:8-i64:64-i128:128-n32:64-S128-ni:1:10:20"
@@ -88,11 +88,11 @@ LINK = ("--no-entry", "--allow-undefined", "--import-memory", "--gc-sections", "
 
 
 def module(name="plane"):
-    """The WebAssembly module of a name of `MODULES`: bytes.
+    """The WebAssembly module `name`, one of `MODULES`: bytes.
 
-    Built if it is neither shipped nor on disk, which takes about a minute.
+    If it is neither shipped nor on disk, it is built, which takes about a minute.
 
-    Raises ImportError if that needs a package that is not installed, RuntimeError if it fails.
+    Raises ImportError if a package needed to build it is not installed, RuntimeError if the build fails.
     """
     shipped = files.read_checked(SHIPPED[name]) or b""
     digest = _digest(name)
@@ -111,20 +111,20 @@ def module(name="plane"):
 
 
 def ship(package):
-    """Write the modules into a folder that becomes the package of a wheel."""
+    """Build the modules into `package`, the folder of a wheel's package."""
     for name, path in SHIPPED.items():
         target = Path(package) / path.relative_to(Path(__file__).parents[1])
         files.write_checked(target, _digest(name) + _built_in_a_process_of_its_own(name))
 
 
 def layout(name="plane"):
-    """What a caller of a module has to know, ready for JSON; lists where the order matters.
+    """The interface of a module for its callers, ready for JSON, with lists where the order matters.
 
-    "tuples": for each named tuple its fields, [name, kind], a kind being [dtype, shape], the shape of a scalar None, or
-    the name of a tuple within. "exports": for each function its "sizes", its "arguments", [name, kind], and the dtype
-    of its "result". "state" and "rules": the names of the tuples that the world has. "enumerations": {name: {member:
-    number}}. "of_a_map": what an agent's state has of each map, by the field of its parameters that says where it
-    begins.
+    "tuples": for each named tuple its fields, [name, kind]; a kind is [dtype, shape], with the shape None for a scalar,
+    or the name of a nested tuple. "exports": for each function its "sizes", its "arguments", [name, kind], and the
+    dtype of its "result". "state" and "rules": the names of the world's tuples. "enumerations": {name: {member:
+    number}}. "of_a_map": the arrays of an agent's state that have a part for each map, by the field of its parameters
+    that holds where each part begins.
     """
     _, _, exports, tuples = MODULES[name]
     return {"state": tuples[2].__name__, "rules": tuples[3].__name__,
@@ -152,7 +152,7 @@ def _arguments(kernel):
 
 
 def _flat(name, field):
-    """An argument of a kernel as those of the exported function: [(name, dtype, shape or None), …]."""
+    """An argument of a kernel as arguments of the exported function: [(name, dtype, shape or None), …]."""
     if is_tuple(field):
         return [flat for inner, each in fields(field).items() for flat in _flat(f"{name}_{inner}", each)]
     return [(name, *_described(field))]
@@ -165,7 +165,7 @@ def _sizes(kernel):
 
 
 def _digest(name):
-    """Of the sources alone: by the rules of `neorl.core.kernel`, no version of a compiler changes what they compute."""
+    """A digest of the sources alone: by the rules of `neorl.core.kernel`, results do not depend on the compiler."""
     here = [Path(__file__).with_name(file).read_bytes() for file in ("wasm.py", "worlds.py")]
     return hashlib.sha256(b"".join([source_digest().encode(), name.encode(), *here])).digest()
 
@@ -181,7 +181,7 @@ def _built_in_a_process_of_its_own(name):
 
 
 def _build(name):
-    """A module, for the processor that this process compiles for."""
+    """Compile and link a module from the code that numba generates in this process."""
     import llvmlite.binding as llvm
 
     exports = MODULES[name].exports
@@ -203,7 +203,7 @@ def _build(name):
 
 
 def _together(codes):
-    """One LLVM module of several, in which all but the exports can be changed and left out."""
+    """Merge LLVM modules into one, in which all functions but the exports are internal and may be removed."""
     import llvmlite.binding as llvm
 
     exports = set(codes)
@@ -224,19 +224,19 @@ def _together(codes):
 
 
 def _mangled(kernel):
-    """What numba's symbols of a kernel have in their names."""
+    """The part that the names of numba's symbols for a kernel contain."""
     return "".join(f"{len(each)}{each}" for each in f"{kernel.__module__}.{kernel.__name__}".split("."))
 
 
 def _code(kernel):
-    """The LLVM code of a kernel under its own name, with all that it calls."""
+    """The LLVM code of a kernel under its own name, with everything it calls."""
     entry = _entry(kernel)
     code = entry.inspect_llvm()
     code = re.sub(r"target datalayout = .*", f'target datalayout = "{LAYOUT}"', code)
     code = re.sub(r"target triple = .*", f'target triple = "{TRIPLE}"', code)
     code = re.sub(r'"target-(cpu|features)"="[^"]*"', "", code)
     code = code.replace("= common ", "= internal ")
-    # The first is called by C and may raise in Python, the others count references to arrays, which carray has none of.
+    # The first is a C callback that may raise in Python, the others count references, which arrays of carray lack.
     for symbol in ("@cfunc.", "@NRT_incref(", "@NRT_decref("):
         code = _without(code, symbol)
     code += "".join(f"\ndefine internal void @NRT_{name}(ptr %array) {{ ret void }}\n" for name in ("incref", "decref"))
@@ -254,7 +254,7 @@ def _without(code, symbol):
 
 
 def _entry(kernel):
-    """A function that takes pointers and sizes, and calls a kernel with arrays."""
+    """The entry point of a kernel: a function of pointers and sizes that calls it with arrays."""
     from numba import carray, cfunc, types
 
     sizes, arguments = _sizes(kernel), _arguments(kernel).items()
@@ -272,7 +272,7 @@ def _entry(kernel):
 
 
 def _passed(dtype, shape):
-    """The type that stands for a value in the signature."""
+    """The type of a value in the signature of an exported function."""
     from numba import from_dtype, types
 
     if shape is not None:
@@ -281,7 +281,7 @@ def _passed(dtype, shape):
 
 
 def _taken(name, field):
-    """The expression that makes an argument of a kernel."""
+    """The expression that builds an argument of a kernel."""
     if is_tuple(field):
         inner = ", ".join(_taken(f"{name}_{each}", kind) for each, kind in fields(field).items())
         return f"{field.__name__}({inner})"

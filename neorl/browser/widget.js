@@ -1,16 +1,16 @@
-/* The Explorer in the page: a learner that lives while the reader watches, with everything that can be turned.
+/* The Explorer in the page: a learner that runs while the reader watches, with all its controls.
 
-- The traits are the truth: a control writes its trait, and what happens follows from the change of the trait, whether
-  it comes from a control, from Python or from a linked widget. Changes of one moment are followed together.
-- Another body, map or tank begins a new run; another wish, or way of learning, goes on with what was learned.
-- The simulation lives in a worker, which answers every request once and in order. It moves only when asked, and has
-  one request for steps at a time: a widget that is out of sight asks for none.
-- What the page holds of a run is one object, `life`, which the next run replaces whole. A frame says all that is drawn
-  of it, so nothing of one run meets anything of another; what was asked for a run that has gone is not answered.
-- Whatever goes wrong ends in a sentence and takes the run with it. The next change of a control tries again; Reset does
-  so with the settings of the preset. */
+- The traits are the source of truth: a control writes its trait, and the page reacts to the trait, whether the change
+  comes from a control, from Python or from a linked widget. Simultaneous changes are handled together.
+- A new body, map or tank starts a new run; a new desire or way of learning continues with what was learned.
+- The simulation runs in a worker, which answers every request once and in order. It advances only on request, with one
+  such request at a time: a widget that is out of view makes none.
+- The page holds a run in one object, `life`, which the next run replaces as a whole. A frame contains everything that
+  is drawn, so runs cannot mix; requests for a run that has been replaced are not answered.
+- Every failure ends the run with a message. The next change of a control tries again; Reset does so with the settings
+  of the preset. */
 
-/** The worker. Each request resolves to its answer; a failure goes to onFailure, and nothing is answered after it. */
+/** Start the worker. Each request resolves to its answer; after a failure, passed to onFailure, none resolves. */
 function startEngine(source, onFailure) {
   if (typeof WebAssembly !== "object" || typeof Worker !== "function") {
     throw new Refusal("This browser cannot run the simulation: it needs WebAssembly and web workers.");
@@ -34,7 +34,7 @@ function startEngine(source, onFailure) {
   return { ask, stop };
 }
 
-let explorers = 0; // so far, for names that are the only ones of their kind on the page
+let explorers = 0; // so far, for ids that are unique on the page
 
 class Explorer extends Address {
   constructor(model, place) {
@@ -53,7 +53,7 @@ class Explorer extends Address {
     this.visit();
     this.refresh();
     const { top, height } = this.root.getBoundingClientRect();
-    this.approach({ isIntersecting: height > 0 && top < innerHeight }); // before the page's first picture, not after it
+    this.approach({ isIntersecting: height > 0 && top < innerHeight }); // before the page is first painted, not after
   }
 
   listen() {
@@ -79,7 +79,7 @@ class Explorer extends Address {
     on(tank, "click", (event) => this.tap(event));
     on(window, "hashchange", () => this.visit());
     on(document, "visibilitychange", () => this.refresh());
-    on(window, "resize", () => this.wake()); // also when the page gets to a screen with other dots
+    on(window, "resize", () => this.wake()); // also when the page moves to a screen of another resolution
     on(matchMedia("(prefers-color-scheme: dark)"), "change", () => this.recolour());
     const theme = { attributeFilter: ["data-theme", "data-mode", "data-jp-theme-name", "class"] };
     watch(new MutationObserver(() => this.recolour()), [document.documentElement, theme], [document.body, theme]);
@@ -107,7 +107,7 @@ class Explorer extends Address {
     this.wake();
   }
 
-  // What follows from traits
+  // Reactions to traits
 
   note(name) {
     this.noted.add(name);
@@ -143,7 +143,7 @@ class Explorer extends Address {
   }
 
   parameters() {
-    const layout = this.model.get("_layout").plane; // its enumerations are those of all
+    const layout = this.model.get("_layout").plane; // enumerations are the same in all modules
     return chosenParameters(layout, this.presets, this.modalities, this.settings(), this.elements);
   }
 
@@ -167,7 +167,7 @@ class Explorer extends Address {
     this.loaded = new Set();
   }
 
-  /** A module of kernels, when its first run begins. */
+  /** Load a module of kernels, when its first run begins. */
   async load(name) {
     const { buffer, byteOffset, byteLength } = this.model.get("_wasm")[name];
     const wasm = buffer.slice(byteOffset, byteOffset + byteLength);
@@ -175,7 +175,7 @@ class Explorer extends Address {
     await this.ask({ type: "load", name, wasm, layout: this.model.get("_layout")[name] }, [wasm]);
   }
 
-  /** What the engine answers, unless the run for which it was asked has gone: then nothing ever follows. */
+  /** The engine's answer; if the run has been replaced since the request, the promise never resolves. */
   ask(message, transfer) {
     const { life } = this;
     return new Promise((resolve) =>
@@ -188,7 +188,7 @@ class Explorer extends Address {
     this.take(await this.ask({ type: "change", parameters: this.parameters() }));
   }
 
-  /** Look at another map, goal or place, with the field or without. While a run loads there is nothing to look at. */
+  /** Show another map, goal or place, with or without the field. Has no effect while a run loads. */
   async look(choice) {
     if (this.life.frame) this.take(await this.ask({ type: "look", ...choice }));
   }
@@ -232,7 +232,7 @@ class Explorer extends Address {
     this.wake();
   }
 
-  /** The menu of maps, which change with the agent, as it does on the way in some conditions. */
+  /** Update the menu of maps, which change with the agent, in some conditions during a run. */
   showMaps({ maps, seen }) {
     const menu = this.control("map");
     const isSame = maps.join() === Array.from(menu.options, (option) => option.value).join();
@@ -249,7 +249,7 @@ class Explorer extends Address {
     this.report();
   }
 
-  /** Tells Python, and now and then those who hear the page and do not see it. */
+  /** Report the score to Python, and at intervals to screen readers. */
   report() {
     const { model, root, life: { frame, world, rate } } = this;
     root.dataset.rate = rate;
@@ -291,7 +291,7 @@ class Explorer extends Address {
     if (this.stale && (!this.calm || !this.running() || now - this.drawn >= 500)) this.draw(now);
   }
 
-  // When something goes wrong, and the end
+  // Failures, and the end
 
   safely(act) {
     return async (...given) => {
@@ -329,7 +329,7 @@ class Explorer extends Address {
   }
 }
 
-/** What is wrong with the values of the traits, as a sentence, or "". */
+/** A message on the first invalid trait, or "". */
 function problemOf(presets, modalities, model) {
   const preset = Object.hasOwn(presets, model.get("preset")) ? presets[model.get("preset")] : null;
   if (!preset) return `There is no agent “${model.get("preset")}”. Choose one from the menu.`;
@@ -345,7 +345,7 @@ function problemOf(presets, modalities, model) {
   return wrong ? `The Explorer cannot run with ${wrong} = ${JSON.stringify(model.get(wrong))}.` : "";
 }
 
-/** What the page should have stored of a widget and has not, as a sentence, or "". */
+/** A message on the parts of a widget's state that the page lacks, or "". */
 function damageOf(model) {
   const isFull = (value) => value !== null && typeof value === "object" && Object.keys(value).length > 0;
   const sound = { _presets: isFull, _modalities: isFull, _layout: isFull, _engine: (text) => Boolean(text),
@@ -362,7 +362,7 @@ function render({ model, el }) {
     return () => explorer.stop();
   } catch (error) {
     el.innerHTML = `<div class="neorl-explorer" data-state="failed"><p role="alert"></p></div>`;
-    const message = error instanceof Refusal ? error.message : "The Explorer cannot start in this page.";
+    const message = error instanceof Refusal ? error.message : "The Explorer cannot start on this page.";
     el.querySelector("[role=alert]").textContent = message;
   }
 }

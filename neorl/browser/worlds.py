@@ -1,6 +1,6 @@
-"""The worlds of the Explorer in the plane as one, so that its module holds the life of an agent there once.
+"""The Explorer's worlds in the plane merged into one, so that its module contains the agent's kernels only once.
 
-The state has room for what any of them needs, and the rules say which of them it is.
+The state has the fields of all of them, and the rules select the current one.
 """
 
 from typing import NamedTuple
@@ -20,7 +20,7 @@ NAMES = ("waterworld", "arena", "arm", "water_maze")
 
 
 class PlaneState(NamedTuple):
-    """The fields of the states of all these worlds."""
+    """The union of the state fields of all these worlds."""
 
     scene: Scene
     direction: array("float64", "things", 2)
@@ -37,9 +37,9 @@ class PlaneState(NamedTuple):
 
 
 class PlaneRules(NamedTuple):
-    """The rules of all these worlds, and which of them holds."""
+    """The rules of all these worlds, and the number of the current one."""
 
-    world: int  # its number
+    world: int  # the number of the current world
     waterworld: waterworld.Rules
     arena: ArenaRules
     arm: ArmRules
@@ -47,7 +47,7 @@ class PlaneRules(NamedTuple):
 
 
 def rules_of(world):
-    """The `PlaneRules` of a world in the plane, where those of the others are all 0; of another world its own rules."""
+    """The `PlaneRules` of a world in the plane, all 0 for the other worlds; for any other world its own rules."""
     if not isinstance(world, IN_THE_PLANE):
         return world.rules
     number = IN_THE_PLANE.index(type(world))
@@ -58,7 +58,7 @@ def rules_of(world):
 
 
 def sizes_of(world):
-    """The sizes of arrays that such a world may have and others do not, by name."""
+    """The sizes of a world's arrays by name, 0 for arrays that only other worlds have."""
     return {"obstacles": 0, "places": 0, "trials": 0} | world.sizes
 
 
@@ -84,7 +84,7 @@ def reset(state: PlaneState, rules: PlaneRules) -> None:
 
 @kernel
 def step(state: PlaneState, rules: PlaneRules, action: int):
-    """One step. Returns (reward, done)."""
+    """Take one step. Returns (reward, done)."""
     scene, stream = state.scene, state.stream
     if rules.world == ARENA:
         return arena.step(ArenaState(scene, state.inside, state.clock, stream), rules.arena, action)

@@ -7,15 +7,15 @@ A figure of one panel is drawn into ``ax``, or into a new figure if that is None
 several panels is drawn into ``figure``, which may be one of `matplotlib.figure.Figure.subfigures`, and an array of axes
 is returned.
 
-- curves: `draw_accumulated`, `draw_proficiency`, `draw_smoothed`, `draw_curves`, `draw_sweep`;
+- curves: `draw_accumulated`, `draw_proficiency`, `draw_smoothed`, `draw_curves`, `draw_sweep`, `draw_costs`;
 - boards: `new_board`, `new_boards`, `draw_world`, `draw_walls`, `draw_tank`, `draw_desires`, `animate`;
 - maps: `draw_cells`, `draw_values`, `draw_value_map`, `draw_receptive_fields`; `track`, `rate_map`, `draw_rate_map`;
 - networks: `draw_network`, `draw_networks`;
-- beside a paper's numbers: `draw_against_thesis`, `mark_levels`;
+- comparison with the thesis's numbers: `draw_against_thesis`, `mark_levels`;
 - style: `use_style`, `STYLE` and the colours.
 
 The figures of the multiverse and of the calibration are in modules of their own. The room uses `neorl.evidence` and
-what lies below it.
+the rooms below it.
 """
 
 from neorl.extras import require

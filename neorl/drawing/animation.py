@@ -1,4 +1,4 @@
-"""A run as a moving picture, to be shown where there is no Python: in a talk, a README, a message."""
+"""Animations of runs as GIF files, for use without Python: in a talk, a README, a message."""
 
 import io
 from os import PathLike
@@ -16,20 +16,20 @@ from neorl.drawing.style import INK, colour_like
 from neorl.experiments.run import Run
 from neorl.files import write_whole
 
-INCHES = 3.6  # as large as a board, so that letters are
+INCHES = 3.6  # the size of a board, so that letters are as large as on one
 HEAD = 0.08  # of the height, for the time and the reward
 MOST_FRAMES = 5_000
 
 
 def animate(run: Run, path: str | PathLike[str], seconds: float = 10.0, fps: int = 25, size: int = 360,
             background: Any = "white") -> Path:
-    """Let a run go on, and write a film of it to a GIF file, at the speed of the simulation; returns the path.
+    """Advance a run, and write it as an animated GIF at the speed of the simulation; returns the path.
 
-    run: a `neorl.Run` in a world of two axes, which is advanced. path: ends in ".gif". seconds: simulated, > 0; with
-    `fps` at most 5000 frames. fps: frames per second, integer from 1 to 50; a GIF counts in hundredths of a second, so
-    10, 20, 25 and 50 are exact. size: the width in pixels, integer from 64 to 2000. background: a colour of
-    matplotlib's, such as "white" or "#121212" for a dark page. Raises ValueError for anything else, before the run goes
-    on, OSError if the file cannot be written.
+    run: a `neorl.Run` in a world of two axes, which is advanced. path: ends in ".gif". seconds: simulated, > 0; at most
+    5000 frames at `fps`. fps: frames per second, integer from 1 to 50; a GIF counts in hundredths of a second, so 10,
+    20, 25 and 50 are exact. size: the width in pixels, integer from 64 to 2000. background: a matplotlib colour, such
+    as "white" or "#121212" for a dark page. Raises ValueError for anything else, before the run is advanced, OSError if
+    the file cannot be written.
 
     >>> run = neorl.Run(neorl.place_cells([5, 7]), neorl.WaterWorld())
     >>> path = drawing.animate(run, "run.gif", seconds=0.2, size=120)
@@ -53,7 +53,7 @@ def animate(run: Run, path: str | PathLike[str], seconds: float = 10.0, fps: int
 
 
 def _pictures(run, frames, fps, size, background):
-    """The frames one by one: `PIL.Image.Image`."""
+    """Yield the frames, each a `PIL.Image.Image`."""
     figure = Figure(figsize=(INCHES, INCHES * (1 + HEAD)), dpi=size / INCHES, facecolor=background,
                     layout="none")
     canvas = FigureCanvasAgg(figure)

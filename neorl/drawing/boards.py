@@ -1,7 +1,7 @@
 """Boards from above: the unit square with an agent and things in it, y downward, as in every world of the package.
 
-Each function draws into `ax`, or into a new board, and returns the axes. A board is drawn in units of the world's size.
-Axes whose limits are not set yet become a board.
+Each function draws into `ax`, or into a new board, in units of the world's size, and returns the axes. Axes without set
+limits become a board.
 """
 
 from typing import Any
@@ -21,11 +21,11 @@ from neorl.worlds.waterworld import WaterWorld
 from neorl.worlds.world import World
 
 MARGIN = 0.06  # around a board
-RADIUS = 0.025  # of an agent, where the world has none for it
+RADIUS = 0.025  # of an agent, where the world defines none
 
 
 def new_board(size: float = 3.6, low: float = 0.0) -> Axes:
-    """Axes of a new figure, `size` inches wide, over the unit board, or from `low` to 1 on either side.
+    """Axes of a new figure, `size` inches wide, over the unit board, or from `low` to 1 along both axes.
 
     size: from 0.1 to 100. low: from −1000 to 0.9. Raises ValueError for anything else.
 
@@ -37,7 +37,7 @@ def new_board(size: float = 3.6, low: float = 0.0) -> Axes:
 
 
 def new_boards(columns: int, rows: int) -> list[Axes]:
-    """Axes over that many unit boards, row by row: a list.
+    """A grid of unit boards: a list of their axes, row by row.
 
     columns, rows: integers from 1 to 20. Raises ValueError for anything else.
 
@@ -51,7 +51,7 @@ def new_boards(columns: int, rows: int) -> list[Axes]:
 
 
 def as_board(ax, low=0.0):
-    """Make a board of any axes: from `low` to 1 on either side, y downward, without ticks. Returns them."""
+    """Turn any axes into a board, from `low` to 1 along both axes, y downward, without ticks. Returns them."""
     margin = MARGIN * (1 - low)
     axes = axes_or_new(ax)
     axes.set(xlim=(low - margin, 1 + margin), ylim=(1 + margin, low - margin), aspect="equal")
@@ -60,15 +60,15 @@ def as_board(ax, low=0.0):
 
 
 def board_or_new(ax, low=0.0):
-    """`ax`, or if it is None a new board. Axes whose limits are not set yet become a board."""
+    """`ax`, or a new board if it is None. Axes without set limits become a board."""
     if ax is None:
         return new_board(low=low)
     return as_board(ax, low) if axes_or_new(ax).get_autoscalex_on() else ax
 
 
 def draw_world(world: World, state: Any, ax: Axes | None = None) -> Axes:
-    """A world of two axes from above, within its walls: a `neorl.WaterWorld` as `draw_tank` has it, any other with its
-    agent, the agent's velocity over the coming half second, and its things.
+    """Draw a world of two axes from above, within its walls: a `neorl.WaterWorld` as `draw_tank` does, any other with
+    its agent, the agent's velocity over the next half second, and its things.
 
     state: of that world. Raises ValueError if it is not, and for a world of other than two axes.
 
@@ -92,7 +92,7 @@ def draw_world(world: World, state: Any, ax: Axes | None = None) -> Axes:
 
 
 def draw_walls(world: World, ax: Axes | None = None) -> Axes:
-    """The walls and obstacles of a `neorl.Arena`, or the border of another world's board.
+    """Draw the walls and obstacles of a `neorl.Arena`, or the border of another world's board.
 
     >>> axes = drawing.draw_walls(neorl.Arena(obstacles=[(0.4, 0.4, 0.6, 0.5)]))
     """
@@ -106,8 +106,8 @@ def draw_walls(world: World, ax: Axes | None = None) -> Axes:
 
 
 def draw_tank(world: WaterWorld, state: Any, ax: Axes | None = None) -> Axes:
-    """Agent and creeps of a `neorl.WaterWorld`, each with its velocity over the coming half second; creeps carry their
-    sign.
+    """Draw the agent and the creeps of a `neorl.WaterWorld`, each with its velocity over the next half second; creeps
+    carry their sign.
 
     world: a `WaterWorld`. state: of that tank. Raises ValueError for anything else.
 
@@ -129,7 +129,7 @@ def draw_tank(world: WaterWorld, state: Any, ax: Axes | None = None) -> Axes:
 
 
 def inside(places, radius):
-    """Places moved so that a disc of that radius lies within the board: a world may let a centre reach the wall."""
+    """Places shifted so that discs of that radius lie within the board: in some worlds a centre can reach the wall."""
     return np.clip(places, radius, 1 - radius)
 
 
@@ -140,7 +140,7 @@ def _draw_velocity(axes, place, velocity):
 
 
 def draw_desires(run: Run, ax: Axes | None = None) -> Axes:
-    """Where the desires between the nodes of a run's agent land, as seen from its agent.
+    """Draw where the desires between nodes place their elements of interest, as arrows from the agent.
 
     run: a `neorl.Run` in a world of two axes. Raises ValueError for anything else.
 
@@ -167,6 +167,6 @@ def check_run_in_plane(run):
 
 
 def desire_colour(desire):
-    """The colour of the creeps that a desire comes from, if it comes from those of one colour alone."""
+    """The colour of the creeps from which a desire is computed, if they are all of one colour."""
     (source,) = desire.of if len(desire.of) == 1 else (desire.source,)
     return {"green": GREEN, "red": RED}.get(source, INK)

@@ -1,5 +1,5 @@
-"""The figures of the calibration: what remains of each choice and of pairs, which claims go together, how the search
-came nearer, and the thesis's figures as the readings that remain predict them.
+"""The figures of the calibration: the posterior of each choice and of pairs, which claims hold together, how the search
+converged, and the thesis's figures as predicted by the readings that remain.
 
 A figure of one panel is drawn into `ax`, one of several into `figure`; by default into a new one. Each function returns
 its axes.
@@ -19,11 +19,11 @@ from neorl.evidence.claims import FINAL
 from neorl.evidence.curves import binned_rate, low_passed
 from neorl.evidence.priors import WITHIN
 
-ROW = 0.15  # inches, of a bar with its name
-NARROW = 12  # letters in a line
-ROOMY = 4  # levels of a pair whose labels do not touch
+ROW = 0.15  # inches, for a bar with its name
+NARROW = 12  # letters per line
+ROOMY = 4  # most levels whose labels do not touch in a pair's panel
 POINTS = 100  # of a predicted curve
-LEVELS, MINUTES = (0.29, 0.55), (160, 15)  # of place cells and of both: what paper B prints
+LEVELS, MINUTES = (0.29, 0.55), (160, 15)  # of place cells and of both nodes, from paper B
 SINGLE = {f"N{n}": ("single", n) for n in (10, 30, 50)}
 LAYERS = {"N3": ("layer", 3), "N7": ("layer", 7), "N23": ("layer", 23), "all three": "layers"}
 MODALITIES = {"place": ("place", "all"), "objects": ("objects", "all"), "both": "both"}
@@ -31,7 +31,7 @@ NETWORKS = {name: ("network", name) for name in "ABCD"}
 
 
 def draw_marginals(remaining, nearest=None, names=tuple(WITHIN), columns=2, figure=None):
-    """Each choice before (outlines) and after (bars): the shares of its levels.
+    """Prior (outlines) and posterior (bars) of each choice, as shares of its levels.
 
     remaining: a `Posterior`, the bars. nearest: another, whose shares are drawn as points.
     """
@@ -63,7 +63,7 @@ def draw_marginals(remaining, nearest=None, names=tuple(WITHIN), columns=2, figu
 
 
 def draw_pairs(remaining, names, figure=None):
-    """Pairs of choices: how the posterior is shared out among the levels of two, and on the diagonal of one.
+    """The joint posterior of pairs of choices, and on the diagonal the marginal of each.
 
     remaining: a `Posterior`. names: of the choices, at least two.
     """
@@ -95,16 +95,16 @@ def draw_pairs(remaining, names, figure=None):
 
 
 def _spaced(levels):
-    """Where labels of levels stand, and the labels: the lower ends of intervals, and of many only every second."""
+    """Positions and labels of ticks: the lower ends of intervals, every second one if there are many levels."""
     every = slice(None, None, 2 if len(levels) > ROOMY else 1)
     return range(len(levels))[every], [level.split(" … ")[0] for level in levels[every]]
 
 
 def draw_together(together, ax=None):
     """Which claims hold together: % of the readings with both measured in which both hold, on the diagonal each alone.
-    Below each number a bar has that length.
+    A bar below each number has that length.
 
-    together: a `Together`. A cross marks pairs that never do, although some would be expected by chance.
+    together: a `Together`. A cross marks pairs that never hold together, although by chance some readings would.
     """
     axes = axes_or_new(ax, figsize=(width_of_figures(), width_of_figures()))
     share = np.divide(together.both, together.rows, out=np.zeros(together.both.shape), where=together.rows > 0)
@@ -124,10 +124,10 @@ def draw_together(together, ax=None):
 
 
 def draw_distances(table, ax=None):
-    """How near readings come to all targets, wave by wave: those with all groups measured, and the nearest so far."""
+    """The distance of readings to all targets, wave by wave: those with all groups measured, and the nearest so far."""
     axes = axes_or_new(ax)
     complete = [row for row in table if row.complete]
-    shift = np.random.default_rng(0).uniform(-0.3, 0.3, len(complete))  # apart, to be seen
+    shift = np.random.default_rng(0).uniform(-0.3, 0.3, len(complete))  # so that points do not overlap
     axes.plot([row.wave for row in complete] + shift, [row.distance for row in complete], linestyle="none", marker="o",
               markersize=3, alpha=0.5, color=AGENT)
     nearest = {wave: least for wave, least in progress(table).items() if np.isfinite(least)}
@@ -151,9 +151,9 @@ def draw_single(lives, ax=None):
 
 
 def draw_layers(lives, ax=None):
-    """Figure 4.4, bottom: three maps, each of them alone, and their sum. lives: see `draw_modalities`.
+    """Figure 4.4, bottom: three maps together, each of them alone, and their sum. lives: see `draw_modalities`.
 
-    A dashed line marks 3.5 times what N7 earns finally under the first reading.
+    A dashed line marks 3.5 times the final reward rate of N7 under the first reading.
     """
     curves = _smooth(lives, LAYERS)
     curves["sum"] = [sum(alone) for alone in zip(*(curves[name] for name in ("N3", "N7", "N23")))]
@@ -184,7 +184,7 @@ def draw_networks(lives, ax=None):
 
 
 def _minutes(lives, keys):
-    """How many minutes the runs of each reading are in one figure, for all of `keys` the same."""
+    """The minutes of the runs of each reading, which are the same for all of `keys`."""
     key, *_ = keys.values()
     return [life[key].seconds / 60 for life in lives]
 
@@ -211,7 +211,7 @@ def _draw_curves(curves, lengths, ax, colours=CURVES):
 
 
 def _mark_level(axes, level, words, colour, at=0.01):
-    """What the thesis prints, as a dashed line with its words, `at` a share of its length; the axes reach as far."""
+    """Draw a level of the thesis as a dashed line, labelled at `at` of its length; extend the axes to it."""
     low, high = axes.get_ylim()
     axes.set_ylim(low, max(high, 1.05 * level))
     axes.axhline(level, color=colour, linewidth=0.9, linestyle="--")

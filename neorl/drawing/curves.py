@@ -1,4 +1,4 @@
-"""Curves of what agents earn: over a run, over several runs, and over a number that is varied.
+"""Curves of reward: over a run, over several runs, and over a parameter that is varied.
 
 Each function draws any number of curves by name into `ax`, or into a new figure, and returns the axes. Curves over a
 run are drawn to scale: one of 2 minutes ends at 2 minutes, beside one of 20.
@@ -16,15 +16,15 @@ from neorl.evidence.curves import CUTOFF_PERIODS, binned_rate, low_passed
 from neorl.evidence.statistics import Estimate, mean_band, tolerance_band
 from neorl.experiments.simulation import Result
 
-POINTS = 400  # of a curve; more cannot be seen
+POINTS = 400  # per curve; more would not be visible
 
 
 def draw_accumulated(results: Mapping[str, Result], control: Mapping[str, Result] | None = None,
                      ax: Axes | None = None) -> Axes:
-    """Accumulated reward over steps with its tolerance band.
+    """Draw accumulated reward over steps with its tolerance band.
 
     results: {name: `neorl.Result`}. control: another such dict, drawn in grey.
-    Raises ValueError for anything else, or if there is none.
+    Raises ValueError for anything else, or for an empty dict.
 
     >>> results = {"N7": neorl.simulate(neorl.place_cells([7]), neorl.WaterWorld(), steps=5_000, runs=4)}
     >>> axes = drawing.draw_accumulated(results)
@@ -46,9 +46,9 @@ def draw_accumulated(results: Mapping[str, Result], control: Mapping[str, Result
 
 def draw_proficiency(results: Mapping[str, Result], total: tuple[str, Sequence[Result]] | None = None, points: int = 50,
                      ax: Axes | None = None) -> Axes:
-    """Mean reward per second over the run with the 95 % interval of the mean.
+    """Draw mean reward per second over the run with the 95 % interval of the mean.
 
-    results: {name: `neorl.Result`}. points: of a curve, integer ≥ 1.
+    results: {name: `neorl.Result`}. points: per curve, integer ≥ 1.
     total: (name, [Result, …]), drawn as the sum of the rewards of its results, run by run.
     Raises ValueError for anything else, or for a sum of results of different lengths.
 
@@ -69,10 +69,10 @@ def draw_proficiency(results: Mapping[str, Result], total: tuple[str, Sequence[R
 
 
 def draw_smoothed(results: Mapping[str, Result], ax: Axes | None = None) -> Axes:
-    """Mean reward per second over the run as paper B shows it, low-passed, with the 95 % interval of the mean.
+    """Draw mean reward per second over the run, low-passed as in paper B, with the 95 % interval of the mean.
 
-    results: {name: `neorl.Result`}. The mean before the filter lies thin behind it, cut off where it leaves the
-    picture. Raises ValueError for anything else, and for runs of 40 bins (8 s) or fewer, which are too short to smooth.
+    results: {name: `neorl.Result`}. The unfiltered mean is a thin line behind the curve, clipped to the axes. Raises
+    ValueError for anything else, and for runs of 40 bins (8 s) or fewer, which are too short to smooth.
 
     >>> results = {"N7": neorl.simulate(neorl.place_cells([7]), neorl.WaterWorld(), steps=5_000, runs=4)}
     >>> axes = drawing.draw_smoothed(results)
@@ -105,12 +105,12 @@ def _checked_sum(total):
 
 
 def _looks(results, grey):
-    """The looks of results, and after them grey for each of the others."""
+    """Colours and dashes of results, followed by grey for each of the others."""
     return looks(len(results)) + [(INK, "-")] * len(grey)
 
 
 def _rates(result, points):
-    """Minutes (points,) and reward per second (runs, points), of as many points as there are bins or fewer."""
+    """Minutes (points,) and reward per second (runs, points), with at most as many points as bins."""
     points = min(points, result.rewards.shape[1])
     return (np.arange(points) + 0.5) / points * result.seconds / 60, binned_rate(result, points)
 
@@ -124,11 +124,11 @@ def _draw_rates(curves, seconds, styles, ax):
 
 def draw_curves(xs: ArrayLike, curves: Mapping[str, ArrayLike], xlabel: str = "", ylabel: str = "",
                 ax: Axes | None = None) -> Axes:
-    """Means over runs with their 95 % intervals.
+    """Draw means over runs with their 95 % intervals.
 
-    xs: (points,), from 0 on. curves: {name: (runs, points)}; where they are not a number there is a gap.
+    xs: (points,), from 0 on. curves: {name: (runs, points)}; NaN leaves a gap.
     xlabel, ylabel: of the axes.
-    Raises ValueError for curves of other shapes, or without a number.
+    Raises ValueError for curves of other shapes, or without a finite number.
 
     >>> rng = np.random.default_rng(0)
     >>> axes = drawing.draw_curves(np.arange(20), {"luck": rng.random((8, 20)).cumsum(axis=1)}, "days", "gold")
@@ -162,7 +162,7 @@ def _draw_means(curves, xlabel, ylabel, styles, ax):
 
 def draw_sweep(xs: ArrayLike, estimates_by_name: Mapping[str, Sequence[Estimate]], xlabel: str = "",
                ylabel: str = "reward per second", ax: Axes | None = None) -> Axes:
-    """A reward against a number, with 95 % intervals.
+    """Draw reward against a parameter, with 95 % intervals.
 
     xs: (points,). estimates_by_name: {name: [`neorl.evidence.statistics.Estimate` for each of xs]}.
     xlabel, ylabel: of the axes.
@@ -185,7 +185,7 @@ def draw_sweep(xs: ArrayLike, estimates_by_name: Mapping[str, Sequence[Estimate]
 
 
 def add_estimates(axes, xs, estimates_by_name, linewidth):
-    """Points with their 95 % intervals, joined by lines of that width: {name: [Estimate for each of xs]}."""
+    """Add points with their 95 % intervals, joined by lines: {name: [Estimate for each of xs]}."""
     ends = []
     for (name, estimates), (colour, dashes) in zip(estimates_by_name.items(), looks(len(estimates_by_name))):
         value, low, high = np.array(estimates).T
@@ -197,9 +197,10 @@ def add_estimates(axes, xs, estimates_by_name, linewidth):
 
 def draw_costs(labels: Sequence[str], measured: ArrayLike, predicted: ArrayLike,
                ax: Axes | None = None) -> Axes:
-    """Microseconds a step of an agent that gets one map after the other, and the sum of what each costs.
+    """Draw the cost of an agent to which maps are added one by one, in microseconds per step, beside the sum of costs.
 
-    labels: of the maps. measured, predicted: (maps,), the microseconds with all maps so far, and their sum.
+    labels: of the maps. measured, predicted: (maps,), the microseconds with all maps so far, and the sum of the costs
+        of each.
     Raises ValueError for anything else.
 
     >>> axes = drawing.draw_costs(["N3", "N7"], measured=[0.2, 0.5], predicted=[0.2, 0.6])

@@ -1,5 +1,5 @@
-"""The figures of the multiverse: for one claim the effect under every reading; for all, under how many readings they
-hold, and which choices matter."""
+"""The figures of the multiverse: the effect of a claim under every reading, the share of readings under which each
+claim holds, and the choices that matter."""
 
 from textwrap import fill
 
@@ -18,15 +18,15 @@ UNDECIDED = {"facecolor": (RED, FILL), "edgecolor": RED, "linewidth": 1}  # of b
 OUTCOMES = {"holds": "o", "undecided": "D", "fails": "."}  # markers
 SHADES = LinearSegmentedColormap.from_list("shades", [AGENT + "10", AGENT + "ff"])
 ROW = 0.2  # inches
-ABREAST = 3  # small curves
+ABREAST = 3  # small curves per row
 
 
 def draw_specifications(judged, figure=None):
-    """Specification curves of many claims, small and side by side: each claim's number under every reading, in order.
+    """Specification curves of many claims, small and side by side: each claim's estimate under every reading, sorted.
 
     judged: {name: [`Claim`, …]}, each claim under its readings. Numbers beyond an axis are drawn as in
     `draw_specification`.
-    figure: a figure or a part of one to fill, by default a new one. Returns the axes of the claims, an array.
+    figure: a figure or a part of one to fill, by default a new one. Returns an array of the claims' axes.
     """
     rows = -(-len(judged) // ABREAST)
     figure = figure_or_new(figure, (width_of_figures(), 1.05 * rows + 0.3))
@@ -48,11 +48,11 @@ def draw_specifications(judged, figure=None):
 
 
 def draw_specification(readings, judged, name, choices=WITHIN, figure=None):
-    """The specification curve of a claim: its number under every reading in order of size, and the choices below.
+    """The specification curve of a claim: its estimate under every reading, sorted, and the choices of each below.
 
-    readings: [Reading, …]. judged: {name: `Claim`} for each of them. choices: what is shown of them, as `design` takes
-    it. A number that is off the middle 95 % of them stands at the edge as a triangle that points beyond it; one that
-    does not exist, as a cross at the lower edge.
+    readings: [Reading, …]. judged: {name: `Claim`} for each of them. choices: those shown, in the form that `design`
+    takes. A number outside the middle 95 % is a triangle at the edge, pointing outward; a missing number is a cross at
+    the lower edge.
     figure: a figure or a part of one to fill, by default a new one. Returns the axes of the curve and of the choices.
     """
     claims = [each[name] for each in judged]
@@ -79,9 +79,9 @@ def draw_specification(readings, judged, name, choices=WITHIN, figure=None):
 
 
 def _curve(axes, claims, name):
-    """Draw the number of a claim under every reading in order of size, and return the order.
+    """Draw the number of a claim under every reading, sorted, and return the order.
 
-    A number beyond the axis is a triangle at its edge, and one that does not exist a cross at the lower edge.
+    A number beyond the axis is a triangle at its edge, a missing number a cross at the lower edge.
     """
     here = np.array([claim.here for claim in claims])
     order = np.argsort(np.nan_to_num(here[:, 0], nan=-np.inf), kind="stable")
@@ -97,7 +97,7 @@ def _curve(axes, claims, name):
                                         (of_kind & (value > high), np.full(len(at), high), "^"),
                                         (of_kind & (value < low), np.full(len(at), low), "v"),
                                         (of_kind & np.isnan(value), np.full(len(at), low), "x")):
-            if places.any():  # nothing, unclipped, would take the whole figure
+            if places.any():  # an empty unclipped artist would be as large as the figure
                 axes.plot(at[places], heights[places], linestyle="none", marker=marker, color=colour, clip_on=False,
                           markersize=2.5 if marker in OUTCOMES.values() else 4)
     for border in STATEMENTS[name].borders:
@@ -108,7 +108,7 @@ def _curve(axes, claims, name):
 
 
 def _share_of(claims, kind):
-    """The share of readings under which a claim has an outcome, as text."""
+    """The share of readings under which a claim has this outcome, as text."""
     return f"{np.mean([outcome(claim) == kind for claim in claims]):.0%}".replace("%", " %")
 
 
@@ -121,11 +121,11 @@ def _limits(values, borders):
 
 
 def draw_standing(record, names, ax=None):
-    """The verdicts of claims, and the share of readings that they hold under: record as `neorl.evidence.report.load`
-    has it.
+    """The verdicts of claims, and the share of readings under which they hold.
 
-    names: of the claims, from the top. Bars are short runs: what is undecided comes after what holds, in another
-    colour. Points are runs as long as the papers', where there are any.
+    record: as `neorl.evidence.report.load` returns it. names: of the claims, from the top. Bars are from short runs:
+    the undecided share follows the one that holds, in another colour. Points are from runs as long as the papers',
+    where there are any.
     Returns the axes, `ax` or those of a new figure.
     """
     axes = axes_or_new(ax, figsize=(width_of_figures(), 1.3 * ROW * len(names) + 0.7))
@@ -153,16 +153,17 @@ def draw_standing(record, names, ax=None):
 
 
 def draw_importance(importance, choices=WITHIN, ax=None):
-    """Which choices matter for which claim: {name of the claim: {name of the choice: importance}}, areas of discs.
+    """Which choices matter for which claim, as areas of discs.
 
-    choices: what was varied, as `design` takes it. Returns the axes, `ax` or those of a new figure.
+    importance: {name of the claim: {name of the choice: importance}}. choices: those varied, in the form that `design`
+    takes. Returns the axes, `ax` or those of a new figure.
     """
     axes = axes_or_new(ax, figsize=(width_of_figures(), ROW * 1.25 * len(choices) + 0.5))
     keys = list(choices)
     for column, shares in enumerate(importance.values()):
         for key, share in shares.items():
             axes.plot(column, keys.index(key), marker="o", color=AGENT, markersize=13 * np.sqrt(np.clip(share, 0, 1)))
-    axes.set_xticks(range(len(importance)), importance, fontsize=SMALL, rotation=90)  # side by side they would touch
+    axes.set_xticks(range(len(importance)), importance, fontsize=SMALL, rotation=90)  # horizontal labels would touch
     axes.set_yticks(range(len(keys)), [choices[key].label for key in keys], fontsize=SMALL)
     axes.set(xlim=(-0.6, len(importance) - 0.4), ylim=(len(keys) - 0.4, -0.6))
     axes.xaxis.tick_top()

@@ -1,7 +1,7 @@
-"""Networks of nodes, drawn from their data: elements of interest at the left, nodes by depth, the agent's value Q.
+"""Diagrams of networks, drawn from an agent: elements of interest at the left, nodes by depth, the agent's value Q.
 
 Lengths are in ems, the height of a letter, and y runs downward. Every node has a row to itself, and a desire leaves its
-node downward in a lane that later nodes keep clear of: so no line runs through a node.
+node downward in a lane that later nodes leave free, so no line runs through a node.
 """
 
 from collections.abc import Mapping
@@ -23,21 +23,21 @@ from neorl.agents.agent import Agent, Desire, Place
 from neorl.drawing.boards import desire_colour
 from neorl.drawing.style import AGENT, INK, TEXT, axes_or_new, by_name, figure_or_new, width_of_figures
 
-LARGEST = 11  # points an em
-SMALL = 0.92  # of an em: all letters but those of names
-LINE, PORT, LOOP, LANE = 1.25, 1.5, 1.7, 0.85  # from one to the next: lines of text, inputs, loops, desires that leave
+LARGEST = 11  # points per em
+SMALL = 0.92  # of an em: all letters except those of names
+LINE, PORT, LOOP, LANE = 1.25, 1.5, 1.7, 0.85  # distances between lines of text, inputs, loops, outgoing desires
 GAP = 1.0  # between boxes
-ARROW = 1.7  # what an arrow needs beside its label
+ARROW = 1.7  # the length of an arrow beyond its label
 RADIUS = 0.65  # of an element
 CORNER = 0.45
 Q_WIDTH = 1.7
-BOX = "0f"  # the opacity of a box, so little that letters in it stay legible
-HEAD = 0.4  # above a network, and below it
+BOX = "0f"  # the opacity of a box, low so that letters in it stay legible
+HEAD = 0.4  # space above a network, and below it
 
 
 @dataclass
 class _Box:
-    """A node: its text, the desires that it takes in (from the top), its own, and those that leave (from the left)."""
+    """A node: its text, incoming desires (from the top), desires for itself, and outgoing desires (from the left)."""
 
     lines: list[str]
     inputs: list[Desire]
@@ -69,16 +69,16 @@ class _Box:
         return self.middle + self.height / 2
 
     def lane(self, desire):
-        """Where a desire leaves: x."""
+        """The x at which a desire leaves."""
         return self.left + LANE * (0.8 + self.leaving.index(desire))
 
     def port(self, desire):
-        """Where a desire arrives: y."""
+        """The y at which a desire arrives."""
         return self.middle + PORT * (self.inputs.index(desire) - (len(self.inputs) - 1) / 2)
 
 
 class _Drawing(NamedTuple):
-    """A network laid out: its boxes from above, and what each gain says, by name of the node."""
+    """The layout of a network: its boxes from the top, and the labels of gains, by name of the node."""
 
     boxes: dict[str, _Box]
     gains: dict[str, str]
@@ -98,10 +98,10 @@ class _Drawing(NamedTuple):
 
 
 def draw_network(agent: Agent, ax: Axes | None = None) -> Axes:
-    """An agent as a network: nodes with their maps, desires with their valences, and the gains of nodes in its value.
+    """Draw an agent as a network: nodes with their maps, desires with their valences, and the gains of nodes.
 
-    A desire without a number has the sum of the valences that its vector comes from; "green: Σ w" says which they are.
-    Returns the axes, `ax` or those of a new figure; in axes of the user's own the letters are as large as fits.
+    A desire without a valence of its own is labelled with the sum that it stands for, such as "green: Σ w".
+    Returns the axes, `ax` or those of a new figure; in the user's own axes the letters are as large as fits.
     Raises ValueError unless it is a `neorl.Agent`.
 
     >>> axes = drawing.draw_network(neorl.network_d())
@@ -111,7 +111,7 @@ def draw_network(agent: Agent, ax: Axes | None = None) -> Axes:
         return axes
     drawing = _laid_out(checks.instance("agent", agent, Agent))
     axes_or_new(ax).axis("off")
-    ax.figure.canvas.figure.draw_without_rendering()  # so that the axes have their size
+    ax.figure.canvas.figure.draw_without_rendering()  # so that the axes get their final size
     wide, high = 72 / ax.figure.dpi * np.array(ax.get_window_extent().size)
     em = min(LARGEST, wide / (drawing.width + 1), high / (drawing.height + 2 * HEAD))
     _draw_into(ax, em, drawing, "", wide / em, high / em, head=(high / em - drawing.height) / 2)
@@ -119,9 +119,9 @@ def draw_network(agent: Agent, ax: Axes | None = None) -> Axes:
 
 
 def draw_networks(agents: Mapping[str, Agent], figure: Figure | SubFigure | None = None) -> NDArray[Any]:
-    """Networks, one below the other, all in letters of one size.
+    """Draw networks one below the other, all in letters of the same size.
 
-    agents: {name: `neorl.Agent`}. figure: a matplotlib figure or a part of one, which they fill; by default a new one.
+    agents: {name: `neorl.Agent`}. figure: a matplotlib figure or a part of one to fill; by default a new one.
     Returns an array of axes, one for each. Raises ValueError for anything else.
 
     >>> axes = drawing.draw_networks({"C": neorl.network_c(), "D": neorl.network_d()})
@@ -148,7 +148,7 @@ def draw_networks(agents: Mapping[str, Agent], figure: Figure | SubFigure | None
 
 
 def _draw_into(axes, em, drawing, name, width, height, head):
-    """Draw a network into the middle of axes that are so many ems wide and high, `head` of them above it."""
+    """Draw a network into the middle of axes of this width and height in ems, `head` of them above it."""
     margin = (width - drawing.width) / 2
     axes.set(xlim=(-margin, drawing.width + margin), ylim=(height - head, -head))
     axes.axis("off")
@@ -168,7 +168,7 @@ def _laid_out(agent):
         loops = [desire for desire in agent.desires if desire.source == desire.target == name]
         inputs = [desire for desire in agent.desires if desire.target == name and desire not in loops]
         leaving = [desire for desire in agent.desires if desire.source == name and desire not in loops]
-        # The further down the further left, and the first of several to one node last: then none crosses another.
+        # The lower the target, the further left, and the first of several to one node last: so no lines cross.
         leaving = sorted(reversed(leaving), key=lambda desire: -order.index(desire.target))
         boxes[name] = box = _Box(_lines(nodes[name]), inputs, loops, leaving)
         y += LOOP * len(loops)
@@ -180,7 +180,7 @@ def _laid_out(agent):
         box = boxes[name]
         if depth[name] > depth[before]:
             column = following
-        # The lane furthest to the right comes in first, what comes from outside last: again none crosses another.
+        # The rightmost lane arrives at the top, elements from outside at the bottom: again no lines cross.
         box.inputs.sort(key=lambda desire: -boxes[desire.source].lane(desire) if desire.source in nodes else 0.0)
         box.left = max([column, *(boxes[desire.source].lane(desire) + _width(_label(desire)) + ARROW
                                   for desire in box.inputs if desire.source in nodes)])
@@ -190,7 +190,7 @@ def _laid_out(agent):
 
 
 def _draw(axes, em, drawing):
-    """em: in points."""
+    """Draw a laid-out network. em: in points."""
     for name, box in drawing.boxes.items():
         _draw_box(axes, em, box.left, box.top, box.width, box.height)
         for i, line in enumerate(box.lines):
@@ -214,7 +214,7 @@ def _draw(axes, em, drawing):
 
 
 def _draw_input(axes, em, desire, box, boxes):
-    """What comes in at one port of a node: an element from outside, or the desire of another node."""
+    """Draw the input at one port of a node: an element from outside, or the desire of another node."""
     y, label, colour = box.port(desire), _label(desire), desire_colour(desire)
     if desire.source in boxes:
         x = boxes[desire.source].lane(desire)
@@ -233,7 +233,7 @@ def _draw_box(axes, em, left, top, width, height):
 
 
 def _draw_arrow(axes, em, points, colour):
-    """An arrow along lines between points, with round corners."""
+    """Draw an arrow along the lines between points, with round corners."""
     path, codes = [points[0]], [Path.MOVETO]
     for before, corner, after in zip(points, points[1:], points[2:]):
         path += [_near(corner, before), corner, _near(corner, after)]
@@ -267,7 +267,7 @@ def _lines(node):
 
 
 def _label(desire):
-    """The valence of a desire, and before it what it comes from, if that is a point or some elements of a node."""
+    """The valence of a desire, preceded by its source if that is a point or some of a node's elements."""
     valence = "Σ w" if desire.valence is None else _number(desire.valence, "+")
     if desire.source == desire.target:
         valence = f"r = {valence.removeprefix('+')}"

@@ -1,7 +1,7 @@
-"""Rate maps: how active a cell is by where the agent is, as neuroscience draws it (O'Keefe and Dostrovsky 1971).
+"""Rate maps: the activity of a cell by the agent's place, as neuroscience draws it (O'Keefe and Dostrovsky 1971).
 
-A cell of a map is active or not, so its rate is the share of the time that the agent spent at a place during which the
-cell was active. Nothing is smoothed, and places where the agent never was are empty.
+A cell of a map is active or not, so its rate at a place is the fraction of the agent's time there during which the cell
+was active. Nothing is smoothed, and unvisited places are empty.
 """
 
 from typing import NamedTuple
@@ -17,20 +17,20 @@ from neorl.drawing.boards import as_board, check_run_in_plane
 from neorl.drawing.style import INK, axes_or_new
 from neorl.experiments.run import Run
 
-LOOKS = 50  # per second, or once per step if there are fewer
+LOOKS = 50  # samples per second, or one per step if there are fewer steps
 MOST_LOOKS = 10_000_000
 
 
 class Track(NamedTuple):
-    """Where the agent of a run was, and which cells of one map were active."""
+    """The positions of an agent over time, and the active cells of one map."""
 
     position: np.ndarray  # float64 (looks, 2), in units of the world's size
-    cells: np.ndarray  # int64 (looks, points): one for each thing or other point that the map follows
-    step: float  # seconds from one look to the next
+    cells: np.ndarray  # int64 (looks, points): the active cell for each thing or other point that the map follows
+    step: float  # seconds from one sample to the next
 
 
 def track(run: Run, seconds: float, index: int = 0) -> Track:
-    """Advance a run and sample it up to 50 times per second: a `Track`.
+    """Advance a run, and sample it up to 50 times per second as a `Track`.
 
     run: a `neorl.Run` in a world of two axes, which is advanced. seconds: simulated, > 0.
     index: of the map in `Agent.maps`. Raises ValueError for anything else.
@@ -55,11 +55,11 @@ def track(run: Run, seconds: float, index: int = 0) -> Track:
 
 
 def rate_map(track: Track, cell: int | None = None, bins: int = 20) -> NDArray[np.floating]:
-    """The rate of a cell by place, or without one the seconds that the agent spent there: float64 (bins, bins).
+    """The rate of a cell by place, or without a cell the agent's seconds at each place: float64 (bins, bins).
 
-    track: a `Track`. cell: of its map, 0 … cells − 1. bins: a side, integer from 1 to 1000, of the unit board, row by
-    row from the upper left; what lies beyond belongs to those at the edge. The rate is in 0 … 1, and NaN where the
-    agent never was. Raises ValueError for anything else.
+    track: a `Track`. cell: of its map, 0 … cells − 1. bins: along each side of the unit board, integer from 1 to 1000,
+    row by row from the upper left; positions beyond the board belong to the bins at its edge. The rate is in 0 … 1, and
+    NaN at unvisited places. Raises ValueError for anything else.
 
     >>> run = neorl.Run(neorl.place_cells([2]), neorl.WaterWorld())
     >>> drawing.rate_map(drawing.track(run, seconds=60), cell=0, bins=2)[0, 0]
@@ -78,7 +78,7 @@ def rate_map(track: Track, cell: int | None = None, bins: int = 20) -> NDArray[n
 
 
 def _checked(track):
-    """The `Track`, in plain numbers. Raises ValueError unless it is one, of one look or more."""
+    """The `Track` as plain arrays. Raises ValueError unless it is one, with at least one sample."""
     position = checks.doubles("position of track", checks.instance("track", track, Track).position)
     cells, step = np.asarray(track.cells), checks.positive("step of track", track.step)
     if position.ndim != 2 or position.shape[1] != 2 or cells.dtype.kind not in "iu" or cells.ndim != 2 or (
@@ -91,9 +91,9 @@ def _checked(track):
 def draw_rate_map(track: Track, cell: int | None = None, bins: int = 20, ax: Axes | None = None) -> Axes:
     """Draw a `rate_map` over the board, with a scale beside it, into `ax` or a new figure; returns the axes.
 
-    track, cell, bins: as `rate_map` takes them. Seconds are coloured by their square root, so that places where the
-    agent rested do not darken all others. In WaterWorld a strip in the east and the south is empty: the agent's place
-    is its upper left corner.
+    track, cell, bins: as in `rate_map`. Seconds are coloured by their square root, so that places where the agent
+    rested do not darken all others. In WaterWorld a strip in the east and the south is empty: the agent's position is
+    that of its upper left corner.
 
     >>> run = neorl.Run(neorl.object_vector_cells([3]), neorl.WaterWorld())
     >>> seen = drawing.track(run, seconds=60)

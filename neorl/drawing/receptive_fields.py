@@ -1,4 +1,4 @@
-"""The receptive fields of maps of any modality, as they lie over a board while an agent is somewhere on it."""
+"""Receptive fields of maps of any modality, drawn over a board for a given position of the agent."""
 
 from typing import Any
 
@@ -15,14 +15,14 @@ from neorl.drawing.style import AGENT, INK
 from neorl.worlds.probe import HALF_SECOND
 from neorl.worlds.world import World
 
-RASTER = 121  # places a side at which receptive fields are looked up
+RASTER = 121  # places along each side at which receptive fields are evaluated
 
 
 def draw_receptive_fields(nres_map: NresMap, world: World, state: Any, ax: Axes | None = None) -> Axes:
-    """The receptive fields of a map over the board, those of its active cells filled, into `ax` or a new board.
+    """Draw the receptive fields of a map over the board, those of active cells filled, into `ax` or a new board.
 
-    A place stands for itself, for a thing there as the agent would see it, or for the velocity that takes the agent
-    there in half a second.
+    By modality, a place stands for itself, for a thing there as the agent would perceive it, or for the velocity that
+    takes the agent there in half a second.
 
     nres_map: a `neorl.NresMap` of a modality of one vector. world: of two axes; state: of that world.
     Returns the axes. Raises ValueError for anything else.
@@ -61,7 +61,7 @@ def draw_receptive_fields(nres_map: NresMap, world: World, state: Any, ax: Axes 
 
 
 def _in_intervals(nres_map, coordinates):
-    """Coordinates (…, axes) in intervals of a map: on each axis interval i spans i … i + 1."""
+    """Coordinates (…, axes) in units of a map's intervals: on each axis interval i spans i … i + 1."""
     at = np.empty(coordinates.shape)
     for i, (axis, n) in enumerate(zip(nres_map.modality.axes, nres_map.intervals)):
         low, high = (-0.5 * TAU / n, TAU - 0.5 * TAU / n) if axis.is_direction else (axis.low, axis.high)
@@ -71,11 +71,11 @@ def _in_intervals(nres_map, coordinates):
             at[..., i] = within + n * beyond / (high - low)
         else:
             at[..., i] = n * (coordinates[..., i] - low) / (high - low)
-    return at + 1e-9  # An interval holds its lower end, a contour leaves what lies on it to those below.
+    return at + 1e-9  # An interval includes its lower end, but a contour assigns points on it to the region below.
 
 
 def _depth(at, interval, n, closed):
-    """How deep inside one of n intervals each coordinate lies, in intervals; negative outside."""
+    """The depth of each coordinate inside one of n intervals, in intervals; negative outside."""
     if closed and n > 1:
         return 0.5 - np.abs((at - interval - 0.5 + n / 2) % n - n / 2)
     above = at - interval if interval > 0 else np.ones_like(at)

@@ -1,9 +1,9 @@
-"""The style of all figures: colours that serve a light page and a dark one, on a transparent ground.
+"""The style of all figures: colours for light and dark pages, on a transparent background.
 
-1. Lines and discs have a contrast of 3 : 1 or more with either page, letters of 4.5 : 1: as drawn on a light page, and
-   as the book's style sheet brightens them on a dark one.
-2. Colours keep apart for colour-blind readers, and never stand alone: a curve carries its name, a creep its sign.
-3. Letters are of 9 points or more in a figure of the usual width, which is 9 pixels on a phone.
+1. Lines and discs have a contrast of at least 3 : 1 with either page, letters of 4.5 : 1: as drawn on a light page, and
+   as brightened by the book's style sheet on a dark one.
+2. Colours are distinct for colour-blind readers, and never alone: a curve carries its name, a creep its sign.
+3. Letters have at least 9 points in a figure of the usual width, which is 9 pixels on a phone.
 """
 
 from typing import Any
@@ -19,13 +19,13 @@ from neorl import checks
 
 INK, TEXT = "#808080", "#6e6e6e"  # lines, letters
 FILL = 0.3  # the greatest opacity of a fill that arrows cross
-UNDER_WHITE = "#5a5a5a"  # the ground of white letters, where a sign such as + would need less contrast
+UNDER_WHITE = "#5a5a5a"  # the background of white letters, which need more contrast than a sign such as +
 AGENT, GREEN, RED = "#3175b9", "#0e825f", "#ba5323"
 CURVES = ("#3d6ad1", "#ae2c47", "#b68f0c", "#00a1c0", "#85498f", "#ae6411", "#af77ff")
 LIGHT_OF_LETTERS = 0.165  # relative luminance
-DASHES = ("-", "--", ":", "-.")  # of curves: one for each time that the colours have gone round
-LOW_PANEL = 0.17  # of the height of a panel, for the name of a curve
-SMALL, CROWDED = 9, 6  # points: the least that letters have, and that the names of more than a dozen curves have
+DASHES = ("-", "--", ":", "-.")  # of curves: one for each cycle through the colours
+LOW_PANEL = 0.17  # the room for a curve's name, as a share of the height of a low panel
+SMALL, CROWDED = 9, 6  # points: the least size of letters, and the size of the names of more than a dozen curves
 STYLE: dict[Any, Any] = {
     "figure.facecolor": "none", "axes.facecolor": "none", "savefig.facecolor": "none", "figure.figsize": (4.9, 3.5),
     "font.size": 11, "text.color": TEXT, "axes.labelcolor": TEXT, "axes.edgecolor": INK, "xtick.color": INK,
@@ -36,19 +36,19 @@ STYLE: dict[Any, Any] = {
 
 
 def use_style() -> None:
-    """Set matplotlib to the style of the book; ``with plt.rc_context(drawing.STYLE):`` does so for some figures."""
+    """Set matplotlib's style to the book's; for some figures only, use ``with plt.rc_context(drawing.STYLE):``."""
     plt.rcParams.update(STYLE)
 
 
 def axes_or_new(ax, figsize=None, **options):
-    """`ax`, or if it is None the axes of a new figure, with these options. Raises ValueError for anything else."""
+    """`ax`, or the axes of a new figure with these options if it is None. Raises ValueError for anything else."""
     if ax is None:
         return plt.figure(figsize=figsize, layout="constrained").add_subplot(**options)
     return checks.instance("ax", ax, Axes)
 
 
 def figure_or_new(figure, figsize, layout="constrained"):
-    """`figure`, a figure or a part of one, or if it is None a new one. Raises ValueError for anything else."""
+    """`figure`, a figure or a part of one, or a new one if it is None. Raises ValueError for anything else."""
     if figure is None:
         return plt.figure(figsize=figsize, layout=layout)
     return figure if isinstance(figure, SubFigure) else checks.instance("figure", figure, Figure)
@@ -60,7 +60,7 @@ def width_of_figures():
 
 
 def by_name(name, values):
-    """`values`, if they are a dict of one or more. Raises ValueError for anything else."""
+    """`values`, if they are a non-empty dict. Raises ValueError for anything else."""
     if isinstance(values, dict) and values:
         return values
     found = repr(values) if isinstance(values, dict) else f"of type {type(values).__name__}"
@@ -68,7 +68,7 @@ def by_name(name, values):
 
 
 def numbers(name, values):
-    """`values` as an array of doubles within ±1e30, or no numbers where there is a gap. Raises ValueError otherwise."""
+    """`values` as an array of doubles within ±1e30, or NaN for gaps. Raises ValueError otherwise."""
     try:
         array = np.asarray(values)
     except (TypeError, ValueError, OverflowError):
@@ -80,14 +80,14 @@ def numbers(name, values):
 
 
 def colour_like(name, value):
-    """`value`, if it is a colour of matplotlib's. Raises ValueError for anything else."""
+    """`value`, if it is a matplotlib colour. Raises ValueError for anything else."""
     if isinstance(value, str | tuple) and is_color_like(value):
         return value
     raise ValueError(f"{name} is {checks.shown(value)}, allowed are colours of matplotlib's")
 
 
 def letters(colour):
-    """A colour of matplotlib's, darker or lighter, so that letters in it are legible: "#rrggbb"."""
+    """A matplotlib colour, darkened or lightened so that letters in it are legible: "#rrggbb"."""
     channels = np.array(to_rgb(colour))
     linear = np.where(channels <= 0.04045, channels / 12.92, ((channels + 0.055) / 1.055) ** 2.4)
     light = linear @ [0.2126, 0.7152, 0.0722]
@@ -99,7 +99,7 @@ def letters(colour):
 
 
 def mark(axes, place, text, **options):
-    """Write a few letters in white on a dark ground of their own, so that they are legible on any fill and over curves.
+    """Write a few letters in white on a dark background, legible on any fill and over curves.
 
     place, options: as in `Axes.annotate`.
     """
@@ -108,7 +108,7 @@ def mark(axes, place, text, **options):
 
 
 def looks(count):
-    """Colours and dashes of so many curves: 28 differ, in colour first."""
+    """Colours and dashes of `count` curves: 28 are distinct, by colour first."""
     return [(CURVES[i % len(CURVES)], DASHES[i // len(CURVES) % len(DASHES)]) for i in range(count)]
 
 
@@ -116,7 +116,7 @@ def name_ends(axes, ends, line=0.075):
     """Write the names of curves beside their ends (height, name, colour), moved apart where they would overlap.
 
     line: the room that a name needs, as a share of the height of the axes; more in a low panel. Many names are written
-    the smaller, so that they have room.
+    in smaller letters to fit.
     """
     low, high = axes.get_ylim()
     ends = sorted(ends)

@@ -1,6 +1,6 @@
-"""What was found beside what the thesis reports: figures in which the thesis's own numbers are drawn in.
+"""Figures that compare results with the numbers that the thesis reports.
 
-The thesis's numbers are in grey and carry their value; what was found has a colour and a marker for each reading.
+The thesis's numbers are in grey and labelled with their value; results have a colour and a marker for each reading.
 """
 
 from collections.abc import Mapping
@@ -15,17 +15,17 @@ from neorl.evidence.statistics import Estimate
 
 MARKERS = "osD^vP*"  # of readings, one for each colour
 ROW = 0.62  # inches
-ROOM = 0.06  # of the height of a panel, beyond the levels that are marked
-REACH = 0.5  # of the range of the numbers, beyond which intervals are cut off
+ROOM = 0.06  # of the height of a panel, left beyond the marked levels
+REACH = 0.5  # of the range of the numbers: intervals are cut off that far beyond them
 
 
 def draw_against_thesis(thesis: Mapping[str, float], readings: Mapping[str, Mapping[str, Estimate]], xlabel: str = "",
                         ax: Axes | None = None) -> Axes:
-    """Numbers of the thesis, each with what was found instead: a row for each, with dots and 95 % intervals.
+    """Draw numbers of the thesis beside the results, a row for each, with dots and 95 % intervals.
 
     thesis: {label: number}, all in one unit, that of `xlabel`. readings: {name: {label: Estimate}}, with the same
     labels, at most 7; an estimate without bounds (NaN) is a dot alone. An interval that reaches far beyond all numbers
-    leaves the picture, which an arrow shows. Returns the axes, `ax` or those of a new figure.
+    is cut off, with an arrow at the edge. Returns the axes, `ax` or those of a new figure.
     Raises ValueError for no labels, for labels that differ, and for more readings.
 
     >>> from neorl.evidence.statistics import Estimate
@@ -72,7 +72,7 @@ def draw_against_thesis(thesis: Mapping[str, float], readings: Mapping[str, Mapp
 def mark_levels(axes: Axes, levels: Mapping[str, float]) -> Axes:
     """Draw levels of the thesis into a figure of curves, as dashed lines with their names: levels {name: height}.
 
-    The axes reach as far as the levels, and names at the ends of curves move apart again. Returns the axes.
+    The axes are extended to the levels, and the names at the ends of curves are spaced again. Returns the axes.
     Raises ValueError for anything else.
 
     >>> axes = drawing.draw_curves([0, 1], {"here": np.array([[0.1, 0.5]])})

@@ -1,7 +1,7 @@
-"""Maps from above: their cells, the values of actions in each, and what a run has come to know of its goals.
+"""Maps from above: their cells, the action values in each, and the learned values of goals.
 
-A map of two components is drawn in rectangles over the board, or over what lies around the agent. A polar map, of a
-distance and a direction, is drawn in sectors of rings around the agent, and one of directions in sectors. Each function
+A map of two components is drawn as rectangles over the board, or over the surroundings of the agent. A polar map, of
+distance and direction, is drawn as sectors of rings around the agent, and a map of directions as sectors. Each function
 draws into `ax`, or into a new board, and returns the axes.
 """
 
@@ -22,7 +22,7 @@ from neorl.core.scene import CARDINAL, Actions
 from neorl.drawing.boards import board_or_new
 from neorl.drawing.style import AGENT, GREEN, INK, RED, colour_like
 
-MOST_CELLS = 20_000  # more cannot be seen
+MOST_CELLS = 20_000  # more would not be visible
 OPACITY = 0.45  # of the cell of the greatest value
 
 
@@ -32,12 +32,12 @@ class _Fields(NamedTuple):
     patches: list[Patch]
     middles: np.ndarray  # float64 (cells, 2)
     breadth: np.ndarray  # float64 (cells, 1): room for an arrow
-    low: float  # where the board begins that they lie on
+    low: float  # where their board begins
 
 
 def draw_cells(nres_map: NresMap, colour: Any = INK, fills: Mapping[int, tuple[Any, float]] | None = None,
                width: float = 1.0, ax: Axes | None = None) -> Axes:
-    """The receptive fields of a map, some of them filled.
+    """Draw the receptive fields of a map, some of them filled.
 
     nres_map: a `neorl.NresMap` of two components of one vector, of its length and direction, or of the direction alone.
     fills: {cell: (colour, opacity)}. width: of the lines, in points.
@@ -65,10 +65,10 @@ def draw_cells(nres_map: NresMap, colour: Any = INK, fills: Mapping[int, tuple[A
 
 
 def draw_values(nres_map: NresMap, values: ArrayLike, actions: Actions = CARDINAL, ax: Axes | None = None) -> Axes:
-    """An arrow in every cell for the values of actions there: the sum of the actions' pushes, times their values.
+    """Draw an arrow in every cell for its action values: the sum of the actions' pushes times their values.
 
     nres_map: as in `draw_cells`. values: float (cells, actions). actions: the world's `neorl.Actions`, of two axes.
-    Arrows grow with the fourth root of the values, so that small ones can be seen.
+    Arrows grow with the fourth root of the values, so that small ones are visible.
     Raises ValueError for anything else.
 
     >>> values = np.array([[0.0, 0.0, 1.0, 0.0]] * 9)  # east is best everywhere
@@ -93,8 +93,8 @@ def draw_values(nres_map: NresMap, values: ArrayLike, actions: Actions = CARDINA
 
 def draw_value_map(run: Individual, goals: ArrayLike, valences: Sequence[float] | None = None, index: int = 0,
                    ax: Axes | None = None) -> Axes:
-    """What a run knows of goals: each cell the more opaque the more its best action is worth, red where that is less
-    than 0, and an arrow for the values of all actions. The cells of the goals have a bold edge.
+    """Draw the learned values of goals: each cell the more opaque the greater the value of its best action, red where
+    it is negative, with an arrow for the values of all actions. The cells of the goals have a bold edge.
 
     run: a `neorl.Run` or a `neorl.Learner` in a world of two axes. goals: (goals, coordinates), points of the map's
     modality, such as places in board widths, or distances and directions in radians. valences: their weights, by
@@ -143,7 +143,7 @@ def _fields(nres_map):
 
 
 def _borders(axis, n, nearest, furthest):
-    """Where the n intervals of an axis begin and end; the outermost as far as things can be, since they hold them."""
+    """The borders of the n intervals of an axis; the outermost include all positions that things can have."""
     borders = np.array(axis.boundaries or np.linspace(axis.low, axis.high, n + 1))
     borders[0], borders[-1] = min(borders[0], nearest), max(borders[-1], furthest)
     return borders

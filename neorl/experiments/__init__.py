@@ -1,4 +1,4 @@
-"""Single runs, many runs of a condition, the cache of finished conditions, and sweeps of many.
+"""Single runs, the runs of a condition, sweeps over conditions, and the cache of finished ones.
 
 The room uses `neorl.agents`, `neorl.worlds` and what lies below them.
 """

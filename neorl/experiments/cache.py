@@ -1,12 +1,12 @@
-"""Finished conditions on disk, so that nothing is computed twice.
+"""Cache of finished conditions on disk, so that nothing is computed twice.
 
-A condition is kept under a key of all that determines it: agent, world, steps, runs, seed, and the source of every
-module that takes part in a run, and of every kernel of the user's own. A file is complete or absent, whatever moment
-the process is killed at, and carries a digest of its content: one that is damaged, or was not written by this version,
-is as good as absent. Single runs of a condition that takes long are kept, too, until all of it is.
+The key of a condition covers everything that determines it: agent, world, steps, runs, seed, and the source of every
+module that takes part in a run and of every kernel of the user's own. A file is complete or absent, even if the process
+is killed, and carries a digest of its content: a file that is damaged, or was not written by this version, counts as
+absent. Single runs of a long condition are also cached, until the whole condition is.
 
-The files lie in the folder that the environment variable ``NEORL_CACHE`` names, or in the user's cache folder; all of
-it may be deleted at any time (`neorl.files`).
+The files are in the folder that the environment variable ``NEORL_CACHE`` names, or in the user's cache folder; all of
+them may be deleted at any time (`neorl.files`).
 """
 
 import hashlib
@@ -25,12 +25,12 @@ from neorl.experiments.run import bin_steps
 from neorl.experiments.simulation import Result, checked_changes
 from neorl.worlds.world import World
 
-PARTS = ("checks", "extras", "files", "core", "worlds", "agents", "experiments")  # all that a run is made of
+PARTS = ("checks", "extras", "files", "core", "worlds", "agents", "experiments")  # everything that takes part in a run
 
 
 @dataclass(frozen=True)
 class Condition(Described):
-    """All that determines a `Result`. The fields are those of `simulate` of the same names.
+    """Everything that determines a `Result`. The fields are those of `simulate` of the same names.
 
     Raises ValueError for what `simulate` would refuse.
     """
@@ -56,12 +56,12 @@ class Condition(Described):
 
     @property
     def key(self):
-        """A name for the condition and the source that it runs with: 64 hexadecimal digits."""
+        """A digest of the condition and the source that it runs with: 64 hexadecimal digits."""
         return hashlib.sha256(f"{identity(self)} {source_digest()}".encode()).hexdigest()
 
     @property
     def path(self):
-        """Where its result is kept."""
+        """The file of its result."""
         return files.cache_folder() / "conditions" / self.key
 
 
@@ -71,7 +71,7 @@ def source_digest():
 
 
 def load(condition):
-    """The `Result` of a condition if it is on disk, or else None."""
+    """The `Result` of a condition if it is on disk, else None."""
     arrays = _read(condition.path, condition)
     return None if arrays is None else Result(**condition.choices, **arrays)
 
@@ -84,7 +84,7 @@ def save(condition, result):
 
 
 def load_runs(condition):
-    """The single runs of a condition that are on disk: {run: (rewards, hits)}."""
+    """The runs of an unfinished condition that are on disk: {run: (rewards, hits)}."""
     lived = {}
     for path in _parts(condition):
         arrays = _read(path, condition, "runs")
@@ -102,7 +102,7 @@ def save_runs(condition, lived):
 
 
 def remove_runs(condition):
-    """Remove the single runs of a condition from disk, as all of it is kept."""
+    """Remove the single runs of a condition from disk, once the whole condition is there."""
     for path in _parts(condition):
         path.unlink(missing_ok=True)
 
@@ -116,7 +116,7 @@ def _parts(condition):
 
 
 def _read(path, condition, *beside):
-    """The arrays in a file, if they are those of runs of a condition, or else None."""
+    """The arrays in a file if they are from runs of the condition, else None."""
     content = files.read_checked(path)
     if content is None:
         return None

@@ -15,39 +15,39 @@ LAST_FIFTH = (0.8, 1.0)
 
 
 def main(arguments=None):
-    """Do what the arguments of a command line say, those of this process by default. Returns the exit status."""
-    parser = argparse.ArgumentParser(prog="python -m neorl", description="Run experiments, and see what is kept.")
+    """Run a command from its arguments, by default those of this process. Returns the exit status."""
+    parser = argparse.ArgumentParser(prog="python -m neorl", description="Run experiments, and inspect the cache.")
     commands = parser.add_subparsers(required=True, metavar="command")
-    run = commands.add_parser("run", help="run an experiment that a file describes",
+    run = commands.add_parser("run", help="run the experiment described in a file",
                               description="Run the conditions in a file, see neorl.experiments.experiment, unless they "
-                              "are kept already, and say what they earned.")
+                              "are cached already, and report their reward.")
     run.add_argument("file", help="a name that ends in .toml or .json")
-    run.add_argument("--save", metavar="results.npz", help="write the result there as well, for neorl.Result.load; "
-                     "of a file with variations one each, results-NAME.npz")
+    run.add_argument("--save", metavar="results.npz", help="also write the result there, for neorl.Result.load; "
+                     "for a file with variations, one each, results-NAME.npz")
     run.set_defaults(call=lambda given: run_file(given.file, given.save))
-    cache = commands.add_parser("cache", help="list what is kept on disk, or clear it",
-                                description="List what is kept in the folder that NEORL_CACHE names, or in the user's "
-                                "cache folder. All of it may be removed at any time, and is made again when needed.")
-    cache.add_argument("--clear", nargs="?", const="all", choices=kept.WHICH, help="remove all of it, only what is "
-                       "compiled, or only what is of older sources than these")
+    cache = commands.add_parser("cache", help="list the cache on disk, or clear it",
+                                description="List the contents of the folder that NEORL_CACHE names, or of the user's "
+                                "cache folder. All of it may be removed at any time, and is recreated when needed.")
+    cache.add_argument("--clear", nargs="?", const="all", choices=kept.WHICH, help="remove all of it, only compiled "
+                       "code, or only files from older sources than these")
     cache.set_defaults(call=lambda given: clear_cache(given.clear) if given.clear else list_cache())
     given = parser.parse_args(arguments)
     try:
         given.call(given)
         sys.stdout.flush()
-    except BrokenPipeError:  # the reader of a pipe, such as head, has enough
+    except BrokenPipeError:  # the reader of a pipe, such as head, has closed it
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except (ValueError, OSError, ImportError, MemoryError, RuntimeError) as error:
         print(f"neorl: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        print("neorl: interrupted; what is finished is kept, and the same command goes on there", file=sys.stderr)
+        print("neorl: interrupted; finished runs are kept, and the same command resumes there", file=sys.stderr)
         return 130
     return 0
 
 
 def run_file(path, save=None):
-    """Run the experiment in a file, and print what came of it. save: where to write results to, or None."""
+    """Run the experiment in a file, and print its results. save: where to write them to, or None."""
     conditions = read_experiment(path)
     targets = [Path(save).with_stem(f"{Path(save).stem}-{name}") if name else Path(save) for name in conditions
                ] if save else [None] * len(conditions)
@@ -63,13 +63,13 @@ def run_file(path, save=None):
 
 
 def _rate(result, *shares):
-    """A rate of reward, and its standard deviation over runs if there are several."""
+    """The rate of reward as text, with its standard deviation over runs if there are several."""
     rate = result.rate(*shares)
     return f"{rate.mean():.3f} ± {rate.std(ddof=1):.3f}" if result.runs > 1 else f"{rate.mean():.3f}"
 
 
 def list_cache():
-    """Print what neorl keeps on disk."""
+    """Print the contents of the cache."""
     print(files.cache_folder())
     everything = kept.kept()
     for kind, (words, _) in kept.KINDS.items():
@@ -78,16 +78,16 @@ def list_cache():
         if kind == "conditions":
             lines = [(kept.in_words(each.about), each) for each in some if each.about]
             for line, each in sorted(lines, key=lambda pair: pair[0]):
-                print(f"  {line}: {_bytes(each.size)}{', of older sources' * each.is_older}")
+                print(f"  {line}: {_bytes(each.size)}{', from older sources' * each.is_older}")
             unknown = [each for each in some if not each.about]
             if unknown:
-                print(f"  of versions that did not note what they are: {_amount(unknown)}")
+                print(f"  from versions that did not record the condition: {_amount(unknown)}")
     older = [each for each in everything if each.is_older]
-    print(f"together: {_amount(everything)}, of them of older sources than these: {_amount(older)}")
+    print(f"together: {_amount(everything)}, of which from older sources than these: {_amount(older)}")
 
 
 def clear_cache(which):
-    """Remove what neorl keeps on disk, and print how much it was. which: see `neorl.experiments.kept.clear`."""
+    """Clear the cache, and print how much was removed. which: see `neorl.experiments.kept.clear`."""
     print(f"removed from {files.cache_folder()}: {_amount(kept.clear(which))}")
 
 

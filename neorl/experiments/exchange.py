@@ -1,7 +1,7 @@
-"""Results for other programs: as tables of pandas and xarray, and as files that say what is in them.
+"""Results for other programs: as tables of pandas and xarray, and as self-describing files.
 
-A saved result is an npz file of its arrays, rewards and hits, and of a text, about: a table in JSON with the agent, the
-world and all else that determined it, as plain data (`neorl.core.description`), and the version of neorl.
+A saved result is an npz file of its arrays, rewards and hits, and a text, about: a table in JSON with the agent, the
+world and everything else that determined it, as plain data (`neorl.core.description`), and the version of neorl.
 """
 
 import json
@@ -22,24 +22,24 @@ OF_A_CONDITION = {"agent": Agent, "world": World, "steps": int, "runs": int, "se
 
 
 def version():
-    """The version of neorl, whose package stands above this room."""
+    """The version of neorl, read without an import, since the package is above this room."""
     return sys.modules["neorl"].__version__
 
 
 def about(condition):
-    """What determines a `neorl.Condition` or `neorl.Result`, as plain data.
+    """Everything that determines a `neorl.Condition` or `neorl.Result`, as plain data.
 
-    Raises ValueError for an agent or a world that no name finds again.
+    Raises ValueError for an agent or a world that cannot be imported by name.
     """
     return {"neorl": version(), **{name: described(getattr(condition, name), kind, name)
                                    for name, kind in OF_A_CONDITION.items()}}
 
 
 def note(condition, source):
-    """A text in JSON that says what is kept of a condition: the digest of its source, and all that determines it."""
+    """The JSON text stored with a condition: the digest of its source, and everything that determines it."""
     try:
         known = about(condition)
-    except ValueError:  # no name finds its agent or its world again, but it was run, and is kept
+    except ValueError:  # its agent or world cannot be imported by name, but it was run, and is cached
         known = {"neorl": version(), **{name: getattr(condition, name) for name in OF_A_CONDITION}}
     return np.array(json.dumps({"source": source, **known}, default=repr))
 

@@ -1,24 +1,24 @@
-"""An experiment as a file: a condition, or several that differ in what the file says::
+"""An experiment as a file: a condition, or several variations of one::
 
     steps = 150_000
     runs = 20
-    seed = 0                                # what is left out is as by default
+    seed = 0                                # anything left out has its default
     world = { is = "WaterWorld", n_creeps = 8 }
 
     [agent]
-    is = "place_cells"                      # one of the papers', or its nodes and desires in full
+    is = "place_cells"                      # an agent of the papers, or nodes and desires in full
     resolutions = [3, 7, 23]
     learning = { memory = 10.0 }
 
-    [variations.coarse]                     # if there are any, each is a condition, and the file without them is none
+    [variations.coarse]                     # with variations, they alone are the conditions
     agent.resolutions = [3]
 
     [variations.forgetful]
     agent.learning.memory = 1.0
 
-A variation is what it says, and else what the file says: tables are put together field by field, unless the variation
-names what the table is; all else takes the place of what was there. `neorl.core.description` says what tables can hold.
-JSON holds the same.
+A variation overrides the file: tables are merged field by field, unless the variation's table has an ``is`` or
+``kernel`` of its own; all other values are replaced. `neorl.core.description` describes what tables can hold. A JSON
+file has the same structure.
 """
 
 import re
@@ -28,9 +28,9 @@ from neorl.experiments.cache import Condition
 
 
 def read_experiment(path):
-    """The conditions in a file that ends in .toml or .json: {name: `Condition`}, the name "" if there is one.
+    """The conditions in a .toml or .json file: {name: `Condition`}, with the name "" if there are no variations.
 
-    Raises OSError if there is no such file, ValueError for anything else, with the path to it in the file.
+    Raises OSError if there is no such file, ValueError for anything else, with its path within the file.
     """
     data = read_data(path)
     variations = data.pop("variations", {"": {}})

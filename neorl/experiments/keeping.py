@@ -1,8 +1,8 @@
-"""Runs as they come in, kept so that a process that is killed loses seconds.
+"""Storage of runs as they finish, so that a killed process loses only seconds of work.
 
-1. The runs of a condition that takes long are written to disk every few seconds, and all of it when it is whole; then
-   the single runs are removed. A condition that takes less time is written once, so that it costs no more.
-2. A disk that takes nothing costs a warning: what could not be written stays in memory.
+1. The runs of a long condition are written to disk every few seconds, and the whole condition once it is complete; then
+   the single runs are removed. A short condition is written only once, so it has no overhead.
+2. If the disk cannot be written to, results stay in memory, with a warning.
 """
 
 import time
@@ -14,23 +14,23 @@ from neorl import files
 from neorl.experiments import cache
 from neorl.experiments.simulation import Result
 
-SECONDS = 5  # between two writes of a condition's runs, which take a hundredth of that
+SECONDS = 5  # between two writes of a condition's runs; a write takes a hundredth of that
 
 
 class Keeper:
-    """What has been lived of conditions: on disk, or in memory if the disk takes nothing."""
+    """The finished runs of conditions: on disk, or in memory if the disk cannot be written to."""
 
     def __init__(self):
-        self._lived = {}  # {condition: {run: (rewards, hits)}}, of conditions that are not whole
-        self._unwritten = {}  # {condition: [run, ...]}, those of these that are only in memory
+        self._lived = {}  # {condition: {run: (rewards, hits)}}, of incomplete conditions
+        self._unwritten = {}  # {condition: [run, ...]}, the runs that are only in memory
         self._written_at = {}  # {condition: seconds}
-        self._whole = {}  # {condition: `Result`}, what could not be written
+        self._whole = {}  # {condition: `Result`}, complete but not written to disk
         self._warned = False
 
     def missing(self, condition):
-        """The numbers of the runs that a condition lacks: a list, empty if it is whole."""
+        """The numbers of the runs that a condition lacks: a list, empty if it is complete."""
         if cache.load(condition) is not None:
-            self._written(cache.remove_runs, condition)  # of a process that was killed before it could
+            self._written(cache.remove_runs, condition)  # left by a process killed before it could do so
             return []
         lived = self._lived[condition] = cache.load_runs(condition)
         if len(lived) == condition.runs:
@@ -38,9 +38,9 @@ class Keeper:
         return [k for k in range(condition.runs) if k not in lived]
 
     def add(self, condition, runs, rewards, hits):
-        """Take the runs of these numbers, which the condition lacked: float32 (runs, bins), int16 (runs, bins, kinds).
+        """Add missing runs of a condition, by number: rewards float32 (runs, bins), hits int16 (runs, bins, kinds).
 
-        Raises MemoryError if a whole condition fits neither on the disk nor into memory.
+        Raises MemoryError if a complete condition fits neither on the disk nor into memory.
         """
         lived, now = self._lived[condition], time.monotonic()
         lived |= zip(runs, zip(rewards, hits))
@@ -51,12 +51,12 @@ class Keeper:
             self._write_runs(condition)
 
     def write_runs(self):
-        """Write what there is of conditions that are not whole."""
+        """Write the runs of all incomplete conditions."""
         for condition in list(self._unwritten):
             self._write_runs(condition)
 
     def result(self, condition):
-        """The `Result` of a whole condition, or None."""
+        """The `Result` of a complete condition, or None."""
         return self._whole.get(condition) or cache.load(condition)
 
     def _finish(self, condition):
@@ -90,7 +90,7 @@ class Keeper:
 
 
 def _check_memory(size):
-    """Raise MemoryError unless as much is free as what cannot be written takes."""
+    """Raise MemoryError unless so many bytes of memory are free."""
     import psutil
 
     if psutil.virtual_memory().available < size:

@@ -1,10 +1,10 @@
-"""What neorl keeps on disk, in words, and its removal.
+"""Listing and clearing of the files that neorl keeps on disk.
 
-A file counts as neorl's if its folder and its name are as neorl gives them, and a page's claims if they say what they
-are. No other file is listed, and none removed.
+A file counts as neorl's if its folder and name follow neorl's scheme; a file of claims must also describe itself. No
+other file is listed or removed.
 
-*Older* is what these sources of neorl have not made: conditions and claims note which have, and of anything else it is
-what was written before the sources were.
+A file is *older* if it was not made by the present sources of neorl: conditions and claims record the digest of theirs,
+and any other file is older if it was written before the sources were.
 """
 
 import io
@@ -36,7 +36,7 @@ USUAL_WORLDS = {kind.__name__: described(kind()) for kind in (WaterWorld, Arena)
 
 
 class Kept(NamedTuple):
-    """A file. about: what is noted in it of a condition, or of claims, if anything is."""
+    """A file of neorl's. about: its record of a condition or of claims, or None."""
 
     kind: str
     path: Path
@@ -46,7 +46,7 @@ class Kept(NamedTuple):
 
 
 def kept():
-    """All files that neorl keeps, a list of `Kept`."""
+    """All files that neorl keeps: a list of `Kept`."""
     found, sources = [], _sources_changed()
     for kind, (_, pattern) in KINDS.items():
         for path in sorted((files.cache_folder() / kind).glob("*")):
@@ -54,7 +54,7 @@ def kept():
                 continue
             try:
                 about, status = NOTES[kind](path) if kind in NOTES else None, path.stat()
-            except FileNotFoundError:  # removed by another process since
+            except FileNotFoundError:  # removed by another process in the meantime
                 continue
             if kind == "claims" and not about:
                 continue
@@ -64,20 +64,20 @@ def kept():
 
 
 def conditions():
-    """Every `Condition` that is kept whole, was computed with the present source, and can be described: a list."""
+    """Every complete `Condition` on disk that was computed with the present source and can be restored: a list."""
     found = []
     for each in kept():
         if each.kind == "conditions" and each.about and not each.is_older:
             try:
                 condition = Condition.from_dict({name: each.about[name] for name in OF_A_CONDITION})
-            except (ValueError, KeyError):  # a kernel that no module has
+            except (ValueError, KeyError):  # a kernel that is not defined in a module
                 continue
             found += [condition] if condition.path == each.path else []
     return found
 
 
 def clear(which="all"):
-    """Remove what neorl keeps: "all", what is "compiled" (kernels and WebAssembly), or what is "older".
+    """Remove files that neorl keeps: "all", "compiled" code (kernels and WebAssembly), or "older" files.
 
     Returns the list of `Kept` that were removed. Raises ValueError for anything else, OSError without permission.
     """
@@ -90,14 +90,14 @@ def clear(which="all"):
 
 
 def in_words(about):
-    """What a condition is, in a line, from its plain data (`neorl.experiments.exchange.about`)."""
+    """A condition described in a line, from its plain data (`neorl.experiments.exchange.about`)."""
     changes = "".join(f", from step {step:,} on {_agent(agent)}" for step, agent in about["changes"])
     return (f"{_agent(about['agent'])} in {_world(about['world'])}{changes}, {about['steps']:,} steps, "
             f"{about['runs']} run{'s' * (about['runs'] != 1)}, seed {about['seed']}")
 
 
 def _agent(data):
-    """An agent: its maps, and in what it differs from the defaults."""
+    """An agent: its maps, and its departures from the defaults."""
     if not isinstance(data, dict):
         return str(data)
     nodes = " and ".join(f"{node['name']} {'+'.join(f'N{n}' for n in node['resolutions'])}" for node in data["nodes"])
@@ -108,7 +108,7 @@ def _agent(data):
 
 
 def _world(data):
-    """A world: its name, and in what it differs from the defaults, where they are known."""
+    """A world: its name, and its departures from the defaults, where these are known."""
     if not isinstance(data, dict):
         return str(data)
     usual = USUAL_WORLDS.get(data["is"], {})
@@ -125,7 +125,7 @@ def _value(value):
 
 
 def _about_condition(path):
-    """What is noted of a condition beside its arrays, or None: the file of a version that did not, or a damaged one."""
+    """The record of a condition beside its arrays, or None if an earlier version did not write it or it is damaged."""
     try:
         with zipfile.ZipFile(path) as archive:
             about = json.loads(str(np.load(io.BytesIO(archive.read("about.npy")))))
@@ -133,7 +133,7 @@ def _about_condition(path):
         return about
     except FileNotFoundError:
         raise
-    except Exception:  # whatever zip, NumPy and JSON make of it
+    except Exception:  # whatever zip, NumPy and JSON raise
         return None
 
 
@@ -149,7 +149,7 @@ NOTES = {"conditions": _about_condition, "claims": _about_claims}
 
 
 def _sources_changed():
-    """When the last source that a run is made of was written."""
+    """When the sources that take part in a run were last written."""
     package = Path(files.__file__).parent
     return max(path.stat().st_mtime for part in PARTS
                for path in [*package.glob(f"{part}.py"), *(package / part).rglob("*.py")])

@@ -1,4 +1,4 @@
-"""Recordings of runs in WaterWorld, step by step, to be drawn or played again."""
+"""Step-by-step recordings of runs in WaterWorld, for drawing and replay."""
 
 from dataclasses import dataclass
 
@@ -11,7 +11,7 @@ from neorl.worlds.waterworld import GREEN, WaterWorld
 
 @dataclass(frozen=True)
 class Recording:
-    """What happened in a tank, step by step, in board widths and seconds."""
+    """The movements and captures in a tank, step by step, in board widths and seconds."""
 
     name: str
     fps: int
@@ -23,7 +23,7 @@ class Recording:
 
 
 def record(name: str, run: Run, steps: int) -> Recording:
-    """Let a run live so many steps more, and return the `Recording` of that name.
+    """Advance a run by `steps` steps, and return the `Recording`, called `name`.
 
     run: a `neorl.Run` in `neorl.WaterWorld`, which is advanced. steps: integer ≥ 1.
     Raises ValueError for anything else.

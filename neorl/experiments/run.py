@@ -1,9 +1,9 @@
-"""One learner in a world of kernels, from its first step on, in slices of any length.
+"""One learner in a world of kernels, from its first step on, advanced by any number of steps.
 
 Run k of a seed draws its world from ``SeedSequence(seed).spawn(k + 1)[k]`` and its choices from the first child of
-that, so it is the same run alone or among others, on one core or on several.
+that sequence, so it is the same run alone or among others, on one core or on several.
 
-The state of the world can be written to, and is checked at every `Run.advance`.
+The state of the world is writable, and is validated at every `Run.advance`.
 """
 
 from typing import Any, Self
@@ -23,16 +23,16 @@ from neorl.worlds.rollout import rollout_in
 from neorl.worlds.world import World
 
 BIN_SECONDS = 0.2
-SLICE = 10_000  # steps between two looks at the keyboard
+SLICE = 10_000  # steps between two checks for an interruption
 
 
 class Run(Individual):
     """One learner in one world, from its first step on.
 
     agent: an `Agent`. world: a `neorl.WaterWorld`, or another `neorl.World`. seed, run: integers ≥ 0.
-    after: a run that is over, whose memory this one takes over if it suffices; its values are overwritten.
+    after: a finished run, whose memory this one reuses if it is large enough; its values are overwritten.
 
-    Raises ValueError for a bad argument, or if agent and world do not go together, MemoryError if the agent's values do
+    Raises ValueError for a bad argument, or if agent and world are incompatible, MemoryError if the agent's values do
     not fit into the free memory.
     """
 
@@ -64,7 +64,7 @@ class Run(Individual):
 
     @property
     def world_state(self) -> Any:
-        """The state of the world, whose arrays can be written to. A state that is assigned is copied."""
+        """The state of the world, with writable arrays. An assigned state is copied."""
         return self._world_state
 
     @world_state.setter
@@ -76,23 +76,23 @@ class Run(Individual):
 
     @property
     def step(self) -> int:
-        """How many steps the run has taken."""
+        """The number of steps that the run has taken."""
         return self._progress
 
     def advance(self, steps: int, rewards: NDArray[np.float32] | None = None,
                 hits: NDArray[np.int16] | None = None) -> float:
-        """Take `steps` more steps; returns the reward that they pay.
+        """Take `steps` more steps; returns their total reward.
 
-        rewards: float32 (bins,) and hits: int16 (bins, kinds), if given, take the rewards, and the things of each kind
-        that were met, 32,767 at most, of each 0.2 s since the run began. An interruption leaves a run that can go on
-        from its `step`.
+        rewards: float32 (bins,) and hits: int16 (bins, kinds), if given, receive the reward and the number of things
+        of each kind that were met, at most 32,767, in each 0.2 s since the run began. After an interruption the run
+        can continue from its `step`.
         Raises ValueError if they do not fit, or if the world's state is not finite.
         """
         self.world.check_state(self._world_state)
         last = self.step + checks.integer("steps", steps, at_least=0)
         bin_length = bin_steps(self.world)
         if rewards is None and hits is None:
-            bin_length = last + 1  # a single bin, which is not kept
+            bin_length = last + 1  # a single bin, which is discarded
         bins = -(-last // bin_length)
         rewards = _bins("rewards", rewards, np.float32, bins)
         hits = _bins("hits", hits, np.int16, bins, len(self.world.kinds))
@@ -102,12 +102,12 @@ class Run(Individual):
                 paid = execute(self._rollout, self._parameters, self._state, self._world_state, self.world.rules, clock,
                                min(last, clock[0] + SLICE), paid, bin_length, rewards, hits)
         finally:
-            self._progress = int(clock[0])  # also if interrupted, which Python is as soon as the kernel returns
+            self._progress = int(clock[0])  # also if interrupted: Python handles that once the kernel returns
         return paid
 
 
 def _bins(name, given, dtype, bins, *beside):
-    """Arrays for what a run brings, new ones if none are given."""
+    """The array for a run's rewards or hits: the one given, or a new one."""
     if given is None:
         return np.zeros((bins, *beside), dtype)
     if (not isinstance(given, np.ndarray) or given.dtype != dtype or len(given) < bins or given.shape[1:] != beside
@@ -119,11 +119,11 @@ def _bins(name, given, dtype, bins, *beside):
 
 
 def bin_steps(world):
-    """Steps in a bin of 0.2 s, at least one."""
+    """The number of steps in a bin of 0.2 s, at least one."""
     return max(1, round(BIN_SECONDS * world.fps))
 
 
 def new_bins(world, runs, steps):
-    """Arrays for the rewards and hits of so many runs, of so many steps each."""
+    """Arrays of zeros for the rewards and hits of `runs` runs of `steps` steps each."""
     bins = -(-steps // bin_steps(world))
     return np.zeros((runs, bins), np.float32), np.zeros((runs, bins, len(world.kinds)), np.int16)

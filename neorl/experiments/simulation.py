@@ -1,4 +1,4 @@
-"""Independent learners in a world, many side by side, and what they earn."""
+"""Independent learners run in parallel in a world, and their rewards."""
 
 import os
 import threading
@@ -20,11 +20,11 @@ from neorl.worlds.world import World
 
 @dataclass(frozen=True)
 class Result:
-    """What the runs of one condition brought.
+    """The rewards and hits of the runs of one condition.
 
-    rewards: float32 (runs, bins), summed over bins of 0.2 s. hits: int16 (runs, bins, kinds), the
-    things of each kind that were met, counted up to 32,767 in a bin; in WaterWorld green and red creeps.
-    changes: (step, agent) pairs, what the runs became when.
+    rewards: float32 (runs, bins), summed over bins of 0.2 s. hits: int16 (runs, bins, kinds), the number of things of
+    each kind that were met, counted up to 32,767 in a bin; in WaterWorld green and red creeps.
+    changes: (step, agent) pairs, the agents that the runs became at these steps.
     """
 
     agent: Agent
@@ -38,12 +38,12 @@ class Result:
 
     @property
     def seconds(self) -> float:
-        """Simulated seconds a run."""
+        """Simulated seconds per run."""
         return self.steps / self.world.fps
 
     @property
     def edges(self) -> NDArray[np.float64]:
-        """float64 (bins + 1,): when the first bin begins and each bin ends, in simulated seconds."""
+        """float64 (bins + 1,): when the first bin begins and when each bin ends, in simulated seconds."""
         steps = np.arange(self.rewards.shape[1] + 1) * bin_steps(self.world)
         return np.minimum(steps, self.steps) / self.world.fps
 
@@ -54,60 +54,60 @@ class Result:
 
     @property
     def totals(self) -> NDArray[np.float64]:
-        """float64 (runs,): the reward that each run accumulated."""
+        """float64 (runs,): the accumulated reward of each run."""
         return self.rewards.sum(axis=1, dtype=float)
 
     def rate(self, begin: float = 0.0, end: float = 1.0) -> NDArray[np.float64]:
-        """float64 (runs,): reward per simulated second between two shares of the run, to the nearest bin.
+        """float64 (runs,): reward per simulated second between two fractions of the run, to the nearest bin.
 
-        begin, end: the shares, in [0, 1]. Raises ValueError for other shares, and for stretches shorter than a bin.
+        begin, end: the fractions, in [0, 1]. Raises ValueError for others, and for intervals shorter than a bin.
         """
         bins, seconds = self._stretch(begin, end)
         return self.rewards[:, bins].sum(axis=1, dtype=float) / seconds
 
     def hit_rate(self, begin: float = 0.0, end: float = 1.0) -> NDArray[np.float64]:
-        """float64 (runs, kinds): things met of each kind per simulated second between two shares of the run.
+        """float64 (runs, kinds): things of each kind met per simulated second between two fractions of the run.
 
-        begin, end: the shares, in [0, 1]. Raises ValueError as `rate` does.
+        begin, end: the fractions, in [0, 1]. Raises ValueError as `rate` does.
         """
         bins, seconds = self._stretch(begin, end)
         return self.hits[:, bins].sum(axis=1) / seconds
 
     def to_frame(self) -> Any:
-        """A `pandas.DataFrame` with a row for each run and bin, in this order.
+        """A `pandas.DataFrame` with a row for each run and bin, sorted by run, then bin.
 
         Columns: "run", int64; "time", float64, when the bin ends, in simulated seconds; "reward", float32, the sum over
-        the bin; and for each kind of thing such as ``hits_green``, int16, how many were met in the bin.
+        the bin; and for each kind of thing, such as ``hits_green``, int16, the number met in the bin.
         Raises ImportError without pandas.
         """
         return exchange.to_frame(self)
 
     def to_xarray(self) -> Any:
-        """An `xarray.Dataset` of dimensions run, time and kind, with these coordinates.
+        """An `xarray.Dataset` of dimensions run, time and kind, with coordinates of the same names.
 
         time: when each bin ends, in simulated seconds. rewards: float32 (run, time), the sum over the bin; hits: int16
-        (run, time, kind), how many things were met in the bin. Attributes: steps and runs; as texts in JSON agent,
-        world and changes (see `neorl.core.description`); as texts seed, and the version of neorl.
-        Raises ImportError without xarray, ValueError for an agent or a world that no name finds again.
+        (run, time, kind), the number of things met in the bin. Attributes: steps and runs; agent, world and changes as
+        JSON texts (see `neorl.core.description`); seed and the version of neorl as texts.
+        Raises ImportError without xarray, ValueError for an agent or a world that cannot be imported by name.
         """
         return exchange.to_xarray(self)
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write all to a file for NumPy, npz: the arrays rewards and hits, and the text about, a table in JSON.
+        """Save to a NumPy npz file: the arrays rewards and hits, and the text about, a table in JSON.
 
-        path: of the file, a string or a `pathlib.Path`; what was there is replaced.
-        Raises OSError if it cannot be written, ValueError for an agent or a world that no name finds again
+        path: of the file, a string or a `pathlib.Path`; an existing file is replaced.
+        Raises OSError if it cannot be written, ValueError for an agent or a world that cannot be imported by name
         (`neorl.core.description`).
         """
         exchange.save(self, path)
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Self:
-        """The result that `save` has written.
+        """Load a result that `save` has written.
 
         path: of the file, a string or a `pathlib.Path`.
-        Raises OSError if there is no such file, ValueError if it is damaged, of another kind or a newer neorl, or if
-        its agent or world cannot be imported.
+        Raises OSError if there is no such file, ValueError if it is damaged, of another kind or from a newer neorl, or
+        if its agent or world cannot be imported.
         """
         return cls(**exchange.load(path))
 
@@ -122,12 +122,12 @@ class Result:
 
 def simulate(agent: Agent, world: World, *, steps: int, runs: int, seed: int = 0,
              changes: tuple[tuple[int, Agent], ...] = (), threads: int | None = None, progress: bool = True) -> Result:
-    """Let `runs` independent learners live `steps` steps each, one core a run, and return their `Result`.
+    """Run `runs` independent learners for `steps` steps each, one core per run, and return their `Result`.
 
     agent: an `Agent`. world: a `neorl.World`. steps, runs: integers ≥ 1.
     seed: integer ≥ 0; run k is the same for any number of runs and threads.
-    changes: (step, agent) pairs in order of time: from that step on every learner is another agent, see `Run.change`.
-    threads: how many runs go side by side; by default as many as there are cores and as fit into the free memory.
+    changes: (step, agent) pairs in order of time: from that step on every learner is that agent, see `Run.change`.
+    threads: the number of runs in parallel; by default one per core, as far as they fit into the free memory.
     progress: show a progress bar.
     Raises ValueError for a bad argument, MemoryError if a single run does not fit into the free memory.
     """
@@ -163,9 +163,9 @@ def simulate(agent: Agent, world: World, *, steps: int, runs: int, seed: int = 0
 
 
 def live(agent, world, steps, seed, k, changes, rewards, hits, each_slice, after=None):
-    """Let run k live, and return it. Its rewards and hits come into arrays for its bins.
+    """Carry out run k, and return it. Its rewards and hits are written into the arrays given.
 
-    each_slice: called with the number of steps after every slice; what it raises ends the run. after: see `Run`.
+    each_slice: called after every slice with its number of steps; an exception in it ends the run. after: see `Run`.
     """
     run = Run(agent, world, seed, k, after=after)
     for until, later in (*changes, (steps, None)):
@@ -179,9 +179,9 @@ def live(agent, world, steps, seed, k, changes, rewards, hits, each_slice, after
 
 
 def progress_bar(steps, name, shown):
-    """A bar that moves by steps, with the time that is left at the pace so far.
+    """A progress bar over steps, with the time left at the pace so far.
 
-    Raises ValueError unless `shown`, the argument `progress` of what runs, is True or False.
+    Raises ValueError unless `shown`, the caller's argument `progress`, is True or False.
     """
     from tqdm import tqdm
 
@@ -206,6 +206,6 @@ def checked_changes(changes, steps):
 
 
 def usable_threads(agent, world):
-    """How many runs of an agent in a world go side by side: a core each, within nine tenths of free memory."""
+    """The number of runs of an agent in a world to run in parallel: one per core, within nine tenths of free memory."""
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
     return min(fitting_runs(agent, world), cores)

@@ -1,14 +1,15 @@
-"""Many conditions at a time, on this machine's cores or on any executor, with the same results to the last bit.
+"""Sweeps over conditions, on this machine's cores or on any executor, with the same results to the last bit.
 
-1. A task is some runs of a condition, at least 100,000 steps of them: one core lives them, one after the other, and
-   hands back what they brought. So one condition keeps all cores busy as well as many do.
-2. What is finished is kept on disk by the process that called `sweep`; what is on disk already is not run again.
-3. A task that fails, by itself or with its worker, is run again when the others are done, up to three times in all.
+1. A task is one or more runs of a condition, at least 100,000 steps if there are so many: one core computes them in
+   turn, and returns their rewards and hits. A single condition thus keeps all cores as busy as many do.
+2. The process that called `sweep` writes finished runs to disk; runs that are on disk already are not repeated.
+3. A task that fails, by itself or with its worker, is retried after the others are done, up to three attempts in all.
    An executor that breaks as a whole is replaced by the cores of this machine.
-4. On this machine the workers are threads, not processes: compiled kernels run side by side in them, and they share
-   the kernels, need no start, and take kernels and worlds of a notebook, which cannot be sent to a process.
+4. On this machine the workers are threads, not processes: compiled kernels run in parallel in them. Threads share the
+   kernels, have no start-up time, and accept kernels and worlds defined in a notebook, which cannot be sent to a
+   process.
 5. There is no time limit, since only the user knows how long a run may take. Ctrl-C ends a sweep that waits for a
-   worker that hangs, says what it waited for, and leaves what is finished on disk.
+   hanging worker, reports the task it waited for, and leaves finished runs on disk.
 """
 
 import os
@@ -28,16 +29,16 @@ from neorl.experiments.simulation import Result, label, live, progress_bar, usab
 from neorl.worlds.world import World
 
 ATTEMPTS = 3
-TASK_STEPS = 100_000  # a tenth of a second of a typical agent's, against a millisecond for handing them over
+TASK_STEPS = 100_000  # they take a typical agent a tenth of a second, and a task's overhead is a millisecond
 
 
 def simulate_once(agent: Agent, world: World, *, steps: int, runs: int, seed: int = 0,
                   changes: tuple[tuple[int, Agent], ...] = (), progress: bool = True) -> Result:
-    """`neorl.simulate`, unless the same condition is on disk already; then what was computed is read.
+    """`neorl.simulate` with a cache: a condition that is on disk already is read instead of computed.
 
-    The arguments are those of `simulate`. Returns a `Result`. If it is interrupted, the runs that are finished are
-    kept, and the next call does the rest.
-    Raises what `simulate` does. Results that cannot be written to disk cost a warning.
+    The arguments are those of `simulate`. Returns a `Result`. If it is interrupted, finished runs are kept, and the
+    next call does the rest.
+    Raises what `simulate` raises. Warns if results cannot be written to disk.
     """
     try:
         return next(sweep([Condition(agent, world, steps, runs, seed, changes)], progress=progress))
@@ -50,18 +51,18 @@ def sweep(conditions: Sequence[Condition], executor: Executor | None = None, pro
     """Compute independent conditions, and return an iterator of their `Result`s, in order.
 
     conditions: `Condition`s. All are computed before this returns; each result is read from disk when its turn comes.
-    executor: any `concurrent.futures.Executor` whose workers can import this version of neorl, such as that of a
-        process pool, of `dask.distributed.Client.get_executor()`, or of MPI; by default this machine's cores. It is
-        left open.
-    progress: show a progress bar, with the time that is left at the pace so far.
-    workers: how many of this machine's cores to use at most, an integer ≥ 1; by default all, as far as the runs fit
+    executor: any `concurrent.futures.Executor` whose workers can import this version of neorl, such as a process
+        pool, `dask.distributed.Client.get_executor()`, or an executor over MPI; by default this machine's cores. It is
+        not shut down.
+    progress: show a progress bar, with the time left at the pace so far.
+    workers: the greatest number of this machine's cores to use, an integer ≥ 1; by default all, as far as the runs fit
         into memory. Not with an executor, which has workers of its own.
 
-    Results that cannot be written to disk cost a warning, and stay in memory.
+    Results that cannot be written to disk stay in memory, with a warning.
 
-    Raises ValueError for a bad argument, MemoryError if a single run does not fit into the free memory of this machine,
-    or results that cannot be written do not, RuntimeError for conditions that have failed three times, after all others
-    are kept; the next call goes on there.
+    Raises ValueError for a bad argument, MemoryError if a single run, or results that cannot be written, do not fit
+    into the free memory of this machine, RuntimeError for conditions that have failed three times, once all others are
+    kept; the next call resumes there.
     """
     conditions = checks.several("conditions", conditions)
     for condition in conditions:
@@ -74,7 +75,7 @@ def sweep(conditions: Sequence[Condition], executor: Executor | None = None, pro
             raise ValueError(f"workers is {workers!r} beside an executor, allowed is one of the two")
     keeper = Keeper()
     missing = {condition: runs for condition in dict.fromkeys(conditions) if (runs := keeper.missing(condition))}
-    # The large ones come first and take over each other's memory.
+    # The largest come first, so that later runs can reuse their memory.
     waiting = [task for condition in sorted(missing, key=lambda each: -n_values(each.agent, each.world))
                for task in _tasks(condition, missing[condition])]
     total, errors = sum(task.steps for task in waiting), list[tuple[Task, BaseException]]()
@@ -106,7 +107,7 @@ class Task(NamedTuple):
 
     @property
     def steps(self):
-        """Of all these runs."""
+        """The steps of all these runs together."""
         return len(self.runs) * self.condition.steps
 
 
@@ -116,7 +117,7 @@ def _tasks(condition, runs):
 
 
 def _run(tasks, executor, workers, keeper, bar):
-    """Compute tasks, and return those that failed, [(task, exception), ...]."""
+    """Compute tasks, and return the failed ones, [(task, exception), ...]."""
     if executor is None:
         return _run_here(tasks, workers, keeper, bar)
     return _collect(tasks, lambda task: executor.submit(_live, *task, source_digest()), keeper,
@@ -146,7 +147,7 @@ def _run_here(tasks, workers, keeper, bar):
 
 
 def _collect(tasks, submit, keeper, finished=lambda task: None):
-    """Submit tasks, give what they bring to the keeper, and return those that failed, [(task, exception), ...]."""
+    """Submit tasks, pass their results to the keeper, and return the failed ones, [(task, exception), ...]."""
     waiting, errors = {}, []
     try:
         for task in tasks:
@@ -167,8 +168,8 @@ def _collect(tasks, submit, keeper, finished=lambda task: None):
         if waiting:
             task = next((task for future, task in waiting.items() if future.running()), next(iter(waiting.values())))
             interruption.add_note(f"{len(waiting)} tasks were left, such as runs {task.runs[0]} to "
-                                  f"{task.runs[-1]} of {task.condition}; what is finished is kept, and the next call "
-                                  "goes on there.")
+                                  f"{task.runs[-1]} of {task.condition}; finished runs are kept, and the next call "
+                                  "resumes there.")
         raise
     finally:
         for future in waiting:  # none, unless it was interrupted
@@ -177,17 +178,17 @@ def _collect(tasks, submit, keeper, finished=lambda task: None):
 
 
 def _live(condition, runs, source, each_slice=lambda lived: None, room=None):
-    """What a worker does: let runs of a condition live, and return their rewards and hits.
+    """The work of one task: carry out runs of a condition, and return their rewards and hits.
 
-    Another version of the code than the caller's would bring other results.
-    room: holds the run that the thread has lived last, whose memory the next one takes over.
+    A worker with another version of the code than the caller's is refused, since its results could differ.
+    room: holds the thread's last run, whose memory the next one reuses.
     """
     if source_digest() != source:
         raise RuntimeError(f"worker {os.getpid()} has other sources of neorl than the sweep that it works for")
     rewards, hits = new_bins(condition.world, len(runs), condition.steps)
     run = vars(room).pop("run", None) if room else None
     if run and n_values(run.agent, run.world) < n_values(condition.agent, condition.world):
-        run = None  # before another takes memory
+        run = None  # frees its memory before another run allocates
     for k, *into in zip(runs, rewards, hits):
         run = live(condition.agent, condition.world, condition.steps, condition.seed, k, condition.changes, *into,
                    each_slice, run)

@@ -226,7 +226,7 @@ def test_a_world_without_the_mirror_images_of_its_actions_is_refused():
     (lambda: Desire(Place(0.1, 0.2), NODE, "learned"), "valence is 'learned'"),
     (lambda: Desire("green", NODE, "taught"), "valence is 'taught'"),
     (lambda: Agent([Node(NODE, foveated_cells(), [5], goals="contacts")], [Desire((0, 0, 0, 0), NODE, 1.0)]),
-     "learns of contacts alone"),
+     "learns only of contacts"),
     (lambda: Agent([Node("A", foveated_cells(), [5], goals="contacts"), Node("B", foveated_cells(), [5],
                                                                              goals="contacts")],
                    [Desire("A", "B", "learned")]), "is 'learned'"),

@@ -132,7 +132,7 @@ def test_a_fault_is_a_sentence_and_reset_revives_from_it(explorer, what, fault):
     explorer.evaluate(f"() => {{ window.sound = {what}; {what} = {fault}; }}")
     explorer.locator('[data-action="step"]').click()
     alert = explorer.locator("[role=alert]")
-    expect(alert).to_have_text("The simulation has stopped. Reset begins it again.")
+    expect(alert).to_have_text("The simulation has stopped. Reset restarts it.")
     explorer.evaluate(f"() => {{ {what} = window.sound; }}")
     explorer.locator('[data-action="reset"]').click()
     wait(explorer, "paused")

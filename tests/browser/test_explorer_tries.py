@@ -237,7 +237,7 @@ def test_a_link_within_the_page_is_followed(visit):
 
 @pytest.mark.parametrize("address, reason", [
     ("#explorer_agent-nobody", "There is no agent “nobody”"), ("#explorer_run--1", "run = -1"),
-    ("#explorer_resolutions-3-x", "resolutions"), ("#explorer_minute-soon", "no minute")])
+    ("#explorer_resolutions-3-x", "resolutions"), ("#explorer_minute-soon", "Its minute must be")])
 def test_an_address_of_no_run_is_a_sentence_and_the_page_stays_as_it_is(visit, address, reason):
     page = visit(address)
     expect(page.locator(".refused")).to_contain_text(reason)
@@ -249,4 +249,4 @@ def test_those_who_hear_the_page_are_told_what_is_in_the_tank(visit):
     tank = page.locator(".arena canvas")
     described = page.locator(f"#{tank.get_attribute('aria-describedby')}")
     expect(described).to_have_text(re.compile(
-        r"^The agent is in the middle, at rest\. With it: .*(green|red).* The nearest is \w+, [\d.]+ board widths "))
+        r"^The agent is in the middle, at rest\. Around it: .*(green|red).* The nearest is \w+, [\d.]+ board widths "))

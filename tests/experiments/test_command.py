@@ -70,7 +70,7 @@ def test_an_interruption_says_how_to_go_on(cache_folder, tmp_path, capsys, monke
     CONDITION.save(tmp_path / "experiment.json")
     monkeypatch.setattr(command, "sweep", interrupted)
     assert main(["run", str(tmp_path / "experiment.json")]) == 130
-    assert "the same command goes on there" in capsys.readouterr().err
+    assert "the same command resumes there" in capsys.readouterr().err
 
 
 def test_python_finds_the_commands(tmp_path):

@@ -177,7 +177,7 @@ def test_worlds_of_ones_own_are_the_same_with_the_compiler_switched_off():
     (Agent((Node("pearl", DEPTHS, [3]),)), Dive(), "a node is called 'pearl'"),
     (Agent(DRIVER.nodes, (Desire("pearl", "PC", 1.0),)), Roundabout(), "'pearl' is neither .*, allowed are none"),
     (Agent(SEEKER.nodes, policy=Policy(when_indifferent="no-op")), Dive(),
-     "when_indifferent is 'no-op', allowed in a world without idleness is 'random'"),
+     "when_indifferent is 'no-op', allowed in a world without an idle action is 'random'"),
 ])
 def test_an_agent_that_does_not_go_with_a_world_is_refused(agent, world, message):
     with pytest.raises(ValueError, match=message):
