@@ -1,8 +1,8 @@
-"""Sphinx extension: what the reference pages make of docstrings.
+"""Sphinx extension: the rendering of docstrings on the reference pages.
 
 Kernels are left out, since users of the package call the functions around them. The fields of a class are
-described by the comments beside them. Defaults are as one would write them. A name in single backticks links to its
-entry, if the reference has one.
+described by the comments beside them. Defaults appear as in code. A name in single backticks links to its entry, if
+the reference has one.
 """
 
 import ast
@@ -17,7 +17,7 @@ from sphinx.util.nodes import make_refnode
 from neorl.core.kernel import Kernel
 
 ITEM = re.compile(r"(Raises|Returns) |([a-z_]\w*(?:,? \w+){0,3}): ")
-ENDS = (".", ".)", ";", ":")  # of what an item may follow: in the middle of a sentence, a line may begin like one
+ENDS = (".", ".)", ";", ":")  # of the line before an item: in the middle of a sentence, a line may begin like one
 SENTENCE = re.compile(r"(?<=\.) (?=\w+(?:, \w+)*: )")
 
 
@@ -31,14 +31,14 @@ def setup(app):
 
 
 def skip_member(app, what, name, member, skip, options):
-    """Leave out kernels, and what Python itself writes about the fields of a named tuple."""
+    """Leave out kernels, and Python's own docstrings of the fields of a named tuple."""
     if isinstance(member, Kernel) or str(member.__doc__).startswith("Alias for field number"):
         return True
     return None
 
 
 def read_defaults(app, what, name, member, options, signature, returned):
-    """Write defaults as in code where Python has no code for them: made for each instance, or a kernel."""
+    """Write as code the defaults that Python cannot: those made for each instance, and kernels."""
     if not signature:
         return None
     if dataclasses.is_dataclass(member):
@@ -49,9 +49,9 @@ def read_defaults(app, what, name, member, options, signature, returned):
 
 
 def read_docstring(app, what, name, member, options, lines):
-    """List what a docstring says of arguments, and append the comments beside the fields of a class."""
+    """List the items of a docstring, and append the comments beside the fields of a class."""
     opening, *rest = SENTENCE.split(lines[0], maxsplit=1) if lines else [""]
-    lines[:] = [escaped(opening), *as_list(rest + lines[1:])]  # what a docstring opens with is a sentence, not an item
+    lines[:] = [escaped(opening), *as_list(rest + lines[1:])]  # a docstring opens with a sentence, not an item
     if what == "class" and (hasattr(member, "_fields") or dataclasses.is_dataclass(member)):
         source = textwrap.dedent(inspect.getsource(member))
         rows = source.splitlines()
@@ -76,12 +76,12 @@ def as_list(lines):
 
 
 def escaped(line):
-    """A line of a docstring without what reStructuredText would take for markup."""
+    """A line of a docstring, with what reStructuredText would take for markup escaped."""
     return re.sub(r"`(\w+)`(?=\w)", r"`\1`\\ ", line.replace("|", r"\|"))
 
 
 def find_name(app, env, node, content):
-    """Resolve a name of a docstring from any module of ours; one from elsewhere stays as it is written."""
+    """Resolve a name in a docstring from any module of the package; others stay as written."""
     if node.get("refdomain") != "py":
         return None
     target = node["reftarget"]
