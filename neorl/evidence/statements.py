@@ -90,7 +90,7 @@ STATEMENTS = {
         GENERAL,
         "The multi-res neoRL agent performs better than mono-res neoRL agents for both the PC and the OVC modality.",
         "Several resolutions beat each one, in both modalities",
-        "Lead of all maps over the best single one in final reward per second, in the modality where it is smaller",
+        "Lead of all maps over the best single one in final reward per second, in the modality where it is less",
         "> 0", "fig-place", "judge_resolutions"),
     "B3": Statement(
         BOTH,
