@@ -1,4 +1,4 @@
-"""What pyproject.toml cannot say: a wheel carries the WebAssembly module, ready to run."""
+"""The build step that pyproject.toml cannot express: a wheel carries the WebAssembly module, ready to run."""
 
 import os
 import subprocess

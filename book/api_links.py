@@ -1,8 +1,8 @@
-"""Sphinx extension: what the reference pages make of docstrings.
+"""Sphinx extension: the rendering of docstrings on the reference pages.
 
 Kernels are left out, since users of the package call the functions around them. The fields of a class are
-described by the comments beside them. Types and defaults are as one would write them. A name in single backticks
-links to its entry, if the reference has one.
+described by the comments beside them. Types and defaults appear as in code. A name in single backticks links to its
+entry, if the reference has one.
 """
 
 import ast
@@ -19,7 +19,7 @@ from sphinx.util.typing import stringify_annotation
 from neorl.core.kernel import Kernel
 
 ITEM = re.compile(r"(Raises|Returns) |([a-z_]\w*(?:,? \w+){0,3}): ")
-ENDS = (".", ".)", ";", ":")  # of what an item may follow: in the middle of a sentence, a line may begin like one
+ENDS = (".", ".)", ";", ":")  # of the line before an item: in the middle of a sentence, a line may begin like one
 ARRAY_LIKE = stringify_annotation(ArrayLike, "smart")
 ARRAY = re.compile(r"~numpy\.ndarray\[tuple\[~typing\.Any, \.\.\.\], ~numpy\.dtype\[([^]]+)\]\]")
 SENTENCE = re.compile(r"(?<=\.) (?=\w+(?:, \w+)*: )")
@@ -35,14 +35,14 @@ def setup(app):
 
 
 def skip_member(app, what, name, member, skip, options):
-    """Leave out kernels, and what Python itself writes about the fields of a named tuple."""
+    """Leave out kernels, and Python's own docstrings of the fields of a named tuple."""
     if isinstance(member, Kernel) or str(member.__doc__).startswith("Alias for field number"):
         return True
     return None
 
 
 def read_signature(app, what, name, member, options, signature, returned):
-    """Write types and defaults as in code where Python has spelt them out, or has no code for them."""
+    """Write types and defaults as in code: types that Python has expanded, and defaults that it cannot write."""
     if not signature:
         return None
     if dataclasses.is_dataclass(member):
@@ -55,9 +55,9 @@ def read_signature(app, what, name, member, options, signature, returned):
 
 
 def read_docstring(app, what, name, member, options, lines):
-    """List what a docstring says of arguments, and append the comments beside the fields of a class."""
+    """List the items of a docstring, and append the comments beside the fields of a class."""
     opening, *rest = SENTENCE.split(lines[0], maxsplit=1) if lines else [""]
-    lines[:] = [escaped(opening), *as_list(rest + lines[1:])]  # what a docstring opens with is a sentence, not an item
+    lines[:] = [escaped(opening), *as_list(rest + lines[1:])]  # a docstring opens with a sentence, not an item
     if what == "class" and (hasattr(member, "_fields") or dataclasses.is_dataclass(member)):
         source = textwrap.dedent(inspect.getsource(member))
         rows = source.splitlines()
@@ -82,12 +82,12 @@ def as_list(lines):
 
 
 def escaped(line):
-    """A line of a docstring without what reStructuredText would take for markup."""
+    """A line of a docstring, with what reStructuredText would take for markup escaped."""
     return re.sub(r"`(\w+)`(?=\w)", r"`\1`\\ ", line.replace("|", r"\|").replace("−`", "−\\ `"))
 
 
 def find_name(app, env, node, content):
-    """Resolve a name of a docstring from any module of ours; one from elsewhere stays as it is written."""
+    """Resolve a name in a docstring from any module of the package; others stay as written."""
     if node.get("refdomain") != "py":
         return None
     target = node["reftarget"]

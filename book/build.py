@@ -1,8 +1,8 @@
 """Compute the notebooks and build the book: ``make book`` runs this, from the root of the repository.
 
-Each notebook runs through papermill into ``book/chapters``, where the book finds it, and is left alone while nothing
-that it depends on has changed, and what it made is there and whole. A page there is complete or absent, so the work can
-be stopped at any moment. One build at a time works in a tree.
+Each notebook runs through papermill into ``book/chapters``, where the book finds it, and is skipped while nothing that
+it depends on has changed and its outputs are intact. A page there is complete or absent, so a build can be interrupted
+at any time. One build at a time works in a tree.
 """
 
 import argparse
@@ -19,7 +19,7 @@ import tempfile
 import time
 from pathlib import Path
 
-sys.modules["rfc3987_syntax"] = None  # jsonschema would read a grammar for a second, for a format that no notebook has
+sys.modules["rfc3987_syntax"] = None  # jsonschema would read for a second a grammar that no notebook needs
 
 # ruff: noqa: E402
 import contents
@@ -45,19 +45,19 @@ SHARES = "assumptions"  # finds the shares of readings,
 READ_SHARES = ("calibration", "chapter_4", "own_world", "paper_a", "paper_b", "paper_c")  # which these read
 CONCLUSION = "chapter_5"  # reads what all others have found
 ALONE = ("paper_b", "performance")  # measure times
-ORDER = (SHARES, "chapter_2", "chapter_3", "chapter_1", *READ_SHARES)  # what others need, and what takes long, first
-# Much of a notebook keeps one core busy: compiling, drawing. The papers' tables of values take gigabytes.
+ORDER = (SHARES, "chapter_2", "chapter_3", "chapter_1", *READ_SHARES)  # dependencies and long ones first
+# Much of a notebook keeps only one core busy: compiling, drawing. The papers' tables of values take gigabytes.
 AT_ONCE, GIGABYTES_EACH = 2, 4
-# Threads of linear algebra that wait for each other, beside another notebook, took fifty times as long as one.
+# Beside another notebook, threads of linear algebra waiting for each other took fifty times as long as one thread.
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1"}
-STALL_SECONDS = 300  # a cell computes, and waits for nothing: one that takes no processor time for so long has hung
-ROOM = 2**20  # bytes: less than a page of the book takes
+STALL_SECONDS = 300  # cells compute and never wait: one that takes no processor time for so long has hung
+ROOM = 2**20  # bytes: less than one page of the book
 CLAIMS, FRONT, ERRATA, PICTURES = INCLUDED = "claims-table.md", "claims-front.html", "errata-table.md", "contents.md"
 
 
 def main():
     chosen = parse_arguments()
-    os.environ["NEORL_CACHE"] = str(cache_folder().absolute())  # notebooks run in a folder of theirs
+    os.environ["NEORL_CACHE"] = str(cache_folder().absolute())  # notebooks run in their own folder
     if chosen.notebook:
         return attempt(chosen.notebook, json.loads(chosen.parameters))
     if chosen.pages:
@@ -81,7 +81,8 @@ def main():
 
 
 def the_only_build():
-    """A locked file, after a look whether all folders can be written to. The lock ends with the process, however."""
+    """Check that all folders are writable, and return a locked file; the lock ends with the process, however it ends.
+    """
     for folder in (CHAPTERS, BUILT, cache_folder()):
         try:
             folder.mkdir(parents=True, exist_ok=True)
@@ -102,7 +103,7 @@ def the_only_build():
 
 
 def compute_all(notebooks):
-    """Compute notebooks, {path: parameters}, side by side where they may be and memory allows."""
+    """Compute notebooks, {path: parameters}, in parallel where their dependencies and memory allow."""
     tidy(notebooks)
     restore_claims(notebooks)
     names = {notebook.name for notebook in notebooks}
@@ -120,7 +121,7 @@ def compute_all(notebooks):
 
 
 def restore_claims(notebooks):
-    """Let the kept records of claims, which notebooks read, be those of the chapters and no others."""
+    """Make the cached records of claims, which notebooks read, those of the chapters and no others."""
     folder = cache_folder() / "claims"
     shutil.rmtree(folder, ignore_errors=True)
     for notebook in notebooks:
@@ -130,7 +131,7 @@ def restore_claims(notebooks):
 
 
 def tidy(notebooks):
-    """Remove from the chapters what no notebook has made, such as the pages of one that is gone."""
+    """Remove from the chapters all files that no notebook has made, such as the page of a deleted one."""
     made = {*INCLUDED}
     for notebook in notebooks:
         made |= {f"{notebook.stem}.inputs.json", *(kept_record(notebook) or {"outputs": ()})["outputs"]}
@@ -141,8 +142,8 @@ def tidy(notebooks):
 
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--runs", type=whole_number, default=10, help="runs a condition (default 10)")
-    parser.add_argument("--steps", type=whole_number, help="steps a run (by default the paper's)")
+    parser.add_argument("--runs", type=whole_number, default=10, help="runs per condition (default 10)")
+    parser.add_argument("--steps", type=whole_number, help="steps per run (by default the paper's)")
     # For the processes that this one starts:
     parser.add_argument("--notebook", type=Path, help=argparse.SUPPRESS)
     parser.add_argument("--parameters", help=argparse.SUPPRESS)
@@ -157,12 +158,12 @@ def whole_number(text):
 
 
 def points(runs):
-    """How many readings the assumptions are varied in: a power of two, 128 with 100 runs and 16 with 10."""
+    """The number of readings on the page of assumptions: a power of two, 128 with 100 runs and 16 with 10."""
     return 2 ** max(2, int(math.log2(1.6 * runs)))
 
 
 def preference(notebook):
-    """In which order notebooks are computed, as far as what they need allows: those without a place there go last."""
+    """The sort key of a notebook by `ORDER`, as far as dependencies allow; notebooks not listed there come last."""
     return (ORDER.index(notebook.stem) if notebook.stem in ORDER else len(ORDER), notebook.stem)
 
 
@@ -174,14 +175,14 @@ def records(notebook):
 
 
 def attempt(notebook, parameters):
-    """`compute`, in a process of its own: 0, or 1 after a line on what went wrong."""
+    """Run `compute` as a process of its own: return 0, or 1 after printing what went wrong."""
     os.environ |= ONE_THREAD
     try:
         compute(notebook, parameters)
     except PapermillExecutionError as error:
         say("\n".join([*map(strip_color, error.traceback),
                         f"{notebook.name}, In [{error.exec_count}]: {error.ename}: {error.evalue}",
-                        f"{CHAPTERS / f'.{notebook.stem}'} has it as far as it came"]))
+                        f"{CHAPTERS / f'.{notebook.stem}'} has the notebook up to this cell"]))
     except Exception as error:
         say(f"{notebook.name}: {type(error).__name__}: {error}")
     else:
@@ -201,14 +202,14 @@ def compute(notebook, parameters):
         return
     say(f"{notebook.name}: {', '.join(f'{name} {value}' for name, value in parameters.items())}")
     began = time.monotonic()
-    work = CHAPTERS / f".{notebook.stem}"  # at a place of its own, so that what a killed process left is cleared
+    work = CHAPTERS / f".{notebook.stem}"  # always the same place, so that the remains of a killed process are cleared
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
     claims = cache_folder() / "claims" / f"{notebook.stem}.json"
     claims.unlink(missing_ok=True)
     execute(notebook, work / notebook.name, parameters)
     executed = nbformat.read(work / notebook.name, nbformat.NO_CONVERT)
-    for cell in executed.cells:  # links are written for notebooks/, and the page lies in book/chapters/
+    for cell in executed.cells:  # links are written for notebooks/, but the page is in book/chapters/
         cell.source = link_terms(cell.source).replace("](../book/", "](../")
     executed.cells = results_first(executed.cells, notebook.stem, parameters, time.monotonic() - began)
     save_figures(executed, work)
@@ -218,7 +219,7 @@ def compute(notebook, parameters):
     nbformat.write(executed, work / notebook.name)
     wanted["outputs"] = {path.name: digest([path]) for path in sorted(work.iterdir())}
     record = record_of(notebook)
-    write_whole(work / record.name, json.dumps(wanted).encode())  # all that takes room, before the last page goes
+    write_whole(work / record.name, json.dumps(wanted).encode())  # all writing is done before the old page goes
     record.unlink(missing_ok=True)
     for name in (*wanted["outputs"], record.name):
         os.replace(work / name, CHAPTERS / name)
@@ -240,14 +241,14 @@ def execute(notebook, target, parameters):
                 config=Config(KernelManager={"transport": "ipc", "ip": f"{sockets}/kernel"}))
         except (DeadKernelError, RuntimeError) as error:
             why = (f"has hung: no processor time in {STALL_SECONDS} s" if watch.hung else
-                   f"has died, perhaps since there was not enough memory ({error})")
+                   f"has died, perhaps for lack of memory ({error})")
             raise RuntimeError(f"its kernel {why}, in {at[-1]}") from error
 
 
 class Kernel(AsyncKernelManager):
-    """A kernel that is asked to end when its last cell is done, and not interrupted before.
+    """A kernel that is asked to shut down after its last cell, without an interrupt first.
 
-    It may still be at the end of that cell, and would say in the build that it was interrupted.
+    It may still be finishing that cell, and would report the interrupt in the build's output.
     """
 
     async def _async_interrupt_kernel(self):
@@ -260,7 +261,7 @@ def record_of(notebook):
 
 
 def kept_record(notebook):
-    """What a page was made of and with, {"parameters", "inputs", "outputs"}, or None if there is no such record."""
+    """The record of how a page was computed, {"parameters", "inputs", "outputs"}, or None if there is none."""
     try:
         kept = json.loads(record_of(notebook).read_bytes())
         return kept if kept.keys() == {"parameters", "inputs", "outputs"} else None
@@ -269,7 +270,7 @@ def kept_record(notebook):
 
 
 def is_whole(notebook):
-    """Whether all that a notebook has made is there as it was made."""
+    """Whether all outputs of a notebook are present and unchanged."""
     try:
         return all(digest([CHAPTERS / name]) == kept for name, kept in kept_record(notebook)["outputs"].items())
     except (OSError, TypeError, AttributeError):
@@ -282,7 +283,7 @@ def say(line):
 
 
 def check_parameters(notebook, parameters):
-    """Refuse a parameter that the notebook does not have; papermill itself would pass over it."""
+    """Refuse a parameter that the notebook does not have; papermill itself would ignore it."""
     known = papermill.inspect_notebook(str(notebook))
     for name, value in parameters.items():
         if name not in known:
@@ -290,21 +291,21 @@ def check_parameters(notebook, parameters):
 
 
 def link_terms(text):
-    """Markdown whose links into the glossary are Sphinx's references to its terms."""
+    """Markdown with its links to the glossary turned into Sphinx's references to terms."""
     known = terms()
-    # A role's text has no markup, so emphasis goes around it.
+    # A role's text cannot contain markup, so emphasis goes around it.
     return re.sub(r"\[(\*?)([^]]+?)\1\]\(\.\./book/glossary\.md#([^)]+)\)",
                   lambda link: f"{link[1]}{{term}}`{link[2]} <{known.get(link[3], link[3])}>`{link[1]}", text)
 
 
 def terms():
-    """The terms of the glossary by the names that links have for them, in lower case with hyphens: {name: term}."""
+    """The terms of the glossary by their names in links, in lower case with hyphens: {name: term}."""
     _, listed = (ROOT / "book" / "glossary.md").read_text(encoding="utf-8").split("```{glossary}\n")
     return {term.lower().replace(" ", "-"): term for term in re.findall(r"^\w.*", listed, re.MULTILINE)}
 
 
 def write_tables():
-    """What pages include: all claims, from the notebooks' results, the strip of them, errata, contents in pictures."""
+    """Write what pages include: the claims with the notebooks' results, their strip, errata, contents in pictures."""
     record = report.load(sorted(CHAPTERS.glob("*.claims.json")))
     toc = (ROOT / "book" / "_toc.yml").read_text(encoding="utf-8")
     for name, table in ((CLAIMS, ledger.page(record)), (FRONT, ledger.front(record)), (ERRATA, report.errata()),
@@ -315,7 +316,7 @@ def write_tables():
 
 
 def build():
-    """Build the book, with warnings as errors, in the place of the last one, unless that is of the same and whole."""
+    """Build the book, warnings as errors, in place of the last one, unless that has the same inputs and is intact."""
     record = BUILT / "inputs.txt"
     settings = [ROOT / name for name in ("_config.yml", "pyproject.toml", "environment.txt")]
     wanted = digest([*settings, *sources(), *files(ROOT / "book")])
@@ -327,9 +328,9 @@ def build():
         free = shutil.disk_usage(BUILT).free
         shutil.rmtree(BUILT / "next", ignore_errors=True)
         sys.exit("the book was not built, see above" if free > ROOM else
-                 f"the book was not built, for {BUILT} is on a disk that has no room left; make book goes on from here")
+                 f"the book was not built, for {BUILT} is on a disk that has no room left; make book resumes from here")
     shutil.rmtree(BUILT / "last", ignore_errors=True)
-    if HTML.parent.exists():  # to remove it page by page would leave a part of a book to a reader, or if killed
+    if HTML.parent.exists():  # removed page by page, it would be incomplete for readers, or after a kill
         os.replace(HTML.parent, BUILT / "last")
     os.replace(BUILT / "next" / "_build" / "html", HTML.parent)
     for name in ("last", "next"):
@@ -338,10 +339,10 @@ def build():
 
 
 def make_pages():
-    """What the worker of `build` does; returns an exit code."""
+    """Run Jupyter Book, as the worker of `build`; returns its exit code."""
     command = [Path(sys.executable).with_name("jupyter-book"), "build", "book", "--config", "_config.yml",
                "--path-output", BUILT / "next", "--all", "--quiet", "--warningiserror", "--keep-going", "--nitpick"]
-    return subprocess.run(command, cwd=ROOT, stdout=subprocess.DEVNULL).returncode  # which names a folder that goes
+    return subprocess.run(command, cwd=ROOT, stdout=subprocess.DEVNULL).returncode  # it names a folder that is moved
 
 
 def sources():

@@ -1,7 +1,7 @@
 """Make the table of calibrated readings, or add to it: ``python book/calibrate.py --minutes 45``, from the root.
 
-It goes on from the table as it stands; ``--anew`` begins one. It can be stopped at any moment: the file is written
-whenever readings are finished, and what they lived is kept in the folder that ``NEORL_CACHE`` names.
+It continues the existing table; ``--anew`` starts a new one. It can be interrupted at any time: the file is written
+whenever readings are finished, and their results are cached in the folder that ``NEORL_CACHE`` names.
 """
 
 import argparse
@@ -36,18 +36,18 @@ def main():
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--minutes", type=float, default=45, help="how long (default 45)")
-    parser.add_argument("--runs", type=int, default=calibration.RUNS, help=f"runs a condition ({calibration.RUNS})")
-    parser.add_argument("--steps", type=int, default=calibration.STEPS, help=f"steps a run ({calibration.STEPS})")
-    parser.add_argument("--confirm", type=int, default=12, help="readings run again at the end, the nearest (12)")
-    parser.add_argument("--fresh-runs", type=int, default=20, help="runs a condition of these (20)")
+    parser.add_argument("--runs", type=int, default=calibration.RUNS, help=f"runs per condition ({calibration.RUNS})")
+    parser.add_argument("--steps", type=int, default=calibration.STEPS, help=f"steps per run ({calibration.STEPS})")
+    parser.add_argument("--confirm", type=int, default=12, help="nearest readings to run again at the end (12)")
+    parser.add_argument("--fresh-runs", type=int, default=20, help="runs per condition of these (20)")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--table", type=Path, default=TABLE, help="the file (by default that of the package)")
-    parser.add_argument("--anew", action="store_true", help="begin a new table in place of the one that is there")
+    parser.add_argument("--anew", action="store_true", help="start a new table in place of the existing one")
     return parser.parse_args()
 
 
 def summary(rows):
-    """How many readings there are, in each group, and how near they have come."""
+    """The number of readings, in all and in each group, and the smallest distance so far."""
     groups = ", ".join(f"{sum(group in row.groups for row in rows)} {group}" for group in GROUPS)
     last = max(row.wave for row in rows)
     return f"wave {last}, {len(rows)} readings ({groups}), nearest {progress(rows)[last]:.2f}"

@@ -17,7 +17,7 @@ def pictures(toc, chapters):
 
 
 def card(name, page, chapters):
-    """The card of a page, "" for one without a figure."""
+    """The card of a page, or "" if the page has no figure."""
     title = re.match(r"# (.+)", page.cells[0].source)[1]
     for cell in page.cells:
         shown = cell.metadata.get("mystnb", {})

@@ -1,7 +1,7 @@
-"""Sphinx extension: what a page says of itself, to search engines, to shared links and to screen readers.
+"""Sphinx extension: metadata of pages for search engines, shared links and screen readers.
 
 The description of a page is its first paragraph, shortened, and its picture for shared links is the book's card.
-Names and roles that the theme, or those who write HTML for it, leave out or get wrong are put right.
+Accessible names and roles that the theme or other extensions omit or get wrong are corrected.
 """
 
 import html
@@ -15,16 +15,16 @@ LONGEST = 200  # characters; more is cut off where descriptions are shown
 CARD = "card.png"
 NAMELESS = re.compile(r"<summary>(?=<span class=\"toctree-toggle\")")
 IN_BODIES = (
-    # A fold's name is what stands on it.
+    # A fold is named by its own text.
     (r'<summary aria-label="Toggle hidden content">', "<summary>"),
-    # Entries of a list are its items; their own role is deprecated.
+    # Entries of the bibliography are items of a list; their special role is deprecated.
     (r'role="doc-biblioentry"', 'role="listitem"'),
-    # The corner of a table is no header.
+    # The empty corner of a table is not a header.
     (r"<th([^>]*)>\s*(?:<p></p>)?\s*</th>", r"<td\1></td>"))
 IN_PAGES = (
-    # The button's name is what stands on it, the keys included.
+    # The button is named by its own text, including the keys.
     (r'(<button class="btn search-button-field [^>]*?) aria-label="Search"', r"\1"),
-    # All of a page lies in a landmark.
+    # Every part of a page lies in a landmark.
     (r'(<div id="pst-primary-sidebar" class="bd-sidebar-primary bd-sidebar[^"]*")>',
      r'\1 role="complementary" aria-label="Book">'))
 
@@ -36,7 +36,7 @@ def setup(app):
 
 
 def describe(app, page, template, context, doctree):
-    """Add the description of a page to its head, and names and roles to its body and its sidebar."""
+    """Add metadata to the head of a page, and correct names and roles in its body and its sidebar."""
     if doctree is not None:
         address = app.config.html_baseurl.rstrip("/") or context["content_root"].rstrip("/")
         context["metatags"] = context.get("metatags", "") + tags(context.get("title", ""), description(doctree),
@@ -55,7 +55,7 @@ def description(doctree):
 
 
 def tags(title, text, card):
-    """The tags that a head has for a title, a description, and the address of a picture."""
+    """The meta tags for a title, a description, and the address of a picture."""
     title, text = (html.escape(re.sub(r"<[^>]+>", "", each)) for each in (html.unescape(title), text))
     written = f'<meta name="description" content="{text}" />\n<meta property="og:description" content="{text}" />\n'
     return (f'\n<meta property="og:title" content="{title}" />\n<meta property="og:type" content="article" />\n'
@@ -69,14 +69,14 @@ def named(sidebar):
 
 
 def mended(text, changes):
-    """HTML with changes, pairs of a pattern and what takes its place."""
+    """HTML after changes, each a pair of a pattern and its replacement."""
     for pattern, new in changes:
         text = re.sub(pattern, new, text)
     return text
 
 
 def finish(app, error):
-    """Put right what lies outside the bodies of pages."""
+    """Correct what lies outside the bodies of pages."""
     if error or app.builder.format != "html":
         return
     for path in Path(app.outdir).rglob("*.html"):

@@ -1,4 +1,4 @@
-"""What other pages show of a computed notebook: its named figures and widgets, each kept as a file of its own."""
+"""Excerpts of a computed notebook for other pages: its named figures and widgets, each saved as a file of its own."""
 
 import json
 import re
@@ -8,7 +8,7 @@ WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 
 
 def save_figures(notebook, folder):
-    """Keep each named figure as a file of its own, so that other pages can show it."""
+    """Save each named figure as a file of its own, so that other pages can show it."""
     for cell in notebook.cells:
         name = cell.metadata.get("mystnb", {}).get("figure", {}).get("name")
         for output in cell.get("outputs", []):
@@ -18,7 +18,7 @@ def save_figures(notebook, folder):
 
 
 def save_widgets(notebook, folder):
-    """Keep each named widget as a file of its own, and in the notebook no state but that of the widgets it shows."""
+    """Save each named widget as a file of its own, and keep in the notebook only the state of the widgets it shows."""
     stored = notebook.metadata.get("widgets", {}).get(WIDGET_STATE, {"state": {}})
     kept = {}
     for cell in notebook.cells:
@@ -36,7 +36,7 @@ def save_widgets(notebook, folder):
 
 
 def reachable(state, model):
-    """The records of a model and of all that it refers to, directly or through others."""
+    """The records of a model and of all models that it refers to, directly or through others."""
     found, waiting = {}, [model]
     while waiting:
         model = waiting.pop()
@@ -47,6 +47,6 @@ def reachable(state, model):
 
 
 def script(kind, content):
-    """A tag that holds JSON. No "<" is left in it, so nothing that a string says can end the tag."""
+    """A tag that holds JSON. No "<" is left in it, so no string can end the tag."""
     text = json.dumps(content).replace("<", r"\u003c")
     return f'<script type="{kind}">{text}</script>'

@@ -1,8 +1,8 @@
 """Sphinx extension: the buttons that lead to the repository, and to its notebooks on Binder and Colab.
 
-``Repository`` in pyproject.toml's ``[project.urls]`` is their one setting, which the package's metadata have as well;
-without it there are none. The book shows notebooks as they were computed, in chapters/ and with their results first,
-and readers run them as they lie in the repository, in notebooks/; the button to download a page leads there too.
+``Repository`` in pyproject.toml's ``[project.urls]`` is their only setting, shared with the package's metadata;
+without it there are no buttons. The book shows notebooks as computed, in chapters/ and with their results first;
+readers run the originals, in notebooks/, and the button to download a page gives them these too.
 """
 
 import shutil
@@ -34,7 +34,7 @@ def follow_setting(app, config):
 
 
 def name_repository(app, page, source):
-    """Give a page the address that it asks for, in a comment and in its commands, or say that there is none."""
+    """Fill in the address that a page asks for, in a comment and in its commands, or say that there is none."""
     address = repository(app)
     source[0] = source[0].replace(ASKED, f"The repository is at <{address}>." if address else UNNAMED)
     if address:
@@ -42,13 +42,13 @@ def name_repository(app, page, source):
 
 
 def repository(app):
-    """The address that is set, None without one."""
+    """The address that is set, or None."""
     project = tomllib.loads((Path(app.srcdir).parent / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     return project.get("urls", {}).get("Repository")
 
 
 def lead_to_notebooks(app, page, template, context, doctree):
-    """Let the buttons of a computed notebook open the one that it was computed from."""
+    """Make the buttons of a computed notebook open the one that it was computed from."""
     for group in context.get("header_buttons", []):
         for button in group.get("buttons", []):
             if group.get("label") == "launch-buttons":
@@ -56,7 +56,7 @@ def lead_to_notebooks(app, page, template, context, doctree):
 
 
 def offer_notebooks(app, exception):
-    """Let readers download the notebook that a page was computed from, which runs from top to bottom."""
+    """Offer for download the notebook that a page was computed from, which runs from top to bottom."""
     for page in (Path(app.outdir) / "_sources" / "chapters").glob("*.ipynb"):
         notebook = Path(app.srcdir).parent / "notebooks" / page.name
         if notebook.exists():

@@ -1,8 +1,8 @@
 """The order of a built page: title, what was found, the page's text, and last its parameters.
 
-A notebook runs from its parameters to its results, and a page reads from its results on. So the cells tagged ``found``,
-a box and its figure, move up below the title, and the parameters, with the values that the page was computed with, to
-its end, folded below the heading *Run it yourself*. The cell that papermill injects is left out.
+A notebook runs from its parameters to its results, but a page begins with the results. So the cells tagged ``found``,
+a box and its figure, move up below the title, and the parameters, with the values used for the page, move to its end,
+folded below the heading *Run it yourself*. The cell that papermill injects is left out.
 """
 
 import re
@@ -15,7 +15,7 @@ FOUND, PARAMETERS, INJECTED = "found", "parameters", "injected-parameters"
 def results_first(cells, name, values, seconds):
     """The cells of a computed notebook, in the order of its page.
 
-    name: of the notebook, without its ending. values: of its parameters, {name: value}. seconds: that it took.
+    name: of the notebook, without its extension. values: of its parameters, {name: value}. seconds: that it took.
     """
     title, *others = cells
     last = [each for each in others if PARAMETERS in tags(each)]
@@ -35,7 +35,7 @@ def tags(cell):
 
 
 def has_figure(cell):
-    """Whether a cell puts out a figure with a caption."""
+    """Whether a cell outputs a figure with a caption."""
     return "figure" in cell.metadata.get("mystnb", {})
 
 
@@ -48,7 +48,7 @@ def with_values(source, values):
 
 
 def run_it_yourself(name, seconds):
-    """The text that stands above the parameters of a page."""
+    """The text above the parameters of a page."""
     took = f"{seconds:.0f} seconds" if seconds < 90 else f"{seconds / 60:.0f} minutes"
     return (f"## Run it yourself\n\nThis page took {took} to compute, apart from what earlier builds had cached. `make "
             f"lab` opens its notebook, `notebooks/{name}.ipynb`, in JupyterLab: change the parameters below, and run "

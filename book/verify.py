@@ -1,7 +1,7 @@
 """Recompute a random sample of the runs behind the figures, and compare bit by bit: ``make verify`` runs this.
 
-The sample is drawn from the conditions that the last builds have kept, as far as they were computed with the present
-source. Each of its runs is lived again, alone, and its rewards and hits in every bin of 0.2 s must be those kept.
+The sample is drawn from the conditions that earlier builds have cached, as far as they were computed with the present
+source. Each of its runs is recomputed alone, and its rewards and hits in every bin of 0.2 s must equal those cached.
 """
 
 import argparse
@@ -38,7 +38,7 @@ def main():
     if differing:
         sys.exit(f"{len(differing)} of {len(sample)} runs are not as kept; {again} compares the same ones again")
     steps = sum(condition.steps for condition, _ in sample)
-    print(f"each was lived again alone, {steps:,} steps in all: the rewards and hits of {bins:,} bins of 0.2 s "
+    print(f"each was recomputed alone, {steps:,} steps in all: the rewards and hits of {bins:,} bins of 0.2 s "
           f"are the same to the last bit ({time.monotonic() - began:.0f} s)")
 
 
@@ -53,7 +53,7 @@ def parse_arguments():
 
 
 def compare(condition, k):
-    """Where a run that is lived again differs from what is kept of it, as text or None, and how many bins it has."""
+    """Recompute a run: its difference from the cached one, as text or None, and its number of bins."""
     result = cache.load(condition)
     rewards, hits = new_bins(condition.world, 1, condition.steps)
     live(condition.agent, condition.world, condition.steps, condition.seed, k, condition.changes, rewards[0], hits[0],
@@ -63,7 +63,7 @@ def compare(condition, k):
         return None, same.size
     first = int(np.argmin(same))
     return (f"{np.count_nonzero(~same)} of {same.size} bins differ, the first from {result.edges[first]:g} s on: kept "
-            f"are {result.rewards[k, first]!r} and {result.hits[k, first].tolist()}, lived again "
+            f"are {result.rewards[k, first]!r} and {result.hits[k, first].tolist()}, recomputed "
             f"{rewards[0, first]!r} and {hits[0, first].tolist()}"), same.size
 
 

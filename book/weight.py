@@ -1,9 +1,9 @@
-"""Sphinx extension: what a page loads, and no more.
+"""Sphinx extension: a page loads what it needs, and no more.
 
 1. The theme's icons come from its fonts. The script that draws them a second time, 1.5 MB on every page, is left out.
-2. A page without formulas loads nothing that sets them.
-3. Images have their sizes, so that nothing moves when they come, and are loaded when they are near.
-4. A search in files shows titles alone, for there a page cannot ask for excerpts of others.
+2. A page without formulas does not load the script that typesets them.
+3. Images have their sizes, so that nothing shifts when they arrive, and are loaded lazily.
+4. A search over file:// shows titles alone, since a page there cannot fetch excerpts of others.
 """
 
 import re
@@ -25,7 +25,7 @@ def setup(app):
 
 
 def lighten(app, page, template, context, doctree):
-    """Take from a page the scripts that it does not need, and give its images sizes."""
+    """Remove from a page the scripts that it does not need, and give its images sizes."""
     if doctree is None or not any(doctree.findall(is_math)):
         context["script_files"] = [each for each in context["script_files"] if "mathjax" not in str(each).lower()]
     if page == "search":
@@ -40,7 +40,7 @@ def is_math(node):
 
 
 def sized(tag, sources):
-    """The tag of an image with the size that it is drawn at, if it is an SVG in points, and loaded when it is near."""
+    """The tag of an image that is loaded lazily, with its drawn size if it is an SVG in points."""
     attributes, name, end = tag.groups()
     found = SIZE.search(sources[name].read_bytes()[:2000]) if name.endswith(".svg") and name in sources else None
     if not found or "width=" in attributes:
@@ -50,7 +50,7 @@ def sized(tag, sources):
 
 
 def leave_out_icons(app, error):
-    """Remove the theme's script of icons from the built pages."""
+    """Remove the theme's icon script from the built pages."""
     if error or app.builder.format != "html":
         return
     for path in Path(app.outdir).rglob("*.html"):

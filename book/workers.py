@@ -1,8 +1,8 @@
-"""Processes that end with the one that has started them, some at a time, each after those that it needs.
+"""Worker processes that end with their starter, run a few at a time, each after those that it needs.
 
-A worker's standard input is a pipe that its starter holds open. When that closes, however the starter has ended, the
-worker ends with all that it has started in turn. It is in a session of its own, so that an interruption at the keyboard
-reaches its starter alone, which then ends it. This file as a program is a worker that runs a script:
+A worker's standard input is a pipe that its starter holds open. When the pipe closes, however the starter has ended,
+the worker ends with all that it has started in turn. It has a session of its own, so that a keyboard interrupt reaches
+its starter alone, which then ends it. Run as a program, this file is a worker that runs a script:
 ``python workers.py SCRIPT …``.
 """
 
@@ -16,15 +16,15 @@ from dataclasses import dataclass
 
 import psutil
 
-PATIENCE = 10  # seconds, until a worker that should end is killed
+PATIENCE = 10  # seconds until a worker that should end is killed
 
 
 @dataclass(frozen=True)
 class Task:
-    """A worker to be.
+    """A script to run in a worker.
 
-    command: a script and its arguments. needs: names of tasks that must be done before. alone: whether nothing may run
-    beside it, since it measures times.
+    command: the script and its arguments. needs: names of tasks that must be done before. alone: whether nothing may
+    run beside it, since it measures times.
     """
 
     command: tuple
@@ -33,9 +33,10 @@ class Task:
 
 
 def work(tasks, at_once, say):
-    """Run tasks, {name: Task} in order of preference, so many at once. Returns the names of those that failed.
+    """Run tasks, {name: Task} in order of preference, and return the names of those that failed.
 
-    say: takes a line for the reader. A task is left out if one that it needs has failed.
+    at_once: how many may run in parallel. say: called with each line of output. A task is left out if one that it
+    needs has failed.
     """
     waiting, running, done, failed = dict(tasks), {}, set(), []
     try:
@@ -59,7 +60,7 @@ def work(tasks, at_once, say):
                             "perhaps there was not enough memory")
                     done.add(name) if process.returncode == 0 else failed.append(name)
     finally:
-        for process in running.values():  # none, unless something has interrupted
+        for process in running.values():  # none, unless interrupted
             process.stdin.close()
         for process in running.values():
             end(process)
@@ -75,7 +76,7 @@ def start(command):
 
 
 def run(command):
-    """Run one worker to its end; its exit code."""
+    """Run one worker to its end, and return its exit code."""
     process = start(command)
     try:
         return process.wait()
@@ -84,7 +85,7 @@ def run(command):
 
 
 def end(process):
-    """End a worker of ours."""
+    """End a worker; kill it if it does not end by itself."""
     process.stdin.close()
     try:
         process.wait(PATIENCE)
@@ -94,7 +95,7 @@ def end(process):
 
 
 def end_with_starter():
-    """From now on this process ends when its starter does, and so does all that it starts."""
+    """Make this process, with all that it starts, end when its starter does."""
     def wait():
         while os.read(sys.stdin.fileno(), 1):
             pass
@@ -105,7 +106,7 @@ def end_with_starter():
 
 
 def started(before=()):
-    """The processes that this one has started, directly or not, but for those of before."""
+    """The processes that this one has started, directly or indirectly, except those in before."""
     return [each for each in psutil.Process().children(recursive=True) if each not in before]
 
 
@@ -118,9 +119,9 @@ def kill(processes):
 
 
 class Watch:
-    """While it is entered, kills what this process has started since, if that does nothing for so long.
+    """A context that kills the processes started within it if they are idle for a number of seconds.
 
-    To do nothing is to take less than a 300th of the time of one core. `hung` is whether it came to that.
+    Idle means less than a 300th of the time of one core. `hung` says whether they were killed.
     """
 
     def __init__(self, seconds):
@@ -159,6 +160,6 @@ class Watch:
 
 
 if __name__ == "__main__":
-    end_with_starter()  # before what takes long to import
+    end_with_starter()  # before slow imports
     sys.argv = sys.argv[1:]
     runpy.run_path(sys.argv[0], run_name="__main__")

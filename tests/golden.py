@@ -1,7 +1,7 @@
-"""Runs whose every bit is on record in ``golden.json``: a change of code must leave them as they are.
+"""Runs recorded to the last bit in ``golden.json``: a change of code must leave them as they are.
 
-Each agent spells out its choices, so that the record stands whatever the defaults become. As a program the file
-prints digests: ``python tests/golden.py STEPS NAME …``, or writes the record anew: ``python tests/golden.py --write``.
+Each agent spells out its choices, so that the record stands when defaults change. Run as a program, the file prints
+digests: ``python tests/golden.py STEPS NAME …``, or rewrites the record: ``python tests/golden.py --write``.
 """
 
 import hashlib
@@ -28,7 +28,7 @@ CHOICES = {"policy": Policy(0.02, "random"), "own_cell": "silent", "tiled_fracti
 
 
 def plain_rule(**changes):
-    """The plain rule but for some choices."""
+    """The plain rule with some choices changed."""
     return Learning(**PLAIN | changes)
 
 
@@ -45,7 +45,7 @@ def every_modality():
 
 
 def seeker(**choices):
-    """An agent that seeks the platform of the arena, by where it is and by where that lies."""
+    """An agent that seeks the platform of the arena, by place cells and by object-vector cells."""
     nodes = [Node("PC", modality.PLACE_CELL, [3, 7], "cells"), Node("OVC", modality.OBJECT_VECTOR_CELL, [4], "cells")]
     return Agent(nodes, [Desire("platform", node.name, 1.0) for node in nodes], **choices)
 
@@ -54,7 +54,7 @@ CONTACTS = Contacts(0.65, 0.02, 15.0, 0.3, 0.3, 0.4, "avoidance", "highest")
 
 
 def contact_network():
-    """Contacts beside cells, with desires for a kind, a place and what a node of places desires."""
+    """Contacts beside cells, with desires for a kind, for a place and for the desire of a node of places."""
     nodes = [Node("PC", modality.PLACE_CELL, [3, 7], "cells"),
              Node("OVC", modality.OBJECT_VECTOR_CELL, [4, 6], gain=0.5, goals="contacts"),
              *forager([5, 9]).nodes]
@@ -70,7 +70,7 @@ RULES = {
     "long trace alone": {"trace": 60, "bootstrap": False, "discount": 0.95}, "step": {"update_on": "step"},
     "step, not terminal": {"update_on": "step", "terminal": False},
 }
-# What the calibration found: a memory of its own for each way to fade, to credit and to be captured.
+# The calibrated choices, and a memory for each way to fade, to give credit and to learn captures.
 CALIBRATED = {"learning_rate": 0.0157, "discount": 0.9045, "credit": "happened", "activity": 3.331,
               "absent_decay": 0.1101,
               "absent_form": "away", "memory": 4.396, "memory_unit": "seconds", "bootstrap": False, "causes": "own",
@@ -129,7 +129,7 @@ BEFORE = {"joined by objects": "place N7", "with a memory, moved": "network C, c
 
 
 def world_of(name):
-    """The world of the run of that name: a tank of so many creeps, if it is a number."""
+    """The world of the run of that name; a number stands for a tank with that many creeps."""
     world = RUNS[BEFORE.get(name, name)][1]
     return tank(world) if isinstance(world, int) else world
 
@@ -139,22 +139,22 @@ def tank(creeps):
 
 
 def agent_of(name):
-    """The agent that the run of that name begins as."""
+    """The agent with which the run of that name begins."""
     return RUNS[BEFORE.get(name, name)][0]
 
 
 def changes_of(name):
-    """(step, agent) pairs: what the run of that name becomes when."""
+    """The changes of agent in the run of that name: (step, agent) pairs."""
     return tuple((step, RUNS[later][0]) for step, later in CHANGES.get(name, ()))
 
 
 def born(name):
-    """A run of that name, before its first step."""
+    """The run of that name, before its first step."""
     return Run(agent_of(name), world_of(name), SEED, RUN)
 
 
 def digest(name, steps):
-    """Reward and a digest of every value and of the world: what is on record."""
+    """The record of a run: its reward, and a digest of every value and of the world."""
     run = born(name)
     reward = 0.0
     for step, later in changes_of(name):
@@ -166,7 +166,7 @@ def digest(name, steps):
 
 
 def recorded(name, reward, agent, q, state):
-    """What is on record of a run, from what it was paid, what it has become, its values and the state of its world."""
+    """The record of a run, from its reward, its last agent, its values and the state of its world."""
     scene = state.scene
     own = ((state.inside, state.clock) if isinstance(world_of(name), Arena) else
            (state.direction, state.speed, scene.kinds == 0, state.jitter))

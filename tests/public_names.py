@@ -1,7 +1,6 @@
-"""What users call, each with what it takes: the table of `test_fuzzing.py`, where every public name has to be.
+"""The public callables with valid arguments: the table of `test_fuzzing.py`, which has to list every public name.
 
-Of an entry only one argument at a time is replaced by something hostile. `then` uses what was made, as an agent is used
-by letting it live.
+Only one argument of an entry at a time is replaced by a hostile value. `then` uses the result, as a run uses an agent.
 """
 
 import inspect
@@ -38,7 +37,7 @@ EXPORTED = (neorl, drawing)  # packages whose own names are those of their modul
 MODULES = (*EXPORTED, agent, beyond, learner, papers, horde, kernel, maps, modality, policy, scene, stream, arena, arm,
            vessel, water_maze, waterworld, world, recording, curves, multiverse, reading, statistics, environment,
            playing, vector)
-# Classes that kernels, or the package itself, make and hand out; kernels themselves refuse to be called.
+# Classes whose instances kernels, or the package itself, make; kernels themselves refuse to be called.
 MADE_INSIDE = {f"neorl.{name}" for name in (
     "agents.learner.Offer", "core.kernel.Kernel", "core.scene.Scene", "evidence.statistics.Estimate",
     "drawing.rate_maps.Track", "evidence.multiverse.Support", "experiments.recording.Recording", "gym.playing.Played",
@@ -46,8 +45,8 @@ MADE_INSIDE = {f"neorl.{name}" for name in (
     *(f"worlds.{name}{part}" for name in ("arm.Arm", "vessel.Vessel", "water_maze.WaterMaze")
       for part in ("Rules", "State")),
     "worlds.waterworld.WaterWorldState", "worlds.world.Dynamics", "worlds.world.World")}
-# What authors of kernels and of worlds call, with types and sizes of their own: it checks nothing, for it is hot or
-# runs at import.
+# Functions for authors of kernels and of worlds, with types and sizes of their own: they check nothing, since they are
+# hot or run at import.
 FOR_AUTHORS = {f"neorl.{name}" for name in (
     *(f"core.kernel.{name}" for name in (
         "array", "arrays", "check_kernel", "execute", "fields", "function_of", "inlined", "inlined_kernel", "is_tuple",
@@ -85,7 +84,7 @@ def methods(kind):
 
 
 def live(agent, world=WaterWorld(n_creeps=2), steps=60):
-    """All the numbers of an agent after a short life in a world, and of what keeps and names it."""
+    """All the numbers of an agent after a short run in a world, once it is hashed, shown, described and restored."""
     identity(agent), hash(agent), repr(agent)
     assert restored(described(agent)) == agent
     run = Run(agent, world)
@@ -145,7 +144,7 @@ def result_of(world, runs=3, bins=40):
 
 
 def drawn(axes):
-    """Nothing more: what is drawn is looked at in tests of its own."""
+    """Close the figures and no more: drawings have tests of their own."""
     plt.close("all")
 
 

@@ -1,4 +1,4 @@
-"""Saved files that say something else than what was saved."""
+"""Saved files, altered after saving."""
 
 import json
 
@@ -6,7 +6,7 @@ import numpy as np
 
 
 def rewrite(path, forge):
-    """Write an npz file again after forge(about, kept) has changed the table about it, or its arrays {name: array}."""
+    """Rewrite an npz file after forge(about, kept) has changed its metadata, or its arrays {name: array}."""
     with np.load(path) as file:
         kept = {name: file[name] for name in file.files}
     about = json.loads(str(kept.pop("about")))

@@ -1,4 +1,4 @@
-"""A book of three short notebooks in a tree of its own, which ``make book`` builds as it builds ours.
+"""A book of three short notebooks in a tree of its own, built as ``make book`` builds the real one.
 
 Its notebooks are one that others need, one that needs it, and the conclusion, which reads the records of both.
 """
@@ -52,7 +52,7 @@ def make_tree(tree):
     (tree / "notebooks").mkdir()
     for path in (ROOT / "book").glob("*.py"):
         shutil.copy(path, tree / "book")  # links would lead the build to our tree
-    (tree / "neorl").mkdir()  # a page depends on what is here, and imports ours
+    (tree / "neorl").mkdir()  # pages depend on the sources here, but import ours
     compiled = cache_folder().resolve() / "compiled"
     compiled.mkdir(parents=True, exist_ok=True)
     (tree / ".cache").mkdir()
@@ -68,9 +68,9 @@ def make_tree(tree):
 
 
 def write_notebook(tree, name, *sources, **parameters):
-    """Write a notebook with these cells of code; of those that draw, the figure has the notebook's name."""
+    """Write a notebook with these code cells; the figure of the one that draws has the notebook's name."""
     parameters = "".join(f"{each}: int = {value}\n" for each, value in {"runs": 2, **parameters}.items())
-    figure = {"mystnb": {"figure": {"name": f"fig-{name}", "caption": "What was paid."}, "image": {"alt": "Paths."}}}
+    figure = {"mystnb": {"figure": {"name": f"fig-{name}", "caption": "Rewards."}, "image": {"alt": "Paths."}}}
     cells = [new_markdown_cell(f"# Page {name}\n\nText."),
              new_code_cell(parameters, metadata={"tags": ["parameters"]}),
              *(new_code_cell(source, metadata=figure if source == DRAW else {}) for source in sources)]
@@ -81,9 +81,9 @@ def write_notebook(tree, name, *sources, **parameters):
 
 
 def start(tree, runs=2, only=None, limits={}, **environment):
-    """A build of the tree, as a process whose output is one text.
+    """Start a build of the tree, and return its process, with stdout and stderr as one text.
 
-    only: the one notebook that is computed. limits: of resources, as `resource` has them.
+    only: the single notebook to compute. limits: {resource: limit}, as for `resource.setrlimit`.
     """
     of_one = ["--notebook", tree / "notebooks" / f"{only}.ipynb", "--parameters", json.dumps({"runs": runs})]
     command = [sys.executable, tree / "book" / "build.py", *(of_one if only else ("--runs", str(runs)))]
@@ -100,14 +100,14 @@ def start(tree, runs=2, only=None, limits={}, **environment):
 
 
 def build(tree, **choices):
-    """Build the tree, with the choices of `start`: (exit code, all that was said)."""
+    """Build the tree, with the choices of `start`: (exit code, output)."""
     process = start(tree, **choices)
     said, _ = process.communicate()
     return process.returncode, said
 
 
 def whole_pages(tree):
-    """The notebooks whose pages stand in the chapters as they were made, by their records."""
+    """The notebooks whose pages in the chapters are intact, by their records."""
     chapters = tree / "book" / "chapters"
     found = []
     for name in NOTEBOOKS:
@@ -120,12 +120,12 @@ def whole_pages(tree):
 
 
 def digest(path):
-    """The digest of a file that a record has."""
+    """The digest of a file, as records have it."""
     return hashlib.sha256(hashlib.sha256(path.read_bytes()).digest()).hexdigest()
 
 
 def assert_no_half_page(tree):
-    """Whatever stands in its place is complete: computed pages, records of claims, and the book in HTML."""
+    """Check that every file in its place is complete: computed pages, records of claims, and the book in HTML."""
     whole_pages(tree)
     chapters = tree / "book" / "chapters"
     for path in chapters.glob("*.ipynb"):
@@ -143,7 +143,7 @@ def assert_no_half_page(tree):
 
 
 def pages(tree):
-    """What a reader finds: {name: text} of all pages, less what differs from one build to the next."""
+    """The built pages, {name: text}, without what differs from one build to the next."""
     html = tree / "_build" / "html"
     return {path.relative_to(html).as_posix(): re.sub(r"took \d+ seconds|\?digest=\w+", "", path.read_text())
             for path in html.rglob("*.html")}

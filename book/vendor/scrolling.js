@@ -1,5 +1,5 @@
-// Tables that are wider than their column scroll by themselves. Here they do so by keyboard too, with a name for readers
-// of screens, and fade at the edge behind which there is more. Tables that fit are left alone.
+// Tables wider than their column scroll within themselves. Here they also scroll by keyboard, have a name for screen
+// readers, and fade at an edge that hides more. Tables that fit are left alone.
 const BOXES = ".bd-content :is(.pst-scrollable-table-container, .wide-table)";
 
 // A table that a notebook wrote as HTML has no box yet.
@@ -10,9 +10,9 @@ const wrap = (table) => {
   box.append(table);
 };
 
-const [names, counts] = [new WeakMap(), {}]; // of boxes that scroll, and how many have the same one
+const [names, counts] = [new WeakMap(), {}]; // of boxes that scroll, and how many share each name
 
-// What a table is called: its columns, below the heading that it stands under, since others may have the same ones.
+// The name of a table: the heading above it, since other tables may have the same columns, and its columns.
 const nameOf = (box) => {
   const heads = [...box.querySelectorAll("thead th")].map((cell) => cell.textContent.trim()).filter(Boolean);
   const caption = box.querySelector("caption .caption-text, caption")?.textContent.trim();

@@ -1,17 +1,17 @@
-// Brings the widgets of a page to life, without a kernel and without a request to anybody.
+// Starts the widgets of a page, without a kernel and without network requests.
 //
 // The page holds the state of its widgets as JSON and, at the place of each, the id of its model. An anywidget carries
-// its front end in its state, so it needs no more than a model to talk to. As anywidget itself does, this imports a
+// its front end in its state, so it needs no more than a model to talk to. Like anywidget itself, this imports a
 // module once, initialises each model once and renders each view. A widget that cannot start says so in its place, in
-// one sentence, and the others go on.
+// one sentence, and the others continue.
 (() => {
   const STATE = 'script[type="application/vnd.jupyter.widget-state+json"]';
   const VIEW = 'script[type="application/vnd.jupyter.widget-view+json"]';
   const NO_KERNEL = "This widget needs a running kernel.";
   const DAMAGED = "This widget cannot be shown: what the page keeps of it is missing or damaged.";
 
-  const records = new Map(); // what the page keeps of each model, by the model's id
-  const models = new Map(); // what was made of it
+  const records = new Map(); // what the page stores of each model, by the model's id
+  const models = new Map(); // the models made from these, by id
   const modules = new Map(); // promises of modules, by their text
   const styles = new Set();
 
@@ -47,7 +47,7 @@
     }
   }
 
-  // Browsers since 2025 decode base64 by themselves, many times as fast.
+  // Browsers since 2025 decode base64 natively, many times faster.
   function bytesOf(base64) {
     return Uint8Array.fromBase64?.(base64) ?? Uint8Array.from(atob(base64), (byte) => byte.charCodeAt(0));
   }
@@ -102,14 +102,14 @@
       }
     }
 
-    // The model as one view has it: `off()` takes away what this view has put on, and leaves the others'.
+    // The model as one view has it: `off()` removes the listeners of this view, and leaves the others'.
     proxy() {
       const listens = (listener, events, react) => listener.proxy === proxy
         && (!events || events.split(" ").includes(listener.event)) && (!react || react === listener.react);
       const proxy = {
         get: (key) => this.values[key],
         set: (key, value) => this.set(typeof key === "string" ? { [key]: value } : key),
-        save_changes() {}, // there is nobody to tell
+        save_changes() {}, // there is no kernel to save to
         send() {},
         on: (events, react) => {
           for (const event of events.split(" ")) this.listeners.push({ proxy, event, react });
@@ -145,8 +145,8 @@
     }
   }
 
-  // Whether two values are the same in content, so that setting what is there already tells nobody, and two
-  // listeners that set each other come to rest.
+  // Whether two values have the same content, so that setting an equal value notifies no listener, and two listeners
+  // that set each other come to rest.
   function same(one, other) {
     if (Object.is(one, other)) return true;
     if (![one, other].every((value) => value && typeof value === "object" && !ArrayBuffer.isView(value))) return false;
@@ -155,7 +155,7 @@
       && keys.every((key) => key in other && same(one[key], other[key]));
   }
 
-  // As soon as the page is read; deferred scripts, of which formulas need a large one, run after that.
+  // As soon as the page is parsed; deferred scripts, such as the large one for formulas, run after that.
   if (document.readyState !== "loading") startAll();
   else document.addEventListener("readystatechange", startAll, { once: true });
 })();

@@ -1,25 +1,24 @@
-"""Calibration: which of the choices that the thesis leaves open make all the numbers that it prints come out at once?
+"""Calibration: which values of the choices that the thesis leaves open reproduce all of its printed numbers at once?
 
-The method is history matching (Craig et al. 1997; Vernon et al. 2010), a search that discards what cannot be right
-rather than one that climbs to what fits best:
+The method is history matching (Craig et al. 1997; Vernon et al. 2010), a search that rules out implausible readings
+rather than one that climbs to the best fit:
 
-1. *Design.* Readings are drawn evenly through the priors within the text, a scrambled Sobol sequence. All are run in
-   the cheapest group of conditions, and the first of them in every group, so that the dear ones are not known of
+1. *Design.* Readings are spread evenly through the priors within the text by a scrambled Sobol sequence. All are run in
+   the cheapest group of conditions, and the first 48 in every group, so that the expensive groups are not run for
    favourites alone.
-2. *Emulator.* Random forests learn from the readings that have been run to predict each statistic from the choices.
-   The prediction has an uncertainty: how far the trees disagree, and the noise of a few runs.
+2. *Emulator.* Random forests, fitted to the readings that have been run, predict each statistic from the choices. The
+   uncertainty of a prediction combines the disagreement of the trees and the noise of a few runs.
 3. *Candidates.* Thousands of readings that have not been run are drawn: half from the priors, half as children of the
-   readings that are nearest to the targets, each choice of which comes from one of two parents or anew from its prior.
-   The *implausibility* of a candidate is how far the prediction lies outside the target's interval, in units of the
-   target's scale and the prediction's uncertainty together; its largest over all targets must be below 3. Of these, the
-   most promising are run, and as many others at random, since the emulator is wrong where it has seen little.
-4. *Waves.* What was run teaches the next emulator, and so on until time is up. Each wave runs its candidates in the
-   cheapest group, and of all readings so far those that look best in the next one, fewer from group to group.
+   readings nearest to the targets, which take each choice from one of two parents or afresh from its prior. The
+   *implausibility* of a candidate is how far its prediction lies outside the target's interval, in units that combine
+   the target's scale and the prediction's uncertainty; its maximum over targets must be below 3. The most promising of
+   these candidates are run, and as many others at random, since the emulator errs where it has few data.
+4. *Waves.* The next emulator is fitted to these results too, and so on until time is up. Each wave runs its candidates
+   in the cheapest group, and in every other group the most promising of all readings so far, fewer from group to group.
+5. *Confirmation.* A search over thousands of noisy numbers finds lucky ones. So the nearest readings are run again with
+   fresh seeds and more runs, and only these results count.
 
-5. *Confirmation.* A search that looks at thousands of noisy numbers finds lucky ones. So the nearest readings are run
-   again, with fresh seeds and more runs, and what they come to then is what counts.
-
-Every row has a seed of its own, so no luck of one tank is shared by all.
+Every row has its own seed, so that no tank's luck is shared by all.
 """
 
 import time
@@ -37,23 +36,23 @@ from neorl.extras import require
 
 RUNS, STEPS = 2, 600_000  # of a reading: the papers' own lengths
 DESIGN, IN_FULL = 512, 48  # readings in wave 0, a power of two, and how many of them are run in every group
-CHUNK = 16  # readings that are run between two looks at the clock
-WAVE = {"layers": 192, "modalities": 64, "networks": 40, "single": 12}  # readings a wave, in each group
-POOL = 4_000  # candidates a wave
-PARENTS, RENEWED, MOVED = 30, 0.1, 0.05  # of children: best rows, share of choices drawn anew, move of numbers
+CHUNK = 16  # readings run between two checks of the clock
+WAVE = {"layers": 192, "modalities": 64, "networks": 40, "single": 12}  # readings per wave in each group
+POOL = 4_000  # candidates per wave
+PARENTS, RENEWED, MOVED = 30, 0.1, 0.05  # of children: best rows, share of choices redrawn, spread of moved numbers
 IMPLAUSIBLE = 3.0
-TREES, LEAF, FEWEST = 100, 3, 24  # of a forest: trees, rows in a leaf at least, rows to learn from at least
-FAR = 8.0  # scales outside an interval, beyond which all values are the same to the emulator
-DIGITS = 4  # of a number that is chosen
+TREES, LEAF, FEWEST = 100, 3, 24  # of a forest: trees, fewest rows in a leaf, fewest rows to fit
+FAR = 8.0  # scales: the emulator clips values that lie farther than this outside an interval
+DIGITS = 4  # significant digits of a chosen number
 
 
 def calibrate(minutes, table=(), executor=None, seed=0, runs=RUNS, steps=STEPS, keep=None):
-    """Run readings for so many minutes, and return the table with them: a list of `Row`.
+    """Run readings for a number of minutes, and return the table that includes them: a list of `Row`.
 
-    table: rows to go on from. executor: see `neorl.sweep`. seed: of the design and of the candidates; the row at place
-    i of the table lives with the seed 1000 · seed + i. runs, steps: of each reading, see `reading.conditions`.
-    keep: is called with the table whenever it has grown, to write it down for instance.
-    The time is looked at between chunks of 16 readings, so it takes up to a chunk longer.
+    table: rows to continue from. executor: see `neorl.sweep`. seed: of the design and of the candidates; row i of the
+    table is run with the seed 1000 · seed + i. runs, steps: of each reading, see `reading.conditions`.
+    keep: called with the table whenever it has grown, for instance to save it.
+    The clock is checked between chunks of 16 readings, so the call may take up to a chunk longer.
     Raises ValueError for a bad argument.
     """
     end = time.monotonic() + 60 * checks.real("minutes", minutes, 0)
@@ -71,9 +70,9 @@ def calibrate(minutes, table=(), executor=None, seed=0, runs=RUNS, steps=STEPS, 
 
 
 def confirm(table, n, runs, executor=None, seed=0):
-    """The table with the n nearest of its complete readings run again, with fresh seeds and so many runs.
+    """Run the n nearest complete readings of a table again, with fresh seeds, and return the table that includes them.
 
-    seed: as in `calibrate`. Raises ValueError for a bad argument, and if no row is complete.
+    runs: of each condition. seed: as in `calibrate`. Raises ValueError for a bad argument, and if no row is complete.
     """
     begin, wave = len(table), 1 + max((row.wave for row in table), default=0)
     nearest = calibration_table.nearest(table)[: checks.integer("n", n, at_least=1)]
@@ -85,7 +84,7 @@ def confirm(table, n, runs, executor=None, seed=0):
 
 
 def _work(table, seed, runs, steps):
-    """What is to be run next, for ever: (group, places in the table). New rows are added to the table when drawn."""
+    """Yield without end what to run next: (group, places in the table). New rows join the table when drawn."""
     first, *others = GROUPS
 
     def add(wave, readings):
@@ -120,15 +119,15 @@ def _chunks(group, places):
 
 
 def design(points, seed=0):
-    """So many readings evenly through the priors within the text, a list of `Reading`: see `reading_at`."""
+    """Readings spread evenly through the priors within the text, a list of `Reading`: see `reading_at`."""
     sequence = scipy.stats.qmc.Sobol(len(WITHIN), rng=np.random.default_rng(seed))
     return [reading_at(row) for row in sequence.random(points)]
 
 
 def reading_at(shares):
-    """The reading with each choice where a share in [0, 1) of its prior lies below; numbers with 4 digits.
+    """The reading with each choice at a quantile of its prior; numbers have 4 significant digits.
 
-    What the text fixes is as in `TO_THE_LETTER`.
+    shares: in [0, 1), one for each choice in `WITHIN`. The other choices are those of `TO_THE_LETTER`.
     """
     chosen = {name: _short(choice.at(share)) for (name, choice), share in zip(WITHIN.items(), shares)}
     return replace(TO_THE_LETTER, **chosen)
@@ -141,7 +140,7 @@ def _short(value):
 class Emulator:
     """Random forests that predict the statistics of a reading from its choices, one forest for each group.
 
-    table: rows. A group that fewer than 24 of them have been run in is not predicted.
+    table: rows. A group in which fewer than 24 of them have been run is not predicted.
     """
 
     def __init__(self, table, seed=0):
@@ -170,7 +169,7 @@ class Emulator:
         return found
 
     def implausibility(self, readings):
-        """How far the predictions are from each predicted target: {name: (readings,)}."""
+        """The distances of the predictions from each predicted target: {name: (readings,)}."""
         return {name: TARGETS[name].distance(*found) for name, found in self.predict(readings).items()}
 
 
@@ -182,7 +181,7 @@ def _clipped(target, values):
 def features(readings):
     """Readings as the emulator sees them: float64 (readings, features).
 
-    A number is where it lies in its prior, from 0 to 1; words are a feature each, 0 or 1.
+    A number becomes its place in its prior, from 0 to 1; each level of a choice in words becomes a feature, 0 or 1.
     """
     columns = []
     for name, choice in WITHIN.items():
@@ -195,9 +194,9 @@ def features(readings):
 
 
 def prospects(rows, emulator):
-    """How far rows are from all targets: float64 (rows,), of what was measured, and else of what is predicted.
+    """How far rows are from all targets, as measured or else as predicted: float64 (rows,).
 
-    It is the root mean square over targets, each counting as 4 at most.
+    It is the root mean square over targets, each counted as 4 at most.
     """
     if not rows:
         return np.zeros(0)
@@ -211,7 +210,7 @@ def prospects(rows, emulator):
 
 
 def candidates(table, emulator, n, rng):
-    """Readings to run next, a list of n `Reading`: the most promising and as many others that are not implausible."""
+    """Readings to run next, a list of n `Reading`: the most promising, and as many others that are not implausible."""
     drawn = [reading_at(shares) for shares in rng.random((POOL // 2, len(WITHIN)))]
     best = [table[i].reading for i in np.argsort(prospects(table, emulator), kind="stable")[:PARENTS]]
     drawn += [_child(*(best[i] for i in rng.integers(len(best), size=2)), rng) for _ in range(POOL - len(drawn))]
@@ -227,7 +226,7 @@ def candidates(table, emulator, n, rng):
 
 
 def _child(mother, father, rng):
-    """A reading each of whose choices is one of two parents', or drawn anew; numbers have moved a little."""
+    """A reading that takes each choice from one of two parents or redraws it; inherited numbers move a little."""
     chosen = {}
     for name, choice in WITHIN.items():
         value = getattr(mother if rng.random() < 0.5 else father, name)

@@ -1,7 +1,7 @@
-"""What a table of calibrated readings says: which choices remain, which claims go together, which reading is nearest.
+"""Results of a calibration: the choices that remain, the claims that hold together, the reading nearest to the thesis.
 
-A claim holds in a row where all its targets lie in their intervals, by the mean over the few runs of that row. So a row
-may hold by luck; that no row does is the stronger finding. A row is *complete* if it was run in all groups.
+A claim holds in a row if the means over the row's few runs lie in the intervals of all the claim's targets. So a claim
+may hold in a row by luck; that it holds in none is the stronger finding. A row is *complete* if run in all groups.
 """
 
 import math
@@ -19,12 +19,12 @@ from neorl.evidence.priors import WITHIN
 
 NEAREST = 25  # rows that stand for the posterior where none agrees with all targets
 DRAWS = 10_000
-INTERVALS = 6  # that the prior of a number is cut into, each as likely as the others
-LEAST_EXPECTED = 3.0  # rows: if two claims that are independent hold together in as many, none is rare (5 %)
+INTERVALS = 6  # of equal probability, into which the prior of a number is cut
+LEAST_EXPECTED = 3.0  # rows: if two independent claims hold together in this many on average, none is rare (5 %)
 
 
 class Posterior(NamedTuple):
-    """Readings that remain, with weights that add up to 1, and the rule by which."""
+    """The readings that remain, their weights, which add up to 1, and the rule that selects them."""
 
     readings: list
     weights: np.ndarray  # (readings,)
@@ -32,7 +32,7 @@ class Posterior(NamedTuple):
 
     @property
     def effective(self):
-        """How many readings of equal weight would say as much (Kish 1965)."""
+        """The effective sample size: how many readings of equal weight would be as informative (Kish 1965)."""
         return float(1 / np.sum(self.weights**2))
 
 
@@ -52,8 +52,8 @@ def accepted(table):
 def posterior(table, draws=DRAWS, seed=0):
     """Fresh draws from the priors, weighted by how well the emulator expects them to agree with all targets.
 
-    Its weights are exp(−½ Σ distance²) over targets, with the emulator's own uncertainty. The rows of the table that
-    are nearest share parents, so a choice that does not matter may look decided among them; here it does not.
+    The weights are exp(−½ Σ distance²) over targets, with the emulator's own uncertainty. The nearest rows of the
+    table share parents, so a choice that does not matter may look decided among them; here it does not.
     """
     rng = np.random.default_rng(seed)
     readings = [reading_at(shares) for shares in rng.random((checks.integer("draws", draws, 1), len(WITHIN)))]
@@ -64,12 +64,12 @@ def posterior(table, draws=DRAWS, seed=0):
 
 
 def equally(rows):
-    """A `Posterior` of the readings of rows, all of the same weight."""
+    """A `Posterior` of the readings of rows, with equal weights."""
     return Posterior([row.reading for row in rows], np.full(len(rows), 1 / len(rows)), f"{len(rows)} rows")
 
 
 class Marginal(NamedTuple):
-    """One choice: its levels, or intervals of its numbers, with the share of each before and after."""
+    """The distribution of one choice over its levels, or over intervals of its numbers, before and after."""
 
     levels: tuple[str, ...]
     prior: np.ndarray  # (levels,)
@@ -77,7 +77,7 @@ class Marginal(NamedTuple):
 
     @property
     def information(self):
-        """What the posterior says more than the prior, in bits (Kullback and Leibler 1951)."""
+        """The information gained from prior to posterior, in bits (Kullback and Leibler 1951)."""
         return float(scipy.stats.entropy(self.posterior, self.prior, base=2))
 
 
@@ -88,7 +88,7 @@ def marginal(name, remaining):
 
 
 def binned(name, readings):
-    """A choice in levels: (levels, their share of the prior (levels,), the level of each reading (readings,))."""
+    """A choice in levels: (levels, their shares of the prior (levels,), the level of each reading (readings,))."""
     choice = WITHIN[checks.one_of("name", name, tuple(WITHIN))]
     values = [getattr(reading, name) for reading in readings]
     if isinstance(choice.prior, tuple):
@@ -102,37 +102,39 @@ def binned(name, readings):
 
 
 def most_informative(remaining, n):
-    """The n choices of which the posterior says most more than the prior, from the most on: a list of names."""
+    """The n choices on which the posterior gains most information, the most informative first: a list of names."""
     said = {name: marginal(name, remaining).information for name in WITHIN}
     return sorted(said, key=said.get, reverse=True)[:n]
 
 
 class Together(NamedTuple):
-    """Which claims hold together. Arrays are (claims, claims); on the diagonal stands each claim alone."""
+    """The numbers of rows in which claims hold together. Arrays are (claims, claims), each claim alone on the diagonal.
+    """
 
     claims: tuple[str, ...]
     rows: np.ndarray  # in which both were measured
     both: np.ndarray  # in which both hold
-    expected: np.ndarray  # in which both would hold if neither depended on the other
-    sets: list  # of (claims that hold together, rows in which they do), the largest first; complete rows alone
+    expected: np.ndarray  # in which both would hold if they were independent
+    sets: list  # of (claims that hold together, complete rows in which they do), the largest first
 
     @property
     def unseen(self):
-        """Pairs that hold in no row together: [(name, name, rows expected), …], the most expected first."""
+        """Pairs of claims that hold together in no row: [(name, name, rows expected), …], the most expected first."""
         pairs = [(self.claims[i], self.claims[j], float(self.expected[i, j]))
                  for i, j in combinations(range(len(self.claims)), 2) if self.both[i, j] == 0]
         return sorted(pairs, key=lambda pair: -pair[2])
 
     @property
     def never(self):
-        """Those of the unseen pairs of which three rows or more would be expected: a list of (name, name)."""
+        """The unseen pairs that would be expected in three rows or more: a list of (name, name)."""
         return [(a, b) for a, b, expected in self.unseen if expected >= LEAST_EXPECTED]
 
 
 def claims_together(table):
-    """Which claims hold together, a `Together`: pairs in all rows with both measured, sets in complete rows.
+    """Count the rows in which claims hold together, a `Together`: pairs in all rows with both measured, sets in
+    complete rows.
 
-    A set is listed unless it is part of another.
+    A set is listed unless it is a subset of another.
     """
     tested = np.array([[name in row.tested for name in CLAIMS] for row in table], float)
     held = np.array([[name in row.held for name in CLAIMS] for row in table], float)
@@ -149,8 +151,7 @@ def claims_together(table):
 def evenly(table):
     """How often the numbers agree with the thesis among readings that were drawn evenly from the priors.
 
-    Returns {claim: {"agrees", "measured"}}, counts of rows of the design, of those alone that were not chosen by what
-    came out.
+    Returns {claim: {"agrees", "measured"}}, counts of those rows of the design that were not selected by results.
     """
     design = [row for row in table if row.wave == 0]
     found = {}
@@ -162,7 +163,7 @@ def evenly(table):
 
 
 def best(table):
-    """The row nearest to all targets, of those that were run most often, which are the confirmed ones.
+    """The row nearest to all targets among those with the most runs, which are the confirmed ones.
 
     Raises ValueError if no row is complete.
     """
@@ -172,7 +173,7 @@ def best(table):
 
 
 def giving(table):
-    """What it would help to give a claim up: {claim: (smallest distance to the targets of the others, its Row)}."""
+    """The gain from giving up each claim: {claim: (smallest distance to the targets of the others, its Row)}."""
     complete, found = nearest(table), {}
     for claim in CLAIMS:
         def without(row, claim=claim):

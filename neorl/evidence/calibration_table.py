@@ -1,8 +1,8 @@
-"""The table of readings that a calibration has run: what each chose and what came out, kept exactly.
+"""The table of readings that a calibration has run: the choices and results of each, stored exactly.
 
-A row holds a reading, the seed, runs and steps that it lived with, and the statistics of the groups of conditions that
-it has been run in; the others are missing. So any row can be computed again, to the last digit. Numbers that were
-chosen stand in full, statistics with 5 significant digits, which is also how they are kept before they are written.
+A row holds a reading, the seed, runs and steps it was run with, and the statistics of the groups of conditions in which
+it has been run; the others are missing. So any row can be recomputed to the last digit. Chosen numbers are stored in
+full, statistics with 5 significant digits, in memory as on disk.
 """
 
 import csv
@@ -26,8 +26,8 @@ OWN = ("wave", "seed", "runs", "steps")
 class Row:
     """One reading that has been run.
 
-    wave: in which it was chosen, 0 for the design. seed, runs: of all its conditions. steps: at most, see
-    `reading.conditions`. statistics: {name of the target: `Measure`}, of the groups it has been run in.
+    wave: in which it was chosen, 0 for the design. seed, runs: of all its conditions. steps: of a run at most, see
+    `reading.conditions`. statistics: {name of the target: `Measure`}, of the groups in which it has been run.
     """
 
     wave: int
@@ -39,7 +39,7 @@ class Row:
 
     @property
     def groups(self):
-        """The groups that it has been run in: a tuple of names."""
+        """The groups in which it has been run: a tuple of names."""
         return tuple(name for name, group in GROUPS.items() if all(each in self.statistics for each in group.targets))
 
     @property
@@ -49,7 +49,7 @@ class Row:
 
     @property
     def distance(self):
-        """How far it is from the targets that were measured, see `calibration_targets.distance`."""
+        """Its distance from the targets that were measured, see `calibration_targets.distance`."""
         return distance(self.statistics)
 
     @property
@@ -70,7 +70,7 @@ def conditions(row, group):
 
 
 def run(rows, group, executor=None, progress=False):
-    """The rows with the statistics of a group, for which all their conditions are computed by `sweep`: a list."""
+    """Run the conditions of rows in a group by `sweep`, and return the rows with its statistics: a list."""
     wanted = [conditions(row, group) for row in rows]
     results = sweep([each for of_row in wanted for each in of_row.values()], executor, progress)
     return [replace(row, statistics=row.statistics | measure(group, {key: next(results) for key in of_row}))
@@ -78,21 +78,21 @@ def run(rows, group, executor=None, progress=False):
 
 
 def lives(row, groups=tuple(GROUPS), executor=None, progress=False):
-    """What a row's reading lived in groups: {key of the condition: `Result`}."""
+    """The results of a row's reading in groups of conditions: {key of the condition: `Result`}."""
     wanted = {key: each for group in groups for key, each in conditions(row, group).items()}
     return dict(zip(wanted, sweep(list(wanted.values()), executor, progress)))
 
 
 def measured(row, life):
-    """The row with the statistics of what `lives` gave, of all groups that it has every condition of."""
+    """The row with the statistics of the results of `lives`, for each group whose conditions are all among them."""
     groups = [name for name, group in GROUPS.items() if all(key in life for key in group.keys)]
     return replace(row, statistics={name: each for group in groups for name, each in measure(group, life).items()})
 
 
 def rerun(table, n, seed=0, groups=tuple(GROUPS), executor=None):
-    """Compute n rows of a table again: [(row as it stands, row as it comes out), …], which should be equal.
+    """Recompute n rows of a table: [(row as stored, row as recomputed), …], which should be equal.
 
-    They are drawn without replacement. groups: names; a row is compared in those of them that it has been run in.
+    Rows are drawn without replacement. groups: names; a row is compared in those of them in which it has been run.
     Raises ValueError if n is not an integer from 1 to the number of rows.
     """
     chosen = np.random.default_rng(seed).choice(len(table), checks.integer("n", n, 1, len(table)), replace=False)
@@ -109,7 +109,7 @@ def rerun(table, n, seed=0, groups=tuple(GROUPS), executor=None):
 
 
 def nearest(table):
-    """The complete rows by their distance, the nearest first; of rows with the same reading the one with most runs.
+    """The complete rows, the nearest first; of rows with the same reading, the one with the most runs.
 
     Raises ValueError if no row is complete.
     """
@@ -123,7 +123,7 @@ def nearest(table):
 
 
 def write_table(table, path):
-    """Write rows to a file of comma-separated values, one line each after a line of names."""
+    """Write rows to a file of comma-separated values, one line each below a header."""
     content = io.StringIO()
     writer = csv.writer(content, lineterminator="\n")
     choices = [each.name for each in fields(Reading)]
@@ -137,7 +137,7 @@ def write_table(table, path):
 
 
 def read_table(path=SHIPPED):
-    """The rows of a file that `write_table` has written: a list of `Row`. By default the one of this package.
+    """Read the rows of a file written by `write_table`, by default the one in this package: a list of `Row`.
 
     Raises ValueError if its columns are not those of this version.
     """

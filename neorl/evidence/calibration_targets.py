@@ -1,15 +1,15 @@
-"""What the thesis prints, as numbers with tolerances: the targets of the calibration, stated before any run of it.
+"""The targets of the calibration: the thesis's printed numbers with tolerances, stated before any calibration run.
 
-1. A *target* is a statistic of one reading and the interval that agrees with the thesis. A number that is printed gets
-   a tolerance; an order ("better than", "quicker") is an interval with one end, a lead of 0.01 per second or more, so
-   that two agents that both stand still are in no order.
+1. A *target* is a statistic of one reading and the interval that agrees with the thesis. A printed number gets a
+   tolerance; an ordering ("better than", "quicker") is a one-sided interval, a lead of at least 0.01 per second, so
+   that two agents that both stand still are not ordered.
 2. *Final* is the last fifth of a run and *early* its first tenth, as in `neorl.evidence.claims`; rewards are per
    simulated second, of the mean over runs, which is what the thesis plots.
-3. An agent that earns no more than Brownian motion has learned nothing. So where a statistic divides by what an agent
-   earns, that counts as Brownian motion's at least: a ratio of two failures is no success.
+3. An agent that earns no more than Brownian motion has learned nothing. So where a statistic divides by an agent's
+   reward, the divisor is at least that of Brownian motion: a ratio of two failures is no success.
 4. The *error* of a statistic is its standard error over runs, by the jackknife: each run in turn is left out of every
-   condition. The *distance* to a target is how far the value lies outside its interval, in units of the target's
-   scale and the error together; it is 0 inside.
+   condition. The *distance* to a target is how far the value lies outside its interval, in units that combine the
+   target's scale and the error; it is 0 inside.
 5. Targets belong to *groups* of conditions that are computed together, the cheap ones first.
 """
 
@@ -25,9 +25,9 @@ from neorl.evidence.claims import EARLY, FINAL
 from neorl.evidence.statistics import time_to_final_level
 
 BROWNIAN_A, BROWNIAN_B = 0.03, 0.1  # what Brownian motion earns per second with 8 creeps and with 3
-NOISE = 0.03  # reward per second: how far the mean of a few runs strays, in trials before the targets were stated
-LEAD = 0.01  # reward per second: the least lead that a reader sees in a figure
-DIGITS = 5  # that a statistic is kept with
+NOISE = 0.03  # reward per second: spread of the mean of a few runs, in trials before the targets were stated
+LEAD = 0.01  # reward per second: the smallest lead visible in a figure
+DIGITS = 5  # significant digits of a stored statistic
 
 
 class Measure(NamedTuple):
@@ -41,7 +41,7 @@ class Measure(NamedTuple):
 class Target:
     """A statistic, and the interval in which it agrees with the thesis.
 
-    claim: a name of `neorl.evidence.statements`. statistic: from {key of the condition: `Result`} to a number.
+    claim: a name of `neorl.evidence.statements`. statistic: a function of {key of the condition: `Result`}.
     low, high: the interval; a bound may be infinite. scale: how far outside counts as a distance of 1.
     thesis: what is printed. reason: why the interval is as wide as it is.
     """
@@ -92,23 +92,23 @@ def _surplus(results, rate):
 
 
 def _extremes(results) -> tuple[float, float]:
-    """What the worst and the best of the single maps earn over the whole run."""
+    """The reward per second of the worst and of the best single map over the whole run."""
     each = [_whole(results["single", n]) for n in (10, 30, 50)]
     return min(each), max(each)
 
 
 def _minutes_of_place(results):
-    """0 where place cells have not learned: then there is no level that takes long to reach."""
+    """Minutes of place cells; 0 if they have not learned, since there is then no level that takes long to reach."""
     place = results["place", "all"]
     return _minutes(place) if _final(place) > BROWNIAN_B else 0.0
 
 
-ORDER = "an order, without a number: any lead agrees that a reader would see in a figure"
+ORDER = "an ordering, without a number: any lead that is visible in a figure agrees"
 TARGETS = {
     # paper A, figure 7: {3, 7, 23} and each alone
     "A7 ratio": Target(
         "A7", "three maps / N7", lambda of: _ratio(_final(of["layers"]), _final(of["layer", 7]), BROWNIAN_A),
-        2.5, 5.0, 0.5, "3.5", "2.5 to 5, as in the rule: the thesis does not say of which stretch it is"),
+        2.5, 5.0, 0.5, "3.5", "2.5 to 5, as in the rule: the thesis does not say of which part of the run"),
     "A7 pace": Target(
         "A7", "three maps − N7, early", lambda of: _early(of["layers"]) - _early(of["layer", 7]),
         0.0, math.inf, NOISE, "as fast or a little faster",
@@ -122,7 +122,7 @@ TARGETS = {
     # paper B, figures 4 and 5
     "B3 place": Target(
         "B3", "place cells, final", lambda of: _final(of["place", "all"]), 0.23, 0.36, NOISE, "0.29",
-        "a quarter more or a fifth less, as in the rule: read off a smoothed curve, whose filter is not given"),
+        "a quarter more or a fifth less, as in the rule: read off a smoothed curve, with a filter that is not given"),
     "B3 both": Target(
         "B3", "both, final", lambda of: _final(of["both"]), 0.44, 0.69, NOISE, "0.55",
         "a quarter more or a fifth less, as in the rule"),
@@ -135,7 +135,7 @@ TARGETS = {
         "twice the thesis's time, as in the rule"),
     "B4 place": Target(
         "B4", "minutes of place cells", _minutes_of_place, 80.0, math.inf, 20.0, "more than 160",
-        "half the thesis's time, as in the rule: what counts here is nine tenths of the level"),
+        "half the thesis's time, as in the rule: here the level counts as reached at nine tenths"),
     # paper C, figure 4e
     "C1 rise": Target(
         "C1", "A, final − early", lambda of: _final(of["network", "A"]) - _early(of["network", "A"]),
@@ -175,7 +175,7 @@ TARGETS = {
 
 @dataclass(frozen=True)
 class Group:
-    """Conditions that are computed together: keys of `reading.conditions`, and the targets that they suffice for."""
+    """Conditions that are computed together, by keys of `reading.conditions`, and the targets they suffice for."""
 
     keys: tuple
     targets: tuple[str, ...]
@@ -220,9 +220,9 @@ def _rounded(value):
 
 
 def distance(statistics):
-    """How far a reading is from all targets measured: {name: `Measure`} to the root mean square of their distances.
+    """The distance of a reading, {name: `Measure`}, from all measured targets: the root mean square over these.
 
-    A distance counts as 4 at most: off is off. 0 means that all agree with the thesis; infinite, that none is measured.
+    Each distance counts as 4 at most. 0 means that all agree with the thesis; infinite, that none is measured.
     """
     if not statistics:
         return math.inf
@@ -231,12 +231,12 @@ def distance(statistics):
 
 
 def held(statistics):
-    """The claims of which every target is measured and agrees with the thesis: a frozenset of names."""
+    """The claims whose targets are all measured and agree with the thesis: a frozenset of names."""
     return frozenset(claim for claim in tested(statistics)
                      if all(TARGETS[name].holds(found.value) for name, found in statistics.items()
                             if TARGETS[name].claim == claim))
 
 
 def tested(statistics):
-    """The claims of which every target is measured: a frozenset of names."""
+    """The claims whose targets are all measured: a frozenset of names."""
     return frozenset(CLAIMS) - {target.claim for name, target in TARGETS.items() if name not in statistics}

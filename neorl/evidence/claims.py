@@ -1,8 +1,8 @@
-"""The rules by which the numbers here decide the claims of the thesis, written down before the numbers.
+"""The rules that judge the claims of the thesis by the book's numbers, written down before the numbers.
 
-`neorl.evidence.verdict` says what a verdict is, and `neorl.evidence.statements` what is claimed. The rules stand in
+`neorl.evidence.verdict` defines verdicts, and `neorl.evidence.statements` lists the claims. The rules are in
 `neorl.evidence.rules_paper_a`, `neorl.evidence.rules_paper_b`, `neorl.evidence.rules_paper_c`,
-`neorl.evidence.rules_chapters` and `neorl.evidence.rules_spaces`; this module gathers them under one name.
+`neorl.evidence.rules_chapters` and `neorl.evidence.rules_spaces`; this module gathers them.
 """
 
 from neorl.evidence.rules_chapters import (judge_changes, judge_cost, judge_latent_learning, judge_more_maps,

@@ -1,4 +1,4 @@
-"""Curves of reward per second over a run, in equal stretches, and smoothed as the thesis smooths."""
+"""Curves of reward per second over a run, in equal intervals, and smoothed as in the thesis."""
 
 import numpy as np
 import scipy
@@ -9,13 +9,13 @@ from neorl.experiments.simulation import Result
 
 # Paper B smooths its curves "by a Butterworth low-pass filter" (section 3). The thesis states neither of these.
 FILTER_ORDER = 4
-CUTOFF_PERIODS = 20  # in a run: what repeats more often is taken out
+CUTOFF_PERIODS = 20  # per run: the filter removes higher frequencies
 
 
 def binned_rate(result: Result, points: int) -> NDArray[np.float64]:
-    """Reward per second over equal stretches of the run: float64 (runs, points).
+    """Reward per second over equal intervals of the run: float64 (runs, points).
 
-    result: a `Result`. points: integer, 1 … its bins. Raises ValueError for anything else.
+    result: a `Result`. points: integer, from 1 to the number of its bins. Raises ValueError for anything else.
     """
     bins = checks.instance("result", result, Result).rewards.shape[1]
     points = checks.integer("points", points, at_least=1, at_most=bins)
@@ -25,10 +25,10 @@ def binned_rate(result: Result, points: int) -> NDArray[np.float64]:
 
 
 def low_passed(rates: ArrayLike) -> NDArray[np.float64]:
-    """Curves (runs, points) through the filter forwards and backwards, so that nothing shifts in time.
+    """Low-pass filter curves (runs, points) forwards and backwards, so that nothing shifts in time.
 
-    Before and after it a curve goes on as its image in the point where a straight line through its first or last cutoff
-    period ends: the one at its very end would be as noisy as an unfiltered curve.
+    At either end a curve is extended by its point reflection, in the end point of a straight line fitted to its first
+    or last cutoff period: its own end point is as noisy as an unfiltered curve.
     rates: (runs, points). Raises ValueError for anything but finite numbers, or if there are no more than 2
     `CUTOFF_PERIODS` points.
     """

@@ -1,6 +1,6 @@
-"""Errata of the source: what the thesis gets wrong in a way that a reader may stumble over, and what is right.
+"""Errata of the source: errors of the thesis that may mislead a reader, with corrections.
 
-Slips of the pen are not listed, nor is what a claim of `neorl.evidence.statements` puts to the test.
+Slips of the pen are not listed, nor is anything that a claim of `neorl.evidence.statements` tests.
 """
 
 from typing import NamedTuple
@@ -19,10 +19,10 @@ ERRATA = (
             "“The almost 6-fold increase in the number of states (from 7² = 49 to 3² + 7² + 23² = 290 states)”",
             "3² + 7² + 23² = 587, as the Experiments of the same paper say (“587 learners”): twelvefold"),
     Erratum("paper A, WaterWorld", "“the environment is listed as unsolved (OpenAI, 2020)”",
-            "the reference given is to another environment, Snake v0"),
+            "the reference given is for another environment, Snake v0"),
     Erratum("paper C, caption of figure 4b; caption of figure 4.7b",
             "the two desire vectors for red and green come “from ξ^OVC”",
-            "from ξ^PC, as section 2 of the paper says, and as their names do"),
+            "from ξ^PC, as section 2 of the paper and their names say"),
     Erratum("paper C, section 1", "“Operant Value-function Components (OVC)”",
             "everywhere else these are operant (or orthogonal) value functions, OVF, and OVC is the object vector "
             "cell, also in the ξ^OVC of the same paper"),

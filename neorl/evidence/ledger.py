@@ -1,8 +1,8 @@
 """The page of all claims, and the strip of them that opens the book, from the records of `neorl.evidence.report`.
 
-1. A tally and a strip with a square for each claim come first, then a row for each, then what its verdict rests on.
-2. A row has the estimates under both readings, the verdict, and the shares of readings in columns of their own.
-3. Pages are MyST Markdown. The strip is HTML, since its squares are links of their own shape.
+1. A strip with a square for each claim and a tally come first, then a row for each, then the evidence for its verdict.
+2. A row has the estimates under both readings, the verdict, and the shares of readings in separate columns.
+3. Pages are MyST Markdown. The strip is HTML, since its squares are links with a shape of their own.
 """
 
 from html import escape
@@ -17,7 +17,7 @@ CHAPTERS = {"A": "Paper A: maps of one space", "B": "Paper B: modalities", "C": 
 
 
 def page(record):
-    """The tally, the strip, the tables and what verdicts rest on, in MyST Markdown. record: as `report.load` has it."""
+    """The strip, the tally, the tables and the evidence, in MyST Markdown. record: as `report.load` returns it."""
     parts = [strip(record), tally(record), _table(record, CLAIMS), "## Beside the claims: a demonstration",
              _table(record, DEMONSTRATIONS), "## What each verdict rests on",
              "The sentence that is judged, what was measured, and what was found."]
@@ -28,18 +28,18 @@ def page(record):
 
 
 def front(record):
-    """The sentence of result and the strip that open the book, as HTML. record: as `report.load` has it."""
+    """The headline result and the strip that open the book, as HTML. record: as `report.load` returns it."""
     return f'<p class="result">{sentence(record)}</p>\n{strip(record, "claims.html")}\n'
 
 
 def counts(record):
-    """How many claims have each verdict: {verdict: count}, without verdicts that no claim has."""
+    """The number of claims with each verdict: {verdict: count}, without verdicts that no claim has."""
     found = [report.verdict(record, name) for name in CLAIMS]
     return {verdict: found.count(verdict) for verdict in marks.MARKS if verdict in found}
 
 
 def sentence(record):
-    """What holds, as one sentence of HTML."""
+    """The headline result: how many claims are reproduced, as one sentence of HTML."""
     found = counts(record)
     if not any(found.get(verdict) for verdict in VERDICTS[:3]):
         return (f"This book judges {len(CLAIMS)} claims of P. R. Leikanger’s thesis on navigation; verdicts need "
@@ -53,15 +53,15 @@ def sentence(record):
 
 
 def tally(record):
-    """How many claims have each verdict, as a line of Markdown."""
+    """The number of claims with each verdict, as a line of Markdown."""
     return f"{len(CLAIMS)} claims: " + " · ".join(f"{marks.html(verdict)} {count} {verdict}"
                                                   for verdict, count in counts(record).items()) + "."
 
 
 def strip(record, address=""):
-    """A square for each claim, its symbol in its colour, that leads to the claim's row: an HTML list.
+    """An HTML list with a square for each claim, its symbol in its colour, that links to the claim's row.
 
-    address: of the page of claims, relative to that of the strip.
+    address: of the page of claims, relative to the page with the strip.
     """
     squares = []
     for name in CLAIMS:
@@ -73,7 +73,7 @@ def strip(record, address=""):
 
 
 def anchor(name):
-    """The fragment of the address of a claim's row."""
+    """The fragment of the URL of a claim's row."""
     return f"claim-{name.lower()}"
 
 
@@ -95,7 +95,7 @@ def _row(record, name):
 
 
 def _marked(found):
-    """A number, behind the symbol of its verdict."""
+    """A number, after the symbol of its verdict."""
     if not found:
         return ""
     mark = f"{marks.html(found['verdict'])} " if marks.leads(found["verdict"]) else ""
@@ -103,7 +103,8 @@ def _marked(found):
 
 
 def _shares(share):
-    """Under how many readings the numbers agree at the papers' lengths, and the rule holds, or cannot decide."""
+    """The shares of readings whose numbers agree at the papers' lengths, and for which the rule holds or cannot decide.
+    """
     if not share:
         return "", "", ""
     agrees = (f"{report.percent(share['agrees'], share['measured'])} of {share['measured']}"

@@ -1,6 +1,6 @@
-"""How a verdict is shown, everywhere alike: by a symbol, and on pages by a colour as well, never by colour alone.
+"""The display of verdicts, the same everywhere: a symbol, on pages also a colour, but never colour alone.
 
-The colours are those of the classes in the book's style sheet, one for light pages and one for dark ones.
+The colours are set by classes in the book's style sheet, for light pages and for dark ones.
 """
 
 from typing import NamedTuple
@@ -12,7 +12,7 @@ NOT_COMPUTED = "not computed in this build"
 
 
 class Mark(NamedTuple):
-    """The symbol of a verdict, and the class that the book's style sheet colours."""
+    """The symbol of a verdict, and its class in the book's style sheet."""
 
     symbol: str
     css: str
@@ -32,7 +32,7 @@ def symbol(verdict: str) -> str:
 
 
 def leads(verdict: str) -> bool:
-    """Whether a verdict's symbol stands before a number: where there is no verdict, its dash would be read as a minus.
+    """Whether a verdict's symbol stands before a number: without a verdict, its dash would be read as a minus sign.
 
     verdict: a key of `MARKS`. Raises ValueError for anything else.
     """
@@ -40,7 +40,7 @@ def leads(verdict: str) -> bool:
 
 
 def html(verdict: str) -> str:
-    """The symbol in its colour, as inline HTML for Markdown; its name is the verdict, for a reader of screens.
+    """The symbol in its colour, as inline HTML for Markdown; the verdict is its name for screen readers.
 
     verdict: a key of `MARKS`. Raises ValueError for anything else.
     """

@@ -1,12 +1,12 @@
-"""The multiverse of readings: every choice that the thesis leaves open, varied together, and what it makes of claims.
+"""The multiverse of readings: all choices that the thesis leaves open, varied jointly, and their effect on the claims.
 
-1. A *reading* chooses everything that is open (`neorl.evidence.reading`). What is plausible is stated beforehand, as a
-   prior for each choice (`neorl.evidence.priors`), and choices are independent. There are two multiverses: within the
-   text of the thesis, and beyond it.
-2. A design is a scrambled Sobol sequence through the priors, so that any power of two readings fills their space.
-3. Every reading lives the conditions of all three papers and is judged by the rules of `neorl.evidence.claims`: a claim
-   *holds* where its verdict is "reproduced", is *undecided* while its intervals leave room for it, and *fails*
-   otherwise, also where agents have learned nothing to test it by.
+1. A *reading* fixes every open choice (`neorl.evidence.reading`). Plausible values are stated beforehand, as an
+   independent prior for each choice (`neorl.evidence.priors`). There are two multiverses: within the text of the
+   thesis, and beyond it.
+2. A design is a scrambled Sobol sequence through the priors, so that any power of two of its readings fills the space.
+3. The conditions of all three papers are run under every reading, and judged by the rules of `neorl.evidence.claims`:
+   a claim *holds* if its verdict is "reproduced", is *undecided* if its intervals leave room for it, and *fails*
+   otherwise, also if agents have learned nothing to test it by.
 """
 
 from collections.abc import Mapping
@@ -22,15 +22,15 @@ from neorl.evidence.reading import Reading
 from neorl.evidence.statistics import Estimate, difference, estimate
 from neorl.extras import require
 
-PARTS = 5  # into which a prior without levels is cut; the middle one holds the reading to the letter
+PARTS = 5  # into which a prior without levels is cut; the middle one contains the reading to the letter
 
 
 def design(points: int, seed: int = 0, choices: Mapping[str, Choice] = WITHIN) -> list[Reading]:
-    """So many plausible readings, a list of `Reading`.
+    """Plausible readings, spread evenly through the priors: a list of `Reading`.
 
-    points: a power of two, of which any is a part of the next. seed: integer ≥ 0, of the sequence.
-    choices: what is varied, {field of `Reading`: `Choice`}: `WITHIN`, `BEYOND`, or any other. Where nothing is varied,
-    all are the reading to the letter.
+    points: their number, a power of two; a design is the first part of every larger one. seed: integer ≥ 0, of the
+    sequence. choices: the fields that vary, {field of `Reading`: `Choice`}: `WITHIN`, `BEYOND`, or any other. The
+    other fields are those of the reading to the letter.
     Raises ValueError for anything else.
     """
     checks.integer("points", points, at_least=2)
@@ -43,7 +43,7 @@ def design(points: int, seed: int = 0, choices: Mapping[str, Choice] = WITHIN) -
 
 
 def outcome(claim):
-    """Whether a claim "holds", is "undecided" or "fails"."""
+    """The outcome of a claim: "holds", "undecided" or "fails"."""
     return "holds" if claim.outcome == "reproduced" else "undecided" if claim.undecided else "fails"
 
 
@@ -62,13 +62,12 @@ def shares(judged):
 
 
 def held(claims):
-    """The names of those of the claims {name: `Claim`} that hold."""
+    """The names of the claims that hold, of {name: `Claim`}."""
     return [name for name, claim in claims.items() if outcome(claim) == "holds"]
 
 
 class Support(NamedTuple):
-    """How many claims hold at one level of a choice, and by how much that leads the level of the reading to the letter.
-    """
+    """How many claims hold at one level of a choice, and the lead over the level of the reading to the letter."""
 
     choice: str
     level: str
@@ -79,10 +78,10 @@ class Support(NamedTuple):
 
 
 def support(readings, judged, choices=WITHIN):
-    """A `Support` for each level of each of the choices, the mean over all readings that have it.
+    """A `Support` for each level of each choice, the mean over all readings that have it.
 
-    A choice without levels is cut into fifths of its prior, the value of each being its median. There is no support
-    for a level that no reading has.
+    A choice without levels is cut into fifths of its prior, each with its median as its value. A level that no reading
+    has is left out.
     """
     counts = np.array([len(held(claims)) for claims in judged])
     found = []
@@ -106,11 +105,11 @@ def support(readings, judged, choices=WITHIN):
 
 
 def importance(readings, judged, name, choices=WITHIN, seed=0):
-    """How much each of the choices matters for the number of a claim: ({name of the choice: importance}, R²).
+    """The importance of each choice for the number of a claim: ({name of the choice: importance}, R²).
 
-    A random forest predicts the rank that the number has among all readings. Its importance is what the R² of the
-    forest at readings that it has not seen loses when the values of one choice are shuffled (Breiman 2001), the mean
-    over four folds of the readings (fewer if there are not two in each); R² is what there is to lose.
+    A random forest predicts the rank of the number among all readings. The importance of a choice is the loss of R² on
+    held-out readings when its values are shuffled (Breiman 2001), the mean over four folds of the readings (fewer if
+    there are not two in each); the R² returned is that before shuffling.
     """
     chosen = [key for key, choice in choices.items() if name[0] in choice.papers]
     places = np.array([[choices[key].place(getattr(reading, key)) for key in chosen] for reading in readings])

@@ -1,7 +1,7 @@
-"""The box that opens a page of the book, *What was found*, in Markdown: verdicts by symbol, and a few sentences.
+"""The box that opens a page of the book, *What was found*, in Markdown: verdicts with symbols, and a few sentences.
 
-A box stands at the top of its page, before everything that it rests on, so it says what a figure cannot: which claims
-hold, and the numbers to remember. With too few runs for verdicts it says so in their place.
+The box stands at the top of its page, before all evidence, so it states what a figure cannot: which claims hold, and
+the numbers to remember. With too few runs for verdicts it says so instead.
 """
 
 from html import escape
@@ -11,14 +11,14 @@ from neorl.evidence.marks import html
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.verdict import RUNS_FOR_A_VERDICT
 
-CLAIMS_PAGE = "../claims.html"  # as seen from the pages that are built
+CLAIMS_PAGE = "../claims.html"  # relative to the built pages
 
 
 def what_was_found(sentences, runs, verdicts=None):
     """The box of a page.
 
-    sentences: Markdown, of computed numbers. runs: of a condition, the parameter of the page. verdicts: {reading: {name
-    of a claim: its verdict}}, a line for each reading, whose name may be empty; none for a page that judges no claim.
+    sentences: Markdown with computed numbers. runs: of each condition, the parameter of the page. verdicts: {reading:
+    {name of a claim: its verdict}}, a line for each reading, whose name may be empty; None if the page judges no claim.
     """
     lines = ["**What was found**"]
     if runs >= RUNS_FOR_A_VERDICT:
@@ -28,7 +28,7 @@ def what_was_found(sentences, runs, verdicts=None):
                      f"page was computed with {runs}.")
     else:
         lines.append(f"**Quick look.** This page was computed with few runs of each condition, {runs} at most.")
-    # A blank line ends the HTML, so that what stands between the two tags is read as Markdown.
+    # A blank line ends the HTML, so that the text between the two tags is parsed as Markdown.
     return "\n\n".join(['<div class="found">', *lines, sentences, "</div>"])
 
 
@@ -47,5 +47,5 @@ def _line(reading, found):
 
 
 def _link(name):
-    """The name of a claim, with its text as the title of a link to its row on the page of claims."""
+    """The name of a claim as a link to its row on the page of claims, with its text as the link's title."""
     return f'<a href="{CLAIMS_PAGE}#{anchor(name)}" title="{escape(STATEMENTS[name].text)}">{name}</a>'

@@ -1,10 +1,10 @@
-"""What is plausible beforehand, for every choice of a reading: one space within the text, and one beyond it.
+"""Priors for every choice of a reading: one space within the text, and one beyond it.
 
-1. Each choice has a prior of its own, a distribution or levels that are equally likely, stated before any result.
-2. Within the text (`WITHIN`), what `neorl.evidence.pins` pins has one value and is not varied; what is open is varied
-   widely.
-3. Beyond the text (`BEYOND`), what is pinned varies as well, together with all else.
-4. The reading to the letter takes what the text pins. Where more than one value is left, it takes the one that a
+1. Each choice has its own prior, a distribution or equally likely levels, stated before any result.
+2. Within the text (`WITHIN`), a choice that `neorl.evidence.pins` pins to one value is not varied; open choices are
+   varied widely.
+3. Beyond the text (`BEYOND`), pinned choices are varied as well, jointly with all others.
+4. The reading to the letter takes the values that the text pins. Where more than one is left, it takes the one that a
    sentence or an equation prints, or else the plainest, which stands first among the levels, or else the middle of the
    prior. `neorl.evidence.pins` says which and why.
 """
@@ -18,7 +18,7 @@ from neorl.agents.rules import WHEN_INDIFFERENT
 from neorl.evidence.reading import LAYERS, Reading
 from neorl.worlds.waterworld import CONTACTS
 
-# What is uniform in its logarithm, as a function of the value, and the inverse of that.
+# Measures of a value that are uniform in their logarithm, with their inverses.
 MEASURES = {"": (lambda value: value, lambda measure: measure),
             "1 + value": (lambda value: 1 + value, lambda measure: measure - 1),
             "1 / (1 − value)": (lambda value: 1 / (1 - value), lambda measure: 1 - 1 / measure)}
@@ -28,8 +28,8 @@ MEASURES = {"": (lambda value: value, lambda measure: measure),
 class LogUniform:
     """A distribution of numbers that is uniform in the logarithm of their `measure`.
 
-    low, high: the ends of that measure, which is the number itself or one of `MEASURES`. zero: the share of the prior
-    that lies at 0 beside.
+    low, high: the ends of that measure, which is the number itself or one of `MEASURES`. zero: the probability of 0,
+    outside these ends.
     """
 
     low: float
@@ -38,14 +38,14 @@ class LogUniform:
     zero: float = 0.0
 
     def ppf(self, share):
-        """The number below which a share in [0, 1] lies."""
+        """The quantile at a share in [0, 1]."""
         if share < self.zero:
             return 0.0
         share = (share - self.zero) / (1 - self.zero)
         return float(MEASURES[self.measure][1](self.low * (self.high / self.low) ** share))
 
     def cdf(self, value):
-        """The share that lies below a number; 0 for what lies at 0 beside."""
+        """The share that lies below a number; 0 at the extra zero."""
         if self.zero and value == 0:
             return 0.0
         measure = MEASURES[self.measure][0](value)
@@ -71,7 +71,7 @@ class Choice(NamedTuple):
 
     @property
     def levels(self):
-        """What it is chosen from, in words."""
+        """Its levels, or the ends of its prior, in words."""
         if isinstance(self.prior, tuple):
             return ", ".join(map(self.words, self.prior))
         return " … ".join(map(self.words, self.prior.support()))
@@ -98,7 +98,7 @@ class Choice(NamedTuple):
         return (f"{value:.3g}" if abs(value) < 999.5 else f"{value:,.0f}").replace("-", "−")
 
     def at(self, share):
-        """The value below which a share in [0, 1) of the prior lies."""
+        """The quantile of the prior at a share in [0, 1)."""
         if isinstance(self.prior, tuple):
             return self.prior[int(share * len(self.prior))]
         return self.prior.ppf(share)

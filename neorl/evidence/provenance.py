@@ -1,7 +1,7 @@
-"""Where every constant comes from: the thesis, the environment it used, the author's public code, or this book.
+"""The source of every constant: the thesis, the environment it used, the author's public code, or this book.
 
 The values are read from the code that uses them, and the sources of a reading's choices from `neorl.evidence.pins`, so
-the table cannot say anything else.
+the table always agrees with both.
 """
 
 from typing import NamedTuple
@@ -28,14 +28,14 @@ class Constant(NamedTuple):
 
 
 def constants():
-    """Every `Constant` that a result of the book rests on."""
+    """Every `Constant` on which a result of the book depends."""
     default = conditions(Reading(), max(LENGTHS.values()), 1)
     eight, three = default["layers"].world, default["both"].world
     fixed = [
         Constant("side of the tank", f"{three.width} pixels", AUTHOR),
         Constant("radius of agent and creeps", f"{three.radius} pixels", PLE),
         Constant("acceleration of an action", "a quarter of the width per second, each step", PLE),
-        Constant("drag", f"{waterworld.DRAG} a step", PLE),
+        Constant("drag", f"{waterworld.DRAG} per step", PLE),
         Constant("speed of creeps", "up to a quarter of the width per second", PLE),
         Constant("creeps, paper A", f"{eight.n_creeps}", "paper A, WaterWorld (and the author's later public code)"),
         Constant("creeps, papers B and C", f"{three.n_creeps}", "paper C, section 2; for paper B " + AUTHOR),
@@ -50,7 +50,7 @@ def constants():
                  OURS + ": paper B speaks of more than 160 minutes"),
         Constant("exploration of the control", "1", "paper A, Experiments"),
         Constant("bins of reward", f"{BIN_SECONDS} s", "paper B, section 3, and " + AUTHOR),
-        Constant("filter of paper B's curves", f"Butterworth, order {FILTER_ORDER}, {CUTOFF_PERIODS} periods a run",
+        Constant("filter of paper B's curves", f"Butterworth, order {FILTER_ORDER}, {CUTOFF_PERIODS} periods per run",
                  "paper B, section 3; order and cutoff are " + OURS),
     ]
     return fixed + [Constant(choice.label, choice.words(getattr(Reading(), name)), source(name))
@@ -58,7 +58,7 @@ def constants():
 
 
 def source(name):
-    """Where the default of a field of `Reading` comes from, in words."""
+    """The source of the default of a field of `Reading`, in words."""
     places = []
     for pin in PINS:
         if pin.fields[:1] == (name,) and pin.place:

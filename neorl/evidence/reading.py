@@ -1,8 +1,8 @@
-"""A reading of the thesis: one value for everything that its agents need, the agents, and what judges them.
+"""A reading of the thesis: a value for every choice, the agents and experiments that follow, and their judgement.
 
-1. A `Reading` makes every choice of `neorl.evidence.pins`, pinned or open, and can say whether it obeys the text.
+1. A `Reading` makes every choice of `neorl.evidence.pins`, pinned or open, and reports whether it obeys the text.
 2. Its *conditions* are the experiments of the papers under it, in groups, cheap ones first.
-3. It is judged by the rules of `neorl.evidence.claims`, on every claim that the conditions at hand suffice for.
+3. The rules of `neorl.evidence.claims` judge it, on every claim for which the available conditions suffice.
 """
 
 from collections.abc import Sequence
@@ -20,13 +20,13 @@ from neorl.worlds.waterworld import WaterWorld
 
 SINGLE, LAYERS, PRIMES = (10, 30, 50, 70, 90), papers.LAYERS, papers.PRIMES
 VECTORS = ("signed", "by size", "incoming")
-CELLS_A_SECOND = 10  # between which memory in cells and in seconds is converted: about a cell of N23 in 0.1 s
-PAPER_FPS = 50  # at which lengths are given
+CELLS_A_SECOND = 10  # converts memory between cells and seconds: about one cell of N23 in 0.1 s
+PAPER_FPS = 50  # steps per second at which lengths are given
 LENGTHS = {"A": 150_000, "B": 600_000, "C": 300_000}  # of the papers' runs, in steps
-LONGER = 16  # times as long do agents live whose time to their final level is taken
+LONGER = 16  # times as long are the runs that measure the time to the final level
 CONTROLS = 8  # times as many runs of Brownian motion, which most readings share
 
-# What each group of conditions consists of.
+# The conditions of each group.
 GROUPS = {
     "layers": (("brownian", 8), *(("layer", n) for n in LAYERS), "layers"),
     "single": (("brownian", 8), *(("single", n) for n in SINGLE)),
@@ -40,23 +40,25 @@ GROUPS = {
 
 @dataclass(frozen=True)
 class Reading:
-    """One reading of all that the agents need; the defaults are those of the book.
+    """A value for every choice in building the agents; the defaults are those of the book.
 
-    credit: one of `agent.CREDITS`, or "step" for temporal difference, to which `terminal` alone of the other fields of
-        `Learning` applies. memory: in cells or, if it fades with seconds, in tenths of a second: 0 … 1,000 for both.
+    credit: one of `rules.CREDITS`, or "step" for temporal difference, which of the other fields of `Learning` uses
+        the learning rate, the discount and `terminal` alone. memory: in cells or, if it fades with seconds, in tenths
+        of a second: 0 … 1,000 for both.
     tiled_fraction, object_tiled_fraction: shares of their range that maps of places and of object vectors cover.
-    when_indifferent: always "random" where `exploration` is 0 and the agent would never move otherwise.
-    place_gain, network_gain: of place cells where object-vector cells have 1, in papers B and C.
-    vectors: what a desire vector adds up. "signed", "by size" (see `Desire`), or "incoming": by size, but for the one
-        that recurs, which is signed and of what came in from other nodes alone.
+    when_indifferent: always "random" if `exploration` is 0, since the agent would otherwise never move.
+    place_gain, network_gain: of place cells, relative to object-vector cells, in papers B and C.
+    vectors: how a desire vector adds up. "signed", "by size" (see `Desire`), or "incoming": by size, except that the
+        recurrent one is signed and sums only what comes in from other nodes.
     network_resolutions: of the maps of paper C.
     The other fields are those of `Learning`, `Policy`, `Node`, `Desire`, `Agent` and `WaterWorld` of the same names.
-    Raises ValueError for `vectors` and `network_resolutions` that are none; its agents and conditions check the others.
+    Raises ValueError for invalid vectors, resolutions, memory, exploration or fps; its agents and conditions check the
+    other fields.
     """
 
     learning_rate: float = Learning.learning_rate
     discount: float = Learning.discount
-    credit: str = Learning.credit  # type: ignore[assignment]  # there also a kernel of the user's
+    credit: str = Learning.credit  # type: ignore[assignment]  # there also a user's kernel
     absent_decay: float = Learning.absent_decay
     absent_form: str = Learning.absent_form
     memory: float = Learning.memory * CELLS_A_SECOND
@@ -108,7 +110,7 @@ class Reading:
 
     @property
     def agents(self):
-        """The makers' arguments that all its agents share."""
+        """The arguments that are common to all its agents, for the functions that make them."""
         policy = Policy(self.exploration, self.when_indifferent if self.exploration else "random")
         return {"learning": self.learning, "policy": policy, "own_cell": self.own_cell,
                 "tiled_fraction": self.tiled_fraction, "object_tiled_fraction": self.object_tiled_fraction,
@@ -116,7 +118,7 @@ class Reading:
 
     @property
     def place_agents(self):
-        """The same for agents of place cells alone, whatever the reading makes of things."""
+        """The same for agents of place cells alone, with the choices about objects at their defaults."""
         learning = replace(self.learning, causes=Learning.causes, capture=Learning.capture,
                            attention=Learning.attention)
         return {**self.agents, "learning": learning, "object_tiled_fraction": papers.TILED_FRACTION}
@@ -126,10 +128,10 @@ def conditions(reading: Reading, steps: int, runs: int, seed: int = 0,
                groups: Sequence[str] = tuple(GROUPS)) -> dict[Any, Condition]:
     """The conditions of the papers under a reading: {key: `Condition`}.
 
-    steps: of a run at 50 steps per second, but no more than the paper's; papers B and C live the same simulated time at
-    any rate. For B4 agents live 16 times as long, half as many runs and at least two, unless paper B's are as long.
-    Brownian motion with 8 creeps always lives as long as in paper A, where it meets with no reset.
-    seed: integer ≥ 0. groups: names in `GROUPS`, which holds the keys of each.
+    steps: of a run at 50 steps per second, but no more than the paper's; runs of papers B and C last the same simulated
+    time at any rate. For B4 runs are 16 times as long and half as many, but at least two, unless steps reach paper B's
+    length. Brownian motion with 8 creeps always runs as long as in paper A, where it meets with no reset.
+    seed: integer ≥ 0. groups: names in `GROUPS`, which has the keys of each.
     Raises ValueError for anything else.
     """
     checks.instance("reading", reading, Reading)
@@ -184,7 +186,7 @@ def networks(reading: Reading) -> dict[str, Agent]:
 
 
 def judge(results):
-    """The claims that results of a reading's conditions suffice for: {name of the claim: `Claim`}.
+    """Judge the claims for which the results of a reading's conditions suffice: {name of the claim: `Claim`}.
 
     results: {key: `Result`}, of all groups or of some.
     """
@@ -215,9 +217,9 @@ def judge(results):
 
 
 def additions(results):
-    """What `judge_more_maps` compares: {what is added: (with more maps, each with fewer, Brownian motion there)}.
+    """The comparisons of `judge_more_maps`: {what is added: (with more maps, each with fewer, Brownian motion)}.
 
-    results: {key: `Result`}, of the groups "layers", "modal" and "resolutions" or more.
+    results: {key: `Result`}, of at least the groups "layers", "modal" and "resolutions".
     """
     eight, three = results["brownian", 8], results["brownian", 3]
     place, objects = results["place", "all"], results["objects", "all"]

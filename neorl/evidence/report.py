@@ -1,9 +1,9 @@
-"""What was found about the claims, as pages report it: tables in Markdown, and the record that a page leaves on disk.
+"""The findings on the claims, as pages report them: tables in Markdown, and the record that a page saves.
 
-A record is JSON, one file a page, in the folder ``claims`` of the store. It has the claims that the page has judged
-under the book's reading ("claims") and under the reading to the letter ("letter"), or, from the chapter on assumptions,
+A record is a JSON file for each page, in the folder ``claims`` of the cache. It has the claims that the page has judged
+under the book's reading ("claims") and under the reading to the letter ("letter"), or, from the page of assumptions,
 the shares of readings within the text under which claims hold ("shares"). `neorl.evidence.ledger` makes the page of
-all claims of records.
+all claims from the records.
 """
 
 import json
@@ -22,15 +22,16 @@ from neorl.files import cache_folder, write_whole
 LETTER, CALIBRATED = "to the letter", "calibrated"  # names of readings
 HEADER = "| Claim | Thesis | To the letter | Calibrated | Verdict | Share within the text |\n|---|---|---|---|---|---|"
 LEGEND = ("● reproduced, ◐ partly, ○ not reproduced, – no learning to test; without a symbol, no verdict. An empty "
-          "cell was not computed, or no choice of the text bears on it. Numbers, with 95\u00a0% intervals over runs, "
+          "cell was not computed, or does not depend on the reading. Numbers, with 95\u00a0% intervals over runs, "
           "are {}.")
 PARTS = ("claims", "letter", "shares")  # of a record
 
 
 def table(claims, letter=(), shares=None):
-    """Claims as a Markdown table, and below it what each verdict rests on.
+    """Claims as a Markdown table, and below it the evidence for each verdict.
 
-    claims: of `Claim`, under the book's reading. letter: the same, under that to the letter. shares: as in `save`.
+    claims: a sequence of `Claim`, under the book's reading. letter: the same, under that to the letter. shares: as in
+    `save`.
     """
     record = {"claims": _kept(claims), "letter": _kept(letter), "shares": shares or {}}
     names = [claim.name for claim in claims]
@@ -41,7 +42,7 @@ def table(claims, letter=(), shares=None):
 def comparison(judged):
     """Verdicts under several readings as a Markdown table, `LETTER` first: judged {reading: [Claim, …]}.
 
-    Claims that half of the readings or fewer have judged are left out.
+    Claims judged under half of the readings or fewer are left out.
     """
     counts = Counter(claim.name for claims in judged.values() for claim in claims)
     names = sorted(name for name, count in counts.items() if 2 * count > len(judged))
@@ -53,7 +54,7 @@ def comparison(judged):
 
 
 def summary(judged):
-    """Where each claim is reproduced, and which readings come closest, in Markdown: judged {reading: [Claim, …]}.
+    """The readings that reproduce each claim, and the closest ones, in Markdown: judged {reading: [Claim, …]}.
 
     Demonstrations are not counted.
     """
@@ -83,11 +84,11 @@ def errata(place=""):
 
 
 def save(page, claims=(), shares=None, letter=()):
-    """Keep what a page has found as JSON, with the digest of the source that it was computed with.
+    """Save the findings of a page as JSON, with the digest of the source that computed them.
 
-    claims, letter: of `Claim`, under the book's reading and under the reading to the letter. shares: {name of a claim:
-    {"holds", "undecided", "readings"}}, counts of readings within the text in short runs, with "agrees" and "measured"
-    where there are counts at the papers' lengths too. A bound that does not exist, as with a single run, is null.
+    claims, letter: sequences of `Claim`, under the book's reading and under that to the letter. shares: {name of a
+    claim: {"holds", "undecided", "readings"}}, counts of readings within the text in short runs, with "agrees" and
+    "measured" if there are counts at the papers' lengths too. A missing bound, as with a single run, is null.
     """
     content = {"page": page, "source": source_digest(), "claims": _kept(claims), "letter": _kept(letter),
                "shares": shares or {}}
@@ -95,7 +96,7 @@ def save(page, claims=(), shares=None, letter=()):
 
 
 def load(paths=None):
-    """The records in JSON files, as one: {"claims": {name: …}, "letter": …, "shares": …}. By default all kept."""
+    """Load records, by default all that are saved, as one: {"claims": {name: …}, "letter": …, "shares": …}."""
     paths = sorted((cache_folder() / "claims").glob("*.json")) if paths is None else paths
     records = [json.loads(path.read_text(encoding="utf-8")) for path in paths]
     return {part: {name: found for record in records for name, found in record.get(part, {}).items()}
@@ -108,25 +109,25 @@ def number(found):
 
 
 def verdict(record, name):
-    """What became of a claim under the book's reading: a verdict, or that it is not computed."""
+    """The verdict on a claim under the book's reading, or that it is not computed."""
     return record["claims"].get(name, {"verdict": NOT_COMPUTED})["verdict"]
 
 
 def extract(record, names):
-    """Some claims of a record, as `load` has it, as a Markdown table."""
+    """Some claims of a record, as `load` returns it, as a Markdown table."""
     return "\n".join([HEADER, *(_row(record, name) for name in names), "",
-                      LEGEND.format("those that the page of the claim explains")])
+                      LEGEND.format("those that the claim's page explains")])
 
 
 def in_short(record):
-    """The tables of all claims and demonstrations, in plain Markdown and without what verdicts rest on."""
+    """The tables of all claims and demonstrations, in plain Markdown and without the evidence."""
     claims, demonstrations = ([_row(record, name) for name in some] for some in (CLAIMS, DEMONSTRATIONS))
     beside = ["", "Beside the claims stands a demonstration:", "", HEADER, *demonstrations]
     return "\n".join([HEADER, *claims, *beside]) + "\n"
 
 
 def evidence(record, names):
-    """A line of a list for each claim: the sentence that is judged, what was measured, and what was found."""
+    """A list item for each claim: the sentence that is judged, the quantity measured, and the finding."""
     lines = []
     for name in names:
         statement = STATEMENTS[name]
@@ -140,7 +141,7 @@ def evidence(record, names):
 
 
 def percent(count, total):
-    """A count of a total, as text."""
+    """A count as a percentage of a total, as text."""
     return f"{100 * count / total:.0f}\u00a0%"
 
 

@@ -1,6 +1,6 @@
-"""The rules by which the claims of the chapters, and the demonstration beside them, are decided.
+"""The rules that judge the claims of the chapters, and the demonstration beside them.
 
-`neorl.evidence.verdict` says what a verdict is.
+`neorl.evidence.verdict` defines verdicts.
 """
 
 import numpy as np
@@ -8,23 +8,23 @@ import numpy as np
 from neorl.evidence.statistics import RECENT, difference, estimate, minutes_sooner, quotient, ratio
 from neorl.evidence.verdict import AFTER_TURN, BEFORE_TURN, FINAL, fewest_runs, judged, lead_over_brownian, learned
 
-FAILS = 0.1  # of what the agent that learns by persistence has gained
+FAILS = 0.1  # of the gain of agents that learn by persistence
 
 
 def judge_changes(revalued, moved=None):
-    """Claim T1 about revaluing, and on its page also moving, against what the same agents do later.
+    """Claim T1 on revaluing elements, and on its page also on moving them, compared with the same agents later.
 
-    revalued: the `Result` of agents that want red creeps too, from half-time on.
-    moved: mean distances, in board widths, to a place that is wanted, in the time after each of its moves between two
-        points: {"experienced": (runs, moves), "ignorant": (runs, moves)}, an even number of moves, 4 or more, of agents
-        that have lived among creeps and of agents that have not. Readings are judged without, by revaluing alone.
+    revalued: the `Result` of agents that desire red creeps too, from half-time on.
+    moved: mean distances, in board widths, to a desired place in the time after each of its moves between two points:
+        {"experienced": (runs, moves), "ignorant": (runs, moves)}, an even number of moves, 4 or more, of agents with
+        and without experience among creeps. Readings are judged without it, by revaluing alone.
     """
     before, after, later = (_red_a_minute(revalued, *share) for share in (BEFORE_TURN, AFTER_TURN, FINAL))
     kept, turn = estimate(ratio, after, later), estimate(difference, after, before)
     settled = estimate(difference, later, before)
     whole, room = [turn.low > 0 and kept.low >= 0.8], [turn.high > 0 and kept.high >= 0.8]
     detail = (f"Per minute, {estimate(np.mean, before)} before the turn, {estimate(np.mean, after)} after it and "
-              f"{estimate(np.mean, later)} finally. At once is read as four fifths of the later level.")
+              f"{estimate(np.mean, later)} finally. No retraining is read as four fifths of the later level at once.")
     if moved:
         first, others = moved["experienced"][:, :2].mean(axis=1), moved["experienced"][:, 2:].mean(axis=1)
         near = estimate(ratio, others, first)
@@ -38,7 +38,7 @@ def judge_changes(revalued, moved=None):
 
 
 def judge_cost(together, alone, none):
-    """Claim T2, from what an agent's maps cost together and each alone; each (repetitions,), in the same unit a step.
+    """Claim T2, from the cost of an agent's maps together and alone; each (repetitions,), in the same unit per step.
 
     together: with all maps. alone: a sequence, with each map alone. none: without any.
     """
@@ -48,11 +48,11 @@ def judge_cost(together, alone, none):
 
 
 def judge_temporality(whole, short):
-    """Claim T3, from what agents lose that remember a step less than the process does
+    """Claim T3, from the loss of agents that remember one step less than the process
     (`neorl.chapters.chapter_3.temporality`).
 
-    whole, short: {name of a process: what agents earn above chance, (runs,)}, of agents that remember all L steps, and
-    of agents that remember one step less.
+    whole, short: {name of a process: reward above chance, (runs,)}, of agents that remember all L steps, and of agents
+    that remember one step less.
     """
     loss = {name: estimate(_loss, whole[name], short[name]) for name in whole}
     least = min(loss, key=lambda name: loss[name].value)
@@ -68,19 +68,19 @@ def judge_temporality(whole, short):
 def judge_tables(states, values, entries, filled):
     """Claim T4, from the tables of learners in processes of many sizes.
 
-    states: S of each process, (sizes,). values, entries, filled: how many action values each learner has, how many
-    entries its model of the transitions has, and how many of these are not 0; each (runs, sizes).
+    states: S of each process, (sizes,). values, entries, filled: the numbers of a learner's action values, of entries
+    in its model of the transitions, and of those that are not 0; each (runs, sizes).
     """
     value, entry, full = (estimate(np.mean, _powers(np.log(states), np.log(table)))
                           for table in (values, entries, filled))
     fits = [abs(value.value - 1) <= 0.1, abs(entry.value - 2) <= 0.1]
-    return judged("T4", entry, f"The values of Q-learning grow by the power {value}, and the entries of the model "
-                  f"that differ from 0 by {full}. The rule allows 0.1 more or less.", len(values),
+    return judged("T4", entry, f"For the values of Q-learning the exponent is {value}, and for the entries of the "
+                  f"model that differ from 0 it is {full}. The rule allows 0.1 more or less.", len(values),
                   reproduced=all(fits), partly=any(fits), possible=False)
 
 
 def judge_real_time(load, delay):
-    """Claim T5, from the load of each window of a run in real time, in cores, and when each step was done.
+    """Claim T5, from the load of each window of a run in real time, in cores, and the delay of each step.
 
     load: (windows,). delay: (windows, steps), the time from when a step was due until it was done, in steps.
     """
@@ -91,10 +91,10 @@ def judge_real_time(load, delay):
 
 
 def judge_more_maps(additions):
-    """Claim T6, from agents with more maps against agents with some of these.
+    """Claim T6, from agents with more maps, compared with agents with some of these.
 
     additions: {what is added: (more, fewer, brownian)}. more: the `Result` of the agent with more maps. fewer: a
-    sequence, of the agents with fewer, in runs of the same length. brownian: Brownian motion on the same board.
+    sequence of those of the agents with fewer, in runs of the same length. brownian: Brownian motion on the same board.
     """
     sooner, room, testable = {}, {}, []
     for name, (more, fewer, brownian) in additions.items():
@@ -106,15 +106,15 @@ def judge_more_maps(additions):
     least = min(counted, key=lambda name: sooner[name].value)
     as_soon = [sooner[name].low >= -room[name] for name in counted]
     found = "; ".join(f"{sooner[name]} by {name}" for name in counted)
-    return judged("T6", sooner[least], f"It is {found}, to half the final level of the best agent with fewer maps, "
-                  "over the quickest. As soon is read as at most a fortieth of the run later.",
+    return judged("T6", sooner[least], f"It is {found}, at half the final level of the best agent with fewer maps, "
+                  "over the quickest. Not slower is read as at most a fortieth of the run later.",
                   min(fewest_runs(more, *fewer) for more, fewer, _ in additions.values()),
                   reproduced=all(as_soon), partly=any(as_soon),
                   possible=all(sooner[name].high >= -room[name] for name in counted), testable=bool(testable))
 
 
 def sooner_with_more(more, fewer):
-    """By how many minutes agents with more maps earn half the final level of the best with fewer sooner than all these.
+    """The lead in minutes of agents with more maps over the quickest with fewer, at half the best one's final level.
 
     more: a `Result`. fewer: a sequence. Returns an `Estimate`.
     """
@@ -125,7 +125,7 @@ def sooner_with_more(more, fewer):
 def judge_persistence(persistent, per_step, brownian):
     """Claim T7, from `Result`s on one board.
 
-    persistent: agents that learn by changes of cell. per_step: {discount: agents that learn at every step}, otherwise
+    persistent: agents that learn at changes of cell. per_step: {discount: agents that learn at every step}, otherwise
     the same; the best one counts. brownian: Brownian motion.
     """
     best = max(per_step, key=lambda name: per_step[name].rate(*FINAL).mean())
@@ -133,8 +133,8 @@ def judge_persistence(persistent, per_step, brownian):
     share = estimate(_share_of_lead, step, cell, chance)
     lead = estimate(difference, cell, step)
     return judged("T7", share, f"Learning at every step does best with {best}, and leads Brownian motion by "
-                  f"{lead_over_brownian(per_step[best], brownian)}; by changes of cell agents earn {lead} more than "
-                  "that. Learning fails if it gains less than a tenth.", fewest_runs(persistent, *per_step.values()),
+                  f"{lead_over_brownian(per_step[best], brownian)}; agents that learn at changes of cell earn {lead} "
+                  "more. Learning fails if it gains less than a tenth.", fewest_runs(persistent, *per_step.values()),
                   reproduced=share.high < FAILS, partly=lead.low > 0, possible=share.low < FAILS,
                   testable=learned(persistent, brownian))
 
@@ -148,17 +148,17 @@ def judge_time_scale(resolutions, stays):
     width, time = -np.log(np.asarray(resolutions, float)[order]), np.log(stays)[:, order]
     power = estimate(np.mean, _powers(width, time))
     longer = [estimate(np.mean, each) for each in np.diff(time, axis=1).T]
-    return judged("T8", power, "1 is in proportion, and the rule asks for more than 0.5, and for a longer stay in "
-                  "every coarser map.", len(stays),
+    return judged("T8", power, "1 means in proportion. The rule asks for more than 0.5, and for longer stays in every "
+                  "coarser map.", len(stays),
                   reproduced=power.low > 0.5 and all(each.low > 0 for each in longer), partly=power.low > 0,
                   possible=power.high > 0.5 and all(each.high > 0 for each in longer))
 
 
 def judge_latent_learning(agent, rivals, first_reward=11):
-    """Demonstration H1, from what {group: record} of animals did, each record with ``errors`` (animals, days).
+    """Demonstration H1, from {group: record} of animals, each record with ``errors`` (animals, days).
 
     agent: of neoRL, for the groups "throughout", "never" and "delayed", which is rewarded from day ``first_reward`` on.
-    rivals: {name: the same} of others, which are reported and not judged.
+    rivals: {name: the same} of other learners, which are reported and not judged.
     """
     runs = min(len(record.errors) for record in agent.values())
     after, next_day = slice(first_reward, None), slice(first_reward, first_reward + 1)
@@ -167,8 +167,8 @@ def judge_latent_learning(agent, rivals, first_reward=11):
     worth = _more_errors(agent, "never", "throughout", after)
     others = "; ".join(f"{name} {_more_errors(groups, 'delayed', 'throughout', after)}"
                        for name, groups in rivals.items())
-    return judged("H1", lead, f"On the day after the first reward it is {at_once}. Level is read as within a tenth of "
-                  f"what reward makes of a difference, {worth.value:.2f}. With other learners it is: {others}.", runs,
+    return judged("H1", lead, f"On the day after the first reward it is {at_once}. Drawing level is read as within a "
+                  f"tenth of the effect of reward, {worth.value:.2f}. With other learners it is: {others}.", runs,
                   reproduced=lead.high < 0, partly=max(lead.high, at_once.high) <= 0.1 * worth.value,
                   possible=lead.low < 0, testable=worth.low > 0)
 

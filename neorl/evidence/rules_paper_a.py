@@ -1,6 +1,6 @@
-"""The rules by which the claims of paper A are decided: one map, and several.
+"""The rules that judge the claims of paper A: one map, and several.
 
-`neorl.evidence.verdict` says what a verdict is.
+`neorl.evidence.verdict` defines verdicts.
 """
 
 import numpy as np
@@ -10,14 +10,14 @@ from neorl.evidence.statistics import (RECENT, difference, estimate, lead_over_b
 from neorl.evidence.verdict import EARLY, FINAL, MIDDLE, fewest_runs, judged, learned
 
 LENGTH = 150_000  # of the paper's runs, in steps
-NEAR_3_5 = (2.5, 5.0)  # 3.5 but for a factor of the square root of 2
+NEAR_3_5 = (2.5, 5.0)  # 3.5 within a factor of the square root of 2
 
 
 def judge_single_layer(by_resolution, brownian):
     """Claims A1–A5 of paper A, from its figure 6.
 
-    by_resolution: {N: `Result`} for N 10, 30, 50, 70, 90. brownian: the `Result` of the control, where the last green
-    creep brings a reward of its own.
+    by_resolution: {N: `Result`} for N 10, 30, 50, 70, 90. brownian: the `Result` of the control, in which the last
+    green creep brings an extra reward.
     """
     runs = fewest_runs(*by_resolution.values(), brownian)
     rate = {n: result.rate() for n, result in sorted(by_resolution.items())}
@@ -28,7 +28,7 @@ def judge_single_layer(by_resolution, brownian):
     score, room = estimate(np.mean, brownian.rate()), 0.1 * mean[best]
     none, around_0 = boards.high < 1, max(-score.low, score.high) < room
     a1 = judged("A1", boards, f"Brownian motion scores {score} per second, and the best agent, N{best}, "
-                f"{mean[best]:.2f}. About 0 is read as within a tenth of that, and no reset as less "
+                f"{mean[best]:.2f}. “Around 0” is read as within a tenth of that, and no reset as fewer "
                 "than one in 150,000 steps.", runs,
                 reproduced=none and around_0, partly=none or around_0,
                 possible=boards.low < 1 and score.low < room and score.high > -room)
@@ -37,7 +37,7 @@ def judge_single_layer(by_resolution, brownian):
     some_learned = any(each.low > 0 for each in lead.values())
     least = min(lead, key=lambda n: lead[n].low)
     chance = probability_of_improvement(rate[least], brownian.rate())
-    a2 = judged("A2", lead[least], f"It is that of N{least}, whose runs beat one of the control with probability "
+    a2 = judged("A2", lead[least], f"It is that of N{least}, a run of which beats one of the control with probability "
                 f"{chance}.", runs, reproduced=lead[least].low > 0, partly=some_learned,
                 possible=all(each.high > 0 for each in lead.values()))
 
@@ -45,18 +45,18 @@ def judge_single_layer(by_resolution, brownian):
     ahead = estimate(lead_over_best, rate[50], *others)
     ends = estimate(lead_over_best, rate[50], rate[10], rate[90])
     a4 = judged("A4", ahead, f"N{best} accumulates most. Over the better of N10 and N90 the lead of N50 is {ends}; "
-                "where it is above 0, the claim holds in part.", runs, reproduced=ahead.low > 0, partly=ends.low > 0,
+                "if it is above 0, the claim holds in part.", runs, reproduced=ahead.low > 0, partly=ends.low > 0,
                 possible=ahead.high > 0, testable=some_learned)
 
     spread, pair = estimate(least_of_most, *rate.values()), estimate(ratio, rate[70], rate[10])
-    a5 = judged("A5", spread, f"N70 accumulates {pair} times as much as N10. Comparable is read as half or more of the "
-                "most, and for the two alone as between a half and two.", runs, reproduced=spread.low >= 0.5,
+    a5 = judged("A5", spread, f"N70 accumulates {pair} times as much as N10. “Comparable” is read as half or more of "
+                "the most, and for these two alone as between a half and two.", runs, reproduced=spread.low >= 0.5,
                 partly=0.5 <= pair.low and pair.high <= 2, possible=spread.high >= 0.5, testable=some_learned)
     return [a1, a2, _judge_saturation(by_resolution, runs, some_learned), a4, a5]
 
 
 def _judge_saturation(by_resolution, runs, some_learned):
-    """Claim A3, that coarse maps lead early and fine ones finally, where the rate of the coarse ones levels off."""
+    """Claim A3, that coarse maps lead early and fine ones finally, and that the rate of the coarse ones levels off."""
     order = sorted(by_resolution)
     early, middle, final = ({n: by_resolution[n].rate(*share) for n in order} for share in (EARLY, MIDDLE, FINAL))
     first, last = (estimate(rank_correlation, *rates.values()) for rates in (early, final))
@@ -67,8 +67,8 @@ def _judge_saturation(by_resolution, runs, some_learned):
     levelled = slower.low > 0 or flat.low > 0
     return judged("A3", last, f"Early it is {first}. From the middle fifth of the run to the last, the reward per "
                   f"second of N{order[0]} and N{order[1]} rises by {estimate(np.mean, coarse)}, that of N{order[-2]} "
-                  f"and N{order[-1]} by {estimate(np.mean, fine)}. Levelled off is read as a rise of less than half "
-                  "that of the fine maps, or of less than a tenth of the own level.", runs,
+                  f"and N{order[-1]} by {estimate(np.mean, fine)}. “Saturate” is read as a rise of less than half "
+                  "that of the fine maps, or of less than a tenth of the map's own level.", runs,
                   reproduced=first.high < 0 < last.low and levelled,
                   partly=first.high < 0 or (last.low > 0 and levelled),
                   possible=first.low < 0 < last.high and (slower.high > 0 or flat.high > 0), testable=some_learned)
@@ -96,7 +96,7 @@ def judge_multiple_layers(by_resolution, together, brownian):
     gain = estimate(ratio, all_final, final[7])
     sooner = minutes_sooner(together, by_resolution[7], 0.5 * final[7].mean())
     room = RECENT * together.seconds / 60
-    a7 = judged("A7", gain, f"Near is read as from {NEAR_3_5[0]} to {NEAR_3_5[1]}. They reach half the final level "
+    a7 = judged("A7", gain, f"Near 3.5 is read as from {NEAR_3_5[0]} to {NEAR_3_5[1]}. They reach half the final level "
                 f"of N7 {sooner} minutes sooner; as fast is read as at most {room:.2f} minutes later.", runs,
                 reproduced=NEAR_3_5[0] <= gain.low and gain.high <= NEAR_3_5[1] and sooner.low >= -room,
                 partly=gain.low > 1,
@@ -109,8 +109,8 @@ def judge_multiple_layers(by_resolution, together, brownian):
     quicker = all(each.low > 0 for each in sooner.values())
     lead = estimate(lead_over_best, all_final, *final.values())
     chance = probability_of_improvement(all_final, final[best])
-    a8 = judged("A8", sooner[quickest], f"It is that over N{quickest}, to half the final level of N{best}. Over the "
-                f"best alone the final lead is {lead}; the probability of improvement on N{best} is {chance}.", runs,
+    a8 = judged("A8", sooner[quickest], f"It is that over N{quickest}, at half the final level of N{best}. The final "
+                f"lead over the best alone is {lead}; the probability of improvement on N{best} is {chance}.", runs,
                 reproduced=quicker and lead.low > 0, partly=quicker or lead.low > 0,
                 possible=all(each.high > 0 for each in sooner.values()) and lead.high > 0, testable=some_learned)
     return [a6, a7, a8]

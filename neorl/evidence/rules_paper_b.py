@@ -1,5 +1,7 @@
-"""The rules by which the claims of paper B are decided: two modalities. `neorl.evidence.verdict` says what a verdict
-is."""
+"""The rules that judge the claims of paper B: two modalities.
+
+`neorl.evidence.verdict` defines verdicts.
+"""
 
 import numpy as np
 
@@ -8,7 +10,7 @@ from neorl.evidence.statistics import (difference, estimate, lead_over_best, min
 from neorl.evidence.verdict import AFTER_TURN, FINAL, fewest_runs, judged, learned
 
 COMPARABLE = (0.8, 1.25)
-BOTH, PLACE = (0.44, 0.69), (0.23, 0.36)  # reward per second: the paper's 0.55 and 0.29 but for a factor of 1.25
+BOTH, PLACE = (0.44, 0.69), (0.23, 0.36)  # reward per second: the paper's 0.55 and 0.29 within a factor of 1.25
 PER_BOARD = (1.35, 1.65)  # the paper's 1.5 points, a tenth more or less
 
 
@@ -24,8 +26,8 @@ def judge_modalities(place, objects, both, brownian):
 
     level, efficiency = estimate(ratio, ovc, pc), estimate(ratio, objects.rate(), place.rate())
     comparable, no_loss = _within(level, COMPARABLE), efficiency.low >= COMPARABLE[0]
-    b1 = judged("B1", level, f"Over the whole run the ratio is {efficiency}. Comparable is read as from 0.8 to 1.25, "
-                "and no loss in sample efficiency as 0.8 or more over the whole run.", runs,
+    b1 = judged("B1", level, f"Over the whole run the ratio is {efficiency}. “Comparable” is read as from 0.8 to "
+                "1.25, and no loss in sample efficiency as 0.8 or more over the whole run.", runs,
                 reproduced=comparable and no_loss, partly=comparable or no_loss,
                 possible=_touches(level, COMPARABLE) and efficiency.high >= COMPARABLE[0], testable=knows_place)
 
@@ -43,7 +45,7 @@ def judge_modalities(place, objects, both, brownian):
               "object-vector cells": minutes_sooner(both, objects, half)}
     quickest = min(sooner, key=lambda name: sooner[name].value)
     quicker = all(each.low > 0 for each in sooner.values())
-    b6 = judged("B6", sooner[quickest], f"It is that over {quickest}, to half the final level of the better one. The "
+    b6 = judged("B6", sooner[quickest], f"It is that over {quickest}, at half the final level of the better one. The "
                 f"final lead is {lead}.", runs, reproduced=quicker and lead.low > 0, partly=quicker or lead.low > 0,
                 possible=all(each.high > 0 for each in sooner.values()) and lead.high > 0,
                 testable=knows_place or knows_objects)
@@ -80,7 +82,7 @@ def judge_pace(place, objects, both, brownian):
     quick = time_to_final_level(both) / 60
     ahead = {name: estimate(difference, quick, slow) for name, slow in minutes.items()}
     took, slow = estimate(np.mean, quick), {name: estimate(np.mean, each) for name, each in minutes.items()}
-    told = "; ".join(f"{name} take {slow[name]}, and both {ahead[name]} more" for name in minutes)
+    told = "; ".join(f"{name} take {slow[name]} (both, less these: {ahead[name]})" for name in minutes)
     pc = slow["place cells"]
     return judged("B4", took, f"{told[0].upper()}{told[1:]}. The rule allows twice the thesis's time for both, and "
                   "half of it for place cells.", fewest_runs(place, objects, both),
@@ -91,9 +93,9 @@ def judge_pace(place, objects, both, brownian):
 
 
 def judge_points(result):
-    """Claim B5 of paper B, from the `Result` of an agent with a reward for the last green creep, which does not count.
+    """Claim B5 of paper B, from the `Result` of an agent with an extra reward for the last green creep, not counted.
 
-    The reward is what shows that a board was reset; an agent never sees it, so its life is that of the paper.
+    The extra reward marks a reset of the board; the agent never sees it, so its runs are those of the paper.
     """
     boards = resets(result)
     brought = estimate(ratio, points(result), boards)
@@ -105,7 +107,7 @@ def judge_points(result):
 def judge_joining(joined, place, brownian):
     """Claim B7 of paper B, from `Result`s of runs of the same length.
 
-    joined: agents with place cells that get object-vector cells too at half-time. place: agents that stay as they are.
+    joined: agents of place cells that gain object-vector cells at half-time. place: agents that keep place cells alone.
     brownian: Brownian motion on the same board.
     """
     gain = estimate(difference, joined.rate(*FINAL), place.rate(*FINAL))

@@ -1,6 +1,6 @@
-"""The rules by which the claims of paper C are decided: networks, and alternatives to them.
+"""The rules that judge the claims of paper C: networks, and alternatives to them.
 
-`neorl.evidence.verdict` says what a verdict is.
+`neorl.evidence.verdict` defines verdicts.
 """
 
 import numpy as np
@@ -23,7 +23,7 @@ def judge_networks(a, b, c, d, brownian):
     level = estimate(np.mean, final["A"])
     short = estimate(difference, 0.5 * final["C"], final["A"])
     c1 = judged("C1", rise, f"Finally it earns {level}, and network C {estimate(np.mean, final['C'])}. Weak is read "
-                "as less than half of that.", runs,
+                "as less than half of C's.", runs,
                 reproduced=rise.low > 0 and short.low > 0, partly=rise.low > 0 or short.low > 0,
                 possible=rise.high > 0 and short.high > 0, testable=knows["C"])
 
@@ -40,7 +40,7 @@ def judge_networks(a, b, c, d, brownian):
                 testable=any(knows[name] for name in "ABC"))
 
     gain = estimate(ratio, final["D"], final["C"])
-    c4 = judged("C4", gain, "Drastically is read as by half or more. A run of D beats one of C with probability "
+    c4 = judged("C4", gain, "“Drastically” is read as by half or more. A run of D beats one of C with probability "
                 f"{probability_of_improvement(final['D'], final['C'])}.", runs, reproduced=gain.low >= 1.5,
                 partly=gain.low > 1, possible=gain.high >= 1.5, testable=knows["C"])
     return [c1, c2, c3, c4]
@@ -49,8 +49,8 @@ def judge_networks(a, b, c, d, brownian):
 def judge_alternatives(alternatives, thesis, brownian, real_time):
     """Claim C5, from final rewards per second on one board, (runs,) each, after the same number of steps.
 
-    alternatives: {name: (final rewards, seconds that a step takes to compute)}, of learners that observe no more of
-        the board than can be seen on it. thesis: {name: final rewards} of the thesis's agents.
+    alternatives: {name: (final rewards, seconds to compute a step)}, of learners that observe no more of the board
+        than can be seen on it. thesis: {name: final rewards} of the thesis's agents.
     brownian: final rewards of Brownian motion. real_time: seconds that a step lasts.
     """
     best = max(thesis, key=lambda name: thesis[name].mean())
@@ -60,10 +60,10 @@ def judge_alternatives(alternatives, thesis, brownian, real_time):
     leader = max([name for name in over if name not in late] or over, key=lambda name: over[name].value)
     succeeds = [name for name, each in over.items() if name not in late and each.low >= 1]
     return judged("C5", over[leader], f"The best alternative is {leader}, and the thesis's best agent is {best}, which "
-                  f"earns {estimate(np.mean, thesis[best])}. An alternative fails that surely earns less, or takes "
+                  f"earns {estimate(np.mean, thesis[best])}. An alternative fails if it certainly earns less, or takes "
                   f"longer to compute a step than the step lasts: {', '.join(n for n in fails if fails[n]) or 'none'}. "
-                  f"At least as much, surely and in time, earn: {', '.join(succeeds) or 'none'}. Partly is read as "
-                  "half of the alternatives failing.",
+                  f"Certainly earning at least as much, and in time: {', '.join(succeeds) or 'none'}. Partly is read "
+                  "as half of the alternatives failing.",
                   min(map(len, [*(final for final, _ in alternatives.values()), *thesis.values()])),
                   reproduced=all(fails.values()), partly=2 * sum(fails.values()) >= len(fails),
                   possible=not succeeds,

@@ -1,6 +1,6 @@
-"""The rules by which Kaelbling's properties are decided, from agents in worlds of other spaces.
+"""The rules that judge Kaelbling's properties, from agents in worlds of other spaces.
 
-`neorl.evidence.verdict` says what a verdict is. Each sample is of one number a run.
+`neorl.evidence.verdict` defines verdicts. Each sample has one number per run.
 """
 
 from neorl.evidence.statistics import difference, estimate, probability_of_improvement, ratio
@@ -8,19 +8,19 @@ from neorl.evidence.verdict import AFTER_TURN, FINAL, fewest_runs, judged
 
 
 def judge_efficiency(agent, table, chance):
-    """Claim G1, from the seconds (runs,) that the second trial at a new place takes.
+    """Claim G1, from the duration of the second trial at a new place, in seconds (runs,).
 
     agent: of agents. table: of Q-learning on the same cells. chance: of animals that swim at random.
     """
     share, gain = estimate(ratio, agent, table), estimate(difference, chance, agent)
-    return judged("G1", share, f"They take {gain} seconds less than at random. Efficient is read as half of "
+    return judged("G1", share, f"They take {gain} seconds less than at random. “Efficient” is read as half of "
                   "Q-learning's time or less.", min(map(len, (agent, table, chance))),
                   reproduced=share.high <= 0.5 and gain.low > 0,
                   partly=share.high < 1 and gain.low > 0, possible=share.low <= 0.5 and gain.high > 0)
 
 
 def judge_generality(scores):
-    """Claim G2, from {world: (agent (runs,), chance (runs,))}, of agents with one rule of learning and at random."""
+    """Claim G2, from {world: (agent (runs,), chance (runs,))}, of agents with one learning rule and at random."""
     better = {world: probability_of_improvement(*pair) for world, pair in scores.items()}
     least = min(better, key=lambda world: better[world].value)
     told = "; ".join(f"{world} {each}" for world, each in better.items())
@@ -32,13 +32,13 @@ def judge_generality(scores):
 
 
 def judge_composition(apart, whole, chance):
-    """Claim G3, from how many times the fewest steps (runs,) it takes to reach a point of a space of two features.
+    """Claim G3, from the steps to a point of a space of two features, as multiples of the fewest possible (runs,).
 
     apart: of agents with a map for each feature. whole: with one map of both. chance: at random.
     """
     cost, gain = estimate(ratio, apart, whole), estimate(ratio, chance, apart)
-    return judged("G3", cost, f"Random agents take {gain} times as long as those with a map for each. Composed is read "
-                  "as a quarter more steps or fewer; twice as many are a part of it.",
+    return judged("G3", cost, f"Random agents take {gain} times as long as those with a map for each. “Compositional” "
+                  "is read as at most a quarter more steps, and in part as at most twice as many.",
                   min(map(len, (apart, whole, chance))),
                   reproduced=cost.high <= 1.25 and gain.low > 1, partly=cost.high <= 2 and gain.low > 1,
                   possible=cost.low <= 1.25 and gain.high > 1)
@@ -47,7 +47,7 @@ def judge_composition(apart, whole, chance):
 def judge_extension(joined, alone, chance):
     """Claim G4, from `Result`s of runs of the same length.
 
-    joined: agents that get a second map at half-time. alone: agents that stay as they are. chance: at random.
+    joined: agents that gain a second map at half-time. alone: agents that do not. chance: at random.
     """
     gain = estimate(difference, 60 * joined.rate(*FINAL), 60 * alone.rate(*FINAL))
     kept = estimate(ratio, joined.rate(*AFTER_TURN), alone.rate(*AFTER_TURN))

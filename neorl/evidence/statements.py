@@ -1,25 +1,25 @@
-"""What the thesis claims: each claim, where it stands, the sentence that is judged, and the thesis's own number.
+"""The claims of the thesis: each with its place, the sentence that is judged, and the thesis's own number.
 
-Nothing here is computed. `neorl.evidence.claims` judges the claims, `neorl.evidence.report` reports what was found, and
-`neorl.evidence.errata` lists what the source gets wrong. Quotations are of the thesis (Leikanger 2022), shortened where
-it says "…".
+Nothing here is computed. `neorl.evidence.claims` judges the claims, `neorl.evidence.report` reports the findings, and
+`neorl.evidence.errata` lists the errors of the source. Quotations are from the thesis (Leikanger 2022), shortened where
+there is a "…".
 """
 
 from typing import NamedTuple
 
 
 class Statement(NamedTuple):
-    """One claim, as it is put before any result."""
+    """One claim, as stated before any result."""
 
-    place: str  # in the thesis, of the quotation
+    place: str  # of the quotation, in the thesis
     quotation: str  # the words that the rule judges
     text: str  # the claim in our words
     statistic: str
     thesis: str  # its number
     figure: str  # the label of the figure of this book that shows it
     rule: str  # the function of `neorl.evidence.claims` that judges it
-    borders: tuple[float, ...] = (0.0,)  # where the rule divides our number
-    demonstration: bool = False  # shown beside the claims, and not counted among them
+    borders: tuple[float, ...] = (0.0,)  # the thresholds that the rule sets for our number
+    demonstration: bool = False  # shown beside the claims, not counted among them
 
 
 ONE_MAP, MAPS = "paper A, Results, Single layer", "paper A, Results, Multiple resolutions"
@@ -123,7 +123,7 @@ STATEMENTS = {
         "chapter 5, on paper B",
         "The neoRL framework is general across NRES modalities, compositional and incremental by additional neoRL "
         "modules",
-        "A modality added half-way helps, and loses nothing that was learned",
+        "A modality added half-way helps, and costs nothing already learned",
         "Final lead in reward per second over agents without it",
         "> 0", "fig-joining", "judge_joining"),
     "C1": Statement(
@@ -165,8 +165,8 @@ STATEMENTS = {
         "In the neoRL approach, moving rewards or changing agent priorities during an agent's life-time does not "
         "require retraining the agent.",
         "Moving or revaluing elements needs no retraining",
-        "Red creeps per minute in the fortieth of the run after they become desired, divided by those that "
-        "the same agents finally take",
+        "Red creeps per minute in the fortieth of the run after they become desired, divided by the same agents' "
+        "final rate",
         "1", "fig-revalued", "judge_changes", (0.8,)),
     "T2": Statement(
         "section 4.4",
@@ -211,19 +211,19 @@ STATEMENTS = {
         "section 4.4",
         "the direct relation between larger receptive fields and a slower time scale is prominent.",
         "Larger receptive fields go with a slower time scale",
-        "Power of the width of a field by which the stay in it grows",
+        "Exponent with which the stay in a field grows with its width",
         "direct relation", "fig-time-scale", "judge_time_scale", (0.5,)),
     "G1": Statement(
         "paper B, section 1",
         "Navigation has to be efficient (require few interactions for learning new behaviors)",
-        "Efficient: once at a new place, agents find it again sooner than Q-learning on the same cells",
+        "Efficient: after one trial at a new place, agents find it again sooner than Q-learning on the same cells",
         "Seconds of the second trial at a new place in a water maze, divided by those of Q-learning",
         "few", "fig-spaces-pool", "judge_efficiency", (0.5, 1.0)),
     "G2": Statement(
         "paper B, section 3",
         "it is crucial that NRES-oriented navigation can operate based on different Euclidean spaces",
-        "General: with one rule of learning agents beat chance in every other space that was tried",
-        "Smallest probability over the worlds that a run of the agent beats one at random",
+        "General: with one learning rule, agents beat chance in every other space that was tried",
+        "Smallest probability, over the worlds, that a run of the agent beats one at random",
         "> 0.5", "fig-spaces-all", "judge_generality", (0.5,)),
     "G3": Statement(
         "paper B, section 3",
@@ -236,8 +236,8 @@ STATEMENTS = {
         "chapter 5, on paper B",
         "The neoRL framework is general across NRES modalities, compositional and incremental by additional neoRL "
         "modules",
-        "Incremental: a second map that joins half-way helps a vessel, and costs nothing that was learned",
-        "Final lead in reward per minute over agents that it does not join",
+        "Incremental: a second map added half-way helps a vessel, and costs nothing already learned",
+        "Final lead in reward per minute over agents without it",
         "> 0", "fig-spaces-vessel", "judge_extension"),
     "H1": Statement(
         "section 2.1.2, on figure 2.2",

@@ -1,7 +1,7 @@
 """Statistics over runs: a run (a seed) is the unit, an interval is 95 % unless stated otherwise.
 
-Intervals are percentile bootstraps of `scipy.stats`, tolerance bands are pairs of order statistics. `rng` is what a
-bootstrap draws from, a `numpy.random.Generator` or the seed of one; by default it draws the same each time.
+Intervals are percentile bootstraps of `scipy.stats`, tolerance bands are pairs of order statistics. `rng` is the
+bootstrap's random generator, a `numpy.random.Generator` or the seed of one; by default the draws are always the same.
 """
 
 from collections.abc import Callable, Sequence
@@ -19,7 +19,7 @@ RESAMPLES = 1_000
 Results = Result | Sequence[Result]
 Rng = int | np.random.Generator
 MOST_RUNS = 2**31
-RECENT = 1 / 40  # of a run: the window in which reward per second is said to have come to a level
+RECENT = 1 / 40  # of a run: the window over which the mean reward per second counts as reaching a level
 
 
 class Estimate(NamedTuple):
@@ -37,8 +37,8 @@ class Estimate(NamedTuple):
 def estimate(statistic: Callable, *samples: ArrayLike, rng: Rng = 0) -> Estimate:
     """A statistic of one or several independent samples (each (runs,)), with its bootstrap interval.
 
-    statistic: takes the samples, and `axis`, along which the runs lie. A sample of a single run has no interval: its
-    bounds are NaN. rng: see the module. Raises ValueError for a sample that is empty, or not of finite numbers.
+    statistic: takes the samples, and `axis`, the axis of the runs. A sample of a single run has no interval: its
+    bounds are NaN. rng: see the module. Raises ValueError for a sample that is empty or not finite.
     """
     if not callable(statistic) or not samples:
         raise ValueError(f"statistic is {checks.shown(statistic)} of {len(samples)} samples, allowed are functions of "
@@ -84,7 +84,8 @@ def least_of_most(*samples, axis):
 
 
 def rank_correlation(*samples, axis):
-    """Spearman's, of the samples' places with their values, for `estimate`; scipy's own takes one pair at a time."""
+    """Spearman's correlation of the samples' order with their values, for `estimate`; scipy's takes one pair at a time.
+    """
     group = np.repeat(np.arange(len(samples)), [sample.shape[axis] for sample in samples])
     ranks = scipy.stats.rankdata(np.concatenate(samples, axis), axis=axis)
     place = scipy.stats.rankdata(group) - (len(group) + 1) / 2
@@ -94,11 +95,10 @@ def rank_correlation(*samples, axis):
 
 
 def probability_of_improvement(better: ArrayLike, worse: ArrayLike, rng: Rng = 0) -> Estimate:
-    """How probably a run of `better` beats one of `worse`, a tie counting half, as an `Estimate`.
+    """The probability that a run of `better` beats one of `worse`, a tie counting half, as an `Estimate`.
 
-    Mann-Whitney's U a pair of runs (Agarwal et al. 2021, Deep reinforcement learning at the edge of the statistical
-    precipice). better, worse: (runs,). rng: see the module. Raises ValueError for a sample that is empty, or not of
-    finite numbers.
+    Mann-Whitney's U per pair of runs (Agarwal et al. 2021, Deep reinforcement learning at the edge of the statistical
+    precipice). better, worse: (runs,). rng: see the module. Raises ValueError for a sample that is empty or not finite.
     """
     better, worse = _sample("better", better), _sample("worse", worse)
     return estimate(_share_of_pairs, better, worse, rng=rng)
@@ -110,7 +110,7 @@ def _share_of_pairs(better, worse, axis):
 
 
 def points(result: Result) -> NDArray[np.float64]:
-    """float64 (runs,): the green creeps that each run took, less the red ones.
+    """The green creeps that each run took, less the red ones: float64 (runs,).
 
     result: a `Result` in `WaterWorld`. Raises ValueError for anything else.
     """
@@ -119,10 +119,10 @@ def points(result: Result) -> NDArray[np.float64]:
 
 
 def resets(result: Result) -> NDArray[np.float64]:
-    """float64 (runs,): how often each run reset the board, by taking the last green creep.
+    """The number of times that each run reset the board by taking the last green creep: float64 (runs,).
 
-    result: a `Result` in `WaterWorld`, of whose rewards it follows. Raises ValueError where that creep brings no reward
-    of its own.
+    result: a `Result` in `WaterWorld`, from whose rewards it follows. Raises ValueError if that creep brings no extra
+    reward.
     """
     win_reward = _in_waterworld(result).win_reward
     if win_reward == 0:
@@ -131,11 +131,11 @@ def resets(result: Result) -> NDArray[np.float64]:
 
 
 def tolerance_band(curves: ArrayLike, share: float = 0.75, confidence: float = 0.95) -> NDArray[np.float64]:
-    """The band between two order statistics that holds a share of all runs there could be, at each point: (low, high).
+    """The band between two order statistics that contains a share of all possible runs, at each point: (low, high).
 
-    curves: (runs, points). It is the narrowest such band, with as many runs above as below, that holds `share` of them
-    with `confidence`, whatever their distribution (Wilks 1941). Where there are too few runs, fewer than 18 by default,
-    it is their whole range, and holds less, by as much as `tolerated_share` says.
+    curves: (runs, points). It is the narrowest band, with as many runs above as below, that contains `share` of them
+    with `confidence`, whatever their distribution (Wilks 1941). With too few runs, fewer than 18 by default, it is
+    their whole range and contains less, by as much as `tolerated_share` says.
     Raises ValueError unless both are numbers from 0 to 1, and the curves finite, of one run or more.
     """
     share, confidence = checks.real("share", share, 0, 1), checks.real("confidence", confidence, 0, 1)
@@ -149,7 +149,7 @@ def tolerance_band(curves: ArrayLike, share: float = 0.75, confidence: float = 0
 
 
 def tolerated_share(runs: int, beyond: int = 1, confidence: float = 0.95) -> float:
-    """The share of all runs there could be that, with `confidence`, lies between the `beyond`-th runs from the ends.
+    """The share of all possible runs that, with `confidence`, lies between the `beyond`-th runs from the ends.
 
     runs: integer ≥ 0. beyond: integer ≥ 1. confidence: a number from 0 to 1. Raises ValueError for anything else.
     """
@@ -159,10 +159,10 @@ def tolerated_share(runs: int, beyond: int = 1, confidence: float = 0.95) -> flo
 
 
 def time_to_level(result: Result, level: ArrayLike) -> NDArray[np.float64]:
-    """When each run first earns a level of reward per second: float64 (runs,), in simulated seconds.
+    """When each run first reaches a level of reward per second: float64 (runs,), in simulated seconds.
 
-    result: a `Result`. level: a number, or one for each run. It is earned when the mean over the fortieth of the run
-    just past reaches it; a run that never earns it counts as the whole run. Raises ValueError for anything else.
+    result: a `Result`. level: a number, or one for each run. It is reached when the mean over the preceding fortieth of
+    the run reaches it; where it is never reached, the time is the whole run. Raises ValueError for anything else.
     """
     runs = checks.instance("result", result, Result).runs
     level = checks.doubles("level", level)
@@ -177,7 +177,7 @@ def _time_to_level(result, level):
 
 
 def _recent_rates(result):
-    """Reward per second in the fortieth of the run just past, (runs, windows), and when each such window ends."""
+    """Reward per second over the preceding fortieth of the run, (runs, windows), and the end of each such window."""
     bins = result.rewards.shape[1]
     width = max(1, bins // round(1 / RECENT))
     sums = np.pad(result.rewards.cumsum(axis=1, dtype=float), ((0, 0), (1, 0)))
@@ -190,12 +190,11 @@ def _first(made, ends, never):
 
 
 def minutes_sooner(quick: Results, slow: Results, level: float) -> Estimate:
-    """By how many simulated minutes the runs of `quick` earn a level sooner than those of `slow`, as an `Estimate`.
+    """The simulated minutes by which runs of `quick` reach a level sooner than those of `slow`, as an `Estimate`.
 
-    quick, slow: a `Result` each, or a sequence of them, of runs of one length, whose
-    rewards add up. level: reward per
-    second. It is earned when the mean over runs in the fortieth of the run just past first reaches it, to about a
-    two-hundredth of the run; where it is never earned, that counts as the whole run.
+    quick, slow: a `Result` each, or a sequence of them, of runs of one length, whose rewards add up. level: reward per
+    second. It is reached when the mean over runs in the preceding fortieth of the run first reaches it, to about a
+    two-hundredth of the run; where it is never reached, the time is the whole run.
     Raises ValueError for anything else.
     """
     level = checks.real("level", level)
@@ -230,19 +229,20 @@ def _mean_of_runs(rates, chosen):
 
 
 def time_to_final_level(result: Result, share: float = 0.9) -> NDArray[np.float64]:
-    """When each run first makes `share` of its final level: float64 (runs,), in simulated seconds, see `time_to_level`.
+    """When each run first reaches `share` of its final level: float64 (runs,), in simulated seconds.
 
-    result: a `Result`. The final level is a run's own reward per second in its last fifth. A run whose final level is
-    not positive never makes it. Raises ValueError for a share that is not from 0 to 1.
+    result: a `Result`. The final level is a run's own reward per second in its last fifth, and is reached as in
+    `time_to_level`. A run whose final level is not positive never reaches it. Raises ValueError for a share that is not
+    from 0 to 1.
     """
     final, share = checks.instance("result", result, Result).rate(0.8, 1.0), checks.real("share", share, 0, 1)
     return _time_to_level(result, np.where(final > 0, share * final, np.inf))
 
 
 def mean_band(curves: ArrayLike, rng: Rng = 0) -> Any:
-    """The interval of the mean over runs at each point of curves (runs, points): (low, high), as `estimate` has it.
+    """The interval of the mean over runs at each point of curves (runs, points): (low, high), as in `estimate`.
 
-    rng: see the module. Raises ValueError for curves that are not finite, or of no run.
+    rng: see the module. Raises ValueError for curves that are not finite or have no runs.
     """
     checked, rng = _curves(curves), _generator(rng)
     if len(checked) < 2:
@@ -254,7 +254,7 @@ def _sample(name, values):
     sample = checks.doubles(name, values)
     if sample.ndim != 1 or not len(sample):
         raise ValueError(f"{name} is {checks.shown(values)}, allowed is a number for each run, of one run or more")
-    return np.asarray(values) if np.asarray(values).dtype.kind == "i" else sample  # numbers of runs stay integers
+    return np.asarray(values) if np.asarray(values).dtype.kind == "i" else sample  # indices of runs stay integers
 
 
 def _curves(values):

@@ -1,12 +1,12 @@
-"""What a verdict is: a claim of the thesis, our number for it, and what the rule of the claim makes of the number.
+"""Verdicts: a claim of the thesis, our number for it, and the outcome of the claim's rule.
 
-1. A verdict is *reproduced*, *partly* or *not reproduced*, by a rule that stands in the code, was written down before
-   the results, and is the same for every reading of the thesis.
+1. A verdict is *reproduced*, *partly* or *not reproduced*, by a rule that is in the code, was written down before the
+   results, and is the same for every reading of the thesis.
 2. *Reproduced* and *partly* need evidence: 95 % intervals that exclude the contrary, of the whole claim or of a part of
    it that the rule names. An interval that merely leaves room for a claim proves nothing.
-3. An agent has *learned* if it finally earns more than Brownian motion does on the same board. A claim about what
-   agents have learned is *not testable* where they have learned nothing.
-4. With fewer than 10 runs a condition there is *no verdict*.
+3. An agent has *learned* if it finally earns more than Brownian motion on the same board. A claim about learned
+   behaviour is *not testable* where agents have learned nothing.
+4. With fewer than 10 runs per condition there is *no verdict*.
 
 Rewards are per simulated second and means over runs; early is the first tenth of a run, final the last fifth.
 """
@@ -24,7 +24,7 @@ VERDICTS = ("reproduced", "partly", "not reproduced", "not testable", "no verdic
 
 @dataclass(frozen=True)
 class Claim:
-    """What was found about one claim of `STATEMENTS`: our number with its interval, and what the rule makes of it."""
+    """The finding on one claim of `STATEMENTS`: our number with its interval, and the outcome of the rule."""
 
     name: str
     here: Estimate
@@ -35,12 +35,12 @@ class Claim:
 
     @property
     def statement(self):
-        """What is claimed, a `Statement`."""
+        """The claim as stated, a `Statement`."""
         return STATEMENTS[self.name]
 
     @property
     def verdict(self):
-        """The outcome, if there are runs enough for a verdict."""
+        """The outcome, if there are enough runs for a verdict."""
         return self.outcome if self.runs >= RUNS_FOR_A_VERDICT else "no verdict"
 
 
@@ -51,7 +51,7 @@ def judged(name, here, detail, runs, *, reproduced, partly, possible, testable=T
 
 
 def lead_over_brownian(result, brownian):
-    """By how much agents finally earn more than Brownian motion on the same board, as an `Estimate`."""
+    """The final lead of agents over Brownian motion on the same board, in reward per second, as an `Estimate`."""
     return estimate(difference, result.rate(*FINAL), brownian.rate())
 
 
@@ -61,5 +61,5 @@ def learned(result, brownian):
 
 
 def fewest_runs(*results):
-    """The number of runs of the result that has fewest."""
+    """The smallest number of runs among results."""
     return min(result.runs for result in results)
