@@ -1,5 +1,5 @@
-"""What the notebooks of the chapters and papers run and draw, a room each, and what they share.
+"""Experiments, figures and sentences of the book's pages, a room per page; `shared` serves several.
 
-A chapter's room may use the rooms of the chapters before it, and every other room of `neorl`; none of those uses this
-one.
+A chapter's room may import from the rooms of the chapters before it and from every other room of `neorl`; none of those
+imports from this one.
 """

@@ -65,8 +65,9 @@ def test_the_table_of_greediness_has_a_column_for_each_level():
 
 def test_the_first_and_the_last_are_told_for_each_level_of_greediness():
     text = report.order_by_greediness(by_greediness((4, 1, 2, 3), (1, 2, 3, 4), (1, 4, 2, 3)))
-    assert text.startswith("From halved to doubled the first places go to majority voting, Boltzmann addition and rank "
-                           "voting, the last to rank voting, majority voting and majority voting. ")
+    assert text.startswith("With greediness halved, unchanged and doubled, the first places go to majority voting, "
+                           "Boltzmann addition and rank voting, the last to rank voting, majority voting and majority "
+                           "voting. ")
     assert text.endswith("with probability 0.9990, rank voting with 0.95.")
 
 

@@ -49,9 +49,9 @@ def test_the_table_of_findings_has_a_row_for_each_and_a_column_for_each_kind_of_
 
 def test_findings_name_all_who_show_them():
     words = describe_findings(findings_of({"level": ["neoRL", "Sarsa(λ)"], "never": ["Q-learning"]}))
-    assert "the delayed group of neoRL and Sarsa(λ). Level" in words
-    assert "not by quick learning: that of none of the three. Overtaking: that of none of the three. Improving" in words
-    assert words.endswith("the unrewarded group of Q-learning.")
+    assert "right after its first food: neoRL and Sarsa(λ). It is level" in words
+    assert "not by quick learning: none of the three. It overtakes: none of the three. The unrewarded" in words
+    assert words.endswith("improves without food: Q-learning.")
 
 
 @pytest.mark.parametrize("fed, said", [(0.5, "draws level and does not overtake: in a maze"),
@@ -74,14 +74,14 @@ def test_settings_are_told_by_their_numbers_and_verdicts():
     words = describe_settings(rows, judged, worth=11.25)
     assert "lie between −2.00 and 2.00 per day; never being fed costs 11.2. In 1 of 3 settings the" in words
     assert "It is *partly* in 2; *reproduced* in 1 (b). Even between equal groups, about one interval in" in words
-    assert words.endswith("are ahead in 2 settings. Of the others, so are Q-learning with b.")
+    assert words.endswith("are ahead in 2 settings. Other learners are ahead in these cases: Q-learning with b.")
 
 
 def test_settings_without_a_rival_ahead_or_an_interval_below_0_are_told_so():
     rows = {"a": {"neoRL": [AROUND, BELOW], "Q-learning": [AROUND, ABOVE], "Sarsa(λ)": [AROUND, AROUND]}}
     words = describe_settings(rows, {"a": claim("partly", runs=4)}, worth=11.0)
     assert "It is *no verdict* in 1. After one meal each" in words
-    assert words.endswith("are ahead in 1 settings. Of the others, none are in any.")
+    assert words.endswith("are ahead in 1 settings. Other learners are ahead in none.")
 
 
 @pytest.mark.parametrize("outcome, said", [("reproduced", "Here the interval lies below 0. Yet both"),

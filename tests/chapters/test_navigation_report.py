@@ -8,16 +8,17 @@ from neorl.chapters.chapter_1.navigation_report import (describe_gain, describe_
 from neorl.evidence.statistics import Estimate
 
 
-@pytest.mark.parametrize("low, said", [(0.1, "Experience in the tank pays"), (0.0, "do not show a gain by experience"),
-                                       (-0.1, "do not show a gain by experience"),
-                                       (np.nan, "do not show a gain by experience")])
+@pytest.mark.parametrize("low, said", [(0.1, "Experience in the tank pays"),
+                                       (0.0, "do not show a gain from experience"),
+                                       (-0.1, "do not show a gain from experience"),
+                                       (np.nan, "do not show a gain from experience")])
 def test_a_life_pays_if_the_whole_interval_lies_above_0(low, said):
     assert describe_gain(Estimate(0.4, low, 0.7)).endswith(said)
 
 
 def test_the_rule_does_better_only_if_it_earns_more_in_the_mean():
     veterans = np.array([0.0, 2.0])
-    assert describe_rule(np.array([3.0, -0.5]), veterans).startswith("scores higher than both, and it is not "
+    assert describe_rule(np.array([3.0, -0.5]), veterans).startswith("scores higher than both, but it is not "
                                                                      "autonomous")
     assert describe_rule(np.array([1.5, 0.5]), veterans).startswith("scores no higher here")
 

@@ -10,11 +10,11 @@ def test_a_law_is_told_by_its_first_and_last_trial_and_by_when_times_have_halved
     falling = np.array([[80.0, 60.0, 40.0, 30.0], [80.0, 60.0, 40.0, 20.0]])
     words = describe_latencies({"gain": falling, "none": np.full((2, 4), 50.0)}, published=[60, 80])
     assert words.startswith("On average, with *gain* a cat takes 80.00 [80.00, 80.00] seconds in the first trial and "
-                            "25.00 [20.00, 30.00] in the last, and trial 3 is the first that takes half of that time "
-                            "or less; with *none*")
-    assert "no trial is one that takes half of that time or less. Over" in words
-    assert words.endswith("Over its first 2 trials the cat of 1899 took 70 seconds; the simulated ones take 70 with "
-                          "*gain*, 50 with *none*.")
+                            "25.00 [20.00, 30.00] in the last, and trial 3 is the earliest to take at most half as "
+                            "long as the first; with *none*")
+    assert "no trial takes at most half as long as the first. Over" in words
+    assert words.endswith("Over its first 2 trials the cat of 1899 took 70 seconds on average; the simulated "
+                          "cats take 70 with *gain*, 50 with *none*.")
 
 
 def pressing(*phases, runs=4):

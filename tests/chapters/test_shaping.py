@@ -29,10 +29,10 @@ def test_help_that_harms_and_help_that_does_not_are_told():
     text = shaping.in_words(solved([0.0, 0.6, 0.0], [0.5, 0.6, 0.0]), finish=2, least=0.12)
     assert "50 % of the places" in text  # the finish itself is not counted
     assert "From the start S this happens from a bonus of 0.12 on." in text
-    assert text.endswith("With the potential the policy makes exactly the true return everywhere.")
+    assert text.endswith("With the potential the policy earns exactly the best true return everywhere.")
 
 
 def test_without_a_bonus_that_tempts_nothing_is_said_of_it():
     text = shaping.in_words(solved([0.1, 0.6, 0.0], [0.5, 0.4, 0.0]), finish=2, least=None)
     assert "With the buoy, 0 %" in text and "at the buoy. With the potential" in text
-    assert text.endswith("makes less than the true return somewhere.")
+    assert text.endswith("earns less than the best true return somewhere.")

@@ -48,8 +48,8 @@ def test_the_cost_of_remembering_is_told_for_when_others_first_make_nine_tenths(
     text = report.worth_of_last_action(made, SEEN)
     assert text == ("The learners meet 37 states without the last action and 148 with it. Where actions are "
                     "certain, remembering costs 0.30 [0.30, 0.30] of the best return after 1,000 steps, and finally "
-                    "changes it by −0.10 [−0.10, −0.10]. Where they are sticky, it changes it by 0.20 [0.20, 0.20]: "
-                    "the agent without memory stays behind.")
+                    "changes the return by −0.10 [−0.10, −0.10]. Where they are sticky, it finally changes the "
+                    "return by 0.20 [0.20, 0.20]: the agent without memory stays behind.")
 
 
 def test_the_cost_is_told_for_the_end_if_nobody_makes_nine_tenths_and_no_difference_decides_nothing():
@@ -68,7 +68,7 @@ def test_the_box_has_the_curse_the_missing_step_and_the_model():
     needed = {"Ψ = 2": (np.arange(1, 4), np.array([[10.0, 20.0, 40.0]] * 3))}
     paid = {"sum": np.tile([0.5, 0.5, 0.9], (3, 1)), "table": np.tile([0.5, 0.6, 0.9], (3, 1))}
     text = report.in_short(needed, paid, 2, 169, 1.66)
-    assert "prolongs Q-learning by a factor of 2.0" in text and "grid of 169 states only 1.7 % of it" in text
+    assert "prolongs Q-learning by a factor of 2.0" in text and "grid of 169 states only 1.7 % of its entries" in text
     assert "remember 1 of 2 such steps earn 0.50 [0.50, 0.50] per step" in text and "all earn 0.90" in text
 
 

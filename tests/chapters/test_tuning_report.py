@@ -37,17 +37,17 @@ def test_the_table_sets_what_is_clear_in_bold():
 def test_cells_that_tell_about_their_own_variable_alone_are_told_so():
     words = describe_information(told())
     assert words.startswith("All of the 3 cells are most informative, and above chance, about the variable of their "
-                            "own modality. None exceeds the shifted spikes anywhere else. With 99 shifts, ")
-    assert words.endswith("for 6 there is nothing to find. So each cell informs about the concern of its modality, "
-                          "and hardly about the others.")
+                            "own modality. No other information exceeds that of shifted spikes. With 99 shifts, ")
+    assert words.endswith("in 6 of the comparisons here there is nothing to find. So each cell informs about the "
+                          "concern of its modality, and hardly about the others.")
 
 
 def test_what_cells_tell_beyond_that_is_named():
     words = describe_information(told(("speed cell", "position")))
-    assert "Beyond that, the speed cell about position exceeds the shifted spikes. With 99" in words
+    assert "Beyond that, the speed cell's information about position exceeds that of shifted spikes. With 99" in words
     assert "nothing to find, unless the animal's path links the variables. So each cell" in words
     words = describe_information(told(("speed cell", "position"), ("place cell", "speed")))
-    assert "the place cell about speed, the speed cell about position exceed the shifted" in words
+    assert "the place cell's information about speed, the speed cell's information about position exceed that" in words
     assert words.endswith("hardly about the others.")
     many = told(("speed cell", "position"), ("place cell", "speed"), ("place cell", "direction"))
     assert describe_information(many).endswith("links the variables.")
@@ -56,7 +56,7 @@ def test_what_cells_tell_beyond_that_is_named():
 def test_cells_that_do_not_tell_about_their_own_variable_are_not_counted():
     words = describe_information(told(unclear=["place cell"]))
     assert words.startswith("2 of the 3 cells are most informative, and above chance, about the variable of their own "
-                            "modality in so short a recording. None exceeds")
+                            "modality in so short a recording. No other")
     assert words.endswith("nothing to find.")
     outdone = told(("place cell", "speed"))
     outdone["place cell"]["speed"] = Told(3.0, True)
@@ -67,7 +67,7 @@ def test_a_single_map_of_everything_is_as_large_as_the_product_of_all():
     tuned = {"fine": (NresMap(20), 3), "coarse": (NresMap(10), 0), "small": (NresMap(5), 0)}
     active = {"fine": np.arange(1_000) < 23, "coarse": np.arange(1_000) < 100, "small": np.arange(1_000) < 132}
     words = describe_sizes(tuned, active)
-    assert "The 3 maps of this box have 525 cells in all." in words and "would need 1.0 × 10<sup>6</sup>. Of" in words
+    assert "The 3 maps of this box have 525 cells in all." in words and "would need 1.0 × 10<sup>6</sup>. At" in words
     assert "were active for 2.3 to 13.2 % of the time" in words
 
 

@@ -1,1 +1,1 @@
-"""What the notebook of chapter 1 runs, draws and says."""
+"""Experiments, figures and sentences of chapter 1."""

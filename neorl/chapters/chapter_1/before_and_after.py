@@ -1,6 +1,6 @@
-"""The same agent before it has learned anything and after, on the same boards: what a life in the tank has taught it.
+"""An agent before and after learning, on the same boards: the worth of experience in the tank.
 
-A *newborn* knows nothing. A *veteran* is a newborn with the values that a run of its own has left it. Both go on
+A *newborn* knows nothing. A *veteran* is a newborn with the values learned in an earlier run of its own. Both keep
 learning. Trials begin on fresh boards, the same for both, which the veteran has never seen.
 """
 
@@ -15,7 +15,7 @@ from neorl.experiments.run import Run
 
 
 def veteran(agent, world, steps, seed=0, run=0):
-    """A run at its beginning whose agent knows what run `run` of seed + 1 has taught it in so many steps.
+    """A run at its beginning, whose agent has the values learned in the first `steps` steps of run `run` of seed + 1.
 
     Raises ValueError for a bad argument.
     """
@@ -29,7 +29,7 @@ def veteran(agent, world, steps, seed=0, run=0):
 def trials(agent, world, *, lessons, steps, runs, seed=0):
     """The reward of newborns and of veterans in their first steps on the same boards: float64 (2, runs).
 
-    lessons: steps that a veteran has lived before. steps: of a trial. Raises ValueError for a bad argument.
+    lessons: steps of a veteran's earlier run. steps: of a trial. Raises ValueError for a bad argument.
     """
     def pair(k):
         return Run(agent, world, seed, k).advance(steps), veteran(agent, world, lessons, seed, k).advance(steps)
@@ -39,9 +39,9 @@ def trials(agent, world, *, lessons, steps, runs, seed=0):
 
 
 def first_minutes(agent, world, *, lessons, runs, seed=0):
-    """Rewards per second in the first minute on the same boards, (runs,) each: newborns, veterans, and the rule.
+    """Rewards per second of newborns, veterans and the rule in the first minute on the same boards, (runs,) each.
 
-    lessons: steps that a veteran has lived before. Raises ValueError for a bad argument.
+    lessons: steps of a veteran's earlier run. Raises ValueError for a bad argument.
     """
     minute = 60 * world.fps
     newborns, veterans = trials(agent, world, lessons=lessons, steps=minute, runs=runs, seed=seed) / 60
@@ -49,9 +49,10 @@ def first_minutes(agent, world, *, lessons, runs, seed=0):
 
 
 def leads(agent, world, lives, *, steps, runs, seed=0):
-    """What veterans of several lives earn per second more than newborns in their first steps: {lessons: `Estimate`}.
+    """The lead of veterans over newborns in their first steps, in reward per second: {lessons: `Estimate`}.
 
-    lives: for each the lessons that `trials` takes. steps: of a trial, ≥ 1. Raises ValueError for a bad argument.
+    lives: the values of ``lessons`` to compare, see `trials`. steps: of a trial, ≥ 1. Raises ValueError for a bad
+    argument.
     """
     found = {}
     for lessons in lives:

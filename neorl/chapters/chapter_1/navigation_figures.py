@@ -1,4 +1,4 @@
-"""Drawings of ways through the tank: by a plan, and by what an agent knows."""
+"""Drawings of paths through the tank: along a plan, and by an agent's own knowledge."""
 
 import numpy as np
 from matplotlib.collections import LineCollection
@@ -14,7 +14,7 @@ def draw_walls(axes):
 
 
 def draw_route(axes, path, waypoints):
-    """A path (steps + 1, 2) and the way-points (points, 2) that it follows, numbered; in board widths."""
+    """A path (steps + 1, 2) and the waypoints (points, 2) that it follows, numbered; in board widths."""
     draw_walls(axes)
     _draw_path(axes, path, np.ones(len(path) - 1, bool))
     axes.plot(*path[0], "o", color=AGENT, markersize=9)
@@ -29,9 +29,9 @@ def draw_recordings(recordings):
 
 
 def draw_recording(axes, recording):
-    """The path of the agent of a `Recording`, thinner the longer ago, and where it took creeps, with their signs.
+    """The agent's path in a `Recording`, thinner with age, and the places where it caught creeps, with their signs.
 
-    The path breaks off where taking the last green creep has put the agent back into the middle.
+    The path is interrupted where catching the last green creep has put the agent back in the middle.
     """
     draw_walls(axes)
     places = recording.agent[:, :2]

@@ -1,7 +1,6 @@
 """Sentences on the rewards of newborns, veterans and a rule in the tank.
 
-A newborn and a veteran are those of `neorl.chapters.chapter_1.before_and_after`, the rule is that of
-`neorl.chapters.chapter_1.steering`.
+`neorl.chapters.chapter_1.before_and_after` defines newborns and veterans, `neorl.chapters.chapter_1.steering` the rule.
 """
 
 import numpy as np
@@ -11,15 +10,15 @@ from neorl.evidence.statistics import difference, estimate, probability_of_impro
 
 
 def in_short(newborns, veterans, by_rule, minutes):
-    """What experience is worth in the tank, in three sentences: of the rewards per second of `first_minutes`.
+    """The worth of experience in the tank, in three sentences, from the rewards per second of `first_minutes`.
 
-    minutes: that a veteran has lived.
+    minutes: how long a veteran has lived.
     """
     gain, chance = estimate(difference, veterans, newborns), probability_of_improvement(veterans, newborns)
     return (f"{describe_gain(gain)}: in its first minute on a board, an agent that has lived {minutes:.0f} minutes in "
             f"another such tank earns {gain} per second more than the same agent newborn, with the 95 % interval in "
-            f"brackets, and beats a newborn of another pair with probability {chance}. Neither was trained; both "
-            f"learn while they act. Steering by a fixed rule that knows the laws of motion earns "
+            f"brackets, and beats a newborn of another pair with probability {chance}. Neither had a training phase; "
+            f"both learn while they act. A fixed steering rule that is given the laws of motion earns "
             f"{estimate(np.mean, by_rule)}, whatever its experience.")
 
 
@@ -33,13 +32,13 @@ def rewards_table(newborns, veterans, by_rule, minutes):
 
 def describe_gain(gain):
     """Whether experience in the tank pays. gain: the lead of veterans over newborns, an `Estimate`."""
-    return "Experience in the tank pays" if gain.low > 0 else "These runs do not show a gain by experience"
+    return "Experience in the tank pays" if gain.low > 0 else "These runs do not show a gain from experience"
 
 
 def describe_rule(by_rule, veterans):
     """The rule's score against the veterans', as the end of a sentence. by_rule, veterans: rewards, (runs,) each."""
     if by_rule.mean() > veterans.mean():
-        return ("scores higher than both, and it is not autonomous: its knowledge was designed in. This book "
+        return ("scores higher than both, but it is not autonomous: its knowledge was built in. This book "
                 "therefore does not ask which controller scores highest, but what an agent can learn and desire by "
                 "itself")
     return "scores no higher here, although it is given the laws of motion"

@@ -1,10 +1,10 @@
 """Navigation by rule: a helmsman rule that steers to a target, and a captain rule that sets it (thesis chapter 1).
 
-1. *Category 1*: carry out a plan. The helmsman aims at a velocity of a fixed share of the distance per second, and
-   takes the action that brings the velocity closest to that.
-2. *Category 2*: make the plan. This captain follows a rule, too: on to the nearest green creep.
+1. *Category 1*: carry out a plan. The helmsman aims at a velocity that covers a fixed share of the distance per second,
+   and takes the action that brings the velocity closest to that.
+2. *Category 2*: make the plan. This captain follows a rule, too: head for the nearest green creep.
 
-Nothing here learns, so that it is automatic and not autonomous (definition 1). It knows the laws of motion.
+Neither rule learns, so they are automatic and not autonomous (definition 1). They are given the laws of motion.
 """
 
 import numpy as np
@@ -14,15 +14,15 @@ from neorl.core.choices import Action
 from neorl.core.kernel import execute, kernel
 from neorl.worlds.waterworld import GREEN, reset, step
 
-HASTE = 4.0  # what share of the way to go the helmsman means to cover in one second; higher earns more, up to about 10
-CLOSE = 0.05  # of the width: a way-point is reached
+HASTE = 4.0  # share of the remaining distance to be covered in one second; higher values earn more, up to about 10
+CLOSE = 0.05  # of the width: distance at which a waypoint is reached
 
 
 def follow_route(world, waypoints, seconds, seed=0):
-    """Steer by a list of way-points, one after the other, from the middle of a tank: category 1 navigation.
+    """Steer from waypoint to waypoint, from the middle of a tank: category 1 navigation.
 
     waypoints: float (points, 2), in board widths, in [0, 1]. seconds: simulated, positive. seed: of the creeps, which
-    have no effect here. Returns float64 (steps + 1, 2), where the vessel was, in board widths. Raises ValueError for
+    have no effect here. Returns the vessel's positions in board widths, float64 (steps + 1, 2). Raises ValueError for
     anything else.
     """
     waypoints = checks.points("waypoints", waypoints, ("x", "y"))
@@ -35,9 +35,9 @@ def follow_route(world, waypoints, seconds, seed=0):
 
 
 def chase(world, steps, runs, seed=0):
-    """The reward that helmsman and captain make together: float64 (runs,).
+    """The reward that helmsman and captain earn together: float64 (runs,).
 
-    Run k begins on the board of run k of `neorl.experiments.run.Run` with that seed. Raises ValueError for a bad
+    Run k begins on the board of run k of `neorl.experiments.run.Run` with the same seed. Raises ValueError for a bad
     argument.
     """
     checks.integer("steps", steps, at_least=1)
@@ -55,7 +55,7 @@ def steer(state, rules, x, y):
     want_x, want_y = HASTE * (x - scene.position[0]), HASTE * (y - scene.position[1])
     miss_x, miss_y = want_x - scene.velocity[0], want_y - scene.velocity[1]
     vertical = abs(miss_y) > abs(miss_x)
-    if max(abs(miss_x), abs(miss_y)) < 0.125 * rules.width:  # half of what an action changes
+    if max(abs(miss_x), abs(miss_y)) < 0.125 * rules.width:  # half the change that an action makes
         return Action.no_op.value
     if vertical:
         return Action.N.value if miss_y < 0.0 else Action.S.value
@@ -64,7 +64,7 @@ def steer(state, rules, x, y):
 
 @kernel
 def sail(state, rules, waypoints, close, path):
-    """Write to `path` where the vessel is before each step and after the last, on its way from point to point."""
+    """Steer from waypoint to waypoint, and write the position before each step and after the last to `path`."""
     target = 0
     for now in range(path.shape[0]):
         path[now, 0], path[now, 1] = state.scene.position[0], state.scene.position[1]
@@ -76,7 +76,7 @@ def sail(state, rules, waypoints, close, path):
 
 @kernel
 def hunt(state, rules, steps):
-    """The reward of so many steps, each towards the nearest green creep."""
+    """The reward of `steps` steps, each towards the nearest green creep."""
     total, scene = 0.0, state.scene
     for _ in range(steps):
         nearest, least = 0, -1.0

@@ -1,1 +1,1 @@
-"""What the notebook of chapter 2 runs, draws and says, namely how animals learn, and cells that are tuned."""
+"""Experiments, figures and sentences of chapter 2: how animals learn, and tuned cells."""

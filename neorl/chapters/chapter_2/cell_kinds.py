@@ -1,7 +1,7 @@
-"""Kinds of cells that stand for places, things and directions, as the modalities of this book have them.
+"""Kinds of cells that represent places, objects and directions, as defined by the modalities of this book.
 
-Beside them stands the thesis's table 2.1, after Bicanski and Burgess (2020): whether the locality and the direction of
-a kind are allocentric, a distance or neither, and what it is about.
+``THESIS`` is the thesis's table 2.1, after Bicanski and Burgess (2020): whether the locality and the direction of a
+kind are allocentric, a distance or neither, and what the kind concerns.
 """
 
 from neorl.chapters.shared import wording
@@ -20,19 +20,19 @@ CONCERNS = {("position", "margin"): "location of borders", ("position", "compone
 
 
 def kinds():
-    """What each modality says of itself: {kind: (locality, direction, concern)}, without the emulation of paper B."""
+    """These entries for each modality: {kind: (locality, direction, concern)}, without the emulation of paper B."""
     return {each.name: (_locality(each), "allocentric" if "direction" in each.names else "–",
                         CONCERNS.get((each.follows, each.axes[0].feature), f"location of {each.follows}"))
             for each in MODALITIES if each != CARTESIAN_OBJECT_VECTOR_CELL}
 
 
 def as_in_thesis(found):
-    """How many kinds of `THESIS` are found with the same three entries. found: as `kinds` has it."""
+    """The number of kinds of `THESIS` with the same three entries in `found`. found: as returned by `kinds`."""
     return sum(found.get(kind) == entries for kind, entries in THESIS.items())
 
 
 def kinds_table(found):
-    """The kinds as a Markdown table. found: as `kinds` has it."""
+    """The kinds as a Markdown table. found: as returned by `kinds`."""
     return wording.table(["Cell", "Locality", "Direction", "Concern"],
                          [[kind, *entries] for kind, entries in found.items()])
 

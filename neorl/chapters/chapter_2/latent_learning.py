@@ -1,16 +1,16 @@
-"""Latent learning: the experiment of Tolman and Honzik (1930), with learners for rats.
+"""Latent learning: the experiment of Tolman and Honzik (1930), with simulated learners in place of rats.
 
 An animal runs a maze once a day, and every entry into a blind is an error. Three groups differ only in when there is
-food in the goal box: throughout, never, or from day 11 on. Three kinds of animal run it:
+food in the goal box: throughout, never, or from day 11 on. Three kinds of animal run the maze:
 
-1. *neoRL* is an `Agent`. It learns how to reach every place from all that happens (thesis eq. 4.8), and wants the goal
-   box once it has met food there. The event of a transition is the action that made it; a bump into a wall or a closed
-   door changes no cell and teaches nothing. Without a desire all actions have the same value.
-2. *Q-learning* (Watkins 1989) learns what its actions bring, and nothing where they bring nothing.
-3. *Sarsa(λ)* (Sutton and Barto 2018, section 12.7) has replacing eligibility traces, so that one reward teaches all of
-   the way that led to it, and prefers, among actions of equal value, the one that it has tried least.
+1. *neoRL* is an `Agent`. It learns from every transition how to reach every place (thesis eq. 4.8), and desires the
+   goal box once it has found food there. The event of a transition is the action that caused it; a bump into a wall or
+   a closed door changes no cell, so nothing is learned from it. Without a desire all actions have the same value.
+2. *Q-learning* (Watkins 1989) learns the reward that its actions lead to, and nothing as long as there is none.
+3. *Sarsa(λ)* (Sutton and Barto 2018, section 12.7) has replacing eligibility traces, so that one reward updates the
+   whole path that led to it; among actions of equal value it prefers the one that it has tried least.
 
-All see the same places, have the same four actions, and draw any of them with probability ε.
+All perceive the same places, have the same four actions, and take a random one with probability ε.
 """
 
 import functools
@@ -38,10 +38,10 @@ from neorl.evidence.statistics import Estimate, difference, estimate
 LEARNERS = ("neoRL", "Q-learning", "Sarsa(λ)")
 GROUPS = ("throughout", "never", "delayed")
 DAYS, FIRST_REWARD = 17, 11
-LONGEST_TRIAL = 5_000  # steps, after which who is lost is taken out; a random walk through 14 units takes about 110
-LEVEL = 0.1  # groups are on one level if they differ by less than this share of what food makes of a difference
+LONGEST_TRIAL = 5_000  # steps, after which a lost animal is taken out; a random walk through 14 units takes about 110
+LEVEL = 0.1  # groups are level if they differ by less than this share of the effect of food
 LEAST = -1e300
-# Of the maze a neoRL animal knows that there are places, one beside the other, and that there may be food.
+# What a neoRL animal knows of the maze: that there are places in a row, and that there may be food.
 KNOWN = Surroundings(1, ("food",), Actions(("N", "S", "E", "W"), [(0,)] * 4), size=1.0, fps=1.0)
 
 
@@ -66,10 +66,10 @@ class Animal:
 
 
 class Record(NamedTuple):
-    """What the animals of a group did and knew.
+    """The errors and the knowledge of the animals of a group.
 
     errors: int64 (runs, days), entries into blinds. known: float64 (runs, days), the share of choice points at which,
-    when the day is over, the one best action is the true one, to an animal that wants to be in the goal box.
+    at the end of the day, the one best action for reaching the goal box is the true one.
     """
 
     errors: np.ndarray
@@ -79,8 +79,8 @@ class Record(NamedTuple):
 def simulate_groups(animal, maze, runs, seed=0, first_reward=FIRST_REWARD):
     """The three groups of the experiment: {group: `Record`} for "throughout", "never" and "delayed".
 
-    runs: animals a group, each with its own stream, whatever its kind. first_reward: the day from which the delayed
-    group finds food, from 1 on. Raises ValueError for anything else.
+    runs: animals per group, each with a random stream of its own, which does not depend on its kind. first_reward: the
+    day from which on the delayed group finds food, ≥ 1. Raises ValueError for anything else.
     """
     checks.instance("animal", animal, Animal)
     checks.instance("maze", maze, Maze)
@@ -102,16 +102,16 @@ def _simulate(animal, maze, runs, seed, group, first_reward):
 
 
 def _known(maze, worth):
-    """The share of choice points where the one best action is the true one. worth: of each action there, (units, 4)."""
+    """The share of choice points where the one best action is the true one. worth: action values there, (units, 4)."""
     best = worth.argmax(axis=1)
     alone = (worth == worth.max(axis=1, keepdims=True)).sum(axis=1) == 1
     return np.mean(alone & (maze.next_state[maze.choice_points, best] == maze.choice_points + 1))
 
 
 def live(animal, maze, first_reward, stream):
-    """An animal's days, one after the other: its errors, and what each action is then worth to reach the goal box.
+    """For each day in turn, an animal's errors and the values of its actions for reaching the goal box.
 
-    The worth is float (states, 4). stream: of the animal's random numbers.
+    The values are float (states, 4). stream: of the animal's random numbers.
     """
     if animal.learner == "neoRL":
         agent = neorl_animal(animal, maze)
@@ -131,7 +131,7 @@ def live(animal, maze, first_reward, stream):
 
 
 def neorl_animal(animal, maze):
-    """The `Agent`: place cells, one for each state of the maze, and a desire for food."""
+    """The neoRL `Agent`: place cells, one for each state of the maze, and a desire for food."""
     places = Node("places", Modality("place cell", [Axis("position", high=maze.states)]), [maze.states])
     learning = Learning(animal.learning_rate, animal.discount, credit="last", absent_decay=0.0, memory=0.0,
                         bootstrap=True)
@@ -139,7 +139,7 @@ def neorl_animal(animal, maze):
 
 
 class Finding(NamedTuple):
-    """One of the original's findings, its statistic with an interval, and whether it is found here."""
+    """A finding of the original study, its statistic here with an interval, and whether it holds here."""
 
     text: str
     here: Estimate
@@ -147,12 +147,12 @@ class Finding(NamedTuple):
 
 
 def findings(groups, first_reward=FIRST_REWARD):
-    """What Tolman and Honzik (1930) found, put to {group: `Record`} of one kind of animal: {name: `Finding`}.
+    """The findings of Tolman and Honzik (1930), tested on {group: `Record`} of one kind of animal: {name: `Finding`}.
 
-    The numbers are differences in errors a day: of the last three days to the first three, of a day to the day before,
-    and of a group to another. Two groups are on one level where the interval of their difference keeps to a tenth of
-    what food makes of a difference, which is never less throughout, over the days after ``first_reward``.
-    first_reward: the day of the delayed group's first meal. Raises ValueError unless that is a day, and not the last.
+    The statistics are differences in errors per day: the last three days less the first three, a day less the day
+    before, or one group less another. Two groups are level if the interval of their difference stays within a tenth of
+    the effect of food, which is "never" less "throughout", over the days after ``first_reward``.
+    first_reward: the day of the delayed group's first meal. Raises ValueError unless it precedes the last day.
     """
     checks.integer("first_reward", first_reward, at_least=1, at_most=DAYS - 1)
     errors = {group: groups[group].errors for group in GROUPS}
@@ -170,14 +170,14 @@ def findings(groups, first_reward=FIRST_REWARD):
     saved = estimate(difference, next_day["delayed"], errors["throughout"][:, 1])
     return {
         "fed": Finding("Fed throughout, errors fall", fall, fall.high < 0),
-        "worth": Finding("The never fed make more than those fed throughout", worth, worth.low > 0),
+        "worth": Finding("The group never fed makes more errors than the group fed throughout", worth, worth.low > 0),
         "never": Finding("Never fed, errors fall a little", decline, decline.high < 0),
-        "before": Finding("Up to its first meal the delayed group runs as the never fed", apart,
+        "before": Finding("Up to its first meal the delayed group performs like the one never fed", apart,
                           max(-apart.low, apart.high) <= level),
         "drop": Finding("The day after, its errors drop", drop, drop.high < 0),
-        "level": Finding("to the level of those fed throughout", beyond, beyond.high <= level),
-        "below": Finding("and below it, over all days that are left", lead, lead.high < 0),
-        "one meal": Finding("One meal takes it further than it took those fed throughout", saved, saved.high < 0),
+        "level": Finding("to the level of the group fed throughout", beyond, beyond.high <= level),
+        "below": Finding("and below it, over all remaining days", lead, lead.high < 0),
+        "one meal": Finding("One meal takes it further than it took the group fed throughout", saved, saved.high < 0),
     }
 
 
@@ -187,7 +187,7 @@ def compare_groups(maze, runs, seed=0):
 
 
 def known_by(by_learner, group):
-    """What the animals of a group know at the end of each day, {learner: (animals, days)}: of `compare_groups`."""
+    """The knowledge of a group's animals at the end of each day, {learner: (animals, days)}, from `compare_groups`."""
     return {learner: groups[group].known for learner, groups in by_learner.items()}
 
 
@@ -197,14 +197,14 @@ def compare_learners(by_learner):
 
 
 def judge(by_learner):
-    """Demonstration H1, from {learner: {group: `Record`}} of all ``LEARNERS``: a `Claim`, in which neoRL is judged."""
+    """Judge neoRL on demonstration H1, from {learner: {group: `Record`}} of all ``LEARNERS``: a `Claim`."""
     rivals = {learner: by_learner[learner] for learner in LEARNERS[1:]}
     return judge_latent_learning(by_learner["neoRL"], rivals, FIRST_REWARD)
 
 
 @functools.cache
 def _day_of(constants):
-    """The kernel that lets an agent run the maze once, and returns its errors. fed: whether there is food."""
+    """The kernel that runs an agent through the maze once, and returns its errors. fed: whether there is food."""
     begin, act, observe = steps_with(constants)
 
     @kernel
@@ -221,24 +221,24 @@ def _day_of(constants):
             if place == goal:
                 break
         if place == goal and fed:
-            scene.kinds[0] = 0  # from now on it knows where there is food
+            scene.kinds[0] = 0  # from now on the animal knows where the food is
         return errors
 
     return live_a_day
 
 
 class Rival(NamedTuple):
-    """What changes while an animal of another kind lives."""
+    """The state of an animal of another kind."""
 
     q: array("float64", "states", 4)
     traces: array("float64", "states", 4)
     tried: array("int64", "states", 4)
-    value: array("float64", 4)  # what the actions are worth now
+    value: array("float64", 4)  # by which the next action is selected
 
 
 @kernel
 def _rivals_day(by_traces, rates, trace, stream, animal, next_state, goal, fed):
-    """Let an animal of another kind run the maze once, and return its errors. by_traces: as Sarsa(λ) does."""
+    """Run an animal of another kind through the maze once, and return its errors. by_traces: as Sarsa(λ)."""
     state, errors = 0, 0
     animal.traces[:] = 0.0
     action = _choose(by_traces, state, rates.exploration, animal, stream)
@@ -277,7 +277,7 @@ def _choose(by_traces, state, exploration, animal, stream):
 
 @kernel
 def _learn_by_traces(animal, state_tm1, action_tm1, reward_t, state_t, action_t, terminal, rates, trace):
-    """One update of Sarsa(λ): a trace replaces all those of its state."""
+    """One update of Sarsa(λ): a new trace replaces all others of its state."""
     target = reward_t if terminal else reward_t + rates.discount * animal.q[state_t, action_t]
     error = target - animal.q[state_tm1, action_tm1]
     for action in range(4):

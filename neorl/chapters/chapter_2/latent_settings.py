@@ -1,18 +1,18 @@
-"""Does latent learning depend on our choices? The experiment again, with one of them changed at a time.
+"""Does latent learning depend on our choices? The experiment with one of them changed at a time.
 
-Changed are how animals of all kinds learn and explore, the order of turns, and the number of places from one choice
-point to the next; for an exercise, too, the day of the first meal.
+The choices are the rates of learning and exploration of all kinds of animal, the order of turns, and the number of
+places from one choice point to the next; an exercise also varies the day of the first meal.
 """
 
 from neorl.chapters.chapter_2.latent_learning import LEARNERS, Animal, compare_learners, judge, simulate_groups
 from neorl.chapters.chapter_2.maze import Maze, random_maze
 
 RATES = {"learning_rate": ("α", (0.01, 1.0)), "discount": ("γ", (0.5, 0.99)), "exploration": ("ε", (0.0, 0.3)),
-         "trace": ("λ", (0.0, 0.5))}  # of an `Animal`: the symbol of each, and other values
+         "trace": ("λ", (0.0, 0.5))}  # fields of `Animal`: symbol, and values other than the default
 
 
 def settings(maze):
-    """The settings, with no change first: {name: (what is changed of an `Animal`, `Maze`)}."""
+    """The settings, the unchanged one first: {name: (changed fields of `Animal`, `Maze`)}."""
     rates = {f"{symbol} {value:g}": ({rate: value}, maze) for rate, (symbol, values) in RATES.items()
              for value in values}
     orders = {f"turns {name}": ({}, random_maze(order)) for order, name in enumerate("AB")}
@@ -21,7 +21,7 @@ def settings(maze):
 
 
 def vary(maze, runs, seed=0):
-    """What becomes of latent learning in each of the `settings`, each with animals of its own: two dictionaries.
+    """Latent learning in each of the `settings`, each with animals of its own: two dictionaries.
 
     The first has the findings "below" and "one meal" of `findings`, {setting: {learner: [Estimate, Estimate]}}, the
     second demonstration H1, {setting: `Claim`}.
@@ -38,7 +38,7 @@ def vary(maze, runs, seed=0):
 def first_meals(days, maze, runs, seed=0):
     """Mean errors of the delayed group of neoRL on the day of its first meal and on the next: {day: (errors, errors)}.
 
-    days: from 1 to 16, each with the same animals.
+    days: of the first meal, from 1 to 16, each with the same animals.
     """
     errors = {day: simulate_groups(Animal(), maze, runs, seed, day)["delayed"].errors.mean(axis=0) for day in days}
     return {day: (each[day - 1], each[day]) for day, each in errors.items()}

@@ -1,8 +1,8 @@
-"""A maze of T-shaped units, after the plan with 14 of them in which Tolman and Honzik (1930) ran their rats.
+"""A maze of T-shaped units, after the one with 14 of them in which Tolman and Honzik (1930) ran their rats.
 
-Each unit is a choice between a blind alley and the true path. The original's plan (Elliott 1928) is known here as a
-drawing that others describe, not as a list of turns, so the order of turns is ours. No learner here distinguishes left
-from right or one order from another: a turn is a label of an action.
+Each unit is a choice between a blind alley and the true path. The original plan (Elliott 1928) is known here only from
+descriptions of its drawing, not as a list of turns, so the order of turns is ours. No learner here distinguishes left
+from right or one order from another: a turn is only a label of an action.
 """
 
 from dataclasses import dataclass
@@ -20,10 +20,10 @@ TURNS = "RLRRLRLLRLRRLL"
 class Maze:
     """A maze of T-shaped units, one after the other.
 
-    turns: for each unit the side, "L" or "R", on which the true path goes on; the blind is on the other. The way that
-    they make may not come back to a place. alley: how many places lie between two choice points.
+    turns: the side of each unit, "L" or "R", on which the true path continues; the blind is on the other. The path may
+    not cross itself. alley: the number of places between two choice points.
 
-    Doors close behind the animal: there is no way back to a choice point that has been left by the true path.
+    Doors close behind the animal: there is no way back to a choice point that has been left along the true path.
     Raises ValueError for anything else.
     """
 
@@ -51,12 +51,12 @@ class Maze:
 
     @property
     def goal(self):
-        """The state of the goal box. States are counted along the true path from the start, 0, then come the blinds."""
+        """The state of the goal box. States are numbered along the true path from the start, 0; the blinds follow."""
         return len(self._path) - 1
 
     @property
     def choice_points(self):
-        """The states where the units part: int64 (units,)."""
+        """The states at which the animal chooses, one per unit: int64 (units,)."""
         return (self.alley + 1) * np.arange(1, len(self.turns) + 1)
 
     @property
@@ -66,17 +66,17 @@ class Maze:
 
     @property
     def states(self):
-        """How many states there are."""
+        """The number of states."""
         return self.goal + 1 + len(self.turns)
 
     @cached_property
     def places(self):
-        """Where each state is, y downward: float64 (states, 2); blinds reach less far than the next choice point."""
+        """The position of each state, y downward: float64 (states, 2); blinds end short of the next choice point."""
         return np.concatenate([self._path, self._path[self.choice_points] - 0.55 * np.array(self._headings[1:])])
 
     @cached_property
     def next_state(self):
-        """Where each action leads: int64 (states, 4). A wall or a closed door leaves the animal where it is."""
+        """The next state after each action: int64 (states, 4). A wall or a closed door leaves the animal in place."""
         leads = np.tile(np.arange(self.states)[:, None], 4)
         doors = set(self.choice_points.tolist())
         for state, move in enumerate(np.diff(self._path, axis=0)):
@@ -94,7 +94,7 @@ def _action(move):
 
 
 def random_maze(rng, units=14, alley=0):
-    """A `Maze` with as many units whose turns are drawn, each way that does not cross itself as likely as any other.
+    """A `Maze` with random turns, uniform over the paths of ``units`` units that do not cross themselves.
 
     rng: a `numpy.random.Generator`, or the seed of one.
     """

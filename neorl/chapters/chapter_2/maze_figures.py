@@ -1,4 +1,4 @@
-"""Drawings of the maze and of what animals do in it."""
+"""Drawings of the maze, and of the animals' errors and knowledge."""
 
 import numpy as np
 from matplotlib import pyplot as plt
@@ -32,7 +32,7 @@ def draw_plan(maze):
 
 
 def draw_errors(by_learner, first_reward):
-    """Errors a day of the three groups, a panel a learner: {learner: {group: `Record`}}, with 95 % intervals."""
+    """Errors per day of the three groups, one panel per learner: {learner: {group: `Record`}}, with 95 % intervals."""
     width, _ = plt.rcParams["figure.figsize"]
     figure, grid = plt.subplots(len(by_learner), sharex=True, sharey=True, squeeze=False,
                                 figsize=(width, 2.5 * len(by_learner)))
@@ -45,7 +45,7 @@ def draw_errors(by_learner, first_reward):
             axes.fill_between(days, *mean_band(record.errors), color=colour, alpha=0.25, linewidth=0)
             ends.append((mean[-1], NAMES[group].format(first_reward), colour))
         axes.axvline(first_reward, color=INK, linewidth=1, linestyle=":")
-        axes.set(ylabel="errors a day", title=learner, ylim=(-3, None), xlim=(1, days[-1]))
+        axes.set(ylabel="errors per day", title=learner, ylim=(-3, None), xlim=(1, days[-1]))
         axes.title.set_color(TEXT)
         axes.ends = ends
     axes.set(xlabel="day", xticks=days[::2])
@@ -62,7 +62,7 @@ def draw_known(known_by_learner, first_reward):
 
 
 def draw_settings(rows, labels):
-    """How results depend on choices: rows {setting: {learner: [Estimate for each of ``labels``]}}, a panel a label."""
+    """Results by setting, {setting: {learner: [Estimate for each of ``labels``]}}, one panel per label."""
     width, _ = plt.rcParams["figure.figsize"]
     figure, panels = plt.subplots(1, len(labels), sharey=True, squeeze=False, figsize=(width, 0.36 * len(rows) + 1.4))
     heights = np.arange(len(rows))

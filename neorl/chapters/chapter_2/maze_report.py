@@ -19,7 +19,7 @@ def in_short(by_learner, claim):
             f"throughout. Simulated animals go from {errors[0]} errors on that day to {errors[1]} on the next if they "
             f"learn as the thesis proposes ({first}), and two standard kinds of learner go from {also}. From then on "
             f"the {first} animals make {claim.here} errors per day more than animals fed throughout, with the 95 % "
-            "interval in brackets; they overtake if all of it lies below 0.")
+            "interval in brackets; they overtake if the whole interval lies below 0.")
 
 
 def describe_errors(by_learner):
@@ -31,9 +31,9 @@ def describe_errors(by_learner):
     neorl, sarsa = errors["neoRL"], errors["Sarsa(λ)"]
     return (f"From day {FIRST_REWARD}, on which it first finds food, to day {FIRST_REWARD + 1} the errors of the "
             f"delayed group go {drops}. On day 2, after as much food, the group fed throughout makes "
-            f"{neorl['throughout'][1]:.1f} (neoRL) and {sarsa['throughout'][1]:.1f} (Sarsa(λ)). On the first day of "
-            f"all, Sarsa(λ) makes {sarsa['never'][0]:.1f} errors where a random walk makes {neorl['never'][0]:.1f}, "
-            "since it prefers untried actions; after that day none are left.")
+            f"{neorl['throughout'][1]:.1f} (neoRL) and {sarsa['throughout'][1]:.1f} (Sarsa(λ)). On the very "
+            f"first day Sarsa(λ) makes {sarsa['never'][0]:.1f} errors where a random walk makes "
+            f"{neorl['never'][0]:.1f}, since it prefers untried actions; after that day no action is untried.")
 
 
 def findings_table(found):
@@ -48,28 +48,28 @@ def describe_findings(found):
     level, one_meal, below, never = (
         " and ".join(name for name in found if found[name][key].holds) or "none of the three"
         for key in ("level", "one meal", "below", "never"))
-    return (f"Level with the group fed throughout at once after its first food: the delayed group of {level}. Level "
-            f"by latent learning, not by quick learning: that of {one_meal}. Overtaking: that of {below}. Improving "
-            f"without food: the unrewarded group of {never}.")
+    return (f"The delayed group is level with the group fed throughout right after its first food: {level}. It is "
+            f"level by latent learning, not by quick learning: {one_meal}. It overtakes: {below}. The unrewarded group "
+            f"improves without food: {never}.")
 
 
 def describe_known(by_learner, units):
-    """What the delayed groups know before they meet food: {learner: {group: `Record`}}, in a maze of so many units."""
+    """The knowledge of the delayed groups before they find food: {learner: {group: `Record`}}. units: of the maze."""
     neorl, q_learning, sarsa = (by_learner[name]["delayed"].known[:, FIRST_REWARD - 2].mean() * units
                                 for name in LEARNERS)
     same = np.array_equal(by_learner["neoRL"]["delayed"].known, by_learner["neoRL"]["throughout"].known)
     fed = ("On each day and in every animal this equals the knowledge of the group fed throughout, so the delayed "
            "group draws level and does not overtake" if same else
            "The group fed throughout does not know quite the same")
-    return (f"On the evening of day {FIRST_REWARD - 1}, before it has met any food, the delayed group knows the way to "
-            f"the food box at {neorl:.1f} of {units} choice points with neoRL, at {q_learning:.1f} with Q-learning and "
-            f"at {sarsa:.1f} with Sarsa(λ). {fed}: in a maze with one way out and one-way doors, every animal passes "
-            f"every choice once a day, hungry or not, and its knowledge of the food box spreads back by one place "
-            f"each time. Blind alleys teach only about blind alleys.")
+    return (f"On the evening of day {FIRST_REWARD - 1}, before it has found any food, the delayed group knows the way "
+            f"to the food box at {neorl:.1f} of {units} choice points with neoRL, at {q_learning:.1f} with Q-learning "
+            f"and at {sarsa:.1f} with Sarsa(λ). {fed}: in a maze with one way out and one-way doors, every animal "
+            f"passes every choice point once a day, hungry or not, and its knowledge of the food box spreads back by "
+            f"one place each time. Time in blind alleys teaches only about blind alleys.")
 
 
 def describe_settings(rows, judged, worth):
-    """How the verdict on H1 and the findings depend on settings.
+    """How the verdict on H1 and two findings depend on the settings.
 
     rows, judged: what `neorl.chapters.chapter_2.latent_settings.vary` finds. worth: errors per day that food saves.
     """
@@ -82,18 +82,18 @@ def describe_settings(rows, judged, worth):
     reproduced = "reproduced" in [claim.verdict for claim in judged.values()]
     luck = (". Even between equal groups, about one interval in forty lies below 0"
             if reproduced else "")
-    return (f"The errors of the neoRL animals fed late on days 12 to 17, less those of the group fed throughout, lie "
+    return (f"On days 12 to 17, the errors of the neoRL animals fed late, less those of the group fed throughout, lie "
             f"between {span} per day; never being fed costs {worth:.1f}. In {level} of {len(rows)} settings "
-            f"the interval holds 0. The verdict on H1 also requires that day 12 alone shows them level, which takes "
-            f"many animals. It is {_by_verdict(judged)}{luck}. After one meal each, the neoRL animals that were "
-            f"fed late are ahead in {sum(each.high < 0 for each in one_meal)} settings. Of the others, "
-            + (f"so are {' and '.join(rivals)}." if rivals else "none are in any."))
+            f"the interval contains 0. The verdict on H1 also requires that day 12 alone shows them level, which takes "
+            f"many animals. It is {_by_verdict(judged)}{luck}. After one meal each, the neoRL animals "
+            f"fed late are ahead in {sum(each.high < 0 for each in one_meal)} settings. Other learners are ahead in "
+            + (f"these cases: {' and '.join(rivals)}." if rivals else "none."))
 
 
 def describe_verdict(claim):
     """What the verdict on H1 shows, in a sentence or two; nothing where there is none."""
-    return {"reproduced": "Here the interval lies below 0. Yet both groups know the same on each day, so this can "
-                          "only be chance; the settings above have other animals. ",
+    return {"reproduced": "Here the interval lies below 0. Yet both groups have the same knowledge on each day, so "
+                          "this can only be chance; the settings above have other animals. ",
             "partly": "Their knowledge brings the animals level with the group fed throughout, and no further. ",
             "not reproduced": "With this number of animals, level cannot be distinguished from slightly behind. "
             }.get(claim.verdict, "")
@@ -106,7 +106,7 @@ def describe_first_meals(errors):
 
 
 def _by_verdict(judged):
-    """In how many settings there is each verdict, and in which, but for the most frequent one."""
+    """The number of settings with each verdict, and their names except for the most frequent one."""
     outcomes = {}
     for setting, claim in judged.items():
         outcomes.setdefault(claim.verdict, []).append(setting)

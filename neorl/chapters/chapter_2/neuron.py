@@ -1,13 +1,13 @@
-"""A neuron in three sketches: its action potential, its soma that integrates, and its synapse that changes.
+"""A neuron in three sketches: its action potential, its integrating soma, and its plastic synapse.
 
 1. *Action potential*: the equations of Hodgkin and Huxley (1952) for the giant axon of the squid at 6.3 °C. Gates open
    and close at rates that depend on the potential, and let sodium in and potassium out.
-2. *Integration*: a leaky integrate-and-fire neuron (Lapicque 1907). What flows in raises the potential, a leak draws it
+2. *Integration*: a leaky integrate-and-fire neuron (Lapicque 1907). Input current raises the potential, a leak draws it
    back to rest; at the threshold the neuron fires and is reset. Between two steps the solution is exact.
 3. *Synapse*: each spike sets off a current that decays exponentially. Its efficacy changes with what happens to the
    animal, for minutes or for good (Kandel and Tauc 1965; Sutton et al. 2002; thesis section 2.2).
 
-Units throughout: milliseconds, millivolts, megaohms and nanoamperes; in the axon microamperes per square centimetre.
+Units throughout: milliseconds, millivolts, megaohms and nanoamperes; for the axon, microamperes per square centimetre.
 """
 
 from dataclasses import dataclass
@@ -20,19 +20,19 @@ from scipy.special import exprel
 
 from neorl import checks
 
-# Hodgkin and Huxley 1952, table 3, with potentials inside against outside and rest at −65 mV.
+# Hodgkin and Huxley 1952, table 3, with the potential inside relative to outside and rest at −65 mV.
 REST = -65.0
 CAPACITY = 1.0  # µF/cm²
 SODIUM, POTASSIUM, LEAK = 120.0, 36.0, 0.3  # mS/cm², all channels open
-SODIUM_AT, POTASSIUM_AT, LEAK_AT = REST + 115.0, REST - 12.0, REST + 10.613  # mV, where each current reverses
+SODIUM_AT, POTASSIUM_AT, LEAK_AT = REST + 115.0, REST - 12.0, REST + 10.613  # mV, reversal potentials
 RESOLUTION = 0.01  # ms between two points of an action potential
 SHOCKS = {"one shock": [30], "five, apart": [30, 45, 60, 75, 90],
-          "five at once": [30, 30.1, 30.2, 30.3, 30.4]}  # to the animal, by their minutes
-PULSES_APART = 0.05  # µA/cm², how closely the threshold of the axon is looked for
+          "five at once": [30, 30.1, 30.2, 30.3, 30.4]}  # to the animal, times in minutes
+PULSES_APART = 0.05  # µA/cm², precision of the search for the axon's threshold
 
 
 class Axon(NamedTuple):
-    """A stretch of axon over time: all float64 (points,)."""
+    """The state of an axon over time: all float64 (points,)."""
 
     time: np.ndarray  # ms
     potential: np.ndarray  # mV
@@ -42,7 +42,7 @@ class Axon(NamedTuple):
 
 
 def action_potential(current, start=5.0, stop=6.0, duration=25.0):
-    """An axon at rest that gets a pulse of current (Hodgkin and Huxley 1952, eq. 26): an `Axon`.
+    """The response of an axon at rest to a pulse of current (Hodgkin and Huxley 1952, eq. 26): an `Axon`.
 
     current: µA/cm². The pulse lasts from ``start`` to ``stop``, the trace from 0 to ``duration``; ms, in this order.
     Raises ValueError for anything else.
@@ -64,14 +64,14 @@ def action_potential(current, start=5.0, stop=6.0, duration=25.0):
 
 
 def peak(current):
-    """The highest potential of an axon at rest that gets the pulse of current of `action_potential`, in mV."""
+    """The highest potential of an axon in response to the pulse of `action_potential`, in mV."""
     return action_potential(current).potential.max()
 
 
 def pulses_at_threshold():
-    """The strongest pulse known not to set off an action potential, and the weakest known to: two currents, µA/cm².
+    """A pulse just too weak to set off an action potential, and one just strong enough: two currents, µA/cm².
 
-    They are `PULSES_APART` from each other at most. An action potential is a peak above 0 mV.
+    They differ by at most `PULSES_APART`. An action potential is a peak above 0 mV.
     """
     weak, strong = 1.0, 20.0
     while strong - weak > PULSES_APART:
@@ -90,7 +90,7 @@ def gates_at_rest():
 
 
 def gate_rates(potential):
-    """How fast the gates m, h and n open and close at a potential in mV: two float64 (3,), per ms.
+    """The rates at which the gates m, h and n open and close at a potential in mV: two float64 (3,), per ms.
 
     Hodgkin and Huxley 1952, eq. 12, 13, 20, 21, 23 and 24.
     """
@@ -114,7 +114,7 @@ class Neuron:
     """A leaky integrate-and-fire neuron; by default that of Dayan and Abbott (2001, chapter 5).
 
     rest, threshold, reset: mV, with ``rest`` and ``reset`` below ``threshold``.
-    time_constant: of the leak, ms, above 0. resistance: MΩ, above 0. refractory: ms after a spike at ``reset``, ≥ 0.
+    time_constant: of the leak, ms, above 0. resistance: MΩ, above 0. refractory: ms at ``reset`` after a spike, ≥ 0.
 
     Raises ValueError for anything else.
     """
@@ -136,9 +136,9 @@ class Neuron:
 
 
 def integrate(current, neuron=Neuron(), step=0.1):
-    """Let neurons integrate a current and fire: the potential in mV, float64, and spikes, bool, both of its shape.
+    """Let neurons integrate a current and fire: potentials in mV, float64, and spikes, bool, both of its shape.
 
-    current: float (steps, …), nA, time first; constant over a step. step: ms, above 0.
+    current: float (steps, …), nA, time first; constant during a step. step: ms, above 0.
     Raises ValueError for anything else.
     """
     current = checks.finite("current", np.asarray(current, float))
@@ -160,7 +160,7 @@ def integrate(current, neuron=Neuron(), step=0.1):
 def firing_rate(current, neuron=Neuron()):
     """Spikes per second of a neuron under a constant current in nA, in closed form: float64, of the current's shape.
 
-    It is the inverse of the refractory time and of the time from reset to threshold (Dayan and Abbott 2001, eq. 5.11).
+    It is the inverse of the refractory time plus the time from reset to threshold (Dayan and Abbott 2001, eq. 5.11).
     """
     drive = neuron.rest + neuron.resistance * checks.finite("current", np.asarray(current, float))
     fires = drive > neuron.threshold
@@ -170,9 +170,9 @@ def firing_rate(current, neuron=Neuron()):
 
 
 def synaptic_current(spikes, weight, decay=5.0, step=0.1):
-    """The current in nA that spikes set off behind a synapse: float64, of the shape of ``spikes``, time first.
+    """The postsynaptic current in nA that spikes set off: float64, of the shape of ``spikes``, time first.
 
-    spikes: how many in each step. weight: nA a spike, negative if the synapse inhibits. decay: time constant, ms.
+    spikes: the number in each step. weight: nA per spike, negative if the synapse inhibits. decay: time constant, ms.
     """
     decay = np.exp(-checks.real("step", step, 1e-9) / checks.real("decay", decay, 1e-9))
     return lfilter([checks.real("weight", weight)], [1.0, -decay], np.asarray(spikes, float), axis=0)
@@ -184,13 +184,14 @@ def efficacies(minutes, shocks):
 
 
 def efficacy(minutes, shocks, fading=15.0, short=1.0, lasting=1.0):
-    """How strong a synapse is when the animal is shocked at some times, 1 before any shock: float64 (minutes,).
+    """The efficacy of a synapse over time in an animal that receives shocks, 1 before the first: float64 (minutes,).
 
-    A shock raises a trace to 1, which fades with the time constant ``fading``, in minutes; efficacy is up by ``short``
-    times the trace. For good it rises by ``lasting`` × trace × (1 − trace) at a shock that finds the trace of another,
-    so that a single shock leaves nothing, nor do shocks in one go. It sketches what is seen, and not the mechanism.
+    A shock sets a trace to 1, which fades with the time constant ``fading``, in minutes; efficacy is raised by
+    ``short`` times the trace. It rises permanently by ``lasting`` × trace × (1 − trace) at a shock that falls on the
+    trace of another, so that neither a single shock nor shocks in quick succession leave a permanent change. This
+    sketches the observations, not the mechanism.
 
-    minutes: when to look, (minutes,). shocks: when they fall, rising. Raises ValueError for anything else.
+    minutes: when to evaluate it, (minutes,). shocks: their times, rising. Raises ValueError for anything else.
     """
     minutes = checks.finite("minutes", np.asarray(minutes, float))
     shocks = checks.finite("shocks", np.asarray(shocks, float))

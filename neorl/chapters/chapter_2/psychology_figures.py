@@ -10,7 +10,7 @@ from neorl.drawing.style import AGENT, CURVES, GREEN, INK, LOW_PANEL, RED, name_
 
 
 def draw_latencies(latencies, published):
-    """Seconds to escape in each trial: {name: (runs, trials)} with bands, and times of an animal of old as points."""
+    """Seconds to escape in each trial: {name: (runs, trials)} with bands, and an animal's published times as points."""
     (_, trials), *_ = (each.shape for each in latencies.values())
     axes = draw_curves(np.arange(trials) + 1, latencies, "trial", "seconds to escape")
     axes.plot(np.arange(len(published)) + 1, published, color=INK, linestyle="none", marker="o", markersize=5)
@@ -18,7 +18,7 @@ def draw_latencies(latencies, published):
 
 
 def draw_sessions(curves, phases, ylabel):
-    """A number a session, {name: (runs, sessions)}, with phases {name: the session it begins with, from 0}."""
+    """Curves over sessions, {name: (runs, sessions)}, with phases {name: the session it begins with, from 0}."""
     (_, sessions), *_ = (each.shape for each in curves.values())
     axes = draw_curves(np.arange(sessions) + 1, curves, "session", ylabel)
     axes.set_ylim(-0.07 * axes.get_ylim()[1], None)  # room for the names of curves that end at 0
@@ -32,7 +32,7 @@ def draw_sessions(curves, phases, ylabel):
 def draw_wishes(grid, values, marks):
     """The best actions in a grid under each of several desires, {name: values (states, 4)}.
 
-    marks: {state: text}, what to write instead of an action.
+    marks: {state: text}, written in place of an action.
     """
     for axes, (name, q) in zip(new_grids(grid, columns=len(values)), values.items()):
         draw_grid(axes, grid)
@@ -56,12 +56,12 @@ def draw_action_potential(axon, reversals):
     for (gate, name), colour in zip(names.items(), CURVES):
         bottom.plot(axon.time, getattr(axon, gate), color=colour)
         ends.append((getattr(axon, gate)[-1], name, colour))
-    bottom.set(xlabel="milliseconds", ylabel="open", ylim=(0, 1), xlim=(0, axon.time[-1]))
+    bottom.set(xlabel="milliseconds", ylabel="share open", ylim=(0, 1), xlim=(0, axon.time[-1]))
     name_ends(bottom, ends)
 
 
 def draw_firing_rates(currents, counted):
-    """Spikes per second over the current, as counted in a simulation and as the closed form has them."""
+    """Spikes per second over the current, counted in a simulation and in closed form."""
     axes = plt.figure().add_subplot()
     fine = np.linspace(currents[0], currents[-1], POINTS)
     expected = firing_rate(fine)
@@ -72,10 +72,10 @@ def draw_firing_rates(currents, counted):
 
 
 def draw_parts(time, inflow, potential, spikes, answers, threshold):
-    """What the four parts of a neuron do over time, one panel each.
+    """The signals in the four parts of a neuron over time, one panel each.
 
     inflow: the current into the dendrite. potential: of the soma, with its threshold. spikes: on the axon.
-    answers: the potential behind the synapse {name: (steps,)}.
+    answers: the postsynaptic potential {name: (steps,)}.
     """
     width, _ = plt.rcParams["figure.figsize"]
     _, panels = plt.subplots(4, sharex=True, figsize=(width, 1.35 * width), height_ratios=(3, 3, 1, 3))

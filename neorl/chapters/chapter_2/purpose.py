@@ -4,9 +4,9 @@ LONGEST_WAY = 20  # steps, after which the animal is taken out
 
 
 def steps_to(goal, grid, q, start):
-    """How many steps the best actions of q (states, 4) take from a start to a goal in a `Grid`, None if they do not.
+    """The number of steps from start to goal in a `Grid` by the best actions of q (states, 4), None if they fail.
 
-    Of several best actions it is the first that counts. They have `LONGEST_WAY` steps to get there.
+    Of several best actions the first is taken. The limit is `LONGEST_WAY` steps.
     """
     state = start
     for steps in range(LONGEST_WAY + 1):

@@ -1,12 +1,12 @@
-"""How one finds out what a cell is tuned to: an animal roams a box, and the cell's spikes are set against what it did.
+"""The tuning of cells, measured from their spikes while an animal roams a box.
 
-1. *Trajectory*: the velocity is an Ornstein-Uhlenbeck process on either axis, and walls reflect it, so that the animal
-   comes everywhere alike. The box is a unit square, 1 m a side if one likes; y points south as everywhere in neorl.
-2. *Spikes*: Poisson, at one rate while the animal is in the cell's receptive field and at another outside. The field is
-   that of a cell of an `NresMap`: mutually exclusive and with sharp borders.
-3. *Tuning*: spikes in each bin of a variable over the time spent there, both smoothed by a Gaussian. Over the position
-   this is a rate map, over a direction or a speed a tuning curve (thesis section 2.2.1).
-4. *Information*: bits a spike about the variable (Skaggs et al. 1993), against that of spikes shifted in time.
+1. *Trajectory*: the velocity is an Ornstein-Uhlenbeck process along each axis, and walls reflect it, so that the animal
+   covers the box uniformly. The box is a unit square, of 1 m, say; y points south as everywhere in neorl.
+2. *Spikes*: Poisson, at one rate while the animal is in the cell's receptive field and at another outside. The fields
+   are those of the cells of an `NresMap`: mutually exclusive and with sharp borders.
+3. *Tuning*: spikes in each bin of a variable, divided by the time spent there, both smoothed by a Gaussian. For
+   position this is a rate map, for direction or speed a tuning curve (thesis section 2.2.1).
+4. *Information*: bits per spike about the variable (Skaggs et al. 1993), compared with that of spikes shifted in time.
 """
 
 from typing import NamedTuple
@@ -19,13 +19,13 @@ from neorl import checks
 from neorl.core.geometry import TAU
 from neorl.core.maps import NresMap
 
-SHIFTS = 99  # of spikes in time, at random
-# For each variable that spikes may tell about, what `tuning` takes as high, bins and closed.
+SHIFTS = 99  # random shifts of the spikes in time
+# The arguments high, bins and closed of `tuning_curve` for each variable that spikes may be informative about.
 VARIABLES = {"position": (1.0, 20, False), "direction": (TAU, 18, True), "speed": (0.5, 10, False)}
 
 
 class Trajectory(NamedTuple):
-    """Where an animal was, and how it moved."""
+    """The positions and velocities of an animal over time."""
 
     position: np.ndarray  # float64 (steps, 2), box widths from the upper left
     velocity: np.ndarray  # float64 (steps, 2), box widths per second
@@ -33,7 +33,7 @@ class Trajectory(NamedTuple):
 
     @property
     def direction(self):
-        """Where it was heading, 0 … 2π from east by way of south: float64 (steps,)."""
+        """The direction of movement, 0 … 2π from east by way of south: float64 (steps,)."""
         return np.arctan2(self.velocity[:, 1], self.velocity[:, 0]) % TAU
 
     @property
@@ -43,20 +43,21 @@ class Trajectory(NamedTuple):
 
 
 def roam(steps, seed=0, step=0.02, speed=0.2, persistence=0.7):
-    """An animal that roams the box: a `Trajectory`.
+    """Let an animal roam the box: a `Trajectory`.
 
     steps: integer ≥ 1. seed: of ``numpy.random.default_rng``. step: seconds, above 0.
-    speed: its mean, box widths per second. persistence: seconds after which its velocity is correlated by 1/e, above 0.
+    speed: its mean, box widths per second. persistence: seconds, above 0, after which the velocity's autocorrelation is
+    1/e.
     Raises ValueError for anything else.
     """
     checks.integer("steps", steps, at_least=1)
     kept = np.exp(-checks.real("step", step, 1e-9) / checks.real("persistence", persistence, 1e-9))
     rng = np.random.default_rng(seed)
-    deviation = checks.real("speed", speed, 0) / np.sqrt(np.pi / 2)  # of either component: the speed is Rayleigh
+    deviation = checks.real("speed", speed, 0) / np.sqrt(np.pi / 2)  # of each component: the speed is Rayleigh
     noise = rng.normal(0, deviation, (steps, 2))
     noise[1:] *= np.sqrt(1 - kept**2)
     velocity = lfilter([1.0], [1.0, -kept], noise, axis=0)
-    # A walk among mirror images of the box is one in the box itself that the walls reflect.
+    # A walk through mirror images of the box, folded back, is a walk in the box that its walls reflect.
     path = (rng.random(2) + step * np.cumsum(velocity, axis=0)) % 2
     mirrored = path > 1
     return Trajectory(np.where(mirrored, 2 - path, path), np.where(mirrored, -velocity, velocity), step)
@@ -65,8 +66,8 @@ def roam(steps, seed=0, step=0.02, speed=0.2, persistence=0.7):
 def in_field(nres_map, cell, trajectory, objects=()):
     """Whether a cell of a map is active, at each step of a trajectory: bool (steps,).
 
-    A cell of a modality that is about several things is active if any of them is in its field.
-    cell: 0 … cells − 1. objects: (x, y) of each in the box; only a modality of objects takes notice.
+    If its modality follows several things, a cell is active while any of them is in its field.
+    cell: 0 … cells − 1. objects: (x, y) of each in the box, used only if the modality follows objects.
     Raises ValueError for anything else.
     """
     modality = checks.instance("nres_map", nres_map, NresMap).modality
@@ -83,24 +84,24 @@ def in_field(nres_map, cell, trajectory, objects=()):
 
 
 def spikes(active, step, seed=0, inside=20.0, outside=0.2):
-    """How many spikes a cell fires at each step: int16 (steps,), drawn from a Poisson distribution.
+    """The number of spikes of a cell at each step: int16 (steps,), drawn from a Poisson distribution.
 
-    active: bool (steps,), see `in_field`. step: seconds. inside, outside: spikes per second while active, and else, ≥
-    0. Raises ValueError for anything else.
+    active: bool (steps,), see `in_field`. step: seconds. inside, outside: spikes per second while active and otherwise,
+    ≥ 0. Raises ValueError for anything else.
     """
     rates = np.where(active, checks.real("inside", inside, 0), checks.real("outside", outside, 0))
     return np.random.default_rng(seed).poisson(rates * checks.real("step", step, 1e-9)).astype(np.int16)
 
 
 class TuningCurve(NamedTuple):
-    """How a cell fires in each bin of a variable; first the axis that the variable's values name first."""
+    """The firing of a cell in each bin of a variable, with axes in the order of the variable's components."""
 
     rate: np.ndarray  # float64 (…, bins) or (…, bins, bins), spikes per second; NaN where the animal never was
     seconds: np.ndarray  # float64 (bins,) or (bins, bins), time spent there, smoothed as the spikes are
 
 
 def rates(trains, names, values, **binning):
-    """The rates of the `tuning_curve` of some cells, {name: (bins,)}. trains: {name: spikes}."""
+    """The rates of the `tuning_curve` of the named cells, {name: (bins,)}. trains: {name: spikes}."""
     return {name: tuning_curve(trains[name], values, **binning).rate for name in names}
 
 
@@ -108,8 +109,8 @@ def tuning_curve(counts, values, step, high, bins, smoothing=1.0, closed=False):
     """The tuning of a cell to a variable: a `TuningCurve`.
 
     counts: spikes at each step, (steps,), or several trains (…, steps). values: of the variable, (steps,) or
-    (steps, 2). step: seconds. high: each axis is cut into ``bins`` from 0 to ``high``; what lies beyond it is left out.
-    smoothing: of spikes and of time, the standard deviation in bins, ≥ 0. closed: the axis closes on itself.
+    (steps, 2). step: seconds. high: each axis has ``bins`` bins from 0 to ``high``; values beyond are left out.
+    smoothing: of spikes and of time, the standard deviation in bins, ≥ 0. closed: whether the axis is circular.
     Raises ValueError for anything else.
     """
     checks.integer("bins", bins, at_least=1)
@@ -137,7 +138,7 @@ def information(tuned):
     """Bits that a spike carries about the variable of a `TuningCurve`: float64 (…), 0 for a cell that never fires.
 
     The sum over bins of p (λ/λ̄) log₂ (λ/λ̄), with the share p of the time spent in a bin, the rate λ there and the
-    mean rate λ̄ (Skaggs et al. 1993). Spikes that are few make it come out too large.
+    mean rate λ̄ (Skaggs et al. 1993). With few spikes it is biased upwards.
     """
     axes = tuple(range(-tuned.seconds.ndim, 0))
     visited = ~np.isnan(tuned.rate)
@@ -152,15 +153,15 @@ def information(tuned):
 class Told(NamedTuple):
     """The information that the spikes of a cell carry about a variable."""
 
-    bits: float  # a spike
+    bits: float  # per spike
     clear: bool  # whether that is more than with any of `SHIFTS` shifts of the spikes in time
 
 
 def told_by_spikes(trains, trajectory, seed=0):
-    """The information in spikes about an animal's position, heading and speed: {cell: {variable: `Told`}}.
+    """The information in spikes about an animal's position, direction and speed: {cell: {variable: `Told`}}.
 
-    trains: {cell: spikes at each step}, (steps,) each. Shifted spikes go round the recording, by 1,000 steps or more
-    either way, or by a tenth of a recording of fewer than 10,000.
+    trains: {cell: spikes at each step}, (steps,) each. Shifts are circular, by 1,000 steps or more either way,
+    or by a tenth or more of a recording of fewer than 10,000.
     """
     steps = len(trajectory.position)
     margin = min(1_000, steps // 10)
@@ -177,10 +178,10 @@ def told_by_spikes(trains, trajectory, seed=0):
 
 
 def rate_maps(cells, trajectory, objects, seed, **axes):
-    """Rate maps of cells whose spikes are drawn anew: {cell: rate}, as `TuningCurve` has it.
+    """Rate maps of cells, from spikes drawn here: {cell: rate}, as in `TuningCurve`.
 
     cells: {cell: (`NresMap`, which of its cells)}. objects: see `in_field`. seed: a sequence of integers, to which the
-    spikes add the number of the cell. axes: the arguments of `tuning` from ``step`` on.
+    number of the cell is appended. axes: the arguments of `tuning_curve` from ``step`` on.
     """
     maps = {}
     for number, (name, cell) in enumerate(cells.items()):
@@ -190,9 +191,9 @@ def rate_maps(cells, trajectory, objects, seed, **axes):
 
 
 def likeness(maps, others):
-    """How alike two maps of each cell are, by their correlation over the places seen in both: {cell: number}.
+    """The similarity of two maps of each cell, their correlation over the places visited in both: {cell: number}.
 
-    maps: {cell: rate (bins, bins)}. others: the same, of these cells or more.
+    maps: {cell: rate (bins, bins)}. others: the same, of at least these cells.
     """
     found = {}
     for cell, rate in maps.items():
@@ -202,12 +203,12 @@ def likeness(maps, others):
 
 
 def cartesian(distance, bearing):
-    """A point in polar coordinates as (x, y): float64 (2,). bearing: radians from x by way of y."""
+    """A point in polar coordinates as (x, y): float64 (2,). bearing: radians from the x axis towards the y axis."""
     return distance * np.array([np.cos(bearing), np.sin(bearing)])
 
 
 def egocentric(vectors, heading):
-    """Vectors of North and East as the animal has them, Forward and Starboard: float64 (…, 2).
+    """Vectors (North, East) in the animal's frame (Forward, Starboard): float64 (…, 2).
 
     vectors: (…, 2), north first. heading: radians from north by way of east, one for all or one for each vector.
     Raises ValueError unless all are finite (thesis figure 2.4).

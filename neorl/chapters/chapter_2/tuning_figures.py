@@ -1,4 +1,4 @@
-"""Drawings of reference frames, and of what cells are tuned to."""
+"""Drawings of reference frames, rate maps and tuning curves."""
 
 import numpy as np
 from matplotlib import pyplot as plt
@@ -50,7 +50,7 @@ def _arrow(axes, start, end, colour):
 
 
 def draw_landmark(seconds, places, heading, landmark, allocentric, seen):
-    """An animal's way past a landmark, and the components of the landmark's vector in both frames over time.
+    """An animal's path past a landmark, and the components of the landmark's vector in both frames over time.
 
     seconds: (steps,). places: (steps, 2), north first. heading: (steps,), radians from north by way of east.
     landmark: its place. allocentric: (steps, 2), north and east. seen: (steps, 2), forward and starboard.
@@ -97,7 +97,7 @@ def draw_rate_maps(trajectory, spikes, maps, objects):
 
 
 def draw_tuning_curves(direction, speed, fastest):
-    """Rates over the direction, as a polar plot, and over the speed: {name: (bins,)} each; speeds up to ``fastest``."""
+    """Rates over direction, as a polar plot, and over speed: {name: (bins,)} each; speeds up to ``fastest``."""
     width, _ = plt.rcParams["figure.figsize"]
     figure = plt.figure(figsize=(width, 1.3 * width))
     around, along = figure.add_subplot(211, projection="polar"), figure.add_subplot(212)

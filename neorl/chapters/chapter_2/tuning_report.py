@@ -31,14 +31,15 @@ def describe_information(told):
     for cell, about in told.items():
         own = OWN.get(cell, "position")
         right += about[own].clear and about[own].bits == max(each.bits for each in about.values())
-        others += [f"the {cell} about {variable}" for variable, each in about.items() if each.clear and variable != own]
+        others += [f"the {cell}'s information about {variable}" for variable, each in about.items()
+                   if each.clear and variable != own]
     complete = right == len(told)
-    beyond = (f"Beyond that, {', '.join(others)} {'exceeds' if len(others) == 1 else 'exceed'} the shifted spikes."
-              if others else "None exceeds the shifted spikes anywhere else.")
+    beyond = (f"Beyond that, {', '.join(others)} {'exceeds' if len(others) == 1 else 'exceed'} that of shifted spikes."
+              if others else "No other information exceeds that of shifted spikes.")
     return (f"{'All' if complete else right} of the {len(told)} cells are most informative, and above chance, about "
             f"the variable of their own modality{'' if complete else ' in so short a recording'}. {beyond} With "
-            f"{SHIFTS} shifts, one in a hundred comparisons does so by chance, and for {2 * len(told)} there is "
-            f"nothing to find"
+            f"{SHIFTS} shifts, one in a hundred comparisons does so by chance, and in {2 * len(told)} of the "
+            f"comparisons here there is nothing to find"
             + (", unless the animal's path links the variables." if others else ".")
             + (" So each cell informs about the concern of its modality, and hardly about the others."
                if complete and len(others) < 3 else ""))
@@ -50,10 +51,10 @@ def describe_sizes(tuned, active):
     digits, power = f"{np.prod(cells, dtype=float):.1e}".split("e")
     shares = [100 * np.mean(each) for each in active.values()]
     return (f"Separate maps also save cells. The {len(cells)} maps of this box have {sum(cells)} cells in all. A "
-            f"single joint map, with a cell for each combination, would need {digits} × 10<sup>{int(power)}</sup>. Of "
-            "each map a few cells at most are active at a time: the cells shown here were active for "
-            f"{min(shares):.1f} to {max(shares):.1f} % of the time. What separate maps cannot represent is the "
-            f"combination: that the animal runs just when it is near a wall, for instance, is in none of them.")
+            f"single joint map, with a cell for each combination, would need {digits} × 10<sup>{int(power)}</sup>. At "
+            "most a few cells of each map are active at a time: the cells shown here were active for "
+            f"{min(shares):.1f} to {max(shares):.1f} % of the time. Separate maps cannot represent "
+            f"combinations: that the animal runs just when it is near a wall, for instance, is in none of them.")
 
 
 def describe_likeness(found):

@@ -1,1 +1,1 @@
-"""What the notebook of chapter 3 runs and draws, namely decision processes, ensembles, hybrid reward."""
+"""Experiments, figures and sentences of chapter 3: decision processes, ensembles, hybrid reward."""

@@ -1,4 +1,4 @@
-"""Numbers that others have published, as they stand there.
+"""Data published by others.
 
 ``TRANSISTORS`` is the largest microprocessor of each year in the table of Rupp (2022; CC BY 4.0), in thousands of
 transistors: the file "50yrs/transistors.dat" of github.com/karlrupp/microprocessor-trend-data, rounded to three digits.

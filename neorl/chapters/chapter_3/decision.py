@@ -1,11 +1,11 @@
-"""Finite Markov decision processes, and two ways to act well in one (thesis sections 3.1 and 3.3).
+"""Finite Markov decision processes, solved by planning or by learning (thesis sections 3.1 and 3.3).
 
 Planning uses a known process: sweeps of the Bellman equation give values, values give a policy (Bellman 1957; eq. 3.7).
-Learning without a model updates after each step: action values by Q-learning (Watkins 1989; eq. 3.5), or a model of
-the transitions in counts, with which to plan.
+Learning starts without a model and uses each step: to update action values by Q-learning (Watkins 1989; eq. 3.5), or to
+count transitions, which give a model to plan with.
 
-Whatever the action, a step has one of the same few *outcomes*, each with its chance; the outcome decides where the step
-leads and what it pays. A state that ends an episode is followed by a start, and worth nothing itself.
+Whatever the action, a step has one of the same few *outcomes*, each with its chance; the outcome determines the next
+state and the reward. A state that ends an episode is followed by a start, and has value 0 itself.
 """
 
 from dataclasses import dataclass
@@ -24,11 +24,11 @@ from neorl.evidence.statistics import estimate
 class Process:
     """A Markov decision process.
 
-    successors: int64 (states, actions, outcomes), where a step leads. chances: (outcomes,), which add up to 1.
-    rewards: (states, actions, outcomes), what it pays. ends: bool (states,). starts: the states in which an episode may
-    begin, each equally likely.
+    successors: int64 (states, actions, outcomes), the next states. chances: (outcomes,), which add up to 1.
+    rewards: (states, actions, outcomes). ends: bool (states,), whether a state ends the episode. starts: the states in
+    which an episode may begin, each equally likely.
 
-    Raises ValueError if successors or starts are no states, or the chances do not add up to 1.
+    Raises ValueError if successors or starts are not states, or the chances do not add up to 1.
     """
 
     successors: np.ndarray
@@ -48,16 +48,16 @@ class Process:
 
     @property
     def states(self):
-        """How many states there are."""
+        """The number of states."""
         return self.successors.shape[0]
 
     @property
     def actions(self):
-        """How many actions there are."""
+        """The number of actions."""
         return self.successors.shape[1]
 
     def expected(self):
-        """The probability of each next state, (states, actions, states), and the reward expected, (states, actions).
+        """The probability of each next state, (states, actions, states), and the expected reward, (states, actions).
 
         Both are 0 in states that end an episode.
         """
@@ -69,11 +69,11 @@ class Process:
 
 
 def reaching(next_state, worth, slip=0.0, starts=None):
-    """A `Process` that pays and ends where something is worth something.
+    """A `Process` that pays a reward at certain states and ends there.
 
-    next_state: int64 (states, actions), where each action leads, as `neorl.chapters.shared.grid.Grid.next_state`.
-    worth: {state: reward}. slip: how probably a step takes any of the actions instead, from 0 to 1. starts: list of
-    states; by default all that do not end an episode.
+    next_state: int64 (states, actions), as `neorl.chapters.shared.grid.Grid.next_state`. worth: {state: reward}.
+    slip: the probability that a step takes a random action instead, from 0 to 1. starts: list of states; by default all
+    that do not end an episode.
     Raises ValueError for anything else.
     """
     states, actions = next_state.shape
@@ -89,10 +89,10 @@ def reaching(next_state, worth, slip=0.0, starts=None):
 
 
 def lattice(side, dimensions):
-    """Where each action leads on a grid of any dimension: int64 (side ** dimensions, 2 * dimensions).
+    """The next state after each action on a grid of any dimension: int64 (side ** dimensions, 2 * dimensions).
 
-    The actions go up and down each axis in turn; a step over the border stays in place. The first state is one corner,
-    the last the opposite one. Raises ValueError unless both are integers ≥ 1.
+    The actions go up and down each axis in turn; a step over the border leaves the state unchanged. The first state is
+    one corner, the last the opposite one. Raises ValueError unless both are integers ≥ 1.
     """
     checks.integer("side", side, at_least=1)
     checks.integer("dimensions", dimensions, at_least=1)
@@ -103,7 +103,7 @@ def lattice(side, dimensions):
 
 
 def action_values(probability, reward, values, discount):
-    """What each action is worth if what follows is worth `values`, (…, states): float64 (…, states, actions).
+    """The value of each action if the next states have `values`, (…, states): float64 (…, states, actions).
 
     probability: (…, states, actions, states). reward: (…, states, actions). The right side of eq. 3.7.
     """
@@ -113,7 +113,7 @@ def action_values(probability, reward, values, discount):
 
 
 def policy_values(process, policy, discount):
-    """What each state is worth to a policy: the solution of eq. 3.7 to ten digits, float64 (…, states).
+    """The value of each state under a policy: the solution of eq. 3.7 to ten digits, float64 (…, states).
 
     policy: the action in each state, integers (…, states); one policy, or several of the same process. discount: at
     most 0.9999. Raises ValueError for any other discount.
@@ -132,17 +132,17 @@ def policy_values(process, policy, discount):
 
 
 class Stage(NamedTuple):
-    """Where policy iteration stands after an evaluation or an improvement."""
+    """Values and policy after an evaluation or an improvement of policy iteration."""
 
     values: np.ndarray  # (states,)
     policy: np.ndarray  # (states,), actions
 
 
 def policy_iteration(probability, reward, discount, sweeps):
-    """Evaluation and improvement in turn, until neither changes anything: a list of `Stage`, the start first.
+    """Alternate evaluation and improvement until neither changes anything: a list of `Stage`, the start first.
 
     It starts from values of 0 and the policy that always takes action 0. An evaluation is that many sweeps of eq. 3.7.
-    An improvement changes an action only for one that is worth more. Two stages make an iteration.
+    An improvement replaces an action only by one of higher value. Two stages make an iteration.
     Raises ValueError unless sweeps is an integer ≥ 1 and discount from 0 to 0.9999.
     """
     checks.integer("sweeps", sweeps, at_least=1)
@@ -163,7 +163,7 @@ def policy_iteration(probability, reward, discount, sweeps):
 
 
 def iterations_until(losses, limit):
-    """After how many iterations a loss is below a limit for the first time.
+    """The number of iterations until a loss is first below a limit.
 
     losses: of each `Stage` of `policy_iteration`, (stages,), of which one after an iteration is below the limit.
     """
@@ -171,15 +171,15 @@ def iterations_until(losses, limit):
 
 
 def sweeps_until_stable(probability, reward, discount, sweeps):
-    """How many sweeps `policy_iteration` takes in all, with so many for each evaluation."""
+    """The number of sweeps of `policy_iteration` in all, with ``sweeps`` for each evaluation."""
     return sweeps * (len(policy_iteration(probability, reward, discount, sweeps)) // 2)
 
 
 def plan(probability, reward, discount, sweeps=200):
-    """The best action values that sweeps of the Bellman optimality equation find: float64 (…, states, actions).
+    """The best action values, by sweeps of the Bellman optimality equation: float64 (…, states, actions).
 
     Value iteration (Sutton and Barto 2018, section 4.4). probability: (…, states, actions, states), reward: (…, states,
-    actions). What is left of the error at the start is discount ** sweeps.
+    actions). The error at the start shrinks to discount ** sweeps of its size.
     """
     q = np.zeros(reward.shape)
     for _ in range(sweeps):
@@ -188,7 +188,7 @@ def plan(probability, reward, discount, sweeps=200):
 
 
 class Lives(NamedTuple):
-    """What learners have lived and learned; they see states as ``seen`` of `live` has it.
+    """The steps and the action values of learners, with states as they see them (``seen`` of `live`).
 
     A step leads from states_tm1 by actions to states_t, and pays rewards, each (runs, steps).
     """
@@ -201,10 +201,10 @@ class Lives(NamedTuple):
 
 
 class ProcessArrays(NamedTuple):
-    """A `Process` as the kernel takes it, and what its states look like."""
+    """A `Process` as the kernel takes it, and its states as a learner sees them."""
 
     successors: np.ndarray
-    limits: np.ndarray  # float64 (outcomes − 1,), between the outcomes of a number in [0, 1)
+    limits: np.ndarray  # float64 (outcomes − 1,), thresholds between outcomes of a draw from [0, 1)
     rewards: np.ndarray
     ends: np.ndarray
     starts: np.ndarray
@@ -221,12 +221,12 @@ class Path(NamedTuple):
 
 
 def live(process, checkpoints, runs, seed, seen=None, learning_rate=0.0, discount=0.9, exploration=1.0):
-    """Q-learners in a process, each in its own copy: `Lives` up to the last checkpoint.
+    """Run Q-learners, each in its own copy of a process: `Lives` up to the last checkpoint.
 
     checkpoints: the numbers of steps after which to keep a copy of q, rising. seen: what a learner sees of each state,
     integers (states,) from 0; by default the state. learning_rate: an action taken for the n-th time in a state is
-    learned at the rate 1 / n, but never at less than this. exploration: how probably an action is drawn from all (ε);
-    at 1, behaviour owes nothing to what is learned.
+    learned at the rate 1 / n, but never at less than this. exploration: the probability that an action is drawn at
+    random (ε); at 1, behaviour does not depend on what is learned.
     Raises ValueError for anything else, and for more than 32,767 states or 127 actions.
     """
     steps = [0] + [checks.integer("checkpoints", step, at_least=0) for step in checkpoints]
@@ -272,9 +272,9 @@ def _live_on(table, rates, state, q, visits, stream, path):
 
 
 def count_transitions(lives, steps):
-    """How often each action has led from each state to each: int64 (runs, states, actions, states).
+    """The number of transitions from each state by each action to each state: int64 (runs, states, actions, states).
 
-    lives: of `live`, the first `steps` steps of which are counted.
+    lives: of `live`. steps: how many are counted, from the first.
     """
     runs, _, states, actions = lives.q.shape
     pairs, following = _pairs(lives, steps), lives.states_t[:, :steps].ravel()
@@ -286,7 +286,7 @@ def learned_model(lives, steps):
     """The model of a process learned from its first `steps` steps, as `Process.expected` has it, for each run.
 
     The shares of each next state, float64 (runs, states, actions, states), and the mean rewards, (runs, states,
-    actions). Both are 0 for what was never tried.
+    actions). Both are 0 for actions never tried.
     """
     counts = count_transitions(lives, steps)
     tried = np.maximum(counts.sum(axis=-1), 1)
@@ -295,10 +295,10 @@ def learned_model(lives, steps):
 
 
 def model_filling(filled, entries, pairs):
-    """How full the tables of models are: the mean percentage, and how many entries a pair of state and action has.
+    """The non-zero entries of models' tables: their mean percentage, and their number per pair of state and action.
 
-    filled, entries, pairs: (runs,), how many entries of a table differ from 0, how many there are, and how many pairs
-    they belong to. The entries of a pair are an `Estimate`.
+    filled, entries, pairs: (runs,), the numbers of entries of a table that differ from 0, of all its entries, and of
+    the pairs that they belong to. The number per pair is an `Estimate`.
     """
     return 100 * (filled / entries).mean(), estimate(np.mean, filled / pairs)
 
@@ -306,11 +306,11 @@ def model_filling(filled, entries, pairs):
 def first_visits(lives):
     """The step, from 1, at which each run first takes each action in each state: int64 (runs, states, actions).
 
-    It is 0 for what is never tried.
+    It is 0 for actions never tried.
     """
     runs, steps = lives.actions.shape
     first = np.zeros((runs, *lives.q.shape[2:]), int)
-    backwards = _pairs(lives, steps)[::-1]  # of several visits the last one written stays
+    backwards = _pairs(lives, steps)[::-1]  # of several visits the last one written remains
     first.ravel()[backwards] = np.tile(np.arange(steps, 0, -1), runs)
     return first
 
@@ -323,7 +323,7 @@ def _pairs(lives, steps):
 
 
 def time_to(good, checkpoints):
-    """The first checkpoint at which each run is good, the last where none is: (runs,).
+    """The first checkpoint at which each run is good, the last if it never is: (runs,).
 
     good: bool (runs, checkpoints).
     """

@@ -1,4 +1,4 @@
-"""Drawings of decision processes and of what learners make of them, in the style of `neorl.drawing`."""
+"""Drawings of decision processes, policies and learning curves, in the style of `neorl.drawing`."""
 
 import numpy as np
 from matplotlib import pyplot as plt
@@ -12,8 +12,7 @@ from neorl.evidence.statistics import mean_band
 
 
 def draw_activations(inputs, step, relu, slope):
-    """Two activations over their inputs, each (n,): a step, and a ReLU, whose slope between the inputs, (n − 1,), is
-    dotted on the step."""
+    """A step and a ReLU over their inputs, (n,) each, and the slope of the ReLU, (n − 1,), dotted on the step."""
     _, panels = plt.subplots(1, 2, figsize=(4.9, 2.3))
     for axes, title, activation in zip(panels, ("a: step", "b: ReLU"), (step, relu)):
         axes.plot(inputs, activation, color=AGENT)
@@ -37,7 +36,7 @@ def draw_pattern(points, labels, lines):
 
 
 def draw_loop():
-    """The agent and the environment of a decision process, and what goes from one to the other at a step."""
+    """The agent and the environment of a decision process, and the signals between them at a step."""
     axes = plt.figure(figsize=(4.9, 2.7), layout="none").add_axes((0, 0, 1, 1))
     axes.set(xlim=(0, 4.9), ylim=(0, 2.7))
     axes.axis("off")
@@ -54,7 +53,7 @@ def draw_loop():
 
 
 def draw_plans(panels, grid, plans):
-    """What each state is worth, as the opacity of its fill, the best actions, and the marks of the grid.
+    """The value of each state as the opacity of its fill, the best actions, and the marks of the grid.
 
     panels: axes, as many as plans. plans: {title: (values, q)}. values: (states,), shaded relative to the largest of
     all. q: (states, 4), whose best actions are drawn; None draws none.
@@ -71,9 +70,9 @@ def draw_plans(panels, grid, plans):
 
 
 def draw_alternation(value_errors, policy_losses):
-    """Policy iteration between its two lines, by stage: how far the values are from the policy's, and it from greedy.
+    """Policy iteration by stage: how far the values are from the policy's own, and the policy from greedy.
 
-    Lengths are drawn as their fourth roots, so that small ones can be seen.
+    Distances are drawn as their fourth roots, so that small ones are visible.
     """
     axes = plt.figure(figsize=(4.9, 3.6)).add_subplot()
     xs, ys = np.power(value_errors, 0.25), np.power(policy_losses, 0.25)
@@ -92,8 +91,8 @@ def draw_alternation(value_errors, policy_losses):
 def draw_means(series, xlabel, ylabel, logs="", marks=False, guides=()):
     """Means over runs with their 95 % intervals, of series {name: (xs (points,), values (runs, points))}.
 
-    logs: the axes that are logarithmic, a string of "x" and "y". marks: whether points are marked and joined thinly.
-    guides: (xs, ys) of thin lines to compare with. Names stand beside the axes, or above ends that lie apart.
+    logs: the axes that are logarithmic, a string of "x" and "y". marks: whether points are marked and joined by thin
+    lines. guides: (xs, ys) of thin lines for comparison. Names are beside the axes, or above ends that lie apart.
     """
     axes = plt.figure().add_subplot()
     shown = {axis: np.log10 if axis in logs else np.asarray for axis in "xy"}
@@ -128,4 +127,4 @@ def draw_trend(years, counts, fitted):
     axes = plt.figure(figsize=(4.9, 3.2)).add_subplot()
     axes.semilogy(years, counts, color=AGENT, linestyle="none", marker="o", markersize=5)
     axes.semilogy(years, fitted, color=INK, linewidth=1.2)
-    axes.set(xlabel="year", ylabel="transistors of a processor")
+    axes.set(xlabel="year", ylabel="transistors per processor")

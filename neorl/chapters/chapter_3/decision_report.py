@@ -1,4 +1,4 @@
-"""Findings in decision processes, as the page of chapter 3 reports them: tables and sentences in Markdown."""
+"""Tables and sentences on decision processes, in Markdown, for the page of chapter 3."""
 
 import numpy as np
 
@@ -24,23 +24,24 @@ def final_errors(errors):
 def model_against_values(made, checkpoints, task):
     """The benefit and the cost of learning a model and planning with it.
 
-    made: {"Q-learning", "model": share of the best return (runs, checkpoints)}, both of the same lives. checkpoints:
+    made: {"Q-learning", "model": share of the best return (runs, checkpoints)}, both from the same steps. checkpoints:
     numbers of steps. task: the `Process`.
     """
     values, model = (time_to(made[name] >= 0.95, checkpoints) for name in ("Q-learning", "model"))
     ratio = estimate(np.mean, values / model)
     ahead = ("The model thus learns from fewer steps." if ratio.low > 1 else
              "The interval leaves open which one needs fewer.")
-    return (f"To 95 % of the best, Q-learning takes {values.mean():,.0f} steps and the model {model.mean():,.0f}; the "
-            f"ratio, learner by learner, is {ratio}. {ahead} The price is computation: the hundred sweeps of one plan "
-            f"are {100 * task.states**2 * task.actions:,} multiplications, where a step of Q-learning is one.")
+    return (f"To reach 95 % of the best return, Q-learning takes {values.mean():,.0f} steps and the model "
+            f"{model.mean():,.0f}; the ratio, learner by learner, is {ratio}. {ahead} The price is computation: the "
+            f"hundred sweeps of one plan take {100 * task.states**2 * task.actions:,} multiplications, where a "
+            "step of Q-learning takes one.")
 
 
 def cost_of_a_dimension(covering, learning):
     """The factors by which one more dimension prolongs learning.
 
     covering, learning: {"2 cells", …: (dimensions (points,), steps (runs, points))}, until everything has been tried
-    and until the values are right, in spaces of so many cells an axis.
+    and until the values are right, in spaces of that many cells per axis.
     """
     factors = {int(name.split()[0]): [growth_factor(*covering[name]), growth_factor(*learning[name])]
                for name in covering}
@@ -49,13 +50,13 @@ def cost_of_a_dimension(covering, learning):
     above = all(factor.low > cells for cells, both in factors.items() for factor in both)
     why = "Each factor is larger than that, since an axis also brings two actions. " if above else ""
     powers = [np.log(factor.value) / np.log(cells) for cells, both in factors.items() for factor in both]
-    return (f"The cost of one more dimension, from the second on, in a fit of the logarithm:\n\n{found}\n\nThe states "
-            f"alone grow by 2, 3 and 4. {why}More precisely than in the thesis, training time grows exponentially "
-            "with the number of *axes*. In these fits that is as the number of states to the power of "
+    return (f"The cost of one more dimension, from the second on, in a fit of the logarithm:\n\n{found}\n\nThe number "
+            f"of states alone grows by factors of 2, 3 and 4. {why}More precisely than in the thesis, training time "
+            "grows exponentially with the number of *axes*: in these fits, as the number of states to the power of "
             f"{min(powers):.1f} to {max(powers):.1f}.")
 
 
 def sweeps_in_all(task, discount, evaluations):
-    """How many sweeps policy iteration takes in all, for each number of sweeps that evaluate a policy."""
+    """The number of sweeps of policy iteration in all, for each number of sweeps per evaluation."""
     found = (sweeps_until_stable(*task.expected(), discount, sweeps) for sweeps in evaluations)
     return "; ".join(f"{total} in all with {sweeps} per iteration" for total, sweeps in zip(found, evaluations)) + "."

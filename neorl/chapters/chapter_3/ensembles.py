@@ -1,18 +1,19 @@
-"""Ensembles: five learners that share one life, and four rules by which they choose together (thesis section 3.3).
+"""Ensembles: five learners with the same experience, and four rules by which they act together (thesis section 3.3).
 
 The rules, the task and its numbers are those of Wiering and van Hasselt (2008), Ensemble algorithms in reinforcement
-learning. A maze is walked from a start to a goal, over and over; a step goes in a random direction with probability
-0.2, whichever was chosen. The goal is worth 100, a bump against a wall or the border −2, every other step −0.1. An
-episode ends after 1,000 steps at most.
+learning. The agent walks a maze from start to goal, over and over; a step goes in a random direction with probability
+0.2, whatever the action. The goal pays 100, a bump against a wall or the border −2, every other step −0.1. An episode
+ends after 1,000 steps at most.
 
-Five learners learn from whatever is done: Q-learning and Sarsa, which hold action values; and three with a critic, a
-value for each state: actor-critic, whose preferences add up the critic's surprises; QV-learning, whose action values
-learn from the critic; and ACLA, a learning automaton that makes an action more probable or less as the surprise was
-positive or negative. The policy of a learner is proportional to exp(greediness × preference). The rules:
+All five learners learn from every step: Q-learning and Sarsa have action values; the other three have a critic, a value
+for each state: actor-critic, whose preferences accumulate the critic's temporal-difference errors (surprises);
+QV-learning, whose action values are learned from the critic; and ACLA, a learning automaton that makes an action more
+probable after a positive surprise and less after a negative one. The policy of a learner is proportional to
+exp(greediness × preference). The rules:
 
-1. *Majority voting*: an action is as probable as exp(greediness × its votes). Each learner draws its vote by its
-   policy; in the other reading, *majority of favourites*, it votes for what it prefers most.
-2. *Rank voting*: the same with the sum of its ranks, 4 for what a learner likes best, 1 for what it likes least.
+1. *Majority voting*: the policy is proportional to exp(greediness × votes). Each learner draws its vote from its
+   policy; in the other reading, *majority of favourites*, it votes for the action that it prefers most.
+2. *Rank voting*: the same with the sum of ranks, from 4 for a learner's most preferred action to 1 for its least.
 3. *Boltzmann multiplication*: the product of the policies, to the power of the greediness.
 4. *Boltzmann addition*: the sum of the policies, to the power of the greediness, which is 1.
 """
@@ -38,7 +39,7 @@ MAJORITY, RANK, MULTIPLICATION, ADDITION, FAVOURITES = range(len(LEARNERS), len(
 LEARNING_RATES = np.array([0.2, 0.2, 0.1, 0.2, 0.005])
 CRITIC_RATES = np.array([0.0, 0.0, 0.2, 0.2, 0.1])
 DISCOUNTS = np.array([0.9, 0.9, 0.95, 0.9, 0.99])
-GREEDINESS = np.array([1.0, 1.0, 1.0, 1.0, 9.0, 1.6, 0.6, 0.2, 1.0, 1.6, 0.0])  # inverse temperature, of each chooser
+GREEDINESS = np.array([1.0, 1.0, 1.0, 1.0, 9.0, 1.6, 0.6, 0.2, 1.0, 1.6, 0.0])  # inverse temperature of each chooser
 SLIP, GOAL, BUMP, STEP = 0.2, 100.0, -2.0, -0.1
 LIMIT, BINS = 1_000, 20
 SQUARINGS = 10  # of exp(x / 1024)
@@ -64,16 +65,16 @@ class GridMaze:
 
     @property
     def start(self):
-        """The state at the start."""
+        """The start state."""
         return self.grid.marked("S")[0]
 
     @property
     def goal(self):
-        """The state at the goal."""
+        """The goal state."""
         return self.grid.marked("G")[0]
 
 
-DYNA = GridMaze((".......#G",  # Sutton's, the small maze of the paper
+DYNA = GridMaze((".......#G",  # Sutton's Dyna maze, the small one of the paper
              "..#....#.",
              "S.#....#.",
              "..#......",
@@ -93,12 +94,12 @@ ROOMS = GridMaze(("S....#.....",  # Sutton, Precup and Singh's (1999)
 
 
 def best_reward(maze):
-    """The most reward per step that any policy makes in the long run, by policy iteration (Howard 1960)."""
+    """The highest reward per step of any policy in the long run, by policy iteration (Howard 1960)."""
     n = maze.grid.states
     following = maze.grid.transitions(SLIP)
-    bumps = np.einsum("sas->sa", following)  # the probability to stay
+    bumps = np.einsum("sas->sa", following)  # the probability of staying
     reward = STEP + (BUMP - STEP) * bumps + (GOAL - STEP) * following[:, :, maze.goal]
-    following[:, :, maze.start] += following[:, :, maze.goal]  # who arrives begins anew
+    following[:, :, maze.start] += following[:, :, maze.goal]  # arrival leads back to the start
     following[:, :, maze.goal] = 0
     each, policy, before = np.arange(n), np.zeros(n, int), None
     while before is None or np.any(policy != before):
@@ -122,11 +123,11 @@ class GridMazeArrays(NamedTuple):
 
 
 def run_ensemble(maze, chooser, *, steps, runs, seed=0, doublings=0):
-    """Reward per step in each twentieth of ``runs`` lives of ``steps`` steps: float64 (runs, 20).
+    """Reward per step in each twentieth of ``runs`` runs of ``steps`` steps: float64 (runs, 20).
 
-    maze: a `GridMaze`. chooser: of the actions, one of ``CHOOSERS``: a learner alone, a rule for all five, or chance.
+    maze: a `GridMaze`. chooser: of actions, one of ``CHOOSERS``: a learner alone, a rule for all five, or chance.
     steps: ≥ 20. doublings: how often the chooser's greediness is doubled, or halved if negative, from −5 to 5.
-    Run k is the same among any number of runs.
+    Run k is the same for any number of runs.
     Raises ValueError for a bad argument.
     """
     checks.instance("maze", maze, GridMaze)
@@ -152,7 +153,7 @@ def run_ensemble(maze, chooser, *, steps, runs, seed=0, doublings=0):
 
 
 def final_by_greediness(maze, *, steps, runs, seed=0):
-    """Reward per step in the last twentieth of lives, with a rule's greediness halved, as it is, and doubled.
+    """Reward per step in the last twentieth of runs, with a rule's greediness halved, unchanged and doubled.
 
     maze, steps, runs, seed: as in `run_ensemble`. Returns {rule: [float64 (runs,), …]}.
     """
@@ -161,7 +162,7 @@ def final_by_greediness(maze, *, steps, runs, seed=0):
 
 
 def agreement(rule):
-    """How probably a vote takes the action that all learners like best, if they agree on every place of their ranks.
+    """The probability that a vote selects the action that all learners prefer, if they rank all actions alike.
 
     rule: "majority voting" or "rank voting". Raises ValueError for any other.
     """
@@ -173,7 +174,7 @@ def agreement(rule):
 
 @kernel
 def _run(maze, chooser, doublings, edges, stream, preferences, critics, weight, policy, rewards):
-    """Live until the last edge; weight and policy (4,) are working memory."""
+    """Run until the last edge; weight and policy (4,) are working memory."""
     start, goal = maze.start, maze.goal
     state_tm1, age = start, 0
     action_tm1 = _choice(preferences, state_tm1, chooser, doublings, stream, weight, policy)
@@ -197,12 +198,12 @@ def _run(maze, chooser, doublings, edges, stream, preferences, critics, weight, 
 
 @kernel
 def _learn(learner, preference, critic, state_tm1, action_tm1, reward_t, state_t, action_t, terminal):
-    """One update of a learner, by its place in ``LEARNERS``."""
+    """One update of a learner, given by its index in ``LEARNERS``."""
     rate, discount = LEARNING_RATES[learner], DISCOUNTS[learner]
     if learner == 0:
         learn_q(preference, state_tm1, action_tm1, reward_t, state_t, terminal, rate, discount)
         return
-    if learner == 1:  # who has run out of time takes no action there; the first of the next walk stands in for it
+    if learner == 1:  # out of time, no action is taken there; the first of the next episode stands in for it
         target = reward_t + (0.0 if terminal else discount * preference[state_t, action_t])
         preference[state_tm1, action_tm1] += rate * (target - preference[state_tm1, action_tm1])
         return
@@ -229,7 +230,7 @@ def _learn(learner, preference, critic, state_tm1, action_tm1, reward_t, state_t
 
 @kernel
 def _choice(preferences, state, chooser, doublings, stream, weight, policy):
-    """An action, drawn by the chooser's policy. What a rule adds up over learners is `weight`."""
+    """An action drawn from the chooser's policy. `weight` is what a rule adds up over learners."""
     weight[:] = 0.0
     for learner in range(preferences.shape[0]):
         for action in range(4):
@@ -242,7 +243,7 @@ def _choice(preferences, state, chooser, doublings, stream, weight, policy):
             weight[greedy_action(preferences[learner, state], stream)] += 1
         elif chooser == RANK:
             for action in range(4):
-                for other in range(4):  # who tie share their ranks
+                for other in range(4):  # tied actions share their ranks
                     weight[action] += 1 if policy[action] > policy[other] else 0.5 * (policy[action] == policy[other])
         elif chooser == MULTIPLICATION or chooser == ADDITION or chooser == learner:
             for action in range(4):
@@ -286,7 +287,7 @@ def _exponential(x):
 
 @kernel
 def _drawn(weight, stream):
-    """An action, as probable as its share of the weights."""
+    """An action, drawn in proportion to the weights."""
     at = uniform(stream) * (weight[0] + weight[1] + weight[2] + weight[3])
     action = 0
     while action < 3 and at >= weight[action]:

@@ -1,7 +1,7 @@
-"""The rewards of ensembles in two mazes, as the page of chapter 3 reports them, in Markdown.
+"""Tables and sentences on the rewards of ensembles in two mazes, in Markdown, for the page of chapter 3.
 
-``made`` is {maze: {chooser: reward per step (runs, parts)}}, of `neorl.chapters.chapter_3.ensembles.run_ensemble`.
-Choosers are ranked by their means over runs, at the end, which is the last part, or over the run, which is all of them.
+``made`` is {maze: {chooser: reward per step (runs, parts)}}, from `neorl.chapters.chapter_3.ensembles.run_ensemble`.
+Choosers are ranked by their means over runs, either at the end (the last part) or over the run (all parts).
 """
 
 import numpy as np
@@ -14,7 +14,7 @@ COUNTS = {"at the end": lambda rewards: rewards[:, -1], "over the run": lambda r
 
 
 def lifetime_table(made, chance):
-    """The reward of each chooser over the run, and below it that of chance: {maze: (runs, parts)}."""
+    """The reward of each chooser over the run, and in the last row that of chance: {maze: (runs, parts)}."""
     choosers = list(next(iter(made.values())))
     rows = [(chooser, *(estimate(np.mean, rewards[chooser].mean(axis=1)) for rewards in made.values()))
             for chooser in choosers]
@@ -27,7 +27,7 @@ def order_of_rules(made):
 
 
 def places_of_rank_voting(made):
-    """The place of rank voting among the rules, by both counts in each maze, and whether it is the same each time."""
+    """The place of rank voting among the rules, by both measures in each maze, and whether it is always the same."""
     places = {f"{when} in the {maze}": _ranked(rewards, RULES, when).index("rank voting") + 1
               for maze, rewards in made.items() for when in COUNTS}
     verdict = ("So the place of rank voting depends on the task and on the measure, as the footnote "
@@ -38,25 +38,25 @@ def places_of_rank_voting(made):
 
 
 def greediness_table(tempered):
-    """The final reward of each rule by its greediness: of `final_by_greediness`."""
+    """The final reward of each rule by its greediness, from `final_by_greediness`."""
     return table(("Rule", "Halved", "As in the paper", "Doubled"),
                  [(rule, *(estimate(np.mean, final) for final in finals)) for rule, finals in tempered.items()])
 
 
 def order_by_greediness(tempered):
-    """Which rules are first and last by greediness, and what it means to two of them: of `final_by_greediness`."""
+    """The first and last rules at each greediness, from `final_by_greediness`, and what it means in two of them."""
     ranked = [sorted(tempered, key=lambda rule: tempered[rule][level].mean(), reverse=True) for level in range(3)]
     tops, bottoms = zip(*((rules[0], rules[-1]) for rules in ranked))
     still = (" Still, neither more exploration nor less lifts rank voting from the last place in this maze."
              if set(bottoms) == {"rank voting"} else "")
-    return (f"From halved to doubled the first places go to {_listed(tops)}, the last to {_listed(bottoms)}. Nor does "
-            f"greediness mean the same in each rule: in the paper's setting, if all five learners agree, majority "
-            f"voting follows them with probability {agreement('majority voting'):.4f}, rank voting with "
-            f"{agreement('rank voting'):.2f}.{still}")
+    return (f"With greediness halved, unchanged and doubled, the first places go to {_listed(tops)}, the last to "
+            f"{_listed(bottoms)}. Greediness also means something different in each rule: in the paper's setting, if "
+            f"all five learners agree, majority voting follows them with probability "
+            f"{agreement('majority voting'):.4f}, rank voting with {agreement('rank voting'):.2f}.{still}")
 
 
 def readings_of_a_vote(rewards):
-    """By how much the two readings of majority voting differ at the end, beside the rules: {chooser: (runs, parts)}."""
+    """The difference of two readings of majority voting at the end, and the rules' range: {chooser: (runs, parts)}."""
     votes = estimate(difference, rewards["majority voting"][:, -1], rewards["majority of favourites"][:, -1])
     means = [rewards[rule][:, -1].mean() for rule in RULES]
     spread = max(means) - min(means)

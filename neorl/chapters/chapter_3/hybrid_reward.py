@@ -1,17 +1,17 @@
 """Separation of concerns: a small game of fruits and a ghost, learned by one learner or by many (thesis section 3.3).
 
-The game, after Ms. Pac-Man. Fruits lie at some of a few places, drawn anew for each game. A fruit is worth 1. The ghost
-moves after the agent: with probability ``chase`` a step along a shortest way to it, else in a random direction. To be
-caught costs 10. A game ends when all fruits are eaten, when the agent is caught, or after ``limit`` steps.
+The game, after Ms. Pac-Man. Fruits lie at some of a few places, drawn for each game. A fruit pays 1. The ghost moves
+after the agent: with probability ``chase`` a step along a shortest path to it, else in a random direction. Being caught
+costs 10. A game ends when all fruits are eaten, when the agent is caught, or after ``limit`` steps.
 
 The learners, all by Q-learning (van Seijen et al. 2017, Hybrid reward architecture for reinforcement learning):
 
-1. *one learner*: its state is the whole of it: the agent's cell, the ghost's, and which fruits are left.
+1. *one learner*: its state is that of the whole game: the agent's cell, the ghost's, and which fruits are left.
 2. *heads*: a head for each place, whose state is the agent's cell and whose reward is the fruit there; and a head for
-   the ghost, whose state is both cells and whose reward is the −10. The value of an action is the sum over the ghost's
-   head and the heads of the places that hold a fruit. A head learns while its fruit is there.
+   the ghost, whose state is both cells and whose reward is the −10 for being caught. The value of an action is the sum
+   over the ghost's head and the heads of the places that hold a fruit. A head learns while its fruit is there.
 3. *latent heads*: the same, but the head of a place learns at every step how to get there, fruit or no fruit: a general
-   value function a place (thesis section 4.1.3), and fruits are elements of interest.
+   value function per place (thesis section 4.1.3), with the fruits as elements of interest.
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -43,10 +43,10 @@ MAZE = ("o..#..o",
 
 @dataclass(frozen=True)
 class Game:
-    """The game on a grid whose characters mark where the agent ("a") and the ghost ("g") begin, and places ("o").
+    """The game on a grid whose characters mark where the agent ("a") and the ghost ("g") start, and places ("o").
 
-    rows: of the grid, with one "a", one "g" and at least one "o". fruits: how many places hold one, from 1 to all.
-    chase: from 0 to 1. limit: steps, ≥ 1.
+    rows: of the grid, with one "a", one "g" and at least one "o". fruits: the number of places that hold one, from 1 to
+    all. chase: probability, from 0 to 1. limit: steps, ≥ 1.
 
     Raises ValueError for anything else.
     """
@@ -79,7 +79,7 @@ class Game:
 
 
 def times_fewer(cells, places):
-    """The factor by which heads have fewer states than one learner does, in a game of so many cells and places."""
+    """The factor by which heads have fewer states than one learner, in a game of so many cells and places."""
     return _states("one learner", cells, places) / _states("heads", cells, places)
 
 
@@ -87,7 +87,7 @@ def times_fewer(cells, places):
 class Learner:
     """A learner by its kind, one of ``KINDS``, and the three rates of Q-learning, each from 0 to 1.
 
-    exploration: how often any action is taken instead of the best one.
+    exploration: the probability of a random action instead of the best one.
 
     Raises ValueError for anything else.
     """
@@ -105,11 +105,11 @@ class Learner:
 
 @dataclass(frozen=True)
 class Played:
-    """What runs of the game brought.
+    """The results of runs of the game.
 
     edges: int64 (bins + 1,), the steps at which bins begin and end, each bin but the first a quarter as long as all
-    before it. rewards: float64 (runs, bins), reward per 100 steps. ends: int64 (runs, bins, 3), how many games ended in
-    which of ``ENDS``. known: int64 (runs,), for how many states anything has been learned.
+    before it. rewards: float64 (runs, bins), reward per 100 steps. ends: int64 (runs, bins, 3), the number of games
+    with each of ``ENDS``. known: int64 (runs,), the number of states about which anything has been learned.
     """
 
     edges: np.ndarray
@@ -119,19 +119,19 @@ class Played:
 
     @property
     def final(self):
-        """float64 (runs,): reward per 100 steps in the last fifth of the run."""
+        """Reward per 100 steps in the last fifth of the run: float64 (runs,)."""
         return self.rewards[:, -1]
 
     def share(self, end):
-        """The share of games of the last fifth, over all runs, that ended so: one of ``ENDS``."""
+        """The share of games with this end in the last fifth, over all runs. end: one of ``ENDS``."""
         games = self.ends[:, -1].sum(axis=0)
         return float(games[ENDS.index(end)] / max(games.sum(), 1))
 
 
 def play(game, learner, *, steps, runs, seed=0):
-    """Let ``runs`` learners play for ``steps`` steps each, one game after the other, and return what they `Played`.
+    """Let ``runs`` learners play for ``steps`` steps each, one game after the other: `Played`.
 
-    game: a `Game`. learner: a `Learner`. steps: ≥ 1000. Run k is the same among any number of runs.
+    game: a `Game`. learner: a `Learner`. steps: ≥ 1000. Run k is the same for any number of runs.
     Raises ValueError for a bad argument.
     """
     checks.instance("game", game, Game)
@@ -156,7 +156,7 @@ def play(game, learner, *, steps, runs, seed=0):
 
 
 def settled_values(grid, place, discount):
-    """What the head of a place holds when it is done learning: γ to the steps still to go, float64 (states, 4).
+    """The values of a place's head after learning: γ to the power of the steps still to go, float64 (states, 4).
 
     grid: a `Grid`. place: a state of it that can be reached from all others. discount: γ, from 0 to 1.
     Raises ValueError for anything else.
@@ -174,7 +174,7 @@ def _states(kind, cells, places):
 
 class _Board(NamedTuple):
     next_state: np.ndarray  # (states, 4)
-    toward: np.ndarray  # (states, states), the next state from one on a shortest way to another
+    toward: np.ndarray  # (states, states), the next state on a shortest path from one to another
     places: np.ndarray
     agent: int
     ghost: int
@@ -186,13 +186,13 @@ class _Board(NamedTuple):
 def _board(game):
     grid = game.grid
     _, before = _shortest_ways(grid)
-    toward = np.where(before < 0, np.arange(grid.states), before).T  # who is there already stays
+    toward = np.where(before < 0, np.arange(grid.states), before).T  # a ghost that has arrived stays
     return _Board(grid.next_state, np.ascontiguousarray(toward), np.array(game.places), *grid.marked("a"),
                   *grid.marked("g"), game.fruits, game.chase, game.limit)
 
 
 def _shortest_ways(grid):
-    """Steps from each state to each other, and the state before each on the way: (states, states) twice."""
+    """Steps from each state to each other, and the state before it on the path: (states, states) twice."""
     links = np.zeros((grid.states, grid.states))
     links[np.arange(grid.states)[:, None], grid.next_state] = 1
     return csgraph.shortest_path(links, unweighted=True, return_predecessors=True)
@@ -249,7 +249,7 @@ def _play(board, joint, latent, rates, edges, stream, q, value, rewards, ends):
 
 @kernel
 def _laid_out(board, stream):
-    """As many places as there are fruits, each set of them equally likely, as bits."""
+    """The places of the fruits, as bits; all sets of places are equally likely."""
     left, needed = 0, board.fruits
     for place in range(board.places.shape[0]):
         if randint(stream, board.places.shape[0] - place) < needed:

@@ -29,7 +29,7 @@ def draw_game(game):
 def draw_scores(played):
     """Reward per 100 steps against steps on a logarithmic axis, with the interval of the mean: {name: `Played`}.
 
-    Each curve carries its name at its end: the first above it, the others below, the one that goes furthest beside it.
+    Each curve has its name at its end: the first above it, the others below, the one that goes furthest beside it.
     """
     axes = plt.figure().add_subplot()
     furthest = max(each.edges[-1] for each in played.values())
@@ -60,7 +60,7 @@ def draw_junction(grid, discounts):
 def draw_finals(rewards, best):
     """Final reward per step of each chooser, a dot with its interval, a panel for each maze.
 
-    rewards: {maze: {chooser: (runs, parts)}}, of which the last part is drawn. best: {maze: the most that can be made},
+    rewards: {maze: {chooser: (runs, parts)}}, of which the last part is drawn. best: {maze: the highest possible},
     a dashed line. Learners are grey, rules are blue.
     """
     names = list(next(iter(rewards.values())))

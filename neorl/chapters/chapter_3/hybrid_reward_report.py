@@ -1,4 +1,4 @@
-"""The scores of the learners in the game of fruits, as the page of chapter 3 reports them, in Markdown.
+"""Tables and sentences on the learners' scores in the game of fruits, in Markdown, for the page of chapter 3.
 
 Learners are named as in `neorl.chapters.chapter_3.hybrid_reward.KINDS`; ``played`` is {kind: `Played`} of all of them.
 """
@@ -50,7 +50,7 @@ def price(played):
 
 
 def best_discounts(discounts, swept):
-    """With which discounts heads do best, how often they run out of time, and whether they are always ahead.
+    """The discounts at which heads do best, how often they run out of time, and whether they are always ahead.
 
     discounts: a list with 0.5 and 0.9 among others. swept: {kind: [`Played` for each of discounts]}.
     """

@@ -1,15 +1,15 @@
-"""What can be said of a perceptron without letting it learn (thesis chapter 3, introduction)."""
+"""Properties of a perceptron that need no training (thesis chapter 3, introduction)."""
 
 import numpy as np
 
 
 def numerical_slope(inputs, outputs):
-    """The slope of an activation between neighbouring inputs, (n − 1,): float64 (n,) each, inputs rising."""
+    """The slope of an activation between neighbouring inputs, (n − 1,). inputs, rising, and outputs: float64 (n,)."""
     return np.diff(outputs) / np.diff(inputs)
 
 
 def agreeing_intervals(inputs, slope):
-    """In how many intervals the slope of an activation is the step of McCulloch and Pitts (1943).
+    """The number of intervals in which the slope of an activation equals the step of McCulloch and Pitts (1943).
 
     inputs: float64 (n,), rising. slope: (n − 1,), of the activation between neighbouring inputs.
     """
@@ -17,7 +17,7 @@ def agreeing_intervals(inputs, slope):
 
 
 def mistake_bound(inputs, truth):
-    """How many mistakes Rosenblatt's rule makes at most (Novikoff 1962): (largest input / margin)².
+    """The largest possible number of mistakes of Rosenblatt's rule (Novikoff 1962): (largest input / margin)².
 
     inputs: float64 (points, weights), none of them on the line. truth: (weights,), of a line between the classes.
     """

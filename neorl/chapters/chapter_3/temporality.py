@@ -1,11 +1,11 @@
-"""Processes that remember: what came steps ago decides what comes next (thesis section 3.4.2, observation 1).
+"""Processes with memory: what came steps ago determines what comes next (thesis section 3.4.2, observation 1).
 
-A *mechanism* of memory L shows one of Ψ symbols at each step, drawn evenly, and pays 1 for naming its *outcome*, a
-symbol that its last L make together by one of ``RULES``. A *history* is the L last symbols, as a number in base Ψ whose
-last digit is the newest. Histories are the states of a Markov process, and there are Ψ^L of them; how many of these
-have to be distinguished is counted from what follows them, by `states_needed`.
+A *mechanism* of memory L shows one of Ψ symbols at each step, drawn uniformly, and pays 1 for naming its *outcome*, a
+symbol that its last L symbols determine by one of ``RULES``. A *history* is the last L symbols, as a number in base Ψ
+whose last digit is the newest. The Ψ^L histories are the states of a Markov process; `states_needed` counts how many of
+them have to be distinguished, by what follows them.
 
-*Sticky actions* (Machado et al. 2018) are a memory of one step: with some probability the last action is taken again.
+*Sticky actions* (Machado et al. 2018) are a memory of one step: with some probability the last action is repeated.
 """
 
 import numpy as np
@@ -16,7 +16,7 @@ from neorl.chapters.chapter_3.decision import Process, live, policy_values
 RULES = {
     "sum": "the sum of the last L symbols modulo Ψ",
     "delay": "the symbol that came L steps ago",
-    "table": "for each history a symbol drawn once for all",
+    "table": "a random symbol, fixed for each history",
     "pause": "1 after L symbols of 0 in a row, else 0",
 }
 
@@ -24,7 +24,7 @@ RULES = {
 def symbols(alphabet, memory):
     """The symbols of each history, the newest last: int64 (alphabet ** memory, memory).
 
-    Raises ValueError unless alphabet is an integer ≥ 2, and memory one ≥ 1.
+    Raises ValueError unless alphabet is an integer ≥ 2 and memory an integer ≥ 1.
     """
     checks.integer("alphabet", alphabet, at_least=2)
     checks.integer("memory", memory, at_least=1)
@@ -32,7 +32,7 @@ def symbols(alphabet, memory):
 
 
 def next_histories(alphabet, memory):
-    """Which history each symbol makes of each: int64 (alphabet ** memory, alphabet)."""
+    """The history that follows each history with each symbol: int64 (alphabet ** memory, alphabet)."""
     histories = alphabet**memory
     return (np.arange(histories)[:, None] * alphabet + np.arange(alphabet)) % histories
 
@@ -54,7 +54,7 @@ def outcomes(alphabet, memory, rule, seed=0):
 
 
 def states_needed(following, outcome):
-    """The number of states that distinguish all that follows: the states of the smallest equivalent machine.
+    """The number of states needed to predict all outcomes: the size of the smallest equivalent machine.
 
     following: int64 (histories, symbols), as `next_histories`. outcome: (histories,). Two histories are one state if
     they have the same outcome now, and after every sequence of symbols. Histories are split until no symbol leads from
@@ -70,7 +70,7 @@ def states_needed(following, outcome):
 
 
 def unlumpable(memories, least):
-    """The rules of two symbols by which no two histories can be lumped, for any memory.
+    """The rules by which no two histories of two symbols can be lumped, for any memory.
 
     memories: int64 (points,). least: {rule: [`states_needed` for each of memories]}.
     """
@@ -78,7 +78,7 @@ def unlumpable(memories, least):
 
 
 def memory_for(power):
-    """The memory with which two symbols have 10 to that power histories."""
+    """The memory with which two symbols have 10 ** power histories."""
     return power / np.log10(2)
 
 
@@ -97,7 +97,7 @@ def mechanism(alphabet, memory, rule, seed=0):
 
 
 def window(alphabet, memory, length):
-    """What an agent sees of each history that remembers the last `length` symbols: int64 (alphabet ** memory,).
+    """What an agent that remembers the last `length` symbols sees of each history: int64 (alphabet ** memory,).
 
     Raises ValueError unless length is an integer from 0 to memory.
     """
@@ -106,7 +106,7 @@ def window(alphabet, memory, length):
 
 
 def hits(lives, alphabet, memory, rule, length, seed=0):
-    """How often the best that learners know is right, over all histories: float64 (runs, checkpoints), from 0 to 1.
+    """The share of histories whose outcome the greedy action names: float64 (runs, checkpoints), from 0 to 1.
 
     lives: of learners that see a `window` of that length in the mechanism, from
         `neorl.chapters.chapter_3.decision.live`.
@@ -116,11 +116,10 @@ def hits(lives, alphabet, memory, rule, length, seed=0):
 
 
 def sticky(next_state, worth, stickiness, starts=None):
-    """`neorl.chapters.chapter_3.decision.reaching`, but with probability `stickiness` the last action is taken once
-    more.
+    """`neorl.chapters.chapter_3.decision.reaching`, but with probability `stickiness` the last action is repeated.
 
-    Its states are pairs: state · actions + the action taken last. An episode starts as after any action. What an agent
-    sees that does not remember its last action is ``numpy.arange(states * actions) // actions``.
+    Its states are pairs: state · actions + the last action. An episode starts as after any action. An agent that does
+    not remember its last action sees ``numpy.arange(states * actions) // actions``.
     Raises ValueError unless stickiness is a number from 0 to 1.
     """
     checks.real("stickiness", stickiness, 0, 1)
@@ -137,9 +136,9 @@ def sticky(next_state, worth, stickiness, starts=None):
 
 
 def shares_by_floor(process, best, floors, steps, runs, seed, discount):
-    """The share of the best return that Q-learners make of a `sticky` process, without the last action and with it.
+    """The share of the best return that Q-learners earn in a `sticky` process, without the last action and with it.
 
-    best: the best return, on average over starts. floors: learning rates, below which learners do not go.
+    best: the best return, on average over starts. floors: the least learning rates.
     steps, runs, seed, discount: as in `neorl.chapters.chapter_3.decision.live`.
     Returns {floor: [float64 (runs,), float64 (runs,)]}.
     """

@@ -1,4 +1,4 @@
-"""The cost of remembering, and of not remembering, as the page of chapter 3 reports it, in Markdown."""
+"""Tables and sentences on the cost of remembering and of not remembering, in Markdown, for the page of chapter 3."""
 
 import numpy as np
 
@@ -13,15 +13,15 @@ def in_short(needed, paid, memory, states, share):
     """The two curses and the price of a model, in three sentences.
 
     needed, paid, memory: as in `experience_factors` and `short_memory`. states: of a grid. share: of the entries of its
-    full table of transitions that ever differ from 0, in %.
+    full transition table that ever differ from 0, in %.
     """
     short, enough = (estimate(np.mean, paid["sum"][:, length]) for length in (memory - 1, memory))
     return (f"In a world that shows one of Ψ symbols at each step, each further step of the past that matters prolongs "
             f"Q-learning by a factor of {experience_factors(needed)}. No step can be "
             f"spared: agents that remember {memory - 1} of {memory} such steps earn {short} per step, where a guess "
-            f"earns 0.50 and agents that remember all earn {enough}. A full table of transitions grows with the "
-            f"square of the states, as the thesis says; but in a grid of {states} states only {share:.1f} % "
-            "of it ever differ from 0.")
+            f"earns 0.50 and agents that remember all earn {enough}. A full transition table grows with the "
+            f"square of the number of states, as the thesis says; but in a grid of {states} states only {share:.1f} % "
+            "of its entries ever differ from 0.")
 
 
 def states_met(met):
@@ -32,14 +32,14 @@ def states_met(met):
 
 
 def judge(paid, memory):
-    """Claim T3, of agents that remember all the steps that matter and of agents that remember one less."""
-    above = {rule: rewards - 0.5 for rule, rewards in paid.items()}  # a guess
+    """Judge claim T3, on agents that remember all steps that matter and agents that remember one fewer."""
+    above = {rule: rewards - 0.5 for rule, rewards in paid.items()}  # a guess earns 0.5
     return judge_temporality(*({rule: each[:, length] for rule, each in above.items()}
                                for length in (memory, memory - 1)))
 
 
 def states_table(memories, least):
-    """The states that each rule needs of two symbols, for every second memory: least {rule: [states, …]}."""
+    """The number of states that each rule of two symbols needs, for every second memory: least {rule: [states, …]}."""
     rows = [(RULES[rule], *states[1::2]) for rule, states in least.items()]
     return table(("Outcome, Ψ = 2", *(f"L = {memory}" for memory in memories[1::2])),
                  [*rows, ("*all histories*", *(2**memory for memory in memories[1::2]))])
@@ -51,9 +51,9 @@ def experience_factors(needed):
 
 
 def short_memory(paid, memory):
-    """The reward of agents that remember one step less than matters.
+    """The reward of agents that remember one step fewer than matter.
 
-    paid: {"sum", "table": reward per step (runs, lengths)}, of lengths remembered from 0 to `memory`.
+    paid: {"sum", "table": reward per step (runs, lengths)}, for remembered lengths from 0 to `memory`.
     """
     short, enough, partial = (estimate(np.mean, paid[rule][:, length]) for rule, length
                               in (("sum", memory - 1), ("sum", memory), ("table", memory - 1)))
@@ -67,8 +67,8 @@ def worth_of_last_action(curves, seen_states):
     """The cost and the benefit of remembering the last action, for certain and for sticky actions.
 
     curves: {"certain", "certain + last", "sticky", "sticky + last": (steps (checkpoints,), share of the best return
-    (runs, checkpoints))}. seen_states: {the same: how many}. The cost is that at the time when learners
-    without need of memory first reach nine tenths, in the mean, or at the end if they never do.
+    (runs, checkpoints))}. seen_states: {the same: the number met}. The cost is taken when learners that need no
+    memory first reach nine tenths on average, or at the end if they never do.
     """
     steps, certain = curves["certain"]
     _, remembering = curves["certain + last"]
@@ -81,11 +81,11 @@ def worth_of_last_action(curves, seen_states):
               ", which is inconclusive with so few learners or steps.")
     return (f"The learners meet {seen_states['sticky']} states without the last action and "
             f"{seen_states['sticky + last']} with it. Where actions are certain, remembering costs {price} of the "
-            f"best return after {steps[early]:,} steps, and finally changes it by {gap['certain']}. Where they are "
-            f"sticky, it changes it by {gap['sticky']}{behind}")
+            f"best return after {steps[early]:,} steps, and finally changes the return by {gap['certain']}. Where they "
+            f"are sticky, it finally changes the return by {gap['sticky']}{behind}")
 
 
 def floors_table(shares):
-    """The return of learners by the floor of their learning rate: of `shares_by_floor`."""
+    """The return of learners by the floor of their learning rate, from `shares_by_floor`."""
     return table(("Floor of α", "Without the last action", "With it"),
                  [(floor, *(estimate(np.mean, each) for each in both)) for floor, both in shares.items()])

@@ -1,1 +1,1 @@
-"""What the notebooks of several chapters use."""
+"""Modules that several chapters share."""

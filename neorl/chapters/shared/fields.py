@@ -1,4 +1,4 @@
-"""What elements of interest make of a whole map (thesis eq. 4.3 and 4.4)."""
+"""Superposed values over a whole map (thesis eq. 4.3 and 4.4)."""
 
 import numpy as np
 
@@ -6,9 +6,9 @@ from neorl.core.horde import superpose
 
 
 def superposed_field(q, goals, valences):
-    """The value of each action in every cell of a map, as if the agent were there: float64 (cells, 4).
+    """The superposed value of each action in every cell of a map: float64 (cells, 4).
 
-    q: float32 (cells, 4, cells). goals: the cells of the elements of interest. valences: their weights, as many.
+    q: float32 (cells, 4, cells). goals: the cells of the elements of interest. valences: their weights, one each.
     Raises ValueError for anything else.
     """
     return np.array([superpose(q, cell, goals, valences) for cell in range(len(q))])

@@ -1,7 +1,7 @@
 """Grid worlds drawn in text: a "#" is a wall, every other character a state.
 
-The four actions are N, S, E and W, in this order as everywhere in neorl. A step into a wall or over the border stays in
-place. States are counted row by row from the upper left.
+The four actions are N, S, E and W, in this order as everywhere in neorl. A step into a wall or over the border leaves
+the agent in place. States are numbered row by row from the upper left.
 """
 
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ MOVES = np.array([(0, -1), (0, 1), (1, 0), (-1, 0)])  # N, S, E, W as (x, y), y 
 class Grid:
     """A grid world.
 
-    rows: strings of equal length, from the top; at least one character of them is no wall.
+    rows: strings of equal length, from the top; at least one of their characters is not a wall.
 
     Raises ValueError for anything else.
     """
@@ -33,17 +33,17 @@ class Grid:
 
     @cached_property
     def places(self):
-        """Where each state is: int64 (states, 2), column and row."""
+        """The position of each state: int64 (states, 2), column and row."""
         return np.array([(x, y) for y, row in enumerate(self.rows) for x, mark in enumerate(row) if mark != WALL])
 
     @property
     def states(self):
-        """How many states there are."""
+        """The number of states."""
         return len(self.places)
 
     @cached_property
     def next_state(self):
-        """Where each action leads: int64 (states, 4)."""
+        """The next state after each action: int64 (states, 4)."""
         state_at = {tuple(place): state for state, place in enumerate(self.places)}
         return np.array([[state_at.get(tuple(place + move), state) for move in MOVES]
                          for state, place in enumerate(self.places)])
@@ -55,7 +55,7 @@ class Grid:
     def transitions(self, slip=0.0):
         """The probability of each next state: float64 (states, 4, states).
 
-        slip: how probably a step goes in a direction drawn from all four instead, from 0 to 1.
+        slip: the probability that a step goes in a direction drawn from all four instead, from 0 to 1.
         Raises ValueError for anything else.
         """
         checks.real("slip", slip, 0, 1)

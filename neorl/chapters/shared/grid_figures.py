@@ -9,7 +9,7 @@ from neorl.drawing.style import AGENT, INK
 
 
 def new_grids(grid, columns=1, rows=1, size=None):
-    """Axes for that many drawings of a grid, row by row: a list, each y downward with a unit a state.
+    """Axes for rows × columns drawings of a grid: a list, row by row, with y downward and one unit per state.
 
     size: the width of one drawing in inches; by default they fill the usual width of a figure.
     """
@@ -35,7 +35,7 @@ def draw_grid(axes, grid, fills=None):
 
 
 def draw_policy(axes, grid, q, colour=AGENT):
-    """An arrow for each best action of q (states, 4), all of them where several are; none where all are equal."""
+    """Arrows for the best actions of q (states, 4), ties included; none in states where all four are equal."""
     best = np.isclose(q, q.max(axis=1, keepdims=True), rtol=1e-9, atol=1e-12)
     state, action = np.nonzero(best & ~best.all(axis=1, keepdims=True))
     start, step = grid.places[state], 0.38 * MOVES[action]

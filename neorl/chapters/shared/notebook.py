@@ -1,4 +1,4 @@
-"""The beginning of every notebook of the book: check its parameters, set its style."""
+"""The beginning of every notebook: check its parameters, set the style of its figures."""
 
 import ast
 import inspect
@@ -27,13 +27,13 @@ def begin(runs, steps, seed, fewest_steps=1, **others):
         if name not in known:
             raise ValueError(f"parameter {name} is unknown, allowed are {', '.join(known)}")
     set_matplotlib_formats("svg")
-    plt.switch_backend(plt.get_backend())  # which it would be only by the first figure
-    plt.uninstall_repl_displayhook()  # it draws all figures of a cell, and to be shown they are drawn once more
+    plt.switch_backend(plt.get_backend())  # otherwise only the first figure would switch it
+    plt.uninstall_repl_displayhook()  # its hook draws all figures of a cell, and displaying them draws them again
     use_style()
 
 
 def injected_names():
-    """The names that papermill's injected cell has assigned, if there is one."""
+    """The names assigned in the cell that papermill has injected, if there is one."""
     shell = get_ipython()
     cells = shell.user_ns["In"] if shell else []
     injected = [ast.parse(cell) for cell in cells if cell.startswith("# Parameters\n")]
@@ -41,6 +41,6 @@ def injected_names():
 
 
 def source(*values):
-    """The source of modules, classes or kernels, to be read: Markdown."""
+    """The source code of modules, classes or kernels, as Markdown."""
     sources = [inspect.getsource(function_of(each)) for each in values]
     return Markdown("\n".join(["```python", *sources, "```"]))

@@ -1,4 +1,4 @@
-"""Readings of the thesis side by side, as the pages of the papers have them: their runs, verdicts and choices.
+"""Readings of the thesis side by side, on the pages of the papers: their runs, verdicts and choices.
 
 Readings are {name: `Reading`}, and their results {name: {key: `Result`}}, with the keys of
 `neorl.evidence.reading.conditions`.
@@ -14,24 +14,24 @@ from neorl.experiments.sweeping import sweep
 
 
 def few(runs):
-    """How many runs the secondary conditions have where the main ones have `runs`: 10 at most."""
+    """The number of runs of secondary conditions if the main ones have `runs`: at most 10."""
     return min(runs, RUNS_FOR_A_VERDICT)
 
 
 def live(made):
-    """Compute conditions of several readings, those that they share once: {name: {key: `Condition`}} to `Result`s."""
+    """Compute the conditions of several readings, shared ones only once: {name: {key: `Condition`}} to `Result`s."""
     different = list(dict.fromkeys(each for of_reading in made.values() for each in of_reading.values()))
     results = dict(zip(different, sweep(different)))
     return {name: {key: results[each] for key, each in of_reading.items()} for name, of_reading in made.items()}
 
 
 def judge_each(lived):
-    """The claims that each reading's results suffice for: {name: [`Claim`, …]}."""
+    """The claims that each reading's results suffice to judge: {name: [`Claim`, …]}."""
     return {name: [*judge(results).values()] for name, results in lived.items()}
 
 
 def changed(reading, changes):
-    """The readings that changes make of a reading, but for those that leave it as it is: {name: `Reading`}.
+    """Variants of a reading, except those equal to it: {name: `Reading`}.
 
     changes: {name: {field of `Reading`: value}}.
     """
@@ -45,12 +45,12 @@ def by_resolution(results, group, resolutions):
 
 
 def each_in_words(words):
-    """What is said of each reading, as a Markdown list: {name: text}."""
+    """A Markdown list with a text on each reading: {name: text}."""
     return "\n".join(f"- **{name.capitalize()}.** {text}" for name, text in words.items())
 
 
 def choices(readings, fields):
-    """What readings choose, as a Markdown table, and whether the text pins each choice or leaves it open.
+    """A Markdown table of the choices of readings, and whether the text pins each choice or leaves it open.
 
     fields: the names of fields of `Reading`.
     """

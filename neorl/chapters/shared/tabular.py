@@ -1,6 +1,6 @@
-"""Tables of action values q[state, action], float64, and the two things that every tabular learner does with them.
+"""Tabular learning with action values q[state, action], float64: select an action, update a value.
 
-A learner chooses, greedily or not, with ties drawn at random; and it moves a value towards what followed (Watkins 1989;
+Selection is greedy or exploring, with ties broken at random; an update moves a value towards its target (Watkins 1989;
 thesis eq. 3.5 and 4.6).
 """
 
@@ -11,7 +11,7 @@ from neorl.core.stream import randint, uniform
 
 
 class Rates(NamedTuple):
-    """How a tabular learner learns and explores, each from 0 to 1."""
+    """The rates at which a tabular learner learns and explores, each from 0 to 1."""
 
     learning_rate: float  # α
     discount: float  # γ
@@ -20,7 +20,7 @@ class Rates(NamedTuple):
 
 @kernel
 def greedy_action(value, stream):
-    """An action with the largest value, drawn where there are several."""
+    """An action with the largest value; ties are broken at random."""
     best, ties = 0, 0
     for action in range(value.shape[0]):
         if ties == 0 or value[action] > value[best]:
@@ -34,7 +34,7 @@ def greedy_action(value, stream):
 
 @kernel
 def exploring_action(value, exploration, stream):
-    """A greedy action, or with probability `exploration` (ε) any."""
+    """A greedy action, or with probability `exploration` (ε) a random one."""
     if uniform(stream) < exploration:
         return randint(stream, value.shape[0])
     return greedy_action(value, stream)
@@ -42,7 +42,7 @@ def exploring_action(value, exploration, stream):
 
 @kernel
 def learn_q(q, state_tm1, action_tm1, reward_t, state_t, terminal, learning_rate, discount):
-    """One update of Q-learning after a step; what follows a terminal state is worth nothing."""
+    """One update of Q-learning after a step; a terminal state has value 0."""
     following = 0.0
     if not terminal:
         following = q[state_t, 0]
