@@ -46,8 +46,8 @@ def by_claim(judged, judged_part):
 def shares(judged, judged_part, rows):
     """How often each claim holds in short runs and agrees at the papers' lengths, as `report.save` takes it.
 
-    judged, judged_part: the claims under all readings and under the first ones, as `judge_readings` returns them. rows:
-    of the table of the calibration.
+    judged, judged_part: the claims under all readings and under the first ones, as `judge_readings` returns them.
+    rows: of the table of the calibration.
     """
     found, at_length = multiverse.shares(judged) | multiverse.shares(judged_part), calibration_results.evenly(rows)
     return {name: counts | at_length.get(name, {}) for name, counts in _in_order(found).items()}
@@ -193,7 +193,7 @@ def whether_enough(points):
 
 
 def clear_leads(supports):
-    """Levels at which clearly more or fewer claims hold than at the letter's, as a table, and the number by chance.
+    """Levels at which clearly more or fewer claims hold than at the letter's, and the number expected by chance.
 
     supports: of `neorl.evidence.multiverse.Support`, for every level.
     """

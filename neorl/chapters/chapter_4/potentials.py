@@ -87,8 +87,8 @@ def misled(q, planned, elements):
 def compare(grid, valences, placements, seed=0, discount=0.8):
     """Compare superposition with the plan, for elements in states drawn for each placement: a `Comparison`.
 
-    valences: of the elements, fewer than the states, at least one of them positive. placements: integer ≥ 1. seed:
-    integer ≥ 0. Other arguments as in `plan`.
+    valences: of the elements, fewer than the states, at least one of them positive. placements: integer ≥ 1.
+    seed: integer ≥ 0. Other arguments as in `plan`.
     Raises ValueError for anything else.
     """
     valences = checks.finite("valences", np.asarray(valences, float))

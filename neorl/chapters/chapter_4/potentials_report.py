@@ -70,6 +70,9 @@ def _range(shares):
 
 
 def largest_weights(weights, rewards):
-    """The eight largest weights of value functions that add up to a plan, and the valences, as text: (cells,) each."""
+    """The eight largest weights with which value functions add up to a plan, and the valences, as text.
+
+    weights, rewards: (cells,).
+    """
     return "\n".join(f"cell {cell}: weight {weights[cell]:+.2f}, valence {rewards[cell]:+.0f}"
                      for cell in np.argsort(-np.abs(weights))[:8])

@@ -29,8 +29,8 @@ def trials(name, finds, steps):
 
 def speeds(python_seconds, kernel_seconds, steps, kernel_steps):
     """A sentence on the cost of a step, in Python and as kernels."""
-    return (f"A step of the Python loop took {1e6 * python_seconds / steps:.0f} microseconds. As kernels, on all cores, "
-            f"it took {1e6 * kernel_seconds / kernel_steps:.2g} microseconds.")
+    return (f"A step of the Python loop took {1e6 * python_seconds / steps:.0f} microseconds. As kernels, on all "
+            f"cores, it took {1e6 * kernel_seconds / kernel_steps:.2g} microseconds.")
 
 
 def in_short(finds, python_seconds, kernel_seconds, steps, runs):

@@ -43,7 +43,10 @@ def layers(results):
 
 
 def neighbours(reading):
-    """Readings that differ from one in a choice that matters here, within the text or beyond it: {name: Reading}."""
+    """Readings one choice away from a reading, within the text or beyond it: {name: Reading}.
+
+    The choices are those that matter here.
+    """
     slow, quick = (min(reading.learning_rate * factor, 1.0) for factor in (0.05, 20))
     return changed(reading, {"maps by N": {"weighting": "resolution"}, "maps by N²": {"weighting": "cells"},
                              "bootstrapping": {"bootstrap": True}, "no bootstrapping": {"bootstrap": False},

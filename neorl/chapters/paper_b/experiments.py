@@ -47,7 +47,7 @@ def all_conditions(reading, steps, runs, seed=0):
 
 
 def neighbours(reading, steps, runs, seed=0):
-    """The conditions of B1, B3 and B6 in readings that differ from one in a single choice: {name: {key: `Condition`}}.
+    """The conditions of B1, B3 and B6 in readings one choice away from a reading: {name: {key: `Condition`}}.
 
     The choices are how an object vector becomes a state, and how the two modalities are weighted; each takes the other
     values that the text leaves open.

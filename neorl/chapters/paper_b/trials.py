@@ -37,7 +37,7 @@ class Costs(NamedTuple):
 
     @property
     def measured(self):
-        """Median cost of the agents with more and more maps, (maps,)."""
+        """Median cost of the agents, as maps are added one by one, (maps,)."""
         return np.median(self.first, axis=1)
 
     @property
@@ -162,7 +162,7 @@ def mean_values(reading, steps, runs, seed=0):
 
 
 def measure_costs(reading, steps, repetitions, seed=0):
-    """Measure the cost of agents with one map more each time: a `Costs`.
+    """Measure the cost of agents as maps are added one by one: a `Costs`.
 
     Their nodes have a gain of 0 and do not explore, so they evaluate and learn everything but draw every action.
     """
@@ -184,7 +184,7 @@ def measure_costs(reading, steps, repetitions, seed=0):
 
 
 def maps_kept(before, after, world, steps, seed=0):
-    """How many maps of an agent hold the same values, to the last bit, when it changes to another after ``steps``.
+    """How many maps of an agent hold the same values, to the last bit, when it changes to another after some steps.
 
     after: an agent whose first maps are those of `before`.
     """

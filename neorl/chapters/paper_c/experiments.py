@@ -42,9 +42,9 @@ def recur(readings, weights, steps, runs, seed=0):
 
 
 def neighbours(reading, runs):
-    """Readings that differ from one in a choice that matters here, within the text or beyond it: {name: Reading}.
+    """Readings one choice away from a reading, within the text or beyond it: {name: Reading}.
 
-    There are more of them if the networks have `MANY_RUNS` runs or more.
+    The choices are those that matter here. There are more of them if the networks have `MANY_RUNS` runs or more.
     """
     changes = {"maps N3, N7, N23": {"network_resolutions": LAYERS}, "maps of primes": {"network_resolutions": PRIMES},
                "no memory": {"memory": 0.0}, "places × 5": {"network_gain": 5.0}, "by size": {"vectors": "by size"}}
