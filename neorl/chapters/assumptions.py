@@ -1,9 +1,9 @@
-"""What the page on assumptions computes and reports: claims under readings within the text, and beyond it.
+"""The page on assumptions: claims under readings within the text, and beyond it.
 
-1. Agents run in the groups of conditions `CHEAP` under every reading, and in `EXPENSIVE` under the first ones alone.
-2. Which choices matter for a claim is learned from `ENOUGH` readings or more.
-3. Shares are of readings with short runs, beside those of readings at the papers' own lengths, which are the
-   design of the calibration.
+1. Agents run in the groups of conditions `CHEAP` under every reading, and in `EXPENSIVE` under the first ones only.
+2. The importance of choices for a claim is estimated from `ENOUGH` readings or more.
+3. Shares are of readings in short runs, beside those of the readings of the calibration's design, in runs of the
+   papers' own lengths.
 4. Tables and sentences are Markdown.
 """
 
@@ -20,13 +20,13 @@ from neorl.experiments.sweeping import sweep
 CHEAP = ("layers", "modal", "networks", "revaluing", "resolutions")  # of `neorl.evidence.reading.GROUPS`
 EXPENSIVE = ("single", "pace")
 ENOUGH = 32  # readings
-PREDICTED = 0.1  # the least R² with which choices are said to predict the number of a claim
-NAMED, MATTERS = 3, 0.05  # of the choices that a claim depends on: how many are named at most, and the least importance
+PREDICTED = 0.1  # the least R² at which choices count as predicting the number of a claim
+NAMED, MATTERS = 3, 0.05  # choices listed for a claim: the most of them, and the least importance
 FULL_SIZE = 128  # readings
 
 
 def judge_readings(readings, groups, steps, runs, seed=0):
-    """The claims that runs in some groups of conditions suffice for, under each reading: [{name: `Claim`}, …].
+    """Judge the claims for which some groups of conditions suffice, under each reading: [{name: `Claim`}, …].
 
     readings: of `Reading`. groups, steps, runs, seed: as `neorl.evidence.reading.conditions` takes them.
     """
@@ -36,9 +36,9 @@ def judge_readings(readings, groups, steps, runs, seed=0):
 
 
 def by_claim(judged, judged_part):
-    """The claims by name, each under all its readings: {name: [`Claim`, …]}, in the order of the claims.
+    """Claims by name, each under all its readings: {name: [`Claim`, …]}, in the order of the claims.
 
-    judged, judged_part: the claims under all readings and under the first ones, as `judge_readings` has them.
+    judged, judged_part: the claims under all readings and under the first ones, as `judge_readings` returns them.
     """
     return _in_order({name: [claims[name] for claims in each] for each in (judged, judged_part) for name in each[0]})
 
@@ -46,17 +46,17 @@ def by_claim(judged, judged_part):
 def shares(judged, judged_part, rows):
     """How often each claim holds in short runs and agrees at the papers' lengths, as `report.save` takes it.
 
-    judged, judged_part: the claims under all readings and under the first ones, as `judge_readings` has them. rows: of
-    the table of the calibration.
+    judged, judged_part: the claims under all readings and under the first ones, as `judge_readings` returns them.
+    rows: of the table of the calibration.
     """
     found, at_length = multiverse.shares(judged) | multiverse.shares(judged_part), calibration_results.evenly(rows)
     return {name: counts | at_length.get(name, {}) for name, counts in _in_order(found).items()}
 
 
 def importances(*multiverses):
-    """How much each choice matters for each claim: ({claim: {choice: importance}}, {claim: R²}).
+    """Importance of each choice for each claim: ({claim: {choice: importance}}, {claim: R²}).
 
-    multiverses: pairs of readings and the claims under them, as `judge_readings` has them. A claim that was judged
+    multiverses: pairs of readings and the claims under them, as `judge_readings` returns them. A claim that was judged
     under fewer than `ENOUGH` readings has no importances and no R².
     """
     importance, explained = {}, {}
@@ -69,7 +69,7 @@ def importances(*multiverses):
 
 
 def of_predicted(importance, names):
-    """The importances of the claims of those names, and none of the others: {claim: {choice: importance}}."""
+    """The importances for the named claims, and none for the others: {claim: {choice: importance}}."""
     return {name: found if name in names else {} for name, found in importance.items()}
 
 
@@ -79,7 +79,7 @@ def predicted(explained):
 
 
 def in_short(shares, judged, foremost):
-    """The result of the page in three sentences. foremost: as `foremost_choices` has it."""
+    """The page's results in a few sentences. foremost: as `foremost_choices` returns it."""
     agreeing = [found["agrees"] / found["measured"] for found in shares.values() if found.get("measured")]
     holding = [_share(found, "holds") for found in shares.values()]
     return (f"At the papers' own lengths, a claim's numbers agree with the thesis under {_percent(np.mean(agreeing))} "
@@ -89,7 +89,7 @@ def in_short(shares, judged, foremost):
 
 
 def agreement_at_length(shares):
-    """How often the numbers of claims agree with the thesis at the papers' lengths. shares: as `shares` has them."""
+    """How often claims' numbers agree with the thesis at the papers' lengths. shares: as `shares` returns them."""
     agreeing = {name: found["agrees"] / found["measured"] for name, found in shares.items() if found.get("measured")}
     return ("At the papers' own lengths, under readings drawn evenly within the text, the numbers agree with the "
             f"thesis in: {', '.join(f'**{name}** {_percent(share)}' for name, share in agreeing.items())}. The average "
@@ -97,22 +97,22 @@ def agreement_at_length(shares):
 
 
 def holding_in_short_runs(shares, judged, judged_part, steps, runs):
-    """Which claims hold under more than half of the readings, which under none, and how many do on average.
+    """Which claims hold under more than half of the readings, which under none, and how many on average.
 
-    shares: as `shares` has them. judged, judged_part: as it takes them. steps, runs: of each condition.
+    shares: as `shares` returns them. judged, judged_part: as it takes them. steps, runs: of each condition.
     """
     holding = {name: _share(found, "holds") for name, found in shares.items()}
     counts = _held(judged)
     return (f"The rules require more: an interval, which takes more runs than so many readings can have. In short "
-            f"runs, {steps / 60 / PAPER_FPS:.3g} minutes of simulated time at {PAPER_FPS} steps per second and {runs} "
-            f"runs per condition, which show early behaviour: {len(shares)} claims were judged under "
+            f"runs, which show early behaviour ({steps / 60 / PAPER_FPS:.3g} minutes of simulated time at {PAPER_FPS} "
+            f"steps per second, {runs} runs per condition), {len(shares)} claims were judged under "
             f"{len(judged)} readings within the text, the expensive ones ({', '.join(judged_part[0])}) under "
             f"{len(judged_part)} of these. On average a claim holds under "
             f"**{_percent(np.mean([*holding.values()]))}** of the readings. Under more than half of "
             f"them: {listed(name for name, share in holding.items() if share > 0.5)}; under none of them: "
             f"{listed(name for name, share in holding.items() if share == 0)}. Of the {len(judged[0])} claims that "
-            f"were judged under every reading, the best reading has {max(counts)}, and the average is "
-            f"{np.mean(counts):.1f}.")
+            f"were judged under every reading, {max(counts)} hold under the best reading, and {np.mean(counts):.1f} on "
+            f"average.")
 
 
 def foremost_choices(importance, predicted, points):
@@ -127,13 +127,13 @@ def foremost_choices(importance, predicted, points):
         foremost = max(importance[name], key=importance[name].get)
         claims.setdefault(WITHIN[foremost].label, []).append(name)
     words = "; ".join(f"*{label}* ({', '.join(names)})" for label, names in claims.items())
-    return f"The choice that matters most to a claim: {words}. For the other claims no choice predicts the number."
+    return f"The choice that matters most for each claim: {words}. For the others no choice predicts the number."
 
 
 def verdicts(shares):
     """The share of readings with each verdict, and of those that agree at the papers' lengths, as a table.
 
-    shares: as `shares` has them.
+    shares: as `shares` returns them.
     """
     rows = []
     for name, found in shares.items():
@@ -147,14 +147,14 @@ def verdicts(shares):
 
 
 def undecided(shares, runs):
-    """How many verdicts are undecided. shares: as `shares` has them. runs: of each condition."""
+    """How many verdicts are undecided. shares: as `shares` returns them. runs: of each condition."""
     unsettled, total = (sum(found[kind] for found in shares.values()) for kind in ("undecided", "readings"))
     return (f"Of {total:,} verdicts in all, {unsettled:,} ({_percent(unsettled / total)}) are undecided. An interval "
             f"from {runs} runs is rough; shares over many readings are less so.")
 
 
 def choices(readings):
-    """Every choice with its prior within the text and what readings choose, as a table. readings: {name: `Reading`}."""
+    """Every choice with its prior within the text and the readings' values, as a table. readings: {name: `Reading`}."""
     rows = []
     for field, choice in BEYOND.items():
         prior = WITHIN[field].stated if field in WITHIN else "pinned"
@@ -173,7 +173,7 @@ def agreements(readings):
 def dependence(importance, explained, shares):
     """The choices that each claim depends on most, as a table.
 
-    importance, explained: as `importances` has them. shares: as `shares` has them.
+    importance, explained: as `importances` returns them. shares: as `shares` returns them.
     """
     known, rows = predicted(explained), []
     for name, found in importance.items():
@@ -193,7 +193,7 @@ def whether_enough(points):
 
 
 def clear_leads(supports):
-    """The levels with clearly more claims than the letter's, or fewer, as a table, and what chance alone would bring.
+    """Levels at which clearly more or fewer claims hold than at the letter's, and the number expected by chance.
 
     supports: of `neorl.evidence.multiverse.Support`, for every level.
     """
@@ -207,7 +207,7 @@ def clear_leads(supports):
 
 
 def priors_beyond():
-    """The choices that are varied otherwise beyond the text than within it, with both priors, as a table."""
+    """Choices whose prior beyond the text differs from that within it, with both priors, as a table."""
     rows = []
     for field, choice in BEYOND.items():
         if choice != WITHIN.get(field):
@@ -219,7 +219,7 @@ def priors_beyond():
 def verdicts_beyond(shares, judged_outside):
     """The shares of readings beyond the text under which claims hold, beside those within it, as a table.
 
-    shares: within the text, as `shares` has them. judged_outside: as `judge_readings` has it, beyond the text.
+    shares: within the text, as `shares` returns them. judged_outside: beyond it, as `judge_readings` returns it.
     """
     outside = multiverse.shares(judged_outside)
     rows = [[_stated(name), _percent(_share(outside[name], "holds")), _percent(_share(outside[name], "undecided")),
@@ -228,10 +228,10 @@ def verdicts_beyond(shares, judged_outside):
 
 
 def counts_beyond(outside, judged_outside, judged):
-    """How many claims hold under a reading beyond the text and within it, and in how many choices it breaks the text.
+    """How many claims hold under readings beyond the text and within it, and how many choices break the text.
 
     outside: readings beyond the text. judged_outside, judged: the claims under them and within the text, as
-    `judge_readings` has them.
+    `judge_readings` returns them.
     """
     broken = [len(reading.within_the_text.broken) for reading in outside]
     beyond, within = np.array(_held(judged_outside)), np.array(_held(judged))

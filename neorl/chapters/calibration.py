@@ -1,8 +1,8 @@
-"""The page on calibration: the best reading run again, and conclusions from the table of readings.
+"""The page on calibration: the best reading rerun, and conclusions from the table of readings.
 
-1. The best reading of the table runs again with new seeds. Beside it run the reading to the letter and the nearest
-   other readings.
-2. Single maps, the last group of conditions, are expensive: they have fewer runs, and the other readings do without.
+1. The best reading of the table is rerun with new seeds, beside the reading to the letter and the nearest other
+   readings.
+2. Single maps, the last group of conditions, are expensive: they have fewer runs, and the nearest readings omit them.
 3. Tables and sentences are Markdown. `neorl.evidence.calibration_results` draws the conclusions.
 """
 
@@ -15,24 +15,24 @@ from neorl.evidence.calibration_targets import GROUPS, TARGETS
 from neorl.evidence.priors import TO_THE_LETTER, WITHIN
 
 *CHEAP, SINGLE_MAPS = GROUPS
-IN_FULL = 100  # runs, from which on the single maps have all of them
-SETS, PAIRS = 8, 6  # of claims that hold together, and of claims that never do: the most that are listed
+IN_FULL = 100  # with as many runs or more, single maps have all of them
+SETS, PAIRS = 8, 6  # the most that are listed: sets of claims that hold together, and pairs that never do
 
 
 def few(runs):
-    """How many runs the reading to the letter has where the best one has `runs`."""
+    """Number of runs of the reading to the letter, if the best one has `runs`."""
     return max(2, runs // 5)
 
 
 def runs_of_single_maps(runs):
-    """How many runs the single maps of the best reading have where its other conditions have `runs`."""
+    """Number of runs of the best reading's single maps, if its other conditions have `runs`."""
     return runs if runs >= IN_FULL else few(runs)
 
 
 def confirm(best, steps, runs, seed):
-    """Run the best row once more: (`Row` with what came out, {key of the condition: `Result`}).
+    """Rerun the best row: (`Row` with the new statistics, {key of the condition: `Result`}).
 
-    best: a `Row`. steps: of a run at most. runs: of each condition, at least two; single maps have
+    best: a `Row`. steps: of a run, at most. runs: of each condition, at least two; single maps have
     `runs_of_single_maps`.
     """
     row = replace(best, seed=seed, steps=steps, runs=max(2, runs))
@@ -41,13 +41,13 @@ def confirm(best, steps, runs, seed):
 
 
 def to_the_letter(steps, runs, seed):
-    """Run the reading to the letter, with a `few` of the runs: a `Row` with what came out."""
+    """Run the reading to the letter, with `few` of the runs: a `Row` with its statistics."""
     row = Row(0, seed, few(runs), steps, TO_THE_LETTER)
     return measured(row, lives(row))
 
 
 def lives_of_others(rows, best, steps, seed):
-    """Two runs each of rows with other readings than the best row's: [{key of the condition: `Result`}, …].
+    """Two runs of each row whose reading is not the best row's: [{key of the condition: `Result`}, …].
 
     The row at place i has the seed `seed` + i.
     """
@@ -56,13 +56,13 @@ def lives_of_others(rows, best, steps, seed):
 
 
 def in_short(complete, letter, confirmed, together):
-    """The result of the page in three sentences.
+    """The page's results in a few sentences.
 
     complete: rows that were run in every group. letter, confirmed: a `Row` each. together: a `Together`.
     """
     (most, _), claims = together.sets[0], len(together.claims)
     return (f"Of {len(complete):,} readings within the text that were run in every condition, "
-            f"{agreeing(complete).lower()} agree with all {len(TARGETS)} targets, numbers of the thesis, at once. To "
+            f"{agreeing(complete).lower()} agree with all {len(TARGETS)} targets (numbers of the thesis) at once. To "
             f"the letter, {len(letter.held)} of {claims} claims hold; under the best reading, in {confirmed.runs} "
             f"runs with fresh seeds, {len(confirmed.held)} do. The most that hold together in any one reading are "
             f"{len(most)}. Here a claim holds if its means agree with the thesis's numbers; the papers' pages judge "
@@ -75,12 +75,12 @@ def agreeing(rows):
 
 
 def never_together(together):
-    """The pairs of claims that never hold together, though chance would bring them together. together: a `Together`."""
+    """Pairs of claims that never hold together, though by chance alone they would. together: a `Together`."""
     return "; ".join(f"{a} and {b}" for a, b in together.never) or "none"
 
 
 def numbers(letter, best, confirmed):
-    """The statistics of three rows beside the targets, as a table, each with a mark whether it agrees with the thesis.
+    """The statistics of three rows beside the targets, as a table, each marked by whether it agrees with the thesis.
 
     letter, best, confirmed: a `Row` each, complete.
     """
@@ -94,36 +94,35 @@ def numbers(letter, best, confirmed):
 
 
 def choices(readings):
-    """What readings choose where the text leaves a choice, as a table. readings: {name: `Reading`}."""
+    """The readings' values of each choice that the text leaves open, as a table. readings: {name: `Reading`}."""
     rows = [[choice.label, *(choice.words(getattr(reading, field)) for reading in readings.values())]
             for field, choice in WITHIN.items()]
     return table(["Choice", *readings], rows)
 
 
 def idle_discount(best):
-    """That γ has no effect under the best `Reading`, where that is so; otherwise nothing."""
+    """A sentence saying that γ has no effect under the best `Reading`, if so; else ""."""
     if best.learning.bootstrap or best.learning.memory_value != "reached":
         return ""
-    return ("Without bootstrapping, and with a memory of goals that were simply reached, nothing is discounted, and so "
-            "γ has no effect under the best reading.")
+    return ("Without bootstrapping, and with a memory of goals that were simply reached, nothing is discounted, so γ "
+            "has no effect under the best reading.")
 
 
 def largest_sets(together):
-    """The largest sets of claims that hold together, and the claims that they lack, as a table. together: a `Together`.
-    """
+    """The largest sets of claims that hold together, and the claims they lack, as a table. together: a `Together`."""
     rows = [[", ".join(names), str(count), ", ".join(name for name in together.claims if name not in names)]
             for names, count in together.sets[:SETS]]
     return table(["Claims that hold together", "Readings", "Missing"], rows)
 
 
 def unseen_pairs(together):
-    """The pairs of claims that hold in no row, with the rows that chance would bring. together: a `Together`."""
+    """Pairs of claims that hold together in no row, with the rows expected by chance. together: a `Together`."""
     pairs = together.unseen[:PAIRS]
     return "; ".join(f"{a} with {b} ({expected:.1f})" for a, b, expected in pairs) or "none"
 
 
 def without_a_claim(rows):
-    """The nearest distance to the targets without one claim, in ascending order, as a table. rows: of `Row`."""
+    """The least distance to the targets without one claim, in ascending order, as a table. rows: of `Row`."""
     first, *_ = nearest(rows)
     found = {"nothing": (first.distance, first)}
     found |= sorted(giving(rows).items(), key=lambda given_up: given_up[1][0])
@@ -144,7 +143,7 @@ def targets():
 
 
 def equal(pairs):
-    """How many rows came out as they stand in the table. pairs: of `neorl.evidence.calibration_table.rerun`."""
+    """How many rows equal those in the table when rerun. pairs: from `neorl.evidence.calibration_table.rerun`."""
     return sum(old == new for old, new in pairs)
 
 

@@ -84,12 +84,12 @@ def test_claims_that_hold_in_short_runs_are_counted(shares):
     judged = [claims(["B1", "C1"]), claims(["B1"], ["C1"]), claims([], ["B1", "C1"])]
     part = [claims([], ["A2"])] * 2
     text = plain(assumptions.holding_in_short_runs(shares, judged, part, 30_000, 2))
-    assert "In short runs, 10 minutes of simulated time at 50 steps per second and 2 runs per condition" in text
+    assert "behaviour (10 minutes of simulated time at 50 steps per second, 2 runs per condition), 3 claims" in text
     assert "3 claims were judged under 3 readings within the text, the expensive ones (A2) under 2" in text
     assert ("a claim holds under **42 %** of the readings. Under more than half of them: A2; under none of them: B1."
             in text)
-    assert text.endswith("Of the 2 claims that were judged under every reading, the best reading has 2, and the "
-                         "average is 1.0.")
+    assert text.endswith("Of the 2 claims that were judged under every reading, 2 hold under the best reading, and "
+                         "1.0 on average.")
     shares |= {"A2": shares["C1"], "B1": shares["C1"]}
     text = assumptions.holding_in_short_runs(shares, judged, part, 30_000, 2)
     assert "Under more than half of them: none; under none of them: none." in text
@@ -98,7 +98,7 @@ def test_claims_that_hold_in_short_runs_are_counted(shares):
 def test_claims_are_listed_by_the_choice_that_matters_most():
     importance = {"A1": {"credit": 0.2, "discount": 0.5}, "A2": {"credit": 0.3}, "A3": {"discount": 0.1}, "A4": {}}
     text = assumptions.foremost_choices(importance, ["A1", "A2", "A3"], 64)
-    assert text.startswith("The choice that matters most to a claim: *discount, γ* (A1, A3); *credit, ψ(N)* (A2). For")
+    assert text.startswith("The choice that matters most for each claim: *discount, γ* (A1, A3); *credit, ψ(N)* (A2).")
     assert assumptions.foremost_choices(importance, [], 16) == (
         "From 16 readings no choice predicts the number of a claim.")
 

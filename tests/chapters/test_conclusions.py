@@ -48,8 +48,8 @@ def test_the_box_counts_verdicts():
     text = conclusions.in_short(verdicts(all_claims("reproduced") | {"A1": "partly", "G2": "partly"}, {"A2": "partly"}))
     text = re.sub("<[^>]+>", "", text).replace("\u00a0", " ")
     assert (f"results: to the letter, ◐ 1 partly, {len(CLAIMS) - 1} not computed in this build; calibrated, ● "
-            f"{len(CLAIMS) - 2} reproduced, ◐ 2 partly. How far its two conclusions hold in the calibrated reading: "
-            "*Superposition*: *whole* (") in text
+            f"{len(CLAIMS) - 2} reproduced, ◐ 2 partly. How far the two conclusions hold in the calibrated reading: "
+            "*Superposition*: *in full* (") in text
     assert text.endswith("the pages beyond the thesis judge 5: ● 4 reproduced, ◐ 1 partly.")
 
 
@@ -62,7 +62,7 @@ def test_what_lies_beyond_the_thesis_has_its_verdicts_and_numbers():
 
 @pytest.mark.parametrize("found, held", [
     ({}, "*without a verdict*"), (dict.fromkeys(SEPARATION, "no verdict"), "*without a verdict*"),
-    (dict.fromkeys(SEPARATION, "reproduced"), "*whole* (T1, T7, C1, C2, C3, C4, of 6 claims judged)"),
+    (dict.fromkeys(SEPARATION, "reproduced"), "*in full* (T1, T7, C1, C2, C3, C4, of 6 claims judged)"),
     ({"T1": "reproduced", "C1": "not reproduced", "C2": "no verdict"}, "*in part* (T1, of 2 claims judged)"),
     ({"T1": "partly", "C1": "not testable"}, "*not at all*"),
 ])
@@ -83,16 +83,18 @@ def test_what_was_not_reproduced_stands_beside_the_thesis():
 
 def test_without_a_failure_there_is_none_to_list():
     first, *_ = what_did_not_hold({"A2": "partly"}, {"A2": "not reproduced"})
-    assert first.startswith("No claim was judged as not reproduced in the calibrated reading")
+    assert first.startswith("No claim was judged not reproduced in the calibrated reading")
 
 
 def test_readings_differ_in_claims_that_both_have_judged():
     _, second, *_ = what_did_not_hold(
         {"A2": "reproduced", "A3": "reproduced", "A4": "partly", "A5": "reproduced", "A6": "partly"},
         {"A2": "reproduced", "A3": "partly", "A4": "reproduced", "A6": "not testable"})
-    assert second == "Reproduced calibrated and not to the letter: A3; to the letter and not calibrated: A4."
+    assert second == ("Reproduced in the calibrated reading but not to the letter: A3; to the letter but not in the "
+                      "calibrated reading: A4.")
     _, second, *_ = what_did_not_hold({"A2": "reproduced"})
-    assert second == "Reproduced calibrated and not to the letter: none; to the letter and not calibrated: none."
+    assert second == ("Reproduced in the calibrated reading but not to the letter: none; to the letter but not in the "
+                      "calibrated reading: none.")
 
 
 def test_what_else_became_of_claims_is_told_where_there_are_any():
@@ -109,7 +111,7 @@ def test_claims_that_hold_in_no_short_run_or_are_undecided_in_most_are_named():
     shares = {"A2": {"holds": 0, "undecided": 2, "readings": 4}, "A3": {"holds": 1, "undecided": 3, "readings": 4},
               "H1": {"holds": 0, "undecided": 8, "readings": 8}}
     assert what_did_not_hold(all_claims("reproduced"), {}, shares)[-1] == (
-        "In short runs under 4 readings within the text, A2 held in none that could be decided; A3 was undecided "
-        "in more than half of them.")
+        "In short runs under 4 readings within the text, A2 held under none that could be decided; A3 was undecided "
+        "under more than half of them.")
     del shares["A2"], shares["A3"]
     assert len(what_did_not_hold(all_claims("reproduced"), {}, shares)) == 2  # H1 is a demonstration

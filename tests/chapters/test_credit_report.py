@@ -23,7 +23,7 @@ def test_leads_are_told_for_each_rule_after_some_visits():
                          "| difference | 0.10 [0.10, 0.10] | 0.10 [0.10, 0.10] | 100, 100, 100 % |",
                          "| other | 0.00 [−0.20, 0.20] | 0.00 [−0.20, 0.20] | 50, 50, 50 % |"]
     assert ("is −0.600 [−0.600, −0.600] after 1 visit, −0.600 [−0.600, −0.600] after 10 and 0.400 [0.400, 0.400] after "
-            "100; there a run of the one beats a run of the other with probability 1.00") in text
+            "100; by then a run of the former beats a run of the latter with probability 1.00") in text
 
 
 def test_a_lead_that_is_clearly_larger_in_the_end_is_told_with_its_size():
@@ -84,12 +84,12 @@ def test_late_effects_are_told_by_rule():
     assert "open at once, after 10 presses in all.\n\n| Events last |" in text
     assert "| 2 steps | 0.10 [0.10, 0.10] | 0.10 [0.10, 0.10] |\n| 20 steps | 0.50 [0.50, 0.50] |" in text
     assert text.endswith("All this is with α = 0.03. With α = 0.3, ten times as much, the lead after 100 visits is "
-                         "0.60 and 0.30.")
+                         "0.60 with inversion and 0.30 with temporal difference.")
 
 
 def test_credit_by_share_is_weak_if_brief_events_leave_it_a_smaller_lead():
     assert "Credit by share has its own weakness" in late_effects(0.1, 0.5)
-    assert "Credit by share has a weakness" not in late_effects(0.5, 0.5)
+    assert "Credit by share has its own weakness" not in late_effects(0.5, 0.5)
 
 
 def test_a_bright_light_is_told_beside_the_cause():

@@ -43,7 +43,7 @@ def test_what_agents_earn_before_and_after_half_time_is_told():
 
 def test_agents_that_have_learned_before_lead_over_newborn_ones():
     assert ". The indifferent agents thus learned before half-time: their lead over the first tenth is 0.20 [" in said()
-    assert ". Their lead over that, 0.00 [0.00, 0.01], may be none. " in said(after=0.102)
+    assert ". Their lead over that tenth, 0.00 [0.00, 0.01], may be zero. " in said(after=0.102)
 
 
 @pytest.mark.parametrize("after, why", [
@@ -72,5 +72,5 @@ def test_desires_begin_earlier_and_later(monkeypatch):
     earned = late_desires.vary_begin(Reading(), [1_500, 15_000], steps=30_000, runs=2)
     np.testing.assert_allclose(asked, [(0.05, 0.15), (0.5, 0.6)])
     assert late_desires.beginnings(earned).splitlines() == [
-        " 0.50 minutes without desires: 0.20 [0.20, 0.20] per second in the tenth after",
-        " 5.00 minutes without desires: 0.40 [0.40, 0.40] per second in the tenth after"]
+        " 0.50 minutes without desires: 0.20 [0.20, 0.20] per second in the next tenth",
+        " 5.00 minutes without desires: 0.40 [0.40, 0.40] per second in the next tenth"]

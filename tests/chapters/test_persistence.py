@@ -64,9 +64,9 @@ def test_rewards_are_told_beside_what_is_kept_of_the_gain():
     assert rows[3] == "| nothing: Brownian motion | 0.26 [0.26, 0.26] | 0.26 [0.26, 0.26] |"  # in the whole run
     assert rows[5] == "| every step | 0.20 [0.20, 0.20] (γ = 0.98) | 0.50 [0.50, 0.50] (γ = 0.98) |"
     assert text.splitlines()[-1] == (
-        "To the letter, learning at every step gains −0.08 [−0.08, −0.08] times what learning at changes of cell "
-        "gains; calibrated, learning at every step gains 0.32 [0.32, 0.32] times what learning at changes of cell "
-        "gains.")
+        "To the letter, learning at every step gains −0.08 [−0.08, −0.08] times as much as learning at changes of "
+        "cell; calibrated, learning at every step gains 0.32 [0.32, 0.32] times as much as learning at changes of "
+        "cell.")
 
 
 def test_without_a_gain_there_is_nothing_to_keep():

@@ -59,10 +59,10 @@ def test_the_sum_is_told_as_a_share_of_the_plan():
         "| Desired | none feared | one feared | random actions, none feared |", "|---|---|---|---|",
         "| 1 | 1.00 [1.00, 1.00] | 0.60 [0.60, 0.60] | 0.10 [0.10, 0.10] |",
         "| 2 | 1.00 [1.00, 1.00] | 0.75 [0.75, 0.75] | −0.20 [−0.20, −0.20] |"]
-    assert "Without feared elements, the sum lost nothing in any placement of 1 or 2 desired. Following" in text
+    assert "With 1 or 2 desired and no feared elements, the sum lost nothing in any placement. Following" in text
     assert "Following it earns 60 to 100 % of the plan's return, and random actions −20 to 10 %." in text
     assert "It does worst with 1 desired and 1 feared." in text
-    assert text.endswith("with γ = 0.5 they earn 0.80 [0.80, 0.80] and 0.70 [0.70, 0.70].")
+    assert text.endswith("with γ = 0.5 it earns 0.80 [0.80, 0.80] and 0.70 [0.70, 0.70].")
 
 
 def test_a_sum_that_always_loses_is_not_said_to_lose_nothing():

@@ -55,7 +55,7 @@ def test_what_ridges_leave_over_is_told_but_for_the_product(angles):
             "two hills": Ridges(np.zeros(10), left / 2)}
     text = purposive_report.ridges(fits, Ridges(np.zeros(2), np.array([1, 0.9, 0.98])))
     assert "found at 45° and 135°, as in its formula" in text and "they leave 98 % of its spread" in text
-    assert "leave, of the distance, 50.0 %, of the two hills, 25.0 %; ten leave 0.0 %, 0.0 %." in text
+    assert "leave 50.0 % of the distance, 25.0 % of the two hills; ten leave 0.0 %, 0.0 %." in text
     assert f"of degree {DEGREE}," in text
 
 

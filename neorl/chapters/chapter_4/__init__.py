@@ -1,1 +1,1 @@
-"""What the notebook of chapter 4 runs and draws, namely credit, superposition, time scales, cost."""
+"""Experiments, figures and sentences of chapter 4: credit, superposition, time scales, cost."""

@@ -1,13 +1,13 @@
 """Two levers, a light and a bell: what inference inversion and temporal difference learn from one stream of events.
 
-1. An agent in a chamber always presses one of two levers. The lever that is the first to have been pressed for
-   ``effort`` steps in all opens its exit, ``delay`` steps later. The agent leaves by it and is put back: one visit.
-2. Light and bell come on by chance. They do nothing.
-3. Lever, light and bell last for a *bout*, then all are drawn anew. A bout ends after each step with probability
-   1 / ``hold``, also in the middle of a visit, and may go on into the next.
-4. By *inference inversion* (thesis eq. 4.7, 4.8) the agent learns once a visit, when its cell changes from the chamber
-   to an exit. By *temporal difference* (eq. 4.6) it learns after every step, most of which lead from the chamber to the
-   chamber; all that occurs on a step is an action of that step.
+1. An agent in a chamber always presses one of two levers. The first lever to have been pressed for ``effort`` steps in
+   total opens its exit, ``delay`` steps later. The agent leaves through it and is put back: one visit.
+2. Light and bell come on at random, and have no effect.
+3. Lever, light and bell stay the same for a *bout*, then all are redrawn. A bout ends after each step with probability
+   1 / ``hold``, even in the middle of a visit, and may extend into the next.
+4. With *inference inversion* (thesis eq. 4.7, 4.8) the agent learns once per visit, when its cell changes from the
+   chamber to an exit. With *temporal difference* (eq. 4.6) it learns after every step, and most steps lead from the
+   chamber to the chamber; every event that occurs on a step counts as an action of that step.
 5. The stream does not depend on what is learned. Nothing is learned about the way back.
 """
 
@@ -25,9 +25,9 @@ from neorl.core.stream import randint, new_stream, uniform
 
 ROLES = ("cause", "other lever", "light", "bell")
 N_EVENTS = len(ROLES)
-CELLS = 3  # the chamber, and behind each exit one
+CELLS = 3  # the chamber, and one behind each exit
 POSSIBLE = {"trace": (1,), "memory": (0.0,), "credit": ("share", "happened", "last"), "absent_form": ("decay",)}
-# The plainest rule of its kind, whatever rule the agents of the book have.
+# The plainest rule of its kind, independent of the rule that the book's agents have.
 INVERSION = Learning(learning_rate=0.03, discount=0.8, update_on="cell", credit="share", absent_decay=0.0,
                      absent_form="decay", terminal=True, trace=1, memory=0.0, bootstrap=True, causes="any",
                      capture="contact", attention="each")
@@ -38,8 +38,8 @@ DIFFERENCE = replace(INVERSION, update_on="step")
 class Chamber:
     """A chamber with two levers.
 
-    effort: steps that a lever has to be pressed for, ≥ 1. delay: steps from then until the exit opens, ≥ 0.
-    hold: mean steps of a bout, ≥ 1. light, bell: how probably either is on during a bout, from 0 to 1.
+    effort: steps for which a lever has to be pressed, ≥ 1. delay: steps from then until the exit opens, ≥ 0.
+    hold: mean length of a bout in steps, ≥ 1. light, bell: probability that it is on during a bout, from 0 to 1.
 
     Raises ValueError for anything else.
     """
@@ -58,7 +58,7 @@ class Chamber:
 
 
 class ChamberRules(NamedTuple):
-    """A chamber as the kernel takes it."""
+    """A `Chamber` in the form that the kernel takes."""
 
     effort: int
     delay: int
@@ -68,12 +68,12 @@ class ChamberRules(NamedTuple):
 
 
 def learn_in(chamber, learning, visits, runs, seed=0):
-    """What the events of a chamber come to be worth for either exit: float32 (runs, visits, 4, 2), after each visit.
+    """Learn the values of a chamber's events for either exit: float32 (runs, visits, 4, 2), after each visit.
 
-    The four events are the levers of the two exits, light and bell.
+    The four events are the levers of the two exits, the light and the bell.
     learning: a `Learning` without a longer trace or memory, whose credit is "share", "happened" or "last", and whose
-    absence is a decay. visits, runs: integers ≥ 1. seed: integer ≥ 0; run k is the same for any number of runs, and
-    meets the same stream of events whatever ``learning`` is.
+    absent form is "decay". visits, runs: integers ≥ 1. seed: integer ≥ 0; run k is the same for any number of runs, and
+    has the same stream of events under any ``learning``.
     Raises ValueError for anything else.
     """
     checks.instance("chamber", chamber, Chamber)
@@ -96,7 +96,7 @@ def learn_in(chamber, learning, visits, runs, seed=0):
 
 
 def by_role(values):
-    """The same by what part an event plays for an exit, see ``ROLES``, the mean of both exits: float32 (…, 4).
+    """Values by the role of an event for an exit, see ``ROLES``, averaged over both exits: float32 (…, 4).
 
     values: (…, 4, 2), as `learn_in` returns them.
     """
@@ -106,26 +106,26 @@ def by_role(values):
 
 
 def lead_of_cause(values):
-    """How much more an exit's cause is worth than the best of the other events, the mean of both exits: float32 (…).
+    """Value of an exit's cause less that of the best other role, each averaged over both exits: float32 (…).
 
-    values: (…, 4, 2), as `learn_in` returns them. It is positive where a choice by value would be the right one.
+    values: (…, 4, 2), as `learn_in` returns them. The lead is positive where a choice by value would be right.
     """
     roles = by_role(values)
     return roles[..., 0] - roles[..., 1:].max(axis=-1)
 
 
 def learn_by_each(chamber, rules, visits, runs, seed=0):
-    """What `learn_in` returns for each of several rules, on the same streams: {name: values}.
+    """Values by `learn_in` under each of several rules, on the same streams: {name: values}.
 
-    rules: {name: `Learning`}. All else is as in `learn_in`.
+    rules: {name: `Learning`}. Other arguments as in `learn_in`.
     """
     return {name: learn_in(chamber, rule, visits, runs, seed) for name, rule in rules.items()}
 
 
 def vary_hold(holds, rules, visits, runs, seed=0):
-    """The same in chambers whose bouts last shorter or longer: {hold: {name: values}}.
+    """Values by `learn_by_each` in chambers with shorter and longer bouts: {hold: {name: values}}.
 
-    holds: as `Chamber` takes them. All else is as in `learn_in`.
+    holds: as `Chamber` takes them. Other arguments as in `learn_by_each`.
     """
     return {hold: learn_by_each(Chamber(hold=hold), rules, visits, runs, seed) for hold in holds}
 
@@ -133,8 +133,8 @@ def vary_hold(holds, rules, visits, runs, seed=0):
 def variants(chamber):
     """Rules beside the two that the thesis compares: {name: `Learning`}.
 
-    With the same horizon, temporal difference discounts ``effort`` steps in the chamber as inversion does a visit. The
-    others give credit in other ways.
+    With the same horizon, temporal difference discounts ``effort`` steps in the chamber as much as inversion discounts
+    a visit. The others differ from inversion in how they assign credit.
     """
     a_step = DIFFERENCE.discount ** (1 / chamber.effort)
     return {"temporal difference, same horizon": replace(DIFFERENCE, discount=a_step),
@@ -145,7 +145,7 @@ def variants(chamber):
 
 @kernel
 def _live_in(chamber, stream, by_step, credit, learning_rate, rule, learned, counts, occurs, rates, values):
-    """Live as many visits as there are `values`, which hold those of the chamber after each."""
+    """Live a visit for each row of `values`, and store the chamber's values after it there."""
     over = True
     lever = 0
     for visit in range(values.shape[0]):
@@ -171,7 +171,7 @@ def _live_in(chamber, stream, by_step, credit, learning_rate, rule, learned, cou
                 learn_all_goals(learned, rule, 0, cell, rates)
             over = uniform(stream) * chamber.hold < 1.0
         if not by_step:
-            steps = counts[0] + counts[1]  # one of the levers is pressed on every step
+            steps = counts[0] + counts[1]  # one of the levers is pressed at every step
             for event in range(N_EVENTS):
                 share = np.float32(counts[event]) / np.float32(steps)
                 if credit == Credit.happened:

@@ -13,7 +13,7 @@ TOLD = [0, 9, 99]  # after 1, 10 and 100 visits
 
 
 def leads(values):
-    """The lead of the cause by each rule, and that of the first rule less that of the second, after 1, 10, 100 visits.
+    """Lead of the cause under each rule, and that of the first rule less that of the second, after 1, 10, 100 visits.
 
     The first rule is inference inversion and the second temporal difference.
     """
@@ -26,8 +26,8 @@ def leads(values):
     after = [_finely(each) for each in ahead]
     chance = probability_of_improvement(inversion[:, 2], difference[:, 2])
     said = [f"The lead of inference inversion, less that of temporal difference on the same streams, is {after[0]} "
-            f"after 1 visit, {after[1]} after 10 and {after[2]} after 100; there a run of the one beats a run of the "
-            f"other with probability {chance}."]
+            f"after 1 visit, {after[1]} after 10 and {after[2]} after 100; by then a run of the former beats a run of "
+            f"the latter with probability {chance}."]
     if ahead[2].low > 0:
         said.append("So in the end inversion has the larger lead, "
                     f"{inversion[:, 2].mean() / difference[:, 2].mean():.0f} times as large: for temporal difference, "
@@ -44,16 +44,17 @@ def leads(values):
 
 
 def _finely(found):
-    """An estimate with three decimals."""
+    """An `Estimate` with three decimals, as text."""
     bounds = "" if np.isnan(found.low) else f" [{found.low:z.3f}, {found.high:z.3f}]"
     return f"{found.value:z.3f}{bounds}".replace("-", "−")
 
 
 def longer_stays(efforts, sampled, lead):
-    """How values and leads depend on finer steps, for inversion, temporal difference, and that with the same horizon.
+    """How values and leads change with finer steps.
 
     efforts: steps to open an exit, in order. sampled, lead: values by role (runs, 4) and the lead of the cause, an
-    `Estimate`, for each effort: {rule: […]}, of these three rules.
+    `Estimate`, for each effort: {rule: […]}. The rules are inversion, temporal difference, and the latter with the same
+    horizon.
     """
     at_first = sampled["inversion"][0][:, 0].mean()
     causes = [estimate(np.mean, groups[-1][:, 0]) for groups in sampled.values()]
@@ -74,8 +75,8 @@ def late_effects(delays, first, brief, quick):
     """Which rules cope with exits that open late, with brief events, and with quick learning.
 
     first: {"inversion", "last event", "difference": [share of runs with the cause first, an Estimate, for each delay]}.
-    brief: {hold: values}, the usual one among them. quick: values with α = 0.3. Both are of inversion and of temporal
-    difference.
+    brief: {hold: values}, with the default hold among them. quick: values with α = 0.3. Both are of inversion and of
+    temporal difference.
     """
     share = {name: f"{100 * estimates[-1].value:.0f} %" for name, estimates in first.items()}
     said = [f"With a delay of {delays[-1]} steps the cause comes first in {share['inversion']} of the runs with credit "
@@ -85,13 +86,13 @@ def late_effects(delays, first, brief, quick):
     shortest, usual = (lead[hold][0] for hold in (min(lead), Chamber.hold))  # by inversion
     if shortest.high < usual.low:
         said.append("Credit by share has its own weakness: events that do not persist. The briefer they are, the more "
-                    "every stay contains of both levers.")
+                    "both levers mix within a stay.")
     said.append(f"The table is for exits that open at once, after {Chamber.effort} presses in all.")
     rows = [[f"{hold} steps", *estimates] for hold, estimates in lead.items()]
     inversion, difference = _final_leads(quick)
     return (" ".join(said) + "\n\n" + table(["Events last", "Lead, inversion", "Lead, temporal difference"], rows)
             + f"\n\nAll this is with α = {INVERSION.learning_rate:g}. With α = 0.3, ten times as much, the lead after "
-            f"100 visits is {inversion} and {difference}.")
+            f"100 visits is {inversion} with inversion and {difference} with temporal difference.")
 
 
 def _final_leads(values):
@@ -99,7 +100,7 @@ def _final_leads(values):
 
 
 def bright_light(values):
-    """By which rules the cause comes first, and how cause and light compare, as text: a line for each rule."""
+    """How often the cause comes first under each rule, and the values of cause and light, as text: a line per rule."""
     lines = []
     for name, each in values.items():
         _, after_10, after_100 = np.mean(lead_of_cause(each)[:, TOLD] > 0, axis=0)

@@ -1,10 +1,10 @@
-"""Whether learning requires persistence: agents that learn at changes of cell, or else at every step (claim T7).
+"""Whether learning requires persistence: agents that learn at changes of cell, or at every step (claim T7).
 
-1. The agents are those of paper A with maps N3, N7 and N23, in the tank of that paper. They differ in their temporal
-   driver alone.
-2. Those that learn at every step do so with three discounts: γ itself, and the roots of it that see as far in time if a
-   stay in a cell lasts 10 steps or 50.
-3. They have as many runs as a verdict needs, at most. The best of the three counts.
+1. The agents are those of paper A with maps N3, N7 and N23, in the tank of that paper. They differ only in their
+   temporal driver.
+2. Agents that learn at every step have one of three discounts: γ itself, and the roots of γ with the same horizon in
+   time if a stay in a cell lasts 10 or 50 steps.
+3. They have at most as many runs as a verdict needs. The best of the three counts.
 """
 
 from dataclasses import replace
@@ -22,10 +22,10 @@ STAYS = (1, 10, 50)  # steps
 
 
 def live(readings, steps, runs, seed=0):
-    """The results under each reading: {name: {label: Result}}, labelled `CHANGES`, `BROWNIAN`, or by their discount.
+    """Results under each reading: {name: {label: Result}}, labelled `CHANGES`, `BROWNIAN`, or by their discount.
 
-    readings: {name: Reading}. steps, runs, seed: as in `conditions`, but that agents that learn at every step have 10
-    runs at most.
+    readings: {name: Reading}. steps, runs, seed: as in `conditions`, except that agents that learn at every step have
+    at most 10 runs.
     """
     return {name: _live(reading, steps, runs, seed) for name, reading in readings.items()}
 
@@ -41,13 +41,13 @@ def _live(reading, steps, runs, seed):
 
 
 def judge(results):
-    """Claim T7 under one reading. results: as `live` has them."""
+    """Judge claim T7 under one reading. results: {label: Result}, as `live` returns them for it."""
     each_step = {label: result for label, result in results.items() if label not in (CHANGES, BROWNIAN)}
     return claims.judge_persistence(results[CHANGES], each_step, results[BROWNIAN])
 
 
 def in_words(lived, judged):
-    """The final reward of agents under each reading, and the share that learning at every step keeps, in Markdown.
+    """Final reward under each reading, and the share of the gain that learning at every step keeps, in Markdown.
 
     lived: as `live` returns it. judged: {name: `Claim`}, of the same readings.
     """
@@ -58,16 +58,16 @@ def in_words(lived, judged):
         for label, result in of_readings:
             rate = result.rate() if label == BROWNIAN else result.rate(*claims.FINAL)
             rows[-1].append(f"{estimate(np.mean, rate)}" + ("" if label in learns_at else f" ({label})"))
-    return ("Reward per second in the last fifth of a run; of Brownian motion, over the whole run:\n\n"
+    return ("Reward per second in the last fifth of a run; for Brownian motion, over the whole run:\n\n"
             + table(["Learns at", *lived], rows) + f"\n\n{share_in_words(judged)}")
 
 
 def share_in_words(judged):
-    """What learning at every step gains over Brownian motion, as a multiple, in a sentence: {name: `Claim`}."""
+    """Gain of learning at every step as a multiple of that at changes of cell, in a sentence: {name: `Claim`}."""
     return "; ".join(f"{name}, {_share_that_is_kept(claim)}" for name, claim in judged.items()).capitalize() + "."
 
 
 def _share_that_is_kept(claim):
     if claim.outcome == "not testable":
         return "agents that learn at changes of cell show no gain to compare with"
-    return f"learning at every step gains {claim.here} times what learning at changes of cell gains"
+    return f"learning at every step gains {claim.here} times as much as learning at changes of cell"

@@ -1,11 +1,11 @@
-"""Value functions of rewards on a grid: their overlap, and what their sum is worth (thesis section 4.1.2).
+"""Value functions of rewards on a grid: their overlap, and the return from following their sum (thesis section 4.1.2).
 
-1. A state pays its reward whenever it is entered. A step into a wall enters nothing. Nothing ever ends.
-2. `plan` finds the best values exactly. For a reward of 1 in one state they are the operant value function towards it;
-   mutually exclusive rewards are what definition 4 of the thesis calls orthogonal.
-3. *Superposition* (eq. 4.3, 4.4) adds the value functions of all elements, each times its valence. What a fixed policy
-   is worth is linear in the rewards, so for it the sum is exact. The best values are not linear: each function of the
-   sum supposes that the agent goes after its element alone.
+1. A state pays its reward whenever it is entered. A step into a wall enters no state. The task is continuing.
+2. `plan` finds the best values exactly. With a reward of 1 in one state they are the operant value function towards it;
+   definition 4 of the thesis calls mutually exclusive rewards orthogonal.
+3. *Superposition* (eq. 4.3, 4.4) adds the value functions of all elements, each times its valence. The values of a
+   fixed policy are linear in the rewards, so for them the sum is exact. The best values are not linear: each term of
+   the sum assumes that the agent pursues its element alone.
 """
 
 import math
@@ -16,24 +16,24 @@ import numpy as np
 from neorl import checks
 from neorl.chapters.chapter_3 import decision
 
-CONVERGED = 1e-12  # what is left of the error at the start
+CONVERGED = 1e-12  # remaining share of the initial error
 
 
 class Comparison(NamedTuple):
     """Superposition against the plan for all elements at once, in the states without an element, for each placement.
 
-    Losses are shares of the plan's average return over placements, since in some of them it makes nothing.
+    Losses are shares of the plan's return averaged over placements, since in some placements it earns nothing.
     """
 
     agreement: np.ndarray  # share of the actions of superposition that are best: float64 (placements,)
-    achieved: np.ndarray  # 1 less what is lost by following them: float64 (placements,)
-    at_random: np.ndarray  # 1 less what is lost by drawing actions: float64 (placements,)
+    achieved: np.ndarray  # 1 less the loss from following them: float64 (placements,)
+    at_random: np.ndarray  # 1 less the loss from drawing actions: float64 (placements,)
 
 
 def plan(grid, rewards, discount=0.8):
-    """The best action values: float64 (…, states, 4), by value iteration.
+    """Best action values, by value iteration: float64 (…, states, 4).
 
-    grid: a `Grid`. rewards: (…, states), paid on entering. discount: γ a step, from 0 to 0.99.
+    grid: a `Grid`. rewards: (…, states), paid on entering. discount: γ per step, from 0 to 0.99.
     Raises ValueError for anything else.
     """
     rewards = _checked(grid, rewards, discount)
@@ -42,9 +42,9 @@ def plan(grid, rewards, discount=0.8):
 
 
 def evaluate(grid, policy, rewards, discount=0.8):
-    """What a policy is worth in each state: float64 (…, states), by solving its linear equations.
+    """Value of each state under a policy, by solving its linear equations: float64 (…, states).
 
-    policy: (…, states, 4), the probability of each action. All else is as in `plan`.
+    policy: (…, states, 4), the probability of each action. Other arguments as in `plan`.
     """
     rewards = _checked(grid, rewards, discount)
     moves = np.zeros((*policy.shape[:-1], grid.states))
@@ -55,9 +55,9 @@ def evaluate(grid, policy, rewards, discount=0.8):
 
 
 def error_of_sum(grid, rewards):
-    """How far the values of drawn actions are off if those for each state's reward are added: float.
+    """Largest error of a sum of value functions, one for each state's reward, under random actions: float.
 
-    rewards: (states,). It is 0 up to rounding, as for every fixed policy.
+    rewards: (states,). The error is 0 up to rounding, as for every fixed policy.
     """
     drawn = np.full((grid.states, 4), 0.25)
     alone = evaluate(grid, np.stack([drawn] * grid.states), np.eye(grid.states))
@@ -65,18 +65,18 @@ def error_of_sum(grid, rewards):
 
 
 def best_actions(q):
-    """Which actions are best, several where they are equal: bool (…, states, 4)."""
+    """Which actions are best, including ties: bool (…, states, 4)."""
     return q > q.max(axis=-1, keepdims=True) - 1e-9
 
 
 def greedy(q):
-    """The policy of the best actions, equally likely where there are several: float64 (…, states, 4)."""
+    """Greedy policy, in which tied actions are equally likely: float64 (…, states, 4)."""
     best = best_actions(q)
     return best / best.sum(axis=-1, keepdims=True)
 
 
 def misled(q, planned, elements):
-    """The states without an element in which an action is best by q and not by the plan: a list of integers.
+    """States without an element in which an action is best by q but not by the plan: a list of integers.
 
     q, planned: (states, 4). elements: a collection of states.
     """
@@ -85,9 +85,10 @@ def misled(q, planned, elements):
 
 
 def compare(grid, valences, placements, seed=0, discount=0.8):
-    """A `Comparison` for elements of these valences in states that are drawn anew for each placement.
+    """Compare superposition with the plan, for elements in states drawn for each placement: a `Comparison`.
 
-    valences: fewer than there are states, one of them positive at least. placements: integer ≥ 1. seed: integer ≥ 0.
+    valences: of the elements, fewer than the states, at least one of them positive. placements: integer ≥ 1.
+    seed: integer ≥ 0. Other arguments as in `plan`.
     Raises ValueError for anything else.
     """
     valences = checks.finite("valences", np.asarray(valences, float))
@@ -112,16 +113,16 @@ def compare(grid, valences, placements, seed=0, discount=0.8):
 
 
 def compare_discounts(grid, placements, seed=0, discounts=(0.5, 0.95)):
-    """Many wanted elements, and few among feared ones, under several discounts: {γ: two `Comparison`}.
+    """Compare superposition with the plan under several discounts: {γ: two `Comparison`}.
 
-    The first has six elements of valence 1, the second one of 1 and two of −1. All else is as in `compare`.
+    The first has six elements of valence 1, the second one of 1 and two of −1. Other arguments as in `compare`.
     """
     return {discount: [compare(grid, valences, placements, seed, discount) for valences in ([1] * 6, [1, -1, -1])]
             for discount in discounts}
 
 
 def cosines(vectors):
-    """The cosine of the angle between any two of several vectors (n, length): float64 (n, n), 0 with a vector of 0."""
+    """Cosine of the angle between each two of several vectors (n, length): float64 (n, n), 0 for a zero vector."""
     length = np.linalg.norm(vectors, axis=1, keepdims=True)
     unit = vectors / np.where(length > 0, length, 1)
     return unit @ unit.T

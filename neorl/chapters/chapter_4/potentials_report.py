@@ -9,7 +9,7 @@ from neorl.evidence.statistics import estimate
 def overlaps(learned, planned, cosines):
     """Whether the value functions of all cells are orthogonal, and whether they are a basis.
 
-    learned: (runs, goals, cells). planned: (goals, cells). cosines: by how far goals are apart, {"learned": (runs,
+    learned: (runs, goals, cells). planned: (goals, cells). cosines: by the distance between goals, {"learned": (runs,
     distances), "planned": (1, distances)}.
     """
     runs, cells = learned.shape[:2]
@@ -51,16 +51,16 @@ def shares_of_plan(compared, feared, by_discount):
     said = []
     exact = [str(n) for n in wanted if compared[n, 0].achieved.min() > 1 - 1e-9]
     if exact:
-        said.append(f"Without feared elements, the sum lost nothing in any placement of {' or '.join(exact)} desired.")
+        said.append(f"With {' or '.join(exact)} desired and no feared elements, the sum lost nothing in any placement.")
     shares = [each.achieved.mean() for each in compared.values()]
     drawn = [each.at_random.mean() for each in compared.values()]
     n, m = min(zip(shares, compared))[1]
     said.append(f"Following it earns {_range(shares)} of the plan's return, and random actions {_range(drawn)}. It "
                 f"does worst with {n} desired and {m} feared.")
-    others = (f"with γ = {discount:g} they earn " + " and ".join(str(estimate(np.mean, each.achieved)) for each in both)
+    others = (f"with γ = {discount:g} it earns " + " and ".join(str(estimate(np.mean, each.achieved)) for each in both)
               for discount, both in by_discount.items())
-    said.append(f"The loss depends on the discount: for six desired and none feared, and for one desired and two "
-                f"feared, {'; '.join(others)}.")
+    said.append(f"The share that the sum earns depends on the discount: for six desired and none feared, and for one "
+                f"desired and two feared, {'; '.join(others)}.")
     return ("Return from following the sum, as a fraction of the plan's:\n\n" + table(header, rows) + "\n\n"
             + " ".join(said))
 
@@ -70,6 +70,9 @@ def _range(shares):
 
 
 def largest_weights(weights, rewards):
-    """The eight largest weights that make a plan of value functions, and the valences, as text. Both are (cells,)."""
+    """The eight largest weights with which value functions add up to a plan, and the valences, as text.
+
+    weights, rewards: (cells,).
+    """
     return "\n".join(f"cell {cell}: weight {weights[cell]:+.2f}, valence {rewards[cell]:+.0f}"
                      for cell in np.argsort(-np.abs(weights))[:8])

@@ -1,4 +1,4 @@
-"""Drawings of chapter 4, of walks and their parts, sums of functions, overlaps, and what events come to be worth."""
+"""Figures of chapter 4: walks, parts of series, sums of functions, overlaps, policies, learned values, load."""
 
 import numpy as np
 from matplotlib import pyplot as plt
@@ -15,7 +15,7 @@ from neorl.evidence.statistics import mean_band
 
 
 def draw_walks(paths_by_title, goal):
-    """Walks in three dimensions, a panel each: {title: paths (walks, steps + 1, 3)}, and the goal of the last panel."""
+    """Draw walks in three dimensions, a panel per title, and the goal of the last: {title: (walks, steps + 1, 3)}."""
     width, _ = plt.rcParams["figure.figsize"]
     figure, panels = plt.subplots(1, len(paths_by_title), figsize=(width, 0.64 * width),
                                   subplot_kw={"projection": "3d", "computed_zorder": False})
@@ -37,9 +37,9 @@ def draw_walks(paths_by_title, goal):
 
 
 def draw_displacements(lags, squared):
-    """Root mean square distance over steps on logarithmic axes: squared {β: (runs, lags)}.
+    """Draw root mean square distance over steps on logarithmic axes: squared {β: (runs, lags)}.
 
-    Points are measured, with the 95 % interval of the mean; lines are what a constant drift lets one expect.
+    Points are measured, with the 95 % interval of the mean; lines are expected under a constant drift.
     """
     axes = plt.figure().add_subplot()
     ends, fine = [], np.geomspace(lags[0], lags[-1], 100)
@@ -55,7 +55,7 @@ def draw_displacements(lags, squared):
 
 
 def draw_parts(time, panels):
-    """Series under each other: panels {title: {name: (points,)}} over time (points,), the first of a panel wide."""
+    """Draw series in stacked panels {title: {name: (points,)}} over time (points,), the last of each in a thin line."""
     width, _ = plt.rcParams["figure.figsize"]
     figure, grid = plt.subplots(len(panels), 1, sharex=True, sharey=True, figsize=(width, 1.4 * len(panels)))
     for axes, (title, curves) in zip(grid, panels.items()):
@@ -69,7 +69,7 @@ def draw_parts(time, panels):
 
 
 def draw_errors(errors_by_name, terms):
-    """What sums of so many terms leave over, on a logarithmic axis: {name: (terms + 1,)}; ``terms`` is pointed out."""
+    """Draw the residual of sums over their terms, on a logarithmic axis, a line at ``terms``: {name: (terms + 1,)}."""
     axes = plt.figure().add_subplot()
     ends = []
     for (name, errors), colour in zip(errors_by_name.items(), CURVES):
@@ -77,14 +77,14 @@ def draw_errors(errors_by_name, terms):
         axes.plot(shown, color=colour, marker="o", markersize=4)
         ends.append((shown[-1], name, colour))
     axes.axvline(terms, color=INK, linewidth=1, linestyle="--")
-    axes.set(xlabel="terms", ylabel="left over, share of the spread")
+    axes.set(xlabel="terms", ylabel="residual, share of the spread")
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     _as_powers(axes.yaxis)
     name_ends(axes, ends)
 
 
 def draw_overlaps(matrices):
-    """Square matrices of values from 0 to 1 side by side, the more opaque the larger: {title: (n, n)}."""
+    """Draw square matrices side by side, from 0, transparent, to 1, opaque: {title: (n, n)}."""
     width, _ = plt.rcParams["figure.figsize"]
     figure, panels = plt.subplots(1, len(matrices), figsize=(width, 0.62 * width))
     figure.get_layout_engine().set(wspace=0.12)
@@ -95,9 +95,9 @@ def draw_overlaps(matrices):
 
 
 def draw_policies(grid, q_by_title, valences):
-    """The best actions of two or more q (states, 4) side by side: {title: q}; valences {state: valence}.
+    """Draw the best actions of two or more q (states, 4) side by side: {title: q}; valences {state: valence}.
 
-    A state of the first panel is ringed where one of its actions is not among the best of the last.
+    A state of the first panel is ringed if one of its best actions is not among those of the last panel.
     """
     colours = {state: (GREEN if valence > 0 else RED, 0.95) for state, valence in valences.items()}
     first, *_, last = q_by_title.values()
@@ -115,7 +115,7 @@ def draw_policies(grid, q_by_title, valences):
 
 
 def draw_roles(values_by_rule):
-    """What events come to be worth over visits, a panel for each rule: {title: (runs, visits, roles)}.
+    """Draw the values of events over visits, a panel for each rule: {title: (runs, visits, roles)}.
 
     Means over runs with their 95 % intervals, on a logarithmic axis of visits.
     """
@@ -134,7 +134,7 @@ def draw_roles(values_by_rule):
 
 
 def draw_estimates(xs, estimates_by_name, xlabel, ylabel, logarithmic=False):
-    """Values with their 95 % intervals against a number: {name: [Estimate for each of xs]}."""
+    """Draw values with their 95 % intervals against xs: {name: [Estimate for each of xs]}."""
     axes = plt.figure().add_subplot()
     axes.set_xscale("symlog" if logarithmic and min(xs) == 0 else "log" if logarithmic else "linear")
     axes.set(xlabel=xlabel, ylabel=ylabel, xticks=xs, xticklabels=[f"{x:g}" for x in xs])
@@ -143,10 +143,10 @@ def draw_estimates(xs, estimates_by_name, xlabel, ylabel, logarithmic=False):
 
 
 def draw_load(pace, seconds):
-    """The load of each window of a `Pace` of windows of so many seconds, on a logarithmic axis up to one core."""
+    """Draw the load of each window of a `Pace` on a logarithmic axis. seconds: length of a window."""
     axes = plt.figure(figsize=(plt.rcParams["figure.figsize"][0], 2.6)).add_subplot()
     axes.plot((np.arange(len(pace.load)) + 0.5) * seconds, pace.load, color=CURVES[0], marker="o", markersize=5)
-    axes.set(xlabel="seconds by the clock", ylabel="share of a core", yscale="log", ylim=(0.003, 1.5),
+    axes.set(xlabel="wall-clock seconds", ylabel="share of a core", yscale="log", ylim=(0.003, 1.5),
              xlim=(0, len(pace.load) * seconds))
     axes.yaxis.set_major_formatter(PercentFormatter(1.0, decimals=0))
     axes.axhline(1.0, color=INK, linewidth=1, linestyle="--")
@@ -154,6 +154,6 @@ def draw_load(pace, seconds):
 
 
 def _as_powers(axis):
-    """Label an axis of logarithms by the powers of ten that they stand for."""
+    """Label an axis of logarithms with the powers of ten."""
     axis.set_major_locator(MaxNLocator(integer=True))
     axis.set_major_formatter(lambda power, _: f"$10^{{{power:.0f}}}$")

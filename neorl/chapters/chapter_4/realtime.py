@@ -1,10 +1,10 @@
-"""A run in real time: each step is due when the clock says so, and what it costs is measured (claim T5).
+"""A run in real time: steps are due by the clock, and their cost is measured (claim T5).
 
-1. Step k begins k / fps seconds after the first, or at once if the one before it is not done by then.
-2. A step is done in time if it is done before the next one is due. Its *delay* is the time from when it was due until
-   it is done, in steps: up to 1 is in time.
-3. Time is cut into windows. The *load* of a window is the processor time that the whole process takes in it, over all
-   its threads, divided by how long it lasts: 1 is a core that is never idle.
+1. Step k begins k / fps seconds after the first, or, if the step before it is not done by then, as soon as it is.
+2. A step is in time if it is done before the next one is due. Its *delay* is the time from its due time until it is
+   done, in steps: up to 1 is in time.
+3. Time is cut into windows. The *load* of a window is the processor time of the whole process in it, over all threads,
+   divided by the length of the window: 1 is a core that is never idle.
 """
 
 import time
@@ -16,16 +16,16 @@ from neorl import checks
 
 
 class Pace(NamedTuple):
-    """How a run kept up with the clock."""
+    """How well a run kept up with the clock."""
 
     load: np.ndarray  # of each window, in cores: float64 (windows,)
-    delay: np.ndarray  # of each step, in steps: float64 (windows, steps a window)
+    delay: np.ndarray  # of each step, in steps: float64 (windows, steps per window)
 
 
 def keep_pace(run, windows, seconds):
-    """Let a `Run` go on in real time, and return its `Pace`.
+    """Advance a `Run` in real time, and return its `Pace`.
 
-    windows: integer ≥ 1. seconds: that a window lasts, long enough for a step of the run's world.
+    windows: integer ≥ 1. seconds: length of a window, at least a step of the run's world.
     Raises ValueError for anything else.
     """
     fps = run.world.fps

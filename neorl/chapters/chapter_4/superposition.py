@@ -1,9 +1,9 @@
 """Functions of two variables as sums of functions of one (thesis section 4.1.1, equation 4.2).
 
 1. Kolmogorov and Arnold write every continuous function as Σ_q χ_q(Σ_p ψ_qp(x_p)), with 2n + 1 outer functions χ.
-2. Here the inner functions are as plain as can be, so that each term is a *ridge*: χ(x cos θ + y sin θ).
-3. Ridges are added one at a time, each at the angle θ that explains most of what the others have left over (projection
-   pursuit, Friedman and Stuetzle 1981). The outer functions are polynomials, fitted by least squares all together.
+2. Here the inner functions are the plainest possible, so each term is a *ridge*: χ(x cos θ + y sin θ).
+3. Ridges are added one at a time, each at the angle θ that explains most of the residual of the others (projection
+   pursuit, Friedman and Stuetzle 1981). The outer functions are polynomials, fitted jointly by least squares.
 """
 
 from typing import NamedTuple
@@ -18,16 +18,16 @@ AXES = np.array([0, np.pi / 2])  # the angles of functions of x alone and of y a
 
 
 class Ridges(NamedTuple):
-    """What a sum of ridges makes of a function."""
+    """A sum of ridges fitted to a function."""
 
     angles: np.ndarray  # θ of each ridge: float64 (terms,)
-    errors: np.ndarray  # root mean square left over by 0, 1, … ridges: float64 (terms + 1,), in standard deviations
+    errors: np.ndarray  # root mean square residual of 0, 1, … ridges: float64 (terms + 1,), in standard deviations
 
 
 def exact_sums(x, y):
-    """Functions of two variables that show their sum at a glance: {name: (function, formula of the sum, sum)}.
+    """Functions of two variables with an evident sum: {name: (function, formula of the sum, sum)}.
 
-    x, y: float64 (…). Function and sum are of the same shape, and equal up to rounding.
+    x, y: float64 (…). Function and sum have the same shape, and are equal up to rounding.
     """
     return {"product of x and y": (x * y, "((x + y)² − (x − y)²) / 4", ((x + y) ** 2 - (x - y) ** 2) / 4),
             "larger of x and y": (np.maximum(x, y), "(x + y + √((x − y)²)) / 2", (x + y + np.sqrt((x - y) ** 2)) / 2),
@@ -35,10 +35,10 @@ def exact_sums(x, y):
 
 
 def fit_ridges(values, terms, angles=ANGLES):
-    """The `Ridges` that fit a function over the square from −1 to 1.
+    """Fit `Ridges` to a function on the square from −1 to 1.
 
-    values: float64 (side, side), not all equal, at points spread evenly; the first axis is y. terms: integer ≥ 1.
-    angles: those to choose from, in radians; by default 60 of them, spread over half a turn.
+    values: float64 (side, side), not all equal, at evenly spaced points; the first axis is y. terms: integer ≥ 1.
+    angles: candidates, in radians; by default 60, spread evenly over half a turn.
     Raises ValueError for anything else.
     """
     values = checks.finite("values", np.asarray(values, float))
@@ -55,7 +55,7 @@ def fit_ridges(values, terms, angles=ANGLES):
         best = int(np.argmax([np.square(each.T @ left).sum() for each in outer]))
         new = outer[best] - found @ (found.T @ outer[best])
         directions, sizes, _ = np.linalg.svd(new, full_matrices=False)
-        found = np.hstack([found, directions[:, sizes > 1e-8]])  # not what earlier ridges have said already
+        found = np.hstack([found, directions[:, sizes > 1e-8]])  # without what earlier ridges span
         left = left - found @ (found.T @ left)
         chosen.append(angles[best])
         errors.append(left.std() / spread)

@@ -1,17 +1,18 @@
-"""Random walks in three dimensions, and the bias that makes behaviour of them (thesis section 4.1.1, figure 4.1).
+"""Random walks in three dimensions, and the bias that turns them into behaviour (thesis section 4.1.1, figure 4.1).
 
-1. At each step a walker goes one unit along one of the six directions of the axes.
-2. With probability 1 − β it draws the direction. With probability β, the *strength* of its bias, it goes along the axis
-   on which its goal is furthest, towards the goal; a walker that is at its goal draws.
-3. β = 0 is a random walk, whose position after many steps is a Wiener process; it is an ε-greedy agent with ε = 1 − β.
-4. A goal may be infinitely far. Its direction never changes then, and the bias is a constant drift.
+1. At each step a walker moves one unit in one of the six directions of the axes.
+2. With probability 1 − β it draws the direction. With probability β, the *strength* of its bias, it moves towards its
+   goal, along the axis on which the goal is furthest; at its goal it always draws.
+3. The walker is an ε-greedy agent with ε = 1 − β. β = 0 is a random walk, whose position after many steps is a Wiener
+   process.
+4. A goal may be infinitely far away. Its direction then never changes, and the bias is a constant drift.
 """
 
 import numpy as np
 
 from neorl import checks
 
-NEAR = 5  # units from a goal within which a walk has come to it
+NEAR = 5  # units within which a walk has reached a goal
 DIRECTIONS = np.concatenate([np.eye(3, dtype=np.int32), -np.eye(3, dtype=np.int32)])
 
 
@@ -48,7 +49,9 @@ def walk(strength, goal, steps, runs, seed=0):
 
 
 def _towards(to_goal):
-    """The direction along the axis on which a goal is furthest: int64 (walkers,), the first where several are.
+    """Index of the direction towards a goal, along the axis on which it is furthest: int64 (walkers,).
+
+    Of several such axes, the first is taken.
 
     to_goal: (walkers, 3), from the walker to its goal.
     """
@@ -58,7 +61,7 @@ def _towards(to_goal):
 
 
 def first_arrivals(paths, goal):
-    """The step at which each walk first is within ``NEAR`` units of a goal: float64 (runs,), infinite if it never is.
+    """First step at which each walk is within ``NEAR`` units of a goal: float64 (runs,), infinite if it never is.
 
     paths: (runs, steps + 1, 3). goal: three numbers.
     """
@@ -67,7 +70,7 @@ def first_arrivals(paths, goal):
 
 
 def mean_squared_displacement(paths, lags):
-    """How far walks get in so many steps, squared, on average over all places to begin: float64 (runs, lags).
+    """Mean squared displacement of walks over lags, averaged over all starting steps: float64 (runs, lags).
 
     paths: (runs, steps + 1, 3). lags: integers from 1 to steps.
     """
@@ -77,17 +80,18 @@ def mean_squared_displacement(paths, lags):
 
 
 def expected_squared_displacement(strength, lags):
-    """The same as it is to be expected under a constant drift β: (1 − β²) lag + β² lag².
+    """Expected squared displacement under a constant drift β: (1 − β²) lag + β² lag².
 
-    Up to about (1 − β²) / β² steps a walk diffuses, and its distance grows with the root of time; then it drifts.
+    Up to about (1 − β²) / β² steps a walk diffuses, and its distance grows with the square root of time; then it
+    drifts.
     """
     return (1 - strength**2) * lags + (strength * lags) ** 2
 
 
 def powers_of_time(squared, lags):
-    """The power of time by which distance grows, at the shortest lags and at the longest: float64 (2, runs).
+    """Power of time with which distance grows, at the shortest lags and at the longest: float64 (2, runs).
 
-    squared: as `mean_squared_displacement` returns it, for four lags or more.
+    squared: as `mean_squared_displacement` returns it, for at least four lags.
     """
     return np.array([np.log(squared[:, j] / squared[:, i]) / np.log(lags[j] / lags[i]) / 2
                      for i, j in ((0, 2), (-4, -1))])

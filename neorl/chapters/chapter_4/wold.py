@@ -1,9 +1,9 @@
-"""Wold's decomposition by example: a series is filtered white noise plus what its past foretells (thesis eq. 4.1).
+"""Wold's decomposition by example: a series is filtered white noise plus a predictable part (thesis eq. 4.1).
 
 1. The series is x_t = z_t + u_t. The noise y_t is white, and z_t = y_t + b_1 y_{t−1} + b_2 y_{t−2} + …
-2. The deterministic part u_t is one oscillation, of a phase that each run draws.
-3. `decompose` sees the series alone. It takes the oscillation with the least squared error for u_t, predicts the rest
-   from its past by least squares, and calls what it cannot predict the *innovations*: they stand for y_t.
+2. The deterministic part u_t is one oscillation, with a phase drawn for each run.
+3. `decompose` sees only the series. It takes the oscillation with the least squared error for u_t, predicts the rest
+   from its past by least squares, and takes the prediction errors, called *innovations*, for y_t.
 4. The coefficients b_k are those of the regression of the rest on the innovations, as Wold defines them.
 """
 
@@ -15,11 +15,11 @@ from scipy import linalg, optimize, signal
 from neorl import checks
 
 PAST = 20  # values of the past that predict the next one
-LENGTHS = (300, 1_000, 3_000, 10_000, 30_000)  # of the series that `errors` takes apart, in steps
+LENGTHS = (300, 1_000, 3_000, 10_000, 30_000)  # of the series that `errors` decomposes, in steps
 
 
 class Parts(NamedTuple):
-    """A series taken apart. Without the ``PAST`` first values, before which too little is known of the past."""
+    """A decomposed series, without its first ``PAST`` values, whose past is too short to predict them."""
 
     deterministic: np.ndarray  # u_t: float64 (steps − PAST,)
     stochastic: np.ndarray  # z_t: float64 (steps − PAST,)
@@ -28,10 +28,10 @@ class Parts(NamedTuple):
 
 
 def generate(coefficients, amplitude, period, steps, run=0, seed=0):
-    """A series and its parts, the ``PAST`` first values left out of the parts: (float64 (steps,), `Parts`).
+    """A series and its parts, the parts without the first ``PAST`` values: (float64 (steps,), `Parts`).
 
-    coefficients: b_1, b_2, … of noise with a standard deviation of 1. amplitude, period: of the oscillation, > 0; the
-    period in steps. steps: integer > 2 ``PAST``. run, seed: integers ≥ 0.
+    coefficients: b_1, b_2, … of noise with a standard deviation of 1. amplitude: of the oscillation, ≥ 0. period: of
+    the oscillation, in steps, ≥ 2. steps: integer > 2 ``PAST``. run, seed: integers ≥ 0.
     Raises ValueError for anything else.
     """
     coefficients = checks.finite("coefficients", np.asarray(coefficients, float))
@@ -49,7 +49,7 @@ def generate(coefficients, amplitude, period, steps, run=0, seed=0):
 
 
 def decompose(series, order):
-    """A series taken apart into `Parts`, with b_1 … b_order. series: float64 (steps,), steps > 2 ``PAST``.
+    """Decompose a series into `Parts`, with b_1 … b_order. series: float64 (steps,), steps > 2 ``PAST``.
 
     Raises ValueError for anything else.
     """
@@ -71,10 +71,12 @@ def decompose(series, order):
 
 
 def errors(coefficients, period, longest, runs, seed=0):
-    """How far what `decompose` finds is off from what `generate` puts in, by length: {steps: float64 (3, runs)}.
+    """Errors of `decompose` on series of `generate`, by length: {steps: float64 (3, runs)}.
 
-    Of u_t and of y_t it is the root mean square, of b_1, b_2, … the largest error; the oscillation has an amplitude of
-    1. longest: steps of the longest series, which leaves out greater ``LENGTHS``. All else is as in `generate`.
+    They are the root mean square errors of u_t and of y_t, and the largest error of b_1, b_2, …; the oscillation has an
+    amplitude of 1.
+    longest: steps of the longest series; greater ``LENGTHS`` are left out. runs: of each length. Other arguments as in
+    `generate`.
     """
     return {steps: np.transpose([_error(coefficients, period, steps, run, seed) for run in range(runs)])
             for steps in LENGTHS if steps <= longest}
@@ -93,7 +95,7 @@ def _left_over(frequency, series):
 
 
 def _oscillation(frequency, series):
-    """The best oscillation of a frequency, in periods a series."""
+    """The best-fitting oscillation of a frequency, in periods per series."""
     angle = 2 * np.pi * frequency * np.arange(len(series)) / len(series)
     basis = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     return basis @ _least_squares(basis, series)

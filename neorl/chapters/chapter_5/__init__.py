@@ -1,1 +1,1 @@
-"""What the notebook of chapter 5 runs and reports, namely the two conclusions of the thesis, demonstrated."""
+"""Experiments and sentences of chapter 5: the two conclusions of the thesis, demonstrated."""

@@ -1,10 +1,10 @@
-"""The two conclusions of the thesis (section 5.1), held against the verdicts on its claims under two readings.
+"""The two conclusions of the thesis (section 5.1), compared with the verdicts on its claims under two readings.
 
 1. Each conclusion rests on some claims; all others are the ground of both.
-2. A conclusion holds *whole* if all its claims are reproduced, *in part* if some are, *not at all* if none of those
+2. A conclusion holds *in full* if all its claims are reproduced, *in part* if some are, *not at all* if none of those
    judged is, and it is *without a verdict* if none is judged.
-3. `verdicts` are {reading: {name of a claim: its verdict}}, with the words of `neorl.evidence.report.verdict`, of
-   `LETTER` and `CALIBRATED`.
+3. `verdicts` are {reading: {name of a claim: its verdict}} for the readings `LETTER` and `CALIBRATED`, in the words of
+   `neorl.evidence.report.verdict`.
 """
 
 from neorl.evidence import report
@@ -15,39 +15,39 @@ from neorl.evidence.verdict import VERDICTS
 
 SUPERPOSITION = ("A2", "A3", "A4", "A6", "A7", "A8", "B1", "B2", "B3", "B4", "B6", "B7", "T6")
 SEPARATION = ("T1", "T7", "C1", "C2", "C3", "C4")
-BEYOND = ("C5", "G1", "G2", "G3", "G4")  # which the pages beyond the thesis judge
+BEYOND = ("C5", "G1", "G2", "G3", "G4")  # judged by the pages beyond the thesis
 GROUND = tuple(name for name in CLAIMS if name not in SUPERPOSITION + SEPARATION + BEYOND)
 CONCLUSIONS = {"Superposition": SUPERPOSITION, "Learning apart from behaviour": SEPARATION}
-WITHOUT = {"no verdict": "without a verdict"}  # how a sentence says it
+WITHOUT = {"no verdict": "without a verdict"}  # the form within a sentence
 OTHER_VERDICTS = {"partly": "Partly: {}; the page of claims gives the details.",
                   "not testable": "Not testable, because the agents have not learned: {}.",
                   NOT_COMPUTED: "Not computed when this page was built: {}."}
 
 
 def verdicts_by_reading(record):
-    """The verdicts under both readings. record: as `neorl.evidence.report.load` has it."""
+    """The verdicts under both readings. record: as `neorl.evidence.report.load` returns it."""
     records = {LETTER: {**record, "claims": record["letter"]}, CALIBRATED: record}
     return {reading: {name: report.verdict(found, name) for name in CLAIMS} for reading, found in records.items()}
 
 
 def in_short(verdicts):
-    """How many claims have which verdict, and how far each conclusion holds, in a few sentences of Markdown."""
+    """Number of claims with each verdict, and how far each conclusion holds, in a few sentences of Markdown."""
     tallies = "; ".join(f"{reading}, {_tally(found)}" for reading, found in verdicts.items())
     others = _tally({name: verdicts[CALIBRATED][name] for name in BEYOND})
     held = " ".join(f"*{title}*: {_held(verdicts[CALIBRATED], names)}." for title, names in CONCLUSIONS.items())
     return (f"The book lists {len(CLAIMS)} claims of the thesis, each judged by a rule that was fixed before the "
-            f"results: {tallies}. How far its two conclusions hold in the calibrated reading: {held} Of these claims, "
+            f"results: {tallies}. How far the two conclusions hold in the calibrated reading: {held} Of all claims, "
             f"the pages beyond the thesis judge {len(BEYOND)}: {others}.")
 
 
 def _tally(found):
-    """How many claims have which verdict, with its symbol: "● 6 reproduced, ◐ 11 partly"."""
+    """Number of claims with each verdict, with its symbol: "● 6 reproduced, ◐ 11 partly"."""
     counts = {each: len(_with(each, found)) for each in (*VERDICTS, NOT_COMPUTED)}
     return ", ".join(f"{_symbol(each)}{count} {WITHOUT.get(each, each)}" for each, count in counts.items() if count)
 
 
 def _symbol(verdict):
-    """The symbol of a verdict and a space, before a number."""
+    """The symbol of a verdict and a space, to stand before a number; "" for a verdict without one."""
     return f"{html(verdict)}\u00a0" if leads(verdict) else ""
 
 
@@ -55,12 +55,12 @@ def overview(verdicts):
     """How far each conclusion holds under each reading, as a Markdown list."""
     lines = [f"**{title}**: " + "; ".join(f"{reading}, {_held(found, names)}" for reading, found in verdicts.items())
              + "." for title, names in CONCLUSIONS.items()]
-    return ("A conclusion holds *whole* if all its claims are reproduced, and *in part* if some are.\n\n"
+    return ("A conclusion holds *in full* if all its claims are reproduced, and *in part* if some are.\n\n"
             + "\n".join(f"- {line}" for line in lines))
 
 
 def beyond(record, verdicts):
-    """What the pages beyond the thesis have found of its claims, as a Markdown list."""
+    """Verdicts of the pages beyond the thesis on its claims, as a Markdown list."""
     return "\n".join(
         f"- {_symbol(verdicts[CALIBRATED][name])}**{name}** {STATEMENTS[name].text}: "
         f"*{_said(verdicts, CALIBRATED, name)}*"
@@ -69,12 +69,13 @@ def beyond(record, verdicts):
 
 
 def _held(found, names):
-    """How far a conclusion on the claims `names` holds, with those that do."""
+    """How far a conclusion that rests on the claims `names` holds, and which of these are reproduced."""
     judged = [name for name in names if found[name] in VERDICTS and found[name] != "no verdict"]
     kept = [name for name in judged if found[name] == "reproduced"]
     if not kept:
         return "*not at all*" if judged else "*without a verdict*"
-    return f"*{'whole' if len(kept) == len(names) else 'in part'}* ({', '.join(kept)}, of {len(judged)} claims judged)"
+    return (f"*{'in full' if len(kept) == len(names) else 'in part'}* ({', '.join(kept)}, of {len(judged)} claims "
+            "judged)")
 
 
 def both_verdicts(verdicts):
@@ -88,9 +89,9 @@ def _said(verdicts, reading, name):
 
 
 def what_did_not_hold(record, verdicts):
-    """Claims not reproduced, claims reproduced under one reading alone, and all others, in Markdown.
+    """Claims not reproduced, claims reproduced under only one reading, and all others, in Markdown.
 
-    record: as `neorl.evidence.report.load` has it.
+    record: as `neorl.evidence.report.load` returns it.
     """
     calibrated = verdicts[CALIBRATED]
     said = [_not_reproduced(record, _with("not reproduced", calibrated)), _differences(verdicts)]
@@ -104,20 +105,20 @@ def what_did_not_hold(record, verdicts):
 
 def _not_reproduced(record, names):
     if not names:
-        return "No claim was judged as not reproduced in the calibrated reading, on the pages computed so far."
+        return "No claim was judged not reproduced in the calibrated reading, on the pages computed so far."
     lines = [f"- **{name}** {STATEMENTS[name].text}. Thesis: {STATEMENTS[name].thesis}; here: "
              f"{report.number(record['claims'][name])}. {record['claims'][name]['detail']}" for name in names]
     return "Not reproduced in the calibrated reading:\n\n" + "\n".join(lines)
 
 
 def _differences(verdicts):
-    """Which claims are reproduced under one reading alone, of those that both have judged."""
+    """Which claims are reproduced under only one reading, of those judged under both."""
     calibrated, letter = verdicts[CALIBRATED], verdicts[LETTER]
     judged = [name for name in CLAIMS if calibrated[name] in VERDICTS and letter[name] in VERDICTS]
     differ = [name for name in judged if calibrated[name] != letter[name]]
     here, there = ([name for name in differ if found[name] == "reproduced"] for found in (calibrated, letter))
-    return (f"Reproduced calibrated and not to the letter: {_listed(here)}; to the letter and not calibrated: "
-            f"{_listed(there)}.")
+    return (f"Reproduced in the calibrated reading but not to the letter: {_listed(here)}; to the letter but not in "
+            f"the calibrated reading: {_listed(there)}.")
 
 
 def _in_short_runs(shares):
@@ -126,8 +127,8 @@ def _in_short_runs(shares):
     unclear = [name for name, share in shares.items() if share["undecided"] > share["readings"] / 2]
     verb = "was" if len(unclear) == 1 else "were"
     return (f"In short runs under {max(share['readings'] for share in shares.values())} readings within the text, "
-            f"{_listed(never)} held in none that could be decided; {_listed(unclear)} {verb} undecided in more than "
-            f"half of them.")
+            f"{_listed(never)} held under none that could be decided; {_listed(unclear)} {verb} undecided under more "
+            f"than half of them.")
 
 
 def _with(verdict, found):

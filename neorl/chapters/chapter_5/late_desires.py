@@ -1,8 +1,8 @@
-"""Agents that have no desires in the first part of a run, against agents that have them throughout: a demonstration.
+"""Agents without desires in the first part of a run, beside agents that have them throughout: a demonstration.
 
 1. Both are agents of paper B with all maps of both modalities.
-2. An *indifferent* agent has the same desires with a valence of 0 each. It moves at random, and learns.
-3. At a given step it receives the valences of the others.
+2. An *indifferent* agent has the same desires, each with a valence of 0. It moves at random, and learns.
+3. At a given step it receives the valences of the other agents.
 """
 
 from dataclasses import replace
@@ -15,11 +15,11 @@ from neorl.evidence.verdict import EARLY, FINAL
 from neorl.experiments.sweeping import simulate_once
 from neorl.worlds.waterworld import WaterWorld
 
-BEFORE, AFTER = (0.4, 0.5), (0.5, 0.6)  # half-time, a tenth of the run each
+BEFORE, AFTER = (0.4, 0.5), (0.5, 0.6)  # the tenths of the run before and after half-time
 
 
 def live(reading, begin, steps, runs, seed=0):
-    """The result of agents under a `Reading` that have desires from step ``begin`` on, 0 for throughout: a `Result`.
+    """Run agents under a `Reading` that have desires from step ``begin`` on, 0 for throughout: a `Result`.
 
     steps, runs, seed: as `neorl.simulate` takes them.
     """
@@ -31,7 +31,7 @@ def live(reading, begin, steps, runs, seed=0):
 
 
 def in_words(throughout, from_half_time):
-    """Whether agents that desire from half-time on have learned before, in Markdown. Both are a `Result`."""
+    """Whether agents with desires from half-time on have learned before it, in Markdown. Both are a `Result`."""
     before = estimate(np.mean, from_half_time.rate(*BEFORE))
     after = estimate(np.mean, from_half_time.rate(*AFTER))
     newborn = estimate(np.mean, throughout.rate(*EARLY))
@@ -43,7 +43,7 @@ def in_words(throughout, from_half_time):
     if lead.low > 0:
         said.append(f"The indifferent agents thus learned before half-time: their lead over the first tenth is {lead}.")
     else:
-        said.append(f"Their lead over that, {lead}, may be none.")
+        said.append(f"Their lead over that tenth, {lead}, may be zero.")
     if gap.low <= 0 <= gap.high:
         why = ", which these runs do not distinguish from 0"
     elif gap.high < 0:
@@ -51,15 +51,15 @@ def in_words(throughout, from_half_time):
     else:
         why = ": higher, since drifting agents visit more of the tank"
     ahead = ", so the agents without desires for half the run are ahead" if at_last.low > 0 else ""
-    said.append(f"Against agents with desires throughout, at the same time, the difference is {gap}{why}; in the last "
-                f"fifth of the run it is {at_last}{ahead}.")
+    said.append(f"In the tenth after half-time their lead over agents with desires throughout is {gap}{why}; in the "
+                f"last fifth of the run it is {at_last}{ahead}.")
     return " ".join(said)
 
 
 def vary_begin(reading, begins, steps, runs, seed=0):
     """Reward per second in the tenth of a run after desires begin: {minutes before: `Estimate`}.
 
-    begins: steps, each ≥ 1. All else is as in `live`.
+    begins: steps, each ≥ 1. Other arguments as in `live`.
     """
     earned = {}
     for begin in begins:
@@ -70,5 +70,5 @@ def vary_begin(reading, begins, steps, runs, seed=0):
 
 def beginnings(earned):
     """The results of `vary_begin` as text, one line each."""
-    return "\n".join(f"{minutes:5.2f} minutes without desires: {reward} per second in the tenth after"
+    return "\n".join(f"{minutes:5.2f} minutes without desires: {reward} per second in the next tenth"
                      for minutes, reward in earned.items())

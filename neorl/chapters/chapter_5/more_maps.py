@@ -1,4 +1,4 @@
-"""The final reward of agents with increasing numbers of maps, of either modality and of both: a demonstration.
+"""Final reward of agents with increasing numbers of maps, of either modality and of both: a demonstration.
 
 1. Maps are added from the coarsest on, up to all six of paper B.
 2. Agents of both modalities have as many maps in each.
@@ -33,7 +33,7 @@ def final_rewards(results):
 
 
 def in_words(results):
-    """The gain of more maps, in all and at last, in Markdown."""
+    """Gain from more maps, from one to six and from four to six, in Markdown."""
     final = {name: [result.rate(*FINAL) for result in of_counts] for name, of_counts in results.items()}
     in_all = {name: estimate(difference, rates[-1], rates[0]) for name, rates in final.items()}
     at_last = {name: estimate(difference, rates[-1], rates[-2]) for name, rates in final.items()}

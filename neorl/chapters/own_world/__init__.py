@@ -1,1 +1,1 @@
-"""What the page "Bring your own world" runs: worlds, an environment and rules as a user of the package writes them."""
+"""The page "Bring your own world": worlds, an environment and rules as a user of the package writes them."""

@@ -1,4 +1,4 @@
-"""A pond with a lily pad: an agent takes plain steps in a square, and starts again elsewhere when it finds the pad."""
+"""A pond with a lily pad: an agent takes steps in a square, and restarts elsewhere when it finds the pad."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -12,21 +12,21 @@ PAD_X, PAD_Y, REACH, STRIDE = 0.8, 0.3, 0.1, 0.04
 
 
 class PondState(NamedTuple):
-    """All that changes."""
+    """Everything that changes."""
 
     scene: Scene
     stream: array("uint64", 4)
 
 
 class PondRules(NamedTuple):
-    """All that stays the same: the pushes of the actions, and of idleness."""
+    """Everything that stays the same: the pushes of the actions, and of no action."""
 
     push: array("float64", 5, 2)
 
 
 @kernel
 def reset(state: PondState, rules: PondRules) -> None:
-    """Begin anywhere."""
+    """Begin at a random place."""
     scene = state.scene
     for axis in range(2):
         scene.position[axis] = uniform(state.stream)
@@ -49,7 +49,7 @@ def step(state: PondState, rules: PondRules, action: int):
 
 @dataclass(frozen=True)
 class Pond(World):
-    """The pond; it has no choices."""
+    """The pond, which has no parameters."""
 
     kinds = ("pad",)
     actions = CARDINAL

@@ -1,12 +1,12 @@
-"""Counts of the page "Bring your own world", and their sentences and tables."""
+"""Counts, sentences and tables of the page "Bring your own world"."""
 
 import numpy as np
 
 
 def per_thousand(finds, steps, points=20):
-    """How often something was found per thousand steps: (where stretches of the run end, float64 (1, points)).
+    """Finds per thousand steps: (the ends of stretches of the run, float64 (1, points)).
 
-    finds: the steps on which it was found. steps: of the run.
+    finds: the steps at which something was found. steps: of the run.
     """
     edges = np.linspace(0, steps, points + 1)
     counts, _ = np.histogram(finds, edges)
@@ -21,20 +21,20 @@ def rates(result, points=20):
 
 
 def trials(name, finds, steps):
-    """A sentence on how many steps it took to find something, in the first and the last tenth of a run."""
+    """A sentence on how often something was found, in all and in the first and the last tenth of a run."""
     early, late = (np.mean([low <= find < low + steps / 10 for find in finds]) * len(finds) for low in (0, 0.9 * steps))
     return (f"{name} was found {len(finds)} times in {steps:,} steps: {early:.0f} in the first tenth of the run and "
             f"{late:.0f} in the last.")
 
 
 def speeds(python_seconds, kernel_seconds, steps, kernel_steps):
-    """A sentence on the cost of a step in either form."""
-    return (f"A step of the loop took {1e6 * python_seconds / steps:.0f} microseconds. As kernels, on all cores, it "
-            f"took {1e6 * kernel_seconds / kernel_steps:.2g} microseconds.")
+    """A sentence on the cost of a step, in Python and as kernels."""
+    return (f"A step of the Python loop took {1e6 * python_seconds / steps:.0f} microseconds. As kernels, on all "
+            f"cores, it took {1e6 * kernel_seconds / kernel_steps:.2g} microseconds.")
 
 
 def in_short(finds, python_seconds, kernel_seconds, steps, runs):
-    """What a world in either form costs, and what an agent learns in it: of a loop and of runs of the same steps."""
+    """What an agent learns in a world, and what a step costs: from a Python loop and from runs of as many steps."""
     return ("An agent learns to find a lily pad in a pond of a few lines of Python. "
             f"{trials('The pad', finds, steps)} {speeds(python_seconds, kernel_seconds, steps, steps * runs)}")
 

@@ -1,4 +1,4 @@
-"""Rules of the user's own: how events get credit, what an axis is of, how to choose."""
+"""User-defined rules: credit for events, the feature of an axis, the choice of actions."""
 
 from neorl import kernel, kernel_maker
 from neorl.core.stream import randint, uniform
@@ -6,7 +6,7 @@ from neorl.core.stream import randint, uniform
 
 @kernel
 def recent_credit(count, steps, last, activity):
-    """Credit for having happened, twice as much for the last event."""
+    """Credit for events that happened, twice as much for the last one."""
     if last:
         return 1.0
     return 0.5 if count > 0 else 0.0
@@ -14,14 +14,14 @@ def recent_credit(count, steps, last, activity):
 
 @kernel
 def wall_distance(scene, point):
-    """How far the agent is from the nearest wall of a unit square."""
+    """Distance of the agent from the nearest wall of a unit square."""
     x, y = scene.position[0], scene.position[1]
     return min(min(x, 1.0 - x), min(y, 1.0 - y))
 
 
 @kernel_maker
 def second_best(share):
-    """The policy that takes the second best action in a share of all steps, and else the best."""
+    """The policy that takes the second-best action in a share of all steps, and otherwise the best."""
 
     @kernel
     def choose(value, stream):

@@ -12,13 +12,13 @@ class Turtle:
     """`reset` and `step` as in Gymnasium; an observation is {"position": (2,), "heading": radians}."""
 
     def reset(self, seed=None):
-        """Begin anywhere, in any of eight directions. Returns (observation, info)."""
+        """Begin at a random place, in one of eight directions. Returns (observation, info)."""
         self.rng = np.random.default_rng(seed) if seed is not None else self.rng
         self.position, self.heading = self.rng.random(2), self.rng.integers(8)
         return self.observation(), {}
 
     def step(self, action):
-        """Returns (observation, reward, terminated, truncated, info)."""
+        """Take an action. Returns (observation, reward, terminated, truncated, info)."""
         self.heading = (self.heading + (0, -1, 1)[action]) % 8
         if action == 0:
             angle = self.heading * np.pi / 4
@@ -27,11 +27,11 @@ class Turtle:
         return self.observation(), float(found), found, False, {}
 
     def observation(self):
-        """What can be seen."""
+        """The current observation."""
         return {"position": self.position, "heading": self.heading * np.pi / 4}
 
 
 def scene_of(observation):
-    """What an agent perceives of an observation: the heading stands in for the direction of its velocity."""
+    """The scene of an observation: the heading stands in for the direction of the velocity."""
     heading = observation["heading"]
     return Scene(observation["position"], (np.cos(heading), np.sin(heading)))

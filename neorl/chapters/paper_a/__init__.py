@@ -1,1 +1,1 @@
-"""What the notebook of paper A runs and draws, on agents with one map, and with three."""
+"""Experiments, figures and sentences of paper A: agents with one map, and with three."""

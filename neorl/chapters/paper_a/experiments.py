@@ -1,8 +1,8 @@
 """The two experiments of paper A, under several readings of the text.
 
 1. The first experiment has agents with one map, N10 to N90, the second agents with N3, N7, N23 and with all three.
-2. The paper shows single runs of the first and the mean of many of the second. Here, too, the first has fewer: as many
-   as a verdict needs.
+2. The paper shows single runs of the first and the mean of many runs of the second. Here, too, the first has fewer
+   runs: as many as a verdict needs.
 """
 
 from dataclasses import replace
@@ -19,8 +19,8 @@ CONTROL = "control"
 def live(readings, steps, runs, seed=0, groups=("layers", "single")):
     """The results of both experiments under each reading: {name: {key: Result}}, with the keys of `conditions`.
 
-    readings: {name: Reading}. steps, runs, seed: as in `conditions`, but that the group "single" has 10 runs at most.
-    groups: of `conditions`, "layers" and "single". With the latter comes the key `CONTROL`, Brownian motion for as many
+    readings: {name: Reading}. steps, runs, seed: as in `conditions`, except that the group "single" has at most 10
+    runs. groups: of `conditions`, "layers" and "single". The latter adds the key `CONTROL`, Brownian motion for as many
     steps and runs.
     """
     made = {name: {} for name in readings}
@@ -33,17 +33,20 @@ def live(readings, steps, runs, seed=0, groups=("layers", "single")):
 
 
 def singles(results):
-    """The agents with one map among the results of one reading, of the first experiment: {"N10": Result, …}."""
+    """Results of the first experiment's agents under one reading: {"N10": Result, …}."""
     return by_resolution(results, "single", SINGLE)
 
 
 def layers(results):
-    """The agents with one map among the results of one reading, of the second experiment: {"N3": Result, …}."""
+    """Results of the second experiment's agents with one map under one reading: {"N3": Result, …}."""
     return by_resolution(results, "layer", LAYERS)
 
 
 def neighbours(reading):
-    """Readings that differ from a reading in one choice that matters here, also beyond the text: {name: Reading}."""
+    """Readings one choice away from a reading, within the text or beyond it: {name: Reading}.
+
+    The choices are those that matter here.
+    """
     slow, quick = (min(reading.learning_rate * factor, 1.0) for factor in (0.05, 20))
     return changed(reading, {"maps by N": {"weighting": "resolution"}, "maps by N²": {"weighting": "cells"},
                              "bootstrapping": {"bootstrap": True}, "no bootstrapping": {"bootstrap": False},
@@ -54,7 +57,7 @@ def neighbours(reading):
 
 
 def explorer_conditions(results):
-    """The conditions that the Explorer of the page offers: {name: Result}. results: as `live` has them, by reading."""
+    """The conditions that the page's Explorer offers: {name: Result}. results: as `live` returns them, by reading."""
     offered = {}
     for name, suffix in ((CALIBRATED, ""), (LETTER, ", to the letter")):
         offered[f"Paper A, figure 7: all three maps{suffix}"] = results[name]["layers"]

@@ -1,4 +1,4 @@
-"""Findings of the page of paper A: numbers beside the thesis's.
+"""Findings of the page on paper A, beside the thesis's numbers.
 
 Results are those of `neorl.chapters.paper_a.experiments.live`: {reading: {key: Result}}.
 """
@@ -16,7 +16,7 @@ from neorl.evidence.statistics import Estimate, estimate, lead_over_sum, ratio, 
 from neorl.evidence.verdict import FINAL
 
 REWARD, STATES = "reward, all three ÷ N7", "states, all three ÷ N7"
-THESIS = {REWARD: 3.5, STATES: 5.9}  # Results, Multiple resolutions; 5.9 are its 290 states by 49
+THESIS = {REWARD: 3.5, STATES: 5.9}  # Results, Multiple resolutions; 5.9 is its 290 states over 49
 
 
 def beside_thesis(results):
@@ -56,7 +56,7 @@ def _found(results):
 
 
 def _order(results):
-    """Single maps with their reward per second over the whole run, the best one first."""
+    """Single maps with their reward per second over the whole run, best first."""
     rate = {n: results["single", n].rate().mean() for n in SINGLE}
     return [f"N{n} ({number(rate[n])})" for n in sorted(rate, key=rate.get, reverse=True)]
 
@@ -82,7 +82,7 @@ def judge_second_experiment(results):
 
 
 def choices(readings):
-    """The choices of readings for agents of place cells, as a Markdown table, and whether they are within the text.
+    """What readings choose for agents of place cells, and whether they are within the text, as a Markdown table.
 
     readings: {name: Reading}.
     """

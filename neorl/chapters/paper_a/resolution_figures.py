@@ -1,4 +1,4 @@
-"""Drawings of paper A: maps over one board, the field of elements of interest, and maps alone and together."""
+"""Figures of paper A: maps over one board, the field of elements of interest, and maps alone and together."""
 
 import numpy as np
 
@@ -15,9 +15,9 @@ from neorl.evidence.verdict import FINAL
 
 
 def draw_together(results):
-    """Reward per second of N3, N7 and N23 alone, of all three, and of the sum of the three; results of one reading.
+    """Draw reward per second of N3, N7 and N23 alone, together, and summed. results: of one reading.
 
-    A dashed line lies where the thesis has all three: at 3.5 times what N7 finally earns here.
+    A dashed line marks the thesis's level for all three together: 3.5 times what N7 finally earns here.
     """
     alone = layers(results)
     axes = draw_proficiency(alone | {"all three": results["layers"]}, ("sum of the three", [*alone.values()]))
@@ -26,10 +26,9 @@ def draw_together(results):
 
 
 def draw_elements(nres_map, places, valences, values):
-    """Elements of interest with their valences, in corners that no arrow crosses, and the action values (cells, 4) that
-    they make of a map.
+    """Draw elements of interest in a map, their valences in corners that no arrow crosses, and the action values.
 
-    places: (elements, 2), in board widths. valences: (elements,).
+    places: (elements, 2), in board widths. valences: (elements,). values: (cells, 4), of the map for these elements.
     """
     fills = {goal: (GREEN if valence > 0 else RED, FILL * abs(valence))
              for goal, valence in zip(nres_map.encode(places), valences)}
@@ -44,7 +43,7 @@ def draw_elements(nres_map, places, valences, values):
 
 
 def draw_maps(maps):
-    """The receptive fields of three maps over one board, in lines that get thinner from map to map."""
+    """Draw the receptive fields of three maps over one board, each in thinner lines than the one before."""
     axes = new_board()
     for nres_map, colour, width in zip(maps, (RED, AGENT, INK), (3.2, 1.8, 0.7)):
         draw_cells(nres_map, colour, width=width, ax=axes)

@@ -1,1 +1,1 @@
-"""What the notebook of paper B runs and draws, on agents with place cells, with object-vector cells and with both."""
+"""Experiments, figures and sentences of paper B: agents with place cells, with object-vector cells, and with both."""

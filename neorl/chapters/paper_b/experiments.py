@@ -1,7 +1,7 @@
 """The experiments of paper B, and those of other claims about its agents, under any reading.
 
-1. Figures 4 and 5 of the paper, and agents that change while they live, are conditions: runs whose rewards are enough.
-2. Single resolutions, and what the paper does not plot, have a fifth of the runs, but 10 where there are as many.
+1. Figures 4 and 5 of the paper, and agents that change during a run, are conditions: runs whose rewards suffice.
+2. Single resolutions, and conditions that the paper does not plot, have at most 10 runs.
 """
 
 from dataclasses import replace
@@ -15,26 +15,26 @@ from neorl.evidence.report import CALIBRATED, LETTER
 from neorl.experiments.cache import Condition
 
 MAIN, GROUPS = ("modal", "pace"), ("layers", "resolutions", "revaluing")  # of `neorl.evidence.reading.GROUPS`
-AGENTS = {"PC": ("place", "all"), "OVC": ("objects", "all"), "PC + OVC": "both"}  # of figure 5, by key
+AGENTS = {"PC": ("place", "all"), "OVC": ("objects", "all"), "PC + OVC": "both"}  # of figure 5, and their keys
 CELLS = {"PC": "place", "OVC": "object-vector", "PC + OVC": "place + object-vector"}  # these in words
 
 
 def live(readings, steps, runs, seed=0):
-    """The results of `all_conditions` under each reading, {name: Reading}: {name: {key: `Result`}}."""
+    """Results of `all_conditions` under each reading, {name: Reading}: {name: {key: `Result`}}."""
     return side_by_side.live({name: all_conditions(each, steps, runs, seed) for name, each in readings.items()})
 
 
 def all_conditions(reading, steps, runs, seed=0):
     """The conditions of the page under a reading: {key: `Condition`}.
 
-    steps, runs: as `neorl.evidence.reading.conditions` takes them, whose keys these have, and
-    ("points", name): figure 5's agents and Brownian motion in a tank whose reward shows when a board was reset, for a
-        quarter of the time but for both modalities;
-    "joined": place cells that get object-vector cells too at half-time.
+    steps, runs: as `neorl.evidence.reading.conditions` takes them. The keys are those of its conditions, and
+    ("points", name): figure 5's agents and Brownian motion in a tank whose reward shows when a board was reset, all but
+        the agent with both modalities for a quarter of the steps;
+    "joined": place cells that object-vector cells join at half-time.
     Raises ValueError for bad arguments.
     """
     main = conditions(reading, steps, runs, seed, MAIN)
-    del main["brownian", 3]  # whose mean is known well from as many runs as the others need
+    del main["brownian", 3]  # whose mean is precise with few runs
     made = conditions(reading, steps, few(runs), seed, (*MAIN, *GROUPS)) | main
     both = made["both"]
     shows_resets = replace(both.world, win_reward=1.0)
@@ -47,10 +47,10 @@ def all_conditions(reading, steps, runs, seed=0):
 
 
 def neighbours(reading, steps, runs, seed=0):
-    """The conditions of B1, B3 and B6 in readings that differ from a reading in one choice: {name: {key: `Condition`}}.
+    """The conditions of B1, B3 and B6 in readings one choice away from a reading: {name: {key: `Condition`}}.
 
-    The choices are those that make an object vector a state and weigh the two modalities; each takes the other values
-    that the text leaves open.
+    The choices are how an object vector becomes a state, and how the two modalities are weighted; each takes the other
+    values that the text leaves open.
     """
     made = {}
     for field in ("causes", "capture", "attention", "object_tiled_fraction", "place_gain"):
@@ -63,19 +63,20 @@ def neighbours(reading, steps, runs, seed=0):
 
 
 def of_figure_4(results, modality):
-    """The agents of figure 4 among the results of one reading, "place" (4A) or "objects" (4B): {"N2": Result, …}."""
+    """Results of figure 4's agents under one reading, "place" (4A) or "objects" (4B): {"N2": Result, …}."""
     return side_by_side.by_resolution(results, modality, (*PRIMES, "all"))
 
 
 def of_figure_5(results):
-    """The agents of figure 5 among the results of one reading: {"PC": Result, …}."""
+    """Results of figure 5's agents under one reading: {"PC": Result, …}."""
     return {name: results[key] for name, key in AGENTS.items()}
 
 
 def explorer_conditions(lived, moving):
-    """The conditions that the Explorer of the page offers: {name: Result}.
+    """The conditions that the page's Explorer offers: {name: Result}.
 
-    lived: results by reading, as `live` has them. moving: that of `neorl.chapters.paper_b.trials`, whose desire moves.
+    lived: results by reading, as `live` returns them. moving: the result of
+    `neorl.chapters.paper_b.trials.live_with_moving_desire`.
     """
     calibrated = lived[CALIBRATED]
     offered = {"Paper B, figure 5: place + object-vector cells": calibrated["both"]}

@@ -1,7 +1,7 @@
-"""Findings of the page of paper B: claims judged, numbers beside the thesis's, sentences.
+"""Findings of the page on paper B: judged claims, numbers beside the thesis's, sentences.
 
-`lived` is what `neorl.chapters.paper_b.experiments.live` returns, {reading: {key: `Result`}}, and `watched` what
-`neorl.chapters.paper_b.trials.watch` does, {reading: `Watched`}.
+`lived` is returned by `neorl.chapters.paper_b.experiments.live`, {reading: {key: `Result`}}, and `watched` by
+`neorl.chapters.paper_b.trials.watch`, {reading: `Watched`}.
 """
 
 import numpy as np
@@ -19,11 +19,11 @@ THESIS_LEVELS = {"PC": 0.29, "OVC": 0.29, "PC + OVC": 0.55}  # reward per second
 THESIS_MINUTES = {"PC": 160, "PC + OVC": 15}  # section 3.2
 TUNINGS = {("component", "component"): "cartesian", ("margin", "margin"): "proximal", ("length", "direction"): "polar",
            ("direction",): "angle", ("length",): "length"}
-STRETCHES = 100  # of a run, in which red creeps are counted
+STRETCHES = 100  # intervals of a run in which red creeps are counted
 
 
 def judge_each(lived, watched):
-    """All claims of the page under each reading, in their order: {name: [`Claim`, …]}."""
+    """Judge all claims of the page under each reading, in their order: {name: [`Claim`, …]}."""
     return {name: _judged(lived[name], each) for name, each in watched.items()}
 
 
@@ -50,7 +50,7 @@ def in_short(lived):
 
 
 def in_words(lived):
-    """The findings under each reading, one paragraph of Markdown each: final levels, and the time to them."""
+    """The findings under each reading, a paragraph of Markdown each: final levels, and the time to reach them."""
     level, minute = levels(lived), minutes(lived)
     return "\n\n".join(f"**{name.capitalize()}**, {_found(level[name], minute[name])}" for name in lived)
 
@@ -70,8 +70,7 @@ def levels(lived):
 
 
 def minutes(lived):
-    """Minutes until figure 5's agents reach their final level, as `judge_pace` takes them: {name: {agent: `Estimate`}}.
-    """
+    """Minutes until figure 5's agents reach their final level, as in `judge_pace`: {name: {agent: `Estimate`}}."""
     keys = {"PC": ("pace", "place"), "OVC": ("pace", "objects"), "PC + OVC": ("pace", "both")}
     return {name: {agent: estimate(np.mean, time_to_final_level(results[key]) / 60) for agent, key in keys.items()}
             for name, results in lived.items()}
@@ -86,8 +85,8 @@ def modalities_table():
 
 
 def values_table(watched):
-    """How large the values of either modality are under each reading, and their ratio, as a Markdown table."""
-    rows = ["| Reading | PC | OVC | OVC / PC, where the remark has 3 |", "|---|---|---|---|"]
+    """Mean values of either modality under each reading, and their ratio, as a Markdown table."""
+    rows = ["| Reading | PC | OVC | OVC / PC (thesis's remark: 3) |", "|---|---|---|---|"]
     for name, each in watched.items():
         places, objects = each.values["PC"], each.values["OVC"]
         means = (estimate(np.mean, values) for values in (places, objects, quotient(objects, places)))
@@ -96,10 +95,7 @@ def values_table(watched):
 
 
 def points_a_reset(lived):
-    """Points per reset of figure 5's agents and of Brownian motion under each reading.
-
-    {name: {agent: `Estimate`}}
-    """
+    """Points per reset of figure 5's agents and of Brownian motion under each reading: {name: {agent: `Estimate`}}."""
     return {name: {key[1]: estimate(ratio, points(result), resets(result)) for key, result in results.items()
                    if key[0] == "points"} for name, results in lived.items()}
 
@@ -107,13 +103,13 @@ def points_a_reset(lived):
 def expected_points(world):
     """Expected points per reset, independent of the agent: twice the initial number of green creeps.
 
-    Each of its n creeps is green with a probability of one half, and at least one is: n / (1 − 2^−n).
+    Each of a board's n creeps is green with a probability of one half, and at least one is: n / (1 − 2^−n).
     """
     return world.n_creeps / (1 - 0.5**world.n_creeps)
 
 
 def points_in_words(found, expected):
-    """How `expected_points` come about, and in how many intervals of `points_a_reset` they lie, if it has intervals."""
+    """How `expected_points` arise, and how many intervals of `points_a_reset` contain them, if there are any."""
     told = f"A new board has {expected / 2:.2f} green creeps on average, which gives {expected:.2f} points per reset."
     intervals = [each for of_agents in found.values() for each in of_agents.values() if not np.isnan(each.low)]
     if not intervals:
@@ -123,9 +119,9 @@ def points_in_words(found, expected):
 
 
 def red_a_minute(lived):
-    """Red creeps taken per minute when these are revalued: ({name: (runs, stretches)}, (stretches,)).
+    """Red creeps taken per minute in runs that revalue them: ({name: (runs, stretches)}, (stretches,)).
 
-    The run is cut into equal stretches; the second array has their middles, in minutes of the first reading.
+    The run is cut into equal stretches; the second array has their midpoints, in minutes of the first reading.
     """
     edges = np.linspace(0, 1, STRETCHES + 1)
     curves = {name: np.stack([60 * results["revalued"].hit_rate(*pair)[:, 1] for pair in zip(edges[:-1], edges[1:])],
@@ -135,7 +131,7 @@ def red_a_minute(lived):
 
 
 def red_in_words(curves):
-    """Red creeps taken before and after these are revalued, of the curves of `red_a_minute`."""
+    """Red creeps taken before and after they are revalued, from the curves of `red_a_minute`."""
     lines = []
     for name, curve in curves.items():
         half, fifth = curve.shape[1] // 2, curve.shape[1] // 5
@@ -146,7 +142,7 @@ def red_in_words(curves):
 
 
 def distances_in_words(watched):
-    """How far from a desired place agents are after the first two moves, and after the later ones, by reading."""
+    """Distance of agents from a desired place after its first two moves, and after the later ones, by reading."""
     lines = []
     for name, each in watched.items():
         experienced, ignorant = (f"{moved[:, :2].mean():.2f} and {moved[:, 2:].mean():.2f}"
@@ -156,13 +152,13 @@ def distances_in_words(watched):
 
 
 def joining_in_words(lived):
-    """Reward per second in a twentieth of the run before other cells are added and in the one after it, by reading."""
+    """Reward per second in the twentieth of the run before other cells join, and in the one after, by reading."""
     rates = {name: [results["joined"].rate(*part).mean() for part in ((0.45, 0.5), (0.5, 0.55))]
              for name, results in lived.items()}
     return " and ".join(f"{before:.2f} and {after:.2f} per second ({name})" for name, (before, after) in rates.items())
 
 
 def minutes_with_more_maps(lived):
-    """The lead in minutes of agents with more maps over those with fewer: {name: {addition: `Estimate`}}."""
+    """Lead of agents with more maps over those with fewer, in minutes: {name: {addition: `Estimate`}}."""
     return {name: {added: sooner_with_more(more, fewer) for added, (more, fewer, _) in additions(results).items()}
             for name, results in lived.items()}

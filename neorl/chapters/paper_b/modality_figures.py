@@ -1,4 +1,4 @@
-"""Drawings of paper B: beside the thesis's numbers, the cells of every modality, and what trials have shown."""
+"""Figures of paper B: agents beside the thesis's numbers, the cells of every modality, and results of the trials."""
 
 import numpy as np
 
@@ -17,7 +17,7 @@ LABELS = {"PC": "place cells", "OVC": "object-vector\ncells", "PC + OVC": "both"
 
 
 def draw_agents(thesis, found, xlabel):
-    """What was found of figure 5's agents beside the thesis's numbers, a row for each agent that the thesis has one of.
+    """Draw results of figure 5's agents beside the thesis's numbers, a row for each agent with such a number.
 
     thesis: {agent: number}. found: {reading: {agent: Estimate}}.
     """
@@ -27,7 +27,7 @@ def draw_agents(thesis, found, xlabel):
 
 
 def draw_modalities(world, state):
-    """The receptive fields of a map of each modality over a tank, those of its active cells filled."""
+    """Draw the receptive fields of a map of each modality over a tank, those of its active cells filled."""
     for axes, modality in zip(new_boards(2, 4), MODALITIES):
         draw_receptive_fields(NresMap(7, modality), world, state, axes)
         draw_tank(world, state, axes)
@@ -35,15 +35,13 @@ def draw_modalities(world, state):
 
 
 def draw_revaluing(minutes, curves):
-    """Red creeps per minute over the run, {reading: (runs, stretches)}, with a line at half-time, where they are
-    revalued.
-    """
+    """Draw red creeps per minute over the run, {reading: (runs, stretches)}, and a line where they are revalued."""
     axes = draw_curves(minutes, curves, "simulated minutes", "red creeps per minute")
     axes.axvline((minutes[0] + minutes[-1]) / 2, color=INK, linewidth=0.7)
 
 
 def draw_distances(watched):
-    """How far from a desired place that moves agents are, over all moves: of a `Watched`."""
+    """Draw the distance of agents from a desired place over all its moves. watched: a `Watched`."""
     starts = SECONDS_A_MOVE * np.arange(watched.moved["experienced"].shape[1])
     draw_curves((starts[:, None] + watched.seconds).ravel(),
                 {name: each.reshape(len(each), -1) for name, each in watched.moved.items()},
@@ -51,7 +49,7 @@ def draw_distances(watched):
 
 
 def draw_time_scale(watched):
-    """Seconds in a cell over the width of its receptive field, on logarithmic axes, by reading: {name: `Watched`}."""
+    """Draw seconds in a cell over the width of its receptive field, on logarithmic axes: {name: `Watched`}."""
     finest_first = PRIMES[::-1]
     widths = [1 / n for n in finest_first]
     stays = {name: [estimate(np.mean, stay) for stay in each.stays.T[::-1]] for name, each in watched.items()}

@@ -1,7 +1,7 @@
-"""Paper B's agents watched while they live, since rewards do not show all that is claimed of them.
+"""Trials of paper B's agents, for claims that rewards alone cannot decide.
 
-Watched are how near they come to a desired place that moves, how long they stay in the cells of a map, how large their
-values are, how long a step takes to compute, and what becomes of their maps when others join.
+They measure the distance to a desired place that moves, the time spent in a cell of a map, the size of values, the
+computing time of a step, and whether maps keep their values when others join.
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -21,14 +21,14 @@ from neorl.experiments.run import Run, bin_steps
 from neorl.experiments.simulation import usable_threads
 from neorl.worlds.waterworld import WaterWorld
 
-PLACES = (Place(0.3, 0.3), Place(0.65, 0.65))  # of the agent's position; it is desired in turn
+PLACES = (Place(0.3, 0.3), Place(0.65, 0.65))  # desired in turn, for the agent's position
 MOVES, SECONDS_A_MOVE = 6, 30
-LIVED = 0.25  # of a run, before agents are watched
+LIVED = 0.25  # share of a run that agents live before they are measured
 TIMED_STEPS = 20_000
 
 
 class Costs(NamedTuple):
-    """Microseconds a step on one core, each (repetitions,), of agents that all move alike."""
+    """Microseconds per step on one core, each (repetitions,), of agents that all move identically."""
 
     labels: list  # of the maps
     none: np.ndarray  # without any map
@@ -37,30 +37,30 @@ class Costs(NamedTuple):
 
     @property
     def measured(self):
-        """What the agents with more and more maps cost typically, (maps,)."""
+        """Median cost of the agents, as maps are added one by one, (maps,)."""
         return np.median(self.first, axis=1)
 
     @property
     def predicted(self):
-        """What they would if maps cost together what each costs by itself, (maps,)."""
+        """Cost of these agents if the separate costs of their maps add up, (maps,)."""
         base = np.median(self.none)
         return base + np.cumsum(np.median(self.alone, axis=1) - base)
 
 
 class Watched(NamedTuple):
-    """What the trials of a reading have shown."""
+    """Results of the trials under one reading."""
 
     moved: dict  # distances from a desired place that moves, (runs, moves, samples) by name, see `distances`
-    seconds: np.ndarray  # when each sample of a move is, (samples,)
+    seconds: np.ndarray  # from the move to each sample, (samples,)
     stays: np.ndarray  # (runs, maps), see `mean_stays`
     values: dict  # (runs,) by name of the node, see `mean_values`
     costs: Costs
 
 
 def watch(readings, steps, runs, seed=0):
-    """All trials under each reading, {name: Reading}: {name: `Watched`}.
+    """Run all trials under each reading, {name: Reading}: {name: `Watched`}.
 
-    steps: of a run of the page's conditions. runs: of each trial; what a step costs is measured as often.
+    steps: of a run of the page's conditions. runs: of each trial, and repetitions of the measured cost of a step.
     """
     return {name: Watched(*distances(reading, steps, runs, seed), mean_stays(reading, steps, runs, seed),
                           mean_values(reading, steps // 4, runs, seed),
@@ -69,15 +69,15 @@ def watch(readings, steps, runs, seed=0):
 
 
 def desiring(reading, place):
-    """Place cells that desire nothing but a place."""
+    """An agent of place cells whose only desire is a place."""
     return replace(papers.place_cells(PRIMES, **reading.place_agents), desires=[Desire(place, "PC", valence=1.0)])
 
 
 def distances(reading, steps, runs, seed=0):
-    """How far from a desired place agents are, in board widths, while it moves to and fro: (moved, seconds).
+    """Distance of agents from a desired place that moves to and fro, in board widths: (moved, seconds).
 
-    moved: {"experienced": (runs, moves, samples), "ignorant": the same}, of place cells that have lived a quarter of
-    `steps` among creeps before, and of such that have not. seconds: when each sample of a move is, (samples,).
+    moved: {"experienced": (runs, moves, samples), "ignorant": the same}, of agents of place cells that have lived a
+    quarter of `steps` among creeps before, and of untrained ones. seconds: from the move to each sample, (samples,).
     """
     world = _tank(reading)
     agent, desires = papers.place_cells(PRIMES, **reading.place_agents), [desiring(reading, at) for at in PLACES]
@@ -101,7 +101,7 @@ def distances(reading, steps, runs, seed=0):
 
 
 def live_with_moving_desire(reading, steps, runs, seed=0):
-    """The first two moves of agents with experience, as the `Result` of a condition that can be lived again."""
+    """The first two moves of experienced agents, as the `Result` of a condition that can be replayed."""
     tank = _tank(reading)
     agent, desires = papers.place_cells(PRIMES, **reading.place_agents), [desiring(reading, at) for at in PLACES]
     lived, move = steps // 4, SECONDS_A_MOVE * tank.fps
@@ -110,10 +110,10 @@ def live_with_moving_desire(reading, steps, runs, seed=0):
 
 
 def mean_stays(reading, steps, runs, seed=0, watched=15_000):
-    """How long agents stay in a cell, in mean seconds, for each of the maps of place cells: (runs, maps).
+    """Mean time that agents stay in a cell, in seconds, for each map of place cells: (runs, maps).
 
-    They have lived a quarter of `steps` before and are watched for as long, `watched` steps at most. A board's reset,
-    which puts an agent elsewhere, is no change of cell; without any change a stay is as long as it was watched.
+    They live a quarter of `steps` first and are then measured for as long, at most `watched` steps. A board's reset,
+    which puts an agent elsewhere, does not count as a change of cell; without any change, a stay is the time measured.
     """
     world = _tank(reading)
     agent = papers.place_cells(PRIMES, **reading.place_agents)
@@ -128,7 +128,7 @@ def mean_stays(reading, steps, runs, seed=0, watched=15_000):
             run.advance(1)
             scene = run.world_state.scene
             path[step] = scene.position / world.size
-            moved[step] = scene.velocity.any() or (path[step] != 0.5).any()  # it is not as after a reset
+            moved[step] = scene.velocity.any() or (path[step] != 0.5).any()  # False just after a reset
         changes = [((np.diff(each.encode(path)) != 0) & moved[1:]).sum() for each in agent.maps]
         return path_steps / world.fps / np.maximum(changes, 1)
 
@@ -136,9 +136,9 @@ def mean_stays(reading, steps, runs, seed=0, watched=15_000):
 
 
 def mean_values(reading, steps, runs, seed=0):
-    """How large the values of agents with both modalities are after `steps` steps: {node: (runs,)}.
+    """Mean values of agents with both modalities after `steps` steps: {node: (runs,)}.
 
-    Of a map it is the value of the best action, averaged over states and over the goals that the node can be asked
+    For a map it is the value of the best action, averaged over states and over the goals that the node can be asked
     for: any other cell of a map of places, the agent's own cell of a map of object vectors. Maps count by their
     weights; gains are left out.
     """
@@ -162,7 +162,7 @@ def mean_values(reading, steps, runs, seed=0):
 
 
 def measure_costs(reading, steps, repetitions, seed=0):
-    """What agents with one map more each time cost: a `Costs`.
+    """Measure the cost of agents as maps are added one by one: a `Costs`.
 
     Their nodes have a gain of 0 and do not explore, so they evaluate and learn everything but draw every action.
     """
@@ -173,7 +173,7 @@ def measure_costs(reading, steps, repetitions, seed=0):
     sets = [(), *((each,) for each in maps), *(maps[:k] for k in range(2, len(maps) + 1))]
     alive = [Run(_with_maps(both, chosen), world, seed) for chosen in sets]
     cost = np.empty((len(sets), repetitions))
-    for repetition in range(repetitions):  # all in turn, so that they share what disturbs
+    for repetition in range(repetitions):  # in turns, so that disturbances affect all alike
         for place, run in enumerate(alive):
             start = perf_counter()
             run.advance(steps)
@@ -184,7 +184,7 @@ def measure_costs(reading, steps, repetitions, seed=0):
 
 
 def maps_kept(before, after, world, steps, seed=0):
-    """How many maps of an agent hold the same values, to the last bit, when it becomes another after so many steps.
+    """How many maps of an agent hold the same values, to the last bit, when it changes to another after some steps.
 
     after: an agent whose first maps are those of `before`.
     """
@@ -200,7 +200,7 @@ def _tank(reading):
 
 
 def _with_maps(agent, chosen):
-    """The agent with these of its maps only, (name of the node, N) each; without any, it has a map of one cell."""
+    """The agent with only these of its maps, (name of the node, N) each, or a map of one cell if there are none."""
     of_node = {node.name: [n for name, n in chosen if name == node.name] for node in agent.nodes}
     nodes = [replace(node, resolutions=of_node[node.name]) for node in agent.nodes if of_node[node.name]]
     desires = [each for each in agent.desires if of_node[each.target]]

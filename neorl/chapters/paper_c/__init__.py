@@ -1,1 +1,1 @@
-"""What the notebook of paper C runs and draws, on networks of desires."""
+"""Experiments and sentences of paper C: networks of desires."""

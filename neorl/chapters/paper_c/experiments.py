@@ -1,4 +1,4 @@
-"""The experiments of paper C, under several readings of the text: four networks, and how strongly the last recurs."""
+"""The experiments of paper C, under several readings of the text: four networks, and recursion in the last."""
 
 from dataclasses import replace
 
@@ -9,28 +9,28 @@ from neorl.evidence.reading import LAYERS, conditions
 from neorl.evidence.report import CALIBRATED, LETTER
 
 NETWORKS = tuple("ABCD")
-MANY_RUNS = 100  # from which on there are more `neighbours`
+MANY_RUNS = 100  # with as many or more there are more `neighbours`
 
 
 def live(readings, steps, runs, seed=0):
-    """The results of networks A to D, and of Brownian motion, under each reading: {name: {key: Result}}.
+    """Results of networks A to D, and of Brownian motion, under each reading: {name: {key: Result}}.
 
-    readings: {name: Reading}. steps, runs, seed, and the keys: as in `conditions`.
+    readings: {name: Reading}. steps, runs, seed: as in `conditions`, which also has the keys.
     """
     return side_by_side.live({name: conditions(reading, steps, runs, seed, groups=("networks",))
                               for name, reading in readings.items()})
 
 
 def networks(results):
-    """The networks among the results of one reading: {"A": Result, …}."""
+    """Results of the networks under one reading: {"A": Result, …}."""
     return {name: results["network", name] for name in NETWORKS}
 
 
 def recur(readings, weights, steps, runs, seed=0):
-    """The results of network D over its weight of recursion: {name: [Result for each weight]}.
+    """Results of network D by its weight of recursion: {name: [Result for each weight]}.
 
-    readings: {name: Reading}. weights: numbers; with 0, D is C. steps, runs, seed: as in `conditions`, but that there
-    are 10 runs at most of what `live` does not have.
+    readings: {name: Reading}. weights: numbers; with 0, D is C. steps, runs, seed: as in `conditions`, except that
+    conditions that `live` does not have are run at most 10 times.
     """
     made = {name: {} for name in readings}
     for name, reading in readings.items():
@@ -42,9 +42,9 @@ def recur(readings, weights, steps, runs, seed=0):
 
 
 def neighbours(reading, runs):
-    """Readings that differ from a reading in one choice that matters here, also beyond the text: {name: Reading}.
+    """Readings one choice away from a reading, within the text or beyond it: {name: Reading}.
 
-    There are more of them where the networks have `MANY_RUNS` runs.
+    The choices are those that matter here. There are more of them if the networks have `MANY_RUNS` runs or more.
     """
     changes = {"maps N3, N7, N23": {"network_resolutions": LAYERS}, "maps of primes": {"network_resolutions": PRIMES},
                "no memory": {"memory": 0.0}, "places × 5": {"network_gain": 5.0}, "by size": {"vectors": "by size"}}
@@ -56,7 +56,7 @@ def neighbours(reading, runs):
 
 
 def explorer_conditions(results):
-    """The conditions that the Explorer of the page offers: {name: Result}. results: as `live` has them, by reading."""
+    """The conditions that the page's Explorer offers: {name: Result}. results: as `live` returns them, by reading."""
     readings = ((CALIBRATED, ""), (LETTER, ", to the letter"))
     return {f"Paper C, figure 4e: network {name}{suffix}": result
             for reading, suffix in readings for name, result in networks(results[reading]).items()}

@@ -1,6 +1,6 @@
-"""Findings of the page of paper C.
+"""Findings of the page on paper C.
 
-The paper prints an order of four curves and no numbers, so ours stand beside Brownian motion and beside one another.
+The paper shows an order of four curves and no numbers, so ours are compared with Brownian motion and one another.
 Results are those of `neorl.chapters.paper_c.experiments.live`: {reading: {key: Result}}.
 """
 
@@ -23,7 +23,7 @@ def in_short(results):
     return (f"The thesis has A < B < C ≪ D: each network earns more than the one before, and D far more. Here, by "
             f"final reward per second, the order is {_order(calibrated)} in the calibrated reading, and "
             f"{_order(letter)} to the letter. Calibrated, recursion brings D to {lead} times as much as C, with the "
-            f"95 % interval in brackets; motion at random earns {_control(calibrated)}.")
+            f"95 % interval in brackets; random motion earns {_control(calibrated)}.")
 
 
 def in_words(results):
@@ -34,7 +34,7 @@ def in_words(results):
 
 
 def _order(results):
-    """Networks with their final reward per second, in rising order."""
+    """Networks with their final reward per second, in ascending order."""
     final = {name: result.rate(*FINAL).mean() for name, result in networks(results).items()}
     return " < ".join(f"{name} ({number(final[name])})" for name in sorted(final, key=final.get))
 
@@ -44,13 +44,13 @@ def _control(results):
 
 
 def drastic_level(results):
-    """The level that D has to exceed under a reading, {name: reward per second}; {} if C finally earns nothing."""
+    """The level that D has to exceed under one reading, {name: reward per second}; {} if C finally earns nothing."""
     level = DRASTIC * results["network", "C"].rate(*FINAL).mean()
     return {f"thesis: D beyond {DRASTIC} × C": level} if level > 0 else {}
 
 
 def final_rates(by_reading):
-    """Final reward and hits of networks under each reading, as a Markdown table: {name: results as `live` has them}."""
+    """Final reward and hits of the networks, as a Markdown table. by_reading: {name: results}, as from `live`."""
     rows = ["| Network | Reading | Reward per second | Green per minute | Red per minute |", "|---|---|---|---|---|"]
     for network in NETWORKS:
         for name, results in by_reading.items():
@@ -61,12 +61,12 @@ def final_rates(by_reading):
 
 
 def finals(recurring):
-    """Final reward per second for each weight, {name: [Estimate, …]}, of what `recur` returns."""
+    """Final reward per second for each weight: {name: [Estimate, …]}. recurring: as `recur` returns it."""
     return {name: [estimate(np.mean, result.rate(*FINAL)) for result in results] for name, results in recurring.items()}
 
 
 def recursion_in_words(weights, found):
-    """The best weight of recursion under each reading, and the reward without recursion: of `finals`, by reading."""
+    """The best weight of recursion under each reading, and the reward without. found: as `finals` returns it."""
     lines = []
     for name, estimates in found.items():
         best, weight = max(zip(estimates, weights))

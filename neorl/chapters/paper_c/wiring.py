@@ -11,7 +11,7 @@ from neorl.evidence.statistics import estimate
 from neorl.experiments.run import Run
 from neorl.worlds.waterworld import WaterWorld
 
-LOOKS = 500  # at each run, in its second half
+LOOKS = 500  # samples of each run, in its second half
 WELL_INSIDE = 0.2  # board widths from the middle
 FAR = 0.1  # board widths from the agent
 PATIENCE = 5_000  # steps
@@ -19,17 +19,16 @@ LINE = 66  # characters
 
 
 def make_up(network, desires, reading):
-    """Whether desires are those of a network, when those between nodes have the scale and the sign of a reading."""
+    """Whether desires are those of a network, if those between nodes have the scale and the sign of a reading."""
     passed = {"scale": reading.scale, "signed": reading.vectors == "signed"}
     desires = [replace(desire, **passed) if network.comes_from_node(desire) else desire for desire in desires]
     return replace(network, desires=desires) == network
 
 
 def moment_of_desire(network, world, steps, seed=0):
-    """A `Run` of so many steps, and of some more until the agent is well inside the board and a node's desire lands far
-    from it.
+    """A `Run` at a moment when the agent is well inside the board and a node's desire lands far from it.
 
-    It waits for that no longer than `PATIENCE`.
+    It takes ``steps`` steps, and then at most `PATIENCE` more until such a moment.
     """
     run = Run(network, world, seed)
     run.advance(steps)
@@ -54,7 +53,7 @@ def _landed(run):
 
 
 def landings(run):
-    """Where the desires between the nodes of a run's agent land, and what they are worth, as a Markdown table."""
+    """Where the desires between the nodes of a run's agent land, and their valences, as a Markdown table."""
     rows = ["| Desire | Lands at, from the agent, in board widths | Valence |", "|---|---|---|"]
     for desire, (east, south, valence) in zip(run.agent.desires, run.state.desires.target):
         if run.agent.comes_from_node(desire):
@@ -67,7 +66,7 @@ def distances(readings, steps, runs, seed=0):
     """How far from the agent desires between nodes land in the second half of runs, and how often in its own cell.
 
     readings: {name: Reading}. Returns {(name, network): (board widths, share)}, float64 (runs,) each: the median of the
-    farther desire, and the share of `LOOKS` moments at which all are in the cell of distance 0 of the finest map.
+    farthest desire, and the share of `LOOKS` moments at which all are in the cell of distance 0 of the finest map.
     """
     return {(name, network): np.array([_distances(Run(agent, WaterWorld(), seed, k), steps) for k in range(runs)]).T
             for name, reading in readings.items() for network, agent in networks(reading).items()}
@@ -84,14 +83,14 @@ def _distances(run, steps):
 
 
 def distance_table(found):
-    """What `distances` has found, as a Markdown table."""
+    """Results of `distances`, as a Markdown table."""
     return table(["Reading", "Network", "Desires land at, in board widths", "In the agent's own cell, % of the time"],
                  [[*names, estimate(np.mean, widths), estimate(np.mean, 100 * share)]
                   for names, (widths, share) in found.items()])
 
 
 def refusal(network, desire):
-    """Why a network cannot have one desire more, in short lines; "" if it can."""
+    """Why a network cannot have a further desire, in short lines; "" if it can."""
     try:
         replace(network, desires=[*network.desires, desire])
     except ValueError as error:

@@ -1,5 +1,5 @@
-"""What the page "Performance" measures, computes and draws: how fast the package is where the page runs.
+"""The page "Performance": how fast the package is on the machine that computes the page.
 
-Times are the least of several repetitions, and what is compared takes turns, so that both share what disturbs. Nothing
-here is judged as a claim: the numbers are those of one machine.
+Times are minima over several repetitions, and compared programs take turns, so that disturbances affect all alike.
+Nothing here is judged as a claim: the numbers are those of one machine.
 """

@@ -1,7 +1,7 @@
-"""How many bytes per second the machine moves, by how many there are: its *working set*.
+"""How many bytes per second the machine moves, by the size of the *working set*.
 
-Two ways to move them: from one array to the next in order (as STREAM's copy does), or one value in each line of memory,
-in no order. Memory moves in lines of 64 bytes, and both ways count what is read and what is written.
+Bytes are moved in two ways: from one array to another in order (as in STREAM's copy), or one value in each line of
+memory, in random order. Memory moves in lines of 64 bytes, and bytes read and bytes written both count.
 """
 
 from typing import NamedTuple
@@ -13,7 +13,7 @@ from neorl.core.kernel import array, execute, kernel
 
 LINE = 64  # bytes
 SMALLEST, LARGEST = 2**14, 2**28  # bytes
-A_TIME = 2**25  # bytes that are moved in one measurement, or more
+A_TIME = 2**25  # bytes moved in one measurement, at least
 
 
 class Bandwidths(NamedTuple):
@@ -21,15 +21,15 @@ class Bandwidths(NamedTuple):
 
     working_sets: np.ndarray  # bytes: float64 (sizes,)
     copied: np.ndarray  # in order: float64 (sizes,)
-    scattered: np.ndarray  # one value in each line, in no order; whole lines count
+    scattered: np.ndarray  # one value in each line, in random order; whole lines count
 
     def at(self, working_set):
-        """That of copying a working set, between those that were measured by their logarithms."""
+        """Bytes per second of copying a working set, interpolated over the logarithm of its size."""
         return np.interp(np.log(working_set), np.log(self.working_sets), self.copied)
 
 
 def measure(rounds, largest=LARGEST, seed=0):
-    """The `Bandwidths` of this machine. largest: working set in bytes, `SMALLEST` or more."""
+    """Measure the `Bandwidths` of this machine. largest: working set in bytes, at least `SMALLEST`."""
     working_sets = SMALLEST * 2.0 ** np.arange(1 + int(np.log2(largest / SMALLEST)))
     rng, found = np.random.default_rng(seed), {"copied": [], "scattered": []}
     for working_set in working_sets:
@@ -46,7 +46,7 @@ def measure(rounds, largest=LARGEST, seed=0):
 
 @kernel
 def copy(source: array("float32", "values"), target: array("float32", "values"), times: int) -> None:
-    """Copy an array so many times."""
+    """Copy an array ``times`` times."""
     for _ in range(times):
         for i in range(source.shape[0]):
             target[i] = source[i]
@@ -54,7 +54,7 @@ def copy(source: array("float32", "values"), target: array("float32", "values"),
 
 @kernel
 def scatter(values: array("float32", "values"), order: array("int64", "lines"), times: int) -> None:
-    """Change one value in each line of memory, so many times."""
+    """Change one value in each line of memory, ``times`` times."""
     for _ in range(times):
         for i in range(order.shape[0]):
             values[np.uint64(LINE // 4 * order[i])] += np.float32(1.0)

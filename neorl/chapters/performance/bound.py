@@ -1,22 +1,22 @@
-"""The least that a step can take: the world's own step, and the bytes that the agent moves at the machine's bandwidth.
+"""A lower bound for the time of a step: the world's own step, and the agent's bytes at the machine's bandwidth.
 
-What an update must move, in each map for each change of cell that it learns from, with A actions:
+Bytes that an update must move, in each map for each change of cell that it learns from, with A actions:
 
-1. Learning all goals (bootstrapping) reads the A rows of the cell entered, and reads and writes those of the cell left
-   whose events have a rate. A row has 4 bytes for each goal that the cells may know of.
+1. Learning all goals (bootstrapping) reads the A rows of the cell entered, and reads and writes the rows of the cell
+   left whose events have a rate. A row has 4 bytes for each goal that the cells may know of.
 2. A memory of k cells reads and writes A values of each, which lie together unless the agent bootstraps
-   (`neorl.core.learning.Order`). The cells lie far apart in a large map, so the values move their lines of 64 bytes.
-   In a map that fits into the cache nearest to the processor, and on lines that the change before has brought there,
+   (`neorl.core.learning.Order`). The cells lie far apart in a large map, so whole lines of 64 bytes are moved.
+   In a map that fits into the cache nearest to the processor, and on lines that the previous change brought there,
    each value moves 4 bytes.
-3. What is remembered fades at every change of cell: of each cell 2 A weights, as many worths and a strength, all read
-   and written, 4 bytes each. To learn, a cell's number is read, and its range of goals read and written: 8 and 2 × 16.
+3. The memory fades at every change of cell: for each cell 2 A weights, as many worths and a strength, all read and
+   written, 4 bytes each. To learn, a cell's number is read (8 bytes), and its range of goals read and written (2 × 16).
 
 And in every step:
 
-4. Choosing reads A values of each creep in each map, 4 bytes each.
+4. Choosing reads A values for each creep in each map, 4 bytes each.
 5. Every track compares its cell, 8 bytes, and counts an event, 8 bytes read and written.
 
-The *working set* is all lines of values that learning touches in the stretch that is timed, and what is remembered.
+The *working set* consists of all lines of values that learning touches in the timed stretch, and of the memory.
 """
 
 from dataclasses import replace
@@ -38,45 +38,45 @@ NEAREST_CACHE = 2**15  # bytes, on most processors of the last decade
 ALL_GOALS = Learning(bootstrap=True, memory=0.0)
 AGENTS = {"N23 (all goals)": place_cells([23], learning=ALL_GOALS), "N23 (memory)": place_cells([23]),
           "twelve maps (all goals)": multimodal(learning=ALL_GOALS), "twelve maps (memory)": multimodal()}
-LIVED = 20_000  # steps before an agent is timed
-STRETCH = 5_000  # steps that are timed, at most
+LIVED = 20_000  # steps that an agent lives before it is timed
+STRETCH = 5_000  # timed steps, at most
 
 
 class Moved(NamedTuple):
-    """What an agent moved in a stretch of a run."""
+    """Bytes that an agent moves in a stretch of a run."""
 
-    standing: float  # bytes of every step, whatever is learned
-    ordered: float  # bytes a step that lie side by side
-    scattered: float  # bytes a step of lines for a value each
+    standing: float  # bytes per step that do not depend on learning
+    ordered: float  # bytes per step that lie side by side
+    scattered: float  # bytes per step of whole lines, moved for values that lie apart
     working_set: int  # bytes
-    changes: float  # changes of cell a step that something was learned from
-    remembered: float  # cells remembered at such a change, in the mean
+    changes: float  # changes of cell per step that the agent learns from
+    remembered: float  # mean number of cells remembered at such a change
 
     @property
     def bytes(self):
-        """All bytes a step."""
+        """All bytes per step."""
         return self.standing + self.ordered + self.scattered
 
 
 class Loop(NamedTuple):
-    """One agent's loop, world and agent together, beside its bound. Seconds a step, each (rounds,)."""
+    """One agent's loop, world and agent together, beside its bound. Seconds per step, each (rounds,)."""
 
     moved: Moved
     world: np.ndarray
     loop: np.ndarray
 
     def moving(self, bandwidths):
-        """The seconds a step that the bytes take where they are copied in order."""
+        """Seconds per step that it takes to copy the bytes in order."""
         return self.moved.bytes / bandwidths.at(self.moved.working_set)
 
     def ratio(self, bandwidths):
-        """How many times its bound the loop takes, as an `Estimate` over repetitions."""
+        """Time of the loop as a multiple of its bound: an `Estimate` over repetitions."""
         moving = self.moving(bandwidths)
         return estimate(lambda loop, world, axis: loop.min(axis) / (world.min(axis) + moving), self.loop, self.world)
 
 
 def measure(steps, rounds, seed=0, agents=AGENTS):
-    """The loops of the agents in a tank of three creeps, all in turn: {name: `Loop`}."""
+    """Time the agents' loops in a tank with three creeps, in turns: {name: `Loop`}."""
     world, steps = WaterWorld(), min(steps, STRETCH)
     runs = {name: Run(agent, world, seed) for name, agent in agents.items()}
     for run in runs.values():
@@ -88,10 +88,10 @@ def measure(steps, rounds, seed=0, agents=AGENTS):
 
 
 def spent(steps, rounds, seed=0, agents=AGENTS):
-    """Where the seconds of a step go, in the mean over random movement: {name: {part: seconds}}.
+    """Seconds of a step by part, averaged over random movement: {name: {part: seconds}}.
 
-    The agents are made indifferent, so that they draw their actions and all move alike. Then parts are taken away: what
-    they learn, and what they desire. What is left beside the world's step is to see which cells are active.
+    The agents are made indifferent, so they draw their actions and all move identically. Then parts are removed: first
+    learning, then desires. What is left beside the world's step is to find the active cells.
     """
     world, steps = WaterWorld(), min(steps, STRETCH)
     lives = {}
@@ -110,14 +110,14 @@ def spent(steps, rounds, seed=0, agents=AGENTS):
 
 
 def bare(world, steps, seed=0):
-    """What `in_turns` takes to time the steps of a world without an agent, whose actions are drawn."""
+    """A preparation for `in_turns`, to time the steps of a world without an agent, with random actions."""
     state, stream = world.reset(seed), new_stream(np.random.SeedSequence(seed))
     return always(execute, drawn_steps, state, world.rules, stream, steps)
 
 
 @kernel
 def drawn_steps(state: WaterWorldState, rules: Rules, stream: array("uint64", 4), steps: int) -> float:
-    """So many steps of WaterWorld. Returns the reward."""
+    """Take ``steps`` steps of WaterWorld with random actions. Returns the total reward."""
     total = 0.0
     for _ in range(steps):
         reward, done = step(state, rules, randint(stream, 4))
@@ -128,9 +128,9 @@ def drawn_steps(state: WaterWorldState, rules: Rules, stream: array("uint64", 4)
 
 
 def moved(run, steps):
-    """What the agent of a `Run` moves in the coming steps, which it takes: `Moved`.
+    """Advance a `Run` by ``steps``, and count the bytes that its agent moves: `Moved`.
 
-    It desires every creep in each map.
+    The agent has to desire every creep in each map.
     """
     maps, state, learning = run.parameters.maps, run.state, run.agent.learning
     tracks, actions = state.tracks, run.parameters.push.shape[0]
@@ -138,7 +138,7 @@ def moved(run, steps):
     map_of = np.repeat(np.arange(len(maps.cells)), np.diff(maps.first_track))
     standing = len(maps.cells) * run.world.things * actions * 4 + len(tracks.cell) * (8 + 2 * 8)
     ordered = scattered = changes = remembered = most = 0
-    near = [np.empty(0, int)] * len(tracks.cell)  # lines that the change before has touched
+    near = [np.empty(0, int)] * len(tracks.cell)  # lines that the previous change touched
     for _ in range(steps):
         before, learned_before = tracks.cell.copy(), tracks.trace_count.copy()
         run.advance(1)

@@ -1,4 +1,4 @@
-"""How long the rivals take for the same stretch, side by side in one run."""
+"""How long rival implementations take for the same stretch, measured in turns."""
 
 from time import perf_counter
 from typing import NamedTuple
@@ -10,11 +10,11 @@ from neorl.chapters.performance.bound import LIVED, bare
 from neorl.chapters.performance.timing import in_turns, times_as_long
 from neorl.worlds.waterworld import WaterWorld
 
-STRETCH = 1_000  # steps at most
+STRETCH = 1_000  # timed steps, at most
 
 
 class Contest(NamedTuple):
-    """Seconds a step of several ways to do the same, {name: float64 (rounds,)}, the package's own first."""
+    """Seconds per step of several implementations, {name: float64 (rounds,)}, the package's own first."""
 
     what: str
     seconds: dict
@@ -22,13 +22,13 @@ class Contest(NamedTuple):
 
     @property
     def ratios(self):
-        """How many times as long each takes as the package, {name: `Estimate`}."""
+        """Time of each implementation as a multiple of the package's, {name: `Estimate`}."""
         own, *others = self.seconds
         return {name: times_as_long(self.seconds[name], self.seconds[own]) for name in others}
 
 
 def agents(steps, rounds, seed=0, resolution=23):
-    """The `Contest` of one agent's steps without a world, `STRETCH` at most."""
+    """Time the steps of one agent without a world, at most `STRETCH`: a `Contest`."""
     stretch = rivals.record(resolution, min(steps, STRETCH), LIVED, seed)
     heads = rivals.heads_of(stretch.q)
     ways = {"neoRL": lambda: _of_copies(rivals.by_kernel, stretch, stretch.q, stretch.goal_range),
@@ -42,7 +42,7 @@ def agents(steps, rounds, seed=0, resolution=23):
 
 
 def worlds(steps, rounds, seed=0):
-    """The `Contest` of steps of WaterWorld with three creeps, actions drawn."""
+    """Time steps of WaterWorld with three creeps and random actions, at most `STRETCH`: a `Contest`."""
     world, steps = WaterWorld(), min(steps, STRETCH)
     ways = {"neoRL": bare(world, steps, seed)}
     if rivals.is_installed("ple"):
@@ -57,13 +57,13 @@ def _contest(what, ways, steps, rounds, absent):
 
 
 def _of_copies(function, stretch, *arrays):
-    """A call with copies of arrays, which are made before it is timed."""
+    """A call with copies of arrays that are made before the timing."""
     copies = [array.copy() for array in arrays]
     return lambda: function(stretch, *copies)
 
 
 def _of_device(scan, q):
-    """The same of a program of JAX, whose values lie where it has them."""
+    """A call of a JAX program whose values are put on its device before the timing."""
     import jax
 
     values = jax.block_until_ready(jax.device_put(np.array(q), jax.devices("cpu")[0]))

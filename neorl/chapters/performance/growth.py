@@ -1,15 +1,15 @@
-"""How cost grows with what an agent is made of, beside what the algorithm says that it must.
+"""How cost grows with the size of maps and memory, and with the number of maps, creeps and runs, beside predictions.
 
-The agents of a series see and evaluate everything, but desire it with valence 0, so they draw their actions and all
-move alike. Predictions follow from the code, for what is large enough to outweigh the rest:
+The agents of a series see and evaluate everything, but their desires have valence 0, so they draw their actions and all
+move identically. Predictions follow from the code, for terms large enough to outweigh the rest:
 
-- values ∝ N⁴: a map has N² cells, and a value for each cell, action and goal;
-- learning all goals once ∝ N²: it goes through the rows of two cells, which have a value for each goal;
-- learning all goals in life ∝ N³, at most: changes of cell are N times as many, until each step is one;
-- maps ∝ 1: each map costs the same again;
-- creeps ∝ 1, at most: each is moved, seen and evaluated, beside what does not depend on them;
-- runs ∝ 1: they share nothing;
-- memory ∝ 1, at most: each cell that is remembered learns, and a path that crosses itself leaves fewer.
+- values: N⁴, since a map has N² cells, and a value for each cell, action and goal;
+- learning all goals once: N², since it goes through the rows of two cells, which have a value for each goal;
+- learning all goals in a run: N³ at most, since changes of cell grow with N, until every step is one;
+- maps: exponent 1, since each map costs the same again;
+- creeps: exponent 1 at most, since each is moved, seen and evaluated, beside what does not depend on them;
+- runs: exponent 1, since they share nothing;
+- memory: exponent 1 at most, since each remembered cell learns, and a path that crosses itself leaves fewer.
 """
 
 from typing import NamedTuple
@@ -39,37 +39,37 @@ RATES = np.full(4, 0.01, np.float32)
 
 
 class Series(NamedTuple):
-    """What one number makes of a cost."""
+    """How a cost grows with one quantity."""
 
-    of: str  # what the number counts
+    of: str  # the quantity
     cost: str
     unit: str
     xs: np.ndarray  # (points,)
     costs: np.ndarray  # (points,)
     predicted: int  # the exponent
-    at_most: bool  # whether it is a bound
+    at_most: bool  # whether it is an upper bound
 
     @property
     def exponent(self):
-        """That of the costs: an `Estimate`."""
+        """The fitted exponent: an `Estimate`."""
         return exponent(self.xs, self.costs)
 
 
 def measure(steps, rounds, seed=0):
-    """Every `Series`. steps: that are timed of a run that has lived, `STRETCH` at most."""
+    """Measure every `Series`. steps: timed in each run after its first `LIVED`, at most `STRETCH`."""
     steps = min(steps, STRETCH)
     return [values(), update(rounds, seed), learning(steps, rounds, seed), maps(steps, rounds, seed),
             creeps(steps, rounds, seed), runs(LIVED, rounds, seed), memory(steps, rounds, seed)]
 
 
 def values():
-    """The memory that the values of a map take, which is counted."""
+    """Memory that the values of a map take, counted rather than timed."""
     sizes = [Run(place_cells([n]), WaterWorld()).q().nbytes for n in RESOLUTIONS]
     return _series("N", "values of a map", "bytes", RESOLUTIONS, sizes, 4)
 
 
 def update(rounds, seed=0):
-    """Learning all goals once, of cells that know all of them, along a random walk."""
+    """Time of learning all goals once, along a random walk through cells that know all of them."""
     preparations, rule = {}, Rule(np.float32(0.9), True, ZERO, False)
     for n in RESOLUTIONS:
         cells, rng = n**2, np.random.default_rng(seed)
@@ -92,7 +92,7 @@ def learn_along(values: MapValues, rule: Rule, path: array("int64", "cells"), ra
 
 
 def learning(steps, rounds, seed=0):
-    """What learning all goals adds to a step, by N."""
+    """Time that learning all goals adds to a step, by N."""
     agents = {n: place_cells([n], learning=ALL_GOALS, **INDIFFERENT) for n in RESOLUTIONS}
     idle = {-n: place_cells([n], learning=LEARNS_NOTHING, **INDIFFERENT) for n in RESOLUTIONS}
     found = _a_step({**agents, **idle}, steps, rounds, seed)
@@ -101,28 +101,28 @@ def learning(steps, rounds, seed=0):
 
 
 def maps(steps, rounds, seed=0):
-    """What maps of N11 add to a step, by how many there are."""
+    """Time that maps of N11 add to a step, by their number."""
     agents = {count: place_cells([11] * count, **INDIFFERENT) for count in MAPS}
     found = _a_step({**agents, 0: WITHOUT_A_MAP}, steps, rounds, seed)
     return _series("maps", "maps of N11, per step", "seconds", MAPS, [found[count] - found[0] for count in MAPS], 1)
 
 
 def creeps(steps, rounds, seed=0):
-    """A step of an agent with a map of N7 and its world, by how many creeps there are."""
+    """Time of a step of the world and an agent with a map of N7, by the number of creeps."""
     found = _a_step({count: place_cells([7], **INDIFFERENT) for count in CREEPS}, steps, rounds, seed,
                     {count: WaterWorld(n_creeps=count) for count in CREEPS})
     return _series("creeps", "a step of world and agent", "seconds", CREEPS, [*found.values()], 1, at_most=True)
 
 
 def runs(steps, rounds, seed=0):
-    """All runs of a condition, one after the other, by how many there are."""
+    """Time of all runs of a condition, one after the other, by their number."""
     preparations = {count: always(_simulate, steps, count, seed) for count in RUNS}
     return _series("runs", "a condition", "seconds", RUNS,
                    [each.min() for each in in_turns(preparations, rounds).values()], 1)
 
 
 def memory(steps, rounds, seed=0):
-    """What learning adds to a step of an agent with a map of N23, by how long it remembers."""
+    """Time that learning adds to a step of an agent with a map of N23, by the length of its memory."""
     agents = {seconds: place_cells([23], learning=Learning(memory=seconds), **INDIFFERENT) for seconds in MEMORIES}
     idle = place_cells([23], learning=LEARNS_NOTHING, **INDIFFERENT)
     found = _a_step({**agents, 0: idle}, steps, rounds, seed)
@@ -135,7 +135,7 @@ def _series(of, cost, unit, xs, costs, predicted, at_most=False):
 
 
 def _a_step(agents, steps, rounds, seed, worlds=None):
-    """The least seconds a step of agents {name: `Agent`} that have lived: {name: float}."""
+    """The least seconds per step of agents {name: `Agent`} after their first `LIVED` steps: {name: float}."""
     lives = {name: Run(agent, worlds[name] if worlds else WaterWorld(), seed) for name, agent in agents.items()}
     for run in lives.values():
         run.advance(LIVED)

@@ -1,7 +1,7 @@
-"""Where the minutes of the book go, by the times that papermill has noted in the pages that it computed.
+"""Where the build time of the book goes, by the times that papermill recorded in the pages that it computed.
 
-A page's time is split by what its cells do: import the package, draw a figure, or all else, which is to compile and to
-simulate. What was found finished in the cache took no time again.
+A page's time is split by what its cells do: import the package, draw a figure, or anything else, that is, compile and
+simulate. Results found in the cache took no time.
 """
 
 import json
@@ -21,7 +21,7 @@ class PageTime(NamedTuple):
 
     @property
     def total(self):
-        """All together."""
+        """The sum of all parts."""
         return self.starting + self.importing + self.computing + self.drawing
 
 

@@ -1,4 +1,4 @@
-"""The drawings of the page "Performance"."""
+"""Figures of the page "Performance"."""
 
 import numpy as np
 from matplotlib import pyplot as plt
@@ -11,7 +11,7 @@ PARTS = {"starting": CURVES[4], "importing": CURVES[2], "computing": AGENT, "dra
 
 
 def draw_bandwidths(bandwidths, loops):
-    """Bytes per second by working set, both ways, and the working sets of two of the loops, {name: `Loop`}."""
+    """Draw bytes per second by working set, both ways, and the working sets of two of the loops, {name: `Loop`}."""
     axes = plt.figure().add_subplot()
     ways = {"in order": (bandwidths.copied, CURVES[0]), "lone values": (bandwidths.scattered, CURVES[1])}
     for speeds, colour in ways.values():
@@ -27,7 +27,7 @@ def draw_bandwidths(bandwidths, loops):
 
 
 def draw_bounds(loops, bandwidths):
-    """The loop of each agent above its bound: the world's step, and what its bytes take."""
+    """Draw the loop of each agent above its bound: the world's step, and the time to move its bytes."""
     axes = plt.figure(figsize=(4.9, 3.8)).add_subplot()
     for place, (name, loop) in enumerate(loops.items()):
         world, moving, whole = (each / NANO for each in (loop.world.min(), loop.moving(bandwidths), loop.loop.min()))
@@ -43,7 +43,7 @@ def draw_bounds(loops, bandwidths):
 
 
 def draw_contests(*contests):
-    """What each way takes for a step, on one logarithmic axis."""
+    """Draw each implementation's time for a step, on one logarithmic axis."""
     bars = [(name, seconds.min() / NANO, place > 0)
             for each in contests for place, (name, seconds) in enumerate(each.seconds.items())]
     names = [f"{name}\n({each.what.split(' of ')[1]})" for each in contests for name in each.seconds]
@@ -57,7 +57,7 @@ def draw_contests(*contests):
 
 
 def draw_growth(series):
-    """A small panel for each series that was timed: costs as dots, a line of the predicted slope through the last."""
+    """Draw a panel for each series that was timed: costs as dots, a line of the predicted slope through the last."""
     timed = [each for each in series if each.unit == "seconds"]
     _, panels = plt.subplots(-(-len(timed) // 2), 2, figsize=(4.9, 1.9 * -(-len(timed) // 2)))
     for axes, each in zip(panels.flat, timed):
@@ -77,7 +77,7 @@ def draw_growth(series):
 
 
 def draw_minutes(pages):
-    """The minutes of each page, by what they were spent on; of no pages an empty picture that says so."""
+    """Draw the minutes of each page, by what they were spent on; without pages, a picture that says so."""
     axes = plt.figure(figsize=(4.9, 0.3 * max(3, len(pages)) + 1)).add_subplot()
     left = np.zeros(len(pages))
     for part, colour in PARTS.items():

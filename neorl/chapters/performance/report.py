@@ -1,6 +1,6 @@
 """Tables and sentences of the page "Performance", in Markdown.
 
-`python -m neorl.chapters.performance.report` measures them all and prints the page's main numbers.
+`python -m neorl.chapters.performance.report` measures everything and prints the page's main numbers.
 """
 
 import sys
@@ -17,7 +17,7 @@ def summary(loops, bandwidths, rivals, worlds):
     within = [name for name, ratio in ratios.items() if ratio <= AIM]
     least, most = min(ratios.values()), max(ratios.values())
     quickest, slowest = (of(loop.loop.min() for loop in loops.values()) for of in (min, max))
-    several = ", ".join(f"{_times(ratio.value)} by {name}" for name, ratio in rivals.ratios.items())
+    several = ", ".join(f"{_times(ratio.value)} ({name})" for name, ratio in rivals.ratios.items())
     original = "".join(f" {name} takes {_times(ratio.value)} times as long for a step of the world." for name, ratio in
                        worlds.ratios.items())
     return (f"On this machine one core takes {_seconds(quickest)} to {_seconds(slowest)} for a step of world and "
@@ -29,7 +29,7 @@ def summary(loops, bandwidths, rivals, worlds):
 def bound_table(loops, bandwidths):
     """Each loop beside its bound."""
     return table(
-        ["agent", "changes of cell per step", "bytes per step", "working set", "world", "bytes take", "loop",
+        ["agent", "changes of cell per step", "bytes per step", "working set", "world", "moving bytes", "loop",
          "loop / bound"],
         [[name, number(loop.moved.changes), f"{loop.moved.bytes:,.0f}",
           f"{loop.moved.working_set / 2**20:.1f} MiB", _seconds(loop.world.min()), _seconds(loop.moving(bandwidths)),
@@ -37,7 +37,7 @@ def bound_table(loops, bandwidths):
 
 
 def spent_table(spent):
-    """Where the time of a step goes, by what `neorl.chapters.performance.bound.spent` has found."""
+    """Where the time of a step goes. spent: as `neorl.chapters.performance.bound.spent` returns it."""
     parts = list(next(iter(spent.values())))
     return table(["agent", *parts], [[name, *(_seconds(of[part]) for part in parts)] for name, of in spent.items()])
 
@@ -46,7 +46,7 @@ def contest_table(*contests):
     """The time of each implementation, and its ratio to the package."""
     rows = [[each.what, name, _seconds(seconds.min()), _interval(each.ratios[name]) if name in each.ratios else "1"]
             for each in contests for name, seconds in each.seconds.items()]
-    return table(["what", "by", "takes", "times as long"], rows)
+    return table(["task", "implementation", "time", "times as long"], rows)
 
 
 def absent(*contests):
@@ -82,7 +82,7 @@ def _interval(ratio):
 
 
 def _seconds(value):
-    """A time in the unit that suits it."""
+    """A time in a suitable unit."""
     for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)):
         if value >= size:
             return f"{value / size:.3g} {unit}"

@@ -1,15 +1,15 @@
-"""The same agent in other hands: what one learner does in a recorded stretch of its life, computed by other means.
+"""Rival implementations of one agent: the same recorded stretch of a run, computed by other means.
 
-The learner has one map of place cells. In each step it values every action by superposition of the goals where creeps
-are, takes the best, and learns all goals when it has changed cells (thesis eq. 4.3, 4.4 and 4.8). Where it was, what it
-perceived and at which rates it learned is recorded first, so that all compute the same numbers:
+The learner has one map of place cells. In each step it evaluates every action by superposition of the goals where
+creeps are, takes the best, and learns all goals if it has changed cells (thesis eq. 4.3, 4.4 and 4.8). Its cells,
+perceptions and learning rates are recorded first, so that all implementations compute the same numbers:
 
-- `by_kernel`: the kernel that agents learn by, and a loop around it;
+- `by_kernel`: the agents' learning kernel, in a loop;
 - `by_numpy`: array operations, a few for each step;
-- `by_heads`: an object for each goal with a table of its own, as published code of hybrid reward architectures has it;
+- `by_heads`: an object for each goal with a table of its own, as in published code of hybrid reward architectures;
 - `by_jax`: one compiled scan over the stretch, on the processor, if JAX is installed.
 
-Each returns the actions that it found best, int64 (steps,), and changes the values that it is handed.
+Each returns the actions that it found best, int64 (steps,), and updates the values that it is given.
 """
 
 import contextlib
@@ -32,10 +32,10 @@ PLAIN = Learning(learning_rate=0.03, discount=0.8, credit="share", absent_decay=
 
 
 class Stretch(NamedTuple):
-    """What a learner went through, and what it knew before."""
+    """The recorded experience of a learner, and its values before it."""
 
-    cells: array("int64", "steps + 1")  # where it was before each step, and in the end
-    learns: array("bool", "steps")  # whether it learns from what the step led to
+    cells: array("int64", "steps + 1")  # the active cell before each step, and at the end
+    learns: array("bool", "steps")  # whether it learns after the step
     rates: array("float32", "steps", 4)  # α ψ of each event
     goals: array("int64", "steps", "things")  # the cells of the creeps before the step
     valences: array("float64", "steps", "things")
@@ -44,7 +44,7 @@ class Stretch(NamedTuple):
 
 
 def record(resolution, steps, lived, seed=0):
-    """The `Stretch` of so many steps of a learner that has lived for some."""
+    """Record the `Stretch` of ``steps`` steps of a learner, after its first ``lived`` steps."""
     world = WaterWorld()
     run = Run(place_cells([resolution], learning=PLAIN), world, seed)
     run.advance(lived)
@@ -64,7 +64,7 @@ def record(resolution, steps, lived, seed=0):
 
 
 def by_kernel(stretch, q, goal_range):
-    """The package's own way. q, goal_range: as in a `Stretch`, both changed."""
+    """The package's own implementation. q, goal_range: as in a `Stretch`, both updated."""
     cells, best = len(q), np.empty(len(stretch.learns), int)
     values = MapValues(q.reshape(-1), 0, cells, 4, goal_range, np.empty(cells, np.float32))
     rule = Rule(np.float32(PLAIN.discount), PLAIN.terminal, ZERO, False)
@@ -109,7 +109,7 @@ class Head:
         return self.q[cell]
 
     def learn(self, left, entered, rates):
-        """Move the values in the cell left towards what the cell entered is worth."""
+        """Move the values of the cell left towards the target that the cell entered gives."""
         target = 1 if entered == self.goal else self.discount * self.q[entered].max()
         self.q[left] += rates * (target - self.q[left])
 
@@ -134,7 +134,7 @@ def by_heads(stretch, heads):
 
 
 def is_installed(module):
-    """Whether a package is there that this one does not need."""
+    """Whether an optional package is installed."""
     return importlib.util.find_spec(module) is not None
 
 
@@ -163,10 +163,10 @@ def by_jax(stretch):
 
 
 def ple_steps(width, creeps, steps, seed=0):
-    """A function that takes so many steps of WaterWorld as the PyGame Learning Environment has it, actions drawn."""
+    """A function that takes ``steps`` steps of the PyGame Learning Environment's WaterWorld, with random actions."""
     quiet = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PYGAME_HIDE_SUPPORT_PROMPT": "1"}
     os.environ.update({name: value for name, value in quiet.items() if name not in os.environ})
-    with contextlib.redirect_stdout(io.StringIO()):  # it complains of games that are not installed
+    with contextlib.redirect_stdout(io.StringIO()):  # it complains about games that are not installed
         from ple import PLE
         from ple.games.waterworld import WaterWorld as Original
 

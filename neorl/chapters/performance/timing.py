@@ -1,7 +1,7 @@
-"""Times of things that take turns, and what they make: ratios, and exponents of growth.
+"""Times of programs that take turns, and what follows from them: ratios, and exponents of growth.
 
-What disturbs a measurement makes it longer, so the least of several repetitions is what a thing takes. Processor time
-leaves out what other processes take of a core; it counts all threads, so what may use several is timed by the clock.
+Disturbances only lengthen a measurement, so the least of several repetitions counts. Processor time leaves out what
+other processes take of a core; it counts all threads, so programs that may use several are timed by the wall clock.
 """
 
 from time import process_time
@@ -13,10 +13,10 @@ from neorl.evidence.statistics import Estimate, estimate
 
 
 def in_turns(preparations, rounds, clock=process_time):
-    """How long each of several things takes, in seconds: {name: float64 (rounds,)}.
+    """Time several functions in turns, in seconds: {name: float64 (rounds,)}.
 
-    preparations: {name: function without arguments}, whose result is the function that is timed; all in turn, once
-    before the first round. clock: a function that returns seconds.
+    preparations: {name: function without arguments}, which returns the function to time; all take a first round that
+    does not count. clock: a function that returns seconds.
     """
     seconds = {name: np.empty(rounds) for name in preparations}
     for turn in range(-1, rounds):
@@ -30,7 +30,7 @@ def in_turns(preparations, rounds, clock=process_time):
 
 
 def again(run, steps):
-    """What `in_turns` takes to time the coming steps of a `Run`, the same ones each time."""
+    """A preparation for `in_turns`, to time the coming steps of a `Run`, the same ones each time."""
     def prepare():
         copy = run.copy()
         return lambda: copy.advance(steps)
@@ -39,20 +39,20 @@ def again(run, steps):
 
 
 def always(function, *arguments):
-    """What `in_turns` takes to time a call that needs no preparation."""
+    """A preparation for `in_turns`, to time a call that needs none."""
     return lambda: lambda: function(*arguments)
 
 
 def times_as_long(one, other):
-    """The least of some times as a multiple of the least of others, as an `Estimate` over repetitions."""
+    """The least of one's times as a multiple of the least of the other's: an `Estimate` over repetitions."""
     return estimate(lambda a, b, axis: a.min(axis) / b.min(axis), one, other)
 
 
 def exponent(xs, costs):
-    """The p of costs ∝ x^p by least squares of the logarithms: an `Estimate`, with the interval of a straight line.
+    """Exponent p of costs ∝ x^p by least squares on logarithms: an `Estimate`, with the interval of the line's slope.
 
-    xs: (points,), > 0. costs: (points,); those that disturbances have made 0 or less are left out, and of less than
-    three there is no exponent: its value and bounds are NaN.
+    xs: (points,), > 0. costs: (points,); those that disturbances have made 0 or less are left out. With fewer than
+    three, value and bounds are NaN.
     """
     known = np.greater(costs, 0)
     if known.sum() < 3:

@@ -1,1 +1,1 @@
-"""What the page "In your research" runs: neoRL agents whose scenes are read from the firing of simulated neurons."""
+"""The page "In your research": neoRL agents whose scenes are decoded from the firing of simulated neurons."""

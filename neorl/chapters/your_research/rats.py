@@ -1,4 +1,4 @@
-"""A neoRL agent in RatInABox: its scenes are read from the rates of simulated place and object-vector cells.
+"""A neoRL agent in RatInABox: its scenes are decoded from the rates of simulated place and object-vector cells.
 
 RatInABox (George et al. 2024) simulates how an animal moves and how its neurons fire. A neuron's rate is a graded
 measure of how well its preferred place, or the preferred vector to an object, fits; the mean of all preferred values,
@@ -34,14 +34,14 @@ def decode_vector(cells):
 
 
 def scene_of(places, vectors):
-    """The scene that the two populations signal: where the animal is, and where the one object is, if it is felt."""
+    """The scene that the two populations signal: where the animal is, and where the object is, if its cells fire."""
     position, vector = decode_place(places), decode_vector(vectors)
     kind = "object" if vector is not None else None
     return Scene(position, things=[position + (0 if vector is None else vector)], kinds=[kind])
 
 
 def forage(agent, steps, seed=0, n_cells=200):
-    """How far an animal steered by a neoRL agent is from an object after each step, in metres: float64 (steps,).
+    """Distance from an object of an animal steered by a neoRL agent, in metres after each step: float64 (steps,).
 
     agent: a `neorl.Agent` that desires "object", or None for RatInABox's own random motion. n_cells: of each
         population.
@@ -72,7 +72,10 @@ def forage(agent, steps, seed=0, n_cells=200):
 
 
 def smoothed(distances, seconds=10.0):
-    """Means of stretches of time, as `neorl.drawing.draw_curves` takes them: (seconds, {name: float64 (1, points)})."""
+    """Means over stretches of time, as `neorl.drawing.draw_curves` takes them: (middles, {name: float64 (1, points)}).
+
+    distances: {name: float64 (steps,)}. seconds: length of a stretch. The middles of stretches are in seconds.
+    """
     stretch = round(seconds / STEP_SECONDS)
     curves = {name: each[: len(each) // stretch * stretch].reshape(-1, stretch).mean(axis=1)[None]
               for name, each in distances.items()}

@@ -1,10 +1,10 @@
-"""What the page "In your research" reports of its runs, in words and tables."""
+"""Sentences and tables of the page "In your research"."""
 
 import numpy as np
 
 
 def last_fifth(results, unit="reward per second"):
-    """A table of what runs earn in their last fifth, mean and standard deviation: {name: `neorl.Result`}."""
+    """A table of rewards in the last fifth of runs, mean and standard deviation: {name: `neorl.Result`}."""
     rows = [f"| agent | {unit}, mean ± standard deviation over runs |", "|---|---|"]
     for name, result in results.items():
         rate = result.rate(0.8)
@@ -13,7 +13,7 @@ def last_fifth(results, unit="reward per second"):
 
 
 def transfer(found, steps):
-    """A sentence on what agents earn with and without what others have learned: [(with, without), …] a run each."""
+    """A sentence on the points that agents earn with and without others' values: [(with, without), …] by run."""
     taught, new = np.median(found, axis=0)
     better = sum(one > other for one, other in found)
     return (f"In {steps:,} steps, agents that began with the values of another earned {taught:.0f} points (median over "
@@ -28,7 +28,7 @@ def same_bits(name, one, other):
 
 
 def in_short(found, steps, one, other, away):
-    """What the tasks of the page show, in three sentences. Arguments as below and above."""
+    """The page's results in a few sentences. Arguments as in `transfer`, `same_bits` and `distances`."""
     resumed = same_bits("A run that was saved and loaded, beside the same run without a break", one, other)
     return (f"{transfer(found, steps)} {resumed} An agent steers an animal in another simulator by the firing "
             f"of its neurons. {distances(away)}")
