@@ -266,7 +266,7 @@ def test_the_claim_is_judged_by_learners_with_enough_runs(boards):
 
 def test_the_summary_names_the_best_of_each_sort_and_an_agent_beyond_the_thesis_if_there_is_one(boards):
     text = report.summary(boards)
-    assert "With 3 creeps the thesis's best agent, PC + OVC, calibrated, finally earns 0.50 per second" in text
+    assert "With 3 creeps the thesis's best agent, PC + OVC, calibrated, earns 0.50 per second" in text
     assert "2.50 (hybrid reward); 1.20 (DQN). Controllers" in text and "this part of the book" not in text
     ours = {creeps: {**each, "ours": earned(BEYOND, 3.0)} for creeps, each in boards.items()}
     assert "; 3.00 (ours), the agent of this part of the book. Controllers" in report.summary(ours)
@@ -283,9 +283,9 @@ def test_the_table_has_thirds_levels_time_and_memory(boards):
 def test_what_it_means_is_computed(boards):
     text = report.meaning(boards)
     assert "3 of the learners" in text and "joint cells, hybrid reward, DQN" in text
-    assert "2.50 per second by a head for each creep, 0.90 by joint cells and 0.30 by the whole scene" in text
+    assert "2.50 per second with a head for each creep, 0.90 with joint cells and 0.30 with the whole scene" in text
     assert "hybrid reward 25, DQN 50, joint cells 65" in text
-    assert "the best learner, hybrid reward, earns 83 % of what PD does" in text
+    assert "the best learner, hybrid reward, earns 83 % of PD's reward" in text
 
 
 def test_the_tables_of_what_is_stored_name_every_method(boards):

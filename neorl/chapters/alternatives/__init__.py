@@ -1,1 +1,1 @@
-"""What the page on alternatives runs and draws: other learners, controllers and a planner beside the thesis's own."""
+"""The page on alternatives: other learners, controllers and a planner, compared with the thesis's agents."""

@@ -1,4 +1,4 @@
-"""The drawing of the page on alternatives."""
+"""The figure of the page on alternatives."""
 
 from matplotlib import pyplot as plt
 
@@ -13,9 +13,10 @@ COLOURS = {TABLES: CURVES[:4], DEEP: CURVES[4:], THESIS: CURVES[:2], BEYOND: (AG
 
 
 def draw_learning(boards):
-    """What contestants earn while they learn, a panel for each board: {creeps: {name: `Earned`}}.
+    """Draw the learning curves of the contestants, a panel for each board.
 
-    Means over runs with their 95 % intervals. Those that learn nothing are level lines.
+    boards: {creeps: {name: `Earned`}}. Curves are means over runs with their 95 % intervals. Contestants that are given
+    the physics are level lines.
     """
     _, panels = plt.subplots(len(boards), 1, figsize=(5.6, 4.4 * len(boards)), sharex=True)
     for axes, (creeps, earned) in zip(panels, boards.items()):

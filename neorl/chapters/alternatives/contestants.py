@@ -1,8 +1,8 @@
-"""All that is compared on the page: the contestants, and what each has earned on a board of so many creeps.
+"""The contestants of the page, and the rewards that each earns on a board of 3 or 8 creeps.
 
-All see the same: where the agent is and how fast it moves, and where the creeps are and of which kind. Deep agents see
-how fast creeps move, too; controllers and the planner know the rules of the world. All choose among the five actions at
-every step, but for agents of neorl, for which doing nothing is no action.
+All observe the agent's position and velocity, and the position and kind of every creep. Deep learners also observe the
+creeps' velocities; controllers and the planner know the rules of the world. All choose among five actions at every
+step, except agents of neorl, which have no action for doing nothing.
 """
 
 from dataclasses import dataclass
@@ -28,19 +28,19 @@ from neorl.experiments.sweeping import sweep
 
 CHANCE, THESIS, BEYOND, TABLES, DEEP, PHYSICS = (
     "chance", "the thesis's agents", "beyond the thesis", "tabular learners", "deep learners", "given the physics")
-BINS = 50  # of a run
+BINS = 50  # per run
 TIMED_STEPS = 20_000
-PLANNED = 1 / 30  # of the steps of other runs, in which the planner is watched
+PLANNED = 1 / 30  # length of the planner's runs, as a share of the others'
 READINGS = {LETTER: TO_THE_LETTER, CALIBRATED: Reading()}
 
 
 @dataclass(frozen=True)
 class Earned:
-    """What the runs of one contestant have earned.
+    """The rewards of all runs of one contestant.
 
     kind: one of the constants of this module. edges: (bins + 1,), the steps at which bins begin and end.
-    rewards: float64 (runs, bins). seconds: that a step takes to compute on one core, with the world's.
-    kilobytes: of what it keeps.
+    rewards: float64 (runs, bins). seconds: time to compute a step on one core, the world's part included.
+    kilobytes: size of its memory.
     """
 
     kind: str
@@ -51,12 +51,12 @@ class Earned:
 
     @property
     def runs(self):
-        """How many there are."""
+        """Number of runs."""
         return len(self.rewards)
 
     @property
     def steps(self):
-        """Of a run."""
+        """Steps per run."""
         return int(self.edges[-1])
 
     @property
@@ -71,14 +71,14 @@ class Earned:
         return (last - first) / ((end - begin) / BOARDS[3].fps)
 
     def steps_to(self, level, window):
-        """After how many steps the mean of the last `window` first reaches a level: (runs,), infinite if never."""
+        """Steps until the rate over the last `window` steps first reaches a level: (runs,), infinite if never."""
         ends = self.edges[self.edges >= window]
         made = np.array([self.rate(end - window, end) >= level for end in ends])
         return np.where(made.any(axis=0), ends[made.argmax(axis=0)], np.inf)
 
 
 def neorl_agents():
-    """The agents of neorl that are compared, {name: (kind, `Agent`)}: one line for each."""
+    """The agents of neorl in the comparison: {name: (kind, `Agent`)}."""
     agents = {"Brownian motion": (CHANCE, papers.brownian())}
     for name, reading in READINGS.items():
         both = papers.multimodal(PRIMES, place_gain=reading.place_gain, **reading.agents)
@@ -89,9 +89,9 @@ def neorl_agents():
 
 
 def compete(creeps, steps, runs, seed=0):
-    """What all contestants earn on a board: {name: `Earned`}, those of neorl by its sweep, deep ones from their table.
+    """Run all contestants on a board, but read the runs of deep learners from their table: {name: `Earned`}.
 
-    creeps: 3 or 8. The planner, which needs no time to learn, is watched for a thirtieth of the steps.
+    creeps: 3 or 8. The planner does not learn, so its runs have a thirtieth of the steps.
     """
     checks.one_of("creeps", creeps, tuple(BOARDS))
     found = of_neorl(neorl_agents(), creeps, steps, runs, seed)
@@ -100,13 +100,13 @@ def compete(creeps, steps, runs, seed=0):
 
 
 def of_neorl(agents, creeps, steps, runs, seed=0):
-    """What agents of neorl earn, {name: (kind, `Agent`)}: {name: `Earned`}."""
+    """Run agents of neorl: {name: `Earned`}. agents: {name: (kind, `Agent`)}."""
     results = sweep([Condition(agent, BOARDS[creeps], steps, runs, seed) for _, agent in agents.values()])
     return {name: _of_result(kind, result) for (name, (kind, _)), result in zip(agents.items(), results)}
 
 
 def of_kernels(creeps, steps, runs, seed=0):
-    """What tabular learners, controllers and the planner earn: {name: `Earned`}."""
+    """Run the tabular learners, the controllers and the planner: {name: `Earned`}."""
     settings, board = best_settings(), BOARDS[creeps]
     made = {name: (TABLES, make(settings[name]), steps) for name, make in TABULAR.items()}
     made |= {"nearest green": (PHYSICS, controllers.nearest_green(), steps),
@@ -121,12 +121,12 @@ def of_kernels(creeps, steps, runs, seed=0):
 
 
 def of_deep(creeps, steps):
-    """What deep agents have earned in the first `steps` of runs of a table, and at most in these: {name: `Earned`}."""
+    """Rewards of deep learners over the first `steps` of their stored runs: {name: `Earned`}."""
     return _of_rows(DEEP, read_runs(FOLDER / "deep_runs.csv"), METHODS, creeps, max(steps, MINUTE))
 
 
 def after_long(creeps, kinds):
-    """What all have earned in long runs of stored tables: {name: `Earned`}. kinds: {name: its kind}."""
+    """Rewards of contestants in the stored long runs: {name: `Earned`}. kinds: {name: its kind}."""
     rows = read_runs(FOLDER / "long_runs.csv") + read_runs(FOLDER / "deep_runs.csv")
     longest = max(row["steps"] for row in rows)
     found = {}
@@ -136,7 +136,7 @@ def after_long(creeps, kinds):
 
 
 def _of_rows(kind, rows, names, creeps, steps):
-    """Of each run in a table the shortest row that is long enough, up to `steps`."""
+    """The first `steps` of each run, from its shortest row that is long enough: {name: `Earned`}."""
     found, minutes = {}, steps // MINUTE
     for name in names:
         of_run = {}
@@ -162,7 +162,7 @@ def _of_result(kind, result):
 
 
 def seconds_of_a_step(agent, world, steps):
-    """Seconds that one core takes for a step of an agent of neorl and its world."""
+    """Seconds that one core takes to compute a step of an agent of neorl and its world."""
     run = Run(agent, world)
     run.advance(1)
     began = thread_time()

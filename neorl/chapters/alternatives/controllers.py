@@ -1,14 +1,14 @@
-"""Controllers that know the physics, and a planner with the exact model: what can be earned without learning.
+"""Controllers that know the physics, and a planner with the exact model: reference levels without learning.
 
-1. *nearest green*: accelerates along the axis in which the nearest green creep is farther away.
-2. *PD*: wants a velocity in proportion to the way to a green creep, led by what the creep will have moved on the way,
-   less what red creeps ahead repel, and accelerates along the axis in which the velocity is farther off. The green
-   creep is the one to which the way is shortest from where the agent's own velocity carries it. Its `Gains` are found
-   by a random search (`neorl.chapters.alternatives.search`).
+1. *nearest green*: accelerates towards the nearest green creep, along the axis of the larger distance.
+2. *PD*: its target velocity is proportional to the vector to a green creep, with a lead for the creep's motion on the
+   way, plus a repulsion from red creeps ahead. It accelerates along the axis of the larger velocity error. The green
+   creep is the one nearest to where the agent's own velocity carries it. The `Gains` are found by random search
+   (`neorl.chapters.alternatives.search`).
 3. *planner*: at every step it copies the world, tries some first moves in the copy, each followed by the PD controller
-   up to a horizon, and takes the first action of the best one (a rollout policy; Tesauro and Galperin 1996). Creeps
-   that are to come are left out: it knows the rules and not the future. What it earns is an achieved level, not a
-   bound. Parts of what it knows can be taken from it: how creeps move, the red ones, what follows a capture.
+   up to a horizon, and takes the first action of the best one (a rollout policy; Tesauro and Galperin 1996). Creeps yet
+   to appear are left out: it knows the rules, not the future. Its reward is an achieved level, not a bound. Parts of
+   its knowledge can be removed: the creeps' motion, the red creeps, what follows a capture.
 """
 
 import math
@@ -23,36 +23,36 @@ from neorl.core.scene import ABSENT
 from neorl.core.kernel import array, inlined_kernel, kernel
 from neorl.worlds.waterworld import GREEN, RED, WaterWorldState, step
 
-PUSH = 0.25  # board widths a second that an action adds to the velocity
+PUSH = 0.25  # board widths per second that an action adds to the velocity
 HOLDS = (1, 2, 4, 8, 16)
 
 
 class Gains(NamedTuple):
-    """What is chosen of a PD controller; lengths in board widths, times in seconds."""
+    """Parameters of a PD controller; lengths in board widths, times in seconds."""
 
-    approach: float  # velocity wanted for a distance, a second
-    fastest: float  # velocity wanted at most
-    braking: float  # for how long the agent's own velocity carries it on
-    lead: float  # for how long a green creep's velocity does, for each board width to it
-    fear: float  # velocity away from a red creep that touches
+    approach: float  # target velocity per distance, in 1/s
+    fastest: float  # largest target velocity towards a green creep
+    braking: float  # time over which the agent's own velocity is extrapolated
+    lead: float  # time over which a green creep's velocity is extrapolated, per board width to it
+    fear: float  # velocity away from a red creep at distance 0
     fear_reach: float  # distance at which a red creep begins to repel
-    fear_lead: float  # for how long velocities carry the agent and a red creep on
-    rest: float  # share of a push below which an error is left alone
+    fear_lead: float  # time over which the velocities of the agent and a red creep are extrapolated
+    rest: float  # velocity error below which no action is taken, as a share of a push
 
 
 class Plan(NamedTuple):
-    """What a planner takes: its controller, and how far it looks."""
+    """Parameters of a planner: its controller, how far it looks ahead, and what its model contains."""
 
     gains: Gains
     horizon: int  # steps
-    discount: float  # a step
-    captures: int  # of green creeps, after which it ends
+    discount: float  # per step
+    captures: int  # number of green creeps after which a plan ends
     moving: bool  # whether creeps move in the copy of the world
-    avoiding: bool  # whether red creeps are in it
+    avoiding: bool  # whether the copy has red creeps
 
 
 class Nothing(NamedTuple):
-    """The memory of a controller."""
+    """The memory of a controller, which needs none."""
 
     unused: array("float64", 1)
 
@@ -69,15 +69,15 @@ def nearest_green():
 
 
 def pd(gains):
-    """The `Contestant` that leads and avoids, with certain `Gains`."""
+    """The `Contestant` that leads green creeps and avoids red ones, with these `Gains`."""
     return Contestant(act_pd, learn_nothing, gains, _nothing)
 
 
 def planner(gains, horizon=100, discount=0.99, captures=100, moving=True, avoiding=True):
     """The `Contestant` that plans with the exact model, and follows a PD controller in its plans.
 
-    captures: of green creeps, after which a plan ends. moving, avoiding: whether creeps move, and whether there are red
-    ones, in its model.
+    captures: number of green creeps after which a plan ends. moving, avoiding: whether creeps move and red ones
+        exist in its model.
     """
     plan = Plan(gains, horizon, discount, captures, moving, avoiding)
     return Contestant(act_planner, learn_nothing, plan, lambda world, stream: Copy(world.reset(0)))
@@ -89,7 +89,7 @@ def _nothing(world, stream):
 
 @inlined_kernel
 def towards(x, y, least):
-    """The action that changes the larger of two components, or none where it is at most `least`."""
+    """The action along the larger of two components, or no-op if that is at most `least`."""
     if max(abs(x), abs(y)) <= least:
         return Action.no_op
     if abs(x) > abs(y):
@@ -113,7 +113,7 @@ def act_nearest(setting, memory, state, rules):
 
 @inlined_kernel
 def chosen_green(gains, state, width):
-    """The green creep to which the way is shortest, or −1."""
+    """The green creep nearest to where the agent's velocity carries it, or −1."""
     scene, best, least = state.scene, -1, np.inf
     for thing in range(scene.kinds.shape[0]):
         if scene.kinds[thing] == GREEN:
@@ -126,7 +126,7 @@ def chosen_green(gains, state, width):
 
 @inlined_kernel
 def pd_action(gains, state, width, target):
-    """The PD controller's action if it goes for the creep `target`."""
+    """The PD controller's action when it pursues the creep `target`."""
     scene, wanted_x, wanted_y = state.scene, 0.0, 0.0
     if target >= 0:
         dx = (scene.things[target, 0] - scene.position[0]) / width
@@ -176,16 +176,16 @@ def copy_world(source, target, moving, avoiding):
 
 @inlined_kernel
 def leave(world, thing):
-    """Let a creep be nowhere, so nothing meets it."""
+    """Remove a creep from the world, so that nothing meets it."""
     world.scene.kinds[thing] = ABSENT
     world.scene.things[thing, 0] = world.scene.things[thing, 1] = np.nan
 
 
 @inlined_kernel
 def value_of_plan(plan, world, state, rules, action, hold, target):
-    """(discounted reward, first action) of a plan in a copy of the world.
+    """Simulate a plan in a copy of the world: (discounted reward, first action).
 
-    It holds an action for some steps, goes for a creep until something is met, and is the PD controller's after that.
+    The plan holds an action for some steps, pursues a creep until something is met, and then follows the PD controller.
     """
     copy_world(state, world, plan.moving, plan.avoiding)
     total, weight, first, captured = 0.0, 1.0, action, 0
@@ -203,7 +203,7 @@ def value_of_plan(plan, world, state, rules, action, hold, target):
         for thing in range(world.speed.shape[0]):
             if world.scene.met[thing] > 0:
                 captured += world.scene.met[thing] == GREEN + 1
-                leave(world, thing)  # what comes in its place is not known
+                leave(world, thing)  # its replacement is unknown
                 target = -1
         if captured >= plan.captures:
             break
@@ -212,7 +212,7 @@ def value_of_plan(plan, world, state, rules, action, hold, target):
 
 @kernel
 def act_planner(setting, memory, state, rules):
-    """The first action of the best plan: to go for each of the green creeps, at once or after a push that is held."""
+    """The first action of the best plan; each pursues one green creep, at once or after a push that is held."""
     best, most = Action.no_op, -np.inf
     for target in range(state.speed.shape[0]):
         if state.scene.kinds[target] == GREEN:

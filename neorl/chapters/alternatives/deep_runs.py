@@ -1,18 +1,18 @@
-"""Deep reinforcement learning in WaterWorld: how the tables of its runs were made, by Stable-Baselines3.
+"""Deep reinforcement learning in WaterWorld with Stable-Baselines3: how the stored tables were made.
 
-1. Methods: DQN and PPO of Stable-Baselines3, QR-DQN of its contributed package, each one agent on one stream of
-   experience that is never cut into episodes, with two layers of 64 units, on one thread.
-2. Observation: `neorl.gym`'s, positions from the agent, nearest creep first, and after it the velocity of every creep
-   in that order. The other learners of the page do not see how fast creeps move. Positions of creeps are multiplied by
-   a number that is tuned.
-3. Search: for each method as many settings drawn (`neorl.chapters.alternatives.deep_settings`), each tried once for
-   `SEARCH_STEPS` steps with 3 creeps on a seed of its own. The one that earned most in the last third of these is used
-   for all runs.
-4. Exploration ends after a number of steps, not after a share of a run, so a long run begins as a short one.
+1. Methods: DQN and PPO of Stable-Baselines3, and QR-DQN of its contributed package, with two layers of 64 units, on one
+   thread. Each is one agent that learns from one stream of experience without episodes.
+2. Observation: that of `neorl.gym`, with positions relative to the agent and the nearest creep first, followed by the
+   velocity of every creep in that order. The other learners of the page do not observe the creeps' velocities.
+   Positions of creeps are multiplied by a tuned factor.
+3. Search: the same number of settings is drawn for each method (`neorl.chapters.alternatives.deep_settings`), and each
+   is tried once, for `SEARCH_STEPS` steps with 3 creeps on a seed of its own. The one that earned most in the last
+   third of these is used for all runs.
+4. Exploration ends after a number of steps, not after a share of a run, so a long run begins like a short one.
 
 Both tables are made by ``python -m neorl.chapters.alternatives.deep_runs search deep_search.csv`` and ``… run
-deep_search.csv deep_runs.csv``, which go on where they were interrupted. They take hours, and need stable-baselines3
-and sb3-contrib, which are in no extra. `neorl.chapters.alternatives.stored` reads the tables.
+deep_search.csv deep_runs.csv``, which resume when rerun. They take hours, and need stable-baselines3 and sb3-contrib,
+which no extra includes. `neorl.chapters.alternatives.stored` reads the tables.
 """
 
 import sys
@@ -29,16 +29,16 @@ from neorl.extras import require
 gymnasium = require("gymnasium", extra="gym")
 
 LAYERS = (64, 64)
-FASTEST_CREEP = 0.25  # sizes a second
-# (creeps, steps, runs) in the order in which they are made; runs of all methods take turns.
+FASTEST_CREEP = 0.25  # sizes of the world per second
+# (creeps, steps, runs) in the order of computation; the methods take turns.
 PLAN = ((3, 150_000, 10), (8, 150_000, 5), (3, 600_000, 3), (8, 150_000, 10), (8, 600_000, 2), (3, 600_000, 10))
 
 
 class Sight(gymnasium.Wrapper):
-    """The environment as deep agents see it, which counts what they earn.
+    """The environment with creeps' velocities in its observations, and a record of the reward of each minute.
 
-    env: of WaterWorld, egocentric. steps: how many there will be. seed, run: of its world, which is that of
-    ``neorl.Run(agent, world, seed, run)``. scale: of creeps' positions from the agent, in board widths.
+    env: WaterWorld, egocentric. steps: of the run. seed, run: of its world, which is that of
+    ``neorl.Run(agent, world, seed, run)``. scale: factor on creeps' positions relative to the agent, in board widths.
     """
 
     def __init__(self, env, steps, seed, run, scale=1.0):
@@ -54,12 +54,12 @@ class Sight(gymnasium.Wrapper):
         self.observation_space = gymnasium.spaces.Box(low, high)
 
     def reset(self, **_):
-        """Begin the run's world, whatever seed the library draws."""
+        """Reset to the run's own world, whatever seed the library draws."""
         observation, info = self.env.reset(**self._start)
         return self._with_velocities(observation), info
 
     def step(self, action):
-        """A step of the world, whose reward is added to its minute."""
+        """Take a step of the world, and add its reward to that of the current minute."""
         observation, reward, *others = self.env.step(int(action))
         if self._now // MINUTE < len(self.rewards):
             self.rewards[self._now // MINUTE] += reward
@@ -74,9 +74,9 @@ class Sight(gymnasium.Wrapper):
 
 
 def live(method, settings, creeps, steps, seed, run):
-    """Let a deep agent learn for so many steps: (reward of each minute, float64; processor seconds; kB).
+    """Train a deep learner for `steps` steps: (reward of each minute, float64; processor seconds; kB).
 
-    The kilobytes are those of its networks, of what their optimiser keeps of each weight, and of stored experience.
+    The kilobytes are those of its networks, of their optimiser's state, and of stored experience.
     """
     import torch
     torch.set_num_threads(1)
@@ -95,7 +95,7 @@ def _model(method, settings, env, steps, seed):
     kind = {"DQN": stable_baselines3.DQN, "PPO": stable_baselines3.PPO, "QR-DQN": sb3_contrib.QRDQN}[method]
     network = {"net_arch": list(LAYERS)}
     if method != "PPO":
-        settings["exploration_fraction"] = settings.pop("exploration_steps") / steps  # or the run ends before
+        settings["exploration_fraction"] = settings.pop("exploration_steps") / steps  # above 1 if the run ends first
         settings["learning_starts"] = 1_000
     if method == "QR-DQN":
         network["n_quantiles"] = 25
@@ -113,7 +113,7 @@ def _kilobytes(model):
 
 
 def search(path, *methods):
-    """Try `SETTINGS` settings of each method, or of some, and append to the table at `path` what each earned."""
+    """Try `SETTINGS` settings of each method, or of those named, and append their rewards to the table at `path`."""
     done = {(row["method"], row["number"]) for row in read_search(path)} if Path(path).exists() else set()
     for number in range(SETTINGS):
         for method in methods or METHODS:
@@ -124,7 +124,7 @@ def search(path, *methods):
 
 
 def run_all(searched, path):
-    """Make the runs of `PLAN` that are not yet in the table at `path`, with the settings that the search has found."""
+    """Compute the runs of `PLAN` that the table at `path` does not have yet, with the best settings of the search."""
     best = chosen(read_search(searched))
     for creeps, steps, runs in PLAN:
         for run in range(runs):

@@ -1,8 +1,8 @@
-"""What deep agents are tuned by: the ranges of the search, and what it draws.
+"""Settings of the deep learners: the ranges of the search, and the values that it draws.
 
-The ranges are the second ones tried: in the first, with positions as they are and γ from 0.95 on, eight settings of
-each method for 51,000 steps found 0.28, 0.34 and 0.14 per second in the last third (DQN, QR-DQN, PPO). Five runs of DQN
-by hand, with other scales, discounts and more updates, showed which ranges to widen.
+The ranges are the second ones tried. In the first, with unscaled positions and γ of 0.95 or more, a search over eight
+settings of each method for 51,000 steps found 0.28, 0.34 and 0.14 per second in the last third (DQN, QR-DQN, PPO). Five
+runs of DQN by hand, with other scales, discounts and more updates, showed which ranges to widen.
 """
 
 from neorl import checks
@@ -17,10 +17,10 @@ RANGES = {"DQN": REPLAY,
           "QR-DQN": REPLAY,
           "PPO": ANY | {"batch_size": [64, 128], "n_steps": [256, 512, 1_024, 2_048], "n_epochs": [4, 10],
                         "gae_lambda": [0.8, 0.9, 0.95], "ent_coef": [0.0, 0.003, 0.01, 0.03]}}
-SETTINGS, SEARCH_STEPS, SEARCH_SEED = 6, 36_000, 1_000  # steps: three times so many minutes of 3,000
+SETTINGS, SEARCH_STEPS, SEARCH_SEED = 6, 36_000, 1_000  # steps: a multiple of three minutes of 3,000
 
 
 def settings_of(method, number):
-    """The settings of a method, {name: value}, that the search draws in place `number`."""
+    """The settings at place `number` of a method's search: {name: value}."""
     checks.one_of("method", method, METHODS)
     return drawn(RANGES[method], SEARCH_SEED, METHODS.index(method), checks.integer("number", number, at_least=0))

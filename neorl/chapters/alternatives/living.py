@@ -1,9 +1,9 @@
-"""Learners and controllers in WaterWorld: one loop for all that are not agents of neorl.
+"""The run loop for learners and controllers in WaterWorld that are not agents of neorl.
 
 A *contestant* is two kernels, ``act(setting, memory, state, rules)``, which returns the number of an action, and
-``learn(setting, memory, state, rules, action, reward, restarted)``, called after the world has moved on. `state` is the
-`WaterWorldState` and `rules` are its rules; a learner reads the scene in it alone, a controller all of it. When the
-last green creep is taken the board is drawn anew before `learn` is called, with `restarted` true: life goes on.
+``learn(setting, memory, state, rules, action, reward, restarted)``, called after the world's step. `state` is the
+`WaterWorldState` and `rules` are its rules; a learner reads only the scene in it, a controller all of it. When the last
+green creep is captured the board is reset before `learn` is called, with `restarted` true, and learning continues.
 """
 
 import functools
@@ -22,7 +22,7 @@ THREADS = 2
 
 
 class Contestant(NamedTuple):
-    """How something lives: its kernels, its setting as they take it, and a function (world, stream) of its memory."""
+    """A learner or controller: its kernels, their setting, and a function (world, stream) that makes its memory."""
 
     act: object
     learn: object
@@ -31,7 +31,7 @@ class Contestant(NamedTuple):
 
 
 class Lived(NamedTuple):
-    """What runs have earned: rewards, float64 (runs, bins); processor seconds of each, (runs,); bytes of its memory."""
+    """Results of runs: rewards, float64 (runs, bins); processor seconds of each, (runs,); bytes of a memory."""
 
     rewards: np.ndarray
     seconds: np.ndarray
@@ -39,10 +39,10 @@ class Lived(NamedTuple):
 
 
 def live(contestant, world, *, steps, runs, bins, seed=0):
-    """Let runs of a contestant live for so many steps in a `WaterWorld`, and return what they `Lived`.
+    """Run a contestant in a `WaterWorld`: `Lived`.
 
-    bins: equal parts of a run, as far as steps can be shared out. Run k has the world of
-    ``neorl.Run(agent, world, seed, k)`` and draws for itself from a stream of its own.
+    steps: of each run. bins: parts of a run, as equal as whole steps allow. Run k has the world of
+    ``neorl.Run(agent, world, seed, k)``; the contestant draws from a random stream of its own.
     """
     kernel_of_life = _life_of(contestant.act, contestant.learn)
     edges = np.linspace(0, steps, bins + 1).round().astype(int)
@@ -56,7 +56,7 @@ def live(contestant, world, *, steps, runs, bins, seed=0):
         execute(kernel_of_life, contestant.setting, memory, state, world.rules, edges, rewards[run])
         seconds[run] = thread_time() - began
 
-    live_one(0, np.zeros_like(edges))  # compiles, which later calls do not
+    live_one(0, np.zeros_like(edges))  # compiles the kernel before calls are timed
     with ThreadPoolExecutor(THREADS) as pool:
         list(pool.map(live_one, range(runs)))
     return Lived(rewards, seconds, int(sizes[0]))
@@ -82,7 +82,7 @@ def _life_of(act, learn):
 
 @kernel
 def learn_nothing(setting, memory, state, rules, action, reward, restarted):
-    """What a controller learns."""
+    """Do nothing: a controller does not learn."""
 
 
 BOARDS = {creeps: WaterWorld(n_creeps=creeps) for creeps in (3, 8)}

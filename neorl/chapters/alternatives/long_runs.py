@@ -1,6 +1,6 @@
-"""Runs of 600,000 steps of all learners but deep ones, which are stored since they take minutes.
+"""Runs of 600,000 steps of all learners except deep ones, stored because they take minutes.
 
-``python -m neorl.chapters.alternatives.long_runs long_runs.csv`` makes the table, and goes on where it was interrupted.
+``python -m neorl.chapters.alternatives.long_runs long_runs.csv`` makes the table; rerunning resumes.
 """
 
 import sys
@@ -18,7 +18,7 @@ STEPS, RUNS = 600_000, 10
 
 
 def rewards_of(name, creeps, runs, steps=STEPS):
-    """(rewards of each minute, (runs, minutes), seconds of a run, kB) of a contestant."""
+    """Run a contestant: (rewards of each minute, (runs, minutes); seconds of a run; kB)."""
     board, minutes = BOARDS[creeps], steps // MINUTE
     if name in TABULAR:
         lived = live(TABULAR[name](best_settings()[name]), board, steps=steps, runs=runs, bins=minutes)
@@ -30,7 +30,7 @@ def rewards_of(name, creeps, runs, steps=STEPS):
 
 
 def main(path):
-    """Make all runs that are not yet in the table at `path`."""
+    """Compute all runs that the table at `path` does not have yet."""
     for creeps in BOARDS:
         for name in (*TABULAR, *neorl_agents()):
             if (name, creeps, STEPS, RUNS - 1) not in finished(path):

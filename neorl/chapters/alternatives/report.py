@@ -1,7 +1,7 @@
-"""What the page on alternatives says of what it has found, in Markdown, and the verdict on claim C5.
+"""Sentences and tables of the page on alternatives, in Markdown, and the verdict on claim C5.
 
-`earned` is {name: `Earned`} of one board, as `neorl.chapters.alternatives.contestants.compete` has it, and `boards` is
-{creeps: earned}.
+`earned` is {name: `Earned`} of one board, as `neorl.chapters.alternatives.contestants.compete` returns it, and `boards`
+is {creeps: earned}.
 """
 
 import numpy as np
@@ -16,9 +16,9 @@ from neorl.evidence.claims import RUNS_FOR_A_VERDICT, judge_alternatives
 from neorl.evidence.statistics import estimate
 
 LEVELS = (0.5, 1, 2, 3)  # reward per second
-FINAL = 0.8  # of a run, from where on its reward is final
-WINDOW = 0.1  # of a run, whose mean reward has to reach a level
-LATE = 50_000  # steps at the end of a long run
+FINAL = 0.8  # share of a run after which its reward is final
+WINDOW = 0.1  # share of a run over which its mean reward has to reach a level
+LATE = 50_000  # steps before each of three moments of a long run
 
 
 def final(each):
@@ -27,21 +27,21 @@ def final(each):
 
 
 def best_of(earned, *kinds):
-    """The name of the one of some kinds that earns most finally, or None if there is none."""
+    """Name of the contestant of these kinds with the highest final reward, or None if there is none."""
     names = [name for name, each in earned.items() if each.kind in kinds]
     return max(names, key=lambda name: final(earned[name]).mean(), default=None)
 
 
 def shown(earned):
-    """What a figure shows: all, but of the thesis's agents only the best under each reading."""
+    """The contestants in the figure: all, but only the best of the thesis's agents under each reading."""
     best = {best_of(_under(earned, reading), THESIS) for reading in READINGS}
     return {name: each for name, each in earned.items() if each.kind != THESIS or name in best}
 
 
 def judge(earned, steps):
-    """Claim C5 under each reading, {reading: `Claim`}.
+    """Judge claim C5 under each reading: {reading: `Claim`}.
 
-    Those learners count that have lived for so many steps, and in enough runs for a verdict, or as many as the others.
+    Only learners with runs of `steps` steps count, and with enough runs for a verdict or as many as Brownian motion.
     """
     enough = min(earned["Brownian motion"].runs, RUNS_FOR_A_VERDICT)
     alternatives = {name: (final(each), each.seconds) for name, each in earned.items()
@@ -63,9 +63,10 @@ def summary(boards):
         ours = best_of(earned, BEYOND)
         told = [f"{_named(earned, tabular)}" if tabular else "", _named(earned, deep) if deep else "",
                 f"{_named(earned, ours)}, the agent of this part of the book" if ours else ""]
-        parts.append(f"With {creeps} creeps the thesis's best agent, {thesis}, finally earns {_rate(earned, thesis)} "
-                     f"per second, and others earn {'; '.join(part for part in told if part)}. Controllers that know "
-                     f"the physics earn {_rate(earned, 'nearest green')} and {_rate(earned, 'PD')}, a planner "
+        parts.append(f"With {creeps} creeps the thesis's best agent, {thesis}, earns {_rate(earned, thesis)} per "
+                     "second over the last fifth of the run, and the best of the other kinds earn "
+                     f"{'; '.join(part for part in told if part)}. Controllers that know the physics earn "
+                     f" {_rate(earned, 'nearest green')} and {_rate(earned, 'PD')}, a planner "
                      f"{_rate(earned, 'planner')}.")
     return " ".join(parts)
 
@@ -88,7 +89,7 @@ def results_table(earned):
 
 
 def thirds(each):
-    """Reward per second in each third of the runs of an `Earned`: three times float64 (runs,)."""
+    """Reward per second in each third of the runs of an `Earned`: a list of three float64 (runs,)."""
     return [each.rate(part * each.steps / 3, (part + 1) * each.steps / 3) for part in range(3)]
 
 
@@ -108,7 +109,7 @@ def _microseconds(each):
 
 
 def long_table(boards):
-    """What learners earn at the end of the long runs that are stored, beside that of the page's."""
+    """Reward per second over the `LATE` steps before three moments of the stored long runs."""
     rows = []
     for creeps, earned in boards.items():
         kinds = {name: each.kind for name, each in earned.items() if each.kind != PHYSICS}
@@ -133,11 +134,11 @@ def search_table():
 
 
 def search_in_words():
-    """How large the search for settings was."""
-    return (f"For each tabular learner and for PD {search.SETTINGS} settings were drawn, and each was given "
-            f"{search.RUNS} runs of {search.STEPS:,} steps. Deep learners take thousands of times as long, so for each "
-            f"of them {deep_settings.SETTINGS} settings were drawn, and each was given one run of "
-            f"{deep_settings.SEARCH_STEPS:,} steps.")
+    """The size of the search for settings."""
+    return (f"For each tabular learner and for PD, {search.SETTINGS} settings were drawn and tried in {search.RUNS} "
+            f"runs of {search.STEPS:,} steps each. Deep learners take thousands of times as long, so for each of them "
+            f"{deep_settings.SETTINGS} settings were drawn and tried in one run of {deep_settings.SEARCH_STEPS:,} "
+            "steps each.")
 
 
 def _short(value):
@@ -145,7 +146,7 @@ def _short(value):
 
 
 def meaning(boards):
-    """What follows from the comparison, as a list: on the claim, on heads, on sample efficiency and on what is left."""
+    """Conclusions of the comparison, as a list: the claim, states, sample efficiency and the room for improvement."""
     lines = [_over_the_thesis(boards[3]), _heads(boards), _pace(boards[3]), _distance(boards)]
     return "\n".join(f"- {line}" for line in lines)
 
@@ -153,8 +154,8 @@ def meaning(boards):
 def _over_the_thesis(earned):
     best = final(earned[best_of(earned, THESIS)]).mean()
     more = [name for name, each in earned.items() if each.kind in (TABLES, DEEP) and final(each).mean() > best]
-    return (f"**Others can do this.** With three creeps {len(more)} of the learners that stand beside the thesis's "
-            f"finally earn more than its best agent does: {listed(more)}.")
+    return (f"**Others can do this.** With three creeps, {len(more)} of the learners compared with the thesis's "
+            f"agents earn more over the last fifth of the run than the best of these: {listed(more)}.")
 
 
 def _heads(boards):
@@ -162,9 +163,10 @@ def _heads(boards):
     for creeps, earned in boards.items():
         heads, joint, whole = (number(final(earned[name]).mean()) for name in ("hybrid reward", "joint cells",
                                                                               "monolithic"))
-        lines.append(f"with {creeps} creeps they earn {heads} per second by a head for each creep, {joint} by joint "
-                     f"cells and {whole} by the whole scene as one state")
-    return f"**What counts is the state.** Tabular learners all learn by the same rule, and finally {'; '.join(lines)}."
+        lines.append(f"with {creeps} creeps they earn {heads} per second with a head for each creep, {joint} with "
+                     f"joint cells and {whole} with the whole scene as one state")
+    return (f"**What counts is the state.** All tabular learners learn by the same rule. Over the last fifth of the "
+            f"run, {'; '.join(lines)}.")
 
 
 def _pace(earned):
@@ -182,6 +184,6 @@ def _distance(boards):
     for creeps, earned in boards.items():
         best = best_of(earned, TABLES, DEEP, BEYOND)
         share = {name: 100 * final(earned[best]).mean() / final(earned[name]).mean() for name in ("PD", "planner")}
-        lines.append(f"with {creeps} creeps the best learner, {best}, earns {share['PD']:.0f} % of what PD "
-                     f"does, and {share['planner']:.0f} % of what the planner does")
-    return f"**There is room.** Finally, {'; '.join(lines)}."
+        lines.append(f"with {creeps} creeps the best learner, {best}, earns {share['PD']:.0f} % of PD's "
+                     f"reward and {share['planner']:.0f} % of the planner's")
+    return f"**There is room for improvement.** Over the last fifth of the run, {'; '.join(lines)}."

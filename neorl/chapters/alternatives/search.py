@@ -1,8 +1,8 @@
-"""The search for the settings of tabular learners and of the PD controller: seeded, of equal size for each.
+"""Random search for the settings of tabular learners and of the PD controller, seeded and of equal size for each.
 
-``python -m neorl.chapters.alternatives.search search.csv`` draws so many settings of each from `RANGES`, lets each live
-`RUNS` runs with 3 creeps from a seed that no reported run has, and writes what all have earned per second in the last
-third. The setting that earned most is used on both boards (`neorl.chapters.alternatives.contestants`).
+``python -m neorl.chapters.alternatives.search search.csv`` draws `SETTINGS` settings of each from `RANGES`, tries each
+in `RUNS` runs with 3 creeps on a seed that no reported run has, and writes their rewards per second in the last third.
+The setting that earned most is used on both boards (`neorl.chapters.alternatives.contestants`).
 """
 
 import sys
@@ -17,7 +17,7 @@ from neorl.chapters.alternatives.stored import FOLDER, SEARCH_FIELDS, append, ch
 from neorl.chapters.alternatives.tabular_learners import TABULAR
 
 SETTINGS, STEPS, RUNS, SEED = 256, 150_000, 4, 1_000
-# A pair is the ends of a range from which a number is drawn log-uniformly, a list holds the choices.
+# A pair has the ends of a range from which a number is drawn log-uniformly; a list has the choices.
 LEARNING = {"reach": [0.3, 0.5, 1.0], "warped": [False, True], "speeds": [1, 3, 5], "speed_width": (0.1, 2.0),
             "places": [1], "learning_rate": (0.01, 0.5), "discount": [0.9, 0.93, 0.95, 0.96, 0.97, 0.98, 0.99],
             "exploration": (0.001, 0.1), "first": [0.0, 0.1, 0.3, 0.5, 1.0]}
@@ -31,33 +31,33 @@ MAKERS = {**TABULAR, "PD": pd}
 
 
 def drawn(ranges, *place):
-    """What is drawn from ranges, {name: choices}, at a place in a stream of random numbers: {name: value}."""
+    """Draw a value from each of some ranges, {name: choices}, with the seed `place`, integers: {name: value}."""
     rng = np.random.default_rng(place)
     return {name: rng.choice(choices).item() if isinstance(choices, list) else
             float(np.exp(rng.uniform(*np.log(choices)))) for name, choices in ranges.items()}
 
 
 def setting_of(method, number):
-    """The setting, `Setting` or `Gains`, that the search draws for a method in place `number`."""
+    """The setting at place `number` of a method's search, a `Setting` or `Gains`."""
     checks.one_of("method", method, tuple(RANGES))
     values = drawn(RANGES[method], SEED, [*RANGES].index(method), checks.integer("number", number, at_least=0))
     return (Gains if method == "PD" else Setting)(**values)
 
 
 def evaluate(method, number):
-    """What a setting earns per second in the last third, a mean over runs."""
+    """Reward per second of a setting in the last third, a mean over runs."""
     lived = live(MAKERS[method](setting_of(method, number)), BOARDS[3], steps=STEPS, runs=RUNS, bins=3, seed=SEED)
     return float(lived.rewards[:, -1].mean() / (STEPS / 3 / BOARDS[3].fps))
 
 
 def best_settings():
-    """The settings that the search has found, {method: `Setting` or `Gains`}."""
+    """The best settings of the search: {method: `Setting` or `Gains`}."""
     return {method: setting_of(method, number)
             for method, number in chosen(read_search(FOLDER / "search.csv")).items()}
 
 
 def main(path):
-    """Append to a table what all settings have earned."""
+    """Try all settings, and append their rewards to the table at `path`."""
     for method in RANGES:
         for number in range(SETTINGS):
             append(path, SEARCH_FIELDS, (method, number, f"{evaluate(method, number):.4f}"))

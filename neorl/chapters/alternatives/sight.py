@@ -1,8 +1,8 @@
-"""What tabular learners distinguish: the cells that a creep's position from the agent and the agent's velocity lie in.
+"""State features of tabular learners: the cells of a creep's position relative to the agent, and of its velocity.
 
-All are chosen by a `Setting`: how many cells there are along each axis of a position, how far they reach to either side
-and whether they are equally wide or the wider the farther they are; and how many cells along each axis of the velocity,
-and how wide. The outermost cells take what lies beyond.
+A `Setting` has the number of cells along each axis of a position, their reach to either side, and whether they are
+equally wide or grow with distance; and the number and width of the cells along each axis of the agent's velocity. The
+outermost cells include everything beyond.
 """
 
 import math
@@ -17,33 +17,33 @@ ACTIONS = 5  # N, S, E, W and no-op
 
 
 class Setting(NamedTuple):
-    """What is chosen of a tabular learner."""
+    """Parameters of a tabular learner."""
 
-    cells: int  # along each axis of where a creep is
+    cells: int  # along each axis of a creep's position relative to the agent
     reach: float  # board widths to either side
     warped: bool  # cells grow with distance
     speeds: int  # cells along each axis of the velocity
-    speed_width: float  # of such a cell, in board widths a second
-    places: int  # cells along each axis of the board, of the agent's own position
+    speed_width: float  # of such a cell, in board widths per second
+    places: int  # cells along each axis of the agent's position on the board
     learning_rate: float  # α
-    discount: float  # γ a step
+    discount: float  # γ per step
     exploration: float  # ε
-    first: float  # value before anything is learned
+    first: float  # initial value of every action
 
 
 class Memory(NamedTuple):
-    """All that changes in a tabular learner."""
+    """The mutable state of a tabular learner."""
 
     table: array("float64", "rows", "columns")
-    rows: array("int64", "things")  # of the table, before the step; the first alone where there is one state
-    codes: array("int64", "things")  # to work in
+    rows: array("int64", "things")  # of the table, before the step; only the first where there is one state
+    codes: array("int64", "things")  # scratch space
     value: array("float64", ACTIONS)
-    weights: array("float64", 2)  # what a contact of each kind is worth, where that is learned
+    weights: array("float64", 2)  # worth of a contact of each kind, where that is learned
     stream: array("uint64", 4)
 
 
 def new_memory(world, stream, rows, columns, first):
-    """A memory in which nothing has been learned."""
+    """A `Memory` before learning, with a table of (rows, columns) that all have the value `first`."""
     things = world.things
     return Memory(np.full((rows, columns), first), np.zeros(things, int), np.zeros(things, int), np.zeros(ACTIONS),
                   np.zeros(2), stream)
@@ -51,7 +51,7 @@ def new_memory(world, stream, rows, columns, first):
 
 @inlined_kernel
 def object_cell(setting, scene, width, thing):
-    """The cell that the position of a thing from the agent lies in, below cells²."""
+    """The cell of a thing's position relative to the agent, below cells²."""
     cell = 0
     for axis in range(2):
         offset = (scene.things[thing, axis] - scene.position[axis]) / (width * setting.reach)
@@ -65,7 +65,7 @@ def object_cell(setting, scene, width, thing):
 
 @inlined_kernel
 def velocity_cell(setting, scene, width):
-    """The cell that the agent's velocity lies in, below speeds²."""
+    """The cell of the agent's velocity, below speeds²."""
     cell = 0
     for axis in range(2):
         at = np.floor(scene.velocity[axis] / (width * setting.speed_width) + 0.5 * setting.speeds)
@@ -75,7 +75,7 @@ def velocity_cell(setting, scene, width):
 
 @inlined_kernel
 def place_cell(setting, scene, width):
-    """The cell of the board that the agent is in, below places²."""
+    """The cell of the agent's position on the board, below places²."""
     cell = 0
     for axis in range(2):
         cell = cell * setting.places + min(int(scene.position[axis] / width * setting.places), setting.places - 1)
@@ -84,7 +84,7 @@ def place_cell(setting, scene, width):
 
 @inlined_kernel
 def nearest_cells(setting, scene, width):
-    """The cell of the nearest green creep and that of the nearest red one, below (cells² + 1)² together."""
+    """The cells of the nearest green creep and the nearest red one as one number, below (cells² + 1)²."""
     none = setting.cells * setting.cells
     green, red, green_distance, red_distance = none, none, np.inf, np.inf
     for thing in range(scene.kinds.shape[0]):

@@ -1,7 +1,7 @@
-"""Tables of runs that take too long for a page: those of deep agents, and long ones of all others.
+"""Stored tables of runs that take too long for a page: those of deep learners, and long ones of all others.
 
-A search's table has a row for each setting tried, and what it earned per second in the last third. A table of runs has
-a row for each: processor seconds, kilobytes, and the reward of each minute of 3,000 steps. The package carries
+A table of a search has a row for each setting tried, with its reward per second in the last third. A table of runs has
+a row for each run, with its processor seconds, kilobytes, and reward in each minute of 3,000 steps. The package has
 ``deep_search.csv`` and ``deep_runs.csv`` (`neorl.chapters.alternatives.deep_runs`), ``search.csv``
 (`neorl.chapters.alternatives.search`) and ``long_runs.csv`` (`neorl.chapters.alternatives.long_runs`).
 """
@@ -26,7 +26,7 @@ def read_search(path):
 
 
 def chosen(rows):
-    """The number of the setting that earned most, {method: number}, the first of equal ones."""
+    """The number of each method's best setting, the first of equal ones: {method: number}."""
     best = {}
     for row in rows:
         if row["method"] not in best or row["rate"] > best[row["method"]]["rate"]:
@@ -43,18 +43,18 @@ def read_runs(path):
 
 
 def append(path, fields, row):
-    """Add a row to a table, which is begun with its fields if there is none."""
+    """Append a row to a table, which is created with a header of `fields` if it does not exist."""
     new = not Path(path).exists()
     with open(path, "a", newline="") as file:
         csv.writer(file, lineterminator="\n").writerows([fields, row] if new else [row])
 
 
 def row_of_run(method, creeps, steps, run, seconds, kilobytes, rewards):
-    """A row for `append`. rewards: of each minute; in WaterWorld without an end reward they are whole numbers."""
+    """A row for `append`. rewards: of each minute, whole numbers in WaterWorld without an end reward."""
     return method, creeps, steps, run, f"{seconds:.3g}", f"{kilobytes:.4g}", " ".join(f"{each:.0f}" for each in rewards)
 
 
 def finished(path):
-    """Which runs are in a table: {(method, creeps, steps, run)}."""
+    """The runs in a table: {(method, creeps, steps, run)}."""
     rows = read_runs(path) if Path(path).exists() else ()
     return {(row["method"], row["creeps"], row["steps"], row["run"]) for row in rows}

@@ -1,16 +1,16 @@
-"""Tabular rivals of the thesis's agents, all by one-step Q-learning at every step (Watkins 1989), ε-greedy.
+"""Tabular alternatives to the thesis's agents, all ε-greedy, by one-step Q-learning at every step (Watkins 1989).
 
-1. *monolithic*: one learner whose state is the whole scene: the agent's cell of the board, its velocity, and for every
-   creep its kind and its cell from the agent, creeps in no order. So many states share the rows of a hash table.
-2. *joint cells*: one learner whose state is an abstraction by hand: the cells of the nearest green creep and of the
-   nearest red one, and the velocity.
+1. *monolithic*: one learner whose state is the whole scene: the cells of the agent's position and velocity, and the
+   kind and relative cell of every creep, in no order. Its many states share the rows of a hash table.
+2. *joint cells*: one learner whose state is a hand-made abstraction: the cells of the nearest green creep, of the
+   nearest red one, and of the velocity.
 3. *hybrid reward*: a head for each creep, whose reward is the contact with it and whose state is its cell and the
-   velocity. Heads of one kind share a table, an action's value is the sum over heads, and each head learns by its own
-   greedy action (van Seijen et al. 2017, Hybrid reward architecture for reinforcement learning).
-4. *successor features*: for three policies, which want to take green creeps, to take no red one, and both, the
-   discounted numbers of contacts of either kind to come, in the states of *joint cells*. The agent takes the action
-   that is best by any of them at what contacts have been worth: generalised policy improvement (Barreto et al. 2017,
-   Successor features for transfer in reinforcement learning).
+   velocity. Heads of one kind share a table, an action's value is the sum over heads, and each head bootstraps from its
+   own greedy action (van Seijen et al. 2017, Hybrid reward architecture for reinforcement learning).
+4. *successor features*: the discounted numbers of future contacts of either kind under three policies, which seek green
+   creeps, avoid red ones, and do both, in the states of *joint cells*. The agent takes the action that is best under
+   any of them, at the learned worth of contacts: generalised policy improvement (Barreto et al. 2017, Successor
+   features for transfer in reinforcement learning).
 """
 
 import numpy as np
@@ -25,17 +25,17 @@ from neorl.worlds.waterworld import GREEN
 HASHED_BITS = 20
 HASH, SHIFT = np.uint64(0x9E3779B97F4A7C15), np.uint64(64 - HASHED_BITS)  # Fibonacci hashing
 POLICIES, FEATURES = 3, 2
-WORTH_RATE = 0.1  # at which the worth of a contact is learned
+WORTH_RATE = 0.1  # learning rate of the worth of a contact
 
 
 def monolithic(setting):
-    """The `Contestant` that takes the whole scene as one state."""
+    """The `Contestant` that treats the whole scene as one state."""
     return Contestant(act_monolithic, learn_monolithic, setting, lambda world, stream: new_memory(
         world, stream, 2**HASHED_BITS, ACTIONS, setting.first))
 
 
 def joint_cells(setting):
-    """The `Contestant` whose state is where the nearest creeps of either kind are, and its velocity."""
+    """The `Contestant` whose state is the cells of the nearest creep of either kind and of its own velocity."""
     return Contestant(act_joint, learn_joint, setting, lambda world, stream: new_memory(
         world, stream, _joint_rows(setting), ACTIONS, setting.first))
 
@@ -102,7 +102,7 @@ def act_monolithic(setting, memory, state, rules):
 
 @kernel
 def learn_monolithic(setting, memory, state, rules, action, reward, restarted):
-    """One update of the state before the step."""
+    """One Q-learning update of the state before the step."""
     row_t = monolithic_row(setting, memory.codes, state.scene, rules.width)
     learn_q(memory.table, memory.rows[0], action, reward, row_t, False, setting.learning_rate, setting.discount)
 
@@ -116,14 +116,14 @@ def act_joint(setting, memory, state, rules):
 
 @kernel
 def learn_joint(setting, memory, state, rules, action, reward, restarted):
-    """One update of the state before the step."""
+    """One Q-learning update of the state before the step."""
     learn_q(memory.table, memory.rows[0], action, reward, joint_row(setting, state.scene, rules.width), False,
             setting.learning_rate, setting.discount)
 
 
 @kernel
 def act_heads(setting, memory, state, rules):
-    """ε-greedy by the sum over heads."""
+    """ε-greedy on the sum over heads."""
     for action in range(ACTIONS):
         memory.value[action] = 0.0
     for thing in range(memory.rows.shape[0]):
@@ -136,7 +136,7 @@ def act_heads(setting, memory, state, rules):
 
 @kernel
 def learn_heads(setting, memory, state, rules, action, reward, restarted):
-    """One update of each head: a contact ends what it predicts; a board drawn anew teaches nothing about the rest."""
+    """One update of each head: a contact is terminal; from a reset board the other heads learn nothing."""
     scene = state.scene
     for thing in range(memory.rows.shape[0]):
         met = scene.met[thing]
@@ -150,7 +150,7 @@ def learn_heads(setting, memory, state, rules, action, reward, restarted):
 
 @inlined_kernel
 def worth(memory, row, policy, action, green, red):
-    """What successor features of an action are worth at what contacts of either kind are worth."""
+    """The value of an action by its successor features, at a worth of green and of red contacts."""
     at = (policy * ACTIONS + action) * FEATURES
     return green * memory.table[row, at] + red * memory.table[row, at + 1]
 
@@ -170,7 +170,7 @@ def act_features(setting, memory, state, rules):
 
 @kernel
 def learn_features(setting, memory, state, rules, action, reward, restarted):
-    """One update of the features of each policy, by its own greedy action, and of what contacts are worth."""
+    """One update of the features of each policy, with its own greedy action, and of the worth of contacts."""
     met = memory.codes
     green_t, red_t = 0.0, 0.0
     for thing in range(met.shape[0]):

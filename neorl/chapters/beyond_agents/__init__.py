@@ -1,1 +1,1 @@
-"""What the page "The agent that the thesis stops short of" runs and draws."""
+"""The page "Beyond the thesis: the agent": its experiments, figures and sentences."""

@@ -1,10 +1,10 @@
-"""Gains and recursion weights that adapt to reward, while the agent learns: the future work of paper C.
+"""Gains and recursion weights that adapt to reward while the agent learns: future work of paper C.
 
-Simultaneous perturbation (Spall 1992). A life is cut into pairs of segments. In one of each pair all parameters are
-raised or lowered together, each by a coin; in the other, the other way round; a coin says which comes first, since an
-agent that learns earns more later. Each parameter then moves in proportion to the difference in reward. Nothing but
-reward is looked at, and nothing learned is forgotten. Without the last step the parameters are merely *shaken*: what
-that alone brings has to be taken from what adapting brings.
+Simultaneous perturbation (Spall 1992): a run is divided into pairs of segments. In one segment of a pair each parameter
+is raised or lowered at random, all at once; in the other, each moves the opposite way. Their order is random, since a
+learning agent earns more later. Each parameter then moves in proportion to the difference in reward. Only reward is
+observed, and nothing learned is forgotten. Without this move the parameters are merely *shaken*; the gain from shaking
+alone has to be subtracted from the gain from adapting.
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -17,8 +17,8 @@ from neorl.experiments.run import Run
 from neorl.worlds.waterworld import WaterWorld
 
 SEGMENT = 1_000  # steps
-SPREAD, RATE = 0.5, 0.5  # of a perturbation; of a move, for a reward per second more at 1 more of the parameter
-HIGHEST = 4.0  # a parameter at most, and its negative at least
+SPREAD, RATE = 0.5, 0.5  # of a perturbation; of a move, for a slope of 1: reward per second per unit of the parameter
+HIGHEST = 4.0  # bound on the magnitude of a parameter
 THREADS = 2
 FIXED, SHAKEN, ADAPTED = "fixed", "shaken", "adapted"
 
@@ -27,7 +27,7 @@ FIXED, SHAKEN, ADAPTED = "fixed", "shaken", "adapted"
 class Adaptable:
     """An agent with parameters that can adapt.
 
-    agent_of: from its parameters, numbers, to an `Agent`. names: of these. start: their first values.
+    agent_of: function from the parameters, numbers, to an `Agent`. names: of the parameters. start: their first values.
     """
 
     agent_of: object
@@ -36,11 +36,11 @@ class Adaptable:
 
 
 def _gains(octaves):
-    """Gains of places and objects, the first 4 to the power of `octaves` times the second."""
+    """Gains of places and objects, whose ratio is 4 to the power of `octaves`."""
     return {"place_gain": 2.0**octaves, "object_gain": 2.0**-octaves}
 
 
-RATIO = "log₄ of the gain of places over that of objects"
+RATIO = "log₄ of the ratio of place gain to object gain"
 ADAPTABLE = {
     "paper B, places and objects": Adaptable(lambda octaves: multimodal(**_gains(octaves)), (RATIO,), (-1.0,)),
     "paper C, network D": Adaptable(lambda octaves, weight: network_d(**_gains(octaves), recursion=weight),
@@ -48,9 +48,10 @@ ADAPTABLE = {
 
 
 def adapt(adaptable, steps, seed=0, run=0, rate=RATE):
-    """One life of so many steps: parameters before each pair of segments, and reward per second of each segment.
+    """One run with adapting parameters: their path, and the reward per second of each segment.
 
-    Returns float64 (pairs + 1, parameters) and (2 · pairs,), see `pairs_in`.
+    Returns the parameters before each pair of segments and at the end, float64 (pairs + 1, parameters), and the
+    rewards, (2 · pairs,); see `pairs_in`.
     """
     now, rng = np.array(adaptable.start), np.random.default_rng([seed, run])
     life = Run(adaptable.agent_of(*now), WaterWorld(), seed, run)
@@ -67,7 +68,7 @@ def adapt(adaptable, steps, seed=0, run=0, rate=RATE):
 
 
 def pairs_in(steps):
-    """The pairs of segments in a life of about so many steps, one at least."""
+    """Number of pairs of segments in a run of about `steps` steps, at least one."""
     return max(1, round(steps / (2 * SEGMENT)))
 
 
@@ -76,7 +77,7 @@ def _within(parameters):
 
 
 def lives(steps, runs, seed=0):
-    """Lives of every `ADAPTABLE` agent, fixed, shaken and adapted.
+    """Runs of every `ADAPTABLE` agent with fixed, shaken and adapted parameters.
 
     Returns {name: {way: (paths, float64 (runs, pairs + 1, parameters), rewards, float64 (runs, 2 · pairs))}}.
     """
@@ -94,7 +95,7 @@ def lives(steps, runs, seed=0):
 
 
 def _fixed(adaptable, steps, seed, run):
-    """The same of an agent whose parameters stay as they are."""
+    """The same as `adapt`, of an agent with fixed parameters."""
     life, pairs = Run(adaptable.agent_of(*adaptable.start), WaterWorld(), seed, run), pairs_in(steps)
     rewards = [life.advance(SEGMENT) * life.world.fps / SEGMENT for _ in range(2 * pairs)]
     return np.tile(np.array(adaptable.start), (pairs + 1, 1)), np.array(rewards)

@@ -1,12 +1,13 @@
-"""Networks down to control: nodes whose desire is a velocity, and a node of velocities that knows how to get it.
+"""Networks down to control: nodes whose desire is a velocity, and a velocity node that knows how to reach it.
 
-1. *two layers*: a node of object vectors, whose goals are contacts, wants a velocity: its desire vector. Velocity cells
-   act on it. They have learned the way from every velocity to every other, and nothing of creeps.
-2. *three layers*: the desire vector of object vectors is a place for place cells, whose desire is the velocity.
-3. Object vectors know nothing of velocities in either, unlike the forager's cells; only the velocity node acts.
-4. Settings are drawn from `RANGES`, as many for each network; each is judged by what it earns in the last third of
-   `RUNS` runs of `SEED`, which no figure has. ``python -m neorl.chapters.beyond_agents.control`` writes what all have
-   earned to ``control.json``, one row a setting.
+1. *two layers*: the desire vector of an object-vector node, whose goals are contacts, is a desired velocity. A node of
+   velocity cells acts on it; it has learned the way from every velocity to every other, and nothing about creeps.
+2. *three layers*: the desire vector of the object-vector node is a place for place cells, whose desire vector is the
+   desired velocity.
+3. In both, the object-vector cells do not represent velocity, unlike the forager's; only the velocity node acts.
+4. Settings are drawn from `RANGES`, the same number for each network. Each is judged by its reward in the last third of
+   `RUNS` runs with `SEED`, which no figure uses. ``python -m neorl.chapters.beyond_agents.control`` writes all rewards
+   to ``control.json``, one row per setting.
 """
 
 import json
@@ -30,17 +31,17 @@ RECORD = Path(__file__).with_name("control.json")
 NETWORKS = {"two layers": 2, "three layers": 3}
 ALONE, FORAGER = "object vectors alone", "forager"
 RESOLUTIONS = forager().nodes[0].resolutions
-# A pair is the ends of a range from which a number is drawn log-uniformly, a list holds the choices.
+# A pair has the ends of a range from which a number is drawn log-uniformly; a list has the choices.
 RANGES = {"scale": (3.0, 1_000.0),  # of the velocity desired
           "reach": (1.0, 100.0),  # of the place desired
-          "fastest": (0.8, 2.5),  # of the velocities that are told apart
+          "fastest": (0.8, 2.5),  # velocity up to which the map reaches
           "velocities": [5, 7, 9, 13, 17], "places": [7, 13, 23], "update_on": ["cell", "step"],
           "learning_rate": (0.01, 0.5), "discount": (0.5, 0.98), "horizon": (0.2, 2.0), "caution": (0.1, 3.0),
           "own_cell": ["silent", "counts"]}
 
 
 def control_network(layers, setting):
-    """The network of 2 or 3 layers with a setting, {name: value} as `RANGES` has them: an `Agent`."""
+    """The network of 2 or 3 layers with a setting, {name: value} with the names of `RANGES`: an `Agent`."""
     checks.one_of("layers", layers, tuple(NETWORKS.values()))
     fastest = setting["fastest"]
     velocities = Modality("velocity cell", cartesian("velocity", (-fastest, fastest), (-fastest, fastest)))
@@ -60,13 +61,13 @@ def control_network(layers, setting):
 
 
 def setting_of(layers, number):
-    """The setting that the search draws for a network in place `number`: {name: value}, numbers to three digits."""
+    """The setting at place `number` of a network's search: {name: value}, numbers to three digits."""
     return {name: float(f"{value:.3g}") if isinstance(value, float) else value
             for name, value in drawn(RANGES, SEED, layers, number).items()}
 
 
 def earned_by(layers, number):
-    """Reward per second of a setting in the last third, mean over the runs of the search."""
+    """Reward per second of a setting in the last third, a mean over the runs of the search."""
     result = simulate(control_network(layers, setting_of(layers, number)), WaterWorld(), steps=STEPS, runs=RUNS,
                       seed=SEED, progress=False)
     return float(np.round(result.rate(2 / 3, 1.0).mean(), 4))
@@ -85,7 +86,7 @@ def read_record():
 
 
 def best_networks():
-    """The best networks that the search has found: {name: `Agent`}."""
+    """The best networks of the search: {name: `Agent`}."""
     record = read_record()
     found = {}
     for name, layers in NETWORKS.items():
@@ -95,7 +96,7 @@ def best_networks():
 
 
 def compared(steps, runs, seed=0):
-    """The networks, the object-vector node without what it sends its desire to, and the forager: {name: `Result`}."""
+    """Run the networks, their object-vector node alone, and the forager: {name: `Result`}."""
     alone = Agent([Node("OVC", foveated_cells(velocity=False), RESOLUTIONS, goals="contacts")],
                   [Desire("green", "OVC", 1.0), Desire("red", "OVC", -1.0)])
     agents = best_networks() | {ALONE: alone, FORAGER: forager()}

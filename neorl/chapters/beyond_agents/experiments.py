@@ -1,8 +1,8 @@
-"""The forager, the forager without each of its parts, and the way from a thesis agent to it: conditions and results.
+"""The forager, the forager without each of its parts, and agents between the bare one and it: conditions and results.
 
-1. A part is what sets the forager apart from an agent that superposes what single maps of object-vector cells know of
-   contacts. Without mirrored cells there are 2N − 1 intervals where N were, so that receptive fields stay as they are;
-   without several resolutions there is the middle one.
+1. Parts are the differences between the forager and the bare agent, which superposes the values of contacts in a single
+   map of object-vector cells. Without mirrored cells an axis has 2N − 1 intervals in place of N, so receptive fields
+   keep their size; without several resolutions there is the middle one.
 2. All conditions have runs of `seed`, which took no part in the search (`neorl.chapters.beyond_agents.search`).
 """
 
@@ -25,19 +25,18 @@ THESIS = "the thesis, calibrated"
 BARE = "contacts alone"
 PARTS = ("velocity", "foveated fields", "the best alone", "fear by avoidance", "first values", "mirror images", "trace",
          "several resolutions")
-TARGETS = {  # reward per second, by creeps, and from and to which share of 600,000 steps
+TARGETS = {  # (creeps, begin and end as shares of 600,000 steps, reward per second)
     "3 creeps, first 50,000 steps": (3, 0.0, 1 / 12, 1.5), "3 creeps, steps 100,000 to 150,000": (3, 1 / 6, 1 / 4, 3.0),
     "8 creeps, steps 100,000 to 150,000": (8, 1 / 6, 1 / 4, 2.0), "3 creeps, around step 600,000": (3, 5 / 6, 1.0, 3.3)}
-TIMES_AS_LONG = 4  # the runs against which the targets are held
+TIMES_AS_LONG = 4  # length of the runs that are compared with the targets
 
 
 @dataclass(frozen=True)
 class Lived:
-    """What the conditions of the page brought: `neorl.Result` by name.
+    """Results of the conditions of the page: `neorl.Result` by name.
 
-    way: from the bare agent on, with one part more each. without: the forager without one part. long: by creeps, runs
-    that are `TIMES_AS_LONG` times as long. revalued: the forager, to which red is worth as much as green from half-time
-    on.
+    way: from the bare agent on, each with one more part. without: the forager without one part. long: by creeps, runs
+    that are `TIMES_AS_LONG` times as long. revalued: the forager when red is worth as much as green from half-time on.
     """
 
     thesis: dict
@@ -48,7 +47,7 @@ class Lived:
 
 
 def forager_with(parts):
-    """The forager with some of its parts. Raises ValueError for a part that there is not."""
+    """The forager with only these parts. Raises ValueError for an unknown part."""
     unknown = set(parts) - set(PARTS)
     if unknown:
         raise ValueError(f"parts has {', '.join(sorted(unknown))}, allowed are {', '.join(PARTS)}")
@@ -73,7 +72,7 @@ def forager_with(parts):
 
 
 def way_agents():
-    """The agents from the bare one to the forager: {name: `Agent`}, each with the parts before it."""
+    """The agents from the bare one to the forager, each with one more part: {name: `Agent`}."""
     return {BARE: forager_with(())} | {f"+ {part}": forager_with(PARTS[: number + 1])
                                        for number, part in enumerate(PARTS)}
 
@@ -84,7 +83,7 @@ def without_agents():
 
 
 def live(steps, runs, seed=0):
-    """Compute all conditions: `Lived`. steps: of a run, but for the long ones. runs: of each."""
+    """Run all conditions: `Lived`. steps: per run, except long ones. runs: per condition."""
     tank = WaterWorld()
     agents = {("thesis", THESIS): multimodal(), **{("way", name): each for name, each in way_agents().items()},
               **{("without", name): each for name, each in without_agents().items()}}
@@ -112,7 +111,7 @@ def reached(lived):
 
 
 def hits_per_second(result, stretches=30):
-    """Creeps of each kind met per second over the run: {"green": (runs, stretches), "red": …}, and minutes."""
+    """Minutes, and the creeps of each kind met per second over the run: {"green": (runs, stretches), "red": …}."""
     bins = np.array_split(np.arange(result.hits.shape[1]), min(stretches, result.hits.shape[1]))
     seconds = np.array([result.edges[each[-1] + 1] - result.edges[each[0]] for each in bins])
     middles = np.array([(result.edges[each[-1] + 1] + result.edges[each[0]]) / 120 for each in bins])
@@ -122,10 +121,10 @@ def hits_per_second(result, stretches=30):
 
 
 def fear_by_approach(steps, runs, seed=0, bins=20):
-    """The mean fear of actions by their approach, of what foragers know after so many steps.
+    """Mean fear of actions as a function of their approach, in foragers that have learned for `steps` steps.
 
-    Returns the middles of the bins, float64 (bins,), and fear, float64 (runs, bins), not a number where there is none.
-    Actions count by their visits, in the finest map.
+    Returns the middles of the bins, float64 (bins,), and fear, float64 (runs, bins), NaN where a bin is empty. Actions
+    are those of the finest map, weighted by their visits.
     """
     edges, fears = np.linspace(0, 1, bins + 1), np.full((runs, bins), np.nan)
     for number in range(runs):
@@ -142,7 +141,7 @@ def fear_by_approach(steps, runs, seed=0, bins=20):
 
 @dataclass(frozen=True)
 class Cost:
-    """What an agent costs on one core: microseconds a step, kibibytes that it holds and that it has ever used."""
+    """Cost of an agent on one core: microseconds per step, kibibytes that it holds and that it has ever used."""
 
     microseconds: float
     held: float
@@ -150,7 +149,7 @@ class Cost:
 
 
 def cost(steps, seed=0):
-    """The `Cost` of the forager with 3 creeps, over so many steps after as many that are not timed."""
+    """The `Cost` of the forager with 3 creeps, over `steps` steps after as many that are not timed."""
     run = Run(forager(), WaterWorld(), seed)
     run.advance(steps)
     began = time.perf_counter()

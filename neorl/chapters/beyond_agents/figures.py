@@ -1,4 +1,4 @@
-"""What the page on the forager draws."""
+"""Figures of the page on the forager."""
 
 import numpy as np
 
@@ -21,11 +21,12 @@ def draw_long(lived):
 
 
 def draw_parts(lived, ax=None):
-    """The last third's reward per second on the way, and of the whole without each part: a row a part."""
+    """Reward per second over the last third, as parts are added in turn and without each part: a row per part."""
     axes = axes_or_new(ax, figsize=(4.9, 4.2))
     rows = np.arange(len(lived.way))
     way = [estimate(np.mean, last_third(each)) for each in lived.way.values()]
-    axes.errorbar([each.value for each in way], rows, xerr=_bars(way), fmt="o", color=CURVES[0], label="on the way")
+    axes.errorbar([each.value for each in way], rows, xerr=_bars(way), fmt="o", color=CURVES[0],
+                  label="parts added in turn")
     without = [estimate(np.mean, last_third(lived.without[part])) for part in PARTS]
     axes.errorbar([each.value for each in without], rows[1:], xerr=_bars(without), fmt="D", color=CURVES[5],
                   label="the whole without it")
@@ -38,12 +39,12 @@ def draw_parts(lived, ax=None):
 
 
 def _bars(estimates):
-    """What errorbar takes of estimates: (2, rows)."""
+    """Lengths of the error bars of estimates: (2, rows)."""
     return np.array([[each.value - each.low, each.high - each.value] for each in estimates]).T
 
 
 def draw_fear(middles, fears):
-    """Fear by approach, with the line of a fear that were as high as the approach."""
+    """Fear as a function of approach, with the line on which they are equal."""
     known = np.isfinite(fears).all(axis=0)
     axes = draw_curves(middles[known], {"fear by avoidance": fears[:, known]}, "approach", "fear")
     axes.plot([0, 1], [0, 1], color=INK, linewidth=0.7)
@@ -60,7 +61,7 @@ def draw_revalued(lived):
 
 
 def draw_oracles(boards, ax=None):
-    """Reward per second of foragers and planners, means and 95 % intervals: a row each, a colour a board.
+    """Reward per second of foragers and planners, means and 95 % intervals: a row for each, a colour per board.
 
     boards: as `neorl.chapters.beyond_agents.oracles.rates_by_creeps` returns them.
     """
@@ -77,10 +78,10 @@ def draw_oracles(boards, ax=None):
 
 
 def draw_adapting(of_ways, parts=10):
-    """Reward per second by simulated minutes, of lives that are fixed, shaken and adapted.
+    """Reward per second by simulated minutes, with fixed, shaken and adapted parameters.
 
     of_ways: what `neorl.chapters.beyond_agents.adapting.lives` returns for one agent, whose segments are averaged in
-    `parts` groups or less.
+        at most `parts` groups.
     """
     segments = next(iter(of_ways.values()))[1].shape[1]
     groups = np.array_split(np.arange(segments), min(parts, segments))

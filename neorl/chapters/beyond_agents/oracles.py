@@ -1,11 +1,11 @@
-"""What separates the forager from a planner with the exact model: planners that lack parts of its knowledge.
+"""The gap between the forager and a planner with the exact model, split by planners that lack parts of its knowledge.
 
-1. All plan in the same way (`neorl.chapters.alternatives.controllers`). Those of one capture think no further than the
+1. All plan in the same way (`neorl.chapters.alternatives.controllers`). Those of one capture look no further than the
    next green creep, as the forager does; they have perfect control to a point.
-2. *still*: creeps stand still in the model. What a planner earns more without it is the worth of perfect prediction.
-3. *red ignored*: the model has no red creeps. What a planner earns more without it is the worth of perfect avoidance.
-   The forager that ignores red is one to which red is worth 0.
-4. A planner does not learn, so it is watched for `PLANNED` of the steps of a forager, whose last third counts.
+2. *still*: creeps stand still in the model. The gain of a planner without this flaw is the worth of perfect prediction.
+3. *red ignored*: the model has no red creeps. The gain of a planner without this flaw is the worth of perfect
+   avoidance. For the forager, to ignore red is to give it a valence of 0.
+4. A planner does not learn, so its runs have `PLANNED` of the steps of a forager's, of which the last third counts.
 """
 
 import numpy as np
@@ -49,9 +49,9 @@ def rates_by_creeps(steps, runs, seed=0):
 
 
 def gaps(rates):
-    """What lies between the forager and the planner, in rewards per second of each run: {name: float64 (runs,)}.
+    """The parts of the gap between forager and planner, in reward per second of each run: {name: float64 (runs,)}.
 
-    They add up to the whole distance from the forager to the planner that looks ahead to all captures.
+    They add up to the whole gap between the forager and the planner that looks ahead to all captures.
     """
     return {"control to a point": rates[STILL_CONTROL] - rates[BLIND_FORAGER],
             "prediction of creeps": rates[CONTROL] - rates[STILL_CONTROL],
@@ -60,6 +60,6 @@ def gaps(rates):
 
 
 def shares(rates):
-    """What each of the gaps is of the whole distance, means over runs: {name: share}."""
+    """Each part of the gap as a share of the whole, means over runs: {name: share}."""
     whole = np.mean(rates[ALL] - rates[FORAGER])
     return {name: float(np.mean(gap) / whole) for name, gap in gaps(rates).items()}

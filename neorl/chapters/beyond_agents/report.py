@@ -1,4 +1,4 @@
-"""What the page on the forager says of its results, in Markdown."""
+"""Sentences and tables of the page on the forager, in Markdown."""
 
 import numpy as np
 
@@ -26,28 +26,28 @@ def summary(lived):
     """The page's result in a paragraph."""
     found = {name: mean_of(rates) for name, rates in reached(lived).items()}
     met = [name for name, each in found.items() if each.value >= TARGETS[name][3]]
-    missed = [f"{name} ({number(found[name].value)}, aim {TARGETS[name][3]})" for name in TARGETS if name not in met]
+    missed = [f"{name} ({number(found[name].value)}, target {TARGETS[name][3]})" for name in TARGETS if name not in met]
     thesis, ours = (mean_of(last_third(each)) for each in (lived.thesis[THESIS], lived.way[f"+ {PARTS[-1]}"]))
     parts = {part: mean_of(last_third(result)).value for part, result in lived.without.items()}
     most = sorted(parts, key=parts.get)[:3]
     return (f"The forager earns {interval(ours)} per second over the last third of the runs, while it learns; the "
             f"best agent of the thesis earns {interval(thesis)} in the calibrated reading. It meets {len(met)} of "
-            f"{len(TARGETS)} aims" + (f"; missed: {listed(missed)}" if missed else "") + ". It loses most without "
-            f"{', '.join(f'{part} ({number(parts[part])})' for part in most)}. It has no network of neurons, no replay "
-            "and no model, and passes through its experience once; elements that are moved or revalued need no "
+            f"{len(TARGETS)} targets" + (f"; missed: {listed(missed)}" if missed else "") + ". It loses most without "
+            f"{', '.join(f'{part} ({number(parts[part])})' for part in most)}. It uses no neural network, no replay "
+            "and no model, and learns in a single pass through its experience; moved or revalued elements need no "
             "retraining.")
 
 
 def target_table(lived):
-    """The aims, and what was reached on runs that took no part in the search."""
-    return table(["aim, reward per second while learning", "at least", "reached (95 % interval)", "met"],
+    """The targets, and the rewards reached on runs that took no part in the search."""
+    return table(["target, reward per second while learning", "at least", "reached (95 % interval)", "met"],
                  [[name, TARGETS[name][3], interval(each), "●" if each.low >= TARGETS[name][3] else
                    "◐" if each.value >= TARGETS[name][3] else "○"]
                   for name, each in ((name, mean_of(rates)) for name, rates in reached(lived).items())])
 
 
 def part_table(lived):
-    """What each part adds on the way, and what its absence costs the whole."""
+    """The gain from each part as it is added, and the change of the whole without it."""
     rows, before = [], lived.way[BARE]
     whole = lived.way[f"+ {PARTS[-1]}"]
     for part in PARTS:
@@ -56,78 +56,78 @@ def part_table(lived):
         lost = estimate(difference, last_third(lived.without[part]), last_third(whole))
         rows.append([part, interval(gained), interval(lost)])
         before = after
-    return table(["part", "reward per second that it adds on the way", "its absence changes the whole by"], rows)
+    return table(["part", "gain in reward per second when added in turn", "change of the whole without it"], rows)
 
 
 def search_in_words():
-    """How much was searched, and what came of it."""
+    """The size of the search, and its outcome."""
     tried = read_record()
     best = tried[0]
     spread = [score_of(row) for row in tried]
-    return (f"{len(tried)} settings of {len(RANGES)} numbers and of the resolutions were tried by differential "
+    return (f"{len(tried)} settings of {len(RANGES)} numbers and the resolutions were tried by differential "
             f"evolution; their scores lie between {number(min(spread))} and {number(max(spread))}, half of them above "
             f"{number(float(np.median(spread)))}. The best has the resolutions "
             f"{listed(map(str, best['resolutions']))} and {', '.join(f'{name} {best[name]:g}' for name in RANGES)}, "
             f"and earned {number(best['with_3'])} per second with 3 creeps, {number(best['with_8'])} with 8 and "
-            f"{number(best['late'])} late, on the runs that it was chosen by.")
+            f"{number(best['late'])} late, on the runs by which it was chosen.")
 
 
 def revalued_in_words(lived):
-    """What the agents meet before and after red is worth as much as green."""
+    """The creeps met before and after red becomes worth as much as green."""
     bins = lived.revalued.hits.shape[1]
     seconds = lived.revalued.seconds / 2
     before, after = (lived.revalued.hits[:, part].sum(axis=1) / seconds
                      for part in (slice(0, bins // 2), slice(bins // 2, bins)))
-    return (f"Up to half-time the agents meet {number(before[:, 0].mean())} green and "
+    return (f"Before half-time the agents meet {number(before[:, 0].mean())} green and "
             f"{number(before[:, 1].mean())} red creeps per second; from then on, with no value relearned, "
             f"{number(after[:, 0].mean())} green and {number(after[:, 1].mean())} red ones.")
 
 
 def mean_fear(fears):
-    """The mean over runs (runs, bins), not a number where none has any."""
+    """The mean of fears (runs, bins) over runs: (bins,), NaN where no run has a value."""
     known = np.isfinite(fears)
     total = np.where(known, fears, 0.0).sum(axis=0)
     return np.where(known.any(axis=0), total / np.maximum(known.sum(axis=0), 1), np.nan)
 
 
 def fear_in_words(middles, fears):
-    """How fear depends on approach."""
+    """Fear as a function of approach."""
     mean = mean_fear(fears)
     half, high = mean[np.abs(middles - 0.5).argmin()], np.nanmax(mean)
-    return (f"Where the approach is worth half a contact, fear is {number(float(half))}; at its highest it is "
-            f"{number(float(high))}. A fear that were linear in approach would be "
+    return (f"Where approach is worth half a contact, fear is {number(float(half))}; its maximum is "
+            f"{number(float(high))}. A fear linear in approach would be "
             f"{number(float(high * 0.5 / middles[np.nanargmax(mean)]))} there.")
 
 
 def cost_in_words(cost):
-    """What the forager costs."""
+    """The cost of the forager in time and memory."""
     return (f"A step of world and agent takes {number(cost.microseconds, 1)} µs on one core of this machine. The agent "
             f"holds {cost.held:,.0f} KiB of values, of which it has used {cost.used:,.0f} KiB.")
 
 
 def gaps_in_words(boards):
-    """How far the forager is from the planner, and what lies between them. boards: as `figures.draw_oracles` has it."""
+    """The gap between forager and planner, and its parts. boards: as `figures.draw_oracles` takes it."""
     parts = []
     for creeps, rates in boards.items():
         of_forager, of_planner = (mean_of(rates[name]) for name in (oracles.FORAGER, oracles.ALL))
         gaps = sorted(oracles.shares(rates).items(), key=lambda item: -item[1])
         (first, most), *others = ((name, f"{number(100 * share, 0)}\u00a0%") for name, share in gaps)
         parts.append(f"With {creeps} creeps the forager earns {interval(of_forager)} per second and the planner "
-                     f"{interval(of_planner)}. Perfect {first} would close {most} of the distance between them, "
+                     f"{interval(of_planner)}. Perfect {first} would close {most} of the gap between them, "
                      + listed([f"{name} {share}" for name, share in others]) + ".")
     return " ".join(parts)
 
 
 def gap_table(boards):
-    """What each kind of perfect knowledge would bring, in rewards per second: a row each, a column a board."""
+    """Gain from each kind of perfect knowledge, in reward per second: a row for each, a column per board."""
     gaps = {creeps: oracles.gaps(rates) for creeps, rates in boards.items()}
-    return table(["more reward per second by perfect", *(f"{creeps} creeps (95 % interval)" for creeps in boards)],
+    return table(["gain in reward per second from perfect", *(f"{creeps} creeps (95 % interval)" for creeps in boards)],
                  [[name, *(interval(mean_of(each[name])) for each in gaps.values())]
                   for name in next(iter(gaps.values()))])
 
 
 def networks_in_words(results):
-    """What networks down to control earn beside the object vectors alone and the forager."""
+    """Rewards of the networks down to control, of the object vectors alone and of the forager."""
     earned = {name: mean_of(last_third(result)) for name, result in results.items()}
     return ("Reward per second over the last third: "
             + listed([f"{name} {interval(earned[name])}" for name in (*NETWORKS, ALONE, FORAGER)])
@@ -135,16 +135,16 @@ def networks_in_words(results):
 
 
 def adapting_in_words(lives):
-    """What adapting brings. lives: as `neorl.chapters.beyond_agents.adapting.lives` returns them."""
+    """The gain from adapting. lives: as `neorl.chapters.beyond_agents.adapting.lives` returns them."""
     parts = []
     for name, of_ways in lives.items():
         rates = {way: late_reward(rewards) for way, (_, rewards) in of_ways.items()}
         brought = estimate(difference, rates[ADAPTED], rates[SHAKEN])
-        doubt = ", which may be nothing" if brought.low <= 0 <= brought.high else ""
+        doubt = ", which may be zero" if brought.low <= 0 <= brought.high else ""
         ends = zip(ADAPTABLE[name].names, ADAPTABLE[name].start, of_ways[ADAPTED][0][:, -1].mean(axis=0))
         last = listed([f"{each} goes from {number(first)} to {number(float(end))}" for each, first, end in ends])
         parts.append(f"**{name}**: {number(float(rates[FIXED].mean()))} per second over the last third with fixed "
                      f"parameters, {number(float(rates[SHAKEN].mean()))} when they are merely shaken, "
-                     f"{number(float(rates[ADAPTED].mean()))} when they adapt. Beyond shaking, adapting brings "
+                     f"{number(float(rates[ADAPTED].mean()))} when they adapt. Beyond shaking, adapting adds "
                      f"{interval(brought)}{doubt}. On average, {last}.")
     return "\n\n".join(parts)

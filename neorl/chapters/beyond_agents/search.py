@@ -1,9 +1,9 @@
-"""The search for the settings of the forager: ``python -m neorl.chapters.beyond_agents.search``.
+"""Search for the settings of the forager: ``python -m neorl.chapters.beyond_agents.search``.
 
 Differential evolution (Storn and Price 1997) of six fields of `neorl.Contacts` and of the resolutions. A setting's
 score is the sum of three mean rewards per second while learning: over the last third of 150,000 steps with 3 creeps,
-half of that with 8, and over the last 100,000 of 600,000 steps with 3. Every setting is judged by the same runs, of
-`SEED`; no figure of the page has that seed. What was tried is written to ``search.json``, one row a setting.
+half of that with 8, and over the last 100,000 of 600,000 steps with 3. Every setting is judged by the same runs, with
+`SEED`, which no figure of the page uses. All settings tried are written to ``search.json``, one row per setting.
 """
 
 import json
@@ -19,7 +19,7 @@ from neorl.worlds.waterworld import WaterWorld
 SEED = 1_000
 RECORD = Path(__file__).with_name("search.json")
 RESOLUTIONS = ((5, 9, 15), (4, 7, 12), (5, 11, 19), (4, 7, 11, 17), (5, 9, 15, 25))
-# What is searched, from and to; of those named in LOGARITHMIC, evenly in their logarithms.
+# The bounds of the search, which scales the fields named in LOGARITHMIC by their logarithms.
 RANGES = {"horizon": (0.3, 1.3), "learning_rate": (0.005, 0.1), "familiarity": (2.0, 60.0), "first_value": (0.05, 0.6),
           "trace_rate": (0.05, 1.0), "caution": (0.15, 1.0)}
 LOGARITHMIC = ("learning_rate", "familiarity", "trace_rate")
@@ -60,7 +60,7 @@ def agent_of(settings):
 
 
 def rewards_of(settings, seed=SEED):
-    """The three rewards per second that a setting is judged by: float64 (3,)."""
+    """The three rewards per second by which a setting is judged: float64 (3,)."""
     agent = agent_of(settings)
     with_3 = simulate(agent, WaterWorld(), runs=4, steps=150_000, seed=seed)
     with_8 = simulate(agent, WaterWorld(n_creeps=8), runs=2, steps=150_000, seed=seed)
@@ -70,7 +70,7 @@ def rewards_of(settings, seed=SEED):
 
 
 def score_of(row):
-    """What a row of the record is judged by."""
+    """The score of a row of the record."""
     return row["with_3"] + 0.5 * row["with_8"] + row["late"]
 
 

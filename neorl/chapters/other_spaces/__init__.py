@@ -1,1 +1,1 @@
-"""What the page "Is it general?" runs and draws: one rule of learning in several spaces, and Kaelbling's properties."""
+"""The page "Is it general?": one learning rule in several spaces, and Kaelbling's properties."""

@@ -1,11 +1,11 @@
 """A space of concepts: birds that differ in the lengths of their neck and legs (Constantinescu et al. 2016).
 
-1. A bird is a point of a square, neck along x and legs along y, both from 0 (short) to 1 (long). It is an `Arena`: the
-   four actions make the neck or the legs shorter or longer by a `STEP`.
-2. Six birds have names, symbols of Christmas as in the study. Where they lie is ours.
-3. An agent first morphs birds without a desire, for `MORPHING` steps. Then it is asked for one bird after the other, at
-   first those with a name and then some without. Its question is answered when it comes within `REACH` of the bird, and
-   given up after `PATIENCE` steps.
+1. A bird is a point of a square, neck along x and legs along y, both from 0 (short) to 1 (long). The square is an
+   `Arena` whose four actions make the neck or the legs shorter or longer by a `STEP`.
+2. Six birds are named after symbols of Christmas, as in the study. Their positions are ours.
+3. An agent first morphs birds without a desire, for `MORPHING` steps. It is then asked for one bird after another: the
+   named ones, then some without a name. A question is answered when the agent comes within `REACH` of the bird, and
+   abandoned after `PATIENCE` steps.
 """
 
 import math
@@ -28,10 +28,10 @@ THINKERS = {"one map": (minds.thinker(False), MORPHING), "a map of each": (minds
 
 
 def ask(runs, seed):
-    """How many times the fewest steps each question takes: {thinker: float64 (runs, birds)}, named birds first.
+    """Steps that each question takes, as multiples of the fewest: {thinker: float64 (runs, birds)}, named birds first.
 
-    thinker: with "one map" of both features; "a map of each", also "hasty", at a higher rate of learning; "newborn",
-    with one map and without having morphed birds before; "random".
+    thinker: with "one map" of both features; "a map of each", also "hasty", with a higher learning rate; "newborn",
+    with one map and without earlier morphing; "random".
     """
     return {name: np.array([_ask(agent, morphing, seed, run) for run in range(runs)])
             for name, (agent, morphing) in THINKERS.items()}
@@ -48,7 +48,7 @@ def fewest(here, there):
 
 
 def path(apart, seed, birds):
-    """The birds that an agent makes on its way to each of some: a float64 (steps, 2) for each."""
+    """The birds that an agent passes through on its way to each of `birds`: a list of float64 (steps, 2)."""
     run = Run(minds.thinker(apart), SPACE, seed)
     run.advance(MORPHING)
     return [_morph(run, bird) for bird in birds]

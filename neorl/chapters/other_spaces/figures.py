@@ -1,4 +1,4 @@
-"""The figures of the page: worlds from above with what an agent does there, beside what agents learn.
+"""Figures of the page "Is it general?": what an agent does in each world, and learning curves.
 
 Functions that draw a world take `ax`, or make a new board; those that draw a pair of panels return both.
 """
@@ -14,12 +14,12 @@ from neorl.drawing.curves import draw_curves
 from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, TEXT, axes_or_new, letters, width_of_figures
 from neorl.evidence.statistics import estimate, probability_of_improvement
 
-SEEN = 12  # postures of an arm that are drawn on its way to a target
+SEEN = 12  # postures drawn on an arm's way to a target
 BIRD = 0.05  # half the length of a bird's body, as a share of the square
 
 
 def pair(heights=(1, 0.8)):
-    """Two panels, the upper one a board: side by side their letters would be too small on a phone."""
+    """Two panels, the upper one a board; side by side, their text would be too small on a phone."""
     width = width_of_figures()
     _, (above, below) = plt.subplots(2, 1, figsize=(width, 0.7 * width * sum(heights)), height_ratios=heights,
                                      layout="constrained")
@@ -27,9 +27,9 @@ def pair(heights=(1, 0.8)):
 
 
 def draw_arms(reached, seen):
-    """An arm of two links on its way to two targets, and targets and obstacles met by both arms over their runs.
+    """An arm of two links on its way to two targets, and the reward per second of both arms over their runs.
 
-    reached: of `lives.reach`. seen: of `lives.watch`, with an arm of two links.
+    reached: from `lives.reach`. seen: from `lives.watch`, with an arm of two links.
     """
     above, below = pair()
     draw_reaching(seen, above)
@@ -41,7 +41,7 @@ def draw_arms(reached, seen):
 
 
 def draw_reaching(seen, ax=None, targets=2):
-    """Postures of an arm until it has met so many targets, later ones darker, with the targets and the obstacle."""
+    """Postures of an arm until it has met `targets` targets, later ones darker, with the targets and obstacles."""
     axes = board_or_new(ax)
     axes.set(xlim=(-1.15, 1.15), ylim=(1.15, -1.15))
     ends = [at for at, (_, met) in enumerate(seen) if met][: targets + 1]
@@ -62,16 +62,16 @@ def draw_reaching(seen, ax=None, targets=2):
 
 
 def joints_of(posture):
-    """Where the base, the joints and the hand of the arm with links of equal length are: float64 (links + 1, 2)."""
+    """Positions of the base, joints and hand of an arm with links of equal length: float64 (links + 1, 2)."""
     angles = TAU * np.cumsum(posture)
     ways = np.column_stack([np.cos(angles), np.sin(angles)]) / len(posture)
     return np.concatenate([np.zeros((1, 2)), np.cumsum(ways, axis=0)])
 
 
 def draw_vessel(sailed, seen):
-    """A vessel's track among others, and what pilots earn over their runs.
+    """A vessel's track among others, and the reward per second of pilots over their runs.
 
-    sailed: of `lives.sail`. seen: of `lives.watch`.
+    sailed: from `lives.sail`. seen: from `lives.watch`.
     """
     above, below = pair()
     draw_track(seen, above)
@@ -82,7 +82,7 @@ def draw_vessel(sailed, seen):
 
 
 def draw_track(seen, ax=None):
-    """The track of a vessel, the waypoints that it meets, and the tracks of the others."""
+    """The track of a vessel, the waypoints that it reaches, and the tracks of the others."""
     axes = board_or_new(ax)
     axes.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
     things = np.array([state.scene.things for state, _ in seen])
@@ -104,7 +104,7 @@ def draw_track(seen, ax=None):
 def draw_pool(swum, paths):
     """Paths of a swimmer's first and second trial of a day, and seconds to the platform over the days.
 
-    swum: of `pool.swim`. paths: (first, second), float64 (steps, 2) each.
+    swum: from `pool.swim`. paths: (first, second), float64 (steps, 2) each.
     """
     above, below = pair()
     draw_paths(paths, above)
@@ -131,21 +131,21 @@ def draw_paths(paths, ax=None):
 
 
 def draw_birds(asked, paths):
-    """The space of birds with the ways to some of them, and how many times the fewest steps questions take.
+    """The space of birds with paths to some of them, and the steps of questions as multiples of the fewest.
 
-    asked: of `birds.ask`. paths: float64 (steps, 2) each, of `birds.path`.
+    asked: from `birds.ask`. paths: float64 (steps, 2) each, from `birds.path`.
     """
     above, below = pair((1, 0.5))
     draw_space(paths, above)
-    draw_rows({name: estimate(np.mean, each.mean(axis=1)) for name, each in asked.items()}, "times the fewest steps",
-              below)
+    draw_rows({name: estimate(np.mean, each.mean(axis=1)) for name, each in asked.items()},
+              "steps, as a multiple of the fewest", below)
     below.set_xscale("log")
     below.axvline(1, color=INK, linewidth=0.7)
     return above, below
 
 
 def draw_space(paths, ax=None):
-    """The space of birds: those with a name, some others, and ways between them."""
+    """The space of birds: those with a name, some others, and paths between them."""
     axes = board_or_new(ax)
     axes.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
     for path in paths:
@@ -161,7 +161,7 @@ def draw_space(paths, ax=None):
 
 
 def draw_bird(bird, axes, colour):
-    """A bird where it lies in its space, its neck and legs as long as that place says."""
+    """A bird at its point in the space, with neck and legs of the lengths that the point stands for."""
     (x, y), (neck, legs) = bird, 0.02 + 0.08 * np.array(bird)
     axes.plot([x - BIRD / 2, x + BIRD / 2], [y, y], color=colour, linewidth=5, solid_capstyle="round")
     axes.plot([x + BIRD / 2, x + BIRD / 2 + neck / 3], [y, y - neck], color=colour, linewidth=1.6)
@@ -171,19 +171,19 @@ def draw_bird(bird, axes, colour):
 
 
 def draw_car(driven, learner):
-    """What a driver has learned, in the plane of place and velocity, and the steps of an episode as it learns.
+    """The pushes that a driver has learned, by place and velocity, and steps per episode as drivers learn.
 
-    driven: of `hill.drive`. learner: a driver that has learned, a `neorl.Learner`.
+    driven: from `hill.drive`. learner: a driver that has learned, a `neorl.Learner`.
     """
     above, below = pair()
     draw_pushes(learner, above)
     decisions = (np.arange(hill.POINTS) + 1) * hill.DECISIONS / hill.POINTS
-    draw_curves(decisions, driven, "decisions", "steps of an episode", below)
+    draw_curves(decisions, driven, "decisions", "steps per episode", below)
     return above, below
 
 
 def draw_pushes(learner, ax=None):
-    """Where a driver pushes left and right, by cell of place (rightward) and velocity (upward); empty: not known."""
+    """Whether a driver pushes left or right, by cell of place (rightward) and velocity (upward); empty if unknown."""
     axes = axes_or_new(ax)
     q = learner.q(0)
     goals = [minds.COLUMNS - 1 + minds.COLUMNS * row for row in range(minds.ROWS)]
@@ -202,16 +202,16 @@ def draw_pushes(learner, ax=None):
 
 
 def draw_worlds(scores, ax=None):
-    """How probably a run of an agent beats one at random, in each world. scores: of `scores.of_each_world`."""
+    """Probability that a run of the agent beats a random agent's, by world. scores: from `scores.of_each_world`."""
     axes = draw_rows({world: probability_of_improvement(*each) for world, each in scores.items()},
-                     "probability that a run beats one at random", ax)
+                     "probability of beating a random agent", ax)
     axes.set_xlim(0, 1.04)
     axes.axvline(0.5, color=INK, linewidth=0.7)
     return axes
 
 
 def draw_rows(estimates, label, ax=None):
-    """Values with their intervals, a row each: {name: `Estimate`}."""
+    """Values with their intervals, a row for each. estimates: {name: `Estimate`}."""
     axes = axes_or_new(ax, figsize=(width_of_figures(), 0.4 * len(estimates) + 0.8))
     for row, (name, (value, low, high)) in enumerate(estimates.items()):
         axes.plot(value, row, marker="o", color=CURVES[0])

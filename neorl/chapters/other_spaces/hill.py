@@ -1,9 +1,9 @@
-"""Gymnasium's MountainCar-v0 (Moore 1990): an agent of the page, Q-learning on the same cells, and a random driver.
+"""Gymnasium's MountainCar-v0 (Moore 1990): the page's agent, Q-learning on the same cells, and a random driver.
 
 1. An episode ends at the flag, or after 200 steps of the environment; every step costs 1.
 2. A decision holds for `HELD` steps, as is usual where single steps hardly matter (Mnih et al. 2015).
-3. Q-learning (Watkins 1989) is paid what the environment pays, so its values begin above all that follows and make it
-   try everything. The agent is paid nothing, and wants the flag.
+3. Q-learning (Watkins 1989) receives the environment's reward, so its values begin above all later ones and make it
+   try everything. The agent receives no reward, and desires the flag.
 """
 
 import gymnasium
@@ -17,7 +17,7 @@ from neorl.core.stream import new_stream
 from neorl.gym import play
 
 HELD, DECISIONS = 16, 2_400
-EPISODES = 100  # of drivers that act at random, whose luck is counted
+EPISODES = 100  # of a random driver, in `luck`
 RATES = Rates(0.3, 1.0, 0.05)
 POINTS = 8  # of a curve
 
@@ -30,7 +30,7 @@ class Held(gymnasium.Wrapper):
         self.steps = steps
 
     def step(self, action):
-        """As in Gymnasium; the reward is the sum of those of all steps."""
+        """As in Gymnasium; the reward is the sum over the steps."""
         total = 0.0
         for _ in range(self.steps):
             observation, reward, terminated, truncated, info = self.env.step(action)
@@ -46,12 +46,12 @@ def environment(held=HELD):
 
 
 def scene_of(observation, info):
-    """What the agent perceives of an observation: the car's place and velocity on a line."""
+    """The `Scene` of an observation: the car's place and velocity on a line."""
     return Scene(observation[:1].astype(float), observation[1:].astype(float))
 
 
 def drive(runs, seed):
-    """Steps an episode over the decisions taken: {driver: float64 (runs, POINTS)}."""
+    """Steps per episode over the decisions taken: {driver: float64 (runs, POINTS)}."""
     agent = minds.driver()
     return {"neoRL": np.array([_lengths(play(agent, environment(), scene_of, steps=DECISIONS, seed=seed + run))
                                for run in range(runs)]),
@@ -60,7 +60,7 @@ def drive(runs, seed):
 
 
 def luck(seed):
-    """Shares of the episodes in which a random driver reaches the flag: {steps that actions are held: share}."""
+    """Share of episodes in which a random driver reaches the flag: {steps for which actions are held: share}."""
     shares = {}
     for held in (1, HELD):
         env, rng, reached = environment(held), np.random.default_rng(seed), 0
@@ -76,12 +76,12 @@ def luck(seed):
 
 
 def learned(seed):
-    """A driver that has taken all decisions: a `neorl.Learner`."""
+    """A driver after all its decisions: a `neorl.Learner`."""
     return play(minds.driver(), environment(), scene_of, steps=DECISIONS, seed=seed).learner
 
 
 def _table(rates, seed):
-    """What `drive` has of one life of Q-learning, or of a random driver."""
+    """One run of Q-learning, or of a random driver, as `drive` returns it."""
     env, stream = environment(), new_stream(np.random.SeedSequence(seed))
     q = np.zeros((minds.COLUMNS * minds.ROWS, 3))
     rewards, ends = np.zeros(DECISIONS), np.zeros(DECISIONS, bool)

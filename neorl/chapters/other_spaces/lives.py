@@ -1,4 +1,4 @@
-"""Lives in the arm and with the vessel: agents of the page, the same agents choosing at random, and some variants."""
+"""Runs of the arm and the vessel: the page's agents, the same agents acting at random, and some variants."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ from neorl.experiments.sweeping import simulate_once
 
 ARMS = {2: Arm((0.5, 0.5), radius=0.15), 3: Arm((0.4, 0.3, 0.3), radius=0.15)}  # by the number of links
 WATERS = Vessel()
-VALENCES = (0.0, -0.1, -0.3, -1.0)  # of obstacles, that an arm is tried with
+VALENCES = (0.0, -0.1, -0.3, -1.0)  # of obstacles, in `fear`
 
 
 def reach(steps, runs, seed):
@@ -22,7 +22,7 @@ def reach(steps, runs, seed):
 def curve(result, kind=None, points=20):
     """Reward per second over stretches of the runs of a `Result`: (minutes (points,), float64 (runs, points)).
 
-    kind: the number of a kind of things; then how many of these were met per second.
+    kind: the number of a kind of things; if given, the rate is that of meeting them.
     """
     shares = np.linspace(0, 1, points + 1)
     rates = [result.rate(*each) if kind is None else result.hit_rate(*each)[:, kind]
@@ -40,7 +40,7 @@ def fear(steps, runs, seed):
 def sail(steps, runs, seed):
     """`Result`s of pilots: {"radar", "far radar", "near joins", "compass" or "random": `Result`}.
 
-    Of "near joins" the near map of the radar comes at half-time to the far one.
+    With "near joins" the near map of the radar is added to the far one at half-time.
     """
     far, both = minds.far_pilot(), minds.pilot()
     changing = {"near joins": [(steps // 2, both)]}
@@ -52,10 +52,10 @@ def sail(steps, runs, seed):
 
 
 def watch(agent, world, experience, steps, seed):
-    """What happens in so many steps after an agent has lived `experience` steps.
+    """Record `steps` steps of a run that has had `experience` steps before.
 
-    Returns a list of (the state after the step, a copy; whether a thing of the first kind was met in the step). In that
-    state a fresh thing has taken the place of what was met.
+    Returns a list of (a copy of the state after the step; whether a thing of the first kind was met in the step). In
+    that state a new thing has replaced the one that was met.
     """
     run = Run(agent, world, seed)
     run.advance(experience)

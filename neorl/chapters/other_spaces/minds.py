@@ -1,6 +1,6 @@
-"""The agents of the page: one rule of learning, one policy, and for each world what its cells stand for.
+"""The agents of the page: one learning rule, one policy, and cells for each world.
 
-Nothing but nodes and desires differs between them; those of the arm, the vessel and the water maze are in
+They differ only in their nodes and desires; those of the arm, the vessel and the water maze are in
 `neorl.agents.spaces`. The page says how the rule and the maps were found
 (`neorl.chapters.other_spaces.report.SEARCHED`).
 """
@@ -16,17 +16,17 @@ __all__ = ["FAR_RADAR", "POLICY", "RULE", "aimless", "compass_pilot", "driver", 
 
 
 def aimless(agent):
-    """The same agent, but for drawing every action at random."""
+    """The same agent with every action drawn at random."""
     return replace(agent, policy=Policy(exploration=1.0))
 
 
 def far_pilot():
-    """A pilot with the map alone that reaches far, which seeks waypoints and knows no fear."""
+    """A pilot with the far map alone, which seeks waypoints and avoids nothing."""
     return seeker([FAR_RADAR], [Desire("waypoint", "far", 1.0)])
 
 
 def compass_pilot():
-    """A pilot whose cells stand for the way to a thing, east and south, and for its own heading."""
+    """A pilot whose cells represent the way to a thing, east and south, and its own heading."""
     cells = Modality("object-vector × head-direction cell", [
         *cartesian("objects", (-0.7, 0.7), (-0.7, 0.7)), Axis("velocity", "direction", intervals=8)])
     return seeker([Node("compass", cells, [7])], [Desire("waypoint", "compass", 1.0)])
@@ -36,7 +36,7 @@ NECK, LEGS = (Axis("position", "component", along, name=name) for along, name in
 
 
 def thinker(apart):
-    """An agent in the space of birds, without a desire: one map of both features, or one for each of them *apart*."""
+    """An agent in the space of birds, without a desire. apart: whether each feature has a map of its own."""
     if apart:
         return seeker([Node("neck", Modality("neck cell", [NECK]), [9]),
                        Node("legs", Modality("leg cell", [LEGS]), [9])])
@@ -44,7 +44,7 @@ def thinker(apart):
 
 
 def in_haste(agent):
-    """The same agent with three times the rate of learning."""
+    """The same agent with three times the learning rate."""
     return replace(agent, learning=replace(agent.learning, learning_rate=3 * agent.learning.learning_rate))
 
 
@@ -57,7 +57,7 @@ TRACK, SPEEDS, COLUMNS, ROWS = (-1.2, 0.6), (-0.07, 0.07), 18, 14  # ranges of p
 
 
 def driver():
-    """A driver whose cells stand for where its car is and how fast it goes, and which seeks the flag."""
+    """A driver whose cells represent the place and velocity of its car, and which seeks the flag."""
     cells = Modality("place × velocity cell", [Axis("position", "component", 0, *TRACK, intervals=COLUMNS),
                                                Axis("velocity", "component", 0, *SPEEDS, intervals=ROWS)])
     return seeker([Node("car", cells, [1])], [Desire(Place(0.55), "car", 1.0)])

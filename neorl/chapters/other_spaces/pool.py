@@ -1,7 +1,7 @@
-"""Trials in the water maze: an agent of the page, the same agent swimming at random, and Q-learning on the same cells.
+"""Trials in the water maze: the page's agent, the same agent swimming at random, and Q-learning on the same cells.
 
-Q-learning (Watkins 1989) knows of the pool which cell of the finer map the animal is in, learns at every step, and is
-paid 1 on the platform. Only this reward shows where the platform is.
+The state of Q-learning (Watkins 1989) is the animal's cell in the finer map. It learns at every step, and its reward is
+1 on the platform, the only information on where that is.
 """
 
 import functools
@@ -18,7 +18,7 @@ from neorl.core.stream import new_stream
 DAYS, TRIALS_A_DAY = 8, 4
 SIDE = 9  # cells along each side of the table of Q-learning
 RATES = Rates(0.3, 0.99, 0.05)
-STRETCH = 500  # steps between two looks at whether all trials are over
+STRETCH = 500  # steps between two checks of whether all trials are over
 ANGLES = TAU * np.arange(DAYS) * 3 / 8
 MOVED = WaterMaze([(0.5 + 0.25 * np.cos(angle), 0.5 + 0.25 * np.sin(angle)) for angle in ANGLES], TRIALS_A_DAY)
 FIXED = WaterMaze(MOVED.places[:1] * DAYS, TRIALS_A_DAY)
@@ -40,7 +40,7 @@ def swim(runs, seed):
 
 
 def experienced(seed):
-    """A swimmer before the last of the days with the platform moved: a `Run` at the start of that day's first trial."""
+    """A swimmer before the last day with a moved platform: a `Run` at the start of that day's first trial."""
     run = Run(minds.swimmer(), MOVED, seed)
     while run.world_state.trial[0] <= MOVED.trials - TRIALS_A_DAY:
         run.advance(1)
@@ -48,7 +48,7 @@ def experienced(seed):
 
 
 def last_path(run, trials=1):
-    """Where a swimmer goes in the coming trials: a float64 (steps, 2) for each."""
+    """Paths of a swimmer in its next trials: a list of float64 (steps, 2)."""
     paths = []
     while len(paths) < trials:
         path, trial = [], run.world_state.trial[0]
@@ -81,14 +81,14 @@ def _latencies_of_table(maze, seed, run):
 
 @functools.cache
 def _table_in(dynamics):
-    """The kernel `live` of Q-learning in the unit square of a world of two axes."""
+    """The kernel `live` of Q-learning in the unit square of a world with two axes."""
     reset, step = dynamics
     world_type, rules_type = fields(reset)["state"], fields(reset)["rules"]
 
     @kernel
     def live(state: world_type, rules: rules_type, rates: Rates, side: int, steps: int,
              q: array("float64", "cells", "actions"), stream: array("uint64", 4)) -> None:
-        """Take so many steps, an episode after the other."""
+        """Take `steps` steps, one episode after another."""
         for _ in range(steps):
             cell_tm1 = cell_at(state.scene.position, side)
             action = exploring_action(q[cell_tm1], rates.exploration, stream)
@@ -103,6 +103,6 @@ def _table_in(dynamics):
 
 @kernel
 def cell_at(position, side):
-    """The cell of a place, of side × side."""
+    """The cell of a position in a grid of side × side."""
     column, row = min(max(int(position[0] * side), 0), side - 1), min(max(int(position[1] * side), 0), side - 1)
     return row * side + column

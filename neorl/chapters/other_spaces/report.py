@@ -1,4 +1,4 @@
-"""What the page "Is it general?" says of its runs, in words and tables."""
+"""Sentences and tables of the page "Is it general?"."""
 
 import numpy as np
 
@@ -8,13 +8,13 @@ from neorl.evidence import claims
 from neorl.evidence.statistics import difference, estimate, probability_of_improvement
 from neorl.evidence.verdict import EARLY, FINAL
 
-# What was tried by hand and by random draws before the settings were fixed, on other seeds than those of the page.
+# Settings tried by hand and by random draws before those of the page were fixed, on seeds that the page does not use.
 SEARCHED = {"arm": 165, "vessel": 120, "water maze": 45, "birds": 14, "mountain car": 118, "Q-learning, water maze": 16,
             "Q-learning, mountain car": 3}
 
 
 def judge(reached, sailed, swum, asked, driven):
-    """The claims on Kaelbling's properties: a list of `Claim`."""
+    """Judge the claims on Kaelbling's properties: a list of `Claim`."""
     found = scores.of_each_world(reached, sailed, swum, asked, driven)
     new_place = [scores.seconds_at_a_new_place(swum, name) for name in ("neoRL", "Q-learning", "random")]
     apart, whole, chance = (asked[name].mean(axis=1) for name in ("a map of each", "one map", "random"))
@@ -24,36 +24,36 @@ def judge(reached, sailed, swum, asked, driven):
 
 
 def summary(verdicts, found):
-    """The result of the page in a paragraph. found: of `scores.of_each_world`."""
+    """The result of the page in a paragraph. found: from `scores.of_each_world`."""
     better = [world for world, each in found.items() if estimate(difference, *each).low > 0]
     told = "; ".join(f"{claim.statement.text.partition(':')[0].lower()} {claim.verdict}" for claim in verdicts)
-    return (f"With one rule of learning and one policy the agent does better than chance in {len(better)} of "
+    return (f"With one learning rule and one policy the agent does better than chance in {len(better)} of "
             f"{len(found)} worlds: {listed(better)}. Kaelbling's properties: {told}.")
 
 
 def cells():
-    """What the cells of each agent stand for, and how many there are, in a table."""
+    """The kinds and numbers of each agent's cells, in a table."""
     agents = {"arm of two links": minds.reacher(2), "arm of three links": minds.reacher(3),
               "vessel, radar": minds.pilot(), "vessel, far radar": minds.far_pilot(),
               "vessel, compass": minds.compass_pilot(), "water maze": minds.swimmer(),
               "birds, one map": minds.thinker(False), "birds, a map of each": minds.thinker(True),
               "mountain car": minds.driver()}
-    return table(["Agent", "Cells", "How many"], [
+    return table(["Agent", "Cells", "Number"], [
         [name, listed(dict.fromkeys(f"{node.modality.name}s" for node in agent.nodes)),
          " + ".join(str(nres_map.cells) for nres_map in agent.maps)] for name, agent in agents.items()])
 
 
 def luck(shares):
-    """How often chance leads to the flag. shares: of `hill.luck`."""
+    """How often a random driver reaches the flag. shares: from `hill.luck`."""
     return "; ".join(f"with actions held for {held} step{'s' * (held > 1)} a random driver reaches the flag in "
                      f"{share:.0%} of {hill.EPISODES} episodes" for held, share in shares.items()).capitalize() + "."
 
 
 def reaching(reached, feared):
-    """What the arms reach, and what fear of obstacles costs. feared: of `lives.fear`."""
+    """Targets and obstacles that the arms meet, and the cost of avoiding obstacles. feared: from `lives.fear`."""
     said = [f"The arm of {links} links meets {_met(reached[links, 'agent'], 0)} targets and "
-            f"{_met(reached[links, 'agent'], 1)} obstacles per second in the last fifth of its runs; at random it is "
-            f"{_met(reached[links, 'random'], 0)} and {_met(reached[links, 'random'], 1)}." for links in (2, 3)]
+            f"{_met(reached[links, 'agent'], 1)} obstacles per second in the last fifth of its runs; at random it "
+            f"meets {_met(reached[links, 'random'], 0)} and {_met(reached[links, 'random'], 1)}." for links in (2, 3)]
     rows = [[number(valence, 1), _met(result, 0), _met(result, 1),
              number(_rate(result, 1) / _rate(result, 0)) if _rate(result, 0) else "–",
              estimate(np.mean, result.rate(*FINAL))] for valence, result in feared.items()]
@@ -63,7 +63,7 @@ def reaching(reached, feared):
 
 
 def sailing(sailed):
-    """What pilots meet, in a table: of `lives.sail`."""
+    """Waypoints, collisions and rewards of pilots, in a table. sailed: from `lives.sail`."""
     return table(["Pilot", "Waypoints per minute", "Collisions per minute", "Reward per minute, first tenth",
                   "Reward per minute, last fifth"], [
         [name, *(estimate(np.mean, 60 * result.hit_rate(*FINAL)[:, kind]) for kind in range(2)),
@@ -72,7 +72,7 @@ def sailing(sailed):
 
 
 def swimming(swum):
-    """Seconds to the platform on later days, by trial of the day: of `pool.swim`."""
+    """Seconds to the platform on later days, by trial of the day. swum: from `pool.swim`."""
     rows = [[f"{name}, platform {platform}", *(estimate(np.mean, seconds[:, scores.LATER, trial].mean(axis=1))
                                                for trial in range(seconds.shape[2]))]
             for platform, by_name in swum.items() for name, seconds in by_name.items()]
@@ -80,34 +80,34 @@ def swimming(swum):
 
 
 def savings(swum):
-    """How much sooner the second trial of a day ends than the first, on the first days and on later ones."""
+    """Seconds saved from the first trial of a day to the second, on the first days and on later ones."""
     seconds = swum["moved"]["neoRL"]
     early, late = (estimate(difference, seconds[:, days, 0].mean(axis=1), seconds[:, days, 1].mean(axis=1))
                    for days in (slice(0, 2), scores.LATER))
     table_too = estimate(difference, *(swum["moved"]["Q-learning"][:, scores.LATER, trial].mean(axis=1)
                                        for trial in range(2)))
-    return (f"From the first trial of a day to the second neoRL saves {early} seconds on the first two days, and "
-            f"{late} on the later half of the days; Q-learning saves {table_too} on these.")
+    return (f"From the first trial of a day to the second, neoRL saves {early} seconds on the first two days and "
+            f"{late} on the second half of the days; on these, Q-learning saves {table_too}.")
 
 
 def thinking(asked, named):
-    """How many times the fewest steps questions take, for birds with a name and without. named: how many have one."""
-    return table(["Steps, in multiples of the fewest", "Birds with a name", "Birds without"], [
+    """Steps of questions as multiples of the fewest, for birds with and without a name. named: how many have one."""
+    return table(["Steps, as a multiple of the fewest", "Birds with a name", "Birds without a name"], [
         [name, estimate(np.mean, each[:, :named].mean(axis=1)), estimate(np.mean, each[:, named:].mean(axis=1))]
         for name, each in asked.items()])
 
 
 def driving(driven):
-    """Steps of an episode by quarter of the decisions, and how probably neoRL beats chance, in a table."""
+    """Steps per episode by quarter of the decisions, and the probability that neoRL beats chance, in a table."""
     quarters = {name: each.reshape(len(each), 4, -1).mean(axis=2).T for name, each in driven.items()}
     rows = [[name, *(estimate(np.mean, each) for each in of_driver)] for name, of_driver in quarters.items()]
-    rows.append(["probability that a run of neoRL beats one at random", *(
+    rows.append(["probability that a run of neoRL beats a random driver's", *(
         probability_of_improvement(-agent, -chance) for agent, chance in zip(quarters["neoRL"], quarters["random"]))])
-    return table(["Steps of an episode", "First quarter", "Second", "Third", "Last"], rows)
+    return table(["Steps per episode", "First quarter", "Second", "Third", "Last"], rows)
 
 
 def searched():
-    """What was tried before the settings of the page were fixed, in a sentence."""
+    """How many settings were tried before those of the page were fixed, in a sentence."""
     return "Settings tried: " + ", ".join(f"{name} {count}" for name, count in SEARCHED.items()) + "."
 
 

@@ -1,18 +1,18 @@
-"""One number a run for each world of the page, of its agent and of the same agent acting at random: more is better."""
+"""One score per run and world of the page, for its agent and for the same agent acting at random; higher is better."""
 
 import numpy as np
 
 from neorl.evidence.verdict import FINAL
 
-LATER = slice(4, None)  # the days in the pool that count, when something can have been learned
+LATER = slice(4, None)  # the days in the pool that count, after some learning
 
 
 def of_each_world(reached, sailed, swum, asked, driven):
-    """{world: (agent float64 (runs,), random float64 (runs,))}, from what the modules of the page return.
+    """Scores from what the modules of the page return: {world: (agent float64 (runs,), random float64 (runs,))}.
 
-    Of arms and the vessel reward per second in the last fifth. Of the pool, with the platform moved, the seconds of the
-    trials after the first of each later day; of birds how many times the fewest steps a question takes; of the car the
-    steps of an episode in the last quarter; these three with a minus sign.
+    For arms and the vessel, the reward per second in the last fifth. For the pool with a moved platform, the seconds of
+    the trials after the first of each later day; for birds, the steps of a question as a multiple of the fewest; for
+    the car, the steps per episode in the last quarter; these three with a minus sign.
     """
     return {"arm of two links": _rates(reached[2, "agent"], reached[2, "random"]),
             "arm of three links": _rates(reached[3, "agent"], reached[3, "random"]),
@@ -23,7 +23,7 @@ def of_each_world(reached, sailed, swum, asked, driven):
 
 
 def seconds_at_a_new_place(swum, swimmer):
-    """Seconds of the second trial of each later day, with the platform moved: float64 (runs,)."""
+    """Seconds of the second trial of each later day with a moved platform: float64 (runs,)."""
     return swum["moved"][swimmer][:, LATER, 1].mean(axis=1)
 
 
