@@ -62,7 +62,7 @@ def read_docstring(app, what, name, member, options, lines):
         source = textwrap.dedent(inspect.getsource(member))
         rows = source.splitlines()
         for node in ast.parse(source).body[0].body:
-            comment = isinstance(node, ast.AnnAssign) and re.search(r"  # (.*)", rows[node.end_lineno - 1])
+            comment = isinstance(node, ast.AnnAssign) and re.search(r"  # (?!type:)(.*)", rows[node.end_lineno - 1])
             if comment:
                 lines += as_list([f"{node.target.id}: {comment[1]}"])
         lines += [""]

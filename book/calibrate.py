@@ -14,7 +14,7 @@ from neorl.evidence.calibration_table import read_table, write_table
 from neorl.evidence.calibration_targets import GROUPS
 
 ROOT = Path(__file__).resolve().parent.parent
-TABLE = ROOT / "neorl" / "data" / "calibration.csv"
+TABLE = ROOT / "neorl" / "evidence" / "calibration.csv"
 
 
 def main():

@@ -16,7 +16,7 @@ PAGE = 2**16
 @cache
 def compiled(name="plane"):
     engine = wasmtime.Engine()
-    return engine, wasmtime.Module(engine, wasm.module(name))
+    return engine, wasmtime.Module(engine, wasm.modules()[name])
 
 
 layout_of = cache(wasm.layout)

@@ -120,7 +120,7 @@ class Contacts(checks.Final):
     The defaults are the best values found by `neorl.chapters.beyond_agents.search`.
 
     horizon: seconds > 0, the time constant of discounting.
-    learning_rate: α in [0, 1], the minimum; after n visits the rate is n^(−3/4) or this, whichever is greater.
+    learning_rate: α in [0, 1], the minimum; after n visits the rate is (n + 2)^(−3/4) or this, whichever is greater.
     familiarity: ≥ 0. After n visits of an action, a finer map's own value has the weight n / (n + familiarity).
     first_value: in [0, 1], the initial approach value of untried actions: optimism in place of ε.
     trace_rate: in [0, 1], the rate at which actions on the way to a contact learn of it; 0 for no trace.

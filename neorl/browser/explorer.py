@@ -138,9 +138,8 @@ class Explorer(AnyWidget):
         for name in traits:
             checks.one_of("trait", name, tuple(each for each in self.traits(sync=True) if not each.startswith("_")))
         begin = {"preset": preset, "seed": first.seed if first else 0, **_settings(presets[preset]), **traits}
-        super().__init__(_wasm={name: wasm.module(name) for name in wasm.MODULES},
-                         _layout={name: wasm.layout(name) for name in wasm.MODULES}, _presets=presets,
-                         _modalities=_modalities(), **begin)
+        super().__init__(_wasm=wasm.modules(), _layout={name: wasm.layout(name) for name in wasm.MODULES},
+                         _presets=presets, _modalities=_modalities(), **begin)
 
     @property
     def agent(self):

@@ -17,6 +17,7 @@ is built in a separate process, for a generic processor, so that it does not dep
 numba leaves optimisation to this module: rarely called functions are not inlined, and are optimised for size.
 """
 
+import contextlib
 import hashlib
 import os
 import re
@@ -24,6 +25,7 @@ import subprocess
 import sys
 import tempfile
 import warnings
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -87,34 +89,65 @@ LINK = ("--no-entry", "--allow-undefined", "--import-memory", "--gc-sections", "
         "--export=__heap_base")
 
 
-def module(name="plane"):
-    """The WebAssembly module `name`, one of `MODULES`: bytes.
+def modules():
+    """The WebAssembly modules, {name of `MODULES`: bytes}.
 
-    If it is neither shipped nor on disk, it is built, which takes about a minute.
+    Modules that are neither shipped nor on disk are built side by side, which takes about a minute. Of several
+    processes one builds them, and the others wait.
 
-    Raises ImportError if a package needed to build it is not installed, RuntimeError if the build fails.
+    Raises ImportError if a package needed to build them is not installed, RuntimeError if a build fails.
     """
-    shipped = files.read_checked(SHIPPED[name]) or b""
-    digest = _digest(name)
-    path = files.cache_folder() / "wasm" / digest.hex()
-    if shipped[: len(digest)] == digest:
-        return shipped[len(digest) :]
-    content = files.read_checked(path)
-    if content is None:
-        content = _built_in_a_process_of_its_own(name)
+    found = _on_disk()
+    if len(found) < len(MODULES):
+        with _one_process_at_a_time():
+            found = _on_disk()  # another process may have built them
+            found |= _kept(_built([name for name in MODULES if name not in found]))
+    return found
+
+
+def _on_disk():
+    found = {}
+    for name, path in SHIPPED.items():
+        shipped, digest = files.read_checked(path) or b"", _digest(name)
+        content = shipped[len(digest):] if shipped[:len(digest)] == digest else files.read_checked(_path(name))
+        if content is not None:
+            found[name] = content
+    return found
+
+
+def _path(name):
+    return files.cache_folder() / "wasm" / _digest(name).hex()
+
+
+@contextlib.contextmanager
+def _one_process_at_a_time():
+    """Hold a lock, where the system has locks of files and the folder can be written to."""
+    with contextlib.ExitStack() as stack:
+        with contextlib.suppress(ImportError, OSError):
+            import fcntl
+
+            files.cache_folder().mkdir(parents=True, exist_ok=True)
+            lock = stack.enter_context(open(files.cache_folder() / "wasm.lock", "w"))
+            fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+
+
+def _kept(contents):
+    """The same modules, after writing them to disk."""
+    for name, content in contents.items():
         try:
-            files.write_checked(path, content)
+            files.write_checked(_path(name), content)
         except OSError as error:
-            warnings.warn(f"the WebAssembly module cannot be kept in {path.parent}, and will be built again: {error}",
-                          RuntimeWarning, stacklevel=2)
-    return content
+            warnings.warn(f"the WebAssembly module cannot be kept in {_path(name).parent}, and will be built again: "
+                          f"{error}", RuntimeWarning, stacklevel=4)
+    return contents
 
 
 def ship(package):
     """Build the modules into `package`, the folder of a wheel's package."""
-    for name, path in SHIPPED.items():
-        target = Path(package) / path.relative_to(Path(__file__).parents[1])
-        files.write_checked(target, _digest(name) + _built_in_a_process_of_its_own(name))
+    for name, content in _built(SHIPPED).items():
+        target = Path(package) / SHIPPED[name].relative_to(Path(__file__).parents[1])
+        files.write_checked(target, _digest(name) + content)
 
 
 def layout(name="plane"):
@@ -168,6 +201,12 @@ def _digest(name):
     """A digest of the sources alone: by the rules of `neorl.core.kernel`, results do not depend on the compiler."""
     here = [Path(__file__).with_name(file).read_bytes() for file in ("wasm.py", "worlds.py")]
     return hashlib.sha256(b"".join([source_digest().encode(), name.encode(), *here])).digest()
+
+
+def _built(names):
+    """Build modules side by side: {name: bytes}."""
+    with ThreadPoolExecutor() as pool:
+        return dict(zip(names, pool.map(_built_in_a_process_of_its_own, names)))
 
 
 def _built_in_a_process_of_its_own(name):

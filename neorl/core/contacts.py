@@ -7,7 +7,7 @@ functions, discounted by time and learned off-policy, the same for every thing, 
 - *fear*, its value to an agent that would flee: min over the next actions. It stays near 0 while there is a way out.
 
 1. After every step, the two values of the action taken move towards the value of the cell entered, or 1 for a contact,
-   at the rate n^(−3/4) after n visits, or at the learning rate if that is higher.
+   at the rate (n + 2)^(−3/4) after n visits, or at the learning rate if that is higher.
 2. The maps of a node learn together, coarsest first. The value of an action is that of the coarsest map, which each
    finer map in turn moves towards its own by the fraction n / (n + familiarity). All maps bootstrap from this value,
    and an action that a finer map has not seen yet starts from it.

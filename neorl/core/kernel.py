@@ -34,7 +34,7 @@ from neorl import checks
 # Without numba's memory runtime (_nrt) a kernel cannot allocate, and does not count references to its arrays.
 OPTIONS = {"error_model": "numpy", "nogil": True, "_nrt": False}
 INLINED = {"forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-MOST_WORDS = 2_000  # characters of numba's message
+MOST_CHARACTERS = 2_000  # of numba's message
 _making = threading.RLock()
 
 
@@ -101,8 +101,8 @@ class Kernel:
         try:
             return type(self.for_python)._compile_for_args(self.for_python, *arguments, **by_name)
         except NumbaError as error:
-            raise TypeError(f"{self!r} cannot be compiled, with all kernels that it calls: {str(error)[:MOST_WORDS]}"
-                            ) from error
+            raise TypeError(f"{self!r} cannot be compiled, with all kernels that it calls: "
+                            f"{str(error)[:MOST_CHARACTERS]}") from error
 
 
 def kernel(function: Callable) -> Any:

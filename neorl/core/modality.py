@@ -6,7 +6,7 @@ landmarks), along the axes of the world. The number is a *feature* of the vector
 paper B, table 1):
 
 - *component*: one component, unchanged; the experiments use two for places and, as an emulation, for objects;
-- *foveated*: the square root of a component, with its sign; equal intervals of it grow in proportion to the distance,
+- *foveated*: the square root of a component, with its sign; its equal intervals are wider the greater the distance,
   as receptive fields grow with eccentricity;
 - *margin*: how far a component reaches into a margin along the walls, negative in the west and the north, and 0 in the
   middle of the board;

@@ -58,7 +58,7 @@ class Reading:
 
     learning_rate: float = Learning.learning_rate
     discount: float = Learning.discount
-    credit: str = Learning.credit  # type: ignore[assignment]  # there also a user's kernel
+    credit: str = Learning.credit  # type: ignore[assignment]
     absent_decay: float = Learning.absent_decay
     absent_form: str = Learning.absent_form
     memory: float = Learning.memory * CELLS_A_SECOND

@@ -223,7 +223,7 @@ STATEMENTS = {
         "paper B, section 3",
         "it is crucial that NRES-oriented navigation can operate based on different Euclidean spaces",
         "General: with one learning rule, agents beat chance in every other space that was tried",
-        "Smallest probability, over the worlds, that a run of the agent beats one at random",
+        "Smallest probability, over the worlds, that a run of the agent beats a run of random actions",
         "> 0.5", "fig-spaces-all", "judge_generality", (0.5,)),
     "G3": Statement(
         "paper B, section 3",

@@ -70,9 +70,14 @@ def test_to_play_again_is_the_same_run_with_the_same_settings(visit):
     page = visit("#explorer_run-4_red-0p5")
     wait(page, "ended")
     score = told(page, "score")
+    page.evaluate("""() => {  // a run may end before the page is looked at
+        const explorer = document.querySelector(".neorl-explorer");
+        window.states = [];
+        new MutationObserver(() => window.states.push(explorer.dataset.state)).observe(
+            explorer, { attributeFilter: ["data-state"] });
+    }""")
     press(page, "play")
-    wait(page, "running")
-    wait(page, "ended")
+    page.wait_for_function("window.states.includes('running') && window.states.at(-1) === 'ended'")
     assert told(page, "score") == score
     expect(page.locator('[name="run"]')).to_have_value("4")
     expect(page.locator('[name="valence_red"]')).to_have_value("0.5")

@@ -1,7 +1,8 @@
 """The WebAssembly modules: what they need, how large they are, and that each lives the same runs as native code."""
 
-import subprocess
 import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -173,59 +174,76 @@ def test_looking_and_joining_in_equal_native_calls():
 @pytest.mark.parametrize("name", wasm.MODULES)
 def test_a_module_is_small_and_asks_for_memory_alone(name):
     _, module = compiled(name)
-    assert len(wasm.module(name)) <= 88_000
+    assert len(wasm.modules()[name]) <= 88_000
     assert [each.name for each in module.imports] == ["memory"]
     assert {each.name for each in module.exports} == {"__heap_base", *wasm.layout(name)["exports"]}
 
 
 @pytest.fixture
-def content(tmp_path, monkeypatch):
-    """The module, which is not on disk any more and cannot be built."""
-    content = wasm.module()
+def contents(tmp_path, monkeypatch):
+    """The modules, which are not on disk any more and cannot be built."""
+    contents = wasm.modules()
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
-    monkeypatch.setattr(subprocess, "run", lambda *_, **__: pytest.fail("it was built again"))
-    return content
+    monkeypatch.setattr(wasm, "_built", lambda names: names and pytest.fail(f"built again: {names}"))
+    return contents
 
 
-def test_a_module_on_disk_is_taken_and_a_damaged_one_is_not(content, tmp_path):
+def test_modules_on_disk_are_taken_and_a_damaged_one_is_not(contents, tmp_path):
+    for name, content in contents.items():
+        files.write_checked(tmp_path / "wasm" / wasm._digest(name).hex(), content)
+    assert wasm.modules() == contents
     path = tmp_path / "wasm" / wasm._digest("plane").hex()
-    files.write_checked(path, content)
-    assert wasm.module() == content
     path.write_bytes(path.read_bytes()[:-1])
-    with pytest.raises(pytest.fail.Exception, match="built again"):
-        wasm.module()
+    with pytest.raises(pytest.fail.Exception, match=r"built again: \['plane'\]"):
+        wasm.modules()
 
 
-def test_a_wheel_ships_the_module_of_its_own_sources(content, tmp_path, monkeypatch):
-    monkeypatch.setattr(wasm, "_built_in_a_process_of_its_own", lambda name: content)
+def test_a_wheel_ships_the_modules_of_its_own_sources(contents, tmp_path, monkeypatch):
+    monkeypatch.setattr(wasm, "_built", lambda names: {name: contents[name] for name in names})
     wasm.ship(tmp_path / "neorl")
     monkeypatch.undo()
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path / "empty"))
-    monkeypatch.setattr(wasm, "SHIPPED", {"plane": tmp_path / "neorl" / "browser" / "plane.wasm"})
-    assert wasm.module() == content
-    monkeypatch.setattr(wasm, "_built_in_a_process_of_its_own", lambda name: b"of other sources")
+    monkeypatch.setattr(wasm, "SHIPPED", {name: tmp_path / "neorl" / "browser" / f"{name}.wasm" for name in contents})
+    assert wasm.modules() == contents and not (tmp_path / "empty").exists()
+    others = dict.fromkeys(contents, b"of other sources")
+    monkeypatch.setattr(wasm, "_built", lambda names: {name: others[name] for name in names})
     monkeypatch.setattr(wasm, "source_digest", lambda: "other sources")
-    assert wasm.module() == b"of other sources"
+    assert wasm.modules() == others
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows locks files in another way")
+def test_of_processes_that_start_at_once_one_builds_and_the_others_wait(contents, monkeypatch):
+    built = []
+
+    def build(names):
+        built.append(names)
+        time.sleep(0.5)
+        return {name: contents[name] for name in names}
+
+    monkeypatch.setattr(wasm, "_built", build)
+    with ThreadPoolExecutor(3) as pool:  # each has a lock of its own, as a process has
+        assert list(pool.map(lambda _: wasm.modules(), range(3))) == [contents] * 3
+    assert [names for names in built if names] == [list(contents)]
 
 
 def test_without_a_linker_the_error_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
     monkeypatch.setitem(sys.modules, "ziglang", None)
     with pytest.raises(ImportError, match=r"ziglang: pip install 'neorl-companion\[wasm\]'"):
-        wasm.module()
+        wasm.modules()
     assert Run(place_cells([3]), WaterWorld()).advance(10) is not None
 
 
-def test_a_module_that_cannot_be_kept_is_built_with_a_warning(content, tmp_path, monkeypatch):
+def test_modules_that_cannot_be_kept_are_built_with_a_warning(contents, tmp_path, monkeypatch):
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path / "file"))
-    monkeypatch.setattr(wasm, "_built_in_a_process_of_its_own", lambda name: content)
+    monkeypatch.setattr(wasm, "_built", lambda names: {name: contents[name] for name in names})
     with pytest.warns(RuntimeWarning, match="cannot be kept"):
-        assert wasm.module() == content
+        assert wasm.modules() == contents
 
 
 def test_what_goes_wrong_in_a_build_is_told(tmp_path, monkeypatch):
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
     monkeypatch.setattr(sys, "executable", "/bin/false")
     with pytest.raises(RuntimeError, match="was not built"):
-        wasm.module()
+        wasm.modules()

@@ -43,7 +43,7 @@ def test_what_agents_earn_before_and_after_half_time_is_told():
 
 def test_agents_that_have_learned_before_lead_over_newborn_ones():
     assert ". The indifferent agents thus learned before half-time: their lead over the first tenth is 0.20 [" in said()
-    assert ". Their lead over that tenth, 0.00 [0.00, 0.01], may be zero. " in said(after=0.102)
+    assert ". Their lead over that tenth is not certain: 0.00 [0.00, 0.01]. " in said(after=0.102)
 
 
 @pytest.mark.parametrize("after, why", [

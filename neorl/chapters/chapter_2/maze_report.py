@@ -46,7 +46,7 @@ def findings_table(found):
 def describe_findings(found):
     """Which kinds of animal show the findings that a map would explain: {learner: {name: `Finding`}}."""
     level, one_meal, below, never = (
-        " and ".join(name for name in found if found[name][key].holds) or "none of the three"
+        ", ".join(name for name in found if found[name][key].holds) or "none of the three"
         for key in ("level", "one meal", "below", "never"))
     return (f"The delayed group is level with the group fed throughout right after its first food: {level}. It is "
             f"level by latent learning, not by quick learning: {one_meal}. It overtakes: {below}. The unrewarded group "

@@ -93,7 +93,7 @@ def compare(grid, valences, placements, seed=0, discount=0.8):
     """
     valences = checks.finite("valences", np.asarray(valences, float))
     if valences.ndim != 1 or not 0 < len(valences) < grid.states or valences.max() <= 0:
-        raise ValueError(f"valences is {valences}, allowed are fewer than {grid.states} numbers, not all negative")
+        raise ValueError(f"valences is {valences}, allowed are fewer than {grid.states} numbers, at least one above 0")
     rng = np.random.default_rng(checks.integer("seed", seed, at_least=0))
     checks.integer("placements", placements, at_least=1)
     rewards = np.zeros((placements, grid.states))

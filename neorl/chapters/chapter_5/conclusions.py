@@ -1,6 +1,7 @@
 """The two conclusions of the thesis (section 5.1), compared with the verdicts on its claims under two readings.
 
-1. Each conclusion rests on some claims; all others are the ground of both.
+1. Each conclusion rests on some claims, and claims on other worlds and agents on none; all others are the ground of
+   both.
 2. A conclusion holds *in full* if all its claims are reproduced, *in part* if some are, *not at all* if none of those
    judged is, and it is *without a verdict* if none is judged.
 3. `verdicts` are {reading: {name of a claim: its verdict}} for the readings `LETTER` and `CALIBRATED`, in the words of

@@ -43,7 +43,7 @@ def in_words(throughout, from_half_time):
     if lead.low > 0:
         said.append(f"The indifferent agents thus learned before half-time: their lead over the first tenth is {lead}.")
     else:
-        said.append(f"Their lead over that tenth, {lead}, may be zero.")
+        said.append(f"Their lead over that tenth is not certain: {lead}.")
     if gap.low <= 0 <= gap.high:
         why = ", which these runs do not distinguish from 0"
     elif gap.high < 0:

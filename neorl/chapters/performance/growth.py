@@ -90,7 +90,6 @@ def learn_along(values: MapValues, rule: Rule, path: array("int64", "cells"), ra
         learn_all_goals(values, rule, path[change], path[change + 1], rates)
 
 
-
 def learning(steps, rounds, seed=0):
     """Time that learning all goals adds to a step, by N."""
     agents = {n: place_cells([n], learning=ALL_GOALS, **INDIFFERENT) for n in RESOLUTIONS}
