@@ -49,7 +49,7 @@ def test_the_table_of_findings_has_a_row_for_each_and_a_column_for_each_kind_of_
 
 def test_findings_name_all_who_show_them():
     words = describe_findings(findings_of({"level": ["neoRL", "Sarsa(λ)"], "never": ["Q-learning"]}))
-    assert "right after its first food: neoRL and Sarsa(λ). It is level" in words
+    assert "right after its first food: neoRL, Sarsa(λ). It is level" in words
     assert "not by quick learning: none of the three. It overtakes: none of the three. The unrewarded" in words
     assert words.endswith("improves without food: Q-learning.")
 

@@ -75,6 +75,6 @@ def test_an_interruption_says_how_to_go_on(cache_folder, tmp_path, capsys, monke
 
 def test_python_finds_the_commands(tmp_path):
     shown = subprocess.run([sys.executable, "-m", "neorl", "--help"], capture_output=True, check=True, text=True).stdout
-    assert "usage: python -m neorl" in shown and "run an experiment" in shown
+    assert "usage: python -m neorl" in shown and "list the cache on disk" in shown
     wrong = subprocess.run([sys.executable, "-m", "neorl", "run", "nowhere.toml"], capture_output=True, text=True)
     assert wrong.returncode == 1 and wrong.stderr == "neorl: [Errno 2] No such file or directory: 'nowhere.toml'\n"

@@ -228,7 +228,7 @@ def test_an_interrupted_process_ends_and_says_what_it_was_at(cache_folder):
     process.send_signal(signal.SIGINT)
     _, complaints = process.communicate()
     assert process.returncode in (1, -signal.SIGINT, 130) and "\nKeyboardInterrupt" in complaints
-    assert "tasks were left, such as runs " in complaints and "what is finished is kept" in complaints
+    assert "tasks were left, such as runs " in complaints and "finished runs are kept" in complaints
     assert 0 < lived_so_far() < 60 and damaged(cache_folder) == []
 
 
