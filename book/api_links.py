@@ -22,7 +22,7 @@ ITEM = re.compile(r"(Raises|Returns) |([a-z_]\w*(?:,? \w+){0,3}): ")
 ENDS = (".", ".)", ";", ":")  # of the line before an item: in the middle of a sentence, a line may begin like one
 ARRAY_LIKE = stringify_annotation(ArrayLike, "smart")
 ARRAY = re.compile(r"~numpy\.ndarray\[tuple\[~typing\.Any, \.\.\.\], ~numpy\.dtype\[([^]]+)\]\]")
-SENTENCE = re.compile(r"(?<=\.) (?=\w+(?:, \w+)*: )")
+SENTENCE = re.compile(r"(?<=\.) (?=[a-z_]\w*(?:, \w+)*: )")
 
 
 def setup(app):

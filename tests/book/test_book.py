@@ -135,9 +135,9 @@ def test_a_docstring_opens_with_a_sentence_and_lists_what_follows():
 
 
 def test_a_line_in_the_middle_of_a_sentence_is_no_item_however_it_begins():
-    lines = ["A cell.", "", "Its neighbours have", "none: an edge counts. All: of a map."]
+    lines = ["A cell.", "", "1. Neighbours: its own. It may have", "   none: an edge counts."]
     api_links.read_docstring(None, "function", "cell", None, None, lines)
-    assert lines == ["A cell.", "", "Its neighbours have", "none: an edge counts.", "All: of a map."]
+    assert lines == ["A cell.", "", "1. Neighbours: its own. It may have", "   none: an edge counts."]
 
 
 def test_the_reference_has_types_and_defaults_as_in_code(make_book):
