@@ -52,8 +52,8 @@ class Reading:
         recurrent one is signed and sums only what comes in from other nodes.
     network_resolutions: of the maps of paper C.
     The other fields are those of `Learning`, `Policy`, `Node`, `Desire`, `Agent` and `WaterWorld` of the same names.
-    Raises ValueError for invalid vectors, resolutions, memory, exploration or fps; its agents and conditions check the
-    other fields.
+    Raises ValueError for invalid vectors, resolutions, memory, exploration, recursion or fps; its agents and conditions
+    check the other fields.
     """
 
     learning_rate: float = Learning.learning_rate
@@ -90,6 +90,7 @@ class Reading:
         resolutions = checks.several("network_resolutions", self.network_resolutions)
         checks.assign(self, network_resolutions=resolutions, memory=checks.real("memory", self.memory, 0),
                       exploration=checks.real("exploration", self.exploration, 0, 1),
+                      recursion=checks.real("recursion", self.recursion),
                       fps=checks.integer("fps", self.fps, at_least=1))
 
     @property

@@ -112,6 +112,12 @@ def test_conditions_come_in_groups_that_hold_all_in_the_end():
         conditions(TO_THE_LETTER, 3_000, 2, groups=["fast"])
 
 
+@pytest.mark.parametrize("field", ["memory", "exploration", "recursion", "fps"])
+def test_a_reading_names_the_field_that_is_invalid(field):
+    with pytest.raises(ValueError, match=f"^{field} is 1j, allowed are "):
+        Reading(**{field: 1j})
+
+
 def test_papers_b_and_c_live_the_same_time_at_any_rate_and_paper_a_the_same_steps():
     found = conditions(Reading(fps=30), 30_000, 4)
     assert (found["single", 10].steps, found["both"].steps, found["network", "D"].steps) == (30_000, 18_000, 18_000)
