@@ -70,9 +70,9 @@ def test_a_kernel_that_allocates_does_not_compile():
 
 def test_the_goal_loop_compiles_to_vector_instructions(monkeypatch):
     monkeypatch.setattr(CompileCache, "load_overload", lambda *_: None)
-    signature, *_ = learning.learn_all_goals.dispatcher.signatures  # other tests may have compiled others
-    learning.learn_all_goals.for_python.compile(signature)
-    code = learning.learn_all_goals.for_python.inspect_llvm(signature)
+    for signature in learning.learn_all_goals.dispatcher.signatures:
+        learning.learn_all_goals.for_python.compile(signature)
+    code = "".join(learning.learn_all_goals.for_python.inspect_llvm().values())
     assert "x float> " in code and "fmul <" in code
 
 
