@@ -113,7 +113,7 @@ def looks(count):
 
 
 def name_ends(axes, ends, line=0.075):
-    """Write the names of curves beside their ends (height, name, colour), moved apart where they would overlap.
+    """Write the names of curves beside their ends (height, name, colour), moved apart within the height of the axes.
 
     line: the room that a name needs, as a share of the height of the axes; more in a low panel. Many names are written
     in smaller letters to fit.
@@ -122,7 +122,8 @@ def name_ends(axes, ends, line=0.075):
     ends = sorted(ends)
     share = min(1.0, 1.0 / (line * len(ends))) if ends else 1.0
     apart = share * line * (high - low) * np.arange(len(ends))
-    heights = apart + scipy.optimize.isotonic_regression([height for height, *_ in ends] - apart).x
+    lowest = scipy.optimize.isotonic_regression([height for height, *_ in ends] - apart).x
+    heights = apart + np.clip(lowest, low, high - apart.max(initial=0.0))
     size = max(CROWDED, share * plt.rcParams["font.size"])
     for at, (_, name, colour) in zip(heights, ends):
         axes.annotate(name, (1.02, at), xycoords=("axes fraction", "data"), color=letters(colour), va="center",

@@ -56,6 +56,15 @@ def test_names_at_the_ends_keep_apart_and_near():
     assert [text.get_text() for text in axes.texts] == ["a", "b", "c", "d"]
 
 
+@pytest.mark.parametrize("level", [0.0, 1.0])
+def test_names_of_many_curves_at_one_edge_stay_within_the_axes(level):
+    axes = plt.figure().add_subplot()
+    axes.set_ylim(0, 1)
+    name_ends(axes, [(level, name, "k") for name in "abcdefghij"])
+    heights = [text.xy[1] for text in axes.texts]
+    assert np.all(np.diff(heights) >= 0.0749) and min(heights) >= 0 and max(heights) <= 1
+
+
 # What is left of linear red, green and blue without one kind of cone (Machado, Oliveira and Fernandes 2009).
 SEEN = {"by most": np.eye(3),
         "without red": [[0.152, 1.053, -0.205], [0.115, 0.786, 0.099], [-0.004, -0.048, 1.052]],
