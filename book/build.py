@@ -81,8 +81,7 @@ def main():
 
 
 def the_only_build():
-    """Check that all folders are writable, and return a locked file; the lock ends with the process, however it ends.
-    """
+    """Check that all folders are writable, and return a locked file; the lock ends with the process."""
     for folder in (CHAPTERS, BUILT, cache_folder()):
         try:
             folder.mkdir(parents=True, exist_ok=True)

@@ -1,25 +1,19 @@
-"""The annotations of the package: mypy finds nothing wrong in the public modules, or in typical uses of them.
-
-Nor does ruff in any file.
-"""
+"""Static checks: mypy finds no error in the public modules or in typical uses of them, and ruff none in any file."""
 
 import subprocess
 import sys
 from pathlib import Path
+
+import pytest
 
 import neorl
 
 PROJECT = Path(__file__).parents[1]
 
 
-def test_mypy_finds_no_error():
-    done = subprocess.run([sys.executable, "-m", "mypy", "--warn-unused-ignores"], cwd=PROJECT, capture_output=True,
-                          text=True)
-    assert done.returncode == 0, done.stdout + done.stderr
-
-
-def test_ruff_finds_no_error():
-    done = subprocess.run([sys.executable, "-m", "ruff", "check"], cwd=PROJECT, capture_output=True, text=True)
+@pytest.mark.parametrize("command", [("mypy", "--warn-unused-ignores"), ("ruff", "check")])
+def test_a_checker_finds_no_error(command):
+    done = subprocess.run([sys.executable, "-m", *command], cwd=PROJECT, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
 
 

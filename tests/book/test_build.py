@@ -296,7 +296,7 @@ PAGES = ("index.html", "page.html")
 
 @pytest.fixture
 def made_pages(chapters, monkeypatch):
-    """In place of Sphinx, what makes two pages: a list that grows by one with each time."""
+    """A stand-in for Sphinx that makes two pages: the list of its calls."""
     made = []
 
     def make_pages(command):
