@@ -114,15 +114,19 @@ def network_d(resolutions: Sequence[int] = LAYERS, recursion: float = -1.0, scal
     place_gain, object_gain, choices.
     """
     without = network_c(resolutions, scale, signed, place_gain, object_gain, **choices)
-    recurring = Desire("OVC", "OVC", valence=recursion, scale=scale, signed=signed)
+    recurring = Desire("OVC", "OVC", valence=checks.real("recursion", recursion), scale=scale, signed=signed)
     return replace(without, desires=(*without.desires, recurring))
 
 
 def _both(place_gain, object_gain):
-    return [("PC", PLACE_CELL, place_gain), ("OVC", CARTESIAN_OBJECT_VECTOR_CELL, object_gain)]
+    return [("PC", PLACE_CELL, checks.real("place_gain", place_gain)),
+            ("OVC", CARTESIAN_OBJECT_VECTOR_CELL, checks.real("object_gain", object_gain))]
 
 
 def _creeps(node, valence_green=1.0, valence_red=-1.0):
+    for name, valence in (("valence_green", valence_green), ("valence_red", valence_red)):
+        if not isinstance(valence, str):  # it may be learned
+            checks.real(name, valence)
     return Desire("green", node, valence_green), Desire("red", node, valence_red)
 
 
