@@ -1,6 +1,6 @@
-"""How fast the kernels are: ``make bench``. Compare the rows of a group with each other, in one run.
+"""Benchmarks of the kernels: ``make bench``. Compare only rows of the same group, measured in the same run.
 
-A row is named for what it does once; the table tells how long that takes and how often a second.
+A row is named after one operation; the table gives its duration and the number of operations per second.
 """
 
 import numpy as np
@@ -105,7 +105,7 @@ def test_million_steps_of_both_modalities(benchmark, where, tmp_path, request):
     write_page(tmp_path, [Explorer(preset="Place and object-vector cells", speed=0.0)], without_end)
     page = request.getfixturevalue("open_page")(tmp_path, "page.html")
     page.wait_for_selector("[data-state=running]")
-    page.wait_for_timeout(2_000)  # by then the browser has optimised what it runs
+    page.wait_for_timeout(2_000)  # by then the browser has optimised the code
     live = """() => new Promise((resolve) => {
         const { dataset } = document.querySelector(".neorl-explorer"), end = Number(dataset.step) + 1e6;
         const look = () => Number(dataset.step) >= end ? resolve() : setTimeout(look, 1);

@@ -1,4 +1,4 @@
-"""The built book, for .ci/run: the Explorer of each page lives, and a run opened in it is the run behind the figure."""
+"""Tests of the built book, for .ci/run: the Explorer of each page works, and reruns the runs behind its figures."""
 
 import re
 from pathlib import Path
@@ -57,7 +57,7 @@ def test_on_a_phone_the_front_page_opens_with_its_result_and_the_tank(open_page)
 
 
 def test_letters_of_figures_have_nine_pixels_on_a_phone():
-    column, pixels = 368, 96 / 72  # of a page 400 pixels wide; of a point
+    column, pixels = 368, 96 / 72  # the column of a page 400 pixels wide; pixels per point
     for path in sorted((HTML / "_images").glob("*.svg")):
         text = path.read_text(encoding="utf-8")
         width = float(re.search(r'<svg [^>]*?width="([\d.]+)pt"', text)[1]) * pixels

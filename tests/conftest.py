@@ -1,4 +1,4 @@
-"""Settings of the test suite, and the browser that opens pages for it."""
+"""Settings and fixtures of the test suite, among them the browser that opens pages."""
 
 import functools
 import http.server
@@ -22,19 +22,19 @@ matplotlib.use("agg")
 
 BROWSERS = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"]
 QUIET = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-         "--disable-component-update", "--disable-sync"]  # it asks nobody for anything by itself
+         "--disable-component-update", "--disable-sync"]  # no requests of its own
 
 
 @pytest.fixture(autouse=True)
 def closed():
-    """What a test has drawn is closed after it."""
+    """Close all figures after each test."""
     yield
     plt.close("all")
 
 
 @pytest.fixture
 def cache_folder(tmp_path, monkeypatch):
-    """An empty folder for what is kept, but for compiled kernels, in place of the user's."""
+    """An empty cache folder in place of the user's, with which it shares only the compiled kernels."""
     compiled = files.cache_folder().resolve() / "compiled"
     compiled.mkdir(parents=True, exist_ok=True)
     (tmp_path / "compiled").symlink_to(compiled)
@@ -44,7 +44,7 @@ def cache_folder(tmp_path, monkeypatch):
 
 @pytest.fixture
 def mount():
-    """Mount a disk in memory at a folder for the length of a test: mount(folder, options) returns the folder."""
+    """Mount a disk in memory at a folder for the duration of a test: mount(folder, options) returns the folder."""
     mounted = []
 
     def mount(folder, options):
@@ -55,7 +55,7 @@ def mount():
         return folder
 
     if sys.platform != "linux" or not shutil.which("mount"):
-        pytest.skip("mounts are Linux's")
+        pytest.skip("needs the mount command of Linux")
     yield mount
     for folder in mounted:
         subprocess.run(["umount", folder], check=True)
@@ -63,7 +63,7 @@ def mount():
 
 @pytest.fixture(scope="session")
 def chromium():
-    """The browser of this machine, else the one that Playwright has installed."""
+    """The Chromium of this machine, or else the one installed by Playwright."""
     found = next(filter(None, map(shutil.which, BROWSERS)), None)
     with sync_playwright() as playwright:
         try:
@@ -78,10 +78,10 @@ def chromium():
 
 @pytest.fixture
 def open_page(chromium):
-    """Open a page of a folder. When the test ends, nothing may have gone wrong in it or been asked of anybody else.
+    """Open a page of a folder. By the end of the test it must have no errors, warnings or requests to other origins.
 
-    `open_page(folder, path, over="http" or "file")` gives Playwright's page; `**options` are those of its context.
-    A test that wants something to go wrong takes it out of `open_page.complaints`.
+    `open_page(folder, path, over="http" or "file")` returns Playwright's page; `**options` are those of its context.
+    A test that expects an error removes it from `open_page.complaints`.
     """
     servers, contexts, complaints = [], [], []
 

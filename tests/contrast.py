@@ -1,10 +1,10 @@
-"""Contrast of colours as WCAG 2 defines it, and the grounds of the book's pages."""
+"""Contrast of colours as WCAG 2 defines it, and the backgrounds of the book's pages."""
 
 import re
 from pathlib import Path
 
 STYLE_SHEET = Path(__file__).parents[1] / "book" / "vendor" / "book.css"
-# Of the theme: the page, and boxes on it.
+# The backgrounds of the theme: the page, and boxes on it.
 GROUNDS = {"light": ("#ffffff", "#f3f4f5"), "dark": ("#121212", "#29313d")}
 
 
@@ -22,7 +22,7 @@ def contrast(first, second):
 
 
 def variables(prefix):
-    """The colours of the style sheet whose names have a prefix: {"light": {name: "#rrggbb"}, "dark": …}."""
+    """The style sheet's colour variables with a given prefix: {"light": {name: "#rrggbb"}, "dark": …}."""
     found = {}
     for mode, block in (("light", r"\nhtml \{([^}]*)\}"), ("dark", r'\nhtml\[data-theme="dark"\] \{([^}]*)\}')):
         text = "".join(re.findall(block, STYLE_SHEET.read_text()))

@@ -1,8 +1,8 @@
-"""The matrix of exactness: every run on record (`golden`), lived in every way that must bring the same bits.
+"""The matrix of exactness: every recorded run (`golden`), repeated in every way that must give the same bits.
 
-A way takes the name of a run and how many steps it lives, and returns what is on record of it, or None if the run
-cannot be lived so. `make exact` prints the matrix, a line a run and a column a way; `make test` lives a part of it.
-Other Pythons get an environment of the packages that the core needs, as ``environment.txt`` pins them, in the cache.
+A way takes the name of a run and a number of steps, and returns the run's record, or None if the way does not apply to
+the run. `make exact` prints the matrix, with a row per run and a column per way; `make test` checks a part of it.
+Other Pythons get an environment in the cache, with the packages that the core needs as pinned by ``environment.txt``.
 """
 
 import argparse
@@ -35,7 +35,7 @@ HOLDS, FAILS, DOES_NOT_APPLY = "=", "≠", "·"
 
 
 def in_slices(name, steps):
-    """By slices of odd lengths, with an end at every change."""
+    """In slices of irregular lengths, with an end at every change."""
     run, reward = golden.born(name), 0.0
     lengths = itertools.cycle([1, 2, 7, 333, 1_001])
     for until, later in (*golden.changes_of(name), (steps, None)):
@@ -47,7 +47,7 @@ def in_slices(name, steps):
 
 
 def from_a_copy(name, steps, copied=Run.copy):
-    """By a copy that is made on the way, after which the original goes on by itself."""
+    """By a copy made midway, after which the original continues independently."""
     run, reward = golden.born(name), 0.0
     for until, later in (*golden.changes_of(name), (steps, None)):
         until = min(until, steps)
@@ -61,7 +61,7 @@ def from_a_copy(name, steps, copied=Run.copy):
 
 
 def from_a_file(name, steps):
-    """By a run that is saved on the way and loaded again."""
+    """By a run saved midway and loaded again."""
     with tempfile.TemporaryDirectory() as folder:
         def through_a_file(run):
             run.save(Path(folder) / "run")
@@ -70,11 +70,11 @@ def from_a_file(name, steps):
 
 
 def among_others(name, steps, runs, threads):
-    """By `simulate`, as one run of several, side by side or one in the room of the other."""
+    """By `simulate`, as one of several runs, in parallel or one after another in the same memory."""
     found = []
 
     class Watched(Run):
-        """A run that leaves what it is at its end, before the next one takes its room."""
+        """A run that stores its final agent, values and world before the next run reuses its memory."""
 
         def __init__(self, agent, world, seed, number, after=None):
             super().__init__(agent, world, seed, number, after)
@@ -93,7 +93,7 @@ def among_others(name, steps, runs, threads):
 
 
 def by_a_learner(name, steps):
-    """By a `Learner` in a loop in Python."""
+    """By a `Learner` in a Python loop."""
     world, changes = golden.world_of(name), dict(golden.changes_of(name))
     sequence = np.random.SeedSequence(golden.SEED, spawn_key=(golden.RUN,))
     state, reward = world.reset(sequence), 0.0
@@ -113,7 +113,7 @@ def by_a_learner(name, steps):
 
 
 def in_webassembly(name, steps):
-    """By the module of the browser, which has no kernels but the package's."""
+    """By the browser's module, which contains only the package's kernels."""
     from webassembly import copied
 
     if golden.changes_of(name) or golden.agent_of(name).policy.choose is not golden.Policy().choose:
@@ -142,7 +142,7 @@ WAYS = {
 
 
 def in_a_process(names, steps, python=sys.executable, **settings):
-    """What is on record of runs that another interpreter lives, {name: record}."""
+    """The records of runs computed by another interpreter: {name: record}."""
     path = os.pathsep.join([str(ROOT), str(ROOT / "tests")])
     printed = subprocess.run([python, golden.__file__, str(steps), *names], check=True, stdout=subprocess.PIPE,
                              env={**os.environ, "PYTHONPATH": path, **settings}).stdout
@@ -150,7 +150,7 @@ def in_a_process(names, steps, python=sys.executable, **settings):
 
 
 def interpreted(names):
-    """Runs with the compiler off: short ones, for they are hundreds of times slower."""
+    """The records of runs with the compiler off: short ones, since they are hundreds of times slower."""
     return in_a_process(names, golden.SHORT, NUMBA_DISABLE_JIT="1")
 
 
@@ -164,20 +164,20 @@ def version_of(python):
 
 
 def other_pythons():
-    """The oldest and the newest Python on the path that this package allows, but for the one that runs this."""
+    """The oldest and the newest supported Python on the path, without the one that is running."""
     mine = sys.version_info.minor
     found = {minor: f"python3.{minor}" for minor in range(OLDEST, 30) if version_of(f"python3.{minor}")}
     return [found[minor] for minor in sorted({min([mine, *found]), max([mine, *found])} - {mine})]
 
 
 def environments():
-    """The interpreters of the environments that were made for the present pins, {version: path}."""
+    """The interpreters of the environments made for the current pins: {version: path}."""
     return {ready.parent.name.split()[0]: ready.parent / "bin" / "python"
             for ready in sorted((cache_folder() / "pythons").glob(f"*/{ready_name()}"))}
 
 
 def make_environment(python):
-    """The version of an interpreter, for which `environments` has one then. Raises ValueError if it does not run."""
+    """Make an interpreter's environment unless it exists; returns its version. Raises ValueError if it does not run."""
     version = version_of(python)
     if version is None:
         raise ValueError(f"python is {python!r}, allowed are interpreters of Python that run")
@@ -194,7 +194,7 @@ def ready_name():
 
 
 def pins():
-    """What ``environment.txt`` says of the packages that the core needs."""
+    """The pins of the packages that the core needs, from ``environment.txt``."""
     needed = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["dependencies"]
     names = {re.match(r"[\w-]+", each)[0] for each in needed} | {"llvmlite"}
     return [line for line in (ROOT / "environment.txt").read_text().splitlines() if line.split("==")[0] in names]
@@ -211,7 +211,7 @@ def main():
     columns = [*WAYS, *elsewhere]
     width = max(map(len, names))
     print(f"{len(names)} runs of {golden.LONG} steps, interpreted {golden.SHORT}, on Python {sys.version.split()[0]}: "
-          f"{HOLDS} the bits on record, {FAILS} others, {DOES_NOT_APPLY} does not apply\n")
+          f"{HOLDS} the recorded bits, {FAILS} other bits, {DOES_NOT_APPLY} does not apply\n")
     print(" " * width, *columns, sep="  ")
     cells = []
     for name in names:
@@ -226,7 +226,7 @@ def main():
 
 
 def sign(name, found, steps):
-    """How a cell of the matrix is printed."""
+    """The symbol printed in a cell of the matrix."""
     return DOES_NOT_APPLY if found is None else HOLDS if found == RECORD[name][str(steps)] else FAILS
 
 

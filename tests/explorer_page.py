@@ -1,4 +1,4 @@
-"""A page that holds nothing but Explorers and the host that brings them to life."""
+"""A page with nothing but Explorers and the host that runs them."""
 
 import json
 import sys
@@ -12,9 +12,9 @@ from excerpts import WIDGET_STATE, WIDGET_VIEW, script  # noqa: E402
 
 
 def write_page(folder, explorers, change=None):
-    """Write page.html into a folder. `change` may spoil the stored record of the first Explorer."""
+    """Write page.html into a folder. `change` may alter the stored record of the first Explorer."""
     data = embed_data(views=explorers, drop_defaults=False)
-    state = json.loads(json.dumps(data["manager_state"], sort_keys=True))  # as notebooks are stored
+    state = json.loads(json.dumps(data["manager_state"], sort_keys=True))  # as in stored notebooks
     if change:
         change(state["state"][explorers[0].model_id])
     body = "\n".join([script(WIDGET_STATE, state), *(script(WIDGET_VIEW, view) for view in data["view_specs"])])

@@ -1,9 +1,9 @@
-"""Hostile values, and one call after the other with one of them among what is allowed: the engine of `test_fuzzing.py`.
+"""Hostile values, and calls in which one of them replaces a valid argument: the engine of `test_fuzzing.py`.
 
-    python tests/fuzzing.py EXAMPLES NAME…    runs some entries of `public_names.TABLE` in a process of their own
+    python tests/fuzzing.py EXAMPLES NAME…    fuzzes some entries of `public_names.TABLE` in a process of their own
 
-The outcome of a call is a clear error, which names the argument and says what is allowed, or a value without a NaN that
-can be used. A call that takes `SECONDS` ends the process, and says where it was.
+A call must raise a clear error, which names the argument and states what is allowed, or return a sound value, which is
+usable and without NaN. A call that takes `SECONDS` ends the process with a traceback.
 """
 
 import contextlib
@@ -31,8 +31,8 @@ from hypothesis import strategies as st
 from neorl import greedy, kernel
 from neorl.core.kernel import Kernel
 
-SECONDS = 100 if numba.config.DISABLE_JIT else 900  # compiling beside other work takes long
-MEMORY = 12 * 2**30  # bytes of addresses, so that a list that is too long fails and does not take the machine along
+SECONDS = 100 if numba.config.DISABLE_JIT else 900  # compiling is slow on a busy machine
+MEMORY = 12 * 2**30  # bytes of address space, so that an excessive list raises an error before memory is exhausted
 ERRORS = (ValueError, TypeError, MemoryError)
 
 
@@ -99,7 +99,7 @@ odd = st.one_of(st.sampled_from(ODD).map(lambda make: make()), st.integers(), st
 
 @st.composite
 def altered(draw, value):
-    """A value of the user's with something in it that is odd, or in another form."""
+    """A user's value in another form, or with an odd value in it or in its place."""
     kind = draw(st.integers(0, 3))
     if kind == 0 or not isinstance(value, numbers.Real | str | tuple | list | np.ndarray):
         return draw(odd)
@@ -157,25 +157,25 @@ def read_only(array):
 
 @dataclasses.dataclass(frozen=True)
 class Entry:
-    """What is called: a function, a strategy for each argument, how errors call what, and what is done with a value."""
+    """A callable to fuzz: the function, a strategy for each argument, words in its errors, and the use of its value."""
 
     function: Callable
     arguments: dict
-    also: tuple = ()  # other words than the argument's name that an error may use
+    also: tuple = ()  # words that an error may use in place of the argument's name
     then: Callable = lambda value: value
-    errors: tuple = ()  # others that are documented
-    long: tuple = ()  # arguments that are numbers of steps or runs: large ones are allowed and take long
+    errors: tuple = ()  # other exceptions that are documented
+    long: tuple = ()  # arguments that count steps or runs: large values are allowed and take long
 
 
 def entry(function, /, *, also=(), then=lambda value: value, errors=(), long=(), **arguments):
-    """An `Entry`; arguments: for each, a list of allowed values, which are copied, or a strategy."""
+    """An `Entry`. arguments: for each, a list of allowed values, which are copied, or a strategy."""
     return Entry(function, {name: each if isinstance(each, st.SearchStrategy) else
                             st.sampled_from(each).map(copy.deepcopy) for name, each in arguments.items()},
                  (also,) if isinstance(also, str) else also, then, errors, long)
 
 
 def attempt(name, called, arguments, replaced, shown):
-    """Call it. Raises AssertionError unless the outcome is a clear error or a sound value."""
+    """Call an entry's function. Raises AssertionError unless the outcome is a clear error or a sound value."""
     try:
         value = called.then(called.function(**arguments))
     except (*ERRORS, *called.errors) as error:
@@ -191,7 +191,7 @@ def attempt(name, called, arguments, replaced, shown):
 
 
 def has_nan(value, depth=6):
-    """Whether there is a number in a value that is not one."""
+    """Whether a value contains NaN."""
     if depth == 0 or isinstance(value, Kernel):
         return False
     if isinstance(value, np.ndarray):
@@ -206,7 +206,7 @@ def has_nan(value, depth=6):
 
 
 def fuzz(name, called, examples):
-    """Call an entry so often, each time with one argument altered, or none."""
+    """Call an entry's function `examples` times, each time with at most one argument altered."""
 
     @settings(max_examples=examples, deadline=None, derandomize=True, database=None,
               phases=(Phase.explicit, Phase.generate) if examples < 200 else (Phase.generate, Phase.shrink),
@@ -218,7 +218,7 @@ def fuzz(name, called, examples):
         before = arguments[replaced]
         arguments[replaced] = data.draw(altered(before))
         if (replaced in called.long and takes_long(arguments[replaced])
-                or numba.config.DISABLE_JIT and inspect.isfunction(arguments[replaced])):  # then each is a kernel
+                or numba.config.DISABLE_JIT and inspect.isfunction(arguments[replaced])):  # all are kernels then
             return
         faulthandler.dump_traceback_later(SECONDS, exit=True)
         attempt(name, called, arguments, replaced, f"{replaced}={text(arguments[replaced])}")

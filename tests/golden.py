@@ -1,6 +1,6 @@
-"""Runs recorded to the last bit in ``golden.json``: a change of code must leave them as they are.
+"""Runs recorded to the last bit in ``golden.json``, which changes to the code must reproduce.
 
-Each agent spells out its choices, so that the record stands when defaults change. Run as a program, the file prints
+Each agent states all its choices, so that the record does not depend on defaults. Run as a program, this file prints
 digests: ``python tests/golden.py STEPS NAME …``, or rewrites the record: ``python tests/golden.py --write``.
 """
 
@@ -54,7 +54,7 @@ CONTACTS = Contacts(0.65, 0.02, 15.0, 0.3, 0.3, 0.4, "avoidance", "highest")
 
 
 def contact_network():
-    """Contacts beside cells, with desires for a kind, for a place and for the desire of a node of places."""
+    """Contacts and cells as goals, with desires for kinds, for a place and for the desire of a node of place cells."""
     nodes = [Node("PC", modality.PLACE_CELL, [3, 7], "cells"),
              Node("OVC", modality.OBJECT_VECTOR_CELL, [4, 6], gain=0.5, goals="contacts"),
              *forager([5, 9]).nodes]
@@ -70,7 +70,7 @@ RULES = {
     "long trace alone": {"trace": 60, "bootstrap": False, "discount": 0.95}, "step": {"update_on": "step"},
     "step, not terminal": {"update_on": "step", "terminal": False},
 }
-# The calibrated choices, and a memory for each way to fade, to give credit and to learn captures.
+# The calibrated choices, and memories with each way to fade, to assign credit and to learn captures.
 CALIBRATED = {"learning_rate": 0.0157, "discount": 0.9045, "credit": "happened", "activity": 3.331,
               "absent_decay": 0.1101,
               "absent_form": "away", "memory": 4.396, "memory_unit": "seconds", "bootstrap": False, "causes": "own",
@@ -129,7 +129,7 @@ BEFORE = {"joined by objects": "place N7", "with a memory, moved": "network C, c
 
 
 def world_of(name):
-    """The world of the run of that name; a number stands for a tank with that many creeps."""
+    """The world of the named run; a number stands for a tank with that many creeps."""
     world = RUNS[BEFORE.get(name, name)][1]
     return tank(world) if isinstance(world, int) else world
 
@@ -139,17 +139,17 @@ def tank(creeps):
 
 
 def agent_of(name):
-    """The agent with which the run of that name begins."""
+    """The agent with which the named run begins."""
     return RUNS[BEFORE.get(name, name)][0]
 
 
 def changes_of(name):
-    """The changes of agent in the run of that name: (step, agent) pairs."""
+    """The changes of agent in the named run: (step, agent) pairs."""
     return tuple((step, RUNS[later][0]) for step, later in CHANGES.get(name, ()))
 
 
 def born(name):
-    """The run of that name, before its first step."""
+    """The named run, before its first step."""
     return Run(agent_of(name), world_of(name), SEED, RUN)
 
 
@@ -176,7 +176,7 @@ def recorded(name, reward, agent, q, state):
 
 
 def in_order(agent, q):
-    """The values of each map as q[state, action, goal], or as they are if its goals are contacts."""
+    """The values of each map as q[state, action, goal], or as stored if its goals are contacts."""
     for node in agent.nodes:
         for each in node.maps:
             contacts = node.goals == "contacts"

@@ -1,6 +1,6 @@
-"""The public callables with valid arguments: the table of `test_fuzzing.py`, which has to list every public name.
+"""The public callables with valid arguments: the table of `test_fuzzing.py`, which must list every public name.
 
-Only one argument of an entry at a time is replaced by a hostile value. `then` uses the result, as a run uses an agent.
+Only one argument is replaced by a hostile value at a time. `then` uses the result, as a run uses an agent.
 """
 
 import inspect
@@ -33,11 +33,11 @@ from neorl.experiments import recording
 from neorl.gym import environment, playing, vector
 from neorl.worlds import arena, arm, vessel, water_maze, waterworld, world
 
-EXPORTED = (neorl, drawing)  # packages whose own names are those of their modules
+EXPORTED = (neorl, drawing)  # packages that re-export names of their modules
 MODULES = (*EXPORTED, agent, beyond, learner, papers, horde, kernel, maps, modality, policy, scene, stream, arena, arm,
            vessel, water_maze, waterworld, world, recording, curves, multiverse, reading, statistics, environment,
            playing, vector)
-# Classes whose instances kernels, or the package itself, make; kernels themselves refuse to be called.
+# Classes that only kernels or the package itself instantiate; kernels refuse to be called.
 MADE_INSIDE = {f"neorl.{name}" for name in (
     "agents.learner.Offer", "core.kernel.Kernel", "core.scene.Scene", "evidence.statistics.Estimate",
     "drawing.rate_maps.Track", "evidence.multiverse.Support", "experiments.recording.Recording", "gym.playing.Played",
@@ -45,15 +45,15 @@ MADE_INSIDE = {f"neorl.{name}" for name in (
     *(f"worlds.{name}{part}" for name in ("arm.Arm", "vessel.Vessel", "water_maze.WaterMaze")
       for part in ("Rules", "State")),
     "worlds.waterworld.WaterWorldState", "worlds.world.Dynamics", "worlds.world.World")}
-# Functions for authors of kernels and of worlds, with types and sizes of their own: they check nothing, since they are
-# hot or run at import.
+# Functions for authors of kernels and worlds with types and sizes of their own. They check nothing, since they are
+# called often or at import.
 FOR_AUTHORS = {f"neorl.{name}" for name in (
     *(f"core.kernel.{name}" for name in (
         "array", "arrays", "check_kernel", "execute", "fields", "function_of", "inlined", "inlined_kernel", "is_tuple",
         "length", "mapped", "new_tuple")),
     *(f"core.modality.{name}" for name in (
         "Modality.check_axes", "as_radians", "as_turns", "axis_parameters", "firsts", "integers", "space_of")),
-    *(f"evidence.statistics.{name}" for name in (  # what `estimate` calls
+    *(f"evidence.statistics.{name}" for name in (  # called by `estimate`
         "difference", "lead_over_best", "lead_over_sum", "least_of_most", "quotient", "rank_correlation", "ratio")),
     *(f"evidence.multiverse.{name}" for name in ("held", "importance", "outcome", "shares", "support")),  # of claims
     "evidence.reading.additions", "evidence.reading.judge", "gym.environment.checked_seed", "gym.environment.seed_row",
@@ -84,7 +84,7 @@ def methods(kind):
 
 
 def live(agent, world=WaterWorld(n_creeps=2), steps=60):
-    """All the numbers of an agent after a short run in a world, once it is hashed, shown, described and restored."""
+    """All numbers of an agent after a short run, before which it is hashed, shown, described and restored."""
     identity(agent), hash(agent), repr(agent)
     assert restored(described(agent)) == agent
     run = Run(agent, world)
@@ -144,7 +144,7 @@ def result_of(world, runs=3, bins=40):
 
 
 def drawn(axes):
-    """Close the figures and no more: drawings have tests of their own."""
+    """Only close the figures: drawings have tests of their own."""
     plt.close("all")
 
 
@@ -203,7 +203,7 @@ def paper(function, **arguments):
 
 
 def method(function, subject):
-    """A method as a function of its arguments, on a fresh subject each time."""
+    """A method as a function of its arguments, called on a fresh subject each time."""
     def call(**arguments):
         return function(subject(), **arguments)
     return call

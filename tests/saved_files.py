@@ -1,4 +1,4 @@
-"""Saved files, altered after saving."""
+"""Alter saved files."""
 
 import json
 

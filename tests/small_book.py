@@ -1,6 +1,6 @@
 """A book of three short notebooks in a tree of its own, built as ``make book`` builds the real one.
 
-Its notebooks are one that others need, one that needs it, and the conclusion, which reads the records of both.
+Of its notebooks, one is needed by others, one needs it, and the conclusion reads the records of both.
 """
 
 import hashlib
@@ -51,8 +51,8 @@ def make_tree(tree):
     (tree / "book").mkdir(parents=True)
     (tree / "notebooks").mkdir()
     for path in (ROOT / "book").glob("*.py"):
-        shutil.copy(path, tree / "book")  # links would lead the build to our tree
-    (tree / "neorl").mkdir()  # pages depend on the sources here, but import ours
+        shutil.copy(path, tree / "book")  # links would lead the build to the real tree
+    (tree / "neorl").mkdir()  # pages depend on the sources here, but import the real package
     compiled = cache_folder().resolve() / "compiled"
     compiled.mkdir(parents=True, exist_ok=True)
     (tree / ".cache").mkdir()
@@ -68,7 +68,7 @@ def make_tree(tree):
 
 
 def write_notebook(tree, name, *sources, **parameters):
-    """Write a notebook with these code cells; the figure of the one that draws has the notebook's name."""
+    """Write a notebook with these code cells; the figure of the cell that draws is named after the notebook."""
     parameters = "".join(f"{each}: int = {value}\n" for each, value in {"runs": 2, **parameters}.items())
     figure = {"mystnb": {"figure": {"name": f"fig-{name}", "caption": "Rewards."}, "image": {"alt": "Paths."}}}
     cells = [new_markdown_cell(f"# Page {name}\n\nText."),
@@ -81,7 +81,7 @@ def write_notebook(tree, name, *sources, **parameters):
 
 
 def start(tree, runs=2, only=None, limits={}, **environment):
-    """Start a build of the tree, and return its process, with stdout and stderr as one text.
+    """Start a build of the tree and return its process, with stderr merged into stdout.
 
     only: the single notebook to compute. limits: {resource: limit}, as for `resource.setrlimit`.
     """
@@ -100,14 +100,14 @@ def start(tree, runs=2, only=None, limits={}, **environment):
 
 
 def build(tree, **choices):
-    """Build the tree, with the choices of `start`: (exit code, output)."""
+    """Build the tree, with the options of `start`: (exit code, output)."""
     process = start(tree, **choices)
     said, _ = process.communicate()
     return process.returncode, said
 
 
 def whole_pages(tree):
-    """The notebooks whose pages in the chapters are intact, by their records."""
+    """The notebooks with computed pages; asserts that these match their records."""
     chapters = tree / "book" / "chapters"
     found = []
     for name in NOTEBOOKS:
@@ -120,12 +120,12 @@ def whole_pages(tree):
 
 
 def digest(path):
-    """The digest of a file, as records have it."""
+    """The digest of a file, as in the records."""
     return hashlib.sha256(hashlib.sha256(path.read_bytes()).digest()).hexdigest()
 
 
 def assert_no_half_page(tree):
-    """Check that every file in its place is complete: computed pages, records of claims, and the book in HTML."""
+    """Assert that all files that exist are complete: computed pages, records of claims, and the book in HTML."""
     whole_pages(tree)
     chapters = tree / "book" / "chapters"
     for path in chapters.glob("*.ipynb"):
@@ -143,7 +143,7 @@ def assert_no_half_page(tree):
 
 
 def pages(tree):
-    """The built pages, {name: text}, without what differs from one build to the next."""
+    """The built pages, without the parts that differ from build to build: {name: text}."""
     html = tree / "_build" / "html"
     return {path.relative_to(html).as_posix(): re.sub(r"took \d+ seconds|\?digest=\w+", "", path.read_text())
             for path in html.rglob("*.html")}

@@ -1,4 +1,4 @@
-"""What is refused, in words that name the argument, its value and what is allowed: defects that fuzzing has found."""
+"""Bad arguments found by fuzzing are refused by messages that name the argument, its value and what is allowed."""
 
 from fractions import Fraction
 
@@ -143,7 +143,7 @@ def test_a_policy_that_returns_no_action_takes_the_nearest():
     assert run.state.last_event[0] == len(CARDINAL.names)
 
 
-@pytest.mark.skipif(numba.config.DISABLE_JIT, reason="nothing is compiled")
+@pytest.mark.skipif(numba.config.DISABLE_JIT, reason="the compiler is off")
 def test_a_kernel_that_cannot_be_compiled_is_named():
     @kernel
     def of_nothing():

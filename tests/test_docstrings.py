@@ -1,4 +1,4 @@
-"""Docstrings and annotations of what users call: arguments named and annotated, errors said."""
+"""Docstrings and annotations of public callables: arguments are named and annotated, errors documented."""
 
 import dataclasses
 import importlib
@@ -9,12 +9,12 @@ import pytest
 from public_names import NOTHING_TO_REPLACE, TABLE
 
 NAMES = sorted({name.partition(",")[0] for name in (*TABLE, *NOTHING_TO_REPLACE)})
-SAID_BY_THE_MODULE = ("choices", "ax")  # the docstring of their module says what they are
-OTHERS = re.compile(r"[Tt]he (others|other fields|fields|arguments) are those of")  # which are told there
+SAID_BY_THE_MODULE = ("choices", "ax")  # described in the docstring of their module
+OTHERS = re.compile(r"[Tt]he (others|other fields|fields|arguments) are those of")  # and are described there
 
 
 def found(name):
-    """What a full name stands for, and the class that it is a method of, or None."""
+    """The object with a full name, and the class that it is a method of, or None."""
     module, inner = re.match(r"((?:[a-z_0-9]+[.])+)(.*)", name).groups()
     for split in range(len(module.split(".")), 1, -1):
         parts = name.split(".")
@@ -44,7 +44,7 @@ def lacking(name):
         if parameter.name != "self" and parameter.annotation is inspect.Parameter.empty:
             yield f"an annotation of {parameter.name}"
     if not inspect.isclass(value) and inspect.signature(value).return_annotation is inspect.Signature.empty:
-        yield "an annotation of what is returned"
+        yield "an annotation of the return value"
     source = inspect.getsource(value)
     if re.search(r"checks[.](?!shown|LARGEST)|raise ValueError", source) and "Raise" not in text and (
             dataclass or inspect.isfunction(value)):
@@ -52,5 +52,5 @@ def lacking(name):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_arguments_are_named_and_annotated_and_errors_said(name):
+def test_arguments_are_named_and_annotated_and_errors_documented(name):
     assert list(lacking(name)) == []

@@ -1,6 +1,6 @@
-"""Every public name with hostile arguments: a clear error or a sound value. See `fuzzing` and `public_names`.
+"""Public callables with hostile arguments raise a clear error or return a sound value: see `fuzzing`, `public_names`.
 
-``NEORL_FUZZ=2000 make test ARGS=tests/test_fuzzing.py`` makes that many calls of each name, with kernels as they are.
+``NEORL_FUZZ=2000 make test ARGS=tests/test_fuzzing.py`` makes that many calls of each, with compiled kernels.
 """
 
 import os
@@ -19,8 +19,8 @@ def test_every_public_name_is_in_the_table():
 
 
 def test_hostile_arguments_bring_a_clear_error_or_a_sound_value():
-    # In a process of its own, which may end as a whole. In a quick run kernels are not compiled: an index out of range
-    # is an IndexError then, and there are many combinations of constants to compile for.
+    # A separate process, since a call may end it. A quick run does not compile kernels: an index out of range is then
+    # an IndexError, and the many combinations of constants need no compilation.
     environment = os.environ | ({} if EXAMPLES else {"NUMBA_DISABLE_JIT": "1"})
     done = subprocess.run([sys.executable, Path(__file__).with_name("fuzzing.py"), EXAMPLES or QUICK],
                           env=environment, capture_output=True, text=True)

@@ -1,4 +1,4 @@
-"""NumPy's numbers, and arrays of no axis, are taken wherever numbers are: to equal values, of equal keys."""
+"""NumPy scalars and zero-dimensional arrays are accepted as numbers everywhere, and give equal values and keys."""
 
 from dataclasses import fields, is_dataclass, replace
 
@@ -13,7 +13,7 @@ from neorl.core.modality import LANDMARK_VECTOR_CELL, PLACE_CELL, cartesian, pol
 
 AXIS = Axis("position", along=1, low=-1.0, high=2.0, intervals=3, name="y")
 NODE = Node("PC", PLACE_CELL, (3, 7), gain=0.5)
-VALUES = [  # of every public dataclass, with a number in every field that can hold one
+VALUES = [  # instances of every public dataclass, with a number in every field that can hold one
     Learning(memory=2.0), Learning(memory=0.0, trace=3), Policy(exploration=0.25), NODE, AXIS,
     Contacts(0.5, 0.25, 4.0, 0.5, 0.25, 0.5),
     Axis("position", boundaries=(0.0, 0.25, 1.0)), LANDMARK_VECTOR_CELL, Place(0.5, 0.25), NresMap(4, PLACE_CELL),
@@ -24,12 +24,12 @@ VALUES = [  # of every public dataclass, with a number in every field that can h
     WaterMaze(places=((0.5, 0.25),), trials_a_day=2, radius=0.125),
     Condition(neorl.place_cells([3]), WaterWorld(), 100, 2, 7, ((50, neorl.place_cells([2])),))]
 NUMBERS = {int: [np.int64, np.uint16, np.array], float: [np.float64, np.float32, np.float16, np.array]}
-OF_BOUNDARIES = ("low", "high", "intervals")  # which say what these are
+OF_BOUNDARIES = ("low", "high", "intervals")  # which determine these
 CASES = [(value, each.name) for value in VALUES for each in fields(value)]
 
 
 def with_numbers(value, kind, make):
-    """A value, in lists too, with every number of a kind made one of NumPy's, and every text as well."""
+    """A value or tuple of values, with numbers of one type made NumPy's by `make`, and strings made NumPy's too."""
     if isinstance(value, tuple):
         return tuple(with_numbers(each, kind, make) for each in value)
     if type(value) is str:
@@ -70,7 +70,7 @@ def test_true_is_no_number(value, name):
 
 
 @pytest.mark.parametrize("value, name", [(value, name) for value, name in CASES if type(getattr(value, name)) is bool])
-def test_numpys_truths_are_truths_and_numbers_are_not(value, name):
+def test_numpys_booleans_are_booleans_and_numbers_are_not(value, name):
     given = getattr(value, name)
     assert identity(replace(value, **{name: np.bool(given)})) == identity(value)
     for number in (int(given), np.int64(given), float(given)):
@@ -98,7 +98,7 @@ def test_a_kernel_maker_takes_numpys_numbers_for_the_same(first):
 
 
 def test_a_kernel_maker_tells_an_integer_from_the_same_number():
-    """One may loop as often as an integer says."""
+    """A kernel may use an integer as the length of a loop."""
     @neorl.kernel_maker
     def exact(number):
         def choose(value, stream):
@@ -112,7 +112,7 @@ def test_a_kernel_maker_tells_an_integer_from_the_same_number():
 
 
 def numbers(make_int, make_float):
-    """What public functions and methods bring of numbers, each of which has come through one of these."""
+    """Results of public functions and methods, for numbers made by `make_int` and `make_float`."""
     tank = WaterWorld(n_creeps=make_int(2))
     agent = neorl.place_cells([make_int(3), make_int(4)], make_float(1.0), make_float(-0.5),
                               tiled_fraction=make_float(0.5))

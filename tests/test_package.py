@@ -1,4 +1,4 @@
-"""What an installation is: what `import neorl` costs, what is optional, and what the metadata state."""
+"""The installed package: the cost of `import neorl`, optional dependencies, and metadata."""
 
 import re
 import subprocess

@@ -1,4 +1,4 @@
-"""Imports run downwards only, as the contracts in pyproject.toml have it, and never in a circle."""
+"""Imports run only downwards, by the contracts in pyproject.toml, and never in a circle."""
 
 import subprocess
 import sys
@@ -6,7 +6,7 @@ from pathlib import Path
 
 import grimp
 
-import neorl  # noqa: F401, all that its users get
+import neorl  # noqa: F401, loads the modules that its users get
 
 ROOT = Path(__file__).parents[1]
 

@@ -1,4 +1,4 @@
-"""Typical uses, which mypy checks by the annotations of the package (`test_types.py`); it is never run."""
+"""Typical uses, which mypy checks against the annotations of the package (`test_types.py`); this file is never run."""
 
 from typing import assert_type
 

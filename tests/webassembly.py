@@ -1,4 +1,4 @@
-"""The WebAssembly modules run from Python by wasmtime, on copies of a run's arrays."""
+"""Run the WebAssembly modules from Python with wasmtime, on copies of a run's arrays."""
 
 import ctypes
 from functools import cache
@@ -27,7 +27,7 @@ def module_of(run):
 
 
 class Machine:
-    """A module with a memory of its own, into which arrays are put once and then found again."""
+    """A module with a memory of its own, into which arrays are copied once and then accessed by views."""
 
     def __init__(self, megabytes=64, name="plane"):
         engine, module = compiled(name)
@@ -39,7 +39,7 @@ class Machine:
         self.end = self.exports["__heap_base"].value(self.store)
 
     def put(self, array):
-        """A copy of an array in the memory: (address, a view of it)."""
+        """Copy an array into the memory: (address, view of the copy)."""
         address = -(-self.end // 64) * 64
         self.end = address + array.nbytes
         base = ctypes.addressof(self.memory.data_ptr(self.store).contents)
@@ -49,11 +49,11 @@ class Machine:
         return address, view
 
     def put_tuple(self, values):
-        """A named tuple whose arrays, and those of the tuples within, are (address, view) pairs."""
+        """Copy the arrays of a named tuple and of the tuples within; returns it with (address, view) pairs instead."""
         return mapped(self.put, values)
 
     def call(self, name, sizes, **arguments):
-        """Call an export as its layout says; arrays are given as (address, view) pairs."""
+        """Call an export by its layout; arrays are given as (address, view) pairs."""
         export = self.layout["exports"][name]
         values = [int(sizes[each]) for each in export["sizes"]]
         for argument, kind in export["arguments"]:
@@ -92,7 +92,7 @@ def sizes_of(run):
 
 
 def state_of(run):
-    """The state of a run's world as that of the world of its module."""
+    """The state of a run's world, in the form that its module expects."""
     if module_of(run) != "plane":
         return run.world_state
     plane = new_tuple(PlaneState, sizes_of(run), {})

@@ -1,4 +1,4 @@
-"""Agents as data: what is refused, what can be evaluated, and what an agent compiles to."""
+"""Agents as data: validation, the order of evaluation, and the parameters that an agent compiles to."""
 
 from dataclasses import replace
 
@@ -240,7 +240,7 @@ def test_a_chain_of_three_nodes_runs_and_every_desire_gets_to_its_end():
     run.advance(500)
     assert run.step == 500 and run.state.values.q.any()
     values = run._state.values.q
-    values[:] = np.random.default_rng(0).random(values.size)  # desires that do not happen to be met
+    values[:] = np.random.default_rng(0).random(values.size)  # so that no desire happens to be satisfied
     run.advance(1)
     assert run.state.desires.valence[0] == run.state.desires.valence[1] >= 1 and run.state.desires.valence[2] == 0.5
     assert run.state.desires.target[1:].all() and run.state.desires.q.all()

@@ -1,4 +1,4 @@
-"""Nodes whose goals are contacts: against a restatement of the rules in plain Python, and what they promise."""
+"""Nodes whose goals are contacts: their rules against a reimplementation in plain Python, and their behaviour."""
 
 import itertools
 import math
@@ -14,7 +14,7 @@ from neorl.core.scene import CARDINAL, Actions
 from neorl.experiments.run import Run
 
 NODE = "OVC × V"
-MIRRORS = list(itertools.product((0, 1), (1, -1), (1, -1)))  # exchanged, and the signs of the axes
+MIRRORS = list(itertools.product((0, 1), (1, -1), (1, -1)))  # whether the axes are exchanged, and their signs
 
 
 def image(vector, exchanged, sign_x, sign_y):
@@ -23,7 +23,7 @@ def image(vector, exchanged, sign_x, sign_y):
 
 
 class Restated:
-    """One thing's maps by the rules of `neorl.core.contacts`, as dictionaries, in the words of the docstring."""
+    """The maps of a node as dictionaries, by the rules in the docstring of `neorl.core.contacts`."""
 
     def __init__(self, contacts, resolutions, fps):
         self.contacts, self.resolutions = contacts, resolutions
@@ -32,7 +32,7 @@ class Restated:
         self.ways = {}
 
     def seen(self, thing, velocity):
-        """The cell in each map, and the action that each action is in the mirrored world."""
+        """The cell in each map, and the mirror image of each action."""
         candidates = []
         for each in MIRRORS:
             offset, speed = image(thing, *each), image(velocity, *each)
@@ -136,7 +136,7 @@ def test_mirror_images_are_one_cell_and_its_actions_follow():
             coordinates = np.array([*image(thing, *each), *image(velocity, *each)])
             frame = execute_mirror(parameters, coordinates)
             found.append(coordinates)
-            for action, push in enumerate(CARDINAL.pushes):  # east is towards the thing in every image, or south is
+            for action, push in enumerate(CARDINAL.pushes):  # it leads as far towards the thing in every image
                 turned = np.array([*push, *push], float)
                 towards = np.dot(push, image(thing, *each))
                 mirrored = CARDINAL.pushes[parameters.frames[frame, action]]
@@ -146,7 +146,7 @@ def test_mirror_images_are_one_cell_and_its_actions_follow():
 
 
 def execute_mirror(parameters, coordinates):
-    """The frame, by the kernel as Python."""
+    """The frame, by the kernel run as Python; mirrors the coordinates in place."""
     class Plane:
         axes = (0, 1)
 

@@ -1,4 +1,4 @@
-"""A learner in a loop of the user's own: to the bit what a run is, kept and copied, and safe from what does not fit."""
+"""A learner in a user's own loop: bit-identical to a run, also when saved or copied; bad arguments are refused."""
 
 import copy
 
@@ -13,7 +13,7 @@ from neorl.core.kernel import arrays, execute, mapped
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL
 from neorl.core.stream import new_stream
 
-TANK = WaterWorld(width=100, n_creeps=2, win_reward=5.0)  # in which episodes end often
+TANK = WaterWorld(width=100, n_creeps=2, win_reward=5.0)  # small, so that episodes end often
 AGENTS = {
     "calibrated": network_d([2, 5]),
     "every modality": every_modality(),
@@ -24,7 +24,7 @@ AGENTS = {
 
 
 def newborn(agent, world, seed=0):
-    """A learner that knows a world, with the random numbers of the choices of a run, and the world's state."""
+    """A learner that has begun in a world, with the random stream of a run's choices, and the world's state."""
     sequence = np.random.SeedSequence(seed, spawn_key=(0,))
     state = world.reset(sequence)
     learner = Learner(agent, world.things, world.kinds, world.actions, size=world.size, fps=world.fps)
@@ -34,7 +34,7 @@ def newborn(agent, world, seed=0):
 
 
 def take(learner, world, state, action):
-    """Let the world and the learner go through with an action."""
+    """Carry out an action; returns whether the episode has ended."""
     _, _, done = world.step(state, action)
     learner.observe(state.scene)
     if done:
@@ -44,7 +44,7 @@ def take(learner, world, state, action):
 
 
 def live(learner, world, state, steps):
-    """Live so many steps; returns the actions."""
+    """Act for a number of steps; returns the actions."""
     actions = []
     for _ in range(steps):
         actions.append(learner.act())
@@ -141,8 +141,8 @@ def test_values_stay_those_of_their_goals_when_the_order_of_q_changes(bootstrap)
 
 
 @pytest.mark.parametrize("kind", [Run, Learner])
-def test_what_is_transferred_is_learned_on_as_by_its_source(kind):
-    """Bootstrapping goes by the goals that a cell knows of, so these have to come along."""
+def test_learning_continues_from_transferred_values_as_at_their_source(kind):
+    """Learning covers only the range of goals whose values may differ from 0, so the ranges must be transferred too."""
     agent = multimodal([4, 6], learning=plain_rule(absent_decay=0.1), policy=Policy(0.1))
     source = Run(agent, TANK, seed=1) if kind is Run else newborn(agent, TANK, seed=1)[0]
     if kind is Run:
@@ -268,7 +268,7 @@ SEES_FOOD = Node("OVC", CARTESIAN_OBJECT_VECTOR_CELL, [5])
 
 
 def watcher(rule):
-    """A learner, and scenes in which the agent is at x and food, if it is there, at the other end."""
+    """A learner, and scenes with the agent at x and food, if present, at the other end."""
     learner = Learner(Agent((SEES_FOOD,), (Desire("food", "OVC", 1.0),), rule), 1, ("food",))
     return learner, lambda x, kind="food", met=0, food=0.9: Scene((x, 0.5), None, [(food, 0.5)], [kind], [met])
 
@@ -286,7 +286,7 @@ def test_nothing_is_learned_from_what_vanishes_and_appears(rule):
     assert not learner.q().any()
     learner.act()
     learner.observe(scene(0.9))
-    assert learner.q().any()  # from a thing that was there before and after
+    assert learner.q().any()  # from a thing that was present before and after
 
 
 def test_a_thing_that_is_met_and_vanishes_was_met():
@@ -305,7 +305,7 @@ def of_a_module(count, steps, last, activity):
     return 1.0 if last else 0.0
 
 
-def test_own_kernels_of_a_module_are_saved_by_name_and_others_are_refused(tmp_path):
+def test_a_modules_kernels_are_saved_by_name_and_others_are_refused(tmp_path):
     learner, state = newborn(multimodal([3], learning=Learning(credit=of_a_module)), TANK)
     live(learner, TANK, state, 50)
     learner.save(tmp_path / "learner")

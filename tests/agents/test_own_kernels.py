@@ -1,4 +1,4 @@
-"""Kernels of a user's own: those that say what the package's do give the same bits, with and without the compiler."""
+"""A user's own kernels: those that reimplement the package's give the same bits, with and without the compiler."""
 
 import hashlib
 import json
@@ -31,7 +31,7 @@ def share(count, steps, last, activity):
 
 @kernel
 def last_of_all(count, steps, last, activity):
-    return 1.0 if last else -3.0  # which counts as 0
+    return 1.0 if last else -3.0  # a negative credit counts as 0
 
 
 @kernel
@@ -65,14 +65,14 @@ def crediting(credit, **changes):
 
 
 def perceiving(of):
-    """An agent that wants points of its own spaces, in which the second axis is how far east it is."""
+    """An agent that desires points in its own spaces, whose second axis is its position from west to east."""
     place = Modality("place", (Axis("position", along=1), Axis(of)))
     beside = Modality("beside", (Axis("objects", along=1, low=-1), Axis(of)))
     return Agent((Node("PC", place, [4, 7]), Node("B", beside, [3])),
                  (Desire((0.2, 0.9), "PC", 1.0), Desire((0.0, 0.3), "B", 0.5)), **PLAIN)
 
 
-PAIRS = {  # the user's own, and what it re-implements
+PAIRS = {  # with the user's own kernel, and with the package's that it reimplements
     "credit happened": (crediting(happened), crediting("happened")),
     "credit share": (crediting(share), crediting("share")),
     "credit last": (crediting(last_of_all), crediting("last")),
@@ -93,14 +93,14 @@ def digest(agent, steps):
 
 @pytest.fixture(scope="module")
 def interpreted():
-    """What this file prints, run as a program with the compiler switched off, where every kernel is at once ready."""
+    """The output of this file, run as a program with the compiler switched off, so that no kernel needs compiling."""
     printed = subprocess.run([sys.executable, __file__, "250"], capture_output=True, check=True, env={
         **os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": os.pathsep.join(sys.path)}).stdout
     return json.loads(printed)
 
 
 @pytest.mark.parametrize("name", PAIRS)
-def test_an_own_kernel_that_does_what_the_packages_does_gives_the_same_bits(name, interpreted):
+def test_a_users_kernel_that_does_what_the_packages_does_gives_the_same_bits(name, interpreted):
     own, packaged = PAIRS[name]
     assert own != packaged and interpreted[name][0] == interpreted[name][1] == digest(packaged, 250)
 
@@ -110,7 +110,7 @@ def all_at_once(of, credit, **choose):
     return replace(agent, learning=plain_rule(credit=credit), policy=Policy(0.05, **choose))
 
 
-def test_own_kernels_of_every_sort_give_the_same_bits_when_compiled():
+def test_a_users_kernels_of_every_sort_give_the_same_bits_when_compiled():
     own, packaged = all_at_once(x_share, happened, choose=highest), all_at_once("position", "happened")
     assert digest(own, 4_000) == digest(packaged, 4_000)
 
@@ -159,7 +159,7 @@ def check_that_kernels_of_one_modality_are_told_apart_from_those_of_another():
         assert (one % 5, one // 5) == (other // 2, other % 2)
 
 
-def test_own_kernels_are_heard_and_told_apart(interpreted):
+def test_a_users_kernels_are_called_and_told_apart(interpreted):
     assert interpreted["heard and told apart"]
 
 

@@ -1,4 +1,4 @@
-"""Compiled kernels on disk: taken when all that made them is the same, and never otherwise."""
+"""Compiled kernels on disk are reused if everything that they were compiled from is unchanged, and only then."""
 
 import importlib.util
 import os
@@ -60,11 +60,11 @@ class Loader(importlib.machinery.SourceFileLoader):
 @pytest.fixture(autouse=True)
 def only_when_compiled():
     if os.environ.get("NUMBA_DISABLE_JIT") == "1":
-        pytest.skip("nothing is compiled")
+        pytest.skip("the compiler is off")
 
 
 def called(own):
-    """What the kernel answers, and whether it was found on disk."""
+    """The result of the kernel, and whether it was loaded from disk."""
     answer = execute(own.answer, own.Pair(1.0, 4.0))
     return answer, sum(own.answer.for_python.stats.cache_hits.values()) == 1
 

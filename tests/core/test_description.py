@@ -1,4 +1,4 @@
-"""Agents, worlds and conditions as plain data: what is written is read again, what is wrong is named by its path."""
+"""Agents, worlds and conditions as plain data are read as they were written, and errors are located by their path."""
 
 import json
 import subprocess
@@ -29,7 +29,7 @@ def of_a_module(count, steps, last, activity):
 
 @dataclass(frozen=True)
 class Cave(World):
-    """A world of the user's, which checks nothing."""
+    """A user's own world, which validates nothing."""
 
     depth: float
     rooms: tuple[tuple[str, int], ...] = ()
@@ -168,7 +168,7 @@ def test_other_data_are_refused(data):
         Agent.from_dict(data)
 
 
-def test_data_within_themselves_are_refused():
+def test_data_that_contain_themselves_are_refused():
     data = dict(NODE)
     data["nodes"] = [data]
     with pytest.raises(ValueError, match="is unknown|nested too deeply"):
@@ -245,7 +245,7 @@ JSON = st.recursive(st.none() | st.booleans() | st.integers() | st.floats() | st
 
 @st.composite
 def damaged(draw):
-    """The data of a condition with anything in place of something."""
+    """The data of a condition with one value replaced by arbitrary data."""
     data = WHOLE.to_dict()
     at, key = data, draw(st.sampled_from(sorted(data)))
     while isinstance(at[key], dict | list) and at[key] and draw(st.integers(0, 5)):

@@ -1,4 +1,4 @@
-"""Learning and superposition against NumPy, and against what must come out in a world that is understood."""
+"""Learning and superposition against NumPy, and against the exact values of a grid world."""
 
 import numpy as np
 import pytest
@@ -27,7 +27,7 @@ small_or_0 = shares.map(lambda value: value if value > 1e-6 else 0.0)
 
 @st.composite
 def tables_and_credits(draw):
-    """Values of any number of actions, which the kernel takes four at a time, and a credit for each."""
+    """Values of any number of actions, which the kernel processes four at a time, and the credit of each action."""
     actions = draw(st.sampled_from([4, 4, 1, 2, 3, 5, 6, 7, 8, 9, 13]))
     return (draw(arrays(np.float32, (6, actions, 6), elements=small_or_0)),
             draw(st.lists(shares, min_size=actions, max_size=actions)))
@@ -43,7 +43,7 @@ def test_an_update_equals_numpy(table, cell_tm1, cell_t, learning_rate, discount
 
 
 def test_every_goal_of_a_grid_world_is_learned_from_one_random_walk():
-    """Where each action moves one cell, the value of the best action is γ to the moves left after it."""
+    """If each action moves by one cell, the value of the best action is γ to the power of the moves left after it."""
     side, discount = 4, 0.8
     rng = np.random.default_rng(0)
     q = np.zeros((side**2, 4, side**2), np.float32)

@@ -1,4 +1,4 @@
-"""The rules that every kernel keeps to, so that a run is the same everywhere."""
+"""The rules that every kernel follows, so that a run is the same everywhere."""
 
 import re
 
@@ -28,7 +28,7 @@ MADE["softmax"] = softmax(0.5)
 
 @pytest.fixture(scope="module", autouse=True)
 def compiled():
-    """Have every kernel compiled by short runs, or again, because what comes from disk cannot be looked into."""
+    """Compile every kernel by short runs, and recompile those loaded from disk, whose code cannot be inspected."""
     for world, agent in AGENTS.items():
         Run(agent, world, seed=0).advance(10)
         world.step(world.reset(0), 0)
@@ -47,7 +47,7 @@ def test_the_kernels_are_found():
 
 
 @pytest.mark.parametrize("name", [*KERNELS, *MADE])
-def test_a_kernel_has_the_options_of_all_and_calls_no_library(name):
+def test_every_kernel_has_the_same_options_and_calls_no_library(name):
     tested = (KERNELS | MADE)[name]
     assert tested.dispatcher.targetoptions in [each(lambda: None).dispatcher.targetoptions
                                                for each in (kernel, inlined_kernel)]
@@ -55,7 +55,7 @@ def test_a_kernel_has_the_options_of_all_and_calls_no_library(name):
     for code in (tested.dispatcher.inspect_llvm() | tested.for_python.inspect_llvm()).values():
         calls = [line for line in code.splitlines() if " call " in line and "@" in line]
         called = {line.split("@", 1)[1].split("(")[0] for line in calls}
-        # What is left are other kernels (_ZN…), LLVM's own, and the wrapper that Python calls.
+        # Allowed are other kernels (_ZN…), LLVM's own functions, and the wrapper that Python calls.
         assert not {name for name in called if not name.startswith(("llvm.", "_ZN", "Py", "Numba", "numba"))}
 
 

@@ -1,4 +1,4 @@
-"""NRES maps: one active cell for any point of any modality, also at the edges."""
+"""NRES maps: one active cell for any point of any modality, including the edges."""
 
 import math
 
@@ -17,7 +17,7 @@ closed = pytest.mark.parametrize("modality", [each for each in MODALITIES if eac
                                  ids=lambda modality: modality.name)
 near_and_far = st.floats(-3, 3) | st.floats(-1e6, 1e6)
 
-# Axes of every kind and cut, those of the vector that is followed before those of others, directions last.
+# Axes of every kind and division; those of the vector followed come before those of others, directions last.
 PLACE_DIRECTION = Modality("place × head direction", PLACE_CELL.axes + HEAD_DIRECTION_CELL.axes)
 OBJECT_VELOCITY = Modality("object vector × velocity",
                            OBJECT_VECTOR_CELL.axes + cartesian("velocity", (-1, 1), (-1, 1), intervals=2))
@@ -33,7 +33,7 @@ of_any_axes = pytest.mark.parametrize("modality", CONJUNCTIVE, ids=lambda modali
 
 @st.composite
 def open_or_closed_axes(draw):
-    """An axis that is a component of a position, cut in any way."""
+    """An axis that is a component of a position, divided in any way."""
     if draw(st.booleans()):
         return Axis("position", boundaries=sorted(draw(st.sets(st.floats(-2, 2), min_size=2, max_size=6))))
     low = draw(st.floats(-2, 2))
@@ -42,7 +42,7 @@ def open_or_closed_axes(draw):
 
 
 def encoded_by_numpy(nres_map, points):
-    """The active cell of each point (n, axes), an axis at a time."""
+    """The active cell of each point (n, axes), computed axis by axis."""
     cells, stride = np.zeros(len(points), int), 1
     for axis, values in zip(nres_map.modality.axes, np.transpose(points)):
         n = axis.intervals or nres_map.resolution
@@ -156,7 +156,7 @@ def test_an_agent_of_conjunctive_cells_lives_and_learns(modality, source):
 
 
 def test_an_element_has_a_place_along_the_axes_of_what_is_followed_and_is_everywhere_along_others():
-    """At a place, in any of five directions: the values of all five goals add."""
+    """A place is desired in all five directions, so the values of five goals add up."""
     modality = Modality("X", PLACE_CELL.axes + (Axis("velocity", "direction", intervals=5),))
     run = Run(Agent((Node("X", modality, [3]),), (Desire(Place(0.5, 0.1), "X", 2.0),)), WaterWorld(), seed=0)
     values = run._state.values.q

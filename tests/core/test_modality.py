@@ -1,4 +1,4 @@
-"""Modalities: what they make of a vector and of a state, against NumPy and numbers worked out by hand."""
+"""The coordinates that modalities compute from vectors and states, against NumPy and numbers worked out by hand."""
 
 import math
 
@@ -88,7 +88,7 @@ def scene_of(agent, velocity, creeps):
     return state.scene
 
 
-# The agent is at (0.1, 0.95), creeps are at (0.4, 0.55) and where the agent is, the default landmark is in the middle.
+# The agent is at (0.1, 0.95), creeps at (0.4, 0.55) and at the agent's place, the default landmark in the middle.
 @pytest.mark.parametrize("modality, expected", [
     (PLACE_CELL, [(0.1, 0.95)]),
     (BORDER_CELL, [(-0.15, 0.2)]),
@@ -205,7 +205,7 @@ def test_a_bad_choice_is_refused(make, message):
         make()
 
 
-def test_an_axis_cannot_be_subclassed_to_no_effect():
+def test_a_subclass_of_axis_which_would_have_no_effect_is_refused():
     with pytest.raises(TypeError, match="Mine cannot be a subclass of Axis"):
         class Mine(Axis):
             pass

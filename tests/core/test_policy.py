@@ -1,4 +1,4 @@
-"""How an action is chosen: greedily, or by a softmax whose exponential function is its own."""
+"""Action selection: greedy, or softmax with the package's own exponential function."""
 
 import math
 
@@ -17,7 +17,7 @@ DRAWS = 20_000
 
 
 def drawn(choose, value, draws=DRAWS, seed=0):
-    """How often each action is chosen, as a share."""
+    """The share of draws in which each action is chosen."""
     stream, value = new_stream(np.random.SeedSequence(seed)), np.array(value, float)
     return np.bincount([execute(choose, value, stream) for _ in range(draws)], minlength=len(value)) / draws
 
@@ -58,7 +58,7 @@ def test_softmax_of_huge_values_draws_from_the_highest(value):
     assert_shares(drawn(softmax(1.0), value), [0.5, 0.0, 0.5])
 
 
-def test_softmax_that_is_cold_is_greedy_and_that_is_hot_is_random():
+def test_a_cold_softmax_is_greedy_and_a_hot_one_is_random():
     assert drawn(softmax(1e-30), [0.1, 0.3, 0.2], draws=100).tolist() == [0, 1, 0]
     assert_shares(drawn(softmax(1e30), [0.1, 0.3, 0.2]), [1 / 3] * 3)
 

@@ -1,4 +1,4 @@
-"""The stream of random numbers against NumPy's own."""
+"""The stream of random numbers against NumPy's."""
 
 import numpy as np
 import pytest

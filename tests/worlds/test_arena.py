@@ -1,4 +1,4 @@
-"""The rules of the arena, and that it is the same with the compiler switched off."""
+"""The rules of the arena; its runs are the same with the compiler switched off."""
 
 import hashlib
 import json
@@ -15,12 +15,12 @@ from neorl.core.kernel import arrays
 from neorl.core.modality import OBJECT_VECTOR_CELL, PLACE_CELL
 
 RIM = {(0.5, 0.05), (0.5, 0.95), (0.05, 0.5), (0.95, 0.5)}
-AIMLESS = Agent((Node("PC", PLACE_CELL, [3]),))  # with no desires every action is as good
+AIMLESS = Agent((Node("PC", PLACE_CELL, [3]),))  # without desires all actions are equally good
 FREE = {"places": (), "start": (0.5, 0.5), "trial_seconds": 1e6}
 
 
 def walked(world, actions, seed=0):
-    """The scenes of a walk, copied: positions and velocities."""
+    """The positions and velocities along a walk."""
     state, positions, velocities = world.reset(seed), [], []
     for action in actions:
         world.step(state, action)
@@ -73,7 +73,7 @@ def test_nothing_leaves_the_walls_or_enters_an_obstacle(shape, motion):
         assert not np.any((left < x) & (x < right) & (top < y) & (y < bottom))
     away = np.hypot(x - 0.5, y - 0.5)
     assert np.all(away <= 0.5 + 1e-12) if shape == "round" else away.max() > 0.55
-    assert x.max() > 0.75 and x.min() < 0.15  # it has come to both walls, and past the obstacle
+    assert x.max() > 0.75 and x.min() < 0.15  # it has reached both walls, and passed the obstacle
 
 
 @pytest.mark.parametrize("arguments, stopped", [
@@ -113,7 +113,7 @@ def test_a_place_at_the_start_is_met_only_after_it_was_left():
 
 
 @pytest.mark.parametrize("ends", [True, False])
-def test_to_meet_a_place_ends_the_trial_or_does_not(ends):
+def test_meeting_a_place_ends_the_trial_or_does_not(ends):
     world = Arena(places=(("food", 0.6, 0.5),), motion="steps", step_length=0.1, start=(0.5, 0.5), ends=ends)
     assert [done for _, _, done, _ in steps_along(world, ["W", "E", "E"])] == [False, False, ends]
 

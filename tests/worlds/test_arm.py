@@ -1,4 +1,4 @@
-"""The rules of the arm, step by step against a restatement in plain Python with NumPy's random numbers."""
+"""The rules of the arm, step by step against a reimplementation in plain Python with NumPy's random numbers."""
 
 import math
 
@@ -16,7 +16,7 @@ def hand_in(posture, lengths):
 
 
 class PlainArm:
-    """The rules of the module's docstring, one after the other."""
+    """The rules of the module's docstring, one by one."""
 
     def __init__(self, world, seed):
         self.world, self.lengths = world, np.array(world.lengths) / sum(world.lengths)

@@ -1,4 +1,4 @@
-"""Runs in the arm, with the vessel and in the water maze are the same with the compiler switched off."""
+"""Runs of the arm, the vessel and the water maze are the same with the compiler switched off."""
 
 import hashlib
 import json

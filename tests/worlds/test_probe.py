@@ -1,4 +1,4 @@
-"""Looking at a run where the agent is not, and joining in, leave alone what the agent knows."""
+"""Probing values where the agent is not, and adding a second player, leave the agent's knowledge unchanged."""
 
 import numpy as np
 import pytest

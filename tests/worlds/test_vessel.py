@@ -1,4 +1,4 @@
-"""The rules of the vessel, step by step against a restatement in plain Python with NumPy's random numbers."""
+"""The rules of the vessel, step by step against a reimplementation in plain Python with NumPy's random numbers."""
 
 import math
 
@@ -9,7 +9,7 @@ from neorl.worlds.vessel import Vessel
 
 
 class PlainVessel:
-    """The rules of the module's docstring, one after the other; vectors in the plane are complex numbers."""
+    """The rules of the module's docstring, one by one; vectors in the plane are complex numbers."""
 
     def __init__(self, world, seed):
         self.world = world
@@ -75,7 +75,7 @@ def test_it_starts_in_the_middle_heading_east_and_drifts_with_the_current():
     assert state.scene.kinds.tolist() == [0, 1, 1, 1] and world.kinds == ("waypoint", "vessel")
     world.step(state, "amidships")
     np.testing.assert_allclose(state.scene.position, [0.51, 0.505])
-    assert state.scene.velocity.tolist() == [0.1, 0]  # the drift does not show
+    assert state.scene.velocity.tolist() == [0.1, 0]  # the velocity does not show the drift
 
 
 def test_starboard_is_clockwise_with_a_lag():

@@ -1,4 +1,4 @@
-"""The rules of the water maze, step by step against a restatement in plain Python with NumPy's random numbers."""
+"""The rules of the water maze, step by step against a reimplementation in plain Python with NumPy's random numbers."""
 
 import math
 
@@ -12,7 +12,7 @@ WAYS = [(0, -1), (0, 1), (1, 0), (-1, 0), (0, 0)]
 
 
 class PlainMaze:
-    """The rules of the module's docstring, one after the other."""
+    """The rules of the module's docstring, one by one."""
 
     def __init__(self, world, seed):
         self.world, self.trial, self.remembered = world, 0, None

@@ -1,7 +1,7 @@
 """WaterWorld against recordings of the original, and its rules where the recordings are silent.
 
 The recordings are 243 single steps of the PyGame Learning Environment's WaterWorld
-(github.com/ntasfi/PyGame-Learning-Environment), chosen for contacts, walls and ends of episodes.
+(github.com/ntasfi/PyGame-Learning-Environment), chosen to cover contacts, walls and ends of episodes.
 """
 
 from pathlib import Path
@@ -86,7 +86,7 @@ def test_a_touched_creep_pays_by_its_colour_and_is_replaced():
         world, state = touching([kind, GREEN])
         reward, hits, done = world.step(state, "no-op")
         assert reward == (1.0 if kind == GREEN else -1.0)
-        assert state.scene.met.tolist() == [1 + kind, 0]  # the kind that it was, whatever the fresh one is
+        assert state.scene.met.tolist() == [1 + kind, 0]  # the kind of the creep touched, not of its replacement
         assert hits.tolist() == [True, False]
         assert not done
         assert np.linalg.norm(state.scene.things[0] - state.scene.position) >= 1
@@ -153,7 +153,7 @@ def test_a_bad_step_is_refused_and_changes_nothing():
 
 
 def lonely(**fields):
-    """A tank whose only creep is far from an agent at rest, but for the given fields."""
+    """A tank with an agent at rest and one creep far from it, except for the given fields."""
     world = WaterWorld(n_creeps=1)
     state = world.reset(0)
     for name, value in ({"things": 200.0, "speed": 0.0, "position": 50.0} | fields).items():

@@ -1,4 +1,4 @@
-"""Worlds of a user's own, of any number of axes and actions: a dataclass and two kernels, and all else works."""
+"""A user's own worlds, with any number of axes and actions, need only a dataclass and two kernels."""
 
 import hashlib
 import json
@@ -37,7 +37,7 @@ def hide(state: DiveState, rules: DiveRules) -> None:
 
 @kernel
 def swim(state: DiveState, rules: DiveRules, action: int):
-    """A step along one of three axes; who comes near the pearl gets it, and there is another elsewhere."""
+    """A step along one of three axes; an agent that comes near the pearl gets it, and another one appears elsewhere."""
     scene, axis, sign = state.scene, action // 2, 1.0 - 2.0 * (action % 2)
     scene.position[axis] = min(max(scene.position[axis] + sign * rules.stride, 0.0), 1.0)
     near = True
@@ -83,7 +83,7 @@ def enter(state: RoundaboutState, rules: NoRules) -> None:
 
 @kernel
 def drive(state: RoundaboutState, rules: NoRules, action: int):
-    """A step forwards, the only thing to do, on a road that closes on itself."""
+    """A step forwards, the only action, on a circular road."""
     position = state.scene.position[0] + 0.2
     state.scene.position[0] = position - np.floor(position)
     return 0.0, False
@@ -147,7 +147,7 @@ def test_a_world_of_one_axis_and_one_action_is_learned_to_the_end():
 
 
 def test_a_learner_in_a_loop_of_its_own_equals_a_run():
-    agent, world = [*LIVES.values()][-1]  # one of them, since each is compiled for a minute
+    agent, world = [*LIVES.values()][-1]  # only one, since each takes a minute to compile
     run, state = Run(agent, world, seed=3), world.reset(np.random.SeedSequence(3, spawn_key=(0,)))
     learner = Learner(agent, world.things, world.kinds, world.actions, size=world.size, fps=world.fps)
     learner._state.stream[:] = run.state.stream
