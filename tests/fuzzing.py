@@ -1,6 +1,6 @@
 """Hostile values, and calls in which one of them replaces a valid argument: the engine of `test_fuzzing.py`.
 
-    python tests/fuzzing.py EXAMPLES NAME…    fuzzes some entries of `public_names.TABLE` in a process of their own
+    python tests/fuzzing.py EXAMPLES NAME…    fuzzes some entries of `public_calls.TABLE` in a process of their own
 
 A call must raise a clear error, which names the argument and states what is allowed, or return a sound value, which is
 usable and without NaN. A call that takes `SECONDS` ends the process with a traceback.
@@ -242,7 +242,7 @@ def text(value):
 
 
 def main(examples, *names):
-    from public_names import TABLE
+    from public_calls import TABLE
 
     faulthandler.enable()
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))

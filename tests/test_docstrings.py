@@ -6,7 +6,8 @@ import inspect
 import re
 
 import pytest
-from public_names import NOTHING_TO_REPLACE, TABLE
+from public_calls import TABLE
+from public_names import NOTHING_TO_REPLACE
 
 NAMES = sorted({name.partition(",")[0] for name in (*TABLE, *NOTHING_TO_REPLACE)})
 SAID_BY_THE_MODULE = ("choices", "ax")  # described in the docstring of their module

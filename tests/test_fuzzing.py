@@ -1,4 +1,4 @@
-"""Public callables with hostile arguments raise a clear error or return a sound value: see `fuzzing`, `public_names`.
+"""Public callables with hostile arguments raise a clear error or return a sound value: see `fuzzing`, `public_calls`.
 
 ``NEORL_FUZZ=2000 make test ARGS=tests/test_fuzzing.py`` makes that many calls of each, with compiled kernels.
 """
@@ -8,7 +8,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-from public_names import NOTHING_TO_REPLACE, TABLE, public_names
+from public_calls import TABLE
+from public_names import NOTHING_TO_REPLACE, public_names
 
 EXAMPLES = os.environ.get("NEORL_FUZZ")
 QUICK = "40"

@@ -111,7 +111,7 @@ def network_d(resolutions: Sequence[int] = LAYERS, recursion: float = -1.0, scal
     """Agent D of paper C (fig. 4d): as C, and object-vector cells receive their own previous desire, with valence r.
 
     recursion: r, which is negative in the thesis. The others are as in `network_c`: resolutions, scale, signed,
-    place_gain, object_gain, choices.
+    place_gain, object_gain, choices. Raises ValueError unless r is a finite number.
     """
     without = network_c(resolutions, scale, signed, place_gain, object_gain, **choices)
     recurring = Desire("OVC", "OVC", valence=checks.real("recursion", recursion), scale=scale, signed=signed)

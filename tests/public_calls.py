@@ -1,0 +1,366 @@
+"""The public callables with valid arguments, of which `test_fuzzing` replaces one at a time by a hostile value."""
+
+import numpy as np
+from fuzzing import entry
+from hypothesis import strategies as st
+from matplotlib.figure import Figure
+from public_uses import (BOARD, CONDITION, CURVES, POOL, RESULT, SAMPLE, SCENE, SCENES, SPACES, acted, agents, begun,
+                         described_paths, drawing_of, drawn, fields_of, in_a_loop, live, live_in, live_in_state,
+                         make_with, method, new_env, new_learner, new_run, paper, paths, q, reals, resolutions,
+                         result_of, saved, saved_as, scene_of, scene_then, seeds, shares, states, step_with, tile,
+                         use_modality, want_it)
+
+import neorl
+from neorl import (CARDINAL, Actions, Agent, Arena, Arm, Axis, Condition, Contacts, Desire, Learner, Learning, Modality,
+                   Node, NresMap, Place, Policy, Result, Run, Scene, Vessel, WaterMaze, WaterWorld, drawing, greedy,
+                   softmax)
+from neorl.agents import learner
+from neorl.agents.beyond import forager, foveated_cells
+from neorl.agents.individual import Individual
+from neorl.core import horde, kernel
+from neorl.core.identity import identity
+from neorl.core.kernel import arrays
+from neorl.core.modality import MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, cartesian, polar
+from neorl.core.stream import new_stream
+from neorl.evidence import curves, multiverse, reading, statistics
+from neorl.evidence.statistics import Estimate
+from neorl.experiments import recording
+from neorl.gym import environment, playing, vector
+from neorl.worlds import world
+
+TABLE = {
+    "neorl.core.modality.Axis": entry(
+        Axis, of=["position", "objects", "landmarks"], feature=["component", "length"], along=[0, 1],
+        low=st.floats(-1, 0), high=st.floats(0.1, 1), closed=[False, True], intervals=[None, 2], boundaries=[()],
+        name=["", "x"], then=tile, also=("margin", "kernel")),
+    "neorl.core.modality.Axis, cut": entry(
+        Axis, of=["position"], boundaries=[(0, 0.2, 0.9), [0, 1]], also="low", then=tile),
+    "neorl.core.modality.Modality": entry(
+        Modality, name=["cell"], axes=[cartesian("position", (0, 1), (0, 1)), polar("objects", 1)],
+        landmarks=[()], then=use_modality),
+    "neorl.core.modality.Modality, of landmarks": entry(
+        Modality, name=["cell"], axes=[polar("landmarks", 1)], landmarks=[[(0.1, 0.2)], ((0, 1), (1, 1))],
+        then=use_modality),
+    "neorl.core.modality.Modality.tune": entry(
+        OBJECT_VECTOR_CELL.tune, vectors=[np.ones((3, 2)), [1, 2], ((0.5, 0.5),)]),
+    "neorl.core.modality.Modality.coordinates": entry(
+        PLACE_CELL.coordinates, scene=[Scene(np.array([0.5, 0.5]))], size=st.floats(0.1, 10)),
+    "neorl.core.modality.cartesian": entry(
+        lambda of, first, second, intervals: cartesian(of, first, second, intervals=intervals), of=["position"],
+        first=[(0, 1)], second=[(-1, 1), [0.5, 3]], intervals=[None, 4], also=("ranges", "low", "high"),
+        then=lambda axes: use_modality(Modality("cell", axes))),
+    "neorl.core.modality.polar": entry(
+        polar, of=["objects", "boundaries"], reach=st.floats(0.1, 3), intervals=[None, 4], also=("high", "resolution"),
+        then=lambda axes: use_modality(Modality("cell", axes))),
+    "neorl.core.maps.NresMap": entry(
+        NresMap, resolution=st.integers(1, 50), modality=st.sampled_from(MODALITIES),
+        then=lambda nres_map: nres_map.encode(np.zeros(len(nres_map.intervals)))),
+    "neorl.core.maps.NresMap.encode": entry(
+        NresMap(5).encode, points=[np.full((2, 3, 2), 0.5), [0.1, 0.9], [(0, 0), (-1, 2)], np.zeros((0, 2))]),
+    "neorl.core.maps.NresMap.covers": entry(
+        NresMap(5).covers, points=[np.full((2, 3, 2), 0.5), [0.1, 0.9], [(0, 0), (-1, 2)], np.zeros((0, 2))]),
+    "neorl.core.horde.learn": entry(
+        lambda **each: (horde.learn(**each), each["q"][each["cell_tm1"]]), q=q, cell_tm1=st.integers(0, 3),
+        cell_t=st.integers(0, 3),
+        credit=[(0.5, 0.5), [1, 0]], learning_rate=shares, discount=shares, terminal=[True, False]),
+    "neorl.core.horde.superpose": entry(
+        horde.superpose, q=q, cell=st.integers(0, 3), goals=[(1, 2), [3, 3]], valences=[(1, -1), [0.5, 2]],
+        own_cell=["counts", "silent"]),
+    "neorl.core.horde.as_vectors": entry(
+        horde.as_vectors, values=[np.ones((3, 4)), np.zeros(4), [1, 2, 3, 4]],
+        actions=[CARDINAL]),
+    "neorl.core.kernel.kernel": entry(
+        lambda function: live(neorl.place_cells([3], policy=Policy(choose=kernel.kernel(function)))),
+        function=[lambda value, stream: 1], also="kernel"),
+    "neorl.core.kernel.kernel_maker": entry(make_with, function=[lambda t: kernel.kernel(lambda value, stream: 1)]),
+    "neorl.core.policy.softmax": entry(
+        softmax, temperature=st.floats(0.01, 5),
+        then=lambda choose: live(neorl.place_cells([3], policy=Policy(choose=choose)))),
+    "neorl.core.scene.Actions": entry(
+        Actions, names=[("left", "right"), ["a", "b"]], pushes=[((-1, 0), (1, 0)), [[0.5], [1]]],
+        idle=[None, "stay"], then=lambda actions: in_a_loop(Learner(Agent([Node("X", Modality("x", cartesian(
+            "position", (0, 1))), [3])]), actions=actions))),
+    "neorl.core.stream.new_stream": entry(
+        new_stream, seed_sequence=[np.random.SeedSequence(3), np.random.SeedSequence(2**70, spawn_key=(1,)),
+                                   np.random.SeedSequence(5, pool_size=8)], also="pool_size"),
+    "neorl.worlds.waterworld.WaterWorld": entry(
+        WaterWorld, width=st.integers(11, 500), n_creeps=st.integers(1, 9), fps=st.integers(1, 100),
+        win_reward=reals, contact=["rounded", "truncated"], then=live_in),
+    "neorl.worlds.arena.Arena": entry(
+        Arena, places=[(("food", 0.3, 0.4),), [("a", 0, 1), ("b", 0.2, 0.2)], ()], pay=[(), (1.5,)][:1],
+        obstacles=[(), [(0.1, 0.1, 0.2, 0.2)]], shape=["round", "square"], motion=["inertia", "steps"],
+        step_length=st.floats(0.001, 0.5), radius=st.floats(0.01, 1), ends=[True, False], start=[(), (0.5, 0.5)],
+        trial_seconds=st.floats(0.1, 99), fps=st.integers(1, 100), then=live_in),
+    "neorl.worlds.arena.Arena, pay": entry(
+        Arena, places=[[("a", 0.5, 0.5), ("b", 0.2, 0.2)]], pay=[(), (1.5,), [2, 3]], start=[(0.4, 0.4)], also="pay",
+        then=live_in),
+    "neorl.worlds.arm.Arm": entry(
+        Arm, lengths=[(1, 1), [3, 2.5, 1]], targets=st.integers(1, 3), obstacles=st.integers(0, 3),
+        radius=st.floats(0.01, 0.2), fps=st.integers(1, 100), then=live_in),
+    "neorl.worlds.vessel.Vessel": entry(
+        Vessel, traffic=st.integers(0, 5), current=[(0, 0), [0.05, -0.02]], speed=st.floats(0.05, 1),
+        turning=st.floats(0.01, 5), lag=st.floats(1, 9), radius=st.floats(0.001, 0.1), fps=st.integers(1, 100),
+        then=live_in),
+    "neorl.worlds.water_maze.WaterMaze": entry(
+        WaterMaze, places=[((0.3, 0.4),), [(0.5, 0.5), (0.6, 0.4)]], trials_a_day=st.integers(1, 5),
+        radius=st.floats(0.01, 0.25), trial_seconds=st.floats(0.1, 99), fps=st.integers(1, 100), then=live_in),
+    "neorl.worlds.world.World.reset": entry(BOARD.reset, seed=seeds, then=lambda state: list(arrays(state).values())),
+    "neorl.worlds.world.World.step": entry(
+        BOARD.step, state=states, action=["N", 0, "no-op", np.int8(4)]),
+    "neorl.worlds.waterworld.WaterWorld.reset": entry(BOARD.reset, seed=seeds),
+    "neorl.worlds.waterworld.WaterWorld.step": entry(BOARD.step, state=states, action=["N", 0]),
+    "neorl.worlds.arena.Arena.reset": entry(POOL.reset, seed=seeds, then=lambda state: list(arrays(state).values())),
+    "neorl.worlds.arena.Arena.step": entry(POOL.step, state=st.integers(0, 5).map(POOL.reset), action=["N", 0]),
+    "neorl.worlds.world.World.step, fields": entry(step_with, **fields_of(BOARD.reset(0)), also="state"),
+    "neorl.worlds.world.World.check_state": entry(BOARD.check_state, state=states),
+    "neorl.worlds.waterworld.WaterWorld.check_state": entry(BOARD.check_state, state=states),
+    "neorl.worlds.arena.Arena.check_state": entry(POOL.check_state, state=st.integers(0, 5).map(POOL.reset)),
+    **{f"neorl.worlds.{module}.{type(space).__name__}.{name}": each for module, space in SPACES.items()
+       for name, each in {
+           "reset": entry(space.reset, seed=seeds, then=lambda state: list(arrays(state).values())),
+           "step": entry(space.step, state=st.integers(0, 5).map(space.reset), action=[space.actions.names[0], 0]),
+           "check_state": entry(space.check_state, state=st.integers(0, 5).map(space.reset)),
+       }.items()},
+    "neorl.agents.rules.Learning": entry(
+        Learning, learning_rate=shares, discount=shares, update_on=["cell"], credit=["happened", "activity", "share"],
+        activity=st.floats(0, 9), absent_decay=shares, absent_form=["decay", "away"], terminal=[True, False],
+        trace=[1], memory=st.floats(0, 9), memory_unit=["cells", "seconds"], memory_value=["reached", "discounted"],
+        bootstrap=[True, False], causes=["any", "own"], capture=["contact", "leap", "silent"],
+        attention=["each", "nearest", "wanted"],
+        then=lambda learning: live(neorl.multimodal([3], learning=learning))),
+    "neorl.agents.rules.Learning, traces": entry(
+        Learning, trace=st.integers(1, 9), memory=[0], discount=shares, update_on=["cell"],
+        then=lambda learning: live(neorl.multimodal([3], learning=learning))),
+    "neorl.agents.rules.Contacts": entry(
+        Contacts, horizon=st.floats(0.01, 9), learning_rate=shares, familiarity=st.floats(0, 99), first_value=shares,
+        trace_rate=shares, caution=st.floats(0, 9), fear=["avoidance", "approach"], rivals=["highest", "add"],
+        then=lambda contacts: live(forager([3, 5], contacts=contacts))),
+    "neorl.agents.beyond.forager": entry(
+        forager, resolutions=[(3,), (3, 5)], valence_green=[1.0, "learned"], valence_red=[-1.0, "learned"],
+        contacts=[Contacts()], then=live, also=("resolution", "valence", "modality")),
+    "neorl.agents.beyond.foveated_cells": entry(
+        foveated_cells, foveated=[True, False], velocity=[True, False], mirrored=[True, False],
+        also=("feature", "low", "axes")),
+    "neorl.agents.rules.Policy": entry(
+        Policy, exploration=shares, when_indifferent=["random", "no-op"],
+        choose=st.sampled_from([greedy, softmax(1.0)]),
+        then=lambda policy: live(neorl.multimodal([3], policy=policy)), also="kernel"),
+    "neorl.agents.agent.Node": entry(
+        Node, name=["PC"], modality=st.sampled_from([PLACE_CELL, OBJECT_VECTOR_CELL]), resolutions=resolutions,
+        weighting=["equal", "cells"], gain=reals, also="resolution",
+        then=lambda node: live(Agent([node], [Desire("green", node.name, 1.0)]))),
+    "neorl.agents.agent.Place": entry(
+        lambda x, y: Place(x, y), x=reals, y=reals, also="coordinates",
+        then=lambda place: want_it(Desire(place, "PC", 1.0))),
+    "neorl.agents.agent.Place.of_fields": entry(
+        Place.of_fields, coordinates=[(0.5, 0.5), [1, 0]], then=lambda place: want_it(Desire(place, "PC", 1.0))),
+    "neorl.agents.agent.Desire": entry(
+        Desire, source=st.sampled_from(["red", Place(0.5, 0.5), (0.3, 0.4)]), target=["PC"], valence=reals, of=[()],
+        scale=st.floats(0, 3), signed=[True, False], then=want_it, also=("desire", "node", "coordinates", "name")),
+    "neorl.agents.agent.Desire, of a node": entry(
+        Desire, source=["PC"], target=["OVC"], valence=[None, 0.5], of=[(), ("green",), ["green"]],
+        scale=st.floats(0, 3), signed=[True, False], then=want_it, also=("desire", "node", "coordinates")),
+    "neorl.agents.agent.Agent": entry(
+        Agent, nodes=[(Node("PC", PLACE_CELL, [3]),)], desires=[[Desire("green", "PC", 1.0)], ()],
+        learning=[Learning()], policy=[Policy()], own_cell=["counts", "silent"], then=live, also="node"),
+    "neorl.agents.agent.Agent.comes_from_node": entry(
+        neorl.place_cells([3]).comes_from_node, desire=[Desire("green", "PC", 1.0)]),
+    "neorl.agents.learner.Surroundings": entry(
+        learner.Surroundings, things=st.integers(0, 5), kinds=[(), ("a",)], actions=[CARDINAL],
+        size=st.floats(0.1, 9), fps=st.floats(1, 99)),
+    "neorl.agents.learner.Learner": entry(
+        Learner, agent=agents, things=st.integers(0, 5), kinds=[("green", "red"), ["green", "red", "blue"]],
+        actions=[CARDINAL], seed=seeds, size=st.floats(0.1, 9), fps=st.floats(1, 99), then=in_a_loop,
+        also=("kind", "axes")),
+    "neorl.agents.learner.Learner.begin": entry(method(Learner.begin, new_learner), scene=SCENES),
+    "neorl.agents.learner.Learner.begin, fields": entry(
+        scene_then(Learner.begin, new_learner), **SCENE._asdict() and {name: [each] for name, each in
+                                                                       SCENE._asdict().items()}, also="scene"),
+    "neorl.agents.learner.Learner.observe": entry(method(Learner.observe, acted), scene=SCENES),
+    "neorl.agents.learner.Learner.observe, fields": entry(
+        scene_then(Learner.observe, acted), **{name: [each] for name, each in SCENE._asdict().items()}, also="scene"),
+    **{f"neorl.{where}.{kind.__name__}.{name}": each for kind, where in (
+        (Learner, "agents.learner"), (Run, "experiments.run"), (Individual, "agents.individual"))
+       for name, each in {
+           "q": entry(method(Individual.q, new_learner), index=[0]),
+           "output": entry(method(Individual.output, new_learner), name=["PC"]),
+           "change": entry(method(Individual.change, acted), agent=agents),
+           "transfer": entry(method(Individual.transfer, new_learner), other=st.builds(new_learner), also="maps"),
+           "save": entry(saved, path=paths, errors=(OSError,)),
+           "load": entry(Run.load, path=paths, errors=(OSError,)),
+       }.items()},
+    **{f"neorl.{where}.{kind.__name__}.{name}": each for kind, value, where in (
+        (Agent, neorl.network_d([2]), "agents.agent"), (Condition, CONDITION, "experiments.cache"),
+        (Arena, Arena(), "worlds.arena"), (WaterWorld, BOARD, "worlds.waterworld"),
+        (world.World, BOARD, "worlds.world"), *((type(each), each, f"worlds.{name}") for name, each in SPACES.items()))
+       for name, each in {
+           "from_dict": entry(kind.from_dict, data=[{"is": type(value).__name__} | value.to_dict()], then=identity,
+                              also=("is", *value.to_dict())),
+           "save": entry(saved_as(value), path=described_paths, errors=(OSError,)),
+           "load": entry(kind.load, path=described_paths, errors=(OSError,)),
+       }.items()},
+    "neorl.experiments.simulation.Result.save": entry(saved_as(RESULT), path=paths, errors=(OSError,)),
+    "neorl.experiments.simulation.Result.load": entry(Result.load, path=paths, errors=(OSError,)),
+    "neorl.experiments.run.Run": entry(
+        lambda **each: Run(**each).advance(40), agent=agents, world=[BOARD], seed=seeds, run=st.integers(0, 9),
+        after=st.builds(lambda: Run(neorl.place_cells([3]), BOARD))),
+    "neorl.experiments.run.Run.advance": entry(
+        method(Run.advance, lambda: Run(neorl.place_cells([3]), BOARD)), steps=st.integers(0, 50), long=("steps",),
+        also="rewards",
+        rewards=st.just(0).map(lambda _: np.zeros(5, np.float32)),
+        hits=st.just(0).map(lambda _: np.zeros((5, 2), np.int16))),
+    "neorl.experiments.run.Run.world_state": entry(live_in_state, **fields_of(BOARD.reset(0)), also="state"),
+    "neorl.experiments.simulation.simulate": entry(
+        neorl.simulate, long=("steps", "runs", "threads"), agent=agents, world=[BOARD],
+        steps=st.integers(1, 60), runs=st.integers(1, 2), seed=seeds,
+        changes=[(), [(20, neorl.place_cells([2]))]], threads=[None, 1],
+        progress=[False], also=("change",)),
+    "neorl.experiments.sweeping.simulate_once": entry(
+        neorl.simulate_once, long=("steps", "runs"), agent=agents, world=[BOARD], steps=[60], runs=[1],
+        seed=[0], changes=[()], progress=[False]),
+    "neorl.experiments.cache.Condition": entry(
+        Condition, agent=agents, world=[BOARD], steps=st.integers(1, 60), runs=st.integers(1, 2), seed=seeds,
+        changes=[(), [(20, neorl.place_cells([2]))]], also=("change",),
+        then=lambda condition: (condition.key, repr(condition))),
+    "neorl.experiments.sweeping.sweep": entry(
+        lambda **each: list(neorl.sweep(**each)), executor=[None], progress=[False],
+        conditions=[[Condition(neorl.place_cells([2]), BOARD, 40, 1)]], also="condition"),
+    "neorl.experiments.simulation.Result.rate": entry(RESULT.rate, begin=[0.0, 0.2], end=[0.5, 1.0]),
+    "neorl.experiments.simulation.Result.hit_rate": entry(RESULT.hit_rate, begin=[0.0, 0.2], end=[0.5, 1.0]),
+    "neorl.evidence.curves.binned_rate": entry(curves.binned_rate, result=[RESULT], points=st.integers(1, 40)),
+    "neorl.evidence.curves.low_passed": entry(curves.low_passed, rates=[CURVES, CURVES.tolist()]),
+    "neorl.evidence.statistics.estimate": entry(
+        lambda statistic, first, second, rng: statistics.estimate(statistic, first, second, rng=rng).value,
+        statistic=[statistics.difference, statistics.ratio], first=[SAMPLE, [1, 2]], second=[SAMPLE], rng=seeds,
+        also="samples"),
+    "neorl.evidence.statistics.probability_of_improvement": entry(
+        lambda **each: statistics.probability_of_improvement(**each).value, better=[SAMPLE, [1, 2]], worse=[SAMPLE],
+        rng=seeds),
+    "neorl.evidence.statistics.points": entry(statistics.points, result=[RESULT]),
+    "neorl.evidence.statistics.resets": entry(statistics.resets, result=[RESULT], also="win_reward"),
+    "neorl.evidence.statistics.tolerance_band": entry(
+        statistics.tolerance_band, curves=[CURVES], share=shares, confidence=shares),
+    "neorl.evidence.statistics.tolerated_share": entry(
+        statistics.tolerated_share, runs=st.integers(0, 99), beyond=st.integers(1, 9), confidence=shares),
+    "neorl.evidence.statistics.time_to_level": entry(
+        statistics.time_to_level, result=[RESULT], level=[0.1, [1, 2, 0], np.array(0.3)]),
+    "neorl.evidence.statistics.time_to_final_level": entry(
+        statistics.time_to_final_level, result=[RESULT], share=shares),
+    "neorl.evidence.statistics.minutes_sooner": entry(
+        lambda **each: statistics.minutes_sooner(**each).value, quick=[RESULT, [RESULT, RESULT]], slow=[RESULT],
+        level=reals),
+    "neorl.evidence.statistics.mean_band": entry(statistics.mean_band, curves=[CURVES], rng=seeds),
+    "neorl.agents.papers.place_cells": paper(neorl.place_cells, valence_green=reals, valence_red=reals),
+    "neorl.agents.papers.object_vector_cells": paper(neorl.object_vector_cells, valence_green=reals, valence_red=reals),
+    "neorl.agents.papers.multimodal": paper(neorl.multimodal, place_gain=reals, object_gain=reals),
+    "neorl.agents.papers.network_a": paper(neorl.network_a, scale=st.floats(0, 2), signed=[True, False]),
+    "neorl.agents.papers.network_b": paper(neorl.network_b, scale=st.floats(0, 2), signed=[True, False]),
+    "neorl.agents.papers.network_c": paper(neorl.network_c, scale=st.floats(0, 2), signed=[True, False],
+                                           place_gain=reals, object_gain=reals),
+    "neorl.agents.papers.network_d": paper(neorl.network_d, recursion=reals, scale=st.floats(0, 2),
+                                           signed=[True, False], place_gain=reals, object_gain=reals),
+}
+RUNS, TRACK = st.builds(new_run), drawing.track(new_run(), 1)
+NAMED_RESULTS = [{"N3": RESULT, "N5": RESULT}]
+ESTIMATES = [Estimate(0.5, 0.4, 0.6), Estimate(0.1, np.nan, np.nan)]
+MAPS = st.sampled_from([NresMap(3), NresMap(4, OBJECT_VECTOR_CELL)])
+TABLE |= {
+    "neorl.drawing.animation.animate": entry(
+        drawing.animate, run=RUNS, path=["run.gif"], seconds=[0.05], fps=[25], size=[64], background=["white", "#121"],
+        errors=(OSError,), long=("seconds",)),
+    "neorl.drawing.boards.new_board": entry(drawing.new_board, size=st.floats(1, 9), low=st.floats(-1, 0), then=drawn),
+    "neorl.drawing.boards.new_boards": entry(
+        drawing.new_boards, columns=st.integers(1, 3), rows=st.integers(1, 2), then=drawn, long=("columns", "rows")),
+    "neorl.drawing.boards.draw_world": drawing_of(drawing.draw_world, world=[BOARD], state=states),
+    "neorl.drawing.boards.draw_tank": drawing_of(drawing.draw_tank, world=[BOARD], state=states),
+    "neorl.drawing.boards.draw_walls": drawing_of(drawing.draw_walls, world=[BOARD, POOL]),
+    "neorl.drawing.boards.draw_desires": drawing_of(drawing.draw_desires, run=RUNS),
+    "neorl.drawing.curves.draw_accumulated": drawing_of(
+        drawing.draw_accumulated, results=NAMED_RESULTS, control=[None, {"luck": RESULT}]),
+    "neorl.drawing.curves.draw_proficiency": drawing_of(
+        drawing.draw_proficiency, results=NAMED_RESULTS, total=[None, ("sum", [RESULT, RESULT])],
+        points=st.integers(1, 99)),
+    "neorl.drawing.curves.draw_smoothed": drawing_of(
+        drawing.draw_smoothed, results=[{"N3": result_of(BOARD, bins=60)}]),
+    "neorl.drawing.curves.draw_curves": drawing_of(
+        drawing.draw_curves, xs=[np.arange(60), range(60)], curves=[{"a": CURVES, "b": CURVES.tolist()}]),
+    "neorl.drawing.curves.draw_sweep": drawing_of(
+        drawing.draw_sweep, xs=[[3, 7], np.array([1.0, 2.0])], estimates_by_name=[{"a": ESTIMATES}]),
+    "neorl.drawing.curves.draw_costs": drawing_of(
+        drawing.draw_costs, labels=[["N3", "N7"]], measured=[[1.0, 2.0]], predicted=[[1.0, 2.5]]),
+    "neorl.drawing.network_figures.draw_network": drawing_of(drawing.draw_network, agent=agents),
+    "neorl.drawing.network_figures.draw_networks": entry(
+        drawing.draw_networks, agents=[{"D": neorl.network_d([2]), "A": neorl.network_a([2])}],
+        figure=st.builds(lambda: Figure(figsize=(5, 4))), then=drawn),
+    "neorl.drawing.rate_maps.track": entry(
+        lambda run, seconds, index: drawing.track(run, seconds, index).position, run=RUNS, seconds=[0.1, 1],
+        index=[0, 1], long=("seconds",)),
+    "neorl.drawing.rate_maps.rate_map": entry(
+        lambda **each: np.nan_to_num(drawing.rate_map(**each)), track=[TRACK], cell=[None, 0, 5],
+        bins=st.integers(1, 30)),
+    "neorl.drawing.rate_maps.draw_rate_map": drawing_of(
+        drawing.draw_rate_map, track=[TRACK], cell=[None, 0, 5], bins=st.integers(1, 30)),
+    "neorl.drawing.receptive_fields.draw_receptive_fields": drawing_of(
+        drawing.draw_receptive_fields, nres_map=MAPS, world=[BOARD], state=states),
+    "neorl.drawing.thesis_figures.draw_against_thesis": drawing_of(
+        drawing.draw_against_thesis, thesis=[{"both": 0.55, "one": 0.2}],
+        readings=[{"book": dict(zip(("both", "one"), ESTIMATES))}]),
+    "neorl.drawing.thesis_figures.mark_levels": entry(
+        drawing.mark_levels, axes=st.builds(lambda: Figure().add_subplot()), levels=[{"thesis": 0.5}], then=drawn),
+    "neorl.drawing.value_maps.draw_cells": drawing_of(
+        drawing.draw_cells, nres_map=MAPS, colour=["red", "#808080"], fills=[None, {1: ("red", 0.5)}],
+        width=st.floats(0, 5)),
+    "neorl.drawing.value_maps.draw_values": drawing_of(
+        drawing.draw_values, nres_map=[NresMap(2)], values=[np.ones((4, 4)), np.eye(4).tolist()], actions=[CARDINAL]),
+    "neorl.drawing.value_maps.draw_value_map": drawing_of(
+        drawing.draw_value_map, run=RUNS, goals=[[(0.7, 0.7)], [(0.1, 0.2), (0.5, 0.5)][:1]], valences=[None, [1.0]],
+        index=[0, 1], also="points"),
+    "neorl.evidence.multiverse.design": entry(multiverse.design, points=[2, 4], seed=seeds, long=("points",)),
+    "neorl.evidence.reading.Reading": entry(
+        reading.Reading, learning_rate=shares, discount=[0.9], credit=["happened", "step"], memory=st.floats(0, 99),
+        memory_unit=["cells", "seconds"], exploration=shares, place_gain=reals,
+        vectors=["signed", "by size", "incoming"], recursion=reals, network_resolutions=[(3, 7), [2]],
+        fps=st.integers(10, 60), contact=["rounded"],
+        also=("resolution", "gain", "scale"),
+        then=lambda made: (reading.conditions(made, 1_000, 1), made.within_the_text)),
+    "neorl.evidence.reading.conditions": entry(
+        lambda **each: [*reading.conditions(**each)], reading=[reading.Reading()], steps=st.integers(1, 9_999),
+        runs=st.integers(1, 9), seed=seeds, groups=[("modal",), ["layers", "networks"]], also="group"),
+    "neorl.evidence.reading.networks": entry(
+        lambda **each: [*reading.networks(**each)], reading=[reading.Reading()]),
+    "neorl.experiments.recording.record": entry(
+        recording.record, name=["Newborn"], run=RUNS, steps=st.integers(1, 5), long=("steps",)),
+    **{f"neorl.gym.environment.{kind.__name__}.{name}": each
+       for kind in (environment.WorldEnv, environment.WaterWorldEnv, environment.ArenaEnv) for name, each in {
+           "reset": entry(lambda **each: new_env().reset(**each)[0], seed=[None, 0, 5], options=[None], also="run"),
+           "step": entry(method(environment.WorldEnv.step, lambda: begun(new_env())), action=[0, np.int64(4)]),
+       }.items()},
+    "neorl.gym.environment.WorldEnv": entry(
+        lambda **each: begun(environment.WorldEnv(**each)).step(0)[0], world=[BOARD, POOL],
+        render_mode=[None, "rgb_array"], egocentric=[True, False], continuing=[None, True, False]),
+    "neorl.gym.environment.WaterWorldEnv": entry(
+        lambda **each: begun(environment.WaterWorldEnv(**each)).step(0)[0], render_mode=[None, "rgb_array"],
+        egocentric=[True, False], continuing=[True, False], n_creeps=[2]),
+    "neorl.gym.environment.ArenaEnv": entry(
+        lambda **each: begun(environment.ArenaEnv(**each)).step(0)[0], render_mode=[None, "rgb_array"],
+        egocentric=[True, False], continuing=[True, False], places=[[("platform", 0.6, 0.3)]]),
+    "neorl.gym.playing.play": entry(
+        lambda **each: playing.play(**each).rewards, agent=[neorl.place_cells([3])], env=st.builds(new_env),
+        scene=st.just(scene_of), steps=st.integers(0, 5), seed=st.integers(0, 99), things=[0], kinds=[("green", "red")],
+        actions=[None], commands=[None, range(5)], long=("steps",), also=("Discrete", "surroundings", "kind", "axes")),
+    **{f"neorl.gym.vector.VectorWorldEnv{name}": each for name, each in {
+        "": entry(lambda **each: vector.VectorWorldEnv(**each).reset(seed=0)[0], world=[BOARD, POOL],
+                  num_envs=st.integers(1, 3), max_episode_steps=[None, 5], autoreset_mode=["NextStep", "SameStep"],
+                  render_mode=[None, "rgb_array"], egocentric=[True, False], continuing=[None, True],
+                  long=("num_envs",)),
+        ".reset": entry(lambda **each: vector.VectorWorldEnv(BOARD, 2).reset(**each)[0], seed=[None, 3, [1, 2]],
+                        options=[None], also=("run", "reset_mask")),
+        ".step": entry(method(vector.VectorWorldEnv.step, lambda: begun(vector.VectorWorldEnv(BOARD, 2))),
+                       actions=[[0, 1], np.array([4, 0])])}.items()},
+    "neorl.gym.vector.vector_waterworld": entry(
+        lambda **each: vector.vector_waterworld(**each).reset(seed=0)[0], num_envs=[1, 2], n_creeps=[2],
+        egocentric=[True, False], continuing=[True, False], long=("num_envs",)),
+    "neorl.gym.vector.vector_arena": entry(
+        lambda **each: vector.vector_arena(**each).reset(seed=0)[0], num_envs=[1, 2], egocentric=[True, False],
+        continuing=[True, False], shape=["round", "square"], long=("num_envs",)),
+}
