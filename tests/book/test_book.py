@@ -1,4 +1,4 @@
-"""The book's own Sphinx extensions, on small books: buttons that lead to the repository, and the reference pages."""
+"""The book's own Sphinx extensions, tested on small books: links to the repository, and the reference pages."""
 
 import html
 import re
@@ -23,7 +23,7 @@ PUBLIC = sorted(".".join(path.relative_to(ROOT / "neorl").with_suffix("").parts)
 
 @pytest.fixture
 def make_book(tmp_path):
-    """Build a book of two pages by the settings of ours, with another repository, and return its pages' HTML."""
+    """`make_book(url, modules)` builds a book of two pages with our settings and returns their HTML."""
 
     def make(url="", modules=("neorl.chapters.shared.grid",)):
         shutil.rmtree(tmp_path / "book", ignore_errors=True)

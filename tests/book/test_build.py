@@ -1,4 +1,4 @@
-"""The building of the book: what it refuses, and when it has nothing to do."""
+"""The build of the book: what it refuses, what it recomputes, and what it keeps."""
 
 import base64
 import contextlib
@@ -19,7 +19,7 @@ import excerpts  # noqa: E402
 
 @pytest.fixture
 def notebook(tmp_path, monkeypatch):
-    """A notebook of two cells, and chapters of its own."""
+    """A notebook with two code cells, and an output folder of its own."""
     monkeypatch.setattr(build, "CHAPTERS", tmp_path / "chapters")
     cells = [nbformat.v4.new_markdown_cell("# Page"),
              nbformat.v4.new_code_cell("runs: int = 20", metadata={"tags": ["parameters"]}),
@@ -54,8 +54,8 @@ def test_a_notebook_is_computed_when_something_has_changed_and_kept_when_not(not
     assert build.attempt(notebook, {"runs": 13}) == 1
     said = capsys.readouterr().out
     assert "page.ipynb, In [3]: AssertionError: " in said and "runs != 13" in said
-    assert nbformat.read(target, 4).cells[2].outputs[0].text == "3\n"  # a failure leaves the page alone
-    assert (build.CHAPTERS / ".page" / "page.ipynb").exists()  # and shows how far it came
+    assert nbformat.read(target, 4).cells[2].outputs[0].text == "3\n"  # a failure leaves the page as it was
+    assert (build.CHAPTERS / ".page" / "page.ipynb").exists()  # and shows how far the notebook got
     build.compute(notebook, {"runs": 4})
     assert nbformat.read(target, 4).cells[2].outputs[0].text == "4\n"
     assert sorted(path.name for path in build.CHAPTERS.iterdir()) == ["page.inputs.json", "page.ipynb"]
@@ -77,7 +77,7 @@ def test_a_kernel_is_not_interrupted_when_its_notebook_is_done(notebook, tmp_pat
     assert not (tmp_path / "noted").exists()
 
 
-TEXT = "</script><!-- <script> </SCRIPT >"  # which must not end the tag that holds it
+TEXT = "</script><!-- <script> </SCRIPT >"  # must not end the tag that contains it
 
 
 def anywidget(**values):
@@ -86,7 +86,7 @@ def anywidget(**values):
 
 
 def page_of_widgets(*cells):
-    """A notebook that has stored four models, of which one refers to two others, and shows those that are asked for."""
+    """A notebook that stores four models, one of which refers to two others, and whose cells show the given ones."""
     state = {"one": anywidget(layout="IPY_MODEL_two", parts=[{"part": "anywidget:three"}], lost="IPY_MODEL_lost"),
              "two": {"model_module": "@jupyter-widgets/base", "state": {"_view_name": "LayoutView"}},
              "three": anywidget(parent="IPY_MODEL_one"), "four": anywidget()}
@@ -100,7 +100,7 @@ def page_of_widgets(*cells):
 
 
 def contents(name):
-    """The JSON of the two tags of a named widget: the state by model, and the view."""
+    """The JSON in the two tags of a named widget: the state by model, and the view."""
     lines = (build.CHAPTERS / f"{name}.html").read_text().splitlines()
     tags = [f'<script type="{kind}">' for kind in (excerpts.WIDGET_STATE, excerpts.WIDGET_VIEW)]
     state, view = [json.loads(line.removeprefix(tag).removesuffix("</script>"))
@@ -141,7 +141,7 @@ def test_a_named_cell_shows_one_widget(chapters, models):
         excerpts.save_widgets(page_of_widgets(("first", models)), chapters)
 
 
-def test_a_saved_widget_lives_on_any_page(chapters, open_page):
+def test_a_saved_widget_runs_on_any_page(chapters, open_page):
     excerpts.save_widgets(page_of_widgets(("first", ["one"])), chapters)
     shutil.copy(ROOT / "book" / "vendor" / "widgets.js", chapters)
     head = '<!doctype html><link rel="icon" href="data:,"><script defer src="widgets.js"></script><body>'
@@ -211,7 +211,7 @@ def test_links_into_the_glossary_become_references_to_its_terms():
     assert build.link_terms(text) == (
         "A {term}`map of cells <NRES map>`, {term}`off-policy <off-policy>`, [s](../book/s.md)")
     assert build.link_terms("[*map*](../book/glossary.md#nres-map)") == "*{term}`map <NRES map>`*"
-    assert build.link_terms("[lost](../book/glossary.md#lost)") == "{term}`lost <lost>`"  # which Sphinx complains about
+    assert build.link_terms("[lost](../book/glossary.md#lost)") == "{term}`lost <lost>`"  # Sphinx warns about it
 
 
 def test_the_conclusion_reads_all_other_records_and_every_other_page_the_shares(chapters):
@@ -288,7 +288,7 @@ def test_a_disk_that_becomes_full_leaves_the_last_page_and_its_record(notebook, 
 
 
 class Killed(BaseException):
-    """In place of a signal."""
+    """Stands for a signal that kills the build."""
 
 
 PAGES = ("index.html", "page.html")

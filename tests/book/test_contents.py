@@ -13,7 +13,7 @@ import contents  # noqa: E402
 
 @pytest.fixture
 def chapters(tmp_path):
-    """Two pages with figures, one of which has been drawn, and one page without."""
+    """Two pages with figures, all but one of which have been drawn, and one page without."""
     def write(name, *figures):
         cells = [nbformat.v4.new_markdown_cell(f"# Page {name}\n\nText.")]
         for each in figures:

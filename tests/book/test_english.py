@@ -1,7 +1,7 @@
-"""The English of the pages: words that hide the technical subject of a sentence, counted outside quotations and code.
+"""The English of the pages: outside quotations and code, no word hides the technical subject of a sentence.
 
-A sentence's subject is the agent, the kernel, the run or the claim, and its verb the field's: "who remembers all makes
-0.9 a second" is "agents that remember all earn 0.9 per second". `KEPT` are the sentences that may stay.
+The subject of a sentence is the agent, the kernel, the run or the claim, and its verb is the field's: instead of "who
+remembers all makes 0.9 a second", "agents that remember all earn 0.9 per second". `KEPT` lists exceptions.
 """
 
 import ast
@@ -12,11 +12,11 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-# Docstrings and texts of all rooms are read.
+# The docstrings and strings of all these rooms are checked.
 ROOMS = ("core", "worlds", "agents", "experiments", "evidence", "drawing", "browser", "gym", "chapters")
 TELLTALE = re.compile(r"""
     \b(whoever|whom|nobody|somebody|someone|anybody|everybody|from\ nothing|tells?|told|hangs?\ on|wish(es|ed)?)\b
-    | (^|[.:;(–]\ )who\b | \b(to|for|by|with|of|and|or|from|as|than|is|those)\ who\b  # that no noun stands before
+    | (^|[.:;(–]\ )who\b | \b(to|for|by|with|of|and|or|from|as|than|is|those)\ who\b  # without a noun before it
     | (?<!half\ )(?<!of\ )\ba\ second\b(?=[.,;:)|]|$|\ (and|in|on|for|with|at|before|while|by|of|each|from)\b)
     """, re.VERBOSE | re.IGNORECASE)
 QUOTED = re.compile(r"“[^”]*”|```.*?```|`[^`]*`|\$\$?[^$]*\$\$?", re.DOTALL)
@@ -27,7 +27,7 @@ KEPT = {
 
 
 def prose():
-    """Every text that readers see: (where it stands, Markdown or the text of a string)."""
+    """Yield every text that readers see, as (file, Markdown or string)."""
     for path in (ROOT / "README.md", *sorted((ROOT / "book").glob("*.md"))):
         yield path.name, path.read_text(encoding="utf-8")
     for path in sorted((ROOT / "notebooks").glob("*.ipynb")):
@@ -46,14 +46,14 @@ def prose():
 
 
 def strings(source):
-    """The strings of Python code that are more than a word."""
+    """Yield the strings in Python code that have more than one word."""
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and " " in node.value:
             yield node.value
 
 
 def telltales(text):
-    """The sentences of a text, outside quotations and code, that have a telltale word: [(word, sentence), …]."""
+    """Sentences of a text, outside quotations and code, with a telltale word: [(word, sentence), …]."""
     text = " ".join(QUOTED.sub(" ", text).split())
     found = []
     for match in TELLTALE.finditer(text):

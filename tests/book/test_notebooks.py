@@ -1,4 +1,4 @@
-"""The notebooks as they lie in git, and what they refuse. That they run is shown by running them."""
+"""The notebooks as committed, and the parameters that they refuse. Building the book tests that they run."""
 
 import ast
 import re
@@ -47,7 +47,7 @@ LOGIC = (ast.For, ast.While, ast.If, ast.IfExp, ast.comprehension, ast.Compare, 
 
 
 def is_logic(node):
-    """Whether a node decides, repeats or computes; arithmetic on names and numbers may stand as an argument."""
+    """Whether a node branches, loops or computes; arithmetic on names and numbers is allowed."""
     if isinstance(node, ast.BinOp) and not isinstance(node.op, ast.BitOr):
         return any(isinstance(inner, ast.Call | ast.Subscript) for inner in ast.walk(node))
     return isinstance(node, LOGIC)
@@ -86,7 +86,7 @@ def test_a_cell_that_ends_with_a_drawing_puts_out_nothing_but_the_figure(cells):
         if cell.cell_type == "code" and cell.source:
             last = ast.get_source_segment(cell.source, ast.parse(cell.source).body[-1])
             if re.match(r"(drawing|figures|multiverse_figures)\.(draw|mark)_", last):
-                assert cell.source.endswith(";"), "the axes that it returns would be put out"
+                assert cell.source.endswith(";"), "the returned axes would be part of the output"
 
 
 def labels(page):
@@ -116,7 +116,7 @@ def test_links_lead_somewhere(cells):
             for target, place in re.findall(r"\]\(([^)#:]+)(?:#([^)]*))?\)", cell.source):
                 assert (ROOT / "notebooks" / target).exists(), target
                 assert not place or target == "../book/glossary.md" and place in build.terms(), place
-        else:  # what a cell puts out lies in book/chapters/ as it is
+        else:  # the build rewrites the links of Markdown cells only
             assert "](../book/" not in cell.source
 
 
@@ -171,12 +171,12 @@ def test_what_a_notebook_begins_with_is_hidden_and_says_how_long_it_takes(cells)
     assert parameters.metadata.tags == ["parameters", "hide-input"]
     assert re.match(r"# .*\b(seconds|minutes?)\b", parameters.source)
     assert HIDDEN & set(imports.metadata.tags)
-    *imported, begun = ast.parse(imports.source).body  # nothing else, so that its time is that of importing
+    *imported, begun = ast.parse(imports.source).body  # nothing else, so its time is that of the imports
     assert all(isinstance(each, (ast.Import, ast.ImportFrom)) for each in imported)
     assert ast.unparse(begun).startswith("notebook.begin(")
 
 
-@pytest.mark.parametrize("name", sorted({*NOTEBOOKS} - {"own_world", "your_research"}))  # whose code is to be copied
+@pytest.mark.parametrize("name", sorted({*NOTEBOOKS} - {"own_world", "your_research"}))  # their code is for copying
 def test_code_that_draws_is_folded(name):
     drawn = [cell for cell in NOTEBOOKS[name].cells if "figure" in cell.metadata.get("mystnb", {})]
     assert all(HIDDEN & set(cell.metadata.get("tags", [])) for cell in drawn)

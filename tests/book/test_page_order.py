@@ -1,4 +1,4 @@
-"""The order of a built page: results first, parameters last, and no cell lost but the one that papermill injects."""
+"""The order of a built page: results first, parameters last, and only the cell that papermill injects is removed."""
 
 import sys
 from pathlib import Path

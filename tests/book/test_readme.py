@@ -1,4 +1,4 @@
-"""The README: its table of claims is the one that a build has written, and its other promises."""
+"""The README: a build wrote its table of claims, and its examples print what it says."""
 
 import re
 import sys

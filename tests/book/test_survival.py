@@ -1,7 +1,7 @@
-"""``make book`` under kills, interruptions, disks that are full or refuse, a second build, and a notebook that raises.
+"""``make book`` under kills, interruptions, full and read-only disks, a second build, and a notebook that raises.
 
-Of a small book (`small_book`), whatever ends a build: a page that stands in its place is whole, what was whole stays,
-the cause is named, and the next build goes on from there to the same book.
+However a build of a small book (`small_book`) ends, every page in place is whole, pages that were whole are kept, the
+cause is named, and the next build resumes from there and ends with the same book.
 """
 
 import random
@@ -24,7 +24,7 @@ FULL = "No space left on device|disk that has no room left"
 
 @pytest.fixture(scope="module")
 def finished(tmp_path_factory):
-    """A tree whose book is built, to copy."""
+    """A tree with a built book, for tests to copy."""
     tree = small_book.make_tree(tmp_path_factory.mktemp("finished") / "tree")
     code, said = small_book.build(tree)
     assert code == 0, said
@@ -35,7 +35,7 @@ def finished(tmp_path_factory):
 
 
 def assert_figures(tree, runs):
-    """The numbers on the built pages are those of runs made here."""
+    """Assert that the numbers on the built pages are those of runs computed here."""
     for seed, name in enumerate(("assumptions", "paper_a")):
         alone = simulate(place_cells([3]), WaterWorld(), steps=10_000, runs=runs, seed=seed, progress=False)
         assert f"{alone.totals.sum():.6f}" in small_book.pages(tree)[f"chapters/{name}.html"]
@@ -52,26 +52,26 @@ def built(finished, tmp_path):
 
 
 def leave_room(disk, size):
-    """Let so many bytes be free on a disk in memory."""
+    """Resize an in-memory disk so that `size` bytes are free."""
     blocks = -(-(shutil.disk_usage(disk).used + size) // 4096)
     subprocess.run(["mount", "-o", f"remount,size={4096 * blocks}", disk], check=True)
 
 
 def written(tree):
-    """When each page that is whole was written: {notebook: time}."""
+    """The time at which each whole page was written: {notebook: time}."""
     return {name: (tree / "book" / "chapters" / f"{name}.ipynb").stat().st_mtime_ns
             for name in small_book.whole_pages(tree)}
 
 
 def assert_failed_well(tree, code, said, kept, cause):
-    """A build failed, says why, and left alone what was whole."""
+    """Assert that a build failed, named the cause, and left whole pages as they were."""
     assert code == 1 and re.search(cause, said), said
     small_book.assert_no_half_page(tree)
     assert kept.items() <= written(tree).items()
 
 
 def assert_goes_on(tree, finished, kept):
-    """The next build does the rest, and brings the same book."""
+    """Assert that the next build computes only the rest, and ends with the same book."""
     code, said = small_book.build(tree)
     assert code == 0, said
     assert said.count("nothing has changed") == len(kept)
@@ -106,7 +106,7 @@ def test_a_full_disk_leaves_the_last_book_as_it_was(built, mount, tmp_path):
 
 
 def test_a_file_that_cannot_be_written_whole_is_no_page(tree):
-    """Without a mount: a limit of the size of files ends a write in its middle, as a full disk does."""
+    """A limit on file size ends a write half-way, as a full disk does; it needs no mount."""
     limit = (100 * KILOBYTE, resource.getrlimit(resource.RLIMIT_FSIZE)[1])
     code, said = small_book.build(tree, limits={resource.RLIMIT_FSIZE: limit})
     assert_failed_well(tree, code, said, {}, "File too large")
@@ -118,12 +118,12 @@ def offspring(process):
 
 
 def wait_for(path, process):
-    """Wait until a path is there, or the process has ended."""
+    """Wait until a path exists or the process has ended."""
     while not path.exists() and process.poll() is None:
         time.sleep(0.005)
 
 
-# What a build makes, in its order: it is ended soon after each.
+# What a build writes, in this order; it is killed soon after each.
 MOMENTS = ("book/chapters/.paper_a", "_build/next/_build/html/index.html")
 
 
@@ -136,7 +136,7 @@ def test_a_build_that_is_killed_again_and_again_ends_with_the_same_book(tree, fi
         started = offspring(process) if process.poll() is None else []
         process.kill()
         process.communicate()
-        assert not psutil.wait_procs(started, timeout=60)[1]  # all that it had started ends with it
+        assert not psutil.wait_procs(started, timeout=60)[1]  # all processes that it had started end with it
         small_book.assert_no_half_page(tree)
         assert kept.items() <= written(tree).items()
     assert_goes_on(tree, finished, written(tree))
@@ -145,7 +145,7 @@ def test_a_build_that_is_killed_again_and_again_ends_with_the_same_book(tree, fi
 def test_an_interrupted_build_says_so_and_a_second_one_meanwhile_is_refused(tree):
     process = small_book.start(tree)
     wait_for(tree / "book" / "chapters" / ".paper_a", process)
-    process.send_signal(signal.SIGSTOP)  # lest it ends before the second one has begun
+    process.send_signal(signal.SIGSTOP)  # so that it does not end before the second one begins
     started = offspring(process)
     code, said = small_book.build(tree)
     assert code == 1 and f"another make book is at work in this tree, process {process.pid} since" in said, said
@@ -174,7 +174,7 @@ def test_a_notebook_that_raises_is_named_and_all_others_are_kept(built):
     assert small_book.pages(built) == book
 
 
-def test_a_folder_of_results_may_be_given_from_where_the_build_begins(tree):
-    """Notebooks run in a folder of theirs, and what they keep is looked for where it was asked for."""
+def test_the_cache_folder_may_be_relative_to_where_the_build_starts(tree):
+    """Notebooks run in a folder of their own, yet a relative `NEORL_CACHE` is relative to where the build starts."""
     code, said = small_book.build(tree, only="assumptions", NEORL_CACHE=".cache")
     assert code == 0 and (tree / "book" / "chapters" / "assumptions.claims.json").exists(), said

@@ -1,4 +1,4 @@
-"""What ``make verify`` compares, and that it notices a run that is not as it was kept."""
+"""What ``make verify`` compares, and that it notices a run that differs from the cached one."""
 
 import os
 import subprocess
@@ -29,7 +29,7 @@ def kept():
     return [simulate_once(**condition.choices, progress=False) for condition in KEPT]
 
 
-def test_runs_that_are_as_kept_pass(kept):
+def test_runs_equal_to_the_cached_ones_pass(kept):
     done = verify("--sample", "100")
     assert done.returncode == 0, done.stderr
     assert done.stdout.startswith("5 of 5 runs of 2 conditions in ")
@@ -38,7 +38,7 @@ def test_runs_that_are_as_kept_pass(kept):
 
 
 @pytest.mark.parametrize("name", ["rewards", "hits"])
-def test_a_run_that_is_not_as_kept_is_named(kept, name):
+def test_a_run_that_differs_from_the_cached_one_is_named(kept, name):
     values = getattr(kept[1], name).copy()
     values[1, 7] += 1
     cache.save(KEPT[1], replace(kept[1], **{name: values}))
@@ -48,7 +48,7 @@ def test_a_run_that_is_not_as_kept_is_named(kept, name):
     assert "1 of 5 runs are not as kept; make verify SAMPLE=5 SEED=2" in done.stderr
 
 
-def test_what_no_condition_of_the_present_source_is_kept_in_is_passed_over(kept, cache_folder, monkeypatch):
+def test_files_without_a_condition_of_the_present_source_are_skipped(kept, cache_folder, monkeypatch):
     (cache_folder / "conditions" / "0").write_bytes(b"foreign")
     files.write_checked(cache_folder / "conditions" / "1", b"foreign")
     (cache_folder / "conditions" / "2").write_bytes(KEPT[0].path.read_bytes())
@@ -65,6 +65,6 @@ def test_what_no_condition_of_the_present_source_is_kept_in_is_passed_over(kept,
     assert conditions() == []
 
 
-def test_an_empty_cache_and_a_sample_of_nothing_are_refused():
+def test_an_empty_cache_and_an_empty_sample_are_refused():
     assert "holds no condition that was computed with the present source: make book first" in verify().stderr
     assert "--sample is 0, allowed are integers ≥ 1" in verify("--sample", "0").stderr

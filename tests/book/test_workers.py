@@ -1,4 +1,4 @@
-"""Workers: they end with their starter, and run each after those that it needs."""
+"""Workers: they end with their parent process, and each task runs after those that it needs."""
 
 import signal
 import subprocess
@@ -16,7 +16,7 @@ import workers  # noqa: E402
 
 @pytest.fixture
 def script(tmp_path):
-    """A script that notes when it begins and ends, and ends as it is bidden."""
+    """A script that logs when it begins and ends, and ends as its arguments say."""
     path = tmp_path / "script.py"
     path.write_text("""import os, sys, time
 from pathlib import Path
@@ -33,7 +33,7 @@ sys.exit(int(code))
 
 
 def tasks_of(script, table):
-    """{name: (seconds, exit code, needs, alone)} as tasks."""
+    """Turn {name: (seconds, exit code, needs, alone)} into tasks."""
     return {name: workers.Task((script, name, str(seconds), code), frozenset(needs), alone)
             for name, (seconds, code, needs, alone) in table.items()}
 
@@ -42,7 +42,7 @@ def log_of(script):
     return (script.parent / "log").read_text().split()
 
 
-def test_what_needs_another_comes_after_it_and_what_measures_is_alone(script):
+def test_a_task_runs_after_those_it_needs_and_a_measurement_runs_alone(script):
     tasks = tasks_of(script, {"a": (0.1, "0", "", False), "b": (0.1, "0", "ad", False), "m": (0.1, "0", "", True),
                               "c": (0.1, "0", "", False), "d": (0.1, "0", "", False)})
     assert workers.work(tasks, 2, print) == []
@@ -54,7 +54,7 @@ def test_what_needs_another_comes_after_it_and_what_measures_is_alone(script):
     assert max(count) <= 2 and all(count[log.index(sign) + at] == 0 for sign, at in (("+m", 0), ("-m", 1)))
 
 
-def test_what_fails_is_named_and_all_that_does_not_need_it_goes_on(script):
+def test_a_failed_task_is_named_and_tasks_that_do_not_need_it_go_on(script):
     tasks = tasks_of(script, {"bad": (0, "1", "", False), "shot": (0, "killed", "", False),
                               "after": (0, "0", ["bad"], False), "last": (0, "0", ["after"], False),
                               "fine": (0, "0", "", False)})
@@ -85,14 +85,14 @@ subprocess.run([sys.executable, "-c", code], start_new_session=True)
     assert not alive
 
 
-def test_what_computes_is_not_taken_for_hung():
+def test_a_busy_process_is_not_taken_for_hung():
     with workers.Watch(1.0) as watch:
         busy = "import time\nend = time.monotonic() + 3\nwhile time.monotonic() < end: 0"
         subprocess.run([sys.executable, "-c", busy])
     assert not watch.hung
 
 
-def test_what_does_nothing_is_killed_and_nothing_else():
+def test_an_idle_process_is_killed_and_nothing_else():
     before = subprocess.Popen(["sleep", "1000"])
     with workers.Watch(0.5) as watch:
         began = time.monotonic()

@@ -1,4 +1,4 @@
-"""The Explorer's engine, asked directly: what it reports of a run is what Python has of it."""
+"""The Explorer's engine, called directly, reports of a run exactly what Python computes."""
 
 import base64
 import json
@@ -50,7 +50,7 @@ def state():
 
 @pytest.fixture
 def ask(open_page, tmp_path, state):
-    """`ask(request, …)` gives what the engine of a run that has just begun answers to each."""
+    """`ask(request, …)` begins a run and returns the engine's answers to this and to each request."""
     preset = state["_presets"]["D"]
     begin = {"type": "begin", "parameters": preset["parameters"], "world": preset["world"], "seed": SEED, "run": K,
              "steps": 10 * STEPS, "bin_steps": 100}
@@ -68,7 +68,7 @@ def advance(steps):
     return {"type": "advance", "steps": steps, "budget": 60_000}
 
 
-def test_a_frame_tells_what_the_run_holds(ask):
+def test_a_frame_reports_the_state_of_the_run(ask):
     goal = 7
     begun, _, frame = ask({"type": "look", "map": "OVC N5", "goal": goal, "field": 9}, advance(STEPS))
     run = Run(AGENT, TANK, SEED, K)
@@ -110,7 +110,7 @@ MAZES = [Arena(), Arena(places=[("food", 0.8, 0.2), ("shock", 0.3, 0.7)], pay=[1
 
 
 @pytest.mark.parametrize("maze", MAZES, ids=["pool", "walls"])
-def test_a_life_in_the_arena_is_that_of_python_to_the_last_bit(ask, maze):
+def test_a_run_in_the_arena_is_that_of_python_to_the_last_bit(ask, maze):
     agent, goal = place_cells([4, 5]), 9
     agent = replace(agent, desires=[replace(agent.desires[0], source=kind) for kind in maze.kinds])
     finer = replace(agent, nodes=[replace(agent.nodes[0], resolutions=[5, 6])])
@@ -175,7 +175,7 @@ RULES = [
 
 
 def learned(run, m, goal):
-    """As the engine gives it: east minus west and south minus north in each cell, in float32."""
+    """Learned values as the engine returns them: east minus west and south minus north in each cell, in float32."""
     return as_vectors(run.q(m)[:, :, goal].astype(float)).astype(np.float32).tolist()
 
 
@@ -261,10 +261,10 @@ def test_a_run_ends_at_its_length(ask):
     assert frame["ended"] and frame["step"] == 500
 
 
-def test_what_cannot_be_done_is_a_sentence(ask, state):
+def test_an_impossible_request_is_answered_with_a_sentence(ask, state):
     parameters = state["_presets"]["N90"]["parameters"]
     nodes = parameters["nodes"] | {"first_map": [0, 4]}
     refused, then = ask(advance(1), parameters=parameters | {"maps": {"resolution": [90] * 4}, "nodes": nodes})
     assert refused == {"type": "failed", "message": "These maps need 3.9 GB of memory, and a page can have 3. "
                                                     "Choose coarser ones."}
-    assert then == {"type": "failed"}  # a fault of the page's, and no sentence for its reader
+    assert then == {"type": "failed"}  # the fault is the page's own, so there is no message for its reader

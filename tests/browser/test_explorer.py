@@ -1,4 +1,4 @@
-"""The Explorer from Python: what its state holds, what its traits take, and which agent they describe."""
+"""The Explorer from Python: what its state contains, what its traits accept, and which agent they describe."""
 
 import json
 import subprocess
@@ -55,7 +55,7 @@ def test_the_menu_has_the_agents_of_both_readings():
     assert all(name.endswith(", to the letter") == (group == "To the letter") for group, name in groups)
 
 
-def test_agents_to_the_letter_live_at_its_pace_in_the_tank_of_the_page():
+def test_presets_to_the_letter_run_at_their_frame_rate_in_the_tank_of_the_page():
     slow = simulate(place_cells([3]), WaterWorld(n_creeps=2, fps=25), steps=10, runs=1, progress=False)
     explorer = Explorer({"slow": slow}, preset="Network D, to the letter")
     assert explorer.world == WaterWorld(n_creeps=2, fps=LETTER.fps, contact=LETTER.contact)
@@ -148,7 +148,7 @@ def test_each_condition_keeps_its_tank(conditions):
     assert explorer.world == TANK
 
 
-def test_an_agent_of_other_ways_keeps_them():
+def test_an_agent_with_other_choices_keeps_them():
     agent = place_cells([4], tiled_fraction=0.7, policy=Policy(exploration=0.1), own_cell="counts")
     explorer = Explorer({"narrow": simulate(agent, TANK, steps=10, runs=1, progress=False)})
     assert explorer.agent == agent and explorer.modality == "place cell"
@@ -172,7 +172,7 @@ def test_a_condition_in_the_arena_stands_beside_one_in_a_tank(conditions):
     place_cells([3], learning=Learning(credit=half)),
     Agent([Node("PC", modality.Modality("own", [modality.Axis(distance)]), [3])]),
 ])
-def test_kernels_of_ones_own_cannot_be_shown(agent):
+def test_custom_kernels_cannot_be_shown(agent):
     result = replace(simulate(place_cells([3]), TANK, steps=10, runs=1, progress=False), agent=agent)
     with pytest.raises(ValueError, match="condition X has kernels of its own, .*, allowed in the Explorer are"):
         Explorer({"X": result})
@@ -190,7 +190,7 @@ def test_an_agent_with_a_trace_or_that_learns_at_every_step_takes_no_memory(rule
     assert explorer.agent.learning.memory == 3.0
 
 
-def test_a_modality_of_ones_own_has_no_name_in_the_menu():
+def test_a_custom_modality_has_no_name_in_the_menu():
     own = replace(modality.PLACE_CELL, name="my cell")
     agent = Agent([Node("PC", own, [4])], [Desire("green", "PC", 1.0)])
     explorer = Explorer({"own": simulate(agent, TANK, steps=10, runs=1, progress=False)})

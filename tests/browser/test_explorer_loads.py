@@ -1,4 +1,4 @@
-"""The Explorer while it loads: what the reader does meanwhile, and what goes wrong, leaves no trace in the next run."""
+"""While the Explorer loads, neither the reader's actions nor errors leave a trace in the next run."""
 
 import re
 
@@ -11,8 +11,8 @@ from neorl.browser.explorer import AGENTS
 
 SEED, LOADS = 13, 200
 
-# Clicks wherever a reader can click, before an agent is chosen from the menu and until it has been loaded. Each of them
-# goes to what lies at that place, as a browser would have it.
+# Clicks wherever a reader can click, from before an agent is chosen in the menu until it has loaded. A click on the
+# tank goes to the topmost element at that point, as in a browser.
 CLICKS = """async ({ loads, seed }) => {
   const random = () => { // mulberry32
     seed = (seed + 0x6d2b79f5) | 0;
@@ -54,7 +54,7 @@ CLICKS = """async ({ loads, seed }) => {
 
 @pytest.fixture
 def explorer(open_page, tmp_path):
-    """A page of an Explorer that has begun its first run."""
+    """A page with an Explorer whose first run has begun."""
     write_page(tmp_path, [Explorer(playing=False, speed=0.0)])
     page = open_page(tmp_path, "page.html", viewport={"width": 800, "height": 1200})
     wait(page, "paused")
@@ -69,8 +69,8 @@ def test_clicks_at_random_while_agents_are_loaded_do_no_harm(explorer):
     assert explorer.evaluate(CLICKS, {"loads": LOADS, "seed": SEED}) > LOADS
 
 
-def test_what_was_asked_of_the_run_before_is_not_answered(explorer):
-    """Steps, a goal and a game of the run before, asked for just before and just after another agent is chosen."""
+def test_requests_to_the_previous_run_are_not_answered(explorer):
+    """Steps and goals requested just before and just after another agent is chosen do not reach its run."""
     step, menu = '[data-action="step"]', '[name="preset"]'
     for first, second in [("Place cells", "Network D"), ("Network D", "Object-vector cells")]:
         explorer.locator(menu).select_option(first)
@@ -96,7 +96,7 @@ def test_what_was_asked_of_the_run_before_is_not_answered(explorer):
             re.compile("^" + AGENTS[second].nodes[0].name))
 
 
-def test_reset_revives_from_maps_that_are_too_large(explorer):
+def test_reset_recovers_from_maps_that_are_too_large(explorer):
     explorer.locator('[name="preset"]').select_option("Network D")
     explorer.locator('[name="resolutions"]').fill("88, 89, 90")
     explorer.locator('[name="resolutions"]').press("Enter")
@@ -110,7 +110,7 @@ def test_reset_revives_from_maps_that_are_too_large(explorer):
 
 
 @pytest.mark.parametrize("state", [{"preset": "Network E"}, {"resolutions": [0]}, {"speed": -1}, {"seed": 0.5}])
-def test_reset_revives_from_a_state_that_is_wrong(open_page, tmp_path, state):
+def test_reset_recovers_from_an_invalid_state(open_page, tmp_path, state):
     write_page(tmp_path, [Explorer(playing=False)], lambda record: record["state"].update(state))
     page = open_page(tmp_path, "page.html")
     wait(page, "failed")
@@ -119,7 +119,7 @@ def test_reset_revives_from_a_state_that_is_wrong(open_page, tmp_path, state):
     expect(page.locator("[role=alert]")).to_be_hidden()
 
 
-# A fault in the worker, one in a drawing and one in an answer, each until it is taken back.
+# Faults in the worker, in its answer and in drawing, each in force until it is undone.
 FAULTS = [
     ("Worker.prototype.postMessage", "function () { this.onerror(new ErrorEvent('error', { message: 'Uncaught' })); }"),
     ("Worker.prototype.postMessage", "function () { queueMicrotask(() => this.onmessage({ data: {} })); }"),
@@ -128,7 +128,7 @@ FAULTS = [
 
 
 @pytest.mark.parametrize("what, fault", FAULTS)
-def test_a_fault_is_a_sentence_and_reset_revives_from_it(explorer, what, fault):
+def test_a_fault_is_reported_and_reset_recovers_from_it(explorer, what, fault):
     explorer.evaluate(f"() => {{ window.sound = {what}; {what} = {fault}; }}")
     explorer.locator('[data-action="step"]').click()
     alert = explorer.locator("[role=alert]")

@@ -1,4 +1,4 @@
-"""The Explorer in a page without Python: it starts, lives the runs that Python lives, and does what the reader asks."""
+"""The Explorer in a page without Python starts, computes the same runs as Python, and does what the reader asks."""
 
 import re
 from dataclasses import replace
@@ -29,7 +29,7 @@ def conditions():
 
 @pytest.fixture
 def site(tmp_path, conditions):
-    """`site(preset, …, trait=value)` writes a page of an Explorer for each preset, and tells where it is."""
+    """`site(preset, …, trait=value)` writes a page with one Explorer per preset, and returns its folder and name."""
     def write(*presets, change=None, **traits):
         explorers = [Explorer(conditions, preset, **{"playing": False, "speed": 0.0} | traits) for preset in presets]
         write_page(tmp_path, explorers, change)
@@ -84,7 +84,7 @@ def test_it_starts_by_itself_and_the_reward_curve_grows(open_page, site, over):
 
 @pytest.mark.parametrize("over", ["http", "file"])
 @pytest.mark.parametrize("name, run", [("both", 7), ("places", 11), ("joins", 4), ("turned", 2), ("D", 0)])
-def test_a_run_opened_by_its_number_ends_with_the_score_that_python_has(open_page, site, conditions, name, run, over):
+def test_a_run_opened_by_its_number_ends_with_the_score_of_python(open_page, site, conditions, name, run, over):
     page = open_page(*site("both", seed=99), over)
     explorer = explorer_of(page)
     page.locator('[name="open-preset"]').select_option(name)
@@ -268,7 +268,7 @@ def test_arrow_keys_play_against_the_agent_and_both_scores_are_shown(open_page, 
     expect(explorer).not_to_contain_text("You: ")
 
 
-def test_in_the_arena_it_lives_the_run_that_python_lives_and_offers_nothing_of_creeps(open_page, site):
+def test_in_the_arena_it_computes_the_run_of_python_and_has_no_controls_for_creeps(open_page, site):
     ((name, agent),) = IN_THE_ARENA.items()
     page = open_page(*site(name))
     explorer_of(page)
@@ -279,7 +279,7 @@ def test_in_the_arena_it_lives_the_run_that_python_lives_and_offers_nothing_of_c
     expect(page.locator(".grip")).to_have_count(0)
     expect(page.locator(".said")).not_to_contain_text("creeps")
     assert play_to_the_end(page) == lived(agent, Arena(), steps=STEPS)
-    page.evaluate("""() => {  // for the run may be over, and the button disabled again, before a test can look
+    page.evaluate("""() => {  // the run may be over, and the button disabled again, before the test can look
         const game = document.querySelector('[data-action="game"]');
         new MutationObserver(() => { window.offered ||= !game.disabled; }).observe(game, { attributes: true });
     }""")
@@ -292,7 +292,7 @@ def test_in_the_arena_it_lives_the_run_that_python_lives_and_offers_nothing_of_c
 
 
 @pytest.mark.parametrize("name", OTHER_SPACES)
-def test_in_another_space_it_lives_the_run_that_python_lives(open_page, site, name):
+def test_in_another_space_it_computes_the_run_of_python(open_page, site, name):
     page = open_page(*site(name))
     explorer_of(page)
     for action in ("game", "red"):
@@ -334,7 +334,7 @@ def test_what_is_dropped_into_the_arena_draws_the_agent_there(open_page, site):
                                           steps=STEPS)
 
 
-def test_it_rests_out_of_sight_and_in_a_hidden_tab(open_page, site):
+def test_it_pauses_out_of_view_and_in_a_hidden_tab(open_page, site):
     page = open_page(*site("both", speed=1.0, playing=True))
     explorer = explorer_of(page, "running")
     page.evaluate("document.body.style.paddingTop = '4000px'")
@@ -350,7 +350,7 @@ def test_it_rests_out_of_sight_and_in_a_hidden_tab(open_page, site):
     assert explorer.get_attribute("data-step") == step
 
 
-def test_ten_on_a_page_all_live_when_they_are_in_sight(open_page, site):
+def test_ten_on_a_page_all_run_when_they_are_in_view(open_page, site):
     page = open_page(*site(*["both", "places", "D", "Network B", "joins"] * 2, speed=100.0, playing=True))
     for i in range(10):
         explorer = page.locator(".neorl-explorer").nth(i)
@@ -359,13 +359,13 @@ def test_ten_on_a_page_all_live_when_they_are_in_sight(open_page, site):
     assert page.locator("[role=alert]:visible").count() == 0
 
 
-def test_less_motion_begins_paused(open_page, site):
+def test_with_reduced_motion_it_begins_paused(open_page, site):
     page = open_page(*site("both", playing=True), reduced_motion="reduce")
     assert explorer_of(page).get_attribute("data-state") == "paused"
     play_to_the_end(page)
 
 
-def test_every_control_has_a_name_for_those_who_hear_the_page(open_page, site):
+def test_every_control_has_a_name_for_screen_readers(open_page, site):
     page = open_page(*site("D"))
     explorer_of(page)
     page.locator(".neorl-explorer summary").click()
@@ -410,13 +410,13 @@ def with_a_spoilt_module(record):
     (without_buffers, "_wasm"),
     (with_a_spoilt_module, "The simulation has stopped"),
 ])
-def test_a_bad_state_is_a_sentence(open_page, site, change, sentence):
+def test_a_bad_state_is_reported(open_page, site, change, sentence):
     page = open_page(*site("both", change=change, playing=True))
     expect(page.locator("[role=alert]:visible")).to_contain_text(re.compile(sentence))
 
 
 @pytest.mark.parametrize("missing", ["WebAssembly", "Worker"])
-def test_a_browser_without_what_it_needs_is_told_so(chromium, open_page, site, missing):
+def test_a_browser_without_a_required_feature_gets_a_message(chromium, open_page, site, missing):
     folder, name = site("both", playing=True)
     page_path = folder / name
     page_path.write_text(page_path.read_text().replace("<body", f"<script>delete window.{missing}</script><body", 1))
@@ -424,7 +424,7 @@ def test_a_browser_without_what_it_needs_is_told_so(chromium, open_page, site, m
     expect(page.locator("[role=alert]:visible")).to_contain_text("needs WebAssembly and web workers")
 
 
-def test_with_colours_of_the_readers_own_every_button_has_a_border(open_page, site):
+def test_with_forced_colours_every_button_has_a_border(open_page, site):
     page = open_page(*site("both"), forced_colors="active")
     explorer_of(page)
     assert set(page.locator(".neorl-explorer button").evaluate_all(

@@ -1,4 +1,4 @@
-"""What the Explorer offers to try, and its state in the address: at one click or by a link, as Python has it."""
+"""The Explorer's one-click starters and its state in the address lead to the same runs as in Python."""
 
 import re
 from dataclasses import replace
@@ -21,7 +21,7 @@ def conditions():
 
 @pytest.fixture
 def visit(open_page, tmp_path, conditions):
-    """`visit(address)` opens a page of an Explorer at an address."""
+    """`visit(address)` opens a page with an Explorer at an address."""
     def visit(address="", **options):
         write_page(tmp_path, [Explorer(conditions, playing=False, speed=0.0)])
         page = open_page(tmp_path, f"page.html{address}", **options)
@@ -66,11 +66,11 @@ def test_the_way_to_a_corner_is_shown_once_it_is_learned(visit):
     expect(page.locator(".key")).not_to_contain_text("Grey:")
 
 
-def test_to_play_again_is_the_same_run_with_the_same_settings(visit):
+def test_playing_again_repeats_the_run_with_the_same_settings(visit):
     page = visit("#explorer_run-4_red-0p5")
     wait(page, "ended")
     score = told(page, "score")
-    page.evaluate("""() => {  // a run may end before the page is looked at
+    page.evaluate("""() => {  // the run may end before the test can look
         const explorer = document.querySelector(".neorl-explorer");
         window.states = [];
         new MutationObserver(() => window.states.push(explorer.dataset.state)).observe(
@@ -92,7 +92,7 @@ def test_of_two_things_to_try_the_later_one_counts(visit):
     expect(page.locator(".said")).not_to_contain_text("In the middle of the run")
 
 
-def test_watching_it_learn_begins_anew_with_the_settings_of_the_preset(visit):
+def test_watching_it_learn_restarts_with_the_settings_of_the_preset(visit):
     page = visit()
     page.locator('[name="valence_red"]').fill("2")
     press(page, "watch")
@@ -128,7 +128,7 @@ def test_an_element_drops_where_the_next_click_is(visit):
 
 @pytest.mark.parametrize("name, typed, kept", [
     ("resolutions", "0, 3", "5, 3"), ("resolutions", "three", "5, 3"), ("seed", "-1", "3"), ("run", "1.5", "0")])
-def test_refused_input_goes_back_to_what_was(visit, name, typed, kept):
+def test_refused_input_reverts_to_the_last_valid_value(visit, name, typed, kept):
     page = visit()
     page.locator("summary").click()
     field = page.locator(f'[name="{name}"]')
@@ -143,7 +143,7 @@ def test_refused_input_goes_back_to_what_was(visit, name, typed, kept):
     expect(page.locator(".refused")).to_have_text("")
 
 
-def test_what_was_refused_is_forgotten_with_another_agent(visit):
+def test_a_refusal_is_cleared_when_another_agent_is_chosen(visit):
     page = visit()
     field = page.locator('[name="resolutions"]')
     field.fill("none")
@@ -197,7 +197,7 @@ def test_a_creep_slows_under_the_pointer(visit):
     assert slowest <= 2
 
 
-def test_maps_go_by_the_modality_that_they_are_of(visit):
+def test_maps_are_named_after_their_modality(visit):
     page = visit()
     page.locator('[name="modality"]').select_option("border cell")
     expect(page.locator('[name="map"] option')).to_have_text(["border cell N5", "border cell N3"])
@@ -225,7 +225,7 @@ def test_the_address_of_a_moment_leads_back_to_it(visit):
     page.wait_for_function("""() => {
         const minute = (document.querySelector('.neorl-explorer').dataset.step / 3000).toFixed(5);
         return location.hash.endsWith(`_minute-${Number(minute)}`.replace(".", "p"));
-    }""")  # and not the address of a moment before
+    }""")  # not the address of an earlier moment
     before = {name: told(page, name) for name in ("step", "score")}
     assert "_red-0p5" in page.url and "_run-4" in page.url
     again = visit(page.url[page.url.index("#"):])
@@ -243,13 +243,13 @@ def test_a_link_within_the_page_is_followed(visit):
 @pytest.mark.parametrize("address, reason", [
     ("#explorer_agent-nobody", "There is no agent “nobody”"), ("#explorer_run--1", "run = -1"),
     ("#explorer_resolutions-3-x", "resolutions"), ("#explorer_minute-soon", "Its minute must be")])
-def test_an_address_of_no_run_is_a_sentence_and_the_page_stays_as_it_is(visit, address, reason):
+def test_an_invalid_address_is_reported_and_the_page_stays_as_it_is(visit, address, reason):
     page = visit(address)
     expect(page.locator(".refused")).to_contain_text(reason)
     assert (told(page, "condition"), told(page, "step")) == ("places", "0")
 
 
-def test_those_who_hear_the_page_are_told_what_is_in_the_tank(visit):
+def test_screen_readers_get_a_description_of_the_tank(visit):
     page = visit()
     tank = page.locator(".arena canvas")
     described = page.locator(f"#{tank.get_attribute('aria-describedby')}")

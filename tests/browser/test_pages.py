@@ -1,4 +1,4 @@
-"""The fixture that opens pages sees what goes wrong in them."""
+"""The fixture that opens pages notices every error in them."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Recordings are what runs are, and the Replay shows them in a page without Python."""
+"""Recordings equal their runs, and the Replay shows them in a page without Python."""
 
 import numpy as np
 import pytest
@@ -34,7 +34,7 @@ def test_a_recording_holds_every_step_of_its_run(recordings):
     assert hits.sum() > 0
 
 
-def test_a_recording_goes_on_where_the_run_is():
+def test_a_recording_starts_at_the_current_step_of_the_run():
     run = Run(AGENT, TANK, seed=2)
     run.advance(40)
     assert np.array_equal(record("late", run, 10).agent, record("all", Run(AGENT, TANK, seed=2), 50).agent[40:])
@@ -99,7 +99,7 @@ def test_the_agents_are_drawn_where_they_were(open_page, tmp_path, recordings):
         assert blue > red and blue > 150  # the agent's colour
 
 
-def test_readers_who_ask_for_less_motion_press_play(open_page, tmp_path, recordings):
+def test_with_reduced_motion_a_replay_waits_for_play(open_page, tmp_path, recordings):
     write_page(tmp_path, [Replay(recordings)])
     page = open_page(tmp_path, "page.html", reduced_motion="reduce")
     page.wait_for_timeout(300)

@@ -1,4 +1,4 @@
-"""The WebAssembly modules: what they need, how large they are, and that each lives the same runs as native code."""
+"""The WebAssembly modules: their imports, their size, and that each computes the same runs as native code."""
 
 import sys
 import time
@@ -67,7 +67,7 @@ def assert_equal_to(run, arguments):
 
 
 def viewed(values):
-    """A named tuple of (address, view) pairs as one of views."""
+    """Turn a named tuple of (address, view) pairs into one of views."""
     return type(values)(*(viewed(value) if hasattr(value, "_fields") else value[1] if isinstance(value, tuple) else
                           value for value in values))
 
@@ -100,7 +100,7 @@ def test_a_run_in_another_space_equals_a_native_run_to_the_last_bit(name):
 
 
 def assert_lives_alike(run):
-    """Let a run live, in the module and natively. Returns what it is paid."""
+    """Advance a run in the module and natively, compare the two, and return the total reward."""
     machine, sizes, arguments = copied(run)
     for last_step in range(STEPS // 5, STEPS + 1, STEPS // 5):
         arguments["total"] = machine.call("rollout", sizes, last_step=last_step, bin_steps=2 * STEPS, **arguments)
@@ -181,7 +181,7 @@ def test_a_module_is_small_and_asks_for_memory_alone(name):
 
 @pytest.fixture
 def contents(tmp_path, monkeypatch):
-    """The modules, which are not on disk any more and cannot be built."""
+    """The contents of the modules, with none left on disk and a build that fails the test."""
     contents = wasm.modules()
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
     monkeypatch.setattr(wasm, "_built", lambda names: names and pytest.fail(f"built again: {names}"))
@@ -211,7 +211,7 @@ def test_a_wheel_ships_the_modules_of_its_own_sources(contents, tmp_path, monkey
     assert wasm.modules() == others
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="Windows locks files in another way")
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows locks files differently")
 def test_of_processes_that_start_at_once_one_builds_and_the_others_wait(contents, monkeypatch):
     built = []
 
@@ -221,7 +221,7 @@ def test_of_processes_that_start_at_once_one_builds_and_the_others_wait(contents
         return {name: contents[name] for name in names}
 
     monkeypatch.setattr(wasm, "_built", build)
-    with ThreadPoolExecutor(3) as pool:  # each has a lock of its own, as a process has
+    with ThreadPoolExecutor(3) as pool:  # each holds a lock of its own, as a process would
         assert list(pool.map(lambda _: wasm.modules(), range(3))) == [contents] * 3
     assert [names for names in built if names] == [list(contents)]
 
@@ -242,7 +242,7 @@ def test_modules_that_cannot_be_kept_are_built_with_a_warning(contents, tmp_path
         assert wasm.modules() == contents
 
 
-def test_what_goes_wrong_in_a_build_is_told(tmp_path, monkeypatch):
+def test_a_failed_build_is_an_error(tmp_path, monkeypatch):
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
     monkeypatch.setattr(sys, "executable", "/bin/false")
     with pytest.raises(RuntimeError, match="was not built"):

@@ -1,4 +1,4 @@
-"""The script that brings anywidgets to life in pages without a kernel: on pages made by hand."""
+"""The script that runs anywidgets in pages without a kernel, tested on hand-made pages."""
 
 import base64
 import json
@@ -32,7 +32,7 @@ def anywidget(esm, buffers=(), **values):
 
 @pytest.fixture
 def show(open_page, tmp_path):
-    """Open a page of widgets: `records` by model, `state` the text that holds them, `views` the models it shows."""
+    """`show(records, views, state)` opens a page: records by model, and JSON texts of its views and its whole state."""
     def show(records, views=None, state=None, over="http"):
         state = json.dumps({"version_major": 2, "state": records}) if state is None else state
         views = [json.dumps({"model_id": model}) for model in records] if views is None else views
@@ -46,14 +46,14 @@ def show(open_page, tmp_path):
 
 
 def sentences(page, number):
-    """What the page says in place of widgets, once it has said it in so many places."""
+    """The messages that the page shows in place of widgets, once there are `number` of them."""
     alerts = page.get_by_role("alert")
     alerts.nth(number - 1).wait_for()
     return alerts.all_inner_texts()
 
 
 @pytest.mark.parametrize("over", ["http", "file"])
-def test_a_widget_starts_and_goes_on(show, over):
+def test_a_widget_starts_and_responds(show, over):
     page = show({"one": anywidget(COUNTER, count=3)}, over=over)
     page.locator(".counter", has_text="3").click()
     page.locator(".counter", has_text="4").wait_for()
@@ -97,7 +97,7 @@ def test_a_style_is_added_once(show):
     assert page.locator(".counter").last.evaluate("element => getComputedStyle(element).color") == "rgb(1, 2, 3)"
 
 
-def test_the_model_tells_what_has_changed_and_a_view_takes_off_only_its_own(show):
+def test_the_model_reports_changes_and_a_view_removes_only_its_own_listeners(show):
     esm = """export default { async render({ model, el }) {
         const told = [];
         const react = (_, value) => told.push(value);
@@ -105,7 +105,7 @@ def test_the_model_tells_what_has_changed_and_a_view_takes_off_only_its_own(show
         model.on("change:list change:number", react);
         model.on("change", () => told.push("any"));
         other.on("change:number", () => told.push("other"));
-        model.set("list", [1, { two: 2 }]);          // as it was: nobody is told
+        model.set("list", [1, { two: 2 }]);          // unchanged: no event
         model.set({ list: [1], number: 5 });
         model.off("change:number", react);
         model.set({ list: [2], number: 6 });
@@ -146,7 +146,7 @@ FAILING = "export default { render({ el }) { el.append('half'); throw new Error(
     ({"model_module": "@jupyter-widgets/controls", "state": {}}, "This widget needs a running kernel."),
     (None, "This widget cannot be shown"),
 ])
-def test_a_widget_that_does_not_start_says_so_and_the_next_one_lives(show, record, sentence):
+def test_a_widget_that_does_not_start_says_so_and_the_next_one_runs(show, record, sentence):
     page = show({"bad": record, "good": GOOD})
     (said,) = sentences(page, 1)
     assert said.startswith(sentence)
@@ -168,7 +168,7 @@ def test_a_place_that_names_no_model_says_so(show, view):
     assert page.locator(".counter").inner_text() == "3"
 
 
-def test_a_widget_that_never_ends_its_start_delays_no_other(show):
+def test_a_widget_that_never_finishes_starting_delays_no_other(show):
     page = show({"slow": anywidget("export default { render: () => new Promise(() => {}) };"), "good": GOOD})
     assert page.locator(".counter").inner_text() == "3"
 

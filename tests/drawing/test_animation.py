@@ -1,4 +1,4 @@
-"""Films of runs."""
+"""Animations of runs."""
 
 import numpy as np
 import pytest
@@ -30,7 +30,7 @@ def test_a_film_is_as_long_and_as_large_as_it_was_asked_for_and_advances_the_run
     assert not np.array_equal(pictures[0], pictures[-1])
 
 
-def test_the_film_shows_the_run_as_it_would_have_been_without(run, tmp_path):
+def test_filming_does_not_change_the_run(run, tmp_path):
     other = run.copy()
     drawing.animate(run, tmp_path / "run.gif", seconds=0.3, fps=10, size=64)
     other.advance(run.step)

@@ -1,4 +1,4 @@
-"""Drawings: the numbers that they show."""
+"""Figures show the right numbers, names and colours."""
 
 import numpy as np
 import pytest
@@ -65,7 +65,7 @@ def test_names_of_many_curves_at_one_edge_stay_within_the_axes(level):
     assert np.all(np.diff(heights) >= 0.0749) and min(heights) >= 0 and max(heights) <= 1
 
 
-# What is left of linear red, green and blue without one kind of cone (Machado, Oliveira and Fernandes 2009).
+# Linear red, green and blue as seen without one kind of cone (Machado, Oliveira and Fernandes 2009).
 SEEN = {"by most": np.eye(3),
         "without red": [[0.152, 1.053, -0.205], [0.115, 0.786, 0.099], [-0.004, -0.048, 1.052]],
         "without green": [[0.367, 0.861, -0.228], [0.280, 0.673, 0.047], [-0.012, 0.043, 0.969]],
@@ -95,7 +95,7 @@ def test_colours_of_curves_stand_out_from_the_page(ground):
 
 
 def made_up(rate, runs, steps, seed=0):
-    """A result in which every run earns `rate` a second, give or take some luck."""
+    """A result in which every run earns `rate` per second, with noise in each bin."""
     rewards = np.random.default_rng(seed).normal(0.2 * rate, 0.3, (runs, -(-steps // 10))).astype(np.float32)
     return Result(place_cells([2]), WaterWorld(), steps, runs, 0, rewards, np.zeros((*rewards.shape, 2), np.int16))
 
@@ -105,7 +105,7 @@ def test_the_filter_keeps_what_is_slow():
     straight = np.stack([np.full(400, 0.3), 0.5 * time - 0.1])
     np.testing.assert_allclose(low_passed(straight), straight, atol=1e-6)
     slow = np.sin(TAU * 4 * time)[None]
-    np.testing.assert_allclose(low_passed(slow)[:, 30:-30], slow[:, 30:-30], atol=0.01)  # nor does it shift in time
+    np.testing.assert_allclose(low_passed(slow)[:, 30:-30], slow[:, 30:-30], atol=0.01)  # no shift in time
 
 
 def test_the_filter_takes_out_what_is_fast():
@@ -225,7 +225,7 @@ def test_the_active_receptive_fields_are_filled(modality, resolution):
     seen = {"position": places, "velocity": (places - agent) / 0.5}.get(modality.follows, places - agent)
     filled = np.any([[fill.get_paths()[0].contains_point(place) for place in places] for fill in fills], axis=0)
     expected = np.isin(nres_map.encode(modality.tune(seen)), list(active))
-    assert np.mean(filled == expected) > 0.98  # but for the rounding of corners
+    assert np.mean(filled == expected) > 0.98  # all but where corners are rounded
 
 
 def test_place_cells_have_square_fields():

@@ -1,4 +1,4 @@
-"""Figures are legible on light pages and on dark ones, by the contrasts of WCAG 2."""
+"""Figures are legible on light and dark pages, by the contrast ratios of WCAG 2."""
 
 import re
 
@@ -12,18 +12,18 @@ from neorl.drawing.network_figures import BOX
 from neorl.drawing.style import FILL, TEXT, UNDER_WHITE, letters
 
 LINES = (*drawing.CURVES, drawing.INK, drawing.AGENT, drawing.GREEN, drawing.RED)
-DISCS = (drawing.AGENT, drawing.GREEN, drawing.RED)  # which carry a white sign
+DISCS = (drawing.AGENT, drawing.GREEN, drawing.RED)  # they carry a white sign
 
 
 def shown(colour, mode):
-    """A colour of a figure as a page of the book shows it."""
+    """A figure's colour as a page of the book shows it."""
     (factor,) = re.findall(r"filter: brightness\(([\d.]+)\)", STYLE_SHEET.read_text())
     channels = (int(colour[at : at + 2], 16) * (float(factor) if mode == "dark" else 1.0) for at in (1, 3, 5))
     return "#" + "".join(f"{min(round(channel), 255):02x}" for channel in channels)
 
 
 def mixed(colour, opacity, ground):
-    """What a colour of some opacity looks like on a ground."""
+    """The colour that results from a translucent colour on a ground."""
     return to_hex(opacity * np.array(to_rgb(colour)) + (1 - opacity) * np.array(to_rgb(ground)))
 
 

@@ -1,4 +1,4 @@
-"""Figures as a library: into axes of the user's own, on matplotlib alone, of any number of curves, drawn to scale."""
+"""Figures as a library: in the user's axes, with matplotlib alone, with any number of curves, and to scale."""
 
 import doctest
 import importlib
@@ -130,7 +130,7 @@ def test_any_number_of_curves_is_drawn_and_told_apart(count):
     axes.figure.draw_without_rendering()
     extents = sorted((text.get_window_extent().y0, text.get_window_extent().y1) for text in axes.texts)
     assert len(extents) == count
-    assert all(above > below - 1 for (_, below), (above, _) in zip(extents, extents[1:]))  # a pixel is none
+    assert all(above > below - 1 for (_, below), (above, _) in zip(extents, extents[1:]))  # to within a pixel
 
 
 def test_the_grey_of_a_control_comes_after_any_number_of_curves():
@@ -171,7 +171,7 @@ def test_what_cannot_be_drawn_is_refused(draw, message):
         draw()
 
 
-# Stands for an environment in which only the packages of the core and what matplotlib brings are installed.
+# Simulates an environment with only the core's packages, matplotlib and its dependencies.
 HIDE = """
 import importlib.abc, sys
 class Hidden(importlib.abc.MetaPathFinder):

@@ -1,4 +1,4 @@
-"""Drawings of networks: every node, desire and gain is there, and nothing hides anything else."""
+"""Drawings of networks show every node, desire and gain, and nothing hides anything else."""
 
 from itertools import combinations
 
@@ -24,7 +24,7 @@ def chain():
 
 
 def entangled():
-    """Points, skipped depths, several recursions, two nodes of one depth that send."""
+    """An agent with fixed points, skipped depths, several recursions, and two sending nodes at one depth."""
     nodes = (Node("place cells", PLACE_CELL, (5,)), Node("PC", PLACE_CELL, (4,)),
              Node("OVC", OBJECT_VECTOR_CELL, (3,)), Node("HD", HEAD_DIRECTION_CELL, (8,), gain=0.0))
     desires = (*CREEPS, Desire((0.5, 0.25), "PC", 2.0), Desire("red", "place cells", -3.0), Desire("PC", "OVC"),
@@ -55,7 +55,7 @@ def lines():
 
 
 def crossings():
-    """How often arrows that start at a node cross."""
+    """The number of crossings of arrows that start at a node."""
     paths = [Path(line) for line in lines() if line[0][0] > 2]
     return sum(a.intersects_path(b, filled=False) for a, b in combinations(paths, 2))
 
@@ -101,7 +101,7 @@ def test_desires_of_one_node_do_not_cross():
     assert crossings() == 0
 
 
-def test_a_node_tells_its_name_modality_and_resolutions():
+def test_a_node_shows_its_name_modality_and_resolutions():
     draw_network(object_vector_cells())
     assert {"OVC", "object-vector", "cell, Cartesian", "N2 … N13"} <= set(texts())
     draw_network(chain())
@@ -130,7 +130,7 @@ def test_desires_of_some_elements_are_told_apart():
     labels = {text.get_text(): text.get_color() for text in plt.gca().texts}
     assert labels["green: Σ w"] == GREEN and labels["red: Σ w"] == RED
     heights = {text.get_text(): text.get_position()[1] for text in plt.gca().texts}
-    assert heights["+1"] < heights["−1"] and heights["green: Σ w"] < heights["red: Σ w"]  # y runs downward
+    assert heights["+1"] < heights["−1"] and heights["green: Σ w"] < heights["red: Σ w"]  # y points downward
     draw_network(network_a())
     labels = {text.get_text(): text.get_color() for text in plt.gca().texts}
     assert labels["Σ w"] == TEXT and "× 0" not in labels

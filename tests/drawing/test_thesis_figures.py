@@ -1,4 +1,4 @@
-"""The thesis's numbers in figures: where they stand, beside what was found."""
+"""Figures place the thesis's numbers beside what was found."""
 
 import numpy as np
 import pytest
@@ -65,7 +65,7 @@ def test_levels_are_marked_and_within_the_picture():
     assert low < -2 and high > 5
     heights = {text.get_text(): text.xy[1] for text in axes.texts}
     assert (heights["thesis 5"], heights["thesis −2"]) == (5, -2)
-    assert heights["two"] - heights["one"] >= 0.0749 * (high - low)  # names kept apart as the axes grew
+    assert heights["two"] - heights["one"] >= 0.0749 * (high - low)  # names stay apart after the axes have grown
     assert len(axes.texts) == 4
 
 

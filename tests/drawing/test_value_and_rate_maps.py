@@ -1,4 +1,4 @@
-"""Maps of values, of receptive fields and of rates: the numbers that they show."""
+"""Maps of values, receptive fields and rates show the right numbers."""
 
 import numpy as np
 import pytest
@@ -30,7 +30,7 @@ def test_the_sectors_of_a_polar_map_hold_what_the_map_puts_into_them(modality):
     angles, radii = np.random.default_rng(0).random((2, 500)) * [[TAU], [0.99]]
     places = radii[:, None] * np.stack([np.cos(angles), np.sin(angles)], axis=1)
     points = np.stack([radii, angles], axis=1)[:, -len(modality.axes):]
-    large = Affine2D().scale(1_000)  # since paths are searched to within a pixel
+    large = Affine2D().scale(1_000)  # contains_point is accurate only to about a pixel
     for place, cell in zip(places, nres_map.encode(points)):
         assert patches[cell].get_path().transformed(large).contains_point(1_000 * place, radius=1e-6)
 
@@ -85,7 +85,7 @@ def test_a_value_map_is_the_more_opaque_the_more_the_best_action_is_worth(modali
     ({"goals": np.empty((0, 2))}, "of 0 goals, of one or more"), ({"index": 3}, "index is 3"),
     ({"valences": [np.nan]}, "valences is nan"),
 ])
-def test_a_value_map_of_what_there_is_not_is_refused(change, message):
+def test_a_value_map_with_bad_arguments_is_refused(change, message):
     given = {"run": Run(place_cells([3]), TANK), "goals": [(0.5, 0.5)]} | change
     with pytest.raises(ValueError, match=message):
         drawing.draw_value_map(**given)
@@ -102,7 +102,7 @@ def test_receptive_fields_lie_where_their_boundaries_are(modality):
     agent = state.scene.position / TANK.width
 
     def encode(vectors):
-        """As the map has it, by the vectors themselves."""
+        """Encode vectors independently of `Modality.tune`."""
         if modality is UNEQUAL_POLAR:
             vectors = np.stack([np.hypot(*vectors.T), np.arctan2(vectors[:, 1], vectors[:, 0])], axis=1)
         return nres_map.encode(vectors)
@@ -113,7 +113,7 @@ def test_receptive_fields_lie_where_their_boundaries_are(modality):
         modality.follows, state.scene.things / TANK.width - agent)
     fills = [fill for fill in axes.collections if fill.get_alpha()]
     filled = np.any([[fill.get_paths()[0].contains_point(place) for place in places] for fill in fills], axis=0)
-    assert np.mean(filled == np.isin(encode(seen), encode(perceived))) > 0.97  # but for the rounding of corners
+    assert np.mean(filled == np.isin(encode(seen), encode(perceived))) > 0.97  # all but where corners are rounded
 
 
 def test_unequal_fields_are_cut_at_their_boundaries():
@@ -123,7 +123,7 @@ def test_unequal_fields_are_cut_at_their_boundaries():
     assert set(np.round(at, 2)) == {0.1, 0.25, 0.7}
 
 
-def test_a_track_is_what_the_run_went_through():
+def test_a_track_holds_the_positions_and_cells_of_the_run():
     seen, run, alone = Run(place_cells([4]), TANK), Run(place_cells([4]), TANK), []
     track = drawing.track(seen, seconds=2)
     for _ in range(100):
@@ -164,7 +164,7 @@ def test_a_rate_map_is_drawn_as_it_is_with_a_scale():
     (lambda: drawing.rate_map(drawing.Track(np.ones((1, 2)), np.ones((1, 1), int), 1.0), bins=0), "bins is 0"),
     (lambda: drawing.rate_map(drawing.Track(np.ones((1, 2)), np.ones((1, 1), int), 1.0), cell=-1), "cell is -1"),
 ])
-def test_rates_of_what_there_is_not_are_refused(look, message):
+def test_tracks_and_rate_maps_with_bad_arguments_are_refused(look, message):
     with pytest.raises(ValueError, match=message):
         look()
 

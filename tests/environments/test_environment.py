@@ -1,4 +1,4 @@
-"""A world as a Gymnasium environment: Gymnasium's own checks, and to the bit what runs live in."""
+"""Worlds as Gymnasium environments pass Gymnasium's checks, and equal the worlds of runs to the bit."""
 
 import copy
 import os
@@ -22,13 +22,13 @@ from neorl.gym.observation import observation_space, observe
 from neorl.gym.rendering import AGENT, KINDS, SIDE
 from neorl.worlds.world import Dynamics
 
-TANK = WaterWorld(width=60, n_creeps=2, win_reward=5.0)  # in which episodes end often
+TANK = WaterWorld(width=60, n_creeps=2, win_reward=5.0)  # episodes end often
 POOL = Arena(places=[("platform", 0.65, 0.35), ("trap", 0.3, 0.4)], pay=[2.0, -1.0], trial_seconds=1.5)
 WALKER = Agent(brownian().nodes)
 
 
 def lived(env, actions, **options):
-    """All that an environment returns."""
+    """Everything that an environment returns in response to actions."""
     returned = [env.reset(**options)]
     for action in actions:
         returned.append(env.step(action))
@@ -45,7 +45,7 @@ def random_actions(steps, seed=0):
 @pytest.mark.parametrize("name, rules", [("WaterWorld-v0", {}), ("WaterWorld-v0", {"continuing": False, "n_creeps": 1}),
                                          ("WaterWorld-v0", {"egocentric": False}), ("Arena-v0", {}),
                                          ("Arena-v0", {"places": []}), ("World-v0", {"world": Pond()})])
-def test_gymnasium_finds_nothing_to_warn_of(name, rules, mode, monkeypatch):
+def test_gymnasium_finds_nothing_to_warn_about(name, rules, mode, monkeypatch):
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
     env = gymnasium.make(f"neorl.gym:neorl/{name}", render_mode=mode, **rules)
     check_env(env.unwrapped)
@@ -70,7 +70,7 @@ def test_an_environment_is_the_world_of_a_run_to_the_bit(world):
     assert restarts
 
 
-def test_a_seed_is_run_0_of_it_and_without_one_the_stream_goes_on():
+def test_a_seed_alone_means_its_run_0_and_without_one_the_stream_continues():
     env, state = WorldEnv(TANK), Run(WALKER, TANK, seed=8).world_state
     first, _ = env.reset(seed=8)
     np.testing.assert_array_equal(env.world_state.scene.things, state.scene.things)
@@ -83,7 +83,7 @@ def test_a_seed_is_run_0_of_it_and_without_one_the_stream_goes_on():
 
 
 def as_written(world, scene, egocentric):
-    """The observation, from its description."""
+    """The observation, computed from its description."""
     found = [*scene.position / world.size, *scene.velocity / world.size]
     seen = [(np.hypot(*(place - scene.position)), (place - egocentric * scene.position) / world.size, kind)
             for place, kind in zip(scene.things, scene.kinds)]
@@ -128,10 +128,10 @@ def test_absent_things_are_0_and_what_is_out_of_range_is_clipped():
         assert not observed(broken, True)[0] and not observed(broken, False)[0]
 
 
-def test_things_come_by_their_distance_and_equal_ones_by_their_number():
+def test_things_are_sorted_by_distance_and_ties_by_number():
     rng = np.random.default_rng(0)
     for things in (0, 1, 2, 3, 10, 100):
-        places = rng.integers(0, 4, (things, 1)).astype(float)  # of which many are equally far
+        places = rng.integers(0, 4, (things, 1)).astype(float)  # many are at equal distances
         scene = Scene(np.zeros(1), np.zeros(1), places, rng.integers(0, 2, things), np.zeros(things, np.int64))
         kinds = np.array(observed(scene, True, size=8.0)[1][2:]).reshape(-1, 3)[:, 2]
         np.testing.assert_array_equal(kinds, scene.kinds[np.argsort(places[:, 0], kind="stable")])
@@ -172,7 +172,7 @@ def test_an_episode_of_the_registered_tank_is_a_minute():
 
 @pytest.mark.parametrize("again", [copy.deepcopy, lambda env: pickle.loads(pickle.dumps(env))], ids=["copy", "pickle"])
 @pytest.mark.parametrize("world", [TANK, POOL, Pond()], ids=["tank", "pool", "pond"])
-def test_a_copy_goes_on_by_itself_to_the_same_bits(world, again):
+def test_a_copy_continues_independently_to_the_same_bits(world, again):
     env = WorldEnv(world, continuing=True)
     lived(env, random_actions(50), seed=0)
     other, ways = again(env), []
@@ -237,7 +237,7 @@ class Broken(World):
     dynamics, rules = Dynamics(begin_well, divide_by_nothing), BrokenRules(1.0)
 
 
-def test_a_world_that_loses_its_numbers_says_so():
+def test_a_world_whose_state_is_not_finite_is_an_error():
     env = WorldEnv(Broken())
     assert env.observation_space == observation_space(Broken(), True)
     env.reset(seed=0)

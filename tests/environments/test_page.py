@@ -1,4 +1,4 @@
-"""The code of the book's page about Gymnasium: it prints what the page says."""
+"""The code on the book's page about Gymnasium prints what the page says."""
 
 import contextlib
 import io

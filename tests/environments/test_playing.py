@@ -1,4 +1,4 @@
-"""Agents of neorl in Gymnasium environments: to the bit a run where it is the same, and good at a task of others'."""
+"""Agents of neorl in Gymnasium environments are bit-identical to runs in neorl's worlds, and learn other tasks."""
 
 import gymnasium
 import numpy as np
@@ -19,13 +19,13 @@ GOAL = Desire(Place(11.5 / 12, 3.5 / 4), "PC", 1.0)
 
 
 def square(observation, info):
-    """Where the agent of CliffWalking is."""
+    """The scene of CliffWalking: the agent's position."""
     row, column = divmod(observation, 12)
     return Scene(((column + 0.5) / 12, (row + 0.5) / 4))
 
 
 @pytest.mark.parametrize("world", [TANK, Arena(trial_seconds=2.0)], ids=["tank", "arena"])
-def test_an_agent_in_an_environment_of_ours_lives_a_run_to_the_bit(world):
+def test_an_agent_in_our_environments_repeats_a_run_to_the_bit(world):
     agent = network_d([2, 5]) if world is TANK else Agent(place_cells([5]).nodes, [Desire("platform", "PC", 1.0)])
     run = Run(agent, world, seed=4)
     learner = Learner(agent, world.things, world.kinds, world.actions, size=world.size, fps=world.fps)
@@ -45,12 +45,12 @@ def test_an_agent_learns_to_walk_beside_a_cliff():
     played = play(agent, env, square, steps=10_000, actions=MOVES)
     aimless = play(Agent(agent.nodes, learning=LEARNING), env, square, steps=10_000, actions=MOVES)
     assert played.rewards[-2_000:].sum() / 2 > -3_000 > -6_000 > aimless.rewards[-2_000:].sum()
-    assert played.returns.max() > -20  # the shortest way has 13 steps
+    assert played.returns.max() > -20  # the shortest path has 13 steps
     assert played.terminated.sum() == len(played.returns) == len(played.lengths) and not played.truncated.any()
     np.testing.assert_array_equal(played.returns, [each.sum() for each in np.split(played.rewards, played.ends)[:-1]])
 
 
-def test_it_goes_on_from_what_it_knows_and_from_a_desire_that_comes_later():
+def test_a_learner_keeps_what_it_knows_when_a_desire_is_added():
     env = gymnasium.make("CliffWalking-v1")
     latent = play(Agent([Node("PC", GRID, [12])], learning=LEARNING), env, square, steps=20_000, actions=MOVES)
     latent.learner.change(Agent(latent.learner.agent.nodes, [GOAL], LEARNING, Policy(0.05)))
@@ -59,7 +59,7 @@ def test_it_goes_on_from_what_it_knows_and_from_a_desire_that_comes_later():
 
 
 class Cart(gymnasium.Env):
-    """A cart on a line that is pushed by a number; it has arrived at the right."""
+    """A cart on a line, moved by a continuous action; an episode terminates at the right end."""
 
     observation_space, action_space = gymnasium.spaces.Box(0, 1, (1,)), gymnasium.spaces.Box(-1, 1, (1,))
 
@@ -110,7 +110,7 @@ def test_an_episode_that_is_cut_off_counts_in_no_total():
     assert played.returns.tolist() == [-100.0, -100.0] and played.lengths.tolist() == [100, 100]
 
 
-def test_the_same_seed_is_the_same_life():
+def test_the_same_seed_gives_the_same_run():
     lives = []
     for seed in (1, 1, 2):
         played = play(place_cells([3]), gymnasium.make("neorl.gym:neorl/WaterWorld-v0"), tank_scene, steps=500,
@@ -120,7 +120,7 @@ def test_the_same_seed_is_the_same_life():
 
 
 def tank_scene(observation, info):
-    """What neorl's agents perceive, of the observation that others learn from."""
+    """The scene that neorl's agents perceive, recovered from the observation."""
     things = observation[4:].reshape(3, 4)
     return Scene(observation[:2], observation[2:4], observation[:2] + things[:, :2], things[:, 3].astype(int))
 

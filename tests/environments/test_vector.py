@@ -1,4 +1,4 @@
-"""Many environments in one step: to the bit what Gymnasium makes of single ones, in each of its modes."""
+"""Vector environments equal, to the bit, single ones that Gymnasium vectorises, in each autoreset mode."""
 
 import copy
 import hashlib
@@ -25,7 +25,7 @@ MODES = list(AutoresetMode)
 
 
 def both(world, n, mode, limit, **choices):
-    """Our environments, and single ones that Gymnasium steps one after the other."""
+    """Our vector environment, and single ones that Gymnasium steps one after the other."""
     def single():
         env = WorldEnv(world, **choices)
         return env if limit is None else TimeLimit(env, limit)
@@ -84,7 +84,7 @@ def test_gymnasium_makes_them_by_their_names():
 
 
 @pytest.mark.parametrize("again", [copy.deepcopy, lambda env: pickle.loads(pickle.dumps(env))], ids=["copy", "pickle"])
-def test_a_copy_goes_on_by_itself_to_the_same_bits(again):
+def test_a_copy_continues_independently_to_the_same_bits(again):
     envs = VectorWorldEnv(WORLDS["tank"], 3)
     envs.reset(seed=0)
     other, ways = again(envs), []

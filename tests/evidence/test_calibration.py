@@ -1,4 +1,4 @@
-"""The search for a reading: its targets, emulator and waves, on made-up statistics whose answer is known."""
+"""The search for a reading: its targets, emulator and waves, on made-up statistics with a known answer."""
 
 import math
 import time
@@ -18,7 +18,7 @@ from neorl.experiments.simulation import Result
 
 
 def lived(*rates, runs=4, steps=150_000, n_creeps=8):
-    """A `Result` that earns these rates one after the other, each over an equal stretch, the same in every run."""
+    """A `Result` in which every run earns these rates in turn, each over an equal stretch."""
     world = WaterWorld(n_creeps=n_creeps)
     bins = np.repeat(np.array(rates) * 0.2, steps // 10 // len(rates))
     rewards = np.tile(bins.astype(np.float32), (runs, 1))
@@ -78,7 +78,7 @@ def test_the_error_is_that_of_the_mean_over_runs():
     found = calibration_targets.measure("modalities", results)
     assert found["B3 both"].value == pytest.approx(0.25, rel=1e-4)
     assert found["B3 both"].error == pytest.approx(rates.std(ddof=1) / 2, rel=1e-3)
-    assert found["B1 level"] == pytest.approx((1, 0), abs=1e-4)  # runs of one seed are compared side by side
+    assert found["B1 level"] == pytest.approx((1, 0), abs=1e-4)  # runs with the same seed are paired
     with pytest.raises(ValueError, match="runs is 1, allowed are integers ≥ 2"):
         calibration_targets.measure("modalities", {key: replace(each, runs=1, rewards=each.rewards[:1])
                                                    for key, each in results.items()})
@@ -109,7 +109,7 @@ def made_up(rows, group, executor=None, progress=False):
 
 @pytest.fixture
 def table():
-    """A made-up design: 64 rows, of which 32 have been run in all groups."""
+    """A made-up design of 64 rows, 32 of which have been run in all groups."""
     rows = made_up([Row(0, i, 2, 3_000, reading) for i, reading in enumerate(design(64))], "layers")
     for group in list(GROUPS)[1:]:
         rows[:32] = made_up(rows[:32], group)
@@ -171,7 +171,7 @@ def test_candidates_lie_where_the_targets_are(table):
 
 @pytest.fixture
 def small(monkeypatch):
-    """A small search over made-up statistics, which takes no time; the clock goes a second each time it is read."""
+    """A small search over made-up statistics that takes no time; the clock advances a second at each reading."""
     clock = iter(range(10**6))
     monkeypatch.setattr(time, "monotonic", lambda: float(next(clock)))
     monkeypatch.setattr(calibration_table, "run", made_up)
@@ -183,7 +183,7 @@ def small(monkeypatch):
 def test_waves_close_in_on_the_readings_that_agree(small):
     kept = []
     table = calibration.calibrate(0.6, keep=kept.append)
-    assert len(kept) == 35 and kept[-1] == table  # one look at the clock before all, and one before each chunk
+    assert len(kept) == 35 and kept[-1] == table  # the clock is read once at the start, and once before each chunk
     assert [row.seed for row in table] == list(range(len(table)))
     waves = sorted({row.wave for row in table})
     assert waves[0] == 0 and len(waves) >= 4

@@ -1,4 +1,4 @@
-"""The table of calibrated readings and what is concluded from it; a sample of the table of this package runs again."""
+"""The calibration table and the conclusions drawn from it; a sample of this package's table is recomputed."""
 
 import math
 from dataclasses import replace
@@ -17,11 +17,11 @@ from neorl.evidence.calibration_targets import CLAIMS, GROUPS, TARGETS, Measure
 from neorl.evidence.priors import WITHIN
 from neorl.evidence.reading import Reading
 
-SAMPLE = 3  # rows of the table that run again in its cheapest group
+SAMPLE = 3  # rows of the table that are recomputed, in the cheapest group
 
 
 def statistics(holding, names=tuple(TARGETS)):
-    """Made-up statistics of targets under which the claims given hold and no others."""
+    """Made-up statistics of targets under which only the given claims hold."""
     found = {}
     for name in names:
         target = TARGETS[name]
@@ -34,7 +34,7 @@ def statistics(holding, names=tuple(TARGETS)):
 
 
 def rows(*claims, points=64):
-    """A complete row for each set of claims, of readings of a design."""
+    """A complete row for each set of claims that hold, with the readings of a design."""
     return [Row(0, i, 2, 3_000, reading, statistics(holding))
             for i, (reading, holding) in enumerate(zip(design(points), claims))]
 
@@ -123,7 +123,7 @@ def test_claims_that_exclude_each_other_are_found():
     at = CLAIMS.index
     assert found.both[at("A6"), at("A7")] == 12 and found.rows[at("A6"), at("A7")] == 32
     assert found.both[at("A6"), at("B1")] == 0 and found.expected[at("A6"), at("B1")] == pytest.approx(4.5)
-    assert found.never == [("A6", "B1")]  # B3 is too rare to say
+    assert found.never == [("A6", "B1")]  # B3 holds too rarely to count
     assert found.unseen[0] == ("A6", "B1", pytest.approx(4.5)) and ("A6", "B3") in [pair[:2] for pair in found.unseen]
     assert found.sets == [(("A6", "A7"), 12), (("A7", "B1"), 12), (("B3",), 2)]
     assert found.both[at("C4"), at("C4")] == 32 and found.rows[at("C4"), at("C4")] == 64
@@ -201,4 +201,4 @@ def test_predicted_figures_carry_the_numbers_of_the_thesis(cache_folder):
         draw(lives)
     words = [text.get_text() for number in plt.get_fignums() for text in plt.figure(number).axes[0].texts]
     assert {"0.29", "0.55", "3.5 × N7", "1.5 × C", "N50", "sum", "both", "D"} <= set(words)
-    assert "160 min" not in words  # these lives take ten
+    assert "160 min" not in words  # these runs last ten minutes

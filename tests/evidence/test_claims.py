@@ -1,4 +1,4 @@
-"""The rules of the verdicts, on results made up so that the answer is known."""
+"""The rules that judge claims, on made-up results with a known answer."""
 
 import re
 from dataclasses import replace
@@ -16,7 +16,7 @@ EIGHT = WaterWorld(win_reward=5.0)
 
 
 def lives(curve, runs=20, noise=0.02, world=EIGHT, steps=10_000):
-    """A result whose runs earn what a curve (bins,) says, in reward per second, with a little noise a run."""
+    """A result whose runs follow a curve (bins,) of reward per second, each offset by a little noise."""
     bins = len(curve)
     each = np.random.default_rng(0).normal(0, noise, (runs, 1))
     rewards = ((curve + each) * 0.2).astype(np.float32)
@@ -24,19 +24,19 @@ def lives(curve, runs=20, noise=0.02, world=EIGHT, steps=10_000):
 
 
 def made_up(early, final=None, runs=20, learned_by=0.1):
-    """Runs that earn `early` in the first tenth or up to another share, and `final` after it."""
+    """Runs that earn `early` up to the share `learned_by` of the run, and `final` after it."""
     at = np.arange(1_000) / 1_000
     return lives(np.where(at < learned_by, early, early if final is None else final), runs)
 
 
 def rising(early, final, runs=20, until=1.0):
-    """Runs that earn `early` in the first tenth and then rise evenly to `final`, which they earn from a share on."""
+    """Runs that earn `early` in the first tenth, then rise linearly to `final`, reached at the share `until`."""
     at = np.arange(1_000) / 1_000
     return lives(early + (final - early) * np.clip((at - 0.1) / (until - 0.1), 0, 1), runs)
 
 
 def brownian(score=0.0, boards=0, runs=20):
-    """Brownian motion that resets the board so often in 150,000 steps, of which it lives a fifteenth."""
+    """Brownian motion that resets the board `boards` times per 150,000 steps, in runs of a fifteenth of that."""
     result = lives(np.full(1_000, score), runs, noise=0.001)
     hits = result.hits.copy()
     hits[:, 0, 0] = np.rint(result.totals) - 5 * np.round(boards / 15)
@@ -63,7 +63,7 @@ def test_results_like_the_papers_are_judged_reproduced():
 
 
 @pytest.mark.parametrize("name, change, expected", [
-    ("A1", lambda single, control, *rest: (single, brownian(boards=15), *rest), "partly"),  # a reset a run
+    ("A1", lambda single, control, *rest: (single, brownian(boards=15), *rest), "partly"),  # one reset per run
     ("A1", lambda single, control, *rest: (single, brownian(0.2), *rest), "partly"),
     ("A1", lambda single, control, *rest: (single, brownian(0.2, 15), *rest), "not reproduced"),
     ("A2", lambda single, *rest: ({**single, 90: made_up(-0.1)}, *rest), "partly"),
@@ -79,7 +79,7 @@ def test_results_like_the_papers_are_judged_reproduced():
     ("A5", lambda single, *rest: ({**single, 70: made_up(0.1)}, *rest), "not reproduced"),
     ("A6", lambda *given: (*given[:3], made_up(0.0, 0.7, learned_by=0.5)), "partly"),  # higher, and later
     ("A6", lambda *given: (*given[:3], made_up(0.3)), "partly"),  # sooner, and lower
-    ("A6", lambda *given: (*given[:3], made_up(0.0, 0.45, learned_by=0.5)), "not reproduced"),  # beats the best alone
+    ("A6", lambda *given: (*given[:3], made_up(0.0, 0.45, learned_by=0.5)), "not reproduced"),  # beats only the best
     ("A7", lambda *given: (*given[:3], made_up(0.2, 0.4)), "partly"),  # twice
     ("A7", lambda *given: (*given[:3], made_up(0.2, 1.4)), "partly"),  # 7 times
     ("A7", lambda *given: (*given[:3], made_up(0.0, 0.7, learned_by=0.5)), "partly"),  # later
@@ -103,7 +103,7 @@ def test_what_earns_no_more_than_brownian_motion_has_learned_nothing():
     control = brownian(0.75)
     found = verdicts(single, control, layers, together)
     assert found["A6"] == found["A7"] == "not testable"
-    assert found["A2"] == "partly"  # N50 and N70 are above it
+    assert found["A2"] == "partly"  # N50 and N70 exceed the control
 
 
 def test_resets_are_counted_in_as_many_steps_as_the_papers_runs_have():
@@ -114,14 +114,14 @@ def test_resets_are_counted_in_as_many_steps_as_the_papers_runs_have():
 
 
 def paper_b(runs=20):
-    """A tenth of the run is 20 minutes."""
+    """Results like those of paper B; a tenth of each run is 20 minutes."""
     place = {2: climbing(0.1, 180, runs), 13: climbing(0.2, 180, runs), "all": climbing(0.29, 180, runs)}
     objects = {2: climbing(0.1, 100, runs), 13: climbing(0.2, 100, runs), "all": climbing(0.3, 100, runs)}
     return place, objects, climbing(0.56, 10, runs)
 
 
 def climbing(final, minutes, runs=20):
-    """A result of 200 simulated minutes whose runs climb to `final` a second in so many of them."""
+    """A result of 200 simulated minutes whose runs climb to `final` per second within `minutes`."""
     bins = 60_000
     rate = np.minimum(np.arange(bins) / 300 / minutes, 1) * final
     noise = np.random.default_rng(0).uniform(0.95, 1.05, (runs, 1))
@@ -148,7 +148,7 @@ def test_results_like_those_of_papers_b_and_c_are_judged_reproduced():
 
 @pytest.mark.parametrize("name, change, expected", [
     ("B1", lambda pc, ovc, both: ({**pc, "all": climbing(0.3, 60)}, {**ovc, "all": climbing(0.3, 200)}, both),
-     "partly"),  # as high finally, and less in all
+     "partly"),  # as high at the end, less in total
     ("B1", lambda pc, ovc, both: (pc, {**ovc, "all": climbing(0.6, 100)}, both), "partly"),  # better than comparable
     ("B1", lambda pc, ovc, both: (pc, {**ovc, "all": climbing(0.18, 180)}, both), "not reproduced"),  # two thirds
     ("B1", lambda pc, ovc, both: (pc, {**ovc, "all": climbing(-0.1, 100)}, both), "not reproduced"),  # learned nothing
@@ -227,7 +227,7 @@ def test_an_alternative_that_earns_as_much_within_the_noise_leaves_room_for_the_
 
 
 def playing(boards, brought, runs=20):
-    """Runs on a board where the last green creep is worth 1, with so many resets and so many points for each."""
+    """Runs where the last green creep earns 1 more, with `boards` or one more resets, and `brought` points for each."""
     result = replace(lives(np.zeros(1_000), runs), world=WaterWorld(win_reward=1.0))
     each = boards + np.arange(runs) % 2
     hits, rewards = result.hits.copy(), np.zeros_like(result.rewards)
@@ -246,7 +246,7 @@ def test_points_are_counted_from_one_reset_to_the_next(boards, brought, expected
 
 
 def at_half_time(before, after, final, runs=20):
-    """Runs that earn so much in each half, and from the last fifth on."""
+    """Runs that earn `before` in the first half, then `after`, and `final` in the last fifth."""
     at = np.arange(1_000) / 1_000
     return lives(np.select([at < 0.5, at < 0.8], [before, after], final), runs)
 
@@ -254,14 +254,14 @@ def at_half_time(before, after, final, runs=20):
 @pytest.mark.parametrize("joined, expected", [
     (at_half_time(0.5, 0.5, 0.8), "reproduced"), (at_half_time(0.5, 0.3, 0.8), "partly"),
     (at_half_time(0.5, 0.5, 0.5), "partly"), (at_half_time(0.5, 0.3, 0.4), "not reproduced")])
-def test_what_joins_is_judged_by_what_it_brings_and_by_what_it_costs(joined, expected):
+def test_joining_is_judged_by_what_it_brings_and_by_what_it_costs(joined, expected):
     alone = at_half_time(0.5, 0.5, 0.5)
     assert claims.judge_joining(joined, alone, brownian()).verdict == expected
     assert claims.judge_joining(joined, alone, brownian(0.6)).verdict == "not testable"
 
 
 def taking(before, after, final, runs=20):
-    """Runs that take so many red creeps in each bin before half-time, after it, and in the last fifth."""
+    """Runs that catch `before` red creeps per bin in the first half, then `after`, and `final` in the last fifth."""
     result = made_up(0.1, runs=runs)
     hits = np.zeros((runs, 1_000, 2), np.int16)
     hits[:, :500, 1], hits[:, 500:800, 1], hits[:, 800:, 1] = before, after, final
@@ -284,15 +284,15 @@ def test_a_turn_of_desires_is_judged_by_what_the_same_agents_do_later(revalued, 
     assert claims.judge_changes(revalued, moved).verdict == expected
 
 
-def test_red_creeps_are_counted_a_minute():
+def test_red_creeps_are_counted_per_minute():
     claim = claims.judge_changes(taking(1, 3, 4))
     assert claim.here == pytest.approx((0.75, 0.75, 0.75))
-    assert "300.00 [300.00, 300.00] before the turn, 900.00" in claim.detail  # one more in each 0.2 s
+    assert "300.00 [300.00, 300.00] before the turn, 900.00" in claim.detail  # 1 and 3 per bin of 0.2 s
 
 
 @pytest.mark.parametrize("together, expected", [(7.0, "reproduced"), (8.5, "not reproduced")])
 def test_the_cost_of_maps_is_judged_by_the_sum_of_what_each_costs(together, expected):
-    alone = [np.full(10, 3.0), np.full(10, 5.0)]  # of which 1 is the world's
+    alone = [np.full(10, 3.0), np.full(10, 5.0)]  # 1 of each is the world's
     claim = claims.judge_cost(np.full(10, together), alone, np.full(10, 1.0))
     assert (claim.verdict, claim.here.value) == (expected, pytest.approx((together - 1) / 6))
     assert claims.judge_cost(np.full(9, 7.0), alone, np.full(10, 1.0)).verdict == "no verdict"
@@ -306,7 +306,7 @@ def test_real_time_is_judged_by_the_share_of_a_core_and_by_the_latest_step(load,
     delay[3, 4] = latest
     claim = claims.judge_real_time(np.full(12, load), delay)
     assert (claim.verdict, claim.here.value) == (expected, pytest.approx(load))
-    assert claim.undecided == (expected == "partly")  # the machine may have been busy with something else
+    assert claim.undecided == (expected == "partly")  # the machine may have been busy otherwise
     assert f"Of 360 steps, {int(latest > 1)} were not done" in claim.detail
     assert claims.judge_real_time(np.full(9, load), delay[:9]).verdict == "no verdict"
 
@@ -345,7 +345,7 @@ def test_the_time_scale_is_judged_by_the_stay_in_a_cell(stays, expected):
 
 
 @pytest.mark.parametrize("runs", [1, 2, 9])
-def test_a_look_gives_no_verdicts(runs):
+def test_fewer_than_ten_runs_give_no_verdicts(runs):
     assert set(verdicts(*paper_a(runs)).values()) == {"no verdict"}
     judged = paper_b_judged(*paper_b(runs)) + claims.judge_networks(*paper_c(runs), brownian())
     assert {claim.verdict for claim in judged} == {"no verdict"}
@@ -367,7 +367,7 @@ def test_a_claim_is_undecided_while_its_intervals_leave_room_for_it(name, change
 
 
 def test_room_for_a_claim_is_no_part_of_it():
-    """Wide intervals about nothing: every claim that compares would be possible, and none is reproduced in part."""
+    """With wide intervals around zero, claims that compare stay open, and none counts as partly reproduced."""
     def alike():
         return lives(np.full(1_000, 0.3), noise=0.3)
     judged = claims.judge_single_layer(dict.fromkeys((10, 30, 50, 70, 90), alike()), brownian())
@@ -384,7 +384,7 @@ def test_a_few_runs_have_an_outcome_but_no_verdict():
 
 
 @pytest.mark.filterwarnings("error")
-def test_agents_that_have_earned_nothing_are_no_reason_to_divide_by_zero():
+def test_agents_that_earn_nothing_cause_no_division_by_zero():
     nothing = brownian(runs=4)
     judged = claims.judge_single_layer(dict.fromkeys((10, 30, 50, 70, 90), nothing), nothing)
     judged += claims.judge_multiple_layers(dict.fromkeys((3, 7, 23), nothing), nothing, nothing)
@@ -437,7 +437,7 @@ def test_tables_are_judged_by_the_powers_by_which_they_grow(value_power, entry_p
 
 
 def in_the_maze(day_12, later, runs=20, never=14.0):
-    """Errors of the three groups, those fed throughout making 2 a day from day 12 on, with a little noise."""
+    """Errors of the three groups, with a little noise; rats fed throughout make 2 per day from day 12 on."""
     noise = np.random.default_rng(0).normal(0, 0.1, (3, runs, 17))
     means = {"throughout": [14.0] * 11 + [2.0] * 6, "never": [14.0] * 11 + [never] * 6,
              "delayed": [14.0] * 11 + [day_12] + [later] * 5}

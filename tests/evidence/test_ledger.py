@@ -1,4 +1,4 @@
-"""The page of all claims and the strip that opens the book: every claim once, each with its symbol and its shares."""
+"""The page of claims and the strip on the front page have every claim once, with its symbol and shares."""
 
 import inspect
 import re
@@ -67,7 +67,7 @@ def test_the_book_opens_with_what_holds_or_why_nothing_is_known(record, words):
 
 
 def test_the_style_sheet_names_the_columns_on_a_phone():
-    """Where a row is a card, there is no header above it."""
+    """A row shown as a card has no header above it."""
     labels = re.findall(r'\.claims td:nth-child\((\d)\)::before \{ content: "([^"]+)"; \}', STYLE_SHEET.read_text())
     assert labels == [(str(at), name) for at, name in enumerate(ledger.COLUMNS, 1) if at > 1]
 

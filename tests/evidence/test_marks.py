@@ -1,4 +1,4 @@
-"""Verdicts have a symbol each, and colours that are legible on every ground of the book."""
+"""Each verdict has a symbol, and a colour that is legible on every ground of the book."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""The multiverse: readings, their priors and conditions, and what is counted over them."""
+"""The multiverse: readings, their priors and conditions, and the counts over them."""
 
 from dataclasses import fields, replace
 
@@ -77,7 +77,7 @@ def test_an_agent_that_would_never_move_draws_its_actions_instead():
     assert Reading(when_indifferent="no-op", exploration=0.1).agents["policy"] == Policy(0.1, "no-op")
 
 
-def test_temporal_difference_leaves_the_other_choices_of_learning_no_say():
+def test_temporal_difference_overrides_the_other_choices_of_learning():
     reading = replace(TO_THE_LETTER, credit="step", causes="own")
     assert reading.learning == Learning(reading.learning_rate, reading.discount, update_on="step", terminal=False)
     assert set(AT_EVERY_STEP) < {field.name for field in fields(Reading)} | {"trace"}
@@ -118,14 +118,14 @@ def test_a_reading_names_the_field_that_is_invalid(field):
         Reading(**{field: 1j})
 
 
-def test_papers_b_and_c_live_the_same_time_at_any_rate_and_paper_a_the_same_steps():
+def test_papers_b_and_c_simulate_the_same_time_at_any_rate_and_paper_a_the_same_steps():
     found = conditions(Reading(fps=30), 30_000, 4)
     assert (found["single", 10].steps, found["both"].steps, found["network", "D"].steps) == (30_000, 18_000, 18_000)
     assert (found["pace", "both"].steps, found["pace", "both"].runs) == (288_000, 2)
     assert found["pace", "both"].steps / 30 == 160 * 60
 
 
-def test_brownian_motion_lives_as_long_as_in_paper_a_and_is_shared():
+def test_brownian_motion_runs_as_long_as_in_paper_a_and_is_shared():
     found = conditions(TO_THE_LETTER, 3_000, 4)
     assert (found["brownian", 8].steps, found["brownian", 8].runs) == (150_000, 32)
     assert (found["brownian", 3].steps, found["brownian", 3].world) == (3_000, found["both"].world)
@@ -133,7 +133,7 @@ def test_brownian_motion_lives_as_long_as_in_paper_a_and_is_shared():
     assert all(found[key] == other[key] for key in (("brownian", 8), ("brownian", 3)))
 
 
-def test_what_things_are_makes_no_difference_to_place_cells():
+def test_choices_about_things_make_no_difference_to_place_cells():
     other = replace(TO_THE_LETTER, causes="own", capture="silent", attention="nearest", object_tiled_fraction=0.5)
     found, same = conditions(TO_THE_LETTER, 3_000, 2), conditions(other, 3_000, 2)
     assert all((found[key] == same[key]) == (key[0] in ("brownian", "layer", "single", "place") or key == "layers" or
@@ -204,7 +204,7 @@ def test_a_reading_is_judged_on_all_claims_that_readings_matter_for(results):
     judged = judge(results)
     assert list(judged) == ["A1", "A2", "A3", "A4", "A5", "A6", "A7", "A8", "B1", "B3", "B6", "B2", "B4", "C1", "C2",
                             "C3", "C4", "T1", "T6"]
-    assert judged["B4"].outcome == "not testable"  # in runs of minutes
+    assert judged["B4"].outcome == "not testable"  # runs of minutes are too short
 
 
 @pytest.mark.parametrize("groups, names", [
@@ -229,7 +229,7 @@ def test_claims_are_counted():
 
 @pytest.fixture
 def made_up():
-    """128 readings whose C2 follows from the discount and, less so, from the credit."""
+    """128 readings whose C2 depends on the discount and, to a lesser degree, on the credit."""
     readings = multiverse.design(128)
     values = [WITHIN["discount"].place(reading.discount) + 0.5 * (reading.credit == "activity") for reading in readings]
     return readings, [{"C2": judged(value, "reproduced" if value > 1 else "not reproduced")} for value in values]
@@ -268,7 +268,7 @@ def test_the_choices_that_matter_are_found(made_up):
 
 
 def points(axes, markers=(*OUTCOMES.values(), "^", "v", "x")):
-    """The points of a curve that have one of the markers, from left to right."""
+    """The points of a curve with any of the given markers, from left to right."""
     found = np.concatenate([line.get_xydata() for line in axes.lines
                             if line.get_linestyle() == "None" and line.get_marker() in markers])
     return found[found[:, 0].argsort()]

@@ -1,4 +1,4 @@
-"""The box that opens a page: verdicts with symbols and links, or that there are none."""
+"""The box that opens a page shows verdicts with symbols and links, or says that there are none."""
 
 from neorl.evidence import marks, opening
 

@@ -1,4 +1,4 @@
-"""What the text fixes: every choice has its sentence, and a reading that breaks one is found out."""
+"""Pins: every pinned choice quotes its sentence, and a reading that breaks one is detected."""
 
 from dataclasses import fields, replace
 

@@ -1,4 +1,4 @@
-"""Where constants come from: none is left out, and the values are those of the code."""
+"""The table of constants and their sources: none is missing, and the values are those of the code."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""What was found, as the pages tell it: tables, records on disk, and what is not there."""
+"""Reports of the results: tables, records on disk, and entries that are missing."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""The rules on Kaelbling's properties, on samples made up so that the answer is known."""
+"""The rules on Kaelbling's properties, on made-up samples with a known answer."""
 
 import numpy as np
 import pytest

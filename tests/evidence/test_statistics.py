@@ -1,4 +1,4 @@
-"""Statistics against cases counted by hand and against simulated data."""
+"""Statistics, tested on cases worked out by hand and on simulated data."""
 
 import math
 
@@ -42,7 +42,7 @@ def test_the_interval_of_a_difference_covers_the_truth_as_often_as_it_says():
 
 
 def test_the_interval_of_a_probability_of_improvement_covers_the_truth_as_often_as_it_says():
-    """Normal samples a standard deviation apart: a draw of one beats one of the other with probability Φ(1/√2)."""
+    """For normal samples one standard deviation apart, the probability of improvement is Φ(1/√2)."""
     rng, truth, covered, trials = np.random.default_rng(3), 0.7602, 0, 150
     for _ in range(trials):
         low, high = probability_of_improvement(rng.normal(1, 1, 30), rng.normal(0, 1, 30))[1:]
@@ -59,10 +59,10 @@ def test_a_bootstrap_draws_from_the_generator_that_it_is_given():
 
 
 def test_the_tolerated_share_is_wilks():
-    """The whole range of 59 runs less one at each end, and of 93: cases from tables of Wilks's formula."""
+    """The share between the extremes of 93 and of 46 runs, from tables of Wilks's formula."""
     assert tolerated_share(93) == pytest.approx(0.95, abs=5e-4)  # two-sided 95 % / 95 %
     assert tolerated_share(46) == pytest.approx(0.90, abs=2e-3)
-    n, p = 20, tolerated_share(20)  # fewer than 95 % hold p or more: 1 − n pⁿ⁻¹ + (n − 1) pⁿ = 0.95
+    n, p = 20, tolerated_share(20)  # by Wilks's formula, 1 − n pⁿ⁻¹ + (n − 1) pⁿ = 0.95
     assert 1 - n * p ** (n - 1) + (n - 1) * p**n == pytest.approx(0.95)
     assert tolerated_share(1) == 0.0
 
@@ -111,11 +111,11 @@ def test_an_estimate_is_written_with_its_interval():
 
 
 def test_the_time_to_the_final_level_is_that_of_each_run():
-    """400 bins of 0.2 s, so that the mean is over the 10 bins past: 2 s."""
+    """There are 400 bins of 0.2 s, and the moving mean is over the last 10 bins: 2 s."""
     rewards = np.zeros((4, 400), np.float32)
-    rewards[0] = 1  # from the start: as soon as there is a mean
-    rewards[1, 100:] = 1  # a step after 20 s is there to nine tenths 9 bins later
-    rewards[2] = np.arange(400) / 400  # the last fifth is at 359.5 / 400; nine tenths of it lie 5.5 before bin 330
+    rewards[0] = 1  # there from the start, reached once there is a mean
+    rewards[1, 100:] = 1  # a step after 20 s reaches nine tenths 9 bins later
+    rewards[2] = np.arange(400) / 400  # final level 359.5 / 400; the mean of bins 320 to 329 reaches nine tenths of it
     rewards[3] = -1  # never
     result = Result(place_cells([1]), WaterWorld(), 4_000, 4, 0, rewards, np.zeros((4, 400, 2), np.int16))
     np.testing.assert_allclose(time_to_final_level(result), [2.0, 21.8, 66.0, 80.0])
@@ -124,7 +124,7 @@ def test_the_time_to_the_final_level_is_that_of_each_run():
 
 
 def steps_up(bins, at, runs=10, height=1.0, before=0.0):
-    """Runs of 80 s that earn `before`, and `height` a second from a bin on."""
+    """Runs that earn `before` in each bin, and `height` per second from the bin `at` on."""
     rewards = np.full((runs, bins), before, np.float32)
     rewards[:, at:] = height * 0.2
     hits = np.zeros((runs, bins, 2), np.int16)
@@ -135,7 +135,7 @@ def test_a_lead_in_time_is_that_of_the_mean_over_runs():
     early, late = steps_up(400, 100), steps_up(400, 250)
     assert minutes_sooner(early, late, 0.5) == pytest.approx([0.5] * 3)  # 150 bins of 0.2 s
     assert minutes_sooner(late, early, 0.5) == pytest.approx([-0.5] * 3)
-    assert minutes_sooner(early, late, 2.0) == (0, 0, 0)  # neither ever
+    assert minutes_sooner(early, late, 2.0) == (0, 0, 0)  # neither reaches it
     assert minutes_sooner(early, steps_up(400, 250, height=0.4), 0.5).value == pytest.approx((80 - 21) / 60, abs=0.01)
     assert np.isnan(minutes_sooner(steps_up(400, 1, runs=1), late, 0.5).low)
 
@@ -143,11 +143,11 @@ def test_a_lead_in_time_is_that_of_the_mean_over_runs():
 def test_a_lead_in_time_over_a_sum_is_that_over_what_the_parts_earn_together():
     whole, parts = steps_up(400, 100), [steps_up(400, 200, height=0.6), steps_up(400, 300, 7, height=0.6)]
     assert minutes_sooner(whole, parts, 0.5).value == pytest.approx(100 * 0.2 / 60, abs=0.02)  # the first is enough
-    assert minutes_sooner(whole, parts, 1.0).value == pytest.approx(200 * 0.2 / 60, abs=0.02)  # it takes both
+    assert minutes_sooner(whole, parts, 1.0).value == pytest.approx(200 * 0.2 / 60, abs=0.02)  # both are needed
 
 
 def test_a_lead_in_time_is_not_made_by_the_noise_of_single_runs():
-    """A run in ten is at a level by itself; the mean over runs comes to it at the time of the step."""
+    """One run in ten reaches the level early; the mean over runs reaches it only at the step."""
     noisy = steps_up(400, 200, runs=100)
     noisy.rewards[::10, 20:40] = 0.2
     assert np.sum(time_to_level(noisy, 0.5) < 10) == 10

@@ -1,4 +1,4 @@
-"""Conditions on disk: found again, keyed by all that determines them, and never half there."""
+"""Conditions on disk: found again, keyed by everything that determines them, and never incomplete."""
 
 import os
 import signal
@@ -21,7 +21,7 @@ pytestmark = pytest.mark.usefixtures("cache_folder")
 
 @pytest.fixture
 def computed(monkeypatch):
-    """Counts how often a condition is computed."""
+    """The calls that compute runs."""
     calls = []
     original = sweeping._live
     monkeypatch.setattr(sweeping, "_live", lambda *args: calls.append(args) or original(*args))
@@ -36,7 +36,7 @@ def test_a_condition_is_computed_once(computed):
     assert (second.agent, second.world, second.steps) == (AGENT, WORLD, 500)
 
 
-def test_the_key_tells_all_that_determines_a_result_apart(monkeypatch):
+def test_the_key_depends_on_everything_that_determines_a_result(monkeypatch):
     condition = Condition(AGENT, WORLD, 500, 2, 0)
     keys = [condition.key]
     keys.append(replace(condition, agent=place_cells([3], learning=Learning(discount=0.81))).key)
@@ -72,7 +72,7 @@ def test_a_damaged_file_is_noticed_and_computed_again(cache_folder, computed, da
 
 
 def test_a_killed_process_leaves_whole_conditions_behind(cache_folder):
-    """Killed at any moment, a process leaves files that the next one can use, and the next one ends the work."""
+    """A process killed at any moment leaves files that the next one uses, and the next one completes the work."""
     work = ("from neorl import *\nfor seed in range(12):\n    simulate_once(place_cells([3]), WaterWorld(), "
             "steps=20_000, runs=2, seed=seed, progress=False)\n")
     process = subprocess.Popen([sys.executable, "-c", work])

@@ -14,7 +14,7 @@ from neorl.experiments.command import main
 CONDITION = Condition(place_cells([3]), WaterWorld(), 600, 2)
 
 
-def test_a_file_is_run_said_in_words_and_saved(cache_folder, tmp_path, capsys):
+def test_a_file_is_run_described_and_saved(cache_folder, tmp_path, capsys):
     CONDITION.save(tmp_path / "experiment.json")
     assert main(["run", str(tmp_path / "experiment.json"), "--save", str(tmp_path / "results.npz")]) == 0
     printed = capsys.readouterr().out.splitlines()
@@ -53,7 +53,7 @@ def test_the_cache_is_listed_and_cleared(tmp_path, capsys, monkeypatch):
 
 @pytest.mark.parametrize("content, message", [
     (None, "nowhere.toml"), ("steps = ", "is not written in TOML"), ("steps = 3", "experiment.toml: agent is missing")])
-def test_what_is_wrong_is_said_in_a_line(tmp_path, capsys, content, message):
+def test_an_error_is_printed_in_one_line(tmp_path, capsys, content, message):
     path = tmp_path / ("experiment.toml" if content else "nowhere.toml")
     if content:
         path.write_text(content)

@@ -1,4 +1,4 @@
-"""The runs on record are the same to the last bit in every way that a run can be lived. `make exact` lives them all."""
+"""The runs on record are bit-identical however they are executed; `make exact` executes all of them in every way."""
 
 import exactness
 import golden
@@ -29,7 +29,7 @@ def test_a_run_is_as_on_record(name):
 
 @pytest.mark.parametrize("way", [way for way in exactness.WAYS if way != "in one go"])
 @pytest.mark.parametrize("name", SPANNING)
-def test_a_run_is_as_on_record_however_it_is_lived(name, way):
+def test_a_run_is_as_on_record_however_it_is_executed(name, way):
     found = exactness.WAYS[way](name, golden.LONG)
     if found is None:
         pytest.skip("does not apply")
@@ -66,7 +66,7 @@ def test_the_bins_of_a_run_among_others_are_those_of_it_alone(name, threads):
 
 @pytest.mark.parametrize("way", exactness.WAYS)
 def test_the_matrix_shows_a_run_that_differs(way, monkeypatch):
-    """A run with another seed is another run."""
+    """A run with another seed differs from the record."""
     monkeypatch.setattr(golden, "SEED", 8)
     name = "place N3"
     assert exactness.sign(name, exactness.WAYS[way](name, golden.SHORT), golden.SHORT) == exactness.FAILS

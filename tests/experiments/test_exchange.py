@@ -1,4 +1,4 @@
-"""Results as data frames, datasets and files: every number where it says that it is, and nothing but whole files."""
+"""Results as data frames, datasets and files: every number under its right label, and only whole files."""
 
 import io
 import json
@@ -17,7 +17,7 @@ ARENA = Arena(places=[("run", 0.3, 0.3), ("time", 0.6, 0.6), ("reward", 0.5, 0.5
 
 
 def made_up(agent, world, steps=503, runs=3, **more):
-    """A result that no run has brought, in which every number is another."""
+    """A made-up result in which every number is different."""
     rewards, hits = new_bins(world, runs, steps)
     rewards.flat = np.arange(rewards.size) / 7
     hits.flat = np.arange(hits.size)
@@ -53,7 +53,7 @@ def test_a_dataset_has_dimensions_coordinates_and_what_determined_it(result):
     assert (dataset.attrs["steps"], dataset.attrs["seed"]) == (503, str(2**70))
     assert Agent.from_dict(json.loads(dataset.attrs["agent"])) == result.agent
     assert World.from_dict(json.loads(dataset.attrs["world"])) == result.world
-    assert all(isinstance(value, str | int) for value in dataset.attrs.values())  # what netCDF can hold
+    assert all(isinstance(value, str | int) for value in dataset.attrs.values())  # types that netCDF can store
 
 
 @pytest.mark.parametrize("result", RESULTS)
@@ -113,7 +113,7 @@ def test_a_truncated_or_foreign_file_is_refused_by_name(saved, damage):
     (lambda about, kept: about.update(steps=600), r"has float32 \(3, 51\) for rewards, allowed is float32 \(3, 60\)"),
     (lambda about, kept: kept["hits"].fill(1), "is damaged"), (lambda about, kept: kept.pop("rewards"), "is damaged"),
 ])
-def test_a_file_of_another_making_is_refused_by_name(saved, forge, message):
+def test_a_forged_file_is_refused_by_name(saved, forge, message):
     rewrite(saved, forge)
     with pytest.raises(ValueError, match=f"{saved}.*{message}"):
         Result.load(saved)
@@ -126,7 +126,7 @@ def test_other_files_are_refused(saved, tmp_path):
         Run.load(saved)
 
 
-def test_an_agent_that_no_name_finds_is_not_saved_but_makes_a_frame(tmp_path):
+def test_an_agent_with_a_local_kernel_is_not_saved_but_makes_a_frame(tmp_path):
     @kernel
     def of_no_module(value, stream):
         return 0

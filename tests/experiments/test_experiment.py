@@ -1,4 +1,4 @@
-"""Experiments as files: a condition or several, and what they may differ in."""
+"""Experiments as files: one condition, or several variations of it."""
 
 import json
 

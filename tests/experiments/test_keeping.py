@@ -1,4 +1,4 @@
-"""What is finished is kept: under kills, interruptions, full disks, folders that refuse, and files of other kinds."""
+"""Finished runs are kept, despite kills, interruptions, full disks, unwritable folders, and foreign files."""
 
 import os
 import signal
@@ -20,13 +20,13 @@ pytestmark = pytest.mark.usefixtures("cache_folder")
 
 @pytest.fixture
 def at_once(monkeypatch):
-    """Runs are written as they come in."""
+    """Write runs as soon as they are finished."""
     monkeypatch.setattr(keeping, "SECONDS", -1)
 
 
 @pytest.fixture
 def lived(monkeypatch):
-    """The numbers of the runs that were lived."""
+    """The numbers of the runs that were computed."""
     runs, original = [], sweeping._live
     monkeypatch.setattr(sweeping, "_live", lambda *task: runs.extend(task[1]) or original(*task))
     return runs
@@ -48,7 +48,7 @@ def kept(cache_folder, folder):
 
 
 def interrupt_after(monkeypatch, count):
-    """Let the user interrupt when so many tasks are finished."""
+    """Simulate Ctrl-C once `count` tasks are finished."""
     original, calls = keeping.Keeper.add, []
 
     def add(keeper, *brought):
@@ -60,7 +60,7 @@ def interrupt_after(monkeypatch, count):
     monkeypatch.setattr(keeping.Keeper, "add", add)
 
 
-def test_the_runs_of_an_interrupted_condition_are_not_lived_again(monkeypatch, cache_folder, lived):
+def test_the_runs_of_an_interrupted_condition_are_not_computed_again(monkeypatch, cache_folder, lived):
     with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
         interrupt_after(patch, 4)
         once(LONG)
@@ -71,11 +71,11 @@ def test_the_runs_of_an_interrupted_condition_are_not_lived_again(monkeypatch, c
     assert kept(cache_folder, "runs") == [] and kept(cache_folder, "conditions") == [LONG.key]
 
 
-def test_runs_are_written_while_others_are_lived(at_once, monkeypatch, cache_folder):
+def test_runs_are_written_while_others_are_computed(at_once, monkeypatch, cache_folder):
     written, original = [], cache.save_runs
     monkeypatch.setattr(cache, "save_runs", lambda *task: written.extend(task[1]) or original(*task))
     assert_whole(once(LONG), LONG)
-    assert len(written) == len(set(written)) == 5  # the sixth makes it whole
+    assert len(written) == len(set(written)) == 5  # the sixth completes the condition
     assert kept(cache_folder, "runs") == []
 
 
@@ -99,7 +99,7 @@ def test_runs_of_a_condition_that_fails_are_kept(monkeypatch, cache_folder):
 
 
 @pytest.mark.parametrize("damage", [lambda content: content[:-1], lambda content: b""])
-def test_damaged_runs_are_lived_again(monkeypatch, cache_folder, lived, damage):
+def test_damaged_runs_are_computed_again(monkeypatch, cache_folder, lived, damage):
     alone = simulate(**LONG.choices, progress=False)
     cache.save_runs(LONG, {k: (alone.rewards[k], alone.hits[k]) for k in (1, 2)})
     cache.save_runs(LONG, {k: (alone.rewards[k], alone.hits[k]) for k in (0, 5)})
@@ -127,7 +127,7 @@ def test_a_whole_file_of_another_kind_is_no_result(lived, content):
     assert cache.load(SHORT) is not None
 
 
-def test_a_field_more_does_no_harm(tmp_path, lived):
+def test_an_additional_field_does_no_harm(tmp_path, lived):
     result = once(SHORT)
     np.savez(tmp_path / "later.npz", rewards=result.rewards, hits=result.hits, title=np.array("later"))
     files.write_checked(SHORT.path, (tmp_path / "later.npz").read_bytes())
@@ -137,7 +137,7 @@ def test_a_field_more_does_no_harm(tmp_path, lived):
 
 
 @pytest.mark.parametrize("options, reason", [("size=8k", "No space left"), ("ro", "Read-only")])
-def test_a_disk_that_takes_nothing_costs_one_warning(at_once, cache_folder, mount, monkeypatch, options, reason):
+def test_a_full_or_read_only_disk_causes_one_warning(at_once, cache_folder, mount, monkeypatch, options, reason):
     compiled, disk = (cache_folder / "compiled").resolve(), mount(cache_folder / "disk", options)
     if options != "ro":
         (disk / "compiled").symlink_to(compiled)
@@ -151,7 +151,7 @@ def test_a_disk_that_takes_nothing_costs_one_warning(at_once, cache_folder, moun
     assert all(files.read_checked(path) is not None for path in disk.rglob("*") if path.is_file())
 
 
-def test_single_runs_that_a_killed_process_left_beside_their_condition_go(cache_folder):
+def test_single_runs_that_a_killed_process_left_beside_their_condition_are_removed(cache_folder):
     result = once(SHORT)
     cache.save_runs(SHORT, {0: (result.rewards[0], result.hits[0])})
     assert len(kept(cache_folder, "runs")) == 1
@@ -159,7 +159,7 @@ def test_single_runs_that_a_killed_process_left_beside_their_condition_go(cache_
     assert kept(cache_folder, "runs") == []
 
 
-def test_a_folder_that_is_none_costs_one_warning(tmp_path, monkeypatch):
+def test_a_cache_folder_that_is_a_file_causes_one_warning(tmp_path, monkeypatch):
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path / "file"))
     with pytest.warns(RuntimeWarning, match="file takes no results") as warned:

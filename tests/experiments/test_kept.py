@@ -1,4 +1,4 @@
-"""What is kept on disk, in words, and its removal: only of what is neorl's, and as asked."""
+"""The cache described in words, and cleared: only files of neorl are removed, and only those asked for."""
 
 import json
 import os
@@ -18,7 +18,7 @@ DIGEST = "0f" * 32
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path, monkeypatch):
-    """An empty folder for all that is kept, compiled kernels too, since they are to be removed."""
+    """An empty cache folder, for compiled kernels too, since the tests remove them."""
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path / "kept"))
     return tmp_path / "kept"
 
@@ -34,7 +34,7 @@ CONDITION = Condition(place_cells([3, 7]), WaterWorld(), 500, 2)
 
 @pytest.fixture
 def full(folder):
-    """A folder with one of each, older and not, and with files of others: {name: path}."""
+    """A cache with a file of each kind, current and older, among foreign files: {name: path}."""
     paths = {"condition": keep(CONDITION), "older condition": folder / "conditions" / DIGEST}
     np.savez(folder / "a.npz", rewards=np.zeros(3))
     (folder / "a.npz").rename(paths["older condition"])
@@ -108,13 +108,13 @@ def of_a_module(count, steps, last, activity):
     ({"world": Arena(radius=0.1)}, " in Arena (radius 0.1), "),
     ({"changes": [(100, place_cells([9]))]}, " in WaterWorld, from step 100 on PC N9, 500 steps"),
 ])
-def test_conditions_are_said_in_words(folder, change, words):
+def test_conditions_are_described_in_words(folder, change, words):
     keep(replace(CONDITION, **change))
     (found,) = kept.kept()
     assert words in kept.in_words(found.about)
 
 
-def test_a_condition_that_no_name_finds_again_is_kept_and_said(folder):
+def test_a_condition_with_a_local_kernel_is_kept_and_described(folder):
     @kernel
     def of_no_module(value, stream):
         return 0
@@ -126,7 +126,7 @@ def test_a_condition_that_no_name_finds_again_is_kept_and_said(folder):
 
 
 @pytest.mark.parametrize("about", ["[]", "{}", json.dumps({"agent": {}, "world": {}, "steps": "x"}), "{"])
-def test_a_note_that_says_nothing_is_no_note(folder, about):
+def test_an_invalid_note_is_ignored(folder, about):
     path = folder / "conditions" / DIGEST
     path.parent.mkdir(parents=True)
     with path.open("wb") as file:

@@ -1,4 +1,4 @@
-"""A run refuses what would end the interpreter or spoil its values, and can be interrupted."""
+"""A run refuses what would crash the interpreter or corrupt its values, and can be interrupted."""
 
 import _thread
 import signal
@@ -23,7 +23,7 @@ def run():
 
 
 @pytest.mark.parametrize("name", ["agent", "world", "parameters", "state", "step"])
-def test_what_a_run_is_made_of_cannot_be_put_in_place_of_another_runs(run, name):
+def test_the_parts_of_a_run_cannot_be_replaced_by_those_of_another(run, name):
     other = Run(multimodal([9, 12]), WaterWorld(n_creeps=9))
     with pytest.raises(AttributeError, match=f"property '{name}' of 'Run' object has no setter"):
         setattr(run, name, getattr(other, name))
@@ -57,7 +57,7 @@ def test_no_array_that_the_kernels_trust_can_be_written_to(run, part):
     assert run.advance(100) == Run(multimodal([3, 4]), TANK, seed=1).advance(100)
 
 
-def test_values_cannot_be_written_behind_the_back_of_what_cells_know(run):
+def test_the_values_of_a_run_are_read_only(run):
     run.advance(1_000)
     with pytest.raises(ValueError, match="read-only"):
         run.q(1)[0, 0, 0] = 1.0
@@ -84,7 +84,7 @@ def test_an_agent_that_does_not_fit_into_memory_is_refused_by_a_run_and_by_a_cha
     run.advance(100)
 
 
-def test_the_cells_that_a_map_gives_are_cells_to_learn_and_to_add_by():
+def test_learn_and_superpose_take_the_cells_of_a_map():
     nres_map = NresMap(4)
     q = np.zeros((16, 4, 16), np.float32)
     cell_tm1, cell_t = nres_map.encode([0.1, 0.1]), nres_map.encode([0.4, 0.1])
@@ -122,7 +122,7 @@ def test_bins_that_the_kernel_cannot_take_are_refused(run, rewards):
 
 @pytest.fixture
 def interruptible():
-    """A process in the background may have been started deaf to Ctrl-C."""
+    """Make Ctrl-C raise KeyboardInterrupt, since a process started in the background may ignore it."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
@@ -130,10 +130,10 @@ def interruptible():
 
 @pytest.mark.usefixtures("interruptible")
 def test_an_interrupted_run_goes_on_where_it_stopped():
-    """Ctrl-C comes at any moment, and is not kept waiting until all steps are done."""
+    """Ctrl-C works at any moment, without waiting until all steps are done."""
     agent = network_d([3, 9])
     interrupted, whole = (Run(agent, TANK, seed=3) for _ in range(2))
-    interrupted.advance(1)  # by which the kernel is compiled
+    interrupted.advance(1)  # compiles the kernel
     threading.Timer(0.4, _thread.interrupt_main).start()
     began = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
@@ -157,7 +157,7 @@ def test_equal_conditions_are_kept_under_one_key():
     assert plain == numpy and plain.key == numpy.key
 
 
-def test_a_number_of_another_type_compiles_nothing_anew():
+def test_a_number_of_another_type_compiles_nothing_again():
     Run(place_cells([3]), TANK).advance(1)
     rule = Learning(np.float32(0.5), trace=np.int32(1), memory=np.float64(2.0), bootstrap=np.bool_(True))
     agent, world = place_cells([3], learning=rule), WaterWorld(np.int16(250), win_reward=np.int64(1))

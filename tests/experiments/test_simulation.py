@@ -1,4 +1,4 @@
-"""Runs: equal to a slow second telling of the rules, and the same after what must not change them."""
+"""Runs equal a slow second implementation of the rules, and stay the same after what must not change them."""
 
 import itertools
 from dataclasses import replace
@@ -70,14 +70,14 @@ READINGS = {
 
 
 class Track:
-    """One point that a map follows."""
+    """A point that a map follows."""
 
     def __init__(self, cell):
         self.cell, self.events, self.trace, self.memory = cell, [], [], {}
 
 
 def told_again(agent, world, steps, seed, run):
-    """A run by the public functions alone, in plain Python: (rewards, q of each map)."""
+    """A run in plain Python, by public functions alone: (rewards, q of each map)."""
     sequence = np.random.SeedSequence(seed).spawn(run + 1)[run]
     stream = new_stream(sequence.spawn(1)[0])
     state = world.reset(sequence)
@@ -138,7 +138,7 @@ def fresh_tracks(agent, world, state):
 
 
 def attended_told_again(rule, scene):
-    """Which thing is to be learned about, None for each."""
+    """The thing to learn about, or None for every thing."""
     if rule.attention == "each":
         return None
     distances = ((scene.things - scene.position) ** 2).sum(axis=1)
@@ -150,14 +150,14 @@ def has_direction(modality):
 
 
 def without_direction(modality, world, scene, point):
-    """Whether what has no direction, because it is at rest or at distance 0, is to be given one."""
+    """Whether a point lacks the direction that its modality needs, because it is at rest or at distance 0."""
     if modality.follows == "velocity":
         return has_direction(modality) and not scene.velocity.any()
     return has_direction(modality) and modality.coordinates(scene, world.size)[point, 0] == 0
 
 
 def meeting(nres_map, cell):
-    """The cell at distance 0, in the direction of the cell before."""
+    """The cell at distance 0, in the direction of the previous cell."""
     if nres_map.modality.names == ("direction",):
         return cell
     if has_direction(nres_map.modality):
@@ -166,7 +166,7 @@ def meeting(nres_map, cell):
 
 
 def values_told_again(agent, world, state, q, tracks, pull, worth):
-    """The value of each action; `pull` and `worth` of each desire are those of the step before, and become today's."""
+    """The value of each action; `pull` and `worth` of each desire enter from the previous step and are updated."""
     owner = [node.name for node in agent.nodes for _ in node.resolutions]
     here, creeps = state.scene.position / world.width, state.scene.things / world.width
     nodes, value = {node.name: node for node in agent.nodes}, np.zeros(4)
@@ -202,7 +202,7 @@ def values_told_again(agent, world, state, q, tracks, pull, worth):
 
 
 def elements_told_again(agent, desire, here, creeps, green, pull, worth):
-    """What a desire makes elements of: [(place as seen from the agent, or point of the node's space, valence), …]."""
+    """The elements of a desire: [(place relative to the agent, or point of the node's space, valence), …]."""
     if isinstance(desire.source, tuple):
         return [(desire.source, desire.valence)]
     if isinstance(desire.source, Place):
@@ -270,7 +270,7 @@ def sunk_told_again(old, rate, target, away, highest):
 
 
 def fade_told_again(rule, world, track):
-    """`track.memory` is {cell: [strength, [weights, worths] of what happened and what was absent]}."""
+    """Decay `track.memory`, {cell: [strength, [weights, worths] of events that occurred and that were absent]}."""
     constant = rule.memory * (world.fps if rule.memory_unit == "seconds" else 1)
     once = factor = np.float32(constant / (1 + constant))
     for _ in range(len(track.events) - 1 if rule.memory_unit == "seconds" else 0):
@@ -297,7 +297,7 @@ def remember_told_again(table, track, goal, away):
 
 
 @pytest.mark.parametrize("name", READINGS)
-def test_a_run_equals_the_rules_told_again_in_plain_python(name):
+def test_a_run_equals_the_rules_in_plain_python(name):
     agent, world, steps = READINGS[name], WaterWorld(width=100, n_creeps=2, win_reward=5.0), 1_500
     run = Run(agent, world, seed=3, run=2)
     brought = run.advance(steps)
@@ -407,7 +407,7 @@ def test_an_agent_learns_to_keep_a_speed():
     assert np.median(speeds[1.9]) > 1.2 * np.median(speeds[0.1])
 
 
-def test_runs_write_to_no_common_cache_line():
+def test_runs_share_no_cache_line():
     runs = [Run(place_cells([3]), TANK, run=run) for run in range(20)]
     written = [(array.ctypes.data, array.ctypes.data + array.nbytes, run) for run in runs
                for array in (*arrays(run._state).values(), *arrays(run.world_state).values())
@@ -454,7 +454,7 @@ def test_an_agent_whose_values_overflow_still_chooses():
 
 
 def test_learning_pays():
-    """N7 after an hour beats Brownian motion clearly, which is claim A2 in small."""
+    """N7 clearly beats Brownian motion within 20 simulated minutes: claim A2 in miniature."""
     learner, control = (simulate(agent, TANK, steps=60_000, runs=4, progress=False).rate(0.5).mean()
                         for agent in (place_cells([7], **learning()), neorl.brownian()))
     assert learner > control + 0.2
@@ -505,7 +505,7 @@ def test_recursion_takes_vectors_and_valences_of_the_step_before():
     run.advance(2_000)
     while not run.state.desires.q[2:].any(axis=1).all():
         run.advance(1)
-    run._state.desires.valence[2:] *= -1  # what was wanted a step ago had the other sign
+    run._state.desires.valence[2:] *= -1  # as if the valences of the previous step had the opposite sign
     pull, worth = run.state.desires.q[2:].copy(), run.state.desires.valence[2:].copy()
     run.advance(1)
     expected = 2.0 * np.where(worth > 0, 1.0, -1.0) @ as_vectors(pull)
@@ -515,7 +515,7 @@ def test_recursion_takes_vectors_and_valences_of_the_step_before():
 
 @pytest.mark.parametrize("agent", [multimodal([3, 12]),
                                    place_cells([14], learning=plain_rule(trace=5, absent_decay=0.2))])
-def test_a_run_in_the_room_of_another_begins_with_nothing_and_is_the_same(agent):
+def test_a_run_in_the_memory_of_another_begins_with_nothing_and_is_the_same(agent):
     before = Run(agent, WaterWorld(), seed=0, run=3)
     before.advance(20_000)
     room = before.state.values.q
@@ -525,7 +525,7 @@ def test_a_run_in_the_room_of_another_begins_with_nothing_and_is_the_same(agent)
     assert_equal(after, fresh)
 
 
-def test_a_run_takes_over_the_room_of_a_larger_agent_and_is_the_same():
+def test_a_run_takes_over_the_memory_of_a_larger_agent_and_is_the_same():
     before = Run(multimodal([3, 14]), WaterWorld())
     before.advance(5_000)
     smaller = place_cells([13], learning=plain_rule(trace=5))
@@ -535,7 +535,7 @@ def test_a_run_takes_over_the_room_of_a_larger_agent_and_is_the_same():
     assert_equal(after, fresh)
 
 
-def test_a_run_after_that_of_a_smaller_agent_has_room_of_its_own():
+def test_a_run_after_that_of_a_smaller_agent_has_memory_of_its_own():
     before = Run(place_cells([13]), WaterWorld())
     before.advance(5_000)
     knew = before.state.values.q.copy()

@@ -1,4 +1,4 @@
-"""Sweeps: the same results on threads, on processes and on a cluster, with workers that fail, die and come too late."""
+"""Sweeps give the same results on threads, processes and a cluster, with workers that fail, die or hang."""
 
 import importlib.util
 import os
@@ -49,7 +49,7 @@ def assert_the_same(results, conditions=CONDITIONS):
     assert any(result.rewards.any() for result in results)
 
 
-def test_a_sweep_brings_what_its_conditions_bring_alone_and_in_order(lived):
+def test_a_sweep_returns_the_results_of_its_conditions_alone_and_in_order(lived):
     assert_the_same(sweep(CONDITIONS, progress=False))
     assert sorted(map(repr, lived)) == sorted(repr((each, [0, 1])) for each in CONDITIONS)
 
@@ -60,7 +60,7 @@ def test_what_is_on_disk_or_asked_for_twice_is_computed_once(lived):
     assert len(lived) == len(CONDITIONS)
 
 
-def test_nothing_is_a_sweep():
+def test_a_sweep_may_be_empty():
     assert list(sweep([], progress=False)) == []
 
 
@@ -77,7 +77,7 @@ def test_what_is_no_list_of_conditions_is_refused(conditions, message):
 
 
 def fails(monkeypatch, fails_now):
-    """Let a task fail when its work is done, if `fails_now(condition, runs)`."""
+    """Make a task fail after its work is done, if `fails_now(condition, runs)`."""
     original = sweeping._live
 
     def live(condition, runs, *others):
@@ -96,7 +96,7 @@ def test_a_condition_that_fails_is_run_again_after_the_others(lived, monkeypatch
     assert lived[-1][0] == CONDITIONS[1] and len(lived) == len(CONDITIONS) + 2
 
 
-def test_a_condition_that_fails_always_is_told_after_the_others_are_kept(monkeypatch):
+def test_a_condition_that_always_fails_is_reported_after_the_others_are_kept(monkeypatch):
     fails(monkeypatch, lambda condition, runs: condition.seed == 1)
     with pytest.raises(RuntimeError, match="2 of 5 conditions have failed 3 times, such as Condition.*MemoryError"):
         sweep(CONDITIONS, progress=False)
@@ -125,11 +125,11 @@ def test_an_interrupted_sweep_keeps_what_is_finished_and_gives_up_the_rest(monke
     with pytest.raises(KeyboardInterrupt):
         sweep(CONDITIONS, progress=False)
     assert cache.load(finished[0]) is not None and len(list((cache_folder / "conditions").iterdir())) == 1
-    assert len(list((cache_folder / "runs").iterdir())) == 1  # those of the second, whose result was not written
+    assert len(list((cache_folder / "runs").iterdir())) == 1  # the runs of the second, whose result was not written
 
 
 class Hung:
-    """An executor whose workers never come back."""
+    """An executor whose workers never finish."""
 
     def __init__(self):
         self.futures = []
@@ -152,7 +152,7 @@ def test_a_sweep_that_waits_for_a_worker_that_hangs_can_be_interrupted_and_says_
     assert all(future.cancelled() for future in executor.futures)
 
 
-def test_progress_tells_the_time_that_is_left(capsys):
+def test_progress_is_shown_for_the_sweep_or_its_only_condition(capsys):
     sweep(CONDITIONS[:2])
     sweep(CONDITIONS[2:3])
     printed = capsys.readouterr().err
@@ -161,7 +161,7 @@ def test_progress_tells_the_time_that_is_left(capsys):
 
 @pytest.mark.parametrize("executor", [None, ThreadPoolExecutor(2)])
 def test_the_bar_moves_by_runs_and_ends_at_their_number(monkeypatch, executor):
-    """One condition of many runs is split over all workers."""
+    """One condition with many runs is split over all workers."""
     moves, original = [], tqdm.update
     monkeypatch.setattr(tqdm, "update", lambda bar, steps: moves.append(steps) or original(bar, steps))
     condition = Condition(place_cells([3]), WORLD, sweeping.TASK_STEPS // 2, 10)
@@ -215,12 +215,12 @@ def test_any_executor_will_do(lived):
     submitted = []
     with Slow(2) as executor:
         assert_the_same(sweep(CONDITIONS, executor, progress=False))
-        assert isinstance(executor.submit(time.sleep, 0), Future)  # it is left open
+        assert isinstance(executor.submit(time.sleep, 0), Future)  # the sweep left it open
     assert len(submitted) == len(CONDITIONS) + 1
 
 
 def test_a_process_pool_that_breaks_is_replaced_by_the_cores_of_this_machine():
-    """A killed worker breaks a pool of processes as a whole: all that it had not finished is lost to it."""
+    """A killed worker breaks the whole process pool, which loses all unfinished tasks."""
     conditions = [Condition(place_cells([3]), WORLD, 3_000_000, 1, seed) for seed in range(4)]
     with ProcessPoolExecutor(2, get_context("spawn")) as pool:
         pool.submit(os.getpid).result()
@@ -242,12 +242,12 @@ def test_a_cluster_of_worker_processes_brings_the_same(cluster, lived):
     with Client(cluster) as client:
         assert_the_same(sweep(CONDITIONS, client.get_executor(), progress=False))
         assert len(client.run(os.getpid)) == 2 and os.getpid() not in client.run(os.getpid).values()
-    assert lived == []  # in this process
+    assert lived == []  # nothing was computed in this process
 
 
 @pytest.mark.filterwarnings("ignore")
-def test_a_killed_worker_of_a_cluster_loses_no_more_than_what_it_was_at(cluster, monkeypatch):
-    """One of two workers is killed as soon as the first condition is kept; the others are lived again or elsewhere."""
+def test_a_killed_worker_of_a_cluster_loses_only_its_current_task(cluster, monkeypatch):
+    """One of two workers is killed as soon as the first condition is cached; unfinished tasks are repeated."""
     conditions = [Condition(place_cells([3]), WORLD, 200_000, 1, seed) for seed in range(20, 28)]
     original, kept_after = cache.save, []
 
@@ -274,7 +274,7 @@ def small(recipe):
 
 @pytest.mark.filterwarnings("ignore")
 def test_the_recipe_for_dask_runs(cluster, monkeypatch):
-    """With a cluster of this machine in place of the queue's."""
+    """A local cluster stands for that of the job queue."""
     asked = {}
 
     def submitted(**job):
