@@ -133,10 +133,10 @@ def judge_persistence(persistent, per_step, brownian):
     share = estimate(_share_of_lead, step, cell, chance)
     lead = estimate(difference, cell, step)
     return judged("T7", share, f"Learning at every step does best with {best}, and leads Brownian motion by "
-                  f"{lead_over_brownian(per_step[best], brownian)}; the lead of learning at changes of cell over it is "
-                  f"{lead}. Learning fails if it gains less than a tenth.", fewest_runs(persistent, *per_step.values()),
-                  reproduced=share.high < FAILS, partly=lead.low > 0, possible=share.low < FAILS,
-                  testable=learned(persistent, brownian))
+                  f"{lead_over_brownian(per_step[best], brownian)}; the lead of learning at changes of cell over "
+                  f"learning at every step is {lead}. Learning fails if it gains less than a tenth.",
+                  fewest_runs(persistent, *per_step.values()), reproduced=share.high < FAILS, partly=lead.low > 0,
+                  possible=share.low < FAILS, testable=learned(persistent, brownian))
 
 
 def judge_time_scale(resolutions, stays):

@@ -84,9 +84,9 @@ def describe_settings(rows, judged, worth):
             if reproduced else "")
     return (f"On days 12 to 17, the errors of the neoRL animals fed late, less those of the group fed throughout, lie "
             f"between {span} per day; never being fed costs {worth:.1f} errors per day. In {level} of {len(rows)} "
-            f"settings the interval contains 0. The verdict on H1 also requires that day 12 alone shows them level, which "
-            f"takes many animals. It is {_by_verdict(judged)}{luck}. After one meal each, the neoRL animals fed late "
-            f"are ahead in {sum(each.high < 0 for each in one_meal)} settings. Other learners are ahead in "
+            f"settings the interval contains 0. The verdict on H1 also requires that day 12 alone shows them level, "
+            f"which takes many animals. It is {_by_verdict(judged)}{luck}. After one meal each, the neoRL animals fed "
+            f"late are ahead in {sum(each.high < 0 for each in one_meal)} settings. Other learners are ahead in "
             + (f"these cases: {' and '.join(rivals)}." if rivals else "none."))
 
 
