@@ -85,7 +85,7 @@ def judge_real_time(load, delay):
     load: (windows,). delay: (windows, steps), the time from when a step was due until it was done, in steps.
     """
     share, latest = estimate(np.mean, load), delay.max()
-    return judged("T5", share, f"Of {delay.size} steps, {(delay > 1).sum()} were not done when the next one was due; "
+    return judged("T5", share, f"Of {delay.size} steps, {(delay > 1).sum()} were done after the next one was due; "
                   f"the latest was done {latest:.2f} steps after it was due. The rule allows 2.", len(load),
                   reproduced=share.high < 1 and latest <= 2, partly=share.high < 1, possible=share.low < 1)
 
@@ -133,10 +133,10 @@ def judge_persistence(persistent, per_step, brownian):
     share = estimate(_share_of_lead, step, cell, chance)
     lead = estimate(difference, cell, step)
     return judged("T7", share, f"Learning at every step does best with {best}, and leads Brownian motion by "
-                  f"{lead_over_brownian(per_step[best], brownian)}; agents that learn at changes of cell earn {lead} "
-                  "more. Learning fails if it gains less than a tenth.", fewest_runs(persistent, *per_step.values()),
-                  reproduced=share.high < FAILS, partly=lead.low > 0, possible=share.low < FAILS,
-                  testable=learned(persistent, brownian))
+                  f"{lead_over_brownian(per_step[best], brownian)}; the lead of learning at changes of cell over "
+                  f"learning at every step is {lead}. Learning fails if it gains less than a tenth.",
+                  fewest_runs(persistent, *per_step.values()), reproduced=share.high < FAILS, partly=lead.low > 0,
+                  possible=share.low < FAILS, testable=learned(persistent, brownian))
 
 
 def judge_time_scale(resolutions, stays):

@@ -12,9 +12,9 @@ def test_returns_stand_below_rewards_by_step():
     assert found == "| t | 0 | 1 |\n|---|---|---|\n| Rₜ₊₁ | 0 | 2 |\n| Gₜ, γ = 0.5 | 1.00 | 2.00 |"
 
 
-def test_errors_are_those_at_the_last_checkpoint():
+def test_errors_are_those_at_the_last_checkpoint_in_the_order_of_floors():
     visits = np.array([1, 2])
-    errors = {"α = 1/n": (visits, np.array([[9.0, 0.25]])), "α ≥ 1": (visits, np.array([[9.0, 1.0]]))}
+    errors = {"α ≥ 1": (visits, np.array([[9.0, 1.0]])), "α = 1/n": (visits, np.array([[9.0, 0.25]]))}
     assert decision_report.final_errors(errors).splitlines()[2:] == ["| α = 1/n | 0.25 |", "| α ≥ 1 | 1.00 |"]
 
 
@@ -54,4 +54,4 @@ def test_a_factor_that_is_no_larger_than_the_number_of_cells_takes_the_reason_aw
 def test_sweeps_are_counted_in_all(task):
     found = decision_report.sweeps_in_all(task, 0.9, (1, 50))
     totals = [decision.sweeps_until_stable(*task.expected(), 0.9, sweeps) for sweeps in (1, 50)]
-    assert found == f"{totals[0]} in all with 1 per iteration; {totals[1]} in all with 50 per iteration."
+    assert found == f"{totals[0]} sweeps in all with 1 per iteration; {totals[1]} sweeps in all with 50 per iteration."

@@ -44,12 +44,12 @@ def test_the_places_of_rank_voting_are_told_by_both_counts():
     early = rules(1, 2, 3, 4)
     early["rank voting"][:, 0] = 9
     text = report.places_of_rank_voting({"hall": early})
-    assert "ranks 3 at the end in the hall, 1 over the run in the hall. So the place of rank voting depends" in text
+    assert "is third at the end in the hall, first over the run in the hall. So the place of rank voting" in text
 
 
 def test_rank_voting_may_have_the_same_place_each_time():
     text = report.places_of_rank_voting({"hall": rules(2, 1, 4, 3), "yard": rules(4, 1, 2, 3)})
-    assert "ranks 4 at the end in the hall, 4 over the run in the hall, 4 at the end in the yard, 4 over" in text
+    assert "is last at the end in the hall, last over the run in the hall, last at the end in the yard, last" in text
     assert text.endswith("So rank voting has the same place in both mazes and by both measures.")
 
 
@@ -73,6 +73,7 @@ def test_the_first_and_the_last_are_told_for_each_level_of_greediness():
 
 def test_rank_voting_that_is_last_at_every_level_is_said_to_be_so():
     text = report.order_by_greediness(by_greediness((4, 1, 2, 3), (4, 1, 2, 3), (4, 1, 2, 3)))
+    assert "go to majority voting each time, the last to rank voting each time. Greediness" in text
     assert text.endswith("Still, neither more exploration nor less lifts rank voting from the last place in this maze.")
 
 

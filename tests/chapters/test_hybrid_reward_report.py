@@ -40,13 +40,15 @@ def test_latent_heads_are_better_than_heads_if_the_interval_says_so(latent, told
 def test_the_single_learner_catches_up_where_its_mean_first_reaches_what_heads_make_in_the_end():
     heads = played([9, 9, 4], edges=np.array([0, 20, 30, 50]))
     text = report.catching_up(kinds(played([1, 4, 7]), heads, None))
-    assert text == ("It does catch up: after 200 steps its mean first reaches 4.0, the score of heads after 50 steps.")
+    assert text == ("The single learner does catch up: after 200 steps its mean first reaches 4.0, the score of heads "
+                    "after 50 steps.")
 
 
 def test_the_single_learner_that_does_not_catch_up_is_told_where_it_ends():
     heads = played([0, 0, -1], edges=np.array([0, 20, 30, 50]))
     text = report.catching_up(kinds(played([-4, -3, -2.5]), heads, None))
-    assert text == "In 1,000 steps it does not reach the −1.0 that heads score after 50; it ends at −2.5."
+    assert text == ("In 1,000 steps the single learner does not reach the −1.0 that heads score after 50; it ends at "
+                    "−2.5.")
 
 
 @pytest.mark.parametrize("caught, told", [(6, "The separation thus has a price"), (7, "does not show in this number.")])

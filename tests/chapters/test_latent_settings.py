@@ -27,11 +27,11 @@ def asked(monkeypatch):
 def test_a_setting_changes_one_thing():
     found = settings(Maze("RLL"))
     assert [*found] == ["as above", "α 0.01", "α 1", "γ 0.5", "γ 0.99", "ε 0", "ε 0.3", "λ 0", "λ 0.5", "turns A",
-                        "turns B", "2 places a unit", "3 places a unit"]
+                        "turns B", "2 places per unit", "3 places per unit"]
     assert found["as above"] == ({}, Maze("RLL")) and found["γ 0.99"] == ({"discount": 0.99}, Maze("RLL"))
     changes, (a, b) = zip(*(found[f"turns {name}"] for name in "AB"))
     assert changes == ({}, {}) and a != b and len(a.turns) == len(b.turns) == 14
-    assert found["3 places a unit"] == ({}, Maze(alley=2))
+    assert found["3 places per unit"] == ({}, Maze(alley=2))
 
 
 def test_every_setting_has_all_kinds_of_animal_with_streams_of_its_own(asked):

@@ -49,9 +49,9 @@ def test_the_table_of_findings_has_a_row_for_each_and_a_column_for_each_kind_of_
 
 def test_findings_name_all_who_show_them():
     words = describe_findings(findings_of({"level": ["neoRL", "Sarsa(λ)"], "never": ["Q-learning"]}))
-    assert "right after its first food: neoRL, Sarsa(λ). It is level" in words
-    assert "not by quick learning: none of the three. It overtakes: none of the three. The unrewarded" in words
-    assert words.endswith("improves without food: Q-learning.")
+    assert "right after its first food with neoRL and Sarsa(λ). This" in words
+    assert "not to quick learning, with none of the three. It overtakes with none of the three. The unrewarded" in words
+    assert words.endswith("improves without food with Q-learning.")
 
 
 @pytest.mark.parametrize("fed, said", [(0.5, "draws level and does not overtake: in a maze"),
@@ -72,7 +72,7 @@ def test_settings_are_told_by_their_numbers_and_verdicts():
                                                 ("c", ABOVE, AROUND, ABOVE))}
     judged = {"a": claim("partly"), "b": claim("reproduced"), "c": claim("partly")}
     words = describe_settings(rows, judged, worth=11.25)
-    assert "lie between −2.00 and 2.00 per day; never being fed costs 11.2. In 1 of 3 settings the" in words
+    assert "lie between −2.00 and 2.00 per day; never being fed costs 11.2 errors per day. In 1 of 3 settings" in words
     assert "It is *partly* in 2; *reproduced* in 1 (b). Even between equal groups, about one interval in" in words
     assert words.endswith("are ahead in 2 settings. Other learners are ahead in these cases: Q-learning with b.")
 
@@ -106,4 +106,4 @@ def test_the_box_has_each_learner_and_the_demonstration():
     text = in_short(by_learner, SimpleNamespace(here="−0.13 [−0.29, 0.02]"))
     assert "from 5.0 errors on that day to 1.5 on the next if they learn as the thesis proposes (neoRL)" in text
     assert "from 5.0 to 1.5 with Q-learning and 5.0 to 1.5 with Sarsa(λ)" in text
-    assert "make −0.13 [−0.29, 0.02] errors per day more than animals fed throughout" in text
+    assert "less those of animals fed throughout, are −0.13 [−0.29, 0.02], with" in text

@@ -26,7 +26,8 @@ def test_the_rule_does_better_only_if_it_earns_more_in_the_mean():
 def test_each_life_has_a_line_with_its_minutes():
     leads = {600: Estimate(-0.01, -0.07, 0.05), 60_000: Estimate(0.43, 0.34, 0.52)}
     assert describe_leads(leads, minute=3_000).splitlines() == [
-        "  0.20 minutes lived: −0.01 [−0.07, 0.05] ahead", " 20.00 minutes lived: 0.43 [0.34, 0.52] ahead"]
+        "  0.20 minutes lived: −0.01 [−0.07, 0.05] more per second",
+        " 20.00 minutes lived: 0.43 [0.34, 0.52] more per second"]
 
 
 def test_the_box_and_the_table_have_what_each_earns():

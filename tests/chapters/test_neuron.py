@@ -137,7 +137,7 @@ def test_a_wish_is_drawn_everywhere_but_in_the_marked_places():
     grid = Grid(("F..",))
     q = np.zeros((3, 4))
     q[:, 3] = 1.0  # west
-    psychology_figures.draw_wishes(grid, {"none": 0 * q, "west": q}, {0: "F"})
+    psychology_figures.draw_motives(grid, {"none": 0 * q, "west": q}, {0: "F"})
     none, west = plt.gcf().axes
     arrows = west.collections[-1]
     assert len(none.collections[-1].U) == 0 and arrows.U.tolist() == pytest.approx([-0.38, -0.38])

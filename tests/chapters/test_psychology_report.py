@@ -1,4 +1,4 @@
-"""What is said of cats in boxes, rats at levers and an animal with wishes."""
+"""What is said of cats in boxes, rats at levers and an animal with desires."""
 
 import numpy as np
 import pytest

@@ -37,6 +37,7 @@ def test_walks_are_drawn_in_full_with_their_ends_and_the_goal():
     np.testing.assert_array_equal(np.transpose(left.lines[0].get_data_3d()), paths[0])
     np.testing.assert_array_equal(np.ravel(left.lines[3].get_data_3d()), paths[1, -1])
     np.testing.assert_array_equal(np.ravel(right.lines[-1].get_data_3d()), [9, 0, 0])
+    assert texts(left) == [f"{np.ptp(left.get_xlim()):.0f} steps wide"]
 
 
 def test_displacements_lie_on_what_is_expected():

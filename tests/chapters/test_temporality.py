@@ -169,6 +169,7 @@ def test_the_other_drawings_show_what_they_are_given():
     assert "agent" in [text.get_text() for text in plt.gca().texts]
     decision_figures.draw_alternation([1.0, 0.0625, 0.5], [0.0, 0.2, 0.0])
     np.testing.assert_allclose(plt.gca().lines[0].get_xdata(), [1.0, 0.5, 0.5**0.25])
+    assert {text.get_text(): text.xy[0] for text in plt.gca().texts}["start"] == 1.0
     decision_figures.draw_trend([1970, 1972], [10, 20], [11, 22])
     np.testing.assert_allclose(plt.gca().lines[1].get_ydata(), [11, 22])
     decision_figures.draw_activations(np.array([-1.0, 0, 1]), np.array([0.0, 0, 1]), np.array([0.0, 0, 1]), [0.0, 1.0])

@@ -15,7 +15,7 @@ def test_all_histories_are_met_or_not(last, told):
 
 def test_states_are_told_for_every_second_memory():
     found = report.states_table(np.arange(1, 5), {"sum": [2, 4, 8, 16], "pause": [2, 3, 4, 5]})
-    assert found.splitlines() == ["| Outcome, Ψ = 2 | L = 2 | L = 4 |", "|---|---|---|",
+    assert found.splitlines() == ["| Outcome, Ψ = 2 | L\xa0=\xa02 | L\xa0=\xa04 |", "|---|---|---|",
                                   "| the sum of the last L symbols modulo Ψ | 4 | 16 |",
                                   "| 1 after L symbols of 0 in a row, else 0 | 3 | 5 |", "| *all histories* | 4 | 16 |"]
 

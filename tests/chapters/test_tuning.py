@@ -227,6 +227,15 @@ def test_a_tuning_curve_runs_clockwise_from_east_and_closes():
     assert along.lines[0].get_xdata().tolist() == pytest.approx([0.125, 0.375])
 
 
+def test_tuning_curves_are_named_outside_the_circle_on_opposite_sides():
+    rates = np.array([1.0, 5.0, 1.0, 1.0])
+    tuning_figures.draw_tuning_curves({"tuned": rates, "flat": np.ones(4)}, {"flat": rates}, 0.5)
+    around, _ = plt.gcf().axes
+    tuned, flat = around.texts
+    assert min(tuned.xyann[1], flat.xyann[1]) > around.get_rmax()
+    assert flat.xyann[0] - tuned.xyann[0] == pytest.approx(np.pi)
+
+
 def test_both_frames_meet_in_the_point():
     tuning_figures.draw_frames((2.0, 1.0), 0.3, 3.0, np.pi / 3)
     left, right = plt.gcf().axes

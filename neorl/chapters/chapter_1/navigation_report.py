@@ -46,4 +46,5 @@ def describe_rule(by_rule, veterans):
 
 def describe_leads(leads, minute):
     """The lead of veterans over newborns, one line per length of life: leads {steps: `Estimate`}; minute in steps."""
-    return "\n".join(f"{lessons / minute:6.2f} minutes lived: {lead} ahead" for lessons, lead in leads.items())
+    return "\n".join(f"{lessons / minute:6.2f} minutes lived: {lead} more per second"
+                     for lessons, lead in leads.items())

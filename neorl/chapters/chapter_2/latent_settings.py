@@ -16,7 +16,7 @@ def settings(maze):
     rates = {f"{symbol} {value:g}": ({rate: value}, maze) for rate, (symbol, values) in RATES.items()
              for value in values}
     orders = {f"turns {name}": ({}, random_maze(order)) for order, name in enumerate("AB")}
-    places = {f"{places} places a unit": ({}, Maze(alley=places - 1)) for places in (2, 3)}
+    places = {f"{places} places per unit": ({}, Maze(alley=places - 1)) for places in (2, 3)}
     return {"as above": ({}, maze), **rates, **orders, **places}
 
 

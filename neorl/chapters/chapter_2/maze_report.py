@@ -18,8 +18,8 @@ def in_short(by_learner, claim):
     return (f"In Tolman and Honzik's maze of 1930, rats that first found food on day {FIRST_REWARD} overtook rats fed "
             f"throughout. Simulated animals go from {errors[0]} errors on that day to {errors[1]} on the next if they "
             f"learn as the thesis proposes ({first}), and two standard kinds of learner go from {also}. From then on "
-            f"the {first} animals make {claim.here} errors per day more than animals fed throughout, with the 95 % "
-            "interval in brackets; they overtake if the whole interval lies below 0.")
+            f"the errors per day of the {first} animals, less those of animals fed throughout, are {claim.here}, with "
+            "the 95 % interval in brackets: they overtake if the whole interval lies below 0.")
 
 
 def describe_errors(by_learner):
@@ -46,11 +46,11 @@ def findings_table(found):
 def describe_findings(found):
     """Which kinds of animal show the findings that a map would explain: {learner: {name: `Finding`}}."""
     level, one_meal, below, never = (
-        ", ".join(name for name in found if found[name][key].holds) or "none of the three"
+        " and ".join(name for name in found if found[name][key].holds) or "none of the three"
         for key in ("level", "one meal", "below", "never"))
-    return (f"The delayed group is level with the group fed throughout right after its first food: {level}. It is "
-            f"level by latent learning, not by quick learning: {one_meal}. It overtakes: {below}. The unrewarded group "
-            f"improves without food: {never}.")
+    return (f"The delayed group is level with the group fed throughout right after its first food with {level}. This "
+            f"is due to latent learning, not to quick learning, with {one_meal}. It overtakes with {below}. The "
+            f"unrewarded group improves without food with {never}.")
 
 
 def describe_known(by_learner, units):
@@ -83,10 +83,10 @@ def describe_settings(rows, judged, worth):
     luck = (". Even between equal groups, about one interval in forty lies below 0"
             if reproduced else "")
     return (f"On days 12 to 17, the errors of the neoRL animals fed late, less those of the group fed throughout, lie "
-            f"between {span} per day; never being fed costs {worth:.1f}. In {level} of {len(rows)} settings "
-            f"the interval contains 0. The verdict on H1 also requires that day 12 alone shows them level, which takes "
-            f"many animals. It is {_by_verdict(judged)}{luck}. After one meal each, the neoRL animals "
-            f"fed late are ahead in {sum(each.high < 0 for each in one_meal)} settings. Other learners are ahead in "
+            f"between {span} per day; never being fed costs {worth:.1f} errors per day. In {level} of {len(rows)} "
+            f"settings the interval contains 0. The verdict on H1 also requires that day 12 alone shows them level, "
+            f"which takes many animals. It is {_by_verdict(judged)}{luck}. After one meal each, the neoRL animals fed "
+            f"late are ahead in {sum(each.high < 0 for each in one_meal)} settings. Other learners are ahead in "
             + (f"these cases: {' and '.join(rivals)}." if rivals else "none."))
 
 

@@ -29,7 +29,7 @@ def draw_sessions(curves, phases, ylabel):
             axes.axvline(begin + 0.5, color=INK, linewidth=0.8, linestyle=":")
 
 
-def draw_wishes(grid, values, marks):
+def draw_motives(grid, values, marks):
     """The best actions in a grid under each of several desires, {name: values (states, 4)}.
 
     marks: {state: text}, written in place of an action.

@@ -3,6 +3,7 @@
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.patches import Arc, Rectangle
+from matplotlib.ticker import MaxNLocator
 
 from neorl.chapters.chapter_2.tuning import cartesian, egocentric
 from neorl.drawing.boards import new_boards
@@ -30,8 +31,8 @@ def draw_frames(point, heading, distance, bearing):
     ahead, aside = (np.array([np.sin(heading + turn), np.cos(heading + turn)]) for turn in (0, np.pi / 2))
     for axis, name in ((ahead, "Forward"), (aside, "Starboard")):
         _arrow(left, (0, 0), 0.8 * reach * axis, AGENT)
-        left.text(*(0.82 * reach * axis), name, color=AGENT, ha="left" if axis[0] < 0.9 else "right",
-                  va="bottom" if axis[1] > 0 else "top")
+        left.annotate(name, 0.8 * reach * axis, (0, 3 if axis[1] > 0 else -5), textcoords="offset points",
+                      color=letters(AGENT), ha="center", va="bottom" if axis[1] > 0 else "top")
     for part in (forward * ahead, starboard * aside):
         left.plot(*np.transpose([part, (east, north)]), color=AGENT, linestyle=":", linewidth=1.2)
     left.plot(east, north, marker="o", color=RED)
@@ -101,16 +102,22 @@ def draw_tuning_curves(direction, speed, fastest):
     width, _ = plt.rcParams["figure.figsize"]
     figure = plt.figure(figsize=(width, 1.3 * width))
     around, along = figure.add_subplot(211, projection="polar"), figure.add_subplot(212)
-    for (name, rate), colour in zip(direction.items(), (AGENT, INK)):
+    rim = 1.2 * np.nanmax([*direction.values()])
+    peak = np.nanargmax(next(iter(direction.values())))
+    for number, ((name, rate), colour) in enumerate(zip(direction.items(), (AGENT, INK))):
         angles = 2 * np.pi * (np.arange(len(rate) + 1) + 0.5) / len(rate)
         around.plot(angles, np.append(rate, rate[:1]), color=colour)
-        peak = np.nanargmax(rate)
-        around.annotate(name, (angles[peak], rate[peak]), (10, 8), textcoords="offset points", color=letters(colour))
+        # Names are outside the circle: the first where its curve is highest, the second opposite.
+        at = (peak + number * len(rate) // 2) % len(rate)
+        around.annotate(name, (angles[at], rate[at]), (angles[at], 1.1 * rim), color=letters(colour), va="center",
+                        ha="left" if np.cos(angles[at]) > 0 else "right", annotation_clip=False,
+                        arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.8, "shrinkA": 0, "shrinkB": 0})
     # As on a map: y points south, so that angles run clockwise from east.
     around.set_theta_direction(-1)
     around.set_xticks(np.pi / 2 * np.arange(4), ["E", "S", "W", "N"])
-    around.set_rlabel_position(-100)
-    around.set_rmax(1.2 * np.nanmax([*direction.values()]))
+    around.set_rlabel_position(-58)
+    around.yaxis.set_major_locator(MaxNLocator(3, steps=[1, 2, 5, 10]))
+    around.set_rmax(rim)
     around.grid(color=INK, alpha=0.4)
     around.spines["polar"].set_color(INK)
     ends = []

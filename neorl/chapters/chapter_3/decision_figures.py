@@ -17,6 +17,7 @@ def draw_activations(inputs, step, relu, slope):
     for axes, title, activation in zip(panels, ("a: step", "b: ReLU"), (step, relu)):
         axes.plot(inputs, activation, color=AGENT)
         axes.set(xlabel="weighted input", title=title)
+    panels[0].set_ylabel("output")
     panels[0].plot((inputs[1:] + inputs[:-1]) / 2, slope, color=RED, linestyle="none", marker="o", markersize=4)
 
 
@@ -81,10 +82,11 @@ def draw_alternation(value_errors, policy_losses):
                                        (2, CURVES[5], "after\nimprovement", (8, 2))):
         axes.plot(xs[first::2], ys[first::2], color=colour, linestyle="none", marker="o", markersize=5, clip_on=False)
         axes.annotate(name, (xs[first], ys[first]), color=letters(colour), xytext=shift, textcoords="offset points")
-    shown = [0, 0.001, 0.01, 0.1, 0.5]
+    axes.plot(xs[0], ys[0], color=INK, marker="o", markersize=5, clip_on=False)
+    axes.annotate("start", (xs[0], ys[0]), (8, 0), textcoords="offset points", va="center")
     axes.set(xlabel="values: distance from the policy's own", ylabel="policy: distance from greedy", xlim=(0, None),
              ylim=(0, None))
-    for axis in (axes.xaxis, axes.yaxis):
+    for axis, shown in ((axes.xaxis, [0, 0.01, 0.1, 0.5]), (axes.yaxis, [0, 0.001, 0.01, 0.1, 0.5])):
         axis.set_ticks(np.power(shown, 0.25), map(str, shown))
 
 

@@ -16,9 +16,12 @@ def returns_table(rewards, returns):
 
 
 def final_errors(errors):
-    """The error of each learning rate at the end: {name: (visits (checkpoints,), errors (runs, checkpoints))}."""
+    """The error of each learning rate at the end, in the order of their names, which is that of their floors.
+
+    errors: {name: (visits (checkpoints,), errors (runs, checkpoints))}.
+    """
     return table(("Learning rate", "Largest error at the end"),
-                 [(name, estimate(np.mean, off[:, -1])) for name, (_, off) in errors.items()])
+                 [(name, estimate(np.mean, errors[name][1][:, -1])) for name in sorted(errors)])
 
 
 def model_against_values(made, checkpoints, task):
@@ -59,4 +62,5 @@ def cost_of_a_dimension(covering, learning):
 def sweeps_in_all(task, discount, evaluations):
     """The number of sweeps of policy iteration in all, for each number of sweeps per evaluation."""
     found = (sweeps_until_stable(*task.expected(), discount, sweeps) for sweeps in evaluations)
-    return "; ".join(f"{total} in all with {sweeps} per iteration" for total, sweeps in zip(found, evaluations)) + "."
+    return "; ".join(f"{total} sweeps in all with {sweeps} per iteration"
+                     for total, sweeps in zip(found, evaluations)) + "."

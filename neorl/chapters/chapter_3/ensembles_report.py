@@ -10,6 +10,7 @@ from neorl.chapters.chapter_3.ensembles import LEARNERS, RULES, agreement
 from neorl.chapters.shared.wording import by_interval, number, table
 from neorl.evidence.statistics import difference, estimate
 
+ORDINALS = "first", "second", "third", "last"
 COUNTS = {"at the end": lambda rewards: rewards[:, -1], "over the run": lambda rewards: rewards.mean(axis=1)}
 
 
@@ -33,8 +34,8 @@ def places_of_rank_voting(made):
     verdict = ("So the place of rank voting depends on the task and on the measure, as the footnote "
                "suggests." if len(set(places.values())) > 1 else
                "So rank voting has the same place in both mazes and by both measures.")
-    told = ", ".join(f"{place} {where}" for where, place in places.items())
-    return f"Among the four rules rank voting ranks {told}. {verdict}"
+    told = ", ".join(f"{ORDINALS[place - 1]} {where}" for where, place in places.items())
+    return f"Among the four rules rank voting is {told}. {verdict}"
 
 
 def greediness_table(tempered):
@@ -81,4 +82,4 @@ def _ranked(rewards, choosers, when):
 
 
 def _listed(names):
-    return f"{', '.join(names[:-1])} and {names[-1]}"
+    return f"{names[0]} each time" if len(set(names)) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"

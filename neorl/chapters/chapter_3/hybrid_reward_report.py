@@ -33,10 +33,10 @@ def catching_up(played):
     level, course = heads.final.mean(), one.rewards.mean(axis=0)
     reached = one.edges[1:][course >= level]
     if len(reached):
-        return (f"It does catch up: after {reached[0]:,} steps its mean first reaches {number(level, 1)}, the score "
-                f"of heads after {heads.edges[-1]:,} steps.")
-    return (f"In {one.edges[-1]:,} steps it does not reach the {number(level, 1)} that heads score after "
-            f"{heads.edges[-1]:,}; it ends at {number(course[-1], 1)}.")
+        return (f"The single learner does catch up: after {reached[0]:,} steps its mean first reaches "
+                f"{number(level, 1)}, the score of heads after {heads.edges[-1]:,} steps.")
+    return (f"In {one.edges[-1]:,} steps the single learner does not reach the {number(level, 1)} that heads score "
+            f"after {heads.edges[-1]:,}; it ends at {number(course[-1], 1)}.")
 
 
 def price(played):

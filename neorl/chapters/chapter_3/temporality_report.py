@@ -41,7 +41,7 @@ def judge(paid, memory):
 def states_table(memories, least):
     """The number of states that each rule of two symbols needs, for every second memory: least {rule: [states, …]}."""
     rows = [(RULES[rule], *states[1::2]) for rule, states in least.items()]
-    return table(("Outcome, Ψ = 2", *(f"L = {memory}" for memory in memories[1::2])),
+    return table(("Outcome, Ψ = 2", *(f"L\xa0=\xa0{memory}" for memory in memories[1::2])),
                  [*rows, ("*all histories*", *(2**memory for memory in memories[1::2]))])
 
 

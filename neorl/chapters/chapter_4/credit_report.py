@@ -105,6 +105,6 @@ def bright_light(values):
     for name, each in values.items():
         _, after_10, after_100 = np.mean(lead_of_cause(each)[:, TOLD] > 0, axis=0)
         cause, _, light, _ = by_role(each)[:, -1].mean(axis=0)
-        lines.append(f"{name}: cause first in {after_10:.0%} after 10 visits, {after_100:.0%} after 100; "
-                     f"value of cause and light {np.array([cause, light]).round(2)}")
+        lines.append(f"{name}: cause first in {100 * after_10:.0f} % of runs after 10 visits, {100 * after_100:.0f} % "
+                     f"after 100; value of the cause {cause:.2f}, of the light {light:.2f}")
     return "\n".join(lines)

@@ -10,7 +10,7 @@ from neorl.chapters.chapter_4.potentials import misled
 from neorl.chapters.chapter_4.walks import expected_squared_displacement
 from neorl.chapters.shared.grid_figures import draw_grid, draw_policy, new_grids
 from neorl.drawing.curves import add_estimates
-from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, letters, name_ends
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, UNDER_WHITE, letters, name_ends
 from neorl.evidence.statistics import mean_band
 
 
@@ -23,17 +23,18 @@ def draw_walks(paths_by_title, goal):
         for path, colour in zip(paths, CURVES):
             axes.plot(*path.T, color=colour, linewidth=0.7)
             axes.plot(*path[-1:].T, color=colour, marker="o", markersize=6, zorder=3)
-        axes.plot(0, 0, 0, color=INK, marker="x", markersize=9, markeredgewidth=2.5, zorder=3)
+        axes.plot(0, 0, 0, color=UNDER_WHITE, marker="X", markersize=11, markeredgecolor="white", zorder=4)
         for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
             axis.set_pane_color((0.5, 0.5, 0.5, 0.08))
             axis.line.set_color(INK)
             axis.set_ticks([])
-        axes.set_title(title)
+        axes.set_title(title, pad=10)
         low, high = paths.min(axis=(0, 1)), paths.max(axis=(0, 1))
         middle, reach = (low + high) / 2, (high - low).max() / 2
         axes.set(**dict(zip(("xlim", "ylim", "zlim"), zip(middle - reach, middle + reach))))
         axes.set_box_aspect((1, 1, 1), zoom=1.2)
-    panels[-1].plot(*np.transpose([goal]), color=INK, marker="*", markersize=16, zorder=4)
+        axes.text2D(0.5, -0.1, f"{2 * reach:.0f} steps wide", transform=axes.transAxes, ha="center", va="top")
+    panels[-1].plot(*np.transpose([goal]), color=INK, marker="*", markersize=22, fillstyle="none", zorder=4)
 
 
 def draw_displacements(lags, squared):
@@ -91,7 +92,8 @@ def draw_overlaps(matrices):
     opacity = LinearSegmentedColormap.from_list("", [(*to_rgb(AGENT), 0.0), (*to_rgb(AGENT), 1.0)])
     for axes, (title, matrix) in zip(panels, matrices.items()):
         axes.imshow(matrix, cmap=opacity, vmin=0, vmax=1)
-        axes.set(title=title, xticks=[0, len(matrix) - 1], yticks=[0, len(matrix) - 1])
+        axes.set(title=title, xlabel="cell", xticks=[0, len(matrix) - 1], yticks=[0, len(matrix) - 1])
+    panels[0].set_ylabel("cell")
 
 
 def draw_policies(grid, q_by_title, valences):
@@ -148,9 +150,10 @@ def draw_load(pace, seconds):
     axes.plot((np.arange(len(pace.load)) + 0.5) * seconds, pace.load, color=CURVES[0], marker="o", markersize=5)
     axes.set(xlabel="wall-clock seconds", ylabel="share of a core", yscale="log", ylim=(0.003, 1.5),
              xlim=(0, len(pace.load) * seconds))
-    axes.yaxis.set_major_formatter(PercentFormatter(1.0, decimals=0))
+    axes.yaxis.set_major_formatter(PercentFormatter(1.0, decimals=0, symbol=" %"))
     axes.axhline(1.0, color=INK, linewidth=1, linestyle="--")
-    axes.annotate("one core", (0.01, 0.97), xycoords=("axes fraction", "data"), va="top")
+    axes.annotate("one core", (1, 1), (0, -3), xycoords=("axes fraction", "data"), textcoords="offset points",
+                  ha="right", va="top")
 
 
 def _as_powers(axis):

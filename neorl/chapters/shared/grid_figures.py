@@ -39,4 +39,5 @@ def draw_policy(axes, grid, q, colour=AGENT):
     best = np.isclose(q, q.max(axis=1, keepdims=True), rtol=1e-9, atol=1e-12)
     state, action = np.nonzero(best & ~best.all(axis=1, keepdims=True))
     start, step = grid.places[state], 0.38 * MOVES[action]
-    axes.quiver(*start.T, *step.T, color=colour, angles="xy", scale_units="xy", scale=1, width=0.008, headwidth=4)
+    axes.quiver(*start.T, *step.T, color=colour, angles="xy", scale_units="xy", scale=1, units="xy", width=0.05,
+                headwidth=4.5)
