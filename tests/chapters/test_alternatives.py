@@ -1,4 +1,4 @@
-"""The page on alternatives: its learners, its controllers, its stored tables, and what is said of them."""
+"""The page on alternatives: its learners, controllers, stored tables and sentences."""
 
 import os
 import re
@@ -28,7 +28,7 @@ def stream(number=0):
 
 
 def tank(*creeps, width=250):
-    """A state with the agent in the middle, at rest, and creeps that do not move: (x, y) in widths from it, kind."""
+    """A state with the agent at rest in the middle and motionless creeps: (x, y, kind), in widths from the agent."""
     state = WaterWorld(width=width, n_creeps=len(creeps)).reset(0)
     for thing, (x, y, kind) in enumerate(creeps):
         state.scene.things[thing] = state.scene.position + np.array([x, y]) * width
@@ -43,7 +43,7 @@ def act(contestant, state, memory=None):
 
 
 @pytest.mark.parametrize("name", tabular_learners.TABULAR)
-def test_a_run_is_the_same_among_any_number_and_learns(name):
+def test_a_run_is_the_same_among_any_number_of_runs_and_learns(name):
     contestant = tabular_learners.TABULAR[name](SETTINGS[name])
     three = living.live(contestant, BOARDS[3], steps=150_000, runs=3, bins=3)
     two = living.live(contestant, BOARDS[3], steps=150_000, runs=2, bins=3)
@@ -69,7 +69,7 @@ def test_contestants_live_in_the_worlds_of_runs():
     assert lived.rewards[0, 0] == sum(seen)
 
 
-def test_creeps_have_no_order_for_the_whole_scene_as_one_state():
+def test_the_whole_scene_as_one_state_ignores_the_order_of_creeps():
     setting = SETTINGS["monolithic"]._replace(cells=4, reach=1.0)
     creeps = [(0.2, 0.1, GREEN), (-0.3, 0.0, RED), (0.2, 0.1, RED)]
     rows = [act(tabular_learners.monolithic(setting), tank(*some))[1].rows[0]
@@ -105,7 +105,7 @@ def test_a_contact_teaches_the_head_of_its_creep_alone():
     assert np.count_nonzero(memory.table) == 1
 
 
-def test_a_board_drawn_anew_teaches_heads_nothing():
+def test_a_new_board_teaches_heads_nothing():
     setting = SETTINGS["hybrid reward"]
     contestant = tabular_learners.hybrid_reward(setting)
     action, memory = act(contestant, tank((0.2, 0.0, GREEN)))
@@ -138,7 +138,7 @@ def test_pd_keeps_away_from_red_creeps():
     assert act(controllers.pd(GAINS), tank((0.12, 0.0, RED)))[0] == 3
 
 
-def test_the_planner_knows_nothing_of_creeps_to_come_and_leaves_the_world_as_it_is():
+def test_the_planner_does_not_know_creeps_to_come_and_leaves_the_world_unchanged():
     state = BOARDS[8].reset(3)
     before = {name: each.copy() for name, each in arrays(state).items()}
     action, _ = act(controllers.planner(GAINS), state)
@@ -181,7 +181,7 @@ def test_the_search_draws_within_its_ranges():
 
 @pytest.mark.parametrize("name, creeps", [("hybrid reward", 3), ("monolithic", 8), ("PC + OVC, calibrated", 3),
                                           ("Brownian motion", 8)])
-def test_the_stored_long_runs_are_what_the_script_lives(name, creeps):
+def test_the_stored_long_runs_are_those_of_the_script(name, creeps):
     rows = [row for row in stored.read_runs(stored.FOLDER / "long_runs.csv")
             if (row["method"], row["creeps"]) == (name, creeps)]
     assert [row["run"] for row in rows] == list(range(long_runs.RUNS))
@@ -212,8 +212,8 @@ def test_the_search_of_deep_agents_is_stored_whole():
     assert len(rows) == 3 * deep_settings.SETTINGS
 
 
-def test_a_short_rerun_of_a_deep_agent_is_as_its_stored_run_begins():
-    pytest.importorskip("sb3_contrib", reason="deep agents need packages that are in no extra")
+def test_a_short_rerun_of_a_deep_agent_equals_the_start_of_its_stored_run():
+    pytest.importorskip("sb3_contrib", reason="deep agents need packages that no extra installs")
     from neorl.chapters.alternatives.deep_runs import live
     best = stored.chosen(stored.read_search(stored.FOLDER / "deep_search.csv"))["DQN"]
     (row,) = [row for row in stored.read_runs(stored.FOLDER / "deep_runs.csv")
@@ -223,7 +223,7 @@ def test_a_short_rerun_of_a_deep_agent_is_as_its_stored_run_begins():
 
 
 def earned(kind, level, runs=10, steps=150_000, seconds=1e-6):
-    """Runs that earn more and more, up to a level at two thirds of the run, with a little noise a run."""
+    """Runs whose reward rises until two thirds of the run and then stays level, slightly different for each run."""
     bins = level * np.minimum(np.arange(1, 31) / 20, 1)[None] + 1e-4 * np.arange(1, runs + 1)[:, None]
     return Earned(kind, np.linspace(0, steps, 31), bins * steps / 30 / 50, seconds, 12.0)
 
@@ -298,7 +298,7 @@ def test_the_tables_of_what_is_stored_name_every_method(boards):
     assert "planner" not in text
 
 
-def test_of_the_thesis_a_figure_shows_the_best_agent_under_each_reading(boards):
+def test_a_figure_shows_the_best_agent_of_the_thesis_under_each_reading(boards):
     shown = report.shown(boards[3])
     assert [name for name, each in shown.items() if each.kind == THESIS] == ["network D, to the letter",
                                                                             "PC + OVC, calibrated"]

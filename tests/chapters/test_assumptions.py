@@ -1,4 +1,4 @@
-"""What the page on assumptions says, on claims made up so that the answer is known."""
+"""Sentences and tables of the page on assumptions, for made-up claims whose answers are known."""
 
 from dataclasses import replace
 
@@ -31,7 +31,7 @@ def plain(text):
 
 @pytest.fixture
 def shares():
-    """B1 has been run at the papers' lengths too."""
+    """Shares of three claims, of which B1 has also been run at the papers' lengths."""
     return {"A2": {"holds": 3, "undecided": 1, "untestable": 0, "readings": 4},
             "B1": {"holds": 0, "undecided": 0, "untestable": 2, "readings": 4, "agrees": 1, "measured": 5},
             "C1": {"holds": 2, "undecided": 1, "untestable": 1, "readings": 4}}
@@ -50,7 +50,7 @@ def test_every_claim_that_readings_matter_for_comes_from_cheap_or_expensive_cond
     assert set(conditions(Reading(), 3_000, 2)) == set(conditions(Reading(), 3_000, 2, groups=groups))
 
 
-def test_shares_are_in_the_order_of_the_claims_with_those_at_the_papers_lengths_beside():
+def test_shares_are_in_the_order_of_the_claims_and_include_those_at_the_papers_lengths():
     rows = [Row(0, i, 2, 600_000, reading, {name: Measure(value, 0.0) for name in GROUPS["layers"].targets})
             for i, (reading, value) in enumerate(zip(design(4), (3.0, 3.0, 3.0, -9.0)))]
     found = assumptions.shares([claims(["C1", "A6"]), claims(["A6"], ["C1"])], [claims([], ["A2"])], rows)
@@ -115,7 +115,7 @@ def test_undecided_verdicts_are_counted(shares):
     assert text.startswith("Of 12 verdicts in all, 2 (17 %) are undecided. An interval from 3 runs is rough;")
 
 
-def test_choices_stand_beside_what_readings_take():
+def test_choices_are_listed_with_the_value_under_each_reading():
     table = assumptions.choices({"to the letter": TO_THE_LETTER, "calibrated": Reading()})
     header, _, *rows = table.splitlines()
     assert header == "| Choice | Prior | To the letter | Calibrated | Papers |" and len(rows) == len(BEYOND)
@@ -124,14 +124,14 @@ def test_choices_stand_beside_what_readings_take():
     assert "| gain of place, B | 1, 3, 5 | 1 | 5 | B |" in rows
 
 
-def test_a_reading_that_breaks_the_text_is_told_with_the_sentence():
+def test_a_reading_that_breaks_the_text_is_listed_with_the_sentence():
     inside, outside = assumptions.agreements({"plain": Reading(), "odd": Reading(exploration=0.1)}).splitlines()
     assert inside == "- The reading *plain* is within the text."
     assert outside == ("- The reading *odd* is not within the text: policy: “my epsilon-free exploration” "
                        "(Acknowledgements).")
 
 
-def test_what_a_claim_depends_on_is_told_where_the_choices_predict_it(shares):
+def test_dependence_is_reported_where_the_choices_predict_a_claim(shares):
     many = {"credit": 0.06, "discount": 0.5, "memory": 0.055, "causes": 0.1}
     rows = assumptions.dependence({"A2": {}, "B1": many, "C1": many}, {"B1": 0.4, "C1": -0.2}, shares).splitlines()
     assert rows[2:] == ["| A2 |  | 4 readings are too few |",

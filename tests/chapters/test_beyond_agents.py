@@ -1,4 +1,4 @@
-"""The page on the forager: its parts, its words, and the record of the search."""
+"""The page on the forager: its parts, its sentences and the record of the search."""
 
 import numpy as np
 import pytest
@@ -66,7 +66,7 @@ def test_what_was_used_is_less_than_what_is_held():
     assert "KiB" in report.cost_in_words(cost)
 
 
-def test_the_record_of_the_search_is_of_this_code():
+def test_the_record_of_the_search_was_made_by_this_code():
     record = search.read_record()
     best = record[0]
     assert search.agent_of(best) == forager()

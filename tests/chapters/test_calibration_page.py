@@ -1,4 +1,4 @@
-"""What the page on calibration runs and says, on rows made up so that the answer is known."""
+"""Runs, tables and sentences of the page on calibration, for made-up rows whose answers are known."""
 
 import math
 from dataclasses import replace
@@ -16,7 +16,7 @@ from neorl.evidence.reading import Reading
 
 
 def statistics(failing):
-    """Made-up statistics, which agree with all targets but those of some claims."""
+    """Made-up statistics that agree with all targets except those of the failing claims."""
     found = {}
     for name, target in TARGETS.items():
         edge, outward = (target.low, -1) if math.isfinite(target.low) else (target.high, 1)
@@ -26,14 +26,14 @@ def statistics(failing):
 
 
 def rows(*failing):
-    """A complete row for each set of claims that fail, of readings of a design."""
+    """A complete row for each set of failing claims, with the readings of a design."""
     return [Row(0, i, 2, 3_000, reading, statistics(claims))
             for i, (reading, claims) in enumerate(zip(design(16), failing))]
 
 
 @pytest.fixture
 def asked(monkeypatch):
-    """What was asked to be run, in place of running it: a list of (row, groups)."""
+    """Record the requested runs instead of running them: a list of (row, groups)."""
     calls = []
 
     def lives(row, groups=tuple(GROUPS)):
@@ -79,7 +79,7 @@ def test_rows_that_agree_with_all_targets_are_counted():
 
 @pytest.fixture
 def together():
-    """Three claims, of which B1 holds with no other: chance would bring it together with A6, but hardly with A7."""
+    """Three claims, of which B1 holds with no other; by chance it would hold with A6, but hardly with A7."""
     both = np.array([[9, 5, 0], [5, 8, 0], [0, 0, 7]])
     expected = np.array([[9.0, 4.0, 3.5], [4.0, 8.0, 1.2], [3.5, 1.2, 7.0]])
     return Together(("A6", "A7", "B1"), np.full((3, 3), 20), both, expected, [(("A6", "A7"), 5), (("B1",), 7)])
@@ -98,7 +98,7 @@ def test_sets_of_claims_are_listed_with_those_that_they_lack(together):
     assert len(calibration.largest_sets(many).splitlines()) == 2 + calibration.SETS
 
 
-def test_only_the_rarest_of_the_unseen_pairs_are_told():
+def test_unseen_pairs_are_listed_up_to_a_limit():
     none = Together(CLAIMS, np.ones((13, 13)), np.zeros((13, 13)), np.ones((13, 13)), [])
     assert len(calibration.unseen_pairs(none).split("; ")) == calibration.PAIRS
 
@@ -114,7 +114,7 @@ def test_numbers_are_marked_where_they_agree_with_the_thesis():
     assert "| −∞ … 0.5 | ○ 0.70 ± 0.25 | ● 0.50 ± 0.25 |" in weak
 
 
-def test_readings_stand_beside_each_other_in_what_the_text_leaves_open():
+def test_readings_are_compared_in_the_choices_that_the_text_leaves_open():
     table = calibration.choices({"To the letter": TO_THE_LETTER, "Best": Reading()})
     assert table.startswith("| Choice | To the letter | Best |\n|---|---|---|\n")
     assert "| capture | contact | leap |" in table and len(table.splitlines()) == 2 + len(WITHIN)
@@ -128,7 +128,7 @@ def test_the_discount_is_idle_without_bootstrapping_if_memory_does_not_discount(
     assert idle or calibration.idle_discount(reading) == ""
 
 
-def test_the_claim_that_stands_most_in_the_way_comes_first_if_it_is_given_up():
+def test_claims_are_sorted_by_the_distance_that_remains_without_them():
     table = rows(["C4"], ["A6", "A7", "B1"])
     lines = calibration.without_a_claim(table).splitlines()[2:]
     held = ", ".join(claim for claim in CLAIMS if claim != "C4")
@@ -150,7 +150,7 @@ def test_every_target_has_its_reason():
     assert "| B4 | minutes of both | 10 | twice the thesis's time, as in the rule |" in lines
 
 
-def test_rows_that_come_out_as_they_stand_are_counted():
+def test_rows_that_equal_their_rerun_are_counted():
     one, other = rows((), ["C4"])
     assert calibration.equal([(one, one), (one, other), (other, replace(other))]) == 2
 

@@ -1,9 +1,9 @@
-"""The kinds of cells that the book's modalities are, beside the thesis's table 2.1."""
+"""The kinds of cells among the book's modalities, compared with the thesis's table 2.1."""
 
 from neorl.chapters.chapter_2.cell_kinds import THESIS, as_in_thesis, kinds, kinds_table
 
 
-def test_every_kind_of_the_thesis_comes_out_as_there_and_the_speed_cell_beside_them():
+def test_kinds_are_those_of_the_thesis_and_the_speed_cell():
     found = kinds()
     assert {kind: found[kind] for kind in THESIS} == THESIS
     assert set(found) - set(THESIS) == {"speed cell"} and found["speed cell"] == ("–", "–", "agent speed")

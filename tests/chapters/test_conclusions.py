@@ -1,4 +1,4 @@
-"""The two conclusions, against verdicts that are made up."""
+"""The two conclusions, for made-up verdicts."""
 
 import re
 
@@ -12,7 +12,7 @@ from neorl.evidence.statements import CLAIMS
 
 
 def record(calibrated, letter=None, shares=None):
-    """A record of all claims, from {name: verdict}; what is left out has none of its own."""
+    """A record of claims from {name: verdict}; claims that are left out have no verdict."""
     of_readings = {part: {name: {"here": [0.5, 0.4, 0.6], "runs": 20, "verdict": verdict, "detail": f"So {name} is."}
                           for name, verdict in found.items()}
                    for part, found in (("claims", calibrated), ("letter", letter or {}))}
@@ -97,7 +97,7 @@ def test_readings_differ_in_claims_that_both_have_judged():
                       "calibrated reading: none.")
 
 
-def test_what_else_became_of_claims_is_told_where_there_are_any():
+def test_other_verdicts_are_listed_where_there_are_any():
     some = all_claims("reproduced") | {"A2": "partly", "A3": "not testable", "A4": "not testable"}
     del some["T8"]
     assert what_did_not_hold(some)[2:] == [

@@ -1,4 +1,4 @@
-"""The chamber with two levers: what is learned there, against closed forms and the rules told anew."""
+"""Learning in the chamber with two levers, against closed forms and a second implementation of the rules."""
 
 from dataclasses import replace
 
@@ -14,10 +14,10 @@ QUICK = replace(INVERSION, learning_rate=0.3)
 
 
 def told_anew(chamber, learning, visits, seed=0, run=0):
-    """The same in plain Python, one bout and one visit after the other: (visits, 4, 2)."""
+    """The values of one run of `learn_in` in plain Python, bout by bout and visit by visit: (visits, 4, 2)."""
     stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run,)))
     q, over, values = np.zeros((4, 2)), True, []
-    own = np.zeros(4)  # towards the chamber itself; it has no part in the others
+    own = np.zeros(4)  # towards the chamber itself, which has no part in the others
     for _ in range(visits):
         seen, opened = [], None
         while opened is None or len(seen) <= opened[1] + chamber.delay:
@@ -59,8 +59,8 @@ def test_with_one_step_a_visit_both_rules_are_the_same():
     np.testing.assert_array_equal(learn_in(chamber, INVERSION, 50, 3), learn_in(chamber, DIFFERENCE, 50, 3))
 
 
-def test_inversion_learns_the_share_of_visits_that_each_exit_ends_and_difference_what_is_left_of_it():
-    """A lever held for good over a visit of T steps is worth 1 to inversion, and to temporal difference the solution
+def test_a_held_lever_has_the_closed_form_values_of_inversion_and_temporal_difference():
+    """A lever held throughout a visit of T steps is worth 1 to inversion, and to temporal difference the solution
     of q = 1 / T + (1 − 1 / T) γ q."""
     chamber, steps = Chamber(effort=8, hold=10_000.0, light=0.0, bell=0.0), 8
     rules = replace(INVERSION, learning_rate=0.1), replace(DIFFERENCE, learning_rate=0.01)
@@ -71,7 +71,7 @@ def test_inversion_learns_the_share_of_visits_that_each_exit_ends_and_difference
     assert stepwise[-1, lever, lever] == pytest.approx(expected, rel=0.05)
 
 
-def test_what_always_occurs_is_worth_to_inversion_how_often_each_exit_follows():
+def test_an_event_that_always_occurs_is_worth_the_share_of_each_exit_to_inversion():
     values = learn_in(Chamber(light=1.0, hold=5.0), replace(INVERSION, learning_rate=0.02), 400, 40)
     np.testing.assert_allclose(values[:, -1, 2].mean(axis=0), 0.5, atol=0.02)
 
@@ -85,7 +85,7 @@ def test_the_stream_is_the_same_for_any_number_of_runs_and_any_rule():
     np.testing.assert_array_equal(*exits)
 
 
-def test_rules_learn_from_the_same_streams_as_alone():
+def test_compared_rules_learn_from_the_same_streams_as_alone():
     rules = {"one": INVERSION, "other": DIFFERENCE}
     found = credit.learn_by_each(Chamber(effort=3), rules, 20, 2, seed=4)
     assert list(found) == ["one", "other"]
@@ -114,7 +114,7 @@ def test_roles_are_means_over_both_exits():
     ({"effort": 0}, "effort is 0"), ({"delay": -1}, "delay is -1"), ({"hold": 0.5}, "hold is 0.5"),
     ({"light": 1.5}, "light is 1.5"), ({"bell": -0.1}, "bell is -0.1"),
 ])
-def test_a_chamber_refuses_what_is_none(change, message):
+def test_a_bad_chamber_is_refused(change, message):
     with pytest.raises(ValueError, match=message):
         Chamber(**change)
 

@@ -1,4 +1,4 @@
-"""What the page of chapter 4 says of rules of learning, on values that are known."""
+"""Sentences and tables of chapter 4 on learning rules, for known values."""
 
 import numpy as np
 
@@ -7,14 +7,14 @@ from neorl.evidence.statistics import Estimate
 
 
 def values(*leads, light=0.0, visits=100):
-    """Values of a run for each of the leads, in which cause and light are worth so much more than all else."""
+    """Values of one run per lead: the light is worth `light`, the cause its lead more, and everything else 0."""
     found = np.zeros((len(leads), visits, 4, 2), np.float32)
     found[..., 0, 0] = found[..., 1, 1] = light + np.array(leads)[:, None]
     found[..., 2, :] = light
     return found
 
 
-def test_leads_are_told_for_each_rule_after_some_visits():
+def test_leads_are_reported_for_each_rule_after_some_visits():
     rising = values(0.5, 0.5)
     rising[:, :50] *= -1
     text = credit_report.leads({"inversion": rising, "difference": values(0.1, 0.1), "other": values(0.2, -0.2)})
@@ -26,7 +26,7 @@ def test_leads_are_told_for_each_rule_after_some_visits():
             "100; by then a run of the former beats a run of the latter with probability 1.00") in text
 
 
-def test_a_lead_that_is_clearly_larger_in_the_end_is_told_with_its_size():
+def test_a_lead_that_is_clearly_larger_in_the_end_is_reported_with_its_size():
     text = credit_report.leads({"inversion": values(0.6, 0.6), "difference": values(0.2, 0.2)})
     assert "So in the end inversion has the larger lead, 3 times as large: for temporal difference" in text
     text = credit_report.leads({"inversion": values(0.6, 0.1), "difference": values(0.2, 0.2)})
@@ -46,7 +46,7 @@ def test_leads_of_single_runs_have_no_interval():
 
 
 def longer_stays(inversion, difference):
-    """What is said of leads that go from 0.4 to these."""
+    """The sentences on leads that go from 0.4 to these."""
     names = ("inversion", "difference", "same horizon")
     sampled = {name: [np.full((2, 4), size) for size in (0.8, 0.5)] for name in names}
     lead = {name: [Estimate(each, each, each) for each in (0.4, last)]
@@ -54,7 +54,7 @@ def longer_stays(inversion, difference):
     return credit_report.longer_stays([1, 50], sampled, lead)
 
 
-def test_what_finer_steps_do_to_values_and_leads_is_told():
+def test_the_effect_of_finer_steps_on_values_and_leads_is_reported():
     text = longer_stays(0.3, 0.004)
     assert text.startswith("From 1 step to 50, the value of the cause goes from 0.80 to 0.50 [0.50, 0.50] with "
                            "inversion, and to 0.50 [0.50, 0.50] with temporal difference, or 0.50 [0.50, 0.50] with "
@@ -62,13 +62,13 @@ def test_what_finer_steps_do_to_values_and_leads_is_told():
                            "independent")
 
 
-def test_inversion_cares_how_finely_time_is_cut_if_its_lead_falls_or_is_not_much_the_larger():
+def test_inversion_depends_on_the_length_of_steps_if_its_lead_falls_or_is_not_much_larger():
     assert longer_stays(0.15, 0.004).endswith("The lead ends at 0.15, 0.004 and 0.050.")
     assert longer_stays(0.3, 0.2).endswith("The lead ends at 0.30, 0.200 and 0.050.")
 
 
 def late_effects(shortest, usual):
-    """What is said if the lead of inversion is `shortest` and `usual` for bouts of 2 steps and of 20."""
+    """The sentences for leads of inversion of `shortest` with bouts of 2 steps and `usual` with bouts of 20."""
     first = {name: [Estimate(1, 1, 1), Estimate(share, 0, 1)]
              for name, share in (("inversion", 0.75), ("last event", 0.5), ("difference", 0.25))}
     brief = {hold: {"inversion": values(lead, lead), "difference": values(0.1, 0.1)}
@@ -77,7 +77,7 @@ def late_effects(shortest, usual):
     return credit_report.late_effects([0, 50], first, brief, quick)
 
 
-def test_late_effects_are_told_by_rule():
+def test_late_effects_are_reported_by_rule():
     text = late_effects(0.1, 0.5)
     assert text.startswith("With a delay of 50 steps the cause comes first in 75 % of the runs with credit by share, "
                            "in 50 % with credit for the last event and in 25 % with temporal difference.")
@@ -92,7 +92,7 @@ def test_credit_by_share_is_weak_if_brief_events_leave_it_a_smaller_lead():
     assert "Credit by share has its own weakness" not in late_effects(0.5, 0.5)
 
 
-def test_a_bright_light_is_told_beside_the_cause():
+def test_a_bright_light_is_reported_beside_the_cause():
     text = credit_report.bright_light({"one": values(0.25, -0.25, light=0.5), "other": values(0.5, 0.5)})
     assert text.splitlines() == [
         "one: cause first in 50 % of runs after 10 visits, 50 % after 100; value of the cause 0.50, of the light 0.50",

@@ -37,7 +37,7 @@ def test_a_task_on_a_grid_has_the_transitions_of_the_grid(task):
     ({"successors": np.full((2, 1, 1), 2)}, "successors lie from 2 to 2, allowed are states from 0 to 1"),
     ({"starts": np.array([-1])}, "starts lie from -1"), ({"chances": np.array([0.9])}, "chances add up to 0.9"),
 ])
-def test_a_process_that_is_none_is_refused(change, message):
+def test_a_bad_process_is_refused(change, message):
     process = decision.Process(np.zeros((2, 1, 1), int), np.ones(1), np.zeros((2, 1, 1)), np.zeros(2, bool),
                                np.array([0]))
     with pytest.raises(ValueError, match=message):
@@ -82,7 +82,7 @@ def test_the_values_of_a_policy_solve_the_bellman_equation(task):
         decision.policy_values(task, policy, 1)
 
 
-def test_several_policies_are_valued_as_each_alone(task):
+def test_several_policies_have_the_values_of_each_alone(task):
     policies = np.random.default_rng(0).integers(4, size=(2, 3, task.states))
     together = decision.policy_values(task, policies, 0.9)
     for index in np.ndindex(2, 3):
@@ -111,7 +111,7 @@ def test_policy_iteration_alternates_and_never_gets_worse(task, sweeps):
         np.testing.assert_array_equal(evaluated.values, improved.values)
         q = decision.action_values(probability, reward, improved.values, 0.9)
         assert np.allclose(q[np.arange(task.states), improved.policy], q.max(axis=1))
-        assert (evaluated.values >= before.values - 1e-12).all()  # it starts from below
+        assert (evaluated.values >= before.values - 1e-12).all()  # the iteration starts from below
         if sweeps == 50:
             own = decision.policy_values(task, evaluated.policy, 0.9)
             np.testing.assert_allclose(evaluated.values, own, atol=0.9**50)
@@ -124,7 +124,7 @@ def test_an_iteration_that_might_not_end_is_refused(task, change, message):
 
 
 def test_a_loss_is_looked_at_after_iterations_only():
-    losses = [1.0, 0.1, 0.6, 0.1, 0.4, 0.1, 0.0]  # evaluations stand between them
+    losses = [1.0, 0.1, 0.6, 0.1, 0.4, 0.1, 0.0]  # every second loss is that of an evaluation
     assert [decision.iterations_until(losses, limit) for limit in (2, 0.5, 0.3)] == [0, 2, 3]
 
 
@@ -149,7 +149,7 @@ def test_a_life_keeps_to_the_process(task, lives):
     assert set(np.unique(state[:, 1:][~goes_on])) <= set(task.starts)
 
 
-def test_outcomes_come_as_often_as_their_chances_say(task):
+def test_outcomes_occur_with_their_probabilities(task):
     lived = decision.live(task, [100_000], runs=1, seed=0)
     counts = decision.count_transitions(lived, 100_000)[0]
     probability, _ = task.expected()
@@ -164,7 +164,7 @@ def test_q_learning_finds_the_values_of_the_best_policy(task, lives):
     assert last < 0.1 < 0.5 < first
 
 
-def test_q_learning_in_numpy_comes_to_the_same(task, lives):
+def test_q_learning_in_numpy_learns_the_same_values(task, lives):
     q, visits = np.zeros((task.states, 4)), np.zeros((task.states, 4), int)
     for state, action, reward, following in zip(*(path[1, :1_000] for path in lives[:4])):
         visits[state, action] += 1
@@ -173,14 +173,14 @@ def test_q_learning_in_numpy_comes_to_the_same(task, lives):
     np.testing.assert_allclose(lives.q[1, 1], q, atol=1e-6)
 
 
-def test_a_run_is_the_same_alone_and_however_often_it_is_looked_at(task, lives):
+def test_a_run_is_the_same_among_others_and_for_any_number_of_checkpoints(task, lives):
     again = decision.live(task, [20_000], runs=2, seed=5, learning_rate=0.02)
     np.testing.assert_array_equal(again.q[1, 0], lives.q[1, 2])
     np.testing.assert_array_equal(again.states_t, lives.states_t[:2])
     assert (lives.actions[0] != lives.actions[1]).any()
 
 
-def test_who_explores_little_takes_the_best_action_mostly():
+def test_a_learner_that_explores_little_mostly_takes_the_best_action():
     corridor = decision.reaching(decision.lattice(5, 1), {4: 1.0})
     lived = decision.live(corridor, [5_000], runs=1, seed=0, exploration=0.1)
     assert (lived.actions[0, 2_500:] == 0).mean() == pytest.approx(0.95, abs=0.02)
@@ -191,7 +191,7 @@ def test_a_learner_knows_only_what_it_sees(task):
     assert lived.q.shape == (1, 1, 3, 4) and lived.states_t.max() == 2
 
 
-def test_nothing_is_worth_anything_after_the_end_even_to_who_does_not_see_that_it_is_the_end():
+def test_no_value_is_bootstrapped_from_an_end_that_the_learner_cannot_see():
     lived = decision.live(decision.reaching(decision.lattice(2, 1), {1: 1.0}), [100], runs=1, seed=0, seen=[0, 0])
     assert lived.q[0, 0, 0, 0] == pytest.approx(1.0)
 
@@ -222,7 +222,7 @@ def test_transitions_and_first_visits_are_counted_one_by_one(lives):
         np.testing.assert_array_equal(first[run], met)
 
 
-def test_how_full_models_are_is_told_in_percent_and_by_pair():
+def test_the_filling_of_models_is_reported_in_percent_and_by_pair():
     percent, branching = decision.model_filling(np.array([10, 30]), np.array([100, 100]), np.array([5, 10]))
     assert percent == pytest.approx(20) and branching == pytest.approx((2.5, 2, 3))
 

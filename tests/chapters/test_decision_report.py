@@ -1,4 +1,4 @@
-"""What the page says of decision processes, for made-up results."""
+"""Sentences and tables on decision processes, for made-up results."""
 
 import numpy as np
 import pytest
@@ -45,7 +45,7 @@ def test_what_a_dimension_costs_is_fitted_for_each_number_of_cells():
     assert "Each factor is larger than that" in text
 
 
-def test_a_factor_that_is_no_larger_than_the_number_of_cells_takes_the_reason_away():
+def test_no_reason_is_given_if_a_factor_does_not_exceed_the_number_of_cells():
     ds = np.arange(1, 5)
     steps = {"4 cells": (ds, np.array([5.0**ds, 3.0**ds]))}
     assert "Each factor is larger" not in decision_report.cost_of_a_dimension(steps, steps)

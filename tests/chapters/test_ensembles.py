@@ -1,4 +1,4 @@
-"""Ensembles of learners against a plain Python of the same rules, closed forms, and what others have found."""
+"""Ensembles of learners against a plain Python implementation, closed forms and reported results."""
 
 import numpy as np
 import pytest
@@ -19,7 +19,7 @@ def softmax(values):
 
 
 class Plainly:
-    """One life, learner by learner as the paper writes them, with NumPy's random numbers."""
+    """One run, learner by learner as the paper defines them, with NumPy's random numbers."""
 
     def __init__(self, maze, chooser, doublings, seed, run):
         self.draw = np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=(run,)))).random
@@ -103,8 +103,8 @@ def test_learners_and_rules_are_what_the_paper_says(chooser, doublings):
     np.testing.assert_allclose(walked[1], made.reshape(20, -1).mean(axis=1))
 
 
-def test_a_life_that_leads_nowhere_begins_anew():
-    """From its start this maze takes more steps than there are, nearly always, before it is left for good."""
+def test_a_walk_that_does_not_arrive_starts_over():
+    """The goal is so far that the walk mostly reaches the limit of steps first, and starts over."""
     made = Plainly(far := GridMaze(("S" + 30 * "." + "G",)), "chance", 0, seed=1, run=0).rewards(3_000)
     np.testing.assert_allclose(run_ensemble(far, "chance", steps=3_000, runs=1, seed=1)[0],
                                made.reshape(20, -1).mean(axis=1))
@@ -122,7 +122,7 @@ def test_the_exponential_function_is_that_of_numpy():
     assert execute(ensembles._exponential, 0.0) == 1 and execute(ensembles._exponential, -1e9) == 0
 
 
-def test_finals_are_those_of_lives_with_a_greediness_halved_as_it_is_and_doubled():
+def test_finals_are_those_of_runs_with_greediness_halved_unchanged_and_doubled():
     finals = ensembles.final_by_greediness(DYNA, steps=200, runs=2, seed=3)
     assert tuple(finals) == ensembles.RULES
     for final, doublings in zip(finals["rank voting"], (-1, 0, 1), strict=True):
@@ -130,21 +130,21 @@ def test_finals_are_those_of_lives_with_a_greediness_halved_as_it_is_and_doubled
         np.testing.assert_array_equal(final, lived[:, -1])
 
 
-def test_learners_that_agree_have_their_way_with_the_probability_that_greediness_gives_them():
+def test_an_action_on_which_learners_agree_has_the_probability_that_greediness_gives_it():
     assert ensembles.agreement("majority voting") == pytest.approx(softmax(1.6 * np.array([5, 0, 0, 0]))[0])
     assert ensembles.agreement("rank voting") == pytest.approx(softmax(0.6 * 5 * np.array([4, 3, 2, 1]))[0])
 
 
 def test_the_best_reward_in_a_corridor_is_known():
-    """One way to go: 85 % of steps go there, 5 % the other way, 10 % and any step out of the corridor bump."""
+    """With one way to go, 85 % of steps lead ahead and 5 % back; 10 %, and any step out of the corridor, hit a wall."""
     assert best_reward(GridMaze(("SG",))) == pytest.approx(0.85 * 100 - 0.15 * 2)
-    ahead, back = 0.85, 0.05  # from S 1/p + q/p² steps lead two cells on, since a step back from there costs both
+    ahead, back = 0.85, 0.05  # S takes 1/p steps, the next cell 1/p + q/p²: a step back costs both
     steps = 1 / ahead + (1 + back / ahead) / ahead
     bumps = 0.15 * (1 + back / ahead) / ahead + 0.10 / ahead
     assert best_reward(GridMaze(("S.G",))) == pytest.approx((100 - 2 * bumps - 0.1 * (steps - bumps - 1)) / steps)
 
 
-def test_learners_alone_come_to_what_others_have_found():
+def test_single_learners_earn_the_reported_rewards():
     """A student reimplementation reports 5.20, 5.20, 5.21, 5.21 and 5.18 with standard deviations of 0.14 to 0.20."""
     best, chance = best_reward(DYNA), run_ensemble(DYNA, "chance", steps=50_000, runs=5)[:, -1]
     for learner, reported in zip(LEARNERS, (5.20, 5.20, 5.21, 5.21, 5.18)):

@@ -1,4 +1,4 @@
-"""What the page says of ensembles, for made-up rewards."""
+"""Sentences and tables on ensembles, for made-up rewards."""
 
 import numpy as np
 import pytest
@@ -8,13 +8,13 @@ from neorl.chapters.chapter_3.ensembles import CHOOSERS, LEARNERS, RULES
 
 
 def rewards(**ends):
-    """Two runs of two parts by chooser: 1 first, and at the end a reward for each, by the first word of its name."""
+    """Two runs of two bins by chooser: 1, then the final reward, given by the first word of the chooser's name."""
     made = {chooser: ends.get(chooser.split()[0].lower(), 0.0) for chooser in CHOOSERS[:-1]}
     return {chooser: np.array([[1.0, end], [1.0, end]]) for chooser, end in made.items()}
 
 
 def rules(majority, rank, multiplication, addition, learner=0.0):
-    """Rewards of the four rules at the end, and of Sarsa."""
+    """Rewards by chooser, with these final rewards of the four rules and of Sarsa."""
     made = rewards(sarsa=learner)
     for rule, end in zip(RULES, (majority, rank, multiplication, addition)):
         made[rule][:, 1] = end
@@ -40,7 +40,7 @@ def test_the_best_rule_is_compared_with_the_best_learner_at_the_end(learner, tha
     assert " In the yard, Boltzmann addition ends highest" in text
 
 
-def test_the_places_of_rank_voting_are_told_by_both_counts():
+def test_the_places_of_rank_voting_are_reported_by_both_measures():
     early = rules(1, 2, 3, 4)
     early["rank voting"][:, 0] = 9
     text = report.places_of_rank_voting({"hall": early})
@@ -54,7 +54,7 @@ def test_rank_voting_may_have_the_same_place_each_time():
 
 
 def by_greediness(*levels):
-    """Final rewards of one run for each rule, of three levels of its greediness."""
+    """Final rewards of one run for each rule at three levels of its greediness."""
     return {rule: [np.array([float(end)]) for end in ends] for rule, ends in zip(RULES, zip(*levels))}
 
 
@@ -63,7 +63,7 @@ def test_the_table_of_greediness_has_a_column_for_each_level():
     assert lines[2] == "| majority voting | 1.00 | 5.00 | 9.00 |" and len(lines) == 2 + len(RULES)
 
 
-def test_the_first_and_the_last_are_told_for_each_level_of_greediness():
+def test_the_first_and_the_last_are_named_for_each_level_of_greediness():
     text = report.order_by_greediness(by_greediness((4, 1, 2, 3), (1, 2, 3, 4), (1, 4, 2, 3)))
     assert text.startswith("With greediness halved, unchanged and doubled, the first places go to majority voting, "
                            "Boltzmann addition and rank voting, the last to rank voting, majority voting and majority "

@@ -1,4 +1,4 @@
-"""What elements of interest make of a whole map."""
+"""The superposition of elements of interest over a whole map."""
 
 import numpy as np
 import pytest

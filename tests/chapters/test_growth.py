@@ -1,4 +1,4 @@
-"""Growth that is known beforehand."""
+"""Growth factors and doubling times of known growth."""
 
 import numpy as np
 import pytest
@@ -23,7 +23,7 @@ def test_of_two_points_both_count():
     assert growth_factor(np.array([1, 2]), np.array([[5.0, 20.0]])).value == pytest.approx(4)
 
 
-def test_what_doubles_every_two_years_does_and_noise_widens_the_interval():
+def test_a_doubling_time_of_two_years_is_found_and_noise_widens_its_interval():
     years = np.arange(10)
     assert doubling_time(stats.linregress(years, years / 2), 10) == pytest.approx((2, 2, 2))
     value, low, high = doubling_time(stats.linregress(years, years / 2 + [0.3, -0.3] * 5), 10)
@@ -42,7 +42,7 @@ def test_all_of_n_things_are_drawn_after_about_n_ln_n_draws():
     assert draws_of_all(1) == 0 and draws_of_all(1000) == pytest.approx(6907.755)
 
 
-def test_a_trend_goes_through_what_doubles_each_two_years():
+def test_a_trend_goes_through_numbers_that_double_every_two_years():
     years = np.array([2000, 2002, 2004, 2006])
     trend, fitted = fit_trend(years, np.array([1.0, 2.0, 4.0, 8.0]))
     assert trend.slope == pytest.approx(0.5) and fitted == pytest.approx([1.0, 2.0, 4.0, 8.0])

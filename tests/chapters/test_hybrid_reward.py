@@ -1,4 +1,4 @@
-"""Separate concerns: the game and its learners against a plain Python of the same rules, and against closed forms."""
+"""Separation of concerns: the game and its learners against a plain Python implementation and closed forms."""
 
 from collections import defaultdict
 from itertools import combinations
@@ -20,7 +20,7 @@ SMALL = Game(rows=("ao.", ".#.", "o.g"), fruits=1, chase=0.5, limit=9)
 
 
 def plainly(game, learner, steps, seed, run):
-    """Reward of each step, how games ended and what is known, by dictionaries and sets, with NumPy's random numbers."""
+    """Rewards by step, ends of games and number of known states, by dictionaries, sets and NumPy's random numbers."""
     draw = np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=(run,)))).random
     grid, toward, places = game.grid, hybrid_reward._board(game).toward, game.places
     q = defaultdict(lambda: np.zeros(4))
@@ -42,7 +42,7 @@ def plainly(game, learner, steps, seed, run):
             action = int(draw() * 4)
         else:
             best = [0]
-            for other in range(1, 4):  # ties are drawn one by one
+            for other in range(1, 4):  # ties are broken at random, one by one
                 if value[other] > value[best[0]]:
                     best = [other]
                 elif value[other] == value[best[0]]:
@@ -101,7 +101,7 @@ def test_states_are_counted():
     assert SMALL.states("heads") == SMALL.states("latent heads") == 2 * cells + cells * cells
 
 
-def test_every_concern_more_doubles_what_one_learner_needs_and_not_what_heads_do():
+def test_each_further_concern_doubles_the_states_of_one_learner_but_not_of_heads():
     game = Game()
     fewer = hybrid_reward.times_fewer(game.grid.states, len(game.places))
     assert fewer == game.states("one learner") / game.states("heads")
@@ -132,7 +132,7 @@ def test_a_ghost_that_chases_comes_nearer_with_every_step():
             assert np.all((toward[at, agent] == grid.next_state[at].T).any(axis=0) | (at == agent))
             at = toward[at, agent]
         away = steps > 0
-        distance = settled_values(grid, agent, 0.5).max(axis=1)  # a half to the steps after the first
+        distance = settled_values(grid, agent, 0.5).max(axis=1)  # a half to the power of the steps after the first
         np.testing.assert_allclose(0.5 ** (steps[away] - 1), distance[away])
 
 
@@ -147,7 +147,7 @@ def test_settled_values_solve_the_bellman_equation():
 
 @pytest.mark.parametrize("discount", [0.2, 0.45, 0.55, 0.9])
 def test_three_fruits_equally_far_hold_the_agent_above_a_discount_of_one_half(discount):
-    """To stay is worth 3 γ³ there, to go to one of them γ² + 2 γ⁴."""
+    """Staying is worth 3 γ³ there, and going to one of them γ² + 2 γ⁴."""
     values = sum(settled_values(JUNCTION, fruit, discount) for fruit in JUNCTION.marked("o"))
     assert (values[3].argmax() == 0) == (discount > 0.5)
     np.testing.assert_allclose(values[3], [3 * discount**3, *3 * [discount**2 + 2 * discount**4]])
@@ -179,7 +179,7 @@ def test_a_bad_argument_is_refused(make, message):
         make()
 
 
-def test_the_board_shows_fruits_at_as_many_places_as_hold_one():
+def test_the_board_fills_as_many_places_as_hold_a_fruit():
     hybrid_reward_figures.draw_game(Game(fruits=3))
     circles = [patch for patch in plt.gca().patches if isinstance(patch, hybrid_reward_figures.Circle)]
     fruits = [patch for patch in circles if patch.radius == 0.24]
@@ -198,4 +198,4 @@ def test_scores_are_drawn_as_means_over_runs():
 def test_the_junction_shows_where_the_sum_leads():
     hybrid_reward_figures.draw_junction(JUNCTION, (0.4, 0.9))
     free, held = (axes.collections[0] for axes in plt.gcf().axes)
-    assert (len(free.U), len(held.U)) == (9, 7)  # three best ways out of the junction, or one that stays
+    assert (len(free.U), len(held.U)) == (9, 7)  # three best actions lead out of the junction, or a single one stays

@@ -1,4 +1,4 @@
-"""What the page says of heads and of the single learner, for made-up games."""
+"""Sentences and tables on heads and the single learner, for made-up games."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ EDGES = np.array([0, 100, 200, 1_000])
 
 
 def played(rewards, caught=0, late=0, known=(3, 5), edges=EDGES):
-    """Two runs of the same rewards a bin, 100 games in the last: so many end by the ghost, and so many by the clock."""
+    """Two runs with these rewards per bin; of 100 games in the last, `caught` end by the ghost and `late` by time."""
     ends = np.zeros((2, len(rewards), 3), int)
     ends[0, -1] = [100 - caught - late, caught, late]
     return Played(edges, np.array([rewards, rewards], float), ends, np.array(known))
@@ -37,14 +37,14 @@ def test_latent_heads_are_better_than_heads_if_the_interval_says_so(latent, told
     assert told in text and "with probability 1.00 [1.00, 1.00]. " in text
 
 
-def test_the_single_learner_catches_up_where_its_mean_first_reaches_what_heads_make_in_the_end():
+def test_the_single_learner_catches_up_where_its_mean_first_reaches_the_final_score_of_heads():
     heads = played([9, 9, 4], edges=np.array([0, 20, 30, 50]))
     text = report.catching_up(kinds(played([1, 4, 7]), heads, None))
     assert text == ("The single learner does catch up: after 200 steps its mean first reaches 4.0, the score of heads "
                     "after 50 steps.")
 
 
-def test_the_single_learner_that_does_not_catch_up_is_told_where_it_ends():
+def test_the_final_score_of_a_single_learner_that_does_not_catch_up_is_reported():
     heads = played([0, 0, -1], edges=np.array([0, 20, 30, 50]))
     text = report.catching_up(kinds(played([-4, -3, -2.5]), heads, None))
     assert text == ("In 1,000 steps the single learner does not reach the −1.0 that heads score after 50; it ends at "
@@ -58,7 +58,7 @@ def test_the_separation_has_a_price_if_all_heads_are_caught_more_often(caught, t
     assert f"is caught in {caught} % of its games, heads in 9 % and latent heads in 7 %." in text
 
 
-def test_the_best_discount_of_each_kind_of_heads_is_told_and_how_often_they_run_out_of_time():
+def test_the_best_discounts_of_heads_are_reported_and_how_often_they_run_out_of_time():
     swept = kinds([played([0, 0, x]) for x in (0, 0, 1)],
                   [played([0, 0, x], late=late) for x, late in ((5, 0), (4, 1), (3, 20))],
                   [played([0, 0, x], late=late) for x, late in ((2, 0), (3, 2), (2, 30))])
@@ -70,7 +70,7 @@ def test_the_best_discount_of_each_kind_of_heads_is_told_and_how_often_they_run_
                          "experience.")
 
 
-def test_heads_that_are_worse_at_one_discount_than_the_single_learner_at_its_best_are_not_ahead_at_every_one():
+def test_heads_whose_worst_discount_is_below_the_best_of_the_single_learner_are_not_always_ahead():
     swept = kinds([played([0, 0, x]) for x in (0, 2, 0)], [played([0, 0, x]) for x in (5, 4, 3)],
                   [played([0, 0, x]) for x in (2, 3, 4)])
     text = report.best_discounts([0.3, 0.5, 0.9], swept)

@@ -1,4 +1,4 @@
-"""Agents whose desires begin late: who they are, and what is said of them."""
+"""Agents whose desires begin late: their definition and the sentences on them."""
 
 from types import SimpleNamespace
 
@@ -11,12 +11,12 @@ from neorl.evidence.reading import Reading, conditions
 
 @pytest.fixture
 def not_lived(monkeypatch):
-    """Agents, and how they live, in place of their results."""
+    """Return agents and the settings of their runs in place of results."""
     monkeypatch.setattr(late_desires, "simulate_once", lambda agent, world, **chosen: (agent, chosen))
 
 
 def made_up(rate_from):
-    """A result of ten runs that earn from a tenth of the run on, by {where it begins: reward per second}."""
+    """A result of ten runs, from {share of the run at which a stretch begins: reward per second in it}."""
     return SimpleNamespace(rate=lambda begin, end: rate_from[begin] + np.linspace(-0.01, 0.01, 10))
 
 
@@ -25,7 +25,7 @@ def said(before=0.0, after=0.3, newborn=0.1, throughout=0.3, final=(0.5, 0.5)):
                                  made_up({0.4: before, 0.5: after, 0.8: final[1]}))
 
 
-def test_indifferent_agents_have_the_same_desires_without_valence_until_they_get_it(not_lived):
+def test_indifferent_agents_have_the_same_desires_but_no_valence_until_these_begin(not_lived):
     desiring, throughout = late_desires.live(Reading(), 0, steps=900, runs=3, seed=2)
     assert desiring == conditions(Reading(), 900, 3, 2, ["modal"])["both"].agent
     assert throughout == {"steps": 900, "runs": 3, "seed": 2, "changes": []}
@@ -35,7 +35,7 @@ def test_indifferent_agents_have_the_same_desires_without_valence_until_they_get
     assert not any(desire.valence for desire in indifferent.desires) and indifferent.nodes == desiring.nodes
 
 
-def test_what_agents_earn_before_and_after_half_time_is_told():
+def test_rewards_before_and_after_half_time_are_reported():
     assert said().startswith("In the tenth of the run before half-time the indifferent agents earn 0.00 [0.00, 0.00] "
                              "per second, in the tenth after it 0.30 [0.30, 0.30]. The others earned 0.10 [0.10, 0.10] "
                              "in the first tenth of their run. ")

@@ -1,4 +1,4 @@
-"""The maze again under other settings."""
+"""The maze under other settings."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ from neorl.chapters.chapter_2.maze import Maze
 
 @pytest.fixture
 def asked(monkeypatch):
-    """What `simulate_groups` is asked for, while its animals make errors of a rate and a maze's own: [arguments, …]."""
+    """Record the arguments of `simulate_groups`, which returns made-up errors by group and trace: [arguments, …]."""
     calls = []
 
     def simulate_groups(animal, maze, runs, seed, first_reward=11):
@@ -46,7 +46,7 @@ def test_a_setting_keeps_its_two_findings_and_its_verdict(asked):
     rows, judged = vary(Maze(), runs=12)
     below, one_meal = rows["λ 0"]["neoRL"]
     assert below.value == pytest.approx(-40)
-    assert one_meal.value == pytest.approx(-40 + 10, abs=2)  # of day 12 to day 2, ten days on, give or take the luck
+    assert one_meal.value == pytest.approx(-40 + 10, abs=2)  # day 12 against day 2: ten days on, up to noise
     assert judged["λ 0"].verdict == "reproduced" and judged["as above"].verdict != "reproduced"
 
 

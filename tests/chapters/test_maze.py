@@ -1,4 +1,4 @@
-"""The maze of T-shaped units, the animals that run it, and what is drawn of them."""
+"""The maze of T-shaped units, the animals that run it, and their figures."""
 
 import numpy as np
 import pytest
@@ -39,7 +39,7 @@ def test_a_blind_is_on_the_other_side_of_each_unit_and_leads_back_only():
     np.testing.assert_allclose(maze.places[5:], [[-0.55, -1], [1, -0.45], [1.55, -2]])
 
 
-def test_doors_close_behind_who_leaves_a_choice_point():
+def test_doors_close_behind_an_animal_that_leaves_a_choice_point():
     maze = Maze("RLL")
     assert walk(maze, [N, S, N, E, W, N, S]) == [0, 1, 0, 1, 2, 2, 3, 3]
 
@@ -59,7 +59,7 @@ def test_every_move_leads_to_where_it_points():
 
 
 @pytest.mark.parametrize("turns", ["", "RX", "RRR", "LLL", "RLRRR"])
-def test_a_way_that_crosses_itself_or_is_none_is_refused(turns):
+def test_a_bad_path_or_one_that_crosses_itself_is_refused(turns):
     with pytest.raises(ValueError, match="turns is .*, allowed are L and R"):
         Maze(turns)
 
@@ -74,7 +74,7 @@ def test_random_mazes_have_as_many_units_and_differ():
     ({"learner": "rat"}, "learner is 'rat'"), ({"exploration": 2}, "exploration is 2"), ({"trace": -1}, "trace is -1"),
     ({"learning_rate": "a"}, "learning_rate is 'a'"), ({"discount": 1.1}, "discount is 1.1"),
 ])
-def test_an_animal_that_cannot_be_is_refused(change, message):
+def test_a_bad_animal_is_refused(change, message):
     with pytest.raises(ValueError, match=message):
         Animal(**change)
 
@@ -83,7 +83,7 @@ def test_an_animal_that_cannot_be_is_refused(change, message):
     ({"animal": "neoRL"}, "animal is"), ({"maze": "RL"}, "maze is"), ({"runs": 0}, "runs is 0"),
     ({"seed": -1}, "seed is -1"), ({"first_reward": 0}, "first_reward is 0"),
 ])
-def test_an_experiment_that_cannot_be_is_refused(change, message):
+def test_a_bad_experiment_is_refused(change, message):
     with pytest.raises(ValueError, match=message):
         simulate_groups(**{"animal": Animal(), "maze": Maze(), "runs": 2} | change)
 
@@ -101,10 +101,10 @@ def test_a_run_is_the_same_alone_and_among_others(by_learner, learner):
     assert (by_learner[learner]["never"].errors[:, :10] != by_learner[learner]["delayed"].errors[:, :10]).any()
 
 
-def test_who_walks_at_random_enters_each_blind_once_a_day_on_average(by_learner):
-    errors = by_learner["neoRL"]["never"].errors  # at a choice point blind and true path are equally likely: 1 each
+def test_a_random_walk_enters_each_blind_once_a_day_on_average(by_learner):
+    errors = by_learner["neoRL"]["never"].errors  # blind and true path are equally likely: one error per unit
     assert errors.shape == (60, DAYS)
-    assert errors.mean() == pytest.approx(14, abs=4 * np.sqrt(28 / errors.size))  # geometric, of variance 2
+    assert errors.mean() == pytest.approx(14, abs=4 * np.sqrt(28 / errors.size))  # geometric, with variance 2
 
 
 def test_neorl_learns_one_more_unit_a_day_fed_or_not(by_learner):
@@ -119,7 +119,7 @@ def test_q_learning_learns_one_more_unit_a_meal(by_learner):
         np.testing.assert_allclose(record.known, np.tile(np.clip(meals[group], 0, 14) / 14, (60, 1)))
 
 
-def test_sarsa_learns_all_of_the_way_at_one_meal(by_learner):
+def test_sarsa_learns_the_whole_path_from_one_meal(by_learner):
     known = by_learner["Sarsa(λ)"]["delayed"].known
     assert (known[:, :10] == 0).all() and known[:, 10:].mean() > 0.99
 
@@ -130,7 +130,7 @@ def test_sarsa_without_a_trace_learns_one_unit_a_meal():
 
 
 @pytest.mark.parametrize("ended", [False, True])
-def test_sarsa_learns_along_traces_of_which_the_newest_replaces_those_of_its_place(ended):
+def test_sarsa_learns_along_replacing_traces(ended):
     animal, rng = new_tuple(Rival, {"states": 3}, {}), np.random.default_rng(0)
     animal.q[:], animal.traces[:] = rng.random((2, 3, 4))
     target = 2.0 + (0 if ended else 0.9 * animal.q[2, 3])
@@ -146,20 +146,20 @@ def test_sarsa_leaves_no_trace_of_yesterday():
     maze, animal = Maze(), Animal("Sarsa(λ)", discount=1.0, exploration=0.0, trace=1.0)
     days = live(animal, maze, 1, new_stream(np.random.SeedSequence(0)))
     errors, learned = zip(*[(errors, worth[maze.blinds].copy()) for (errors, worth), _ in zip(days, range(3))])
-    assert errors[0] > 0 and errors[2] == 0  # it went into blinds on the first day, and straight on the last
+    assert errors[0] > 0 and errors[2] == 0  # it enters blinds on the first day and none on the last
     assert learned[0].any() and np.array_equal(learned[1], learned[2])
 
 
 def test_sarsa_tries_what_it_has_tried_least():
     errors = simulate_groups(Animal("Sarsa(λ)", exploration=0.0), Maze(), runs=60)["never"].errors
-    # Of four actions in turn, the blind comes before the true path or after it: half an error a unit on the first day,
-    # and from then on as many entries into each as the other.
+    # It tries the four actions in turn, the blind before or after the true path: half an error per unit on the first
+    # day, and from then on as many entries into the blind as into the true path.
     assert errors[:, 0].mean() == pytest.approx(7, abs=1)
     assert (np.abs(errors.sum(axis=1) - 14 * DAYS) <= 14).all()
 
 
 def test_fed_throughout_and_without_exploration_neorl_and_q_learning_do_the_same():
-    hardly = Animal("neoRL", exploration=1e-12), Animal("Q-learning", exploration=1e-12)  # who draws whether to explore
+    hardly = Animal("neoRL", exploration=1e-12), Animal("Q-learning", exploration=1e-12)  # both draw whether to explore
     neorl, q_learning = (simulate_groups(animal, Maze(), runs=20)["throughout"].errors for animal in hardly)
     np.testing.assert_array_equal(neorl, q_learning)
     assert (neorl[:, 14:] == 0).all()
@@ -167,17 +167,17 @@ def test_fed_throughout_and_without_exploration_neorl_and_q_learning_do_the_same
 
 def test_exploration_is_the_share_of_drawn_actions():
     errors = simulate_groups(Animal(exploration=0.2), Maze(), runs=60)["throughout"].errors[:, 15:]
-    # At a known choice point an action is true with 0.85 and blind with 0.05.
+    # At a known choice point an action leads to the true path with probability 0.85 and to the blind with 0.05.
     assert errors.mean() == pytest.approx(14 * 0.05 / 0.85, abs=0.3)
 
 
 @pytest.mark.parametrize("learner", ["neoRL", "Q-learning"])
-def test_what_is_learned_are_the_values_of_bellman(learner):
+def test_learned_values_solve_the_bellman_equation(learner):
     maze = Maze()
     *_, (_, q) = live(Animal(learner, learning_rate=1.0), maze, 1, new_stream(np.random.SeedSequence(0)))
     steps_left = maze.goal - np.arange(maze.goal)
     np.testing.assert_allclose(q[: maze.goal].max(axis=1), 0.9 ** (steps_left - 1.0), rtol=1e-5)
-    if learner == "neoRL":  # and not for the goal box alone
+    if learner == "neoRL":  # not only for the goal box
         horde = q.base.reshape(30, 4, 30)
         np.testing.assert_allclose(horde[0, N, 1 : maze.goal], 0.9 ** np.arange(maze.goal - 1.0), rtol=1e-5)
 
@@ -200,14 +200,14 @@ def test_the_findings_of_the_original_are_found_in_results_that_have_them():
     assert [found.holds for found in findings(groups).values()] == [True] * 8
 
 
-def test_the_findings_of_the_original_are_not_found_where_they_are_not():
+def test_the_findings_of_the_original_are_not_found_in_results_that_lack_them():
     groups = {"throughout": flat(12), "never": flat(12), "delayed": flat(14, 13, 14.1)}
     assert [found.holds for found in findings(groups).values()] == [False] * 8
     numbers = [found.here.value for found in findings(groups).values()]
     assert numbers == pytest.approx([0, 0, 0, 2, 0.1, 2.1, 7.1 / 6, 2.1], abs=0.01)
 
 
-def test_groups_are_as_far_apart_below_as_above_and_ahead_only_with_the_whole_interval():
+def test_groups_differ_in_either_direction_and_are_ahead_only_with_the_whole_interval():
     found = findings({"throughout": flat(12), "never": flat(12), "delayed": flat(10, 13, 12.005)})
     assert found["before"].here.value == pytest.approx(-2) and not found["before"].holds
     assert found["one meal"].here.low < 0 < found["one meal"].here.high and not found["one meal"].holds
@@ -242,7 +242,7 @@ def test_the_plan_draws_every_blind_and_every_door():
         np.testing.assert_allclose(door.get_xydata().mean(axis=0), maze.places[[choice, choice + 1]].mean(axis=0))
 
 
-def test_errors_are_drawn_as_means_a_panel_a_learner(by_learner):
+def test_mean_errors_are_drawn_in_a_panel_for_each_learner(by_learner):
     maze_figures.draw_errors(by_learner, 11)
     panels = plt.gcf().axes
     assert [axes.get_title() for axes in panels] == list(LEARNERS)

@@ -1,4 +1,4 @@
-"""What is said of the animals in the maze."""
+"""Sentences and tables on the animals in the maze."""
 
 from types import SimpleNamespace
 
@@ -23,7 +23,7 @@ def claim(outcome, runs=20):
     return Claim("H1", AROUND, "", runs, outcome, False)
 
 
-def test_errors_are_told_around_the_first_meals_of_both_groups_and_on_the_first_day():
+def test_errors_are_reported_around_the_first_meals_of_both_groups_and_on_the_first_day():
     days = np.arange(1.0, DAYS + 1)
     by_learner = {name: {"throughout": record(days + 0.1 * place), "never": record(20 + days + 0.1 * place),
                          "delayed": record(40 + days + 0.1 * place)} for place, name in enumerate(LEARNERS)}
@@ -35,7 +35,7 @@ def test_errors_are_told_around_the_first_meals_of_both_groups_and_on_the_first_
 
 
 def findings_of(held):
-    """The same numbers for every kind of animal, of which those named show a finding: {finding: who}."""
+    """The same numbers for every kind of animal; those named show a finding. held: {finding: names}."""
     return {name: {key: Finding(f"Of {key}", BELOW, name in held.get(key, ()))
                    for key in ("level", "one meal", "below", "never")} for name in LEARNERS}
 
@@ -47,7 +47,7 @@ def test_the_table_of_findings_has_a_row_for_each_and_a_column_for_each_kind_of_
     assert rows[2] == f"| Of level | **no** {number} | **yes** {number} | **no** {number} |"
 
 
-def test_findings_name_all_who_show_them():
+def test_findings_name_all_animals_that_show_them():
     words = describe_findings(findings_of({"level": ["neoRL", "Sarsa(λ)"], "never": ["Q-learning"]}))
     assert "right after its first food with neoRL and Sarsa(λ). This" in words
     assert "not to quick learning, with none of the three. It overtakes with none of the three. The unrewarded" in words
@@ -56,7 +56,7 @@ def test_findings_name_all_who_show_them():
 
 @pytest.mark.parametrize("fed, said", [(0.5, "draws level and does not overtake: in a maze"),
                                        (0.6, "The group fed throughout does not know quite the same: in a maze")])
-def test_what_is_known_before_food_is_told_and_whether_the_fed_know_the_same(fed, said):
+def test_knowledge_before_food_is_reported_and_compared_with_the_fed_group(fed, said):
     known = np.full(DAYS, 0.9)
     known[9] = 0.5  # on the evening before day 11
     by_learner = {name: {"delayed": record(known=known * share), "throughout": record(known=known * fed / 0.5)}
@@ -66,7 +66,7 @@ def test_what_is_known_before_food_is_told_and_whether_the_fed_know_the_same(fed
     assert said in words
 
 
-def test_settings_are_told_by_their_numbers_and_verdicts():
+def test_settings_are_reported_by_their_numbers_and_verdicts():
     rows = {setting: {"neoRL": [lead, saved], "Q-learning": [AROUND, rival], "Sarsa(λ)": [AROUND, ABOVE]}
             for setting, lead, saved, rival in (("a", AROUND, BELOW, ABOVE), ("b", BELOW, BELOW, BELOW),
                                                 ("c", ABOVE, AROUND, ABOVE))}
@@ -77,7 +77,7 @@ def test_settings_are_told_by_their_numbers_and_verdicts():
     assert words.endswith("are ahead in 2 settings. Other learners are ahead in these cases: Q-learning with b.")
 
 
-def test_settings_without_a_rival_ahead_or_an_interval_below_0_are_told_so():
+def test_settings_without_a_rival_ahead_or_an_interval_below_0_are_reported_as_such():
     rows = {"a": {"neoRL": [AROUND, BELOW], "Q-learning": [AROUND, ABOVE], "Sarsa(λ)": [AROUND, AROUND]}}
     words = describe_settings(rows, {"a": claim("partly", runs=4)}, worth=11.0)
     assert "It is *no verdict* in 1. After one meal each" in words
@@ -87,7 +87,7 @@ def test_settings_without_a_rival_ahead_or_an_interval_below_0_are_told_so():
 @pytest.mark.parametrize("outcome, said", [("reproduced", "Here the interval lies below 0. Yet both"),
                                            ("partly", "level with the group fed throughout, and no further. "),
                                            ("not reproduced", "level cannot be distinguished from slightly behind. ")])
-def test_each_verdict_is_told_in_words_of_its_own(outcome, said):
+def test_each_verdict_has_its_own_words(outcome, said):
     assert said in describe_verdict(claim(outcome)) and describe_verdict(claim(outcome)).endswith(". ")
     assert describe_verdict(claim(outcome, runs=9)) == describe_verdict(claim("not testable")) == ""
 

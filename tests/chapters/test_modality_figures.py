@@ -1,4 +1,4 @@
-"""The drawings of paper B: the numbers that they show."""
+"""The numbers shown by the figures of paper B."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Agents with more and more maps: who they are, and what is said of them."""
+"""Agents with more and more maps: their definition and the sentences on them."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -13,7 +13,7 @@ from neorl.evidence.reading import Reading, conditions
 
 
 def made_up(*rates):
-    """A result for each of the rates, of eight runs that earn it throughout, give or take very little."""
+    """A result of eight runs for each rate, which they earn throughout, up to small differences."""
     return [SimpleNamespace(rate=lambda *share, rate=rate: rate + 1e-3 * np.arange(8))
             for rate in rates]
 

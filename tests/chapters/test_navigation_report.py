@@ -1,4 +1,4 @@
-"""What is said of newborns, veterans and a rule."""
+"""Sentences and tables on newborns, veterans and a rule."""
 
 import numpy as np
 import pytest
@@ -12,11 +12,11 @@ from neorl.evidence.statistics import Estimate
                                        (0.0, "do not show a gain from experience"),
                                        (-0.1, "do not show a gain from experience"),
                                        (np.nan, "do not show a gain from experience")])
-def test_a_life_pays_if_the_whole_interval_lies_above_0(low, said):
+def test_experience_pays_if_the_whole_interval_lies_above_0(low, said):
     assert describe_gain(Estimate(0.4, low, 0.7)).endswith(said)
 
 
-def test_the_rule_does_better_only_if_it_earns_more_in_the_mean():
+def test_the_rule_does_better_only_if_it_earns_more_on_average():
     veterans = np.array([0.0, 2.0])
     assert describe_rule(np.array([3.0, -0.5]), veterans).startswith("scores higher than both, but it is not "
                                                                      "autonomous")

@@ -1,4 +1,4 @@
-"""The neuron against closed forms and against what is known of the equations."""
+"""The neuron against closed forms and known properties of the equations."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ from neorl.drawing.style import LOW_PANEL, name_ends
 def test_an_axon_that_is_left_alone_stays_at_rest():
     axon = action_potential(0.0)
     np.testing.assert_allclose(axon.potential, REST, atol=0.02)
-    np.testing.assert_allclose(gates_at_rest(), [0.0529, 0.5961, 0.3177], atol=1e-4)  # as the textbooks have them
+    np.testing.assert_allclose(gates_at_rest(), [0.0529, 0.5961, 0.3177], atol=1e-4)  # as in textbooks
 
 
 def test_the_gates_move_as_in_the_paper():
@@ -47,12 +47,12 @@ def test_the_peak_is_the_highest_potential():
 def test_after_an_action_potential_the_axon_is_below_rest():
     axon = action_potential(20.0)
     assert axon.potential.argmin() > axon.potential.argmax()
-    assert -77.0 < axon.potential.min() < -70.0  # never below where potassium reverses
+    assert -77.0 < axon.potential.min() < -70.0  # never below the reversal potential of potassium
     assert axon.time[axon.potential.argmax()] > 5.0 and len(axon.time) == 2_500
 
 
 def test_the_axon_obeys_its_own_equation():
-    """The charge that flows in and through the channels is what the membrane holds, by finite differences."""
+    """By finite differences, the membrane's charge changes by the injected current less that through the channels."""
     time, potential, m, h, n = action_potential(10.0)
     flow = 120 * m**3 * h * (potential - 50) + 36 * n**4 * (potential + 77) + 0.3 * (potential + 54.387)
     inside = (time > 5.05) & (time < 5.95)
@@ -85,7 +85,7 @@ def test_below_threshold_the_soma_integrates_exactly():
     assert not spikes.any()
 
 
-def test_a_neuron_alone_is_as_among_others():
+def test_a_neuron_is_the_same_alone_and_among_others():
     current = np.random.default_rng(0).uniform(0, 4, (500, 3))
     potential, spikes = integrate(current)
     np.testing.assert_array_equal(integrate(current[:, 1])[0], potential[:, 1])
@@ -133,7 +133,7 @@ def test_names_beside_a_low_panel_keep_apart():
     assert heights["c"] == 0.0 and heights["b"] - heights["a"] == pytest.approx(1.7)
 
 
-def test_a_wish_is_drawn_everywhere_but_in_the_marked_places():
+def test_a_desire_is_drawn_everywhere_but_in_the_marked_places():
     grid = Grid(("F..",))
     q = np.zeros((3, 4))
     q[:, 3] = 1.0  # west
@@ -151,7 +151,7 @@ def test_a_wish_is_drawn_everywhere_but_in_the_marked_places():
     (lambda: synaptic_current([1], np.nan), "weight is nan"),
     (lambda: efficacy([1.0], [3.0, 2.0]), "shocks is .* allowed are rising times"),
 ])
-def test_what_makes_no_neuron_is_refused(call, message):
+def test_a_bad_argument_is_refused(call, message):
     with pytest.raises(ValueError, match=message):
         call()
 

@@ -1,4 +1,4 @@
-"""What separates the forager from the planner, networks down to control, and gains that adapt to reward."""
+"""The gaps between the forager and the planner, networks down to control, and gains that adapt to reward."""
 
 import numpy as np
 import pytest
@@ -47,7 +47,7 @@ def ask(setting, memory, state, rules, found):
 
 
 def test_a_plan_of_one_capture_does_not_look_beyond():
-    """Two green creeps east of the agent, one behind the other, and a nearer one in the west."""
+    """Two green creeps east of the agent, one behind the other, and a nearer one to its west."""
     world, gains = WaterWorld(n_creeps=3), best_settings()["PD"]
     state = world.reset(0)
     state.speed[:] = 0
@@ -78,13 +78,13 @@ def test_a_desire_vector_is_a_velocity_for_a_node_of_velocities():
         here, known = velocities.encode(run.world_state.scene.velocity / run.world.size), run.q(1).copy()
         run.advance(1)
         goal = velocities.encode(50.0 * run.output("OVC").desire)
-        if goal != here and run.output("V").valence:  # or else the desire is met, or the board was drawn anew
+        if goal != here and run.output("V").valence:  # otherwise the desire is met, or the board is new
             elsewhere += 1
             assert np.array_equal(run.output("V").q, known[here, :, goal])
     assert elsewhere > 10
 
 
-def test_networks_down_to_control_are_of_the_record():
+def test_networks_down_to_control_are_those_of_the_record():
     record = control.read_record()
     assert len(record) == control.SETTINGS * len(control.NETWORKS)
     best = next(row for row in record if row["layers"] == 2)
@@ -102,7 +102,7 @@ def test_the_page_compares_networks():
 
 
 def test_gains_move_to_where_reward_is(monkeypatch):
-    """The world pays by the gain itself: the parameter rises, and stays if the rate is 0."""
+    """Where the reward is the gain itself, the parameter rises; with a rate of 0 it stays."""
     monkeypatch.setattr(Run, "advance", lambda run, steps: run.agent.nodes[0].gain * steps / run.world.fps)
     adaptable = adapting.Adaptable(lambda octaves: multimodal(place_gain=octaves + 10), ("gain",), (0.0,))
     path, rewards = adapting.adapt(adaptable, 40_000)

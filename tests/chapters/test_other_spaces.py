@@ -1,4 +1,4 @@
-"""What the page "Is it general?" runs and says, on short runs and on made-up ones."""
+"""The page "Is it general?": its runs and sentences, on short runs and made-up ones."""
 
 import math
 
@@ -100,7 +100,7 @@ def test_the_fewest_steps_to_a_bird(here, there, steps):
     assert birds.fewest(here, there) == steps
 
 
-def test_one_who_has_morphed_birds_makes_any_of_them(asked):
+def test_an_agent_that_has_morphed_birds_makes_any_of_them(asked):
     assert {each.shape for each in asked.values()} == {(RUNS, len(birds.NAMED) + len(birds.NAMELESS))}
     assert max(asked["one map"].mean(), asked["a map of each"].mean()) < 2 < 5 < asked["random"].mean()
 

@@ -1,4 +1,4 @@
-"""What the page of paper A computes: runs of both experiments, and the numbers beside the thesis's."""
+"""The page of paper A: runs of both experiments, and their numbers beside the thesis's."""
 
 from dataclasses import replace
 
@@ -17,7 +17,7 @@ WORLD = WaterWorld(n_creeps=8, win_reward=5.0)
 
 
 def made_up(agent, rate, runs=12, steps=150_000):
-    """A result in which every run earns `rate` a second, give or take some luck, all of it by green creeps."""
+    """A result in which every run earns about `rate` per second, all of it from green creeps."""
     bins = steps // 10
     hits = np.zeros((runs, bins, 2), np.int16)
     hits[..., 0] = np.random.default_rng(0).random((runs, bins)) < 0.2 * rate

@@ -1,4 +1,4 @@
-"""What the page of paper B computes and reports: its conditions, and its numbers and sentences."""
+"""The page of paper B: its conditions, numbers and sentences."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -18,7 +18,7 @@ READING = Reading(causes="any", capture="contact", attention="each", place_gain=
 
 
 def made_up(rate, runs=12, red=0.0, bins=3_000, win_reward=0.0):
-    """A result in which every run takes so many green and red creeps a second, give or take some luck."""
+    """A result in which every run takes about `rate` green and `red` red creeps per second."""
     luck = np.random.default_rng(0).random((runs, bins, 2))
     hits = (luck < 0.2 * np.array([rate, red])).astype(np.int16)
     rewards = (hits[..., 0] - hits[..., 1]).astype(np.float32)
@@ -28,7 +28,7 @@ def made_up(rate, runs=12, red=0.0, bins=3_000, win_reward=0.0):
 
 @pytest.fixture(scope="module")
 def lived():
-    """Results of every key, as if both modalities earned 0.6 a second and place cells 0.3."""
+    """Results of every key, as if both modalities together earned 0.6 per second and place cells 0.3."""
     made = experiments.all_conditions(READING, 1_000, 12)
     rates = {key: 0.3 for key in made} | {"both": 0.6, ("objects", "all"): 0.1, ("pace", "both"): 0.6,
                                           ("brownian", 3): 0.05}
@@ -94,7 +94,7 @@ def test_the_explorer_offers_the_figures_and_what_changes(lived):
 
 
 def watched(runs=12):
-    """Trials in which experience halves the distance, values of objects are a third, and maps cost as much as alone."""
+    """Trials in which experience halves distances, values of objects are a third, and maps cost the same as alone."""
     moved = {"experienced": np.full((runs, 6, 10), 0.2), "ignorant": np.full((runs, 6, 10), 0.4)}
     moved["experienced"][:, :2] = 0.3
     luck = np.random.default_rng(0).random
@@ -178,7 +178,7 @@ def test_red_creeps_a_minute_add_up_to_those_taken():
     np.testing.assert_allclose(curves["a"].mean(axis=1) * 10, result.hits[..., 1].sum(axis=1))
 
 
-def test_red_creeps_are_told_before_and_after_the_turn_and_at_last():
+def test_red_creeps_are_reported_before_and_after_the_change_and_finally():
     curve = np.zeros((2, 100))
     curve[:, 49], curve[:, 50], curve[:, 80:] = 1.0, [2.0, 4.0], 5.0
     assert findings.red_in_words({"to the letter": curve, "calibrated": 2 * curve}) == (
@@ -187,12 +187,12 @@ def test_red_creeps_are_told_before_and_after_the_turn_and_at_last():
         "in the hundredth of the run before the change, 6.0 in the one after it, and 10.0 in the last fifth.")
 
 
-def test_distances_are_told_for_the_first_two_moves_and_the_later_ones():
+def test_distances_are_reported_for_the_first_two_moves_and_the_later_ones():
     assert findings.distances_in_words({"to the letter": watched(), "calibrated": watched()}).startswith(
         "To the letter, it is 0.30 and 0.20 for experienced agents, 0.40 and 0.40 for untrained ones. Calibrated, it ")
 
 
-def test_what_agents_earn_is_told_for_the_twentieths_beside_the_change():
+def test_rewards_are_reported_for_the_twentieths_before_and_after_the_change():
     def rate(begin, end):
         return np.array([{(0.45, 0.5): 0.1, (0.5, 0.55): 0.3}[begin, end]] * 2)
 

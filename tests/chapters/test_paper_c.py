@@ -1,4 +1,4 @@
-"""What the page of paper C computes: networks under readings, and how strongly the last one recurs."""
+"""The page of paper C: networks under readings, and the weight of recursion in the last one."""
 
 from dataclasses import replace
 
@@ -17,7 +17,7 @@ LIKE_THE_THESIS = {"A": 0.12, "B": 0.2, "C": 0.3, "D": 0.6}
 
 
 def made_up(agent, rate, runs=12, bins=3_000):
-    """A result in which every run earns `rate` a second, give or take some luck, in the second half of its life."""
+    """A result in which every run earns about `rate` per second in its second half, and nothing before."""
     hits = np.zeros((runs, bins, 2), np.int16)
     hits[:, bins // 2 :, 0] = np.random.default_rng(0).random((runs, bins - bins // 2)) < 0.2 * rate
     return Result(agent, WaterWorld(), 10 * bins, runs, 0, hits[..., 0].astype(np.float32), hits)
@@ -43,7 +43,7 @@ def test_recursion_is_varied_and_none_is_network_c(cache_folder):
     assert [result.agent for result in results] == expected
 
 
-def test_what_the_networks_page_has_not_run_yet_has_few_runs(monkeypatch):
+def test_weights_that_the_networks_do_not_run_have_few_runs(monkeypatch):
     monkeypatch.setattr("neorl.chapters.shared.side_by_side.sweep", lambda conditions: conditions)
     (made,) = recur({"book": Reading()}, [-3.0, -1.0, 0.0], steps=300, runs=30).values()
     assert [condition.runs for condition in made] == [10, 30, 30]
@@ -90,7 +90,7 @@ def test_final_rates_over_weights_are_those_of_the_last_fifth(results):
     assert high.value == pytest.approx(results["network", "D"].rate(0.8, 1.0).mean()) and low.high < high.low
 
 
-def test_the_best_weight_of_recursion_is_told_with_what_agents_earn_without():
+def test_the_best_weight_of_recursion_is_reported_with_the_reward_without_recursion():
     found = {"to the letter": [Estimate(0.3, 0.2, 0.4), Estimate(0.1, 0.0, 0.2), Estimate(-0.2, -0.3, -0.1)],
              "calibrated": [Estimate(0.0, -0.1, 0.1), Estimate(0.2, 0.1, 0.3), Estimate(0.5, 0.4, 0.6)]}
     assert recursion_in_words([-0.5, 0.0, 1.0], found) == (
@@ -105,7 +105,7 @@ def test_the_table_has_a_row_for_each_network_and_reading(results):
     assert len(rows) == 8 and rows[-1].endswith("| 0.0 |")
 
 
-def test_desires_that_land_on_the_agent_are_told_from_those_that_do_not():
+def test_desires_that_land_on_the_agent_are_distinguished_from_those_that_do_not():
     near, far = (wiring.distances({"book": replace(Reading(), scale=scale)}, 20_000, runs=2) for scale in (1e-6, 1e6))
     assert list(near) == [("book", name) for name in NETWORKS]
     for name in NETWORKS:

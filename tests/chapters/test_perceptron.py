@@ -1,4 +1,4 @@
-"""What is known of a perceptron beforehand, in cases that can be worked out by hand."""
+"""Known properties of a perceptron, in cases that can be worked out by hand."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ def test_intervals_agree_where_the_slope_is_zero_below_the_threshold_and_one_abo
 
 def test_the_bound_is_the_square_of_the_largest_input_over_the_margin():
     inputs = np.array([[3.0, 4.0], [0.0, -2.0], [4.0, 1.0]])
-    assert mistake_bound(inputs, np.array([0.0, 7.0])) == pytest.approx(5**2)  # the margin is 1, of the last
+    assert mistake_bound(inputs, np.array([0.0, 7.0])) == pytest.approx(5**2)  # the margin is 1, that of the last input
     assert mistake_bound(inputs, np.array([0.0, 0.1])) == pytest.approx(5**2)
 
 

@@ -1,6 +1,6 @@
-"""The page of performance: that rivals compute the same, that bytes are counted as described, and what is said of them.
+"""The page on performance: rivals compute the same, bytes are counted as described, and both are reported.
 
-No test looks at a time that was measured.
+No test judges a measured time.
 """
 
 import json
@@ -57,7 +57,7 @@ def test_what_is_not_installed_is_named():
 
 
 def lived(resolution, **rule):
-    indifferent = place_cells([resolution], 0.0, 0.0, learning=Learning(**rule))  # which moves about
+    indifferent = place_cells([resolution], 0.0, 0.0, learning=Learning(**rule))  # it moves about all the same
     run = Run(indifferent, WaterWorld())
     run.advance(10_000)
     return run
@@ -90,7 +90,7 @@ def test_the_values_of_a_cell_move_a_line_each_if_goals_lie_together():
     assert 2 * 64 * found.changes * found.remembered < found.scattered < 4 * 2 * 64 * found.changes * found.remembered
 
 
-def test_to_count_bytes_takes_the_same_steps():
+def test_counting_bytes_takes_the_same_steps():
     counted, run = lived(5), lived(5)
     bound.moved(counted, 300)
     run.advance(300)

@@ -1,4 +1,4 @@
-"""Agents that learn at changes of cell or at every step: what is run, judged and said."""
+"""Agents that learn at changes of cell or at every step: their runs, verdicts and sentences."""
 
 from dataclasses import replace
 
@@ -13,7 +13,7 @@ from neorl.evidence.reading import conditions
 
 
 def made_up(first, last=None, runs=12, bins=100):
-    """A result whose runs earn `first` a second, and `last` in the last fifth, give or take very little."""
+    """A result whose runs earn about `first` per second, and about `last` in the last fifth."""
     rates = np.full((runs, bins), first)
     rates[:, -bins // 5 :] = first if last is None else last
     rates += 1e-4 * np.arange(runs)[:, None]
@@ -55,13 +55,13 @@ def test_the_best_discount_counts():
     assert "does best with γ = 0.98," in claim.detail
 
 
-def test_rewards_are_told_beside_what_is_kept_of_the_gain():
+def test_rewards_are_reported_beside_the_share_of_the_gain_that_is_kept():
     lived = {"to the letter": results(), "calibrated": results(step=0.5)}
     text = persistence.in_words(lived, {name: persistence.judge(each) for name, each in lived.items()})
     rows = [line for line in text.splitlines() if line.startswith("|")]
     assert rows[0] == "| Learns at | to the letter | calibrated |"
     assert rows[2] == "| changes of cell | 1.00 [1.00, 1.00] | 1.00 [1.00, 1.00] |"
-    assert rows[3] == "| nothing: Brownian motion | 0.26 [0.26, 0.26] | 0.26 [0.26, 0.26] |"  # in the whole run
+    assert rows[3] == "| nothing: Brownian motion | 0.26 [0.26, 0.26] | 0.26 [0.26, 0.26] |"  # over the whole run
     assert rows[5] == "| every step | 0.20 [0.20, 0.20] (γ = 0.98) | 0.50 [0.50, 0.50] (γ = 0.98) |"
     assert text.splitlines()[-1] == (
         "To the letter, learning at every step gains −0.08 [−0.08, −0.08] times as much as learning at changes of "

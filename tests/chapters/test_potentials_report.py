@@ -1,4 +1,4 @@
-"""What the page of chapter 4 says of value functions and their sums, on numbers that are known."""
+"""Sentences and tables of chapter 4 on value functions and their sums, for known numbers."""
 
 import numpy as np
 
@@ -37,7 +37,7 @@ def test_functions_that_are_independent_in_all_agents_are_a_basis():
     assert text.endswith("its median over agents is 4, and for the planned functions it is 1.")
 
 
-def test_agents_whose_functions_depend_on_each_other_are_counted_out():
+def test_agents_whose_functions_depend_on_each_other_are_left_out():
     text = overlaps([BASIS, NO_BASIS], [0.6, 0.6], [0.3, 0.3])
     assert "*independent* in 1 of 2 agents" in text and "*basis*" not in text and "median over agents is 4," in text
     text = overlaps([NO_BASIS, NO_BASIS], [0.6, 0.6], [0.3, 0.3])
@@ -53,7 +53,7 @@ def shares(compared):
     return potentials_report.shares_of_plan(compared, {0: "none feared", 1: "one feared"}, others)
 
 
-def test_the_sum_is_told_as_a_share_of_the_plan():
+def test_the_sum_is_reported_as_a_share_of_the_plan():
     text = shares({(1, 0): made_up(1.0), (2, 0): made_up(1.0, -0.2), (1, 1): made_up(0.6), (2, 1): made_up(0.75)})
     assert text.splitlines()[2:6] == [
         "| Desired | none feared | one feared | random actions, none feared |", "|---|---|---|---|",

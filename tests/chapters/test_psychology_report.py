@@ -1,4 +1,4 @@
-"""What is said of cats in boxes, rats at levers and an animal with desires."""
+"""Sentences on cats in boxes, rats at levers and an animal with desires."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,7 @@ import pytest
 from neorl.chapters.chapter_2.psychology_report import describe_latencies, describe_presses, describe_way
 
 
-def test_a_law_is_told_by_its_first_and_last_trial_and_by_when_times_have_halved():
+def test_a_law_is_described_by_its_first_and_last_trial_and_by_when_times_have_halved():
     falling = np.array([[80.0, 60.0, 40.0, 30.0], [80.0, 60.0, 40.0, 20.0]])
     words = describe_latencies({"gain": falling, "none": np.full((2, 4), 50.0)}, published=[60, 80])
     assert words.startswith("On average, with *gain* a cat takes 80.00 [80.00, 80.00] seconds in the first trial and "
@@ -18,7 +18,7 @@ def test_a_law_is_told_by_its_first_and_last_trial_and_by_when_times_have_halved
 
 
 def pressing(*phases, runs=4):
-    """Presses a minute of rats that press as told in the light and in the dark, for ten sessions of each phase."""
+    """Presses per minute of rats with these rates in the light and in the dark, for ten sessions of each phase."""
     sessions = np.repeat(np.array(phases, float), 10, axis=0)
     sessions[::10] = 99.0  # the first session of a phase does not count
     return np.tile(sessions, (runs, 1, 1))
@@ -42,11 +42,11 @@ def test_food_is_a_stimulus_where_blind_rats_press_more_in_the_light(blind, by_f
 
 
 @pytest.mark.parametrize("sees, gated", [((56, 4), True), ((40, 20), False)])
-def test_the_light_gates_the_response_where_it_makes_more_of_a_difference_than_to_blind_rats(sees, gated):
+def test_the_light_gates_the_response_where_its_effect_exceeds_that_on_blind_rats(sees, gated):
     minutes = {"sees": pressing((0, 0), sees, (0, 0)), "blind": pressing((0, 0), (40, 20), (0, 0))}
     words = describe_presses(minutes, (10, 20, 30))
     assert ("only in rats that perceive it" in words) == gated != words.endswith("do not show the effect of the light.")
 
 
-def test_a_way_has_steps_or_is_none():
+def test_a_path_has_steps_or_there_is_none():
     assert describe_way(4) == "4 steps" and describe_way(0) == "0 steps" and describe_way(None) == "no path"

@@ -9,7 +9,7 @@ from neorl.chapters.shared.grid import Grid
 WEST, EAST = np.eye(4)[[3, 2]]
 
 
-def test_a_way_is_as_long_as_the_best_actions_make_it():
+def test_a_path_is_as_long_as_the_best_actions_make_it():
     corridor = Grid(("....",))
     assert steps_to(3, corridor, np.tile(EAST, (4, 1)), start=0) == 3
     assert steps_to(0, corridor, np.tile(EAST, (4, 1)), start=0) == 0
@@ -17,6 +17,6 @@ def test_a_way_is_as_long_as_the_best_actions_make_it():
 
 
 @pytest.mark.parametrize("goal, steps", [(LONGEST_WAY, LONGEST_WAY), (LONGEST_WAY + 1, None)])
-def test_whoever_is_not_there_after_so_many_steps_has_no_way(goal, steps):
+def test_a_path_beyond_the_limit_of_steps_is_none(goal, steps):
     corridor = Grid((".." * LONGEST_WAY,))
     assert steps_to(goal, corridor, np.tile(EAST, (corridor.states, 1)), start=0) == steps

@@ -1,4 +1,4 @@
-"""The drawings of chapter 4: the numbers that they show."""
+"""The numbers shown by the figures of chapter 4."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What the page of chapter 4 says of walks, series and sums, on numbers that are known."""
+"""Sentences and tables of chapter 4 on walks, series and sums, for known numbers."""
 
 import numpy as np
 import pytest
@@ -12,14 +12,14 @@ def straight(*directions, steps=60):
     return np.arange(steps + 1)[None, :, None] * np.array(directions)[:, None]
 
 
-def test_walks_that_arrive_are_counted_and_their_time_is_told():
+def test_walks_that_arrive_are_counted_and_their_time_is_reported():
     unbiased, biased = straight((-1, 0, 0), (0, 1, 0)), straight((1, 0, 0), (0, -1, 0))
     assert purposive_report.arrivals(unbiased, biased, goal=(30, 0, 0)).startswith(
         "Within 60 steps, 0 of 2 unbiased walks come within 5 units of the goal, 30 units away, and 1 of the biased "
         "ones, after 26 steps on average. The draws")
 
 
-def test_where_no_walk_arrives_there_is_no_time_to_tell():
+def test_where_no_walk_arrives_no_time_is_reported():
     walks = straight((1, 0, 0))
     assert "and 0 of the biased ones. The draws" in purposive_report.arrivals(walks, walks, goal=(0, 99, 0))
 
@@ -32,7 +32,7 @@ def test_walks_spread_by_a_power_of_time_that_drift_raises():
                                       "| 0.1 | 99 steps | 1.00 [1.00, 1.00] | 1.00 [1.00, 1.00] |"]
 
 
-def test_errors_of_a_decomposition_are_told_by_length():
+def test_errors_of_a_decomposition_are_reported_by_length():
     errors = {300: np.array([[0.1, 0.3], [0.2, 0.2], [0.5, 0.5]]), 1_000: np.zeros((3, 2))}
     text = purposive_report.decomposition(errors)
     assert "means over 2 series, with 95 % intervals" in text
@@ -49,7 +49,7 @@ def test_functions_stand_beside_their_sums(monkeypatch):
 
 
 @pytest.mark.parametrize("angles", [(1, 3), (3, 1)])
-def test_what_ridges_leave_over_is_told_but_for_the_product(angles):
+def test_the_residual_of_ridges_is_reported_except_for_the_product(angles):
     left = np.linspace(1, 0, 11)
     fits = {"product": Ridges(np.pi / 4 * np.array([*angles, 0]), np.zeros(11)), "distance": Ridges(np.zeros(10), left),
             "two hills": Ridges(np.zeros(10), left / 2)}

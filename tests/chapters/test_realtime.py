@@ -1,4 +1,4 @@
-"""A run by the clock, with a clock and a run of the test's own."""
+"""A run in real time, with a made-up clock and run."""
 
 from types import SimpleNamespace
 
@@ -9,7 +9,7 @@ from neorl.chapters.chapter_4 import realtime
 
 
 class Clock:
-    """Time passes when somebody sleeps or works; only work takes the processor."""
+    """A clock that advances only by sleep and work; only work uses the processor."""
 
     def __init__(self):
         self.now, self.used = 100.0, 7.0
@@ -37,7 +37,7 @@ def clock(monkeypatch):
 
 
 def run_that_takes(clock, seconds):
-    """A run at 50 steps per second whose k-th step takes so many seconds, the last for all later ones."""
+    """A run at 50 steps per second whose k-th step takes `seconds[k]`; later steps take the last of them."""
     run = SimpleNamespace(world=SimpleNamespace(fps=50), step=0)
 
     def advance(steps):
@@ -69,6 +69,6 @@ def test_a_run_that_is_too_slow_falls_ever_further_behind(clock):
 
 
 @pytest.mark.parametrize("change, message", [({"windows": 0}, "windows is 0"), ({"seconds": 0.01}, "seconds is 0.01")])
-def test_a_pace_refuses_windows_that_are_none(clock, change, message):
+def test_bad_windows_are_refused(clock, change, message):
     with pytest.raises(ValueError, match=message):
         realtime.keep_pace(run_that_takes(clock, [0.0]), **{"windows": 1, "seconds": 1.0, **change})

@@ -1,4 +1,4 @@
-"""The drawings of paper A: the numbers that they show."""
+"""The numbers shown by the figures of paper A."""
 
 import numpy as np
 import pytest
@@ -12,12 +12,12 @@ from neorl.evidence.reading import LAYERS
 
 
 def steady(rate):
-    """A result in which every run earns `rate` a second all its life."""
+    """A result in which every run earns `rate` per second throughout."""
     rewards = np.full((2, 500), 0.2 * rate, np.float32)
     return Result(place_cells([2]), WaterWorld(), 5_000, 2, 0, rewards, np.zeros((2, 500, 2), np.int16))
 
 
-def test_three_maps_together_are_drawn_beside_each_their_sum_and_the_level_of_the_thesis():
+def test_three_maps_together_are_drawn_beside_each_alone_their_sum_and_the_level_of_the_thesis():
     results = {("layer", n): steady(rate) for n, rate in zip(LAYERS, (0.1, 0.2, 0.3))} | {"layers": steady(0.9)}
     resolution_figures.draw_together(results)
     axes = plt.gca()
@@ -37,7 +37,7 @@ def test_an_element_fills_its_cell_by_the_sign_and_the_size_of_its_valence():
               if patch.get_alpha()}
     assert filled == {(0.5, 0.5): (GREEN, 0.15), (0.0, 0.5): (RED, 0.3)}
     assert [text.get_text() for text in axes.texts] == ["+0.5", "−1"]
-    assert [text.get_ha() for text in axes.texts] == ["left", "left"]  # the upper left corner, where no arrow falls
+    assert [text.get_ha() for text in axes.texts] == ["left", "left"]  # the upper left corner, which no arrow crosses
     (arrows,) = axes.collections
     assert len(arrows.U) == 1 and arrows.U[0] > 0
 

@@ -1,4 +1,4 @@
-"""Readings of the thesis side by side: which conditions are computed, and what is said of several readings at once."""
+"""Readings of the thesis side by side: the conditions computed, and sentences on several readings at once."""
 
 from dataclasses import replace
 
@@ -22,7 +22,7 @@ def test_conditions_that_readings_share_are_computed_once(monkeypatch):
     assert lived == {"a": {"x": "result 0", "y": "result 1"}, "b": {"y": "result 1", "z": "result 0"}}
 
 
-def test_secondary_conditions_have_as_many_runs_as_a_verdict_needs_at_most():
+def test_secondary_conditions_have_at_most_as_many_runs_as_a_verdict_needs():
     assert [side_by_side.few(runs) for runs in (1, 10, 20, 100)] == [1, 10, 10, 10]
 
 
@@ -31,7 +31,7 @@ def test_each_reading_is_judged_by_its_own_results(monkeypatch):
     assert side_by_side.judge_each({"one": {"a1": 0, "a2": 0}, "other": {}}) == {"one": ["A1", "A2"], "other": []}
 
 
-def test_a_change_that_leaves_a_reading_as_it_is_makes_no_other():
+def test_a_change_that_leaves_a_reading_unchanged_is_dropped():
     reading = Reading(memory=0.0, exploration=0.1)
     made = side_by_side.changed(reading, {"no memory": {"memory": 0.0}, "greedy": {"exploration": 0.0}})
     assert made == {"greedy": replace(reading, exploration=0.0)}
@@ -43,7 +43,7 @@ def test_results_are_named_by_resolution_in_the_order_asked_for():
     assert list(found.items()) == [("N2", "coarse"), ("N13", "fine"), ("all", "together")]
 
 
-def test_what_is_said_of_each_reading_is_an_item_of_a_list():
+def test_the_sentences_on_each_reading_are_an_item_of_a_list():
     assert side_by_side.each_in_words({"to the letter": "One.", "calibrated": "Two."}) == (
         "- **To the letter.** One.\n- **Calibrated.** Two.")
 

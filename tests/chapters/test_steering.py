@@ -45,14 +45,14 @@ def test_a_route_that_leaves_the_tank_is_refused(waypoints):
         follow_route(TANK, waypoints, seconds=1)
 
 
-def test_whoever_hunts_by_rule_takes_much_more_than_who_moves_at_random_and_a_run_is_the_same_alone():
+def test_hunting_by_rule_earns_more_than_one_per_second_and_a_run_is_the_same_alone():
     rewards = chase(TANK, steps=3_000, runs=4, seed=1)
-    assert rewards.min() > 60  # one a second
+    assert rewards.min() > 60  # one per second
     assert chase(TANK, steps=3_000, runs=2, seed=1).tolist() == rewards[:2].tolist()
     assert len(set(rewards)) > 1
 
 
-def test_a_newborn_and_a_veteran_begin_on_the_same_board_and_know_nothing_and_what_a_run_has_taught():
+def test_an_untrained_newborn_and_a_veteran_trained_in_a_run_begin_on_the_same_board():
     agent = place_cells([3])
     first, second = Run(agent, TANK, seed=4, run=2), veteran(agent, TANK, 5_000, seed=4, run=2)
     assert all(map(np.array_equal, *(arrays(run.world_state).values() for run in (first, second))))
@@ -61,18 +61,18 @@ def test_a_newborn_and_a_veteran_begin_on_the_same_board_and_know_nothing_and_wh
     assert not first.q().any() and np.array_equal(second.q(), teacher.q()) and teacher.q().any()
     assert np.array_equal(second.state.values.goal_range, teacher.state.values.goal_range)
     assert second.step == 0
-    second.advance(1_000)  # what it knows of goals is not forgotten while it goes on learning
+    second.advance(1_000)  # knowledge of goals is kept while it continues to learn
     assert second.q().sum() > 0.5 * teacher.q().sum()
 
 
-def test_trials_pair_newborns_with_veterans_and_do_not_hang_on_their_number():
+def test_trials_pair_newborns_with_veterans_and_do_not_depend_on_their_number():
     choices = {"lessons": 20_000, "steps": 1_500, "seed": 3}
     before, after = trials(multimodal([3, 5]), TANK, runs=6, **choices)
     assert trials(multimodal([3, 5]), TANK, runs=2, **choices).tolist() == [before[:2].tolist(), after[:2].tolist()]
     assert after.mean() > before.mean()
 
 
-def test_leads_are_what_trials_bring_a_second_by_how_long_veterans_have_lived(monkeypatch):
+def test_leads_are_differences_per_second_by_how_long_veterans_have_lived(monkeypatch):
     def made_up(agent, world, *, lessons, steps, runs, seed):
         assert (steps, seed) == (150, 7)  # three seconds
         return np.array([np.full(runs, 3.0), np.full(runs, 3.0 + lessons)])

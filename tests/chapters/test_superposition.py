@@ -1,4 +1,4 @@
-"""Sums of functions of one variable, and of value functions, against what is known exactly."""
+"""Sums of functions of one variable, and of value functions, against exact results."""
 
 import itertools
 
@@ -32,7 +32,7 @@ def test_no_sum_of_functions_of_the_coordinates_makes_a_product():
     np.testing.assert_allclose(ridges.errors, 1)
 
 
-def test_what_is_left_over_is_the_rest_of_a_least_squares_fit_of_all_ridges_together():
+def test_the_error_is_the_residual_of_a_least_squares_fit_of_all_ridges_together():
     values = np.exp(-3 * ((X - 0.4) ** 2 + (Y + 0.1) ** 2))
     ridges = fit_ridges(values, terms=3)
     basis = np.hstack([np.vander((X * np.cos(a) + Y * np.sin(a)).ravel(), 11) for a in ridges.angles])
@@ -44,7 +44,7 @@ def test_what_is_left_over_is_the_rest_of_a_least_squares_fit_of_all_ridges_toge
     (np.ones((4, 4)), 1, "values has the shape"), (np.ones((4, 5)), 1, "values has the shape"), (X, 0, "terms is 0"),
     (np.full((4, 4), np.nan), 1, "values is"),
 ])
-def test_a_fit_refuses_what_is_no_function_on_a_square(values, terms, message):
+def test_a_fit_refuses_values_that_are_no_function_on_a_square(values, terms, message):
     with pytest.raises(ValueError, match=message):
         fit_ridges(values, terms)
 
@@ -63,7 +63,7 @@ def test_the_value_of_a_single_goal_falls_by_the_discount_with_each_step():
     distance = np.abs(N5.places - N5.places[goal]).sum(axis=1)
     away = distance > 0
     np.testing.assert_allclose(q.max(axis=1)[away], 0.8 ** (distance[away] - 1) / (1 - 0.8**2))
-    assert q[goal].max() == pytest.approx(0.8 / (1 - 0.8**2))  # out, and in again
+    assert q[goal].max() == pytest.approx(0.8 / (1 - 0.8**2))  # out and in again
 
 
 def test_a_step_into_a_wall_enters_nothing():
@@ -79,7 +79,7 @@ def test_the_best_values_are_those_of_the_best_of_all_policies():
     np.testing.assert_allclose(potentials.plan(corridor, rewards).max(axis=1), best)
 
 
-def test_what_a_policy_is_worth_adds_up_over_rewards_and_the_best_values_do_not():
+def test_values_of_a_policy_add_up_over_rewards_and_optimal_values_do_not():
     policy = np.full((25, 4), 0.25)
     rewards = np.eye(25)[[0, 4, 12]]
     alone = potentials.evaluate(N5, np.stack([policy] * 3), rewards)
@@ -102,7 +102,7 @@ def test_several_actions_may_be_best():
     assert potentials.best_actions(q).tolist() == [[True, True, False, True], [False, True, False, True]]
 
 
-def test_a_sum_misleads_where_an_action_that_it_calls_best_is_not_by_the_plan():
+def test_a_sum_misleads_where_one_of_its_best_actions_is_not_best_by_the_plan():
     planned = np.array([[1.0, 1, 0, 0]] * 4)
     added = np.array([[1.0, 1, 0, 0], [1, 0, 0, 0], [0, 1, 1, 0], [0, 0, 1, 0]])
     assert potentials.misled(added, planned, elements=[3]) == [2]
@@ -110,7 +110,7 @@ def test_a_sum_misleads_where_an_action_that_it_calls_best_is_not_by_the_plan():
 
 
 def test_the_horde_learns_towards_each_goal_what_planning_finds():
-    """On a random walk, one step a cell: equal up to the factor that entering again and again is worth."""
+    """On a random walk with one step per cell, equal up to the factor for entering the goal again and again."""
     rng, q, state = np.random.default_rng(0), np.zeros((9, 4, 9), np.float32), 0
     n3 = Grid(("...",) * 3)
     for _ in range(4_000):
@@ -145,8 +145,8 @@ def test_a_comparison_is_that_of_superposed_and_planned_actions():
     assert comparison.achieved[0] == pytest.approx(followed / best.max(axis=1)[outside].sum())
 
 
-def test_what_is_lost_is_a_share_of_what_the_plan_makes_on_average():
-    """In a corridor of three, what is wanted may lie behind what is feared. Then the plan stays, and makes nothing."""
+def test_the_loss_is_a_share_of_the_average_return_of_the_plan():
+    """In a corridor of three, a desired cell may lie behind a feared one; the plan then stays and earns nothing."""
     corridor = Grid(("...",))
     assert potentials.plan(corridor, [0, -1, 1])[0].max() == pytest.approx(0)
     comparison = potentials.compare(corridor, [1.0, -1.0], placements=200)
@@ -183,6 +183,6 @@ def test_cosines_are_those_of_the_angles():
     (lambda: potentials.compare(N5, [-1], 3), "valences is"), (lambda: potentials.compare(N5, [1] * 25, 3), "valences"),
     (lambda: potentials.compare(N5, [1], 0), "placements is 0"),
 ])
-def test_planning_refuses_what_is_no_reward(call, message):
+def test_a_bad_argument_is_refused(call, message):
     with pytest.raises(ValueError, match=message):
         call()

@@ -1,4 +1,4 @@
-"""Processes that remember, against what can be counted and computed of them."""
+"""Processes that remember, against counts and exact values."""
 
 import itertools
 
@@ -28,7 +28,7 @@ def test_outcomes(rule, history, outcome):
     assert temporality.outcomes(3, 3, rule)[np.dot(history, [9, 3, 1])] == outcome
 
 
-def test_a_table_is_drawn_once_for_all():
+def test_a_table_is_fixed_by_its_seed():
     table = temporality.outcomes(2, 8, "table", seed=1)
     np.testing.assert_array_equal(table, temporality.outcomes(2, 8, "table", seed=1))
     assert (table != temporality.outcomes(2, 8, "table", seed=2)).any() and 90 < table.sum() < 166
@@ -41,7 +41,7 @@ def test_the_states_that_are_needed(rule, needed):
 
 @pytest.mark.parametrize("rule, seed", [("table", 0), ("table", 1), ("table", 2), ("pause", 0), ("sum", 0)])
 def test_the_states_that_are_needed_are_those_that_futures_tell_apart(rule, seed):
-    """Brute force: what comes after every sequence of up to L symbols, after which nothing is left of a history."""
+    """Brute force: the outcomes after every sequence of up to L symbols; L symbols replace a history completely."""
     memory, following = 4, temporality.next_histories(2, 4)
     outcome = temporality.outcomes(2, memory, rule, seed)
     futures = [outcome]
@@ -92,7 +92,7 @@ def test_states_are_met_as_fast_as_coupons_are_collected():
 
 
 @pytest.mark.parametrize("rule", ["sum", "table"])
-def test_a_short_window_makes_what_it_can_and_a_whole_one_everything(rule):
+def test_a_short_window_earns_the_most_that_it_allows_and_a_full_one_everything(rule):
     outcome = temporality.outcomes(2, 4, rule)
     for length in range(5):
         lived = decision.live(temporality.mechanism(2, 4, rule), [20_000], 2, 0, temporality.window(2, 4, length),
@@ -136,7 +136,7 @@ def test_the_last_action_matters_only_if_actions_stick():
     values = decision.plan(*temporality.sticky(CLIFF.next_state, WORTH, 0.25).expected(), 0.9).max(axis=1)
     by_place = values.reshape(-1, 4)
     above_the_cliff = 1
-    assert by_place[above_the_cliff, 1] < by_place[above_the_cliff, 2] - 0.1  # who came from the north may fall
+    assert by_place[above_the_cliff, 1] < by_place[above_the_cliff, 2] - 0.1  # coming from the north, it may fall
 
 
 def test_means_are_drawn_with_their_names_and_on_powers_of_ten():

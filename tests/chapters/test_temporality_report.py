@@ -1,4 +1,4 @@
-"""What the page says of processes that remember, for made-up results."""
+"""Sentences and tables on processes that remember, for made-up results."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ def test_all_histories_are_met_or_not(last, told):
     assert report.states_met(met).startswith(told)
 
 
-def test_states_are_told_for_every_second_memory():
+def test_states_are_listed_for_every_second_memory():
     found = report.states_table(np.arange(1, 5), {"sum": [2, 4, 8, 16], "pause": [2, 3, 4, 5]})
     assert found.splitlines() == ["| Outcome, Ψ = 2 | L\xa0=\xa02 | L\xa0=\xa04 |", "|---|---|---|",
                                   "| the sum of the last L symbols modulo Ψ | 4 | 16 |",
@@ -43,7 +43,7 @@ def curves(certain, remembering, sticky, sticky_remembering):
 SEEN = {"certain": 37, "certain + last": 148, "sticky": 37, "sticky + last": 148}
 
 
-def test_the_cost_of_remembering_is_told_for_when_others_first_make_nine_tenths():
+def test_the_cost_of_remembering_is_reported_for_when_others_first_reach_nine_tenths():
     made = curves([0.2, 0.9, 1.0], [0.1, 0.6, 0.9], [0.2, 0.8, 0.8], [0.1, 0.7, 1.0])
     text = report.worth_of_last_action(made, SEEN)
     assert text == ("The learners meet 37 states without the last action and 148 with it. Where actions are "
@@ -52,7 +52,7 @@ def test_the_cost_of_remembering_is_told_for_when_others_first_make_nine_tenths(
                     "return by 0.20 [0.20, 0.20]: the agent without memory stays behind.")
 
 
-def test_the_cost_is_told_for_the_end_if_nobody_makes_nine_tenths_and_no_difference_decides_nothing():
+def test_the_cost_is_reported_for_the_end_if_none_reaches_nine_tenths_and_no_difference_is_inconclusive():
     made = curves([0.2, 0.5, 0.7], [0.1, 0.3, 0.3], [0.2, 0.5, 0.5], [0.1, 0.5, 0.5])
     text = report.worth_of_last_action(made, SEEN)
     assert "costs 0.40 [0.40, 0.40] of the best return after 10,000 steps" in text

@@ -1,4 +1,4 @@
-"""Trials of paper B's agents, against lives that are followed step by step."""
+"""Trials of paper B's agents, against runs followed step by step."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ PRIMES = (2, 3)
 
 @pytest.fixture(autouse=True)
 def small(monkeypatch):
-    """Maps of few cells."""
+    """Use maps with few cells."""
     monkeypatch.setattr(trials, "PRIMES", PRIMES)
 
 
@@ -63,7 +63,7 @@ def test_values_are_those_of_goals_that_can_be_asked_for():
         np.testing.assert_allclose(found[node], [value], rtol=1e-5)
 
 
-def test_costs_are_of_agents_with_one_map_more_each_time():
+def test_costs_are_those_of_agents_with_one_more_map_each_time():
     both = papers.multimodal(PRIMES)
     one = trials._with_maps(both, [("PC", 2), ("OVC", 3)])
     assert [(node.name, node.resolutions) for node in one.nodes] == [("PC", (2,)), ("OVC", (3,))]
@@ -74,7 +74,7 @@ def test_costs_are_of_agents_with_one_map_more_each_time():
     assert cost.measured[0] == cost.predicted[0]
 
 
-def test_a_desire_that_moves_is_a_condition_that_can_be_lived_again(cache_folder):
+def test_a_desire_that_moves_is_a_condition_that_can_be_rerun(cache_folder):
     result = trials.live_with_moving_desire(READING, 4_001, 2, seed=3)
     assert (result.steps, result.runs, result.seed) == (1_000 + 2 * 1_500, 2, 3)
     assert result.agent == papers.place_cells(PRIMES, **READING.place_agents)

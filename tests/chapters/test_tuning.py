@@ -1,4 +1,4 @@
-"""Trajectories and tuning against closed forms and against cases counted by hand."""
+"""Trajectories and tuning against closed forms and cases counted by hand."""
 
 import numpy as np
 import pytest
@@ -29,7 +29,7 @@ def test_the_animal_moves_as_its_velocity_says(trajectory):
     assert np.abs(moved).max() < 0.03
 
 
-def test_the_animal_comes_everywhere_alike(trajectory):
+def test_the_animal_visits_all_places_and_directions_equally(trajectory):
     assert trajectory.position.min() >= 0 and trajectory.position.max() <= 1
     counts, *_ = np.histogram2d(*trajectory.position.T, bins=4)
     np.testing.assert_allclose(counts / len(trajectory.position), 1 / 16, atol=0.02)
@@ -37,7 +37,7 @@ def test_the_animal_comes_everywhere_alike(trajectory):
     np.testing.assert_allclose(directions / len(trajectory.position), 1 / 4, atol=0.02)
 
 
-def test_the_speed_is_rayleigh_and_persists_as_told():
+def test_speeds_are_rayleigh_distributed_and_velocity_has_the_given_persistence():
     walk = roam(400_000, seed=2, step=0.1, speed=0.2, persistence=2.0)
     assert walk.speed.mean() == pytest.approx(0.2, rel=0.01)
     assert np.mean(walk.speed**2) == pytest.approx(0.2**2 * 4 / np.pi, rel=0.02)
@@ -76,7 +76,7 @@ def test_cells_of_velocity_follow_it():
     walk = standing((0, 0), velocity=(0.0, -0.35))
     assert (walk.direction[0], walk.speed[0]) == pytest.approx((0.75 * TAU, 0.35))
     assert in_field(NresMap(4, HEAD_DIRECTION_CELL), 3, walk).all()  # north, after east, south and west
-    assert in_field(NresMap(20, SPEED_CELL), 3, walk).all()  # a tenth of a width a second each
+    assert in_field(NresMap(20, SPEED_CELL), 3, walk).all()  # each spans a tenth of a width per second
 
 
 def test_spikes_are_poisson_at_the_rates_inside_and_outside():
@@ -133,7 +133,7 @@ def test_a_map_recovers_the_rates_that_made_it(trajectory):
     assert tuned.rate[:3].mean() == pytest.approx(1.0, rel=0.1)
 
 
-def test_a_spike_of_a_cell_with_one_field_tells_how_small_it_is():
+def test_information_of_a_cell_with_one_field_measures_how_small_it_is():
     seconds = np.full((4, 4), 3.0)
     field = np.zeros((4, 4))
     field[1, 2] = 7.0
@@ -142,14 +142,14 @@ def test_a_spike_of_a_cell_with_one_field_tells_how_small_it_is():
     assert information(TuningCurve(np.zeros((4, 4)), seconds)) == 0.0
 
 
-def test_information_weighs_by_time_and_passes_over_what_was_not_seen():
+def test_information_is_weighted_by_time_and_ignores_bins_that_were_not_visited():
     rate = np.array([[4.0, 0.0, np.nan], [1.0, 1.0, np.nan]])
     expected = [0.25 * 4 * 2, 0.0]  # a quarter of the time at four times the mean: 2 bits
     np.testing.assert_allclose(information(TuningCurve(rate, np.array([1.0, 3.0, 9.0]))), expected)
 
 
 def test_information_is_the_mutual_information_of_a_rare_spike():
-    """Over short steps it is what a step tells, a spike or none, for each spike: reckoned here from probabilities."""
+    """Over short steps it is the information of a step, with or without a spike, per spike; here from probabilities."""
     share, rate, step = np.array([0.2, 0.5, 0.3]), np.array([5.0, 1.0, 0.2]), 1e-4
     spike = rate * step
     mean = np.sum(share * spike)
@@ -157,7 +157,7 @@ def test_information_is_the_mutual_information_of_a_rare_spike():
     assert information(TuningCurve(rate, share)) == pytest.approx(told / mean, rel=1e-3)
 
 
-def test_spikes_tell_about_what_they_follow_and_by_chance_about_nothing_else(trajectory):
+def test_spikes_inform_about_what_they_follow_and_only_by_chance_about_anything_else(trajectory):
     walk = Trajectory(trajectory.position[:20_000], trajectory.velocity[:20_000], 0.02)
     trains = {"north": walk.direction > 0.5 * TAU, "fast": walk.speed > 0.3, "corner": walk.position.max(axis=1) < 0.3,
               "chance": np.random.default_rng(0).random(20_000) < 0.1}
@@ -256,7 +256,7 @@ def test_both_frames_meet_in_the_point():
     (lambda: tuning_curve([1], [0.5], 1.0, 0.0, bins=1), "high is 0.0"),
     (lambda: egocentric([1.0, 2.0, 3.0], 0.0), "vectors has the shape"),
 ])
-def test_what_makes_no_tuning_is_refused(call, message):
+def test_a_bad_argument_is_refused(call, message):
     with pytest.raises(ValueError, match=message):
         call()
 

@@ -1,4 +1,4 @@
-"""What is said of reference frames and of tuned cells."""
+"""Sentences and tables on reference frames and tuned cells."""
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ CELLS = {"place cell": "position", "head-direction cell": "direction", "speed ce
 
 
 def told(*others, unclear=()):
-    """Cells that tell 2 bits of the variable of their own modality, and half a bit of others: (cell, variable)."""
+    """Cells with 2 bits about the variable of their own modality, and half a bit about others: (cell, variable)."""
     return {cell: {variable: Told(2.0, cell not in unclear) if variable == own else
                    Told(0.5 if (cell, variable) in others else 0.01, (cell, variable) in others)
                    for variable in CELLS.values()} for cell, own in CELLS.items()}
@@ -28,13 +28,13 @@ def test_the_frames_are_compared_while_the_animal_turns(length, when):
     assert words.endswith(when)
 
 
-def test_the_table_sets_what_is_clear_in_bold():
+def test_the_table_sets_clear_information_in_bold():
     assert information_table(told(("speed cell", "position"))).splitlines() == [
         "| Cell | position | direction | speed |", "|---|---|---|---|", "| place cell | **2.00** | 0.01 | 0.01 |",
         "| head-direction cell | 0.01 | **2.00** | 0.01 |", "| speed cell | **0.50** | 0.01 | **2.00** |"]
 
 
-def test_cells_that_tell_about_their_own_variable_alone_are_told_so():
+def test_cells_informative_only_about_their_own_variable_are_reported_as_such():
     words = describe_information(told())
     assert words.startswith("All of the 3 cells are most informative, and above chance, about the variable of their "
                             "own modality. No other information exceeds that of shifted spikes. With 99 shifts, ")
@@ -42,7 +42,7 @@ def test_cells_that_tell_about_their_own_variable_alone_are_told_so():
                           "concern of its modality, and hardly about the others.")
 
 
-def test_what_cells_tell_beyond_that_is_named():
+def test_further_information_of_cells_is_named():
     words = describe_information(told(("speed cell", "position")))
     assert "Beyond that, the speed cell's information about position exceeds that of shifted spikes. With 99" in words
     assert "nothing to find, unless the animal's path links the variables. So each cell" in words
@@ -53,7 +53,7 @@ def test_what_cells_tell_beyond_that_is_named():
     assert describe_information(many).endswith("links the variables.")
 
 
-def test_cells_that_do_not_tell_about_their_own_variable_are_not_counted():
+def test_cells_uninformative_about_their_own_variable_are_not_counted():
     words = describe_information(told(unclear=["place cell"]))
     assert words.startswith("2 of the 3 cells are most informative, and above chance, about the variable of their own "
                             "modality in so short a recording. No other")
@@ -71,6 +71,6 @@ def test_a_single_map_of_everything_is_as_large_as_the_product_of_all():
     assert "were active for 2.3 to 13.2 % of the time" in words
 
 
-def test_each_cell_has_a_line_with_how_alike_its_maps_are():
+def test_each_cell_has_a_line_with_the_correlation_of_its_maps():
     assert describe_likeness({"place cell": 0.987, "border cell": -0.25}).splitlines() == [
         "place cell: correlation of the maps 0.99", "border cell: correlation of the maps -0.25"]

@@ -55,7 +55,7 @@ def test_a_walker_that_is_always_biased_goes_to_its_goal_and_wanders_about_it():
     np.testing.assert_array_equal(paths[:, 5], [[3, -2, 0]] * 2)
     np.testing.assert_array_equal(np.abs(paths[:, 5:] - [3, -2, 0]).sum(axis=2), [[0, 1, 0, 1, 0]] * 2)
     first_steps = walk(1.0, (0, 0, 0), steps=1, runs=60)[:, 1]
-    assert len(np.unique(first_steps, axis=0)) == 6  # at its goal it draws
+    assert len(np.unique(first_steps, axis=0)) == 6  # at its goal it steps at random
 
 
 def test_the_way_to_a_goal_is_along_the_axis_on_which_it_is_furthest():
@@ -74,7 +74,7 @@ def test_a_walk_is_the_same_alone_or_among_others(goal):
     ({"strength": 1.1}, "strength is 1.1"), ({"goal": (1, 2)}, "goal is"), ({"goal": (1, 2, np.nan)}, "goal is"),
     ({"steps": 0}, "steps is 0"), ({"runs": 0}, "runs is 0"), ({"seed": -1}, "seed is -1"),
 ])
-def test_a_walk_refuses_what_is_none(change, message):
+def test_a_bad_walk_is_refused(change, message):
     with pytest.raises(ValueError, match=message):
         walk(**{"strength": 0.1, "goal": FAR, "steps": 5, "runs": 1, **change})
 
@@ -88,7 +88,7 @@ def test_a_series_is_the_sum_of_its_parts_and_its_noise_is_filtered():
     assert np.ptp(parts.deterministic) == pytest.approx(4.0, rel=0.01)
 
 
-def test_the_phase_of_the_oscillation_may_be_any():
+def test_the_phase_of_the_oscillation_is_random():
     first = [wold.generate([0.5], 1.0, 20.0, 100, run)[1].deterministic[0] for run in range(200)]
     assert abs(np.mean(first)) < 0.15 and np.std(first) == pytest.approx(0.5**0.5, abs=0.05)
 
@@ -121,7 +121,7 @@ def test_errors_are_those_of_each_run_by_length(monkeypatch):
 
 
 def test_the_coefficients_of_an_autoregression_are_the_powers_of_its_own():
-    """x_t = 0.5 x_t−1 + y_t is y_t + 0.5 y_t−1 + 0.25 y_t−2 + …; the oscillation found in it is nearly nothing."""
+    """x_t = 0.5 x_t−1 + y_t is y_t + 0.5 y_t−1 + 0.25 y_t−2 + …; the oscillation found in it is nearly zero."""
     noise = np.random.default_rng(0).normal(size=40_000)
     series = np.zeros_like(noise)
     for t in range(1, len(series)):
@@ -142,6 +142,6 @@ def test_a_decomposition_refuses_what_it_cannot_take_apart(series, order, messag
     ({"coefficients": [np.inf]}, "coefficients is"), ({"amplitude": -1}, "amplitude is -1"), ({"period": 1}, "period"),
     ({"steps": 40}, "steps is 40"), ({"run": -1}, "run is -1"), ({"seed": -1}, "seed is -1"),
 ])
-def test_a_series_refuses_what_makes_none(change, message):
+def test_a_bad_series_is_refused(change, message):
     with pytest.raises(ValueError, match=message):
         wold.generate(**{"coefficients": [0.5], "amplitude": 1.0, "period": 20.0, "steps": 100, **change})

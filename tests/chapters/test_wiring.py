@@ -34,7 +34,7 @@ def test_the_moment_is_the_first_at_which_the_agent_is_well_inside_and_desires_s
     fits = []
     for _ in range(run.step - 300 + 1):
         at = other.world_state.scene.position / world.size
-        lands = np.hypot(*other.state.desires.target[2:, :2].T)  # after the desires of creeps
+        lands = np.hypot(*other.state.desires.target[2:, :2].T)  # after the desires for creeps
         fits.append(np.abs(at - 0.5).max() < 0.2 and lands.max() > 0.001)
         other.advance(1)
     assert fits[-1] and not any(fits[:-1])

@@ -6,14 +6,14 @@ from neorl.chapters.shared.wording import by_interval, listed, number, table
 from neorl.evidence.statistics import Estimate
 
 
-def test_a_table_has_a_line_for_its_heads_one_below_and_one_for_each_row():
+def test_a_table_has_a_line_for_its_heads_a_rule_and_a_line_for_each_row():
     assert table(["Claim", "Share"], [["A1", "0.5"], ["A2", ""]]) == (
         "| Claim | Share |\n|---|---|\n| A1 | 0.5 |\n| A2 |  |")
     assert table(("a", 1), [("b", Estimate(2, 1, 3))]) == "| a | 1 |\n|---|---|\n| b | 2.00 [1.00, 3.00] |"
     assert table(["Claim"], []) == "| Claim |\n|---|"
 
 
-def test_names_are_listed_and_none_is_said():
+def test_names_are_listed_and_an_empty_list_is_none():
     assert listed(name for name in ("A1", "B2")) == "A1, B2"
     assert listed([]) == "none" and listed((), "no claim") == "no claim"
 
