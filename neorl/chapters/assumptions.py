@@ -207,7 +207,8 @@ def clear_leads(supports):
     """
     clear = [each for each in supports if each.lead.low > 0 or each.lead.high < 0]
     compared = sum(not each.is_to_the_letter for each in supports)
-    told = f"Of {compared} levels, {len(clear)} {'is' if len(clear) == 1 else 'are'} listed; chance alone would list about {0.05 * compared:.0f}."
+    told = (f"Of {compared} levels, {len(clear)} {'is' if len(clear) == 1 else 'are'} listed; chance alone would list "
+            f"about {0.05 * compared:.0f}.")
     if not clear:
         return told
     rows = [[WITHIN[each.choice].label, each.level, f"{each.held:.2f}", str(each.lead)] for each in clear]

@@ -268,10 +268,10 @@ def test_the_summary_names_the_best_of_each_sort_and_an_agent_beyond_the_thesis_
     text = report.summary(boards)
     assert text.startswith("With three creeps, 3 of the 4 tabular and deep learners earn more")
     assert "With 3 creeps, the thesis's best agent (PC + OVC, calibrated) earns 0.50 reward per second" in text
-    assert "best tabular learner (hybrid reward) 2.50, the best deep learner (DQN) 1.20. Controllers" in text
+    assert "best tabular learner (hybrid reward) 2.50 and the best deep learner (DQN) 1.20. Controllers" in text
     assert "this part of the book" not in text
     ours = {creeps: {**each, "ours": earned(BEYOND, 3.0)} for creeps, each in boards.items()}
-    assert "1.20, the agent of this part of the book (ours) 3.00. Controllers" in report.summary(ours)
+    assert "1.20 and the agent of this part of the book (ours) 3.00. Controllers" in report.summary(ours)
     assert "the best learner (ours) earns" in report.meaning(ours)
 
 
@@ -284,7 +284,8 @@ def test_the_table_has_thirds_levels_time_and_memory(boards):
 
 def test_what_it_means_is_computed(boards):
     text = report.meaning(boards)
-    assert "3 of the 4 tabular and deep learners" in text and "averaged over 15 thousand" in text and "joint cells, hybrid reward, DQN" in text
+    assert "3 of the 4 tabular and deep learners" in text and "in the mean over 15 thousand steps" in text
+    assert "joint cells, hybrid reward, DQN" in text
     assert "2.50 per second with a head for each creep, 0.90 with joint cells and 0.30 with the whole scene" in text
     assert "hybrid reward 25, DQN 50, joint cells 65" in text
     assert "the best learner (hybrid reward) earns 83 % of PD's reward" in text

@@ -64,10 +64,11 @@ def summary(boards):
         best = [f"the best {kind} learner ({name}) {_rate(earned, name)}"
                 for kind, name in (("tabular", tabular), ("deep", deep)) if name]
         best += [f"the agent of this part of the book ({ours}) {_rate(earned, ours)}"] if ours else []
+        listing = ", ".join(best[:-1]), *best[-1:]
         parts.append(f"With {creeps} creeps, the thesis's best agent ({thesis}) earns {_rate(earned, thesis)} reward "
-                     f"per second over the last fifth of the run, {', '.join(best)}. Controllers that know the "
-                     f"physics earn {_rate(earned, 'nearest green')} and {_rate(earned, 'PD')}, and a planner "
-                     f"{_rate(earned, 'planner')}.")
+                     f"per second over the last fifth of the run; {' and '.join(filter(None, listing))}. Controllers "
+                     f"that know the physics earn {_rate(earned, 'nearest green')} and {_rate(earned, 'PD')}, and a "
+                     f"planner {_rate(earned, 'planner')}.")
     return "\n\n".join([_more(boards[3]), *parts])
 
 
@@ -126,8 +127,8 @@ def search_table():
             rows.append([method, len(rates), number(np.median(rates)), number(max(rates))])
             used.append(f"- *{method}*: " + ", ".join(f"{name.replace('_', ' ')} {_short(value)}"
                                                       for name, value in setting(method, best).items()))
-    return "\n".join([table(["", "settings tried", "median", "best, which is used"], rows), "", "The settings used:", "",
-                      *used])
+    return "\n".join([table(["", "settings tried", "median", "best, which is used"], rows), "",
+                      "The settings used:", "", *used])
 
 
 def search_in_words():
@@ -179,8 +180,8 @@ def _pace(earned):
     told = listed([f"{name} {taken[name] / 1_000:,.0f}" for name in order])
     least = min(each.steps for each in earned.values() if each.kind in (TABLES, DEEP, THESIS, BEYOND)) * WINDOW
     return (f"**Sample efficiency.** Thousands of steps until half of the runs have reached {level} per second with "
-            f"three creeps, averaged over {least / 1_000:,.3g} thousand, the earliest possible: {told}. The others do "
-            "not reach it.")
+            f"three creeps, in the mean over {least / 1_000:,.3g} thousand steps, so that none is lower: {told}. The "
+            "others do not reach it.")
 
 
 def _distance(boards):

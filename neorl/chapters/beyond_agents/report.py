@@ -64,12 +64,14 @@ def search_in_words():
     tried = read_record()
     best = tried[0]
     spread = [score_of(row) for row in tried]
+    low, half, high = (number(float(each)) for each in np.quantile(spread, [0, 0.5, 1]))
+    earned = [number(best[name]) for name in ("with_3", "with_8", "late")]
     return (f"{len(tried)} settings of {len(RANGES)} numbers and the resolutions were tried by differential "
             "evolution. A setting's score is the sum of three rewards per second: with 3 creeps, half of that with 8, "
-            f"and with 3 around step 600,000. The scores lie between {number(min(spread))} and {number(max(spread))}, half of them above "
-            f"{number(float(np.median(spread)))}. The best has the resolutions "
-            f"{listed(map(str, best['resolutions']))} and {_named(best)}, and earned {number(best['with_3'])} per second with 3 creeps, {number(best['with_8'])} with 8 and "
-            f"{number(best['late'])} around step 600,000, on the runs by which it was chosen.")
+            f"and with 3 around step 600,000. The scores lie between {low} and {high}, half of them above {half}. The "
+            f"best has the resolutions {listed(map(str, best['resolutions']))} and {_named(best)}, and earned "
+            f"{earned[0]} per second with 3 creeps, {earned[1]} with 8 and {earned[2]} around step 600,000, on the "
+            "runs by which it was chosen.")
 
 
 def _named(setting):
@@ -147,8 +149,9 @@ def adapting_in_words(lives):
         doubt = ", which may be zero" if brought.low <= 0 <= brought.high else ""
         ends = zip(ADAPTABLE[name].names, ADAPTABLE[name].start, of_ways[ADAPTED][0][:, -1].mean(axis=0))
         last = listed([f"{each} goes from {number(first)} to {number(float(end))}" for each, first, end in ends])
-        parts.append(f"**{name[0].upper()}{name[1:]}**: {number(float(rates[FIXED].mean()))} reward per second over the last third with fixed "
-                     f"parameters, {number(float(rates[SHAKEN].mean()))} when they are merely shaken, "
-                     f"{number(float(rates[ADAPTED].mean()))} when they adapt. Beyond shaking, adapting adds "
+        fixed, shaken, adapted = (number(float(rates[way].mean())) for way in (FIXED, SHAKEN, ADAPTED))
+        parts.append(f"**{name[0].upper()}{name[1:]}**: {fixed} reward per second over the last third with fixed "
+                     f"parameters, {shaken} when they are merely shaken, {adapted} when they adapt. Beyond shaking, "
+                     "adapting adds "
                      f"{interval(brought)}{doubt}. On average, {last}.")
     return "\n\n".join(parts)

@@ -61,7 +61,8 @@ def draw_reaching(seen, ax=None, targets=2):
         axes.add_patch(Circle(obstacle, lives.ARMS[2].radius, facecolor=RED, alpha=0.5))
         axes.text(*obstacle, "−", color=TEXT, ha="center", va="center", weight="bold")
     axes.plot(0, 0, marker="s", markersize=6, color=INK)
-    places = np.concatenate([joints_of(seen[at][0].scene.position) for at in shown] + [seen[at][0].point for at in shown])
+    places = np.concatenate([place for state, _ in (seen[at] for at in shown)
+                             for place in (joints_of(state.scene.position), state.point)])
     axes.set(xlim=(-1.15, 1.15), ylim=(places[:, 1].max() + MARGIN, places[:, 1].min() - MARGIN))
     return axes
 

@@ -31,7 +31,8 @@ def summary(verdicts, found):
         properties.setdefault(claim.verdict, []).append(claim.statement.text.partition(":")[0].lower())
     told = "; ".join(f"{verdict}: {listed(names)}" for verdict, names in properties.items())
     return (f"With one learning rule and one policy the agent does better than chance in {len(better)} of "
-            f"{len(found)} worlds: {listed(better)}. Of the properties that Kaelbling (2020) asks of a learner, {told}.")
+            f"{len(found)} worlds: {listed(better)}. Of the properties that Kaelbling (2020) asks of a "
+            f"learner, {told}.")
 
 
 def cells():
@@ -48,8 +49,9 @@ def cells():
 
 def luck(shares):
     """How often a random driver reaches the flag. shares: from `hill.luck`."""
-    return "; ".join(f"with actions held for {held} step{'s' * (held > 1)} a random driver reaches the flag in "
-                     f"{100 * share:.0f}\u00a0% of {hill.EPISODES} episodes" for held, share in shares.items()).capitalize() + "."
+    told = "; ".join(f"with actions held for {held} step{'s' * (held > 1)} a random driver reaches the flag in "
+                     f"{100 * share:.0f}\u00a0% of {hill.EPISODES} episodes" for held, share in shares.items())
+    return f"{told.capitalize()}."
 
 
 def reaching(reached, feared):
