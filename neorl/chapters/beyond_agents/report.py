@@ -26,7 +26,7 @@ def summary(lived):
     """The page's result in a paragraph."""
     found = {name: mean_of(rates) for name, rates in reached(lived).items()}
     met = [name for name, each in found.items() if each.value >= TARGETS[name][3]]
-    missed = [f"“{name}” ({number(found[name].value)} for {TARGETS[name][3]})" for name in TARGETS if name not in met]
+    missed = [f"“{name}” ({number(found[name].value)} of {TARGETS[name][3]})" for name in TARGETS if name not in met]
     thesis, ours = (mean_of(last_third(each)) for each in (lived.thesis[THESIS], lived.way[f"+ {PARTS[-1]}"]))
     parts = {part: mean_of(last_third(result)).value for part, result in lived.without.items()}
     most = sorted(parts, key=parts.get)[:3]
