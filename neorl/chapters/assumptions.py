@@ -10,7 +10,7 @@
 import numpy as np
 
 from neorl.chapters.shared.wording import listed, table
-from neorl.evidence import calibration_results, multiverse
+from neorl.evidence import calibration_results, multiverse, pins
 from neorl.evidence.priors import BEYOND, TO_THE_LETTER, WITHIN
 from neorl.evidence.reading import PAPER_FPS, conditions, judge
 from neorl.evidence.statements import STATEMENTS
@@ -91,8 +91,9 @@ def in_short(shares, judged, foremost):
 def agreement_at_length(shares):
     """How often claims' numbers agree with the thesis at the papers' lengths. shares: as `shares` returns them."""
     agreeing = {name: found["agrees"] / found["measured"] for name, found in shares.items() if found.get("measured")}
+    told = ", ".join(f"**{name}**\u00a0{_percent(share)}" for name, share in agreeing.items())
     return ("At the papers' own lengths, under readings drawn evenly within the text, the numbers agree with the "
-            f"thesis in: {', '.join(f'**{name}** {_percent(share)}' for name, share in agreeing.items())}. The average "
+            f"thesis in: {told}. The average "
             f"is {_percent(np.mean([*agreeing.values()]))}.")
 
 
@@ -121,7 +122,7 @@ def foremost_choices(importance, predicted, points):
     importance: {claim: {choice: importance}}. predicted: names of claims. points: how many readings there are.
     """
     if not predicted:
-        return f"From {points} readings no choice predicts the number of a claim."
+        return f"With {points} readings, no choice predicts the number of any claim."
     claims = {}
     for name in predicted:
         foremost = max(importance[name], key=importance[name].get)
@@ -151,6 +152,11 @@ def undecided(shares, runs):
     unsettled, total = (sum(found[kind] for found in shares.values()) for kind in ("undecided", "readings"))
     return (f"Of {total:,} verdicts in all, {unsettled:,} ({_percent(unsettled / total)}) are undecided. An interval "
             f"from {runs} runs is rough; shares over many readings are less so.")
+
+
+def fixed_by_the_text():
+    """What the text fixes and what it leaves open, as two tables, with the names of choices in the others."""
+    return pins.tables({field: choice.label for field, choice in BEYOND.items()})
 
 
 def choices(readings):
@@ -183,6 +189,8 @@ def dependence(importance, explained, shares):
         best = sorted(found, key=found.get, reverse=True)[:NAMED]
         words = ", ".join(f"{WITHIN[key].label} ({found[key]:.2f})" for key in best if found[key] >= MATTERS)
         rows.append([name, f"{max(0, explained[name]):.2f}", words if name in known else "no choice predicts it"])
+    if not explained:
+        return "The page has too few readings of each claim for a table of what it depends on."
     return table(["Claim", "R²", "What it depends on most"], rows)
 
 
@@ -199,7 +207,8 @@ def clear_leads(supports):
     """
     clear = [each for each in supports if each.lead.low > 0 or each.lead.high < 0]
     compared = sum(not each.is_to_the_letter for each in supports)
-    told = f"Of {compared} levels, {len(clear)} are listed; chance alone would list about {0.05 * compared:.0f}."
+    told = (f"Of {compared} levels, {len(clear)} {'is' if len(clear) == 1 else 'are'} listed; chance alone would list "
+            f"about {0.05 * compared:.0f}.")
     if not clear:
         return told
     rows = [[WITHIN[each.choice].label, each.level, f"{each.held:.2f}", str(each.lead)] for each in clear]

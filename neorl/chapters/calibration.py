@@ -85,8 +85,8 @@ def numbers(letter, best, confirmed):
     letter, best, confirmed: a `Row` each, complete.
     """
     rows = []
-    for name, target in TARGETS.items():
-        interval = f"{target.low:.3g} … {target.high:.3g}".replace("-", "−").replace("inf", "∞")
+    for name, target in _by_claim():
+        interval = f"{target.low:.3g}\u00a0… {target.high:.3g}".replace("-", "−").replace("inf", "∞")
         measures = (_marked(target, *row.statistics[name]) for row in (letter, best, confirmed))
         rows.append([target.claim, target.label, target.thesis, interval, *measures])
     return table(["Claim", "Statistic", "Thesis", "Agrees", "To the letter", "Best, in the table", "Best, new seeds"],
@@ -139,7 +139,12 @@ def rows_by_group(rows):
 def targets():
     """The targets with the reasons for their intervals, as a table."""
     return table(["Claim", "Statistic", "Scale", "Why the interval is as wide as it is"],
-                 [[each.claim, each.label, f"{each.scale:.3g}", each.reason] for each in TARGETS.values()])
+                 [[each.claim, each.label, f"{each.scale:.3g}", each.reason] for _, each in _by_claim()])
+
+
+def _by_claim():
+    """The targets in the order of their claims, [(name, `Target`), …]."""
+    return sorted(TARGETS.items(), key=lambda item: item[1].claim)
 
 
 def equal(pairs):
@@ -148,4 +153,4 @@ def equal(pairs):
 
 
 def _marked(target, value, error):
-    return f"{'●' if target.holds(value) else '○'} {value:.2f}\u00a0±\u00a0{error:.2f}".replace("-", "−")
+    return f"{'●' if target.holds(value) else '○'}\u00a0{value:z.2f} ±\u00a0{error:.2f}".replace("-", "−")

@@ -12,8 +12,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from neorl.drawing.multiverse_figures import SHADES
-from neorl.drawing.style import (AGENT, CURVES, INK, RED, SMALL, TEXT, axes_or_new, figure_or_new, letters, name_ends,
-                                 width_of_figures)
+from neorl.drawing.style import (AGENT, CURVES, INK, RED, SMALL, TEXT, axes_or_new, figure_or_new, letters, mark,
+                                 name_ends, width_of_figures)
 from neorl.evidence.calibration_results import binned, marginal, progress
 from neorl.evidence.claims import FINAL
 from neorl.evidence.curves import binned_rate, low_passed
@@ -215,6 +215,5 @@ def _mark_level(axes, level, words, colour, at=0.01):
     low, high = axes.get_ylim()
     axes.set_ylim(low, max(high, 1.05 * level))
     axes.axhline(level, color=colour, linewidth=0.9, linestyle="--")
-    axes.annotate(words, (at, level), xycoords=("axes fraction", "data"), color=letters(colour), fontsize=SMALL,
-                  va="bottom")
+    mark(axes, (at, level), words, xycoords=("axes fraction", "data"), va="center")
     return axes

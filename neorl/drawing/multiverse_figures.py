@@ -8,7 +8,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
-from neorl.drawing.style import AGENT, FILL, INK, RED, SMALL, TEXT, axes_or_new, figure_or_new, width_of_figures
+from neorl.drawing.style import AGENT, FILL, INK, RED, SMALL, TEXT, axes_or_new, figure_or_new, mark, width_of_figures
 from neorl.evidence.multiverse import outcome
 from neorl.evidence.priors import WITHIN
 from neorl.evidence.statements import STATEMENTS
@@ -163,6 +163,8 @@ def draw_importance(importance, choices=WITHIN, ax=None):
     for column, shares in enumerate(importance.values()):
         for key, share in shares.items():
             axes.plot(column, keys.index(key), marker="o", color=AGENT, markersize=13 * np.sqrt(np.clip(share, 0, 1)))
+    if not any(importance.values()):
+        mark(axes, (0.5, 0.5), "no claim's number is predicted", xycoords="axes fraction", ha="center", va="center")
     axes.set_xticks(range(len(importance)), importance, fontsize=SMALL, rotation=90)  # horizontal labels would touch
     axes.set_yticks(range(len(keys)), [choices[key].label for key in keys], fontsize=SMALL)
     axes.set(xlim=(-0.6, len(importance) - 0.4), ylim=(len(keys) - 0.4, -0.6))

@@ -12,6 +12,7 @@ import numpy as np
 import scipy
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 from matplotlib.colors import is_color_like, to_hex, to_rgb
 from matplotlib.figure import Figure, SubFigure
 
@@ -24,6 +25,7 @@ AGENT, GREEN, RED = "#3175b9", "#0e825f", "#ba5323"
 CURVES = ("#3d6ad1", "#ae2c47", "#b68f0c", "#00a1c0", "#85498f", "#ae6411", "#af77ff")
 LIGHT_OF_LETTERS = 0.165  # relative luminance
 DASHES = ("-", "--", ":", "-.")  # of curves: one for each cycle through the colours
+LEADER = 0.08  # the width of the lines that lead to names, as a share of the width of the axes
 LOW_PANEL = 0.17  # the room for a curve's name, as a share of the height of a low panel
 SMALL, CROWDED = 9, 6  # points: the least size of letters, and the size of the names of more than a dozen curves
 STYLE: dict[Any, Any] = {
@@ -112,11 +114,11 @@ def looks(count):
     return [(CURVES[i % len(CURVES)], DASHES[i // len(CURVES) % len(DASHES)]) for i in range(count)]
 
 
-def name_ends(axes, ends, line=0.075):
+def name_ends(axes, ends, line=0.075, leaders=False):
     """Write the names of curves beside their ends (height, name, colour), moved apart within the height of the axes.
 
     line: the room that a name needs, as a share of the height of the axes; more in a low panel. Many names are written
-    in smaller letters to fit.
+    in smaller letters to fit. leaders: whether a thin line leads from each end to its name, which may be far from it.
     """
     low, high = axes.get_ylim()
     ends = sorted(ends)
@@ -125,6 +127,12 @@ def name_ends(axes, ends, line=0.075):
     lowest = scipy.optimize.isotonic_regression([height for height, *_ in ends] - apart).x
     heights = apart + np.clip(lowest, low, high - apart.max(initial=0.0))
     size = max(CROWDED, share * plt.rcParams["font.size"])
+    beside = 1.02
+    if leaders:
+        beside = 1.02 + LEADER
+        lines = [[(1.01, height), (1 + LEADER, at)] for at, (height, *_) in zip(heights, ends)]
+        axes.add_collection(LineCollection(lines, colors=[letters(colour) for *_, colour in ends], linewidths=0.7,
+                                           transform=axes.get_yaxis_transform(), clip_on=False), autolim=False)
     for at, (_, name, colour) in zip(heights, ends):
-        axes.annotate(name, (1.02, at), xycoords=("axes fraction", "data"), color=letters(colour), va="center",
+        axes.annotate(name, (beside, at), xycoords=("axes fraction", "data"), color=letters(colour), va="center",
                       fontsize=size, annotation_clip=False)

@@ -55,13 +55,23 @@ def agreement(reading):
     return Agreement(tuple(pin for pin in PINS if pin.allows and not pin.allows(reading)))
 
 
-def table():
-    """All pins as a Markdown table, pinned choices first."""
-    rows = ["| Choice | What the text says | Where | What follows | Status |", "|---|---|---|---|---|"]
+def tables(labels=None):
+    """All pins as two Markdown tables, of pinned choices and of open ones, each below its status.
+
+    labels: {field of `Reading`: the name that other tables and figures give to it}, added to the choice if it differs.
+    """
+    parts = []
     for status in ("pinned", "open"):
-        rows += [f"| {pin.choice} | {f'“{pin.quotation}”' if pin.quotation else '–'} | {pin.place or '–'} | "
-                 f"{pin.follows} | {status} |" for pin in PINS if pin.status == status]
-    return "\n".join(rows)
+        rows = [f"| {_called(pin, labels or {})} | {f'“{pin.quotation}” ({pin.place})' if pin.quotation else '–'} | "
+                f"{pin.follows} |" for pin in PINS if pin.status == status]
+        head = [f"**{status.capitalize()}**", "", "| Choice | What the text says | What follows |", "|---|---|---|"]
+        parts.append("\n".join([*head, *rows]))
+    return "\n\n".join(parts)
+
+
+def _called(pin, labels):
+    others = [labels[name] for name in pin.fields if labels.get(name, pin.choice) != pin.choice]
+    return pin.choice + (f" (*{'*, *'.join(others)}*)" if others else "")
 
 
 def _always(_):

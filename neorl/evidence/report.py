@@ -20,10 +20,10 @@ from neorl.experiments.cache import source_digest
 from neorl.files import cache_folder, write_whole
 
 LETTER, CALIBRATED = "to the letter", "calibrated"  # names of readings
-HEADER = "| Claim | Thesis | To the letter | Calibrated | Verdict | Share within the text |\n|---|---|---|---|---|---|"
-LEGEND = ("● reproduced, ◐ partly, ○ not reproduced, – no learning to test; without a symbol, no verdict. An empty "
-          "cell was not computed, or does not depend on the reading. Numbers, with 95\u00a0% intervals over runs, "
-          "are {}.")
+COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict", "Share within the text")
+LEGEND = "● reproduced, ◐ partly, ○ not reproduced, – no learning to test; without a symbol, no verdict. "
+EMPTY = "An empty cell was not computed, or does not depend on the reading. "
+NUMBERS = "Numbers, with 95\u00a0% intervals over runs, are {}."
 PARTS = ("claims", "letter", "shares")  # of a record
 
 
@@ -31,12 +31,11 @@ def table(claims, letter=(), shares=None):
     """Claims as a Markdown table, and below it the evidence for each verdict.
 
     claims: a sequence of `Claim`, under the book's reading. letter: the same, under that to the letter. shares: as in
-    `save`.
+    `save`. A column without an entry is left out; without claims to the letter there is no choice of a reading.
     """
     record = {"claims": _kept(claims), "letter": _kept(letter), "shares": shares or {}}
     names = [claim.name for claim in claims]
-    return "\n".join([HEADER, *(_row(record, name) for name in names), "",
-                      LEGEND.format("the quantities in italics below"), "", *evidence(record, names)])
+    return "\n".join([*_filled(record, names, "the quantities in italics below"), "", *evidence(record, names)])
 
 
 def comparison(judged):
@@ -115,15 +114,14 @@ def verdict(record, name):
 
 def extract(record, names):
     """Some claims of a record, as `load` returns it, as a Markdown table."""
-    return "\n".join([HEADER, *(_row(record, name) for name in names), "",
-                      LEGEND.format("those that the claim's page explains")])
+    return "\n".join(_filled(record, names, "those that the claim's page explains"))
 
 
 def in_short(record):
     """The tables of all claims and demonstrations, in plain Markdown and without the evidence."""
-    claims, demonstrations = ([_row(record, name) for name in some] for some in (CLAIMS, DEMONSTRATIONS))
-    beside = ["", "Beside the claims stands a demonstration:", "", HEADER, *demonstrations]
-    return "\n".join([HEADER, *claims, *beside]) + "\n"
+    claims, demonstrations = (_lines(COLUMNS, [_cells(record, name) for name in some])
+                              for some in (CLAIMS, DEMONSTRATIONS))
+    return "\n".join([*claims, "", "Beside the claims stands a demonstration:", "", *demonstrations]) + "\n"
 
 
 def evidence(record, names):
@@ -159,12 +157,28 @@ def _kept(claims):
                          "runs": claim.runs, "verdict": claim.verdict, "detail": claim.detail} for claim in claims}
 
 
-def _row(record, name):
+def _filled(record, names, numbers):
+    """The lines of a table of claims without its empty columns, and of its legend. numbers: what they are, in words."""
+    rows = [_cells(record, name) for name in names]
+    kept = [at for at in range(len(COLUMNS)) if any(row[at] for row in rows)]
+    head = [COLUMNS[at] for at in kept]
+    if "To the letter" not in head:
+        head = ["Here" if each == "Calibrated" else each for each in head]
+    rows = [[row[at] for at in kept] for row in rows]
+    empty = "" if all(map(all, rows)) else EMPTY
+    return [*_lines(head, rows), "", LEGEND + empty + NUMBERS.format(numbers)]
+
+
+def _cells(record, name):
     statement = STATEMENTS[name]
-    cells = [f"**{name}** {statement.text}", statement.thesis, *(_marked(record[part].get(name))
-                                                                 for part in ("letter", "claims")),
-             verdict(record, name), _share(record["shares"].get(name))]
-    return f"| {' | '.join(cells)} |"
+    return [f"**{name}** {statement.text}", statement.thesis, *(_marked(record[part].get(name))
+                                                                for part in ("letter", "claims")),
+            verdict(record, name), _share(record["shares"].get(name))]
+
+
+def _lines(head, rows):
+    first, *others = (f"| {' | '.join(cells)} |" for cells in (head, *rows))
+    return [first, "|---" * len(head) + "|", *others]
 
 
 def _marked(found):

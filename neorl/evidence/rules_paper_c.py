@@ -60,10 +60,10 @@ def judge_alternatives(alternatives, thesis, brownian, real_time):
     leader = max([name for name in over if name not in late] or over, key=lambda name: over[name].value)
     succeeds = [name for name, each in over.items() if name not in late and each.low >= 1]
     return judged("C5", over[leader], f"The best alternative is {leader}, and the thesis's best agent is {best}, which "
-                  f"earns {estimate(np.mean, thesis[best])}. An alternative fails if it certainly earns less, or takes "
-                  f"longer to compute a step than the step lasts: {', '.join(n for n in fails if fails[n]) or 'none'}. "
-                  f"Certainly earning at least as much, and in time: {', '.join(succeeds) or 'none'}. Partly is read "
-                  "as half of the alternatives failing.",
+                  f"earns {estimate(np.mean, thesis[best])}. Alternatives that fail, as they clearly earn less or take "
+                  f"longer to compute a step than it lasts: {', '.join(n for n in fails if fails[n]) or 'none'}. "
+                  f"Those that clearly earn at least as much, in time: {', '.join(succeeds) or 'none'}. “Partly” is "
+                  "read as half of the alternatives failing.",
                   min(map(len, [*(final for final, _ in alternatives.values()), *thesis.values()])),
                   reproduced=all(fails.values()), partly=2 * sum(fails.values()) >= len(fails),
                   possible=not succeeds,

@@ -266,11 +266,13 @@ def test_the_claim_is_judged_by_learners_with_enough_runs(boards):
 
 def test_the_summary_names_the_best_of_each_sort_and_an_agent_beyond_the_thesis_if_there_is_one(boards):
     text = report.summary(boards)
-    assert "With 3 creeps the thesis's best agent, PC + OVC, calibrated, earns 0.50 per second" in text
-    assert "2.50 (hybrid reward); 1.20 (DQN). Controllers" in text and "this part of the book" not in text
+    assert text.startswith("With three creeps, 3 of the 4 tabular and deep learners earn more")
+    assert "With 3 creeps, the thesis's best agent (PC + OVC, calibrated) earns 0.50 reward per second" in text
+    assert "best tabular learner (hybrid reward) 2.50 and the best deep learner (DQN) 1.20. Controllers" in text
+    assert "this part of the book" not in text
     ours = {creeps: {**each, "ours": earned(BEYOND, 3.0)} for creeps, each in boards.items()}
-    assert "; 3.00 (ours), the agent of this part of the book. Controllers" in report.summary(ours)
-    assert "the best learner, ours, earns" in report.meaning(ours)
+    assert "1.20 and the agent of this part of the book (ours) 3.00. Controllers" in report.summary(ours)
+    assert "the best learner (ours) earns" in report.meaning(ours)
 
 
 def test_the_table_has_thirds_levels_time_and_memory(boards):
@@ -282,16 +284,18 @@ def test_the_table_has_thirds_levels_time_and_memory(boards):
 
 def test_what_it_means_is_computed(boards):
     text = report.meaning(boards)
-    assert "3 of the learners" in text and "joint cells, hybrid reward, DQN" in text
+    assert "3 of the 4 tabular and deep learners" in text and "in the mean over 15 thousand steps" in text
+    assert "joint cells, hybrid reward, DQN" in text
     assert "2.50 per second with a head for each creep, 0.90 with joint cells and 0.30 with the whole scene" in text
     assert "hybrid reward 25, DQN 50, joint cells 65" in text
-    assert "the best learner, hybrid reward, earns 83 % of PD's reward" in text
+    assert "the best learner (hybrid reward) earns 83 % of PD's reward" in text
 
 
 def test_the_tables_of_what_is_stored_name_every_method(boards):
     text = report.search_table()
     counts = dict.fromkeys(search.RANGES, 256) | dict.fromkeys(stored.METHODS, deep_settings.SETTINGS)
     assert all(f"| {name} | {count} |" in text for name, count in counts.items())
+    assert all(f"\n- *{name}*: " in text for name in counts)
     assert "256 settings" in report.search_in_words() and "36,000 steps" in report.search_in_words()
     text = report.long_table(boards)
     assert all(f"| {creeps} | {name} | 10 |" in text for creeps in (3, 8) for name in ("hybrid reward", "joint cells"))

@@ -100,7 +100,7 @@ def test_claims_are_listed_by_the_choice_that_matters_most():
     text = assumptions.foremost_choices(importance, ["A1", "A2", "A3"], 64)
     assert text.startswith("The choice that matters most for each claim: *discount, γ* (A1, A3); *credit, ψ(N)* (A2).")
     assert assumptions.foremost_choices(importance, [], 16) == (
-        "From 16 readings no choice predicts the number of a claim.")
+        "With 16 readings, no choice predicts the number of any claim.")
 
 
 def test_verdicts_are_shares_of_readings(shares):
@@ -139,6 +139,7 @@ def test_dependence_is_reported_where_the_choices_predict_a_claim(shares):
                         "| C1 | 0.00 | no choice predicts it |"]
     few = assumptions.dependence({"B1": {"memory": 0.04, "causes": 0.1}}, {"B1": 0.4}, shares)
     assert few.endswith("| causes (0.10) |")
+    assert assumptions.dependence({"A2": {}, "B1": {}}, {}, shares).startswith("The page has too few readings")
 
 
 def test_128_readings_are_enough():
@@ -153,6 +154,7 @@ def test_levels_are_listed_if_they_clearly_lead_the_letter_or_trail_it():
     assert table.splitlines()[2:4] == ["| credit, ψ(N) | level 1 | 4.00 | 2.00 [1.00, 3.00] |",
                                        "| credit, ψ(N) | level 2 | 4.00 | −2.00 [−3.00, −1.00] |"]
     assert told == "Of 30 levels, 20 are listed; chance alone would list about 2."
+    assert "Of 1 levels, 1 is listed" in assumptions.clear_leads(supports[1:2])
     assert assumptions.clear_leads(supports[:1]) == (
         "Of 0 levels, 0 are listed; chance alone would list about 0.")
 

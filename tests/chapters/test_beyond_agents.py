@@ -6,6 +6,7 @@ import pytest
 from neorl import WaterWorld, forager, simulate
 from neorl.chapters.beyond_agents import experiments, figures, report, search
 from neorl.core.maps import NresMap
+from neorl.drawing.style import GREEN, RED, letters
 
 
 @pytest.fixture(scope="module")
@@ -44,6 +45,8 @@ def test_the_page_says_and_draws_what_was_found(lived):
     assert report.part_table(lived).count("\n") == 1 + len(experiments.PARTS)
     for draw in (figures.draw_learning, figures.draw_long, figures.draw_parts, figures.draw_revalued):
         draw(lived)
+    names = {text.get_text(): text.get_color() for text in figures.draw_revalued(lived).texts}
+    assert names == {"green": letters(GREEN), "red": letters(RED)}
 
 
 def test_hits_per_second_count_all_hits(lived):

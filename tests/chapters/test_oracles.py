@@ -115,7 +115,7 @@ def test_gains_move_to_where_reward_is(monkeypatch):
 def test_the_page_says_and_draws_what_adapting_brings():
     lives = adapting.lives(2_000, 2, 1)
     text = report.adapting_in_words(lives)
-    assert all(f"**{name}**" in text for name in adapting.ADAPTABLE)
+    assert all(f"{name[1:]}**: " in text for name in adapting.ADAPTABLE)
     for of_ways in lives.values():
         names = [text.get_text() for text in figures.draw_adapting(of_ways).texts]
         assert sorted(names) == sorted(of_ways)

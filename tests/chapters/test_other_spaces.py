@@ -138,7 +138,7 @@ def test_the_report_and_the_figures(reached, sailed, swum, asked, driven):
     assert [claim.name for claim in verdicts] == ["G1", "G2", "G3", "G4"]
     assert {claim.verdict for claim in verdicts} == {"no verdict"}
     text = report.summary(verdicts, found)
-    assert "birds" in text and "efficient no verdict" in text
+    assert "birds" in text and "no verdict: efficient, general, compositional, incremental" in text
     feared = {valence: reached[2, "agent"] for valence in lives.VALENCES}
     assert report.reaching(reached, feared).count("\n") == 2 + 1 + len(lives.VALENCES)
     assert report.sailing(sailed).count("\n") == 1 + len(sailed) and "Trial 4" in report.swimming(swum)

@@ -56,6 +56,16 @@ def test_names_at_the_ends_keep_apart_and_near():
     assert [text.get_text() for text in axes.texts] == ["a", "b", "c", "d"]
 
 
+def test_leaders_join_the_ends_of_curves_to_their_names():
+    axes = plt.figure().add_subplot()
+    axes.set_ylim(0, 1)
+    name_ends(axes, [(0.5, "b", "k"), (0.5, "c", "k"), (0.1, "a", "k")], leaders=True)
+    (leaders,) = axes.collections
+    assert [line[0, 1] for line in leaders.get_segments()] == [0.1, 0.5, 0.5]
+    assert [line[1, 1] for line in leaders.get_segments()] == [text.xy[1] for text in axes.texts]
+    assert all(text.xy[0] > line[1, 0] for line, text in zip(leaders.get_segments(), axes.texts))
+
+
 @pytest.mark.parametrize("level", [0.0, 1.0])
 def test_names_of_many_curves_at_one_edge_stay_within_the_axes(level):
     axes = plt.figure().add_subplot()

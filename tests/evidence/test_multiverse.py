@@ -330,5 +330,8 @@ def test_importance_is_drawn_as_discs_of_that_area():
     draw_importance({"A2": {"discount": 0.25, "credit": -0.1}, "C4": {"recursion": 1.0}}, BEYOND)
     sizes = [line.get_markersize() for line in plt.gca().lines]
     assert sizes[0] == pytest.approx(sizes[2] / 2) and sizes[1] == 0
-    assert [tick.get_text() for tick in plt.gca().get_xticklabels()] == ["A2", "C4"]
+    assert [tick.get_text() for tick in plt.gca().get_xticklabels()] == ["A2", "C4"] and not plt.gca().texts
+    plt.close()
+    draw_importance({"A2": {}, "C4": {}}, BEYOND)
+    assert [text.get_text() for text in plt.gca().texts] == ["no claim's number is predicted"]
     plt.close()

@@ -49,6 +49,14 @@ def test_a_table_of_a_page_has_both_readings_and_what_the_verdicts_rest_on():
     assert "Here: 0.10 [0.09, 0.11], 20 runs. A run of B" in line and "To the letter: −0.30" in line
 
 
+def test_a_column_without_an_entry_is_left_out():
+    table = report.table(networks())
+    assert table.splitlines()[0] == "| Claim | Thesis | Here | Verdict |" and "empty cell" not in table
+    table = report.table(networks(), networks()[:1])
+    assert table.splitlines()[0] == "| Claim | Thesis | To the letter | Calibrated | Verdict |"
+    assert "An empty cell" in table
+
+
 def test_the_reading_to_the_letter_stands_first_in_a_comparison():
     judged = {"other": layers(), "calibrated": networks(), "to the letter": networks() + layers()}
     compared = report.comparison(judged).splitlines()

@@ -36,5 +36,5 @@ def draw_learning(boards):
             ends.append((rates[:, -max(1, rates.shape[1] // 10):].mean(), name, colour))
         axes.set(ylabel="reward per second", xlim=(0, earned["Brownian motion"].steps / 1_000))
         axes.set_title(f"{creeps} creeps", color=TEXT, fontsize=11)
-        name_ends(axes, ends, line=0.042)
+        name_ends(axes, ends, line=0.042, leaders=True)
     axes.set_xlabel("steps, in thousands")

@@ -61,18 +61,15 @@ def summary(boards):
     for creeps, earned in boards.items():
         tabular, deep, thesis = (best_of(earned, kind) for kind in (TABLES, DEEP, THESIS))
         ours = best_of(earned, BEYOND)
-        told = [f"{_named(earned, tabular)}" if tabular else "", _named(earned, deep) if deep else "",
-                f"{_named(earned, ours)}, the agent of this part of the book" if ours else ""]
-        parts.append(f"With {creeps} creeps the thesis's best agent, {thesis}, earns {_rate(earned, thesis)} per "
-                     "second over the last fifth of the run, and the best of the other kinds earn "
-                     f"{'; '.join(part for part in told if part)}. Controllers that know the physics earn "
-                     f" {_rate(earned, 'nearest green')} and {_rate(earned, 'PD')}, a planner "
-                     f"{_rate(earned, 'planner')}.")
-    return " ".join(parts)
-
-
-def _named(earned, name):
-    return f"{_rate(earned, name)} ({name})"
+        best = [f"the best {kind} learner ({name}) {_rate(earned, name)}"
+                for kind, name in (("tabular", tabular), ("deep", deep)) if name]
+        best += [f"the agent of this part of the book ({ours}) {_rate(earned, ours)}"] if ours else []
+        listing = ", ".join(best[:-1]), *best[-1:]
+        parts.append(f"With {creeps} creeps, the thesis's best agent ({thesis}) earns {_rate(earned, thesis)} reward "
+                     f"per second over the last fifth of the run; {' and '.join(filter(None, listing))}. Controllers "
+                     f"that know the physics earn {_rate(earned, 'nearest green')} and {_rate(earned, 'PD')}, and a "
+                     f"planner {_rate(earned, 'planner')}.")
+    return "\n\n".join([_more(boards[3]), *parts])
 
 
 def _rate(earned, name):
@@ -84,8 +81,8 @@ def results_table(earned):
     rows = [[name, each.runs, *(number(part.mean()) for part in thirds(each)[:2]), _level(each),
              *(_steps_to(each, level) for level in LEVELS), _microseconds(each), f"{each.kilobytes:,.3g}"
              if each.kilobytes < 1_000 else f"{each.kilobytes:,.0f}"] for name, each in earned.items()]
-    return table(["", "runs", "first third", "second", "last", *(f"to {level:g}" for level in LEVELS), "µs", "kB"],
-                 rows)
+    return table(["", "runs", "first third", "second", "last", *(f"to {level:g}" for level in LEVELS), "µs per step",
+                  "kB"], rows)
 
 
 def thirds(each):
@@ -120,17 +117,18 @@ def long_table(boards):
 
 
 def search_table():
-    """How many settings were tried for each method, what they earned, and which one is used."""
-    rows = []
+    """How many settings were tried for each method, what they earned, and below the table which one is used."""
+    rows, used = [], []
     for file, setting in (("search.csv", lambda *at: search.setting_of(*at)._asdict()),
                           ("deep_search.csv", deep_settings.settings_of)):
         tried = read_search(FOLDER / file)
         for method, best in chosen(tried).items():
             rates = [row["rate"] for row in tried if row["method"] == method]
-            used = ", ".join(f"{name.replace('_', ' ')} {_short(value)}"
-                             for name, value in setting(method, best).items())
-            rows.append([method, len(rates), number(np.median(rates)), number(max(rates)), used])
-    return table(["", "tried", "median", "best", "used"], rows)
+            rows.append([method, len(rates), number(np.median(rates)), number(max(rates))])
+            used.append(f"- *{method}*: " + ", ".join(f"{name.replace('_', ' ')} {_short(value)}"
+                                                      for name, value in setting(method, best).items()))
+    return "\n".join([table(["", "settings tried", "median", "best, which is used"], rows), "",
+                      "The settings used:", "", *used])
 
 
 def search_in_words():
@@ -152,10 +150,15 @@ def meaning(boards):
 
 
 def _over_the_thesis(earned):
+    return f"**Can others do this?** {_more(earned)}"
+
+
+def _more(earned):
+    others = {name: final(each).mean() for name, each in earned.items() if each.kind in (TABLES, DEEP)}
     best = final(earned[best_of(earned, THESIS)]).mean()
-    more = [name for name, each in earned.items() if each.kind in (TABLES, DEEP) and final(each).mean() > best]
-    return (f"**Others can do this.** With three creeps, {len(more)} of the learners compared with the thesis's "
-            f"agents earn more over the last fifth of the run than the best of these: {listed(more)}.")
+    more = [name for name, rate in others.items() if rate > best]
+    return (f"With three creeps, {len(more)} of the {len(others)} tabular and deep learners earn more over the last "
+            f"fifth of the run than the thesis's best agent: {listed(more)}.")
 
 
 def _heads(boards):
@@ -175,8 +178,10 @@ def _pace(earned):
              if each.kind in (TABLES, DEEP, THESIS, BEYOND)}
     order = sorted((name for name in taken if np.isfinite(taken[name])), key=taken.get)
     told = listed([f"{name} {taken[name] / 1_000:,.0f}" for name in order])
+    least = min(each.steps for each in earned.values() if each.kind in (TABLES, DEEP, THESIS, BEYOND)) * WINDOW
     return (f"**Sample efficiency.** Thousands of steps until half of the runs have reached {level} per second with "
-            f"three creeps: {told}. The others do not reach it.")
+            f"three creeps, in the mean over {least / 1_000:,.3g} thousand steps, so that none is lower: {told}. The "
+            "others do not reach it.")
 
 
 def _distance(boards):
@@ -184,6 +189,6 @@ def _distance(boards):
     for creeps, earned in boards.items():
         best = best_of(earned, TABLES, DEEP, BEYOND)
         share = {name: 100 * final(earned[best]).mean() / final(earned[name]).mean() for name in ("PD", "planner")}
-        lines.append(f"with {creeps} creeps the best learner, {best}, earns {share['PD']:.0f} % of PD's "
+        lines.append(f"with {creeps} creeps the best learner ({best}) earns {share['PD']:.0f} % of PD's "
                      f"reward and {share['planner']:.0f} % of the planner's")
     return f"**There is room for improvement.** Over the last fifth of the run, {'; '.join(lines)}."

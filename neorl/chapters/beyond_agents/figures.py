@@ -5,8 +5,8 @@ import numpy as np
 from neorl.chapters.beyond_agents.adapting import SEGMENT
 from neorl.chapters.beyond_agents.experiments import PARTS, THESIS, hits_per_second, last_third
 from neorl.drawing.curves import draw_curves, draw_proficiency
-from neorl.drawing.style import CURVES, INK, axes_or_new
-from neorl.evidence.statistics import estimate
+from neorl.drawing.style import CURVES, GREEN, INK, RED, SMALL, axes_or_new, name_ends
+from neorl.evidence.statistics import estimate, mean_band
 
 
 def draw_learning(lived):
@@ -48,6 +48,8 @@ def draw_fear(middles, fears):
     known = np.isfinite(fears).all(axis=0)
     axes = draw_curves(middles[known], {"fear by avoidance": fears[:, known]}, "approach", "fear")
     axes.plot([0, 1], [0, 1], color=INK, linewidth=0.7)
+    axes.annotate("fear = approach", (0.3, 0.33), ha="center", va="bottom", rotation=45, rotation_mode="anchor",
+                  transform_rotates_text=True, fontsize=SMALL)
     axes.set_xlim(0, 1)
     return axes
 
@@ -55,7 +57,13 @@ def draw_fear(middles, fears):
 def draw_revalued(lived):
     """Creeps met per second, by kind, with a line where red becomes worth as much as green."""
     minutes, rates = hits_per_second(lived.revalued)
-    axes = draw_curves(minutes, rates, "simulated minutes", "creeps per second")
+    axes, ends = axes_or_new(None), []
+    for (kind, of_kind), colour in zip(rates.items(), (GREEN, RED)):
+        axes.plot(minutes, of_kind.mean(axis=0), color=colour)
+        axes.fill_between(minutes, *mean_band(of_kind), color=colour, alpha=0.2, linewidth=0)
+        ends.append((of_kind[:, -1].mean(), kind, colour))
+    axes.set(xlabel="simulated minutes", ylabel="creeps per second", xlim=(0, minutes[-1]), ylim=(0, None))
+    name_ends(axes, ends)
     axes.axvline(lived.revalued.seconds / 120, color=INK, linewidth=0.7)
     return axes
 

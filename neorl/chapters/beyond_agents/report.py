@@ -26,16 +26,16 @@ def summary(lived):
     """The page's result in a paragraph."""
     found = {name: mean_of(rates) for name, rates in reached(lived).items()}
     met = [name for name, each in found.items() if each.value >= TARGETS[name][3]]
-    missed = [f"{name} ({number(found[name].value)}, target {TARGETS[name][3]})" for name in TARGETS if name not in met]
+    missed = [f"“{name}” ({number(found[name].value)} of {TARGETS[name][3]})" for name in TARGETS if name not in met]
     thesis, ours = (mean_of(last_third(each)) for each in (lived.thesis[THESIS], lived.way[f"+ {PARTS[-1]}"]))
     parts = {part: mean_of(last_third(result)).value for part, result in lived.without.items()}
     most = sorted(parts, key=parts.get)[:3]
-    return (f"The forager earns {interval(ours)} per second over the last third of the runs, while it learns; the "
-            f"best agent of the thesis earns {interval(thesis)} in the calibrated reading. It meets {len(met)} of "
-            f"{len(TARGETS)} targets" + (f"; missed: {listed(missed)}" if missed else "") + ". It loses most without "
-            f"{', '.join(f'{part} ({number(parts[part])})' for part in most)}. It uses no neural network, no replay "
-            "and no model, and learns in a single pass through its experience; moved or revalued elements need no "
-            "retraining.")
+    return (f"With three creeps, the agent of this page, the *forager*, earns {interval(ours)} reward per second over "
+            f"the last third of the runs, while it learns; the thesis's agent of place and object-vector cells earns "
+            f"{interval(thesis)} in the calibrated reading. The forager meets {len(met)} of the {len(TARGETS)} targets"
+            + (f" and misses {listed(missed)}" if missed else "") + ". Its reward falls most without "
+            f"{', '.join(f'{part} ({number(parts[part])})' for part in most)}. It has no neural network, no replay and "
+            "no model, and learns in a single pass through its experience; revalued elements need no retraining.")
 
 
 def target_table(lived):
@@ -64,12 +64,18 @@ def search_in_words():
     tried = read_record()
     best = tried[0]
     spread = [score_of(row) for row in tried]
+    low, half, high = (number(float(each)) for each in np.quantile(spread, [0, 0.5, 1]))
+    earned = [number(best[name]) for name in ("with_3", "with_8", "late")]
     return (f"{len(tried)} settings of {len(RANGES)} numbers and the resolutions were tried by differential "
-            f"evolution; their scores lie between {number(min(spread))} and {number(max(spread))}, half of them above "
-            f"{number(float(np.median(spread)))}. The best has the resolutions "
-            f"{listed(map(str, best['resolutions']))} and {', '.join(f'{name} {best[name]:g}' for name in RANGES)}, "
-            f"and earned {number(best['with_3'])} per second with 3 creeps, {number(best['with_8'])} with 8 and "
-            f"{number(best['late'])} late, on the runs by which it was chosen.")
+            "evolution. A setting's score is the sum of three rewards per second: with 3 creeps, half of that with 8, "
+            f"and with 3 around step 600,000. The scores lie between {low} and {high}, half of them above {half}. The "
+            f"best has the resolutions {listed(map(str, best['resolutions']))} and {_named(best)}, and earned "
+            f"{earned[0]} per second with 3 creeps, {earned[1]} with 8 and {earned[2]} around step 600,000, on the "
+            "runs by which it was chosen.")
+
+
+def _named(setting):
+    return ", ".join(f"{name.replace('_', ' ')} {setting[name]:g}" for name in RANGES)
 
 
 def revalued_in_words(lived):
@@ -143,8 +149,9 @@ def adapting_in_words(lives):
         doubt = ", which may be zero" if brought.low <= 0 <= brought.high else ""
         ends = zip(ADAPTABLE[name].names, ADAPTABLE[name].start, of_ways[ADAPTED][0][:, -1].mean(axis=0))
         last = listed([f"{each} goes from {number(first)} to {number(float(end))}" for each, first, end in ends])
-        parts.append(f"**{name}**: {number(float(rates[FIXED].mean()))} per second over the last third with fixed "
-                     f"parameters, {number(float(rates[SHAKEN].mean()))} when they are merely shaken, "
-                     f"{number(float(rates[ADAPTED].mean()))} when they adapt. Beyond shaking, adapting adds "
+        fixed, shaken, adapted = (number(float(rates[way].mean())) for way in (FIXED, SHAKEN, ADAPTED))
+        parts.append(f"**{name[0].upper()}{name[1:]}**: {fixed} reward per second over the last third with fixed "
+                     f"parameters, {shaken} when they are merely shaken, {adapted} when they adapt. Beyond shaking, "
+                     "adapting adds "
                      f"{interval(brought)}{doubt}. On average, {last}.")
     return "\n\n".join(parts)

@@ -11,11 +11,15 @@ from neorl.chapters.other_spaces import birds, hill, lives, minds, pool
 from neorl.core.geometry import TAU
 from neorl.drawing.boards import as_board, board_or_new
 from neorl.drawing.curves import draw_curves
-from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, TEXT, axes_or_new, letters, width_of_figures
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, TEXT, axes_or_new, letters, mark, width_of_figures
 from neorl.evidence.statistics import estimate, probability_of_improvement
 
 SEEN = 12  # postures drawn on an arm's way to a target
+MARGIN = 0.15  # around an arm and its targets, a little more than their radius
 BIRD = 0.05  # half the length of a bird's body, as a share of the square
+# Names of birds that do not fit above their body, where another bird or a path is: right, down, side.
+ASIDE = {"gingerbread": (-0.03, 0.07, "right"), "sleigh": (-0.03, 0.15, "left")}
+MULTIPLES = (1, 2, 5, 10, 20)  # ticks
 
 
 def pair(heights=(1, 0.8)):
@@ -31,7 +35,7 @@ def draw_arms(reached, seen):
 
     reached: from `lives.reach`. seen: from `lives.watch`, with an arm of two links.
     """
-    above, below = pair()
+    above, below = pair((0.6, 0.8))  # an arm on its way moves within a low part of its circle
     draw_reaching(seen, above)
     minutes = lives.curve(reached[2, "agent"])[0]
     curves = {f"{links} links{name}": lives.curve(reached[links, key])[1]
@@ -43,7 +47,6 @@ def draw_arms(reached, seen):
 def draw_reaching(seen, ax=None, targets=2):
     """Postures of an arm until it has met `targets` targets, later ones darker, with the targets and obstacles."""
     axes = board_or_new(ax)
-    axes.set(xlim=(-1.15, 1.15), ylim=(1.15, -1.15))
     ends = [at for at, (_, met) in enumerate(seen) if met][: targets + 1]
     begin, end = (ends[0] + 1, ends[-1]) if len(ends) > 1 else (0, len(seen))
     shown = np.linspace(begin, end - 1, SEEN * targets).astype(int)
@@ -58,6 +61,9 @@ def draw_reaching(seen, ax=None, targets=2):
         axes.add_patch(Circle(obstacle, lives.ARMS[2].radius, facecolor=RED, alpha=0.5))
         axes.text(*obstacle, "−", color=TEXT, ha="center", va="center", weight="bold")
     axes.plot(0, 0, marker="s", markersize=6, color=INK)
+    places = np.concatenate([place for state, _ in (seen[at] for at in shown)
+                             for place in (joints_of(state.scene.position), state.point)])
+    axes.set(xlim=(-1.15, 1.15), ylim=(places[:, 1].max() + MARGIN, places[:, 1].min() - MARGIN))
     return axes
 
 
@@ -97,7 +103,7 @@ def draw_track(seen, ax=None):
     for number, at in enumerate([at for at, (_, met) in enumerate(seen) if met and at > 0], 1):
         place = seen[at - 1][0].scene.things[0]
         axes.add_patch(Circle(place, lives.WATERS.radius, facecolor=GREEN, alpha=0.5))
-        axes.text(*place, str(number), color=TEXT, ha="center", va="center_baseline")
+        mark(axes, place, str(number), ha="center", va="center")
     return axes
 
 
@@ -115,7 +121,7 @@ def draw_pool(swum, paths):
         "seconds to the platform", below)
     below.set_ylim(0, None)
     for day in range(1, pool.DAYS):
-        below.axvline(day, color=INK, linewidth=0.4)
+        below.axvline(day, color=INK, linewidth=0.8)
     return above, below
 
 
@@ -140,6 +146,8 @@ def draw_birds(asked, paths):
     draw_rows({name: estimate(np.mean, each.mean(axis=1)) for name, each in asked.items()},
               "steps, as a multiple of the fewest", below)
     below.set_xscale("log")
+    below.set_xticks(MULTIPLES, MULTIPLES)
+    below.minorticks_off()
     below.axvline(1, color=INK, linewidth=0.7)
     return above, below
 
@@ -149,13 +157,14 @@ def draw_space(paths, ax=None):
     axes = board_or_new(ax)
     axes.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
     for path in paths:
-        axes.plot(*path.T, color=AGENT, linewidth=1.0, alpha=0.6)
+        axes.plot(*path.T, color=AGENT, linewidth=1.2)
     for name, bird in birds.NAMED.items():
         draw_bird(bird, axes, GREEN)
-        axes.text(bird[0] + 0.02, bird[1] - 0.04, name, color=TEXT, ha="right", va="bottom", fontsize=9)
+        right, down, side = ASIDE.get(name, (0.02, -0.04, "right"))
+        axes.text(bird[0] + right, bird[1] + down, name, color=TEXT, ha=side, va="bottom", fontsize=9)
     for bird in birds.NAMELESS:
         draw_bird(bird, axes, INK)
-    axes.text(0.5, 1.11, "neck →", color=TEXT, ha="center", va="top")
+    axes.text(0.5, 1.03, "neck →", color=TEXT, ha="center", va="top")
     axes.text(-0.03, 0.5, "legs →", color=TEXT, ha="right", va="center", rotation=270)
     return axes
 
