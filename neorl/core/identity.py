@@ -60,7 +60,8 @@ def _of_function(value):
     used = inspect.getclosurevars(function)
     if (function.__module__ or "").startswith(OURS):
         return f"{name_of(function)}{arguments}({_named(used.nonlocals)})"
-    found = {name: each for name, each in {**used.nonlocals, **used.globals}.items() if each is not value}
+    found = {name: each for name, each in sorted({**used.nonlocals, **used.globals}.items(), key=lambda item: item[0])
+             if each is not value}  # in this order, since that of globals differs between processes of Python 3.14
     for module in [each for each in found.values() if isinstance(each, ModuleType)]:
         if module.__name__.split(".")[0] not in WITHOUT_SOURCE:
             found |= {f"{module.__name__}.{name}": getattr(module, name) for name in sorted(used.unbound)

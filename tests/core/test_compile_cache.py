@@ -1,6 +1,7 @@
 """Compiled kernels on disk are reused if everything that they were compiled from is unchanged, and only then."""
 
 import importlib.util
+import inspect
 import os
 import subprocess
 import sys
@@ -128,6 +129,14 @@ def test_processes_that_start_at_once_do_not_disturb_each_other(module, tmp_path
     processes = [subprocess.Popen(command, env=environment, stdout=subprocess.PIPE) for _ in range(4)]
     assert [process.communicate()[0].strip() for process in processes] == [b"4.0"] * 4
     assert len(kept()) == 1 and called(module()) == (4.0, True)
+
+
+def test_the_order_in_which_python_lists_globals_does_not_matter(module, monkeypatch):
+    listed = inspect.getclosurevars
+    found = identity(module().answer)
+    monkeypatch.setattr(inspect, "getclosurevars", lambda function: listed(function)._replace(
+        globals=dict(reversed(listed(function).globals.items()))))
+    assert identity(module().answer) == found
 
 
 def test_a_kernel_without_source_is_compiled_and_not_kept(module):
