@@ -17,7 +17,6 @@ def told_anew(chamber, learning, visits, seed=0, run=0):
     """The values of one run of `learn_in` in plain Python, bout by bout and visit by visit: (visits, 4, 2)."""
     stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run,)))
     q, over, values = np.zeros((4, 2)), True, []
-    own = np.zeros(4)  # towards the chamber itself, which has no part in the others
     for _ in range(visits):
         seen, opened = [], None
         while opened is None or len(seen) <= opened[1] + chamber.delay:
@@ -41,7 +40,6 @@ def told_anew(chamber, learning, visits, seed=0, run=0):
             target = np.where(psi > 0, goal, 0)
             q += learning.learning_rate * np.where(psi > 0, psi, learning.absent_decay) * (target - q)
         values.append(q.copy())
-    assert not own.any()
     return np.array(values)
 
 
