@@ -24,6 +24,8 @@ class Controls {
       if (totals.length) this.control("open-preset").append(new Option(label, key));
     }
     this.control("modality").append(...Object.keys(this.modalities).map((name) => new Option(name, name)));
+    const shown = this.model.get("preset");
+    if (this.presets[shown]?.totals.length) this.control("open-preset").value = shown;
     this.part(".open").hidden = !this.control("open-preset").length;
     this.limitRun();
   }

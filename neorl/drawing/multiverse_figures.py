@@ -15,6 +15,8 @@ from neorl.evidence.statements import STATEMENTS
 
 COLOURS = {"holds": AGENT, "undecided": RED, "fails": INK}
 UNDECIDED = {"facecolor": (RED, FILL), "edgecolor": RED, "linewidth": 1}  # of bars
+DIAMOND = {"color": INK, "marker": "D", "markersize": 6, "linestyle": "none", "markeredgecolor": "white",
+           "markeredgewidth": 0.8}  # the edge sets it off from bars
 OUTCOMES = {"holds": "o", "undecided": "D", "fails": "."}  # markers
 SHADES = LinearSegmentedColormap.from_list("shades", [AGENT + "10", AGENT + "ff"])
 ROW = 0.2  # inches
@@ -137,7 +139,7 @@ def draw_standing(record, names, ax=None):
             if undecided:
                 axes.barh(row, undecided, 0.55, left=holds, **UNDECIDED)
             if share.get("measured"):
-                axes.plot(100 * share["agrees"] / share["measured"], row, "D", color=INK, markersize=5, clip_on=False)
+                axes.plot(100 * share["agrees"] / share["measured"], row, **DIAMOND, clip_on=False)
         else:
             axes.text(1, row, "not varied over readings", fontsize=SMALL, va="center")
     verdicts = {name: record["claims"].get(name, {"verdict": "not computed"})["verdict"] for name in names}
@@ -146,7 +148,7 @@ def draw_standing(record, names, ax=None):
     axes.tick_params(axis="y", length=0, pad=8)  # a diamond at 0 reaches beyond the axis
     axes.spines["left"].set_visible(False)
     handles = [Rectangle((0, 0), 1, 1, color=COLOURS["holds"]), Rectangle((0, 0), 1, 1, **UNDECIDED)]
-    handles.append(Line2D([], [], color=INK, marker="D", markersize=5, linestyle="none"))
+    handles.append(Line2D([], [], **DIAMOND))
     axes.legend(handles, ["holds", "undecided", "agrees, in long runs"], frameon=False, fontsize=SMALL, ncols=3,
                 labelcolor=TEXT, loc="lower left", bbox_to_anchor=(0, 1.0), borderpad=0)
     return axes

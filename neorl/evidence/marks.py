@@ -18,13 +18,13 @@ class Mark(NamedTuple):
     css: str
 
 
-NONE = Mark("–", "verdict-none")
+NONE = Mark("◇", "verdict-none")  # not a dash, which a number turns into a minus sign
 MARKS = dict(zip(VERDICTS, (Mark("●", "verdict-reproduced"), Mark("◐", "verdict-partly"),
                             Mark("○", "verdict-not-reproduced"), NONE, NONE))) | {NOT_COMPUTED: NONE}
 
 
 def symbol(verdict: str) -> str:
-    """The symbol of a verdict: ● reproduced, ◐ partly, ○ not reproduced, – anything else.
+    """The symbol of a verdict: ● reproduced, ◐ partly, ○ not reproduced, ◇ anything else.
 
     verdict: a key of `MARKS`. Raises ValueError for anything else.
     """
@@ -32,7 +32,7 @@ def symbol(verdict: str) -> str:
 
 
 def leads(verdict: str) -> bool:
-    """Whether a verdict's symbol stands before a number: without a verdict, its dash would be read as a minus sign.
+    """Whether a verdict's symbol stands before a number: with too few runs, the number stands alone.
 
     verdict: a key of `MARKS`. Raises ValueError for anything else.
     """

@@ -12,6 +12,7 @@ from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.verdict import RUNS_FOR_A_VERDICT
 
 CLAIMS_PAGE = "../claims.html"  # relative to the built pages
+REASONS = {"not testable": ", because the agents learned too little"}
 
 
 def what_was_found(sentences, runs, verdicts=None):
@@ -42,7 +43,7 @@ def _line(reading, found):
     groups = []
     for verdict in dict.fromkeys(found.values()):
         names = [_link(name) for name, each in found.items() if each == verdict]
-        groups.append(f"{html(verdict)}\u00a0{', '.join(names)} {verdict}")
+        groups.append(f"{html(verdict)}\u00a0{', '.join(names)} {verdict}{REASONS.get(verdict, '')}")
     return f"{reading.capitalize()}{': ' if reading else ''}{'; '.join(groups)}"
 
 

@@ -21,7 +21,7 @@ from neorl.files import cache_folder, write_whole
 
 LETTER, CALIBRATED = "to the letter", "calibrated"  # names of readings
 COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict", "Share within the text")
-LEGEND = "● reproduced, ◐ partly, ○ not reproduced, – no learning to test; without a symbol, no verdict. "
+LEGEND = "● reproduced, ◐ partly, ○ not reproduced, ◇ no learning to test; without a symbol, no verdict. "
 EMPTY = "An empty cell was not computed, or does not depend on the reading. "
 NUMBERS = "Numbers, with 95\u00a0% intervals over runs, are {}."
 PARTS = ("claims", "letter", "shares")  # of a record
@@ -68,8 +68,10 @@ def summary(judged):
     score = {reading: tuple([*verdicts.values()].count(kind) for kind in ("reproduced", "partly"))
              for reading, verdicts in by_reading.items()}
     closest = [reading for reading in score if score[reading] == max(score.values())]
-    told = "The reading closest to the thesis is *{}*: {} claims are reproduced and {} partly.".format(
-        "*, *".join(closest), *max(score.values()))
+    best, partly = max(score.values())
+    told = (f"The {'reading' if len(closest) == 1 else 'readings'} closest to the thesis "
+            f"{'is' if len(closest) == 1 else 'are'} *{'*, *'.join(closest)}*: {best} "
+            f"{'claim is' if best == 1 else 'claims are'} reproduced and {partly} partly.")
     told += "".join(f" In the reading *{reading}* they are {score[reading][0]} and {score[reading][1]}."
                     for reading in (LETTER, CALIBRATED) if reading in score and reading not in closest)
     return "\n".join([*lines, "", told])

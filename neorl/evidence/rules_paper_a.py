@@ -89,15 +89,15 @@ def judge_multiple_layers(by_resolution, together, brownian):
 
     surplus = estimate(lead_over_sum, all_final, *final.values())
     sooner = minutes_sooner(together, alone, 0.5 * sum(values.mean() for values in final.values()))
-    a6 = judged("A6", surplus, f"They reach half the final level of the sum {sooner} minutes sooner than the sum does.",
-                runs, reproduced=surplus.low > 0 and sooner.low > 0, partly=surplus.low > 0 or sooner.low > 0,
+    a6 = judged("A6", surplus, f"At half the final level of the sum, their lead over it is {sooner} minutes.", runs,
+                reproduced=surplus.low > 0 and sooner.low > 0, partly=surplus.low > 0 or sooner.low > 0,
                 possible=surplus.high > 0 and sooner.high > 0, testable=some_learned)
 
     gain = estimate(ratio, all_final, final[7])
     sooner = minutes_sooner(together, by_resolution[7], 0.5 * final[7].mean())
     room = RECENT * together.seconds / 60
-    a7 = judged("A7", gain, f"Near 3.5 is read as from {NEAR_3_5[0]} to {NEAR_3_5[1]}. They reach half the final level "
-                f"of N7 {sooner} minutes sooner; as fast is read as at most {room:.2f} minutes later.", runs,
+    a7 = judged("A7", gain, f"Near 3.5 is read as from {NEAR_3_5[0]} to {NEAR_3_5[1]}. At half the final level of N7, "
+                f"their lead over it is {sooner} minutes; as fast is read as at most {room:.2f} minutes later.", runs,
                 reproduced=NEAR_3_5[0] <= gain.low and gain.high <= NEAR_3_5[1] and sooner.low >= -room,
                 partly=gain.low > 1,
                 possible=gain.high >= NEAR_3_5[0] and gain.low <= NEAR_3_5[1] and sooner.high >= -room,

@@ -23,7 +23,7 @@ def test_the_tables_have_every_claim_as_it_is_stated_now_and_a_verdict_from_the_
     assert [(row[0], row[1]) for row in rows] == [(f"| **{name}** {STATEMENTS[name].text}", STATEMENTS[name].thesis)
                                                   for name in (*CLAIMS, *DEMONSTRATIONS)]
     assert {row[4] for row in rows} <= {*VERDICTS[:4], NOT_COMPUTED}
-    found = re.compile(r"[●◐○–]\u00a0−?\d+\.\d\d \[−?\d+\.\d\d, −?\d+\.\d\d\]|")
+    found = re.compile(r"[●◐○◇]\u00a0−?\d+\.\d\d \[−?\d+\.\d\d, −?\d+\.\d\d\]|")
     assert all(found.fullmatch(cell.strip()) for row in rows for cell in row[2:4])
 
 

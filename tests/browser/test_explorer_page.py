@@ -82,6 +82,12 @@ def test_it_starts_by_itself_and_the_reward_curve_grows(open_page, site, over):
     assert float(explorer.get_attribute("data-score")) > 20
 
 
+def test_runs_of_the_agent_shown_are_offered_first(open_page, site):
+    page = open_page(*site("D"), "file")
+    explorer_of(page)
+    expect(page.locator('[name="open-preset"]')).to_have_value("D")
+
+
 @pytest.mark.parametrize("over", ["http", "file"])
 @pytest.mark.parametrize("name, run", [("both", 7), ("places", 11), ("joins", 4), ("turned", 2), ("D", 0)])
 def test_a_run_opened_by_its_number_ends_with_the_score_of_python(open_page, site, conditions, name, run, over):

@@ -64,7 +64,7 @@ def test_what_lies_beyond_the_thesis_has_its_verdicts_and_numbers():
     ({}, "*without a verdict*"), (dict.fromkeys(SEPARATION, "no verdict"), "*without a verdict*"),
     (dict.fromkeys(SEPARATION, "reproduced"), "*in full* (T1, T7, C1, C2, C3, C4, of 6 claims judged)"),
     ({"T1": "reproduced", "C1": "not reproduced", "C2": "no verdict"}, "*in part* (T1, of 2 claims judged)"),
-    ({"T1": "partly", "C1": "not testable"}, "*not at all*"),
+    ({"T1": "partly", "C1": "not testable"}, "*not at all* (1 partly, 1 not testable)"),
 ])
 def test_a_conclusion_holds_as_far_as_its_claims_do(found, held):
     lines = conclusions.overview(verdicts(found, {"C4": "reproduced"})).splitlines()
@@ -77,8 +77,8 @@ def test_what_was_not_reproduced_stands_beside_the_thesis():
     first, *_ = what_did_not_hold({"A2": "not reproduced", "A3": "reproduced"})
     assert first == "Not reproduced in the calibrated reading:"
     _, line, *_ = what_did_not_hold({"A2": "not reproduced", "A3": "reproduced"})
-    assert line == ("- **A2** Every single resolution beats Brownian motion. Thesis: > 0; here: 0.50 [0.40, 0.60]. So "
-                    "A2 is.")
+    assert line == ("- **A2** Every single resolution beats Brownian motion. *Smallest lead over the control in "
+                    "reward per second.* Thesis: > 0; here: 0.50 [0.40, 0.60]. So A2 is.")
 
 
 def test_without_a_failure_there_is_none_to_list():

@@ -45,15 +45,15 @@ def test_final_rewards_are_those_of_the_last_fifth():
 def test_maps_that_help_in_every_case_and_to_the_end_are_said_to():
     assert more_maps.in_words(results()) == (
         "From one map to six the gain is 0.30 [0.30, 0.30] with place cells, 0.30 [0.30, 0.30] with object-vector "
-        "cells, 0.30 [0.30, 0.30] with both. More maps are better in every case. From four to six the gain is still "
-        "above zero with place cells and object-vector cells and both.")
+        "cells, 0.30 [0.30, 0.30] with both. Six maps earn more than one in every case. From four to six the gain "
+        "is still above zero with place cells and object-vector cells and both.")
 
 
 def test_ability_that_levels_off_is_said_to():
     level = (0.1, 0.2, 0.3, 0.3)
     assert more_maps.in_words(results(level, level, level)).endswith(
-        "More maps are better in every case. From four to six no interval is above zero any more: ability scales, and "
-        "it levels off.")
+        "Six maps earn more than one in every case. From four to six no interval is above zero any more: ability "
+        "scales, and it levels off.")
 
 
 def test_maps_that_help_in_some_cases_or_in_none_are_told_apart():

@@ -94,9 +94,9 @@ def test_the_best_weight_of_recursion_is_reported_with_the_reward_without_recurs
     found = {"to the letter": [Estimate(0.3, 0.2, 0.4), Estimate(0.1, 0.0, 0.2), Estimate(-0.2, -0.3, -0.1)],
              "calibrated": [Estimate(0.0, -0.1, 0.1), Estimate(0.2, 0.1, 0.3), Estimate(0.5, 0.4, 0.6)]}
     assert recursion_in_words([-0.5, 0.0, 1.0], found) == (
-        "Under the reading *to the letter* the best weight is r = −0.5, which earns 0.30 [0.20, 0.40]; without "
-        "recursion it is 0.10 [0.00, 0.20]. Under the reading *calibrated* the best weight is r = 1, which earns "
-        "0.50 [0.40, 0.60]; without recursion it is 0.20 [0.10, 0.30].")
+        "Under the reading *to the letter* the best weight is r\u00a0=\u00a0−0.5, which earns 0.30 [0.20, 0.40]; "
+        "without recursion it is 0.10 [0.00, 0.20]. Under the reading *calibrated* the best weight is "
+        "r\u00a0=\u00a01, which earns 0.50 [0.40, 0.60]; without recursion it is 0.20 [0.10, 0.30].")
 
 
 def test_the_table_has_a_row_for_each_network_and_reading(results):

@@ -29,9 +29,9 @@ def test_a_row_has_both_readings_the_verdict_and_shares_in_columns_of_their_own(
         "| **C2** One desire per colour (B) beats one for all (A) Lead of B over A in final reward per second "
         "| > 0 | ◐ −0.30 [−0.31, −0.29] | ● 0.10 [0.09, 0.11] | ● reproduced {ref}`figure "
         "(fig-proficiency-networks>`, {ref}`rule (rule-judge-networks>` | 5 % of 40 | 25 % of 256 | 10 % |")
-    assert row("A6").endswith("| 0.19 | – no verdict {ref}`figure (fig-proficiency>`, {ref}`rule "
+    assert row("A6").endswith("| 0.19 | ◇ no verdict {ref}`figure (fig-proficiency>`, {ref}`rule "
                               "(rule-judge-multiple-layers>` |  | 25 % of 4 | 0 % |")
-    assert row("H1").endswith("| fewer |  |  | – not computed in this build |  |  |  |")
+    assert row("H1").endswith("| fewer |  |  | ◇ not computed in this build |  |  |  |")
 
 
 def test_the_page_has_every_claim_once_in_a_row_and_once_in_what_verdicts_rest_on():

@@ -10,7 +10,7 @@ from neorl.evidence.verdict import VERDICTS
 
 
 def test_every_verdict_has_a_mark_and_what_is_not_tested_looks_alike():
-    assert [marks.symbol(verdict) for verdict in (*VERDICTS, marks.NOT_COMPUTED)] == ["●", "◐", "○", "–", "–", "–"]
+    assert [marks.symbol(verdict) for verdict in (*VERDICTS, marks.NOT_COMPUTED)] == ["●", "◐", "○", "◇", "◇", "◇"]
     assert marks.NOT_COMPUTED == report.NOT_COMPUTED
 
 

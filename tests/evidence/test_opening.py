@@ -13,6 +13,8 @@ def test_a_box_has_verdicts_by_reading_with_symbols_names_and_links():
     assert f", {link.format('a4')}" in calibrated and calibrated.endswith(" partly")
     assert calibrated.index("A4</a>") < calibrated.index("; ") < calibrated.index("◐")
     assert nameless.startswith(marks.html("no verdict"))
+    untested = opening.what_was_found("", 10, {"": {"C1": "not testable"}})
+    assert "C1</a> not testable, because the agents learned too little" in untested
 
 
 def test_with_few_runs_a_box_says_that_there_are_no_verdicts():

@@ -75,6 +75,8 @@ def test_a_summary_names_where_claims_hold_and_what_comes_closest():
     assert text.endswith(" In the reading *to the letter* they are 2 and 0. In the reading *calibrated* they are 2 "
                          "and 0.")
     assert "none of these readings" in report.summary({"calibrated": bad})
+    assert "The readings closest to the thesis are *calibrated*, *other*: 2 claims are" in report.summary(
+        {"calibrated": bad, "other": bad})
     few = networks(*paper_c(runs=2))
     assert report.summary({"calibrated": few}) == "With so few runs there are no verdicts to sum up."
 

@@ -56,7 +56,8 @@ def overview(verdicts):
     """How far each conclusion holds under each reading, as a Markdown list."""
     lines = [f"**{title}**: " + "; ".join(f"{reading}, {_held(found, names)}" for reading, found in verdicts.items())
              + "." for title, names in CONCLUSIONS.items()]
-    return ("A conclusion holds *in full* if all its claims are reproduced, and *in part* if some are.\n\n"
+    return ("A conclusion holds *in full* if all its claims are reproduced, *in part* if some are, and *not at all* if "
+            "none is.\n\n"
             + "\n".join(f"- {line}" for line in lines))
 
 
@@ -70,11 +71,14 @@ def beyond(record, verdicts):
 
 
 def _held(found, names):
-    """How far a conclusion that rests on the claims `names` holds, and which of these are reproduced."""
+    """How far a conclusion that rests on the claims `names` holds: which are reproduced, or what became of all."""
     judged = [name for name in names if found[name] in VERDICTS and found[name] != "no verdict"]
     kept = [name for name in judged if found[name] == "reproduced"]
+    if not judged:
+        return "*without a verdict*"
     if not kept:
-        return "*not at all*" if judged else "*without a verdict*"
+        counts = {verdict: [found[name] for name in judged].count(verdict) for verdict in VERDICTS}
+        return f"*not at all* ({', '.join(f'{count} {verdict}' for verdict, count in counts.items() if count)})"
     return (f"*{'in full' if len(kept) == len(names) else 'in part'}* ({', '.join(kept)}, of {len(judged)} claims "
             "judged)")
 
@@ -107,8 +111,9 @@ def what_did_not_hold(record, verdicts):
 def _not_reproduced(record, names):
     if not names:
         return "No claim was judged not reproduced in the calibrated reading, on the pages computed so far."
-    lines = [f"- **{name}** {STATEMENTS[name].text}. Thesis: {STATEMENTS[name].thesis}; here: "
-             f"{report.number(record['claims'][name])}. {record['claims'][name]['detail']}" for name in names]
+    lines = [f"- **{name}** {STATEMENTS[name].text}. *{STATEMENTS[name].statistic}.* Thesis: "
+             f"{STATEMENTS[name].thesis}; here: {report.number(record['claims'][name])}. "
+             f"{record['claims'][name]['detail']}" for name in names]
     return "Not reproduced in the calibrated reading:\n\n" + "\n".join(lines)
 
 

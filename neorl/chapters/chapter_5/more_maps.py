@@ -40,7 +40,7 @@ def in_words(results):
     up, still = ([name for name, gain in gains.items() if gain.low > 0] for gains in (in_all, at_last))
     always = len(up) == len(final)
     said = [f"From one map to six the gain is {', '.join(f'{gain} with {name}' for name, gain in in_all.items())}.",
-            "More maps are better in every case." if always else
+            "Six maps earn more than one in every case." if always else
             f"The interval is above zero with {' and '.join(up) or 'none of them'}."]
     if still:
         said.append(f"From four to six the gain is still above zero with {' and '.join(still)}.")

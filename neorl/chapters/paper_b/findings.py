@@ -86,7 +86,7 @@ def modalities_table():
 
 def values_table(watched):
     """Mean values of either modality under each reading, and their ratio, as a Markdown table."""
-    rows = ["| Reading | PC | OVC | OVC / PC (thesis's remark: 3) |", "|---|---|---|---|"]
+    rows = ["| Reading | PC | OVC | OVC / PC (author's remark: 3) |", "|---|---|---|---|"]
     for name, each in watched.items():
         places, objects = each.values["PC"], each.values["OVC"]
         means = (estimate(np.mean, values) for values in (places, objects, quotient(objects, places)))

@@ -71,6 +71,6 @@ def recursion_in_words(weights, found):
     for name, estimates in found.items():
         best, weight = max(zip(estimates, weights))
         without = estimates[weights.index(0.0)]
-        lines.append(f"Under the reading *{name}* the best weight is r = {weight:g}, which earns {best}; without "
-                     f"recursion it is {without}.")
-    return " ".join(lines).replace("= -", "= −")
+        lines.append(f"Under the reading *{name}* the best weight is r\u00a0=\u00a0{weight:g}, which earns {best}; "
+                     f"without recursion it is {without}.")
+    return " ".join(lines).replace("=\u00a0-", "=\u00a0−")
