@@ -91,9 +91,9 @@ def in_short(shares, judged, foremost):
 def agreement_at_length(shares):
     """How often claims' numbers agree with the thesis at the papers' lengths. shares: as `shares` returns them."""
     agreeing = {name: found["agrees"] / found["measured"] for name, found in shares.items() if found.get("measured")}
-    told = ", ".join(f"**{name}**\u00a0{_percent(share)}" for name, share in agreeing.items())
+    text = ", ".join(f"**{name}**\u00a0{_percent(share)}" for name, share in agreeing.items())
     return ("At the papers' own lengths, under readings drawn evenly within the text, the numbers agree with the "
-            f"thesis in: {told}. The average "
+            f"thesis in: {text}. The average "
             f"is {_percent(np.mean([*agreeing.values()]))}.")
 
 
@@ -207,12 +207,12 @@ def clear_leads(supports):
     """
     clear = [each for each in supports if each.lead.low > 0 or each.lead.high < 0]
     compared = sum(not each.is_to_the_letter for each in supports)
-    told = (f"Of {compared} levels, {len(clear)} {'is' if len(clear) == 1 else 'are'} listed; chance alone would list "
+    text = (f"Of {compared} levels, {len(clear)} {'is' if len(clear) == 1 else 'are'} listed; chance alone would list "
             f"about {0.05 * compared:.0f}.")
     if not clear:
-        return told
+        return text
     rows = [[WITHIN[each.choice].label, each.level, f"{each.held:.2f}", str(each.lead)] for each in clear]
-    return f"{table(['Choice', 'Level', 'Claims that hold', 'Lead over the letter'], rows)}\n\n{told}"
+    return f"{table(['Choice', 'Level', 'Claims that hold', 'Lead over the letter'], rows)}\n\n{text}"
 
 
 def priors_beyond():

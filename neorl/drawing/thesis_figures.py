@@ -43,9 +43,9 @@ def draw_against_thesis(thesis: Mapping[str, float], readings: Mapping[str, Mapp
             raise ValueError(f"readings[{name!r}] is {checks.shown(found)}, allowed is an Estimate for each label")
     rows = np.arange(len(thesis))
     axes = axes_or_new(ax, figsize=(width_of_figures(), 1.1 + ROW * len(rows)))
-    told = [*thesis.values()]
-    axes.vlines(told, rows - 0.36, rows + 0.36, color=INK, linewidth=2.2)
-    for row, number in zip(rows, told):
+    printed = [*thesis.values()]
+    axes.vlines(printed, rows - 0.36, rows + 0.36, color=INK, linewidth=2.2)
+    for row, number in zip(rows, printed):
         axes.annotate(f"thesis {number:g}".replace("-", "−"), (number, row - 0.38), fontsize=SMALL, ha="center",
                       va="bottom")
     intervals: list[tuple[float, float, float, str]] = []
@@ -56,7 +56,7 @@ def draw_against_thesis(thesis: Mapping[str, float], readings: Mapping[str, Mapp
         axes.hlines(rows + shift, low, high, color=colour)
         intervals += zip(rows + shift, low, high, [colour] * len(rows))
     axes.set(yticks=rows, yticklabels=thesis, ylim=(len(rows) - 0.5, -0.75), xlabel=xlabel)
-    values = [*told, *(estimate.value for found in readings.values() for estimate in found.values())]
+    values = [*printed, *(estimate.value for found in readings.values() for estimate in found.values())]
     low, high = sorted(axes.get_xlim())
     reach = REACH * (max(values) - min(values)) or np.inf
     left, right = axes.set_xlim(max(low, min(values) - reach), min(high, max(values) + reach))

@@ -69,12 +69,12 @@ def summary(judged):
              for reading, verdicts in by_reading.items()}
     closest = [reading for reading in score if score[reading] == max(score.values())]
     best, partly = max(score.values())
-    told = (f"The {'reading' if len(closest) == 1 else 'readings'} closest to the thesis "
+    text = (f"The {'reading' if len(closest) == 1 else 'readings'} closest to the thesis "
             f"{'is' if len(closest) == 1 else 'are'} *{'*, *'.join(closest)}*: {best} "
             f"{'claim is' if best == 1 else 'claims are'} reproduced and {partly} partly.")
-    told += "".join(f" In the reading *{reading}* they are {score[reading][0]} and {score[reading][1]}."
+    text += "".join(f" In the reading *{reading}* they are {score[reading][0]} and {score[reading][1]}."
                     for reading in (LETTER, CALIBRATED) if reading in score and reading not in closest)
-    return "\n".join([*lines, "", told])
+    return "\n".join([*lines, "", text])
 
 
 def errata(place=""):

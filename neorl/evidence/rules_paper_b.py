@@ -82,9 +82,9 @@ def judge_pace(place, objects, both, brownian):
     quick = time_to_final_level(both) / 60
     ahead = {name: estimate(difference, quick, slow) for name, slow in minutes.items()}
     took, slow = estimate(np.mean, quick), {name: estimate(np.mean, each) for name, each in minutes.items()}
-    told = "; ".join(f"{name} take {slow[name]} (both, less these: {ahead[name]})" for name in minutes)
+    text = "; ".join(f"{name} take {slow[name]} (both, less these: {ahead[name]})" for name in minutes)
     pc = slow["place cells"]
-    return judged("B4", took, f"{told[0].upper()}{told[1:]}. The rule allows twice the thesis's time for both, and "
+    return judged("B4", took, f"{text[0].upper()}{text[1:]}. The rule allows twice the thesis's time for both, and "
                   "half of it for place cells.", fewest_runs(place, objects, both),
                   reproduced=took.high <= 30 and pc.low >= 80 and all(each.high < 0 for each in ahead.values()),
                   partly=any(each.high < 0 for each in ahead.values()),

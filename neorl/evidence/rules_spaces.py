@@ -23,9 +23,9 @@ def judge_generality(scores):
     """Claim G2, from {world: (agent (runs,), chance (runs,))}, of agents with one learning rule and at random."""
     better = {world: probability_of_improvement(*pair) for world, pair in scores.items()}
     least = min(better, key=lambda world: better[world].value)
-    told = "; ".join(f"{world} {each}" for world, each in better.items())
+    text = "; ".join(f"{world} {each}" for world, each in better.items())
     runs = min(len(each) for pair in scores.values() for each in pair)
-    return judged("G2", better[least], f"By world: {told}.", runs,
+    return judged("G2", better[least], f"By world: {text}.", runs,
                   reproduced=all(each.low > 0.5 for each in better.values()),
                   partly=any(each.low > 0.5 for each in better.values()),
                   possible=all(each.high > 0.5 for each in better.values()))

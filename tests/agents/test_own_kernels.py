@@ -147,7 +147,7 @@ def check_that_own_kernels_are_heard():
     assert seen == {0, 1} and halves.maps[0].modality.names == ("in_the_east",)
 
 
-def check_that_kernels_of_one_modality_are_told_apart_from_those_of_another():
+def check_that_kernels_of_one_modality_are_distinguished_from_those_of_another():
     west = Modality("X", (Axis(x_share, low=0, high=1), Axis(in_the_east, intervals=2)))
     east = Modality("X", (Axis(in_the_east, intervals=2), Axis(x_share, low=0, high=1)))
     run = Run(Agent((Node("one", west, [5]), Node("other", east, [5])), policy=Policy(1.0)), WORLD, seed=0)
@@ -159,12 +159,12 @@ def check_that_kernels_of_one_modality_are_told_apart_from_those_of_another():
         assert (one % 5, one // 5) == (other // 2, other % 2)
 
 
-def test_a_users_kernels_are_called_and_told_apart(interpreted):
-    assert interpreted["heard and told apart"]
+def test_a_users_kernels_are_called_and_distinguished(interpreted):
+    assert interpreted["called and distinguished"]
 
 
 if __name__ == "__main__":
     check_that_own_kernels_are_heard()
-    check_that_kernels_of_one_modality_are_told_apart_from_those_of_another()
-    print(json.dumps({"heard and told apart": True, **{
+    check_that_kernels_of_one_modality_are_distinguished_from_those_of_another()
+    print(json.dumps({"called and distinguished": True, **{
         name: [digest(each, int(sys.argv[1])) for each in pair] for name, pair in PAIRS.items()}}))

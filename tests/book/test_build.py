@@ -81,7 +81,7 @@ TEXT = "</script><!-- <script> </SCRIPT >"  # must not end the tag that contains
 
 
 def anywidget(**values):
-    esm = f"export default {{ render({{ el }}) {{ el.append({json.dumps(TEXT)}); el.className = 'told'; }} }}"
+    esm = f"export default {{ render({{ el }}) {{ el.append({json.dumps(TEXT)}); el.className = 'shown'; }} }}"
     return {"model_module": "anywidget", "state": {"_esm": esm, **values}}
 
 
@@ -147,7 +147,7 @@ def test_a_saved_widget_runs_on_any_page(chapters, open_page):
     head = '<!doctype html><link rel="icon" href="data:,"><script defer src="widgets.js"></script><body>'
     (chapters / "page.html").write_text(f"{head}{(chapters / 'first.html').read_text()}<p>The end.</p>")
     page = open_page(chapters, "page.html", over="file")
-    assert page.locator(".told").inner_text() == TEXT
+    assert page.locator(".shown").inner_text() == TEXT
     assert page.locator("p").inner_text() == "The end."
 
 

@@ -208,7 +208,7 @@ def test_a_memory_that_changes_on_the_way_goes_on_as_in_python(ask, later):
     assert np.reshape(frame["seen"]["ways"], (-1, 2)).tolist() == learned(run, m, goal)
 
 
-def test_a_second_agent_does_what_it_is_told_on_the_same_creeps(ask):
+def test_a_second_agent_obeys_commands_on_the_same_creeps(ask):
     actions = np.random.default_rng(0).integers(0, 5, 1_500).tolist()
     frame = ask(advance(STEPS), *(each for action in actions
                                   for each in ({"type": "play", "action": action}, advance(1))))[-1]

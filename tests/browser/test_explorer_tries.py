@@ -39,7 +39,7 @@ def press(page, action):
     page.locator(f'[data-action="{action}"]').click()
 
 
-def told(page, name):
+def shown(page, name):
     return page.locator(".neorl-explorer").get_attribute(f"data-{name}")
 
 
@@ -50,7 +50,7 @@ def test_red_becomes_desirable_in_the_middle_of_the_run(visit):
     run = Run(PLACES, TANK, SIZE["seed"], 0)
     reward = run.advance(10_000)
     run.change(replace(PLACES, desires=[replace(each, valence=1.0) for each in PLACES.desires]))
-    assert float(told(page, "score")) == reward + run.advance(10_000)
+    assert float(shown(page, "score")) == reward + run.advance(10_000)
     expect(page.locator('[name="valence_red"]')).to_have_value("1")
     expect(page.locator(".said")).to_contain_text("Red is desirable now")
 
@@ -60,7 +60,7 @@ def test_the_way_to_a_corner_is_shown_once_it_is_learned(visit):
     press(page, "corner")
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal === '0'")
     wait(page, "ended")
-    assert told(page, "step") == "20000"
+    assert shown(page, "step") == "20000"
     assert page.locator('[name="map"]').input_value() == "PC N5"
     expect(page.locator(".key")).to_contain_text("The chosen cell, and the way to it")
     expect(page.locator(".key")).not_to_contain_text("Grey:")
@@ -69,7 +69,7 @@ def test_the_way_to_a_corner_is_shown_once_it_is_learned(visit):
 def test_playing_again_repeats_the_run_with_the_same_settings(visit):
     page = visit("#explorer_run-4_red-0p5")
     wait(page, "ended")
-    score = told(page, "score")
+    score = shown(page, "score")
     page.evaluate("""() => {  // the run may end before the test can look
         const explorer = document.querySelector(".neorl-explorer");
         window.states = [];
@@ -78,7 +78,7 @@ def test_playing_again_repeats_the_run_with_the_same_settings(visit):
     }""")
     press(page, "play")
     page.wait_for_function("window.states.includes('running') && window.states.at(-1) === 'ended'")
-    assert told(page, "score") == score
+    assert shown(page, "score") == score
     expect(page.locator('[name="run"]')).to_have_value("4")
     expect(page.locator('[name="valence_red"]')).to_have_value("0.5")
 
@@ -98,7 +98,7 @@ def test_watching_it_learn_restarts_with_the_settings_of_the_preset(visit):
     press(page, "watch")
     wait(page, "running")
     expect(page.locator('[name="valence_red"]')).to_have_value("-1")
-    assert told(page, "condition") == "places"
+    assert shown(page, "condition") == "places"
 
 
 def test_reset_restores_the_settings_and_a_new_run_keeps_them(visit):
@@ -184,16 +184,16 @@ def test_a_creep_slows_under_the_pointer(visit):
     page.locator('[name="speed"]').fill("8")
     press(page, "play")
     wait(page, "running")
-    begin = int(told(page, "step"))
+    begin = int(shown(page, "step"))
     page.wait_for_timeout(300)
-    assert int(told(page, "step")) - begin > 20
+    assert int(shown(page, "step")) - begin > 20
     creep, slowest = page.locator(".grip").first, 20
     for _ in range(20):
         box = creep.bounding_box()
         page.mouse.move(box["x"] + 22, box["y"] + 22)
-        begin = int(told(page, "step"))
+        begin = int(shown(page, "step"))
         page.wait_for_timeout(50)
-        slowest = min(slowest, int(told(page, "step")) - begin)
+        slowest = min(slowest, int(shown(page, "step")) - begin)
     assert slowest <= 2
 
 
@@ -208,8 +208,8 @@ def test_maps_are_named_after_their_modality(visit):
 def test_a_link_leads_to_a_moment_of_a_run(visit):
     page = visit("#explorer_agent-things_run-7_minute-2_map-ovc-n4_goal-5")
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal === '5'")
-    assert (told(page, "state"), told(page, "step"), told(page, "condition")) == ("paused", "6000", "things")
-    assert float(told(page, "score")) == Run(object_vector_cells([4]), TANK, SIZE["seed"], 7).advance(6_000)
+    assert (shown(page, "state"), shown(page, "step"), shown(page, "condition")) == ("paused", "6000", "things")
+    assert float(shown(page, "score")) == Run(object_vector_cells([4]), TANK, SIZE["seed"], 7).advance(6_000)
 
 
 def test_the_address_of_a_moment_leads_back_to_it(visit):
@@ -226,12 +226,12 @@ def test_the_address_of_a_moment_leads_back_to_it(visit):
         const minute = (document.querySelector('.neorl-explorer').dataset.step / 3000).toFixed(5);
         return location.hash.endsWith(`_minute-${Number(minute)}`.replace(".", "p"));
     }""")  # not the address of an earlier moment
-    before = {name: told(page, name) for name in ("step", "score")}
+    before = {name: shown(page, name) for name in ("step", "score")}
     assert "_red-0p5" in page.url and "_run-4" in page.url
     again = visit(page.url[page.url.index("#"):])
     again.wait_for_function(f"document.querySelector('.neorl-explorer').dataset.step == {before['step']}")
     wait(again, "paused")
-    assert {name: told(again, name) for name in before} == before
+    assert {name: shown(again, name) for name in before} == before
 
 
 def test_a_link_within_the_page_is_followed(visit):
@@ -246,7 +246,7 @@ def test_a_link_within_the_page_is_followed(visit):
 def test_an_invalid_address_is_reported_and_the_page_stays_as_it_is(visit, address, reason):
     page = visit(address)
     expect(page.locator(".refused")).to_contain_text(reason)
-    assert (told(page, "condition"), told(page, "step")) == ("places", "0")
+    assert (shown(page, "condition"), shown(page, "step")) == ("places", "0")
 
 
 def test_screen_readers_get_a_description_of_the_tank(visit):

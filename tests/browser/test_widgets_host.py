@@ -99,12 +99,12 @@ def test_a_style_is_added_once(show):
 
 def test_the_model_reports_changes_and_a_view_removes_only_its_own_listeners(show):
     esm = """export default { async render({ model, el }) {
-        const told = [];
-        const react = (_, value) => told.push(value);
+        const seen = [];
+        const react = (_, value) => seen.push(value);
         const other = await model.widget_manager.get_model("IPY_MODEL_one");
         model.on("change:list change:number", react);
-        model.on("change", () => told.push("any"));
-        other.on("change:number", () => told.push("other"));
+        model.on("change", () => seen.push("any"));
+        other.on("change:number", () => seen.push("other"));
         model.set("list", [1, { two: 2 }]);          // unchanged: no event
         model.set({ list: [1], number: 5 });
         model.off("change:number", react);
@@ -113,10 +113,10 @@ def test_the_model_reports_changes_and_a_view_removes_only_its_own_listeners(sho
         model.set("number", 7);
         model.save_changes();
         model.send({});
-        el.append(JSON.stringify(told));
-        el.className = "told"; } }"""
+        el.append(JSON.stringify(seen));
+        el.className = "seen"; } }"""
     page = show({"one": anywidget(esm, list=[1, {"two": 2}], number=4)})
-    assert json.loads(page.locator(".told").inner_text()) == [[1], 5, "other", "any", [2], "other", "any", "other"]
+    assert json.loads(page.locator(".seen").inner_text()) == [[1], 5, "other", "any", [2], "other", "any", "other"]
 
 
 def test_a_model_reaches_those_that_it_refers_to(show):

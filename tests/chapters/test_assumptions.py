@@ -150,10 +150,10 @@ def test_128_readings_are_enough():
 def test_levels_are_listed_if_they_clearly_lead_the_letter_or_trail_it():
     leads = [Estimate(0, -1, 1), Estimate(2, 1, 3), Estimate(-2, -3, -1), Estimate(0.5, -1, 2)]
     supports = [Support("credit", f"level {i}", i, i == 0, 4.0, lead) for i, lead in enumerate(leads)]
-    table, told = assumptions.clear_leads(supports * 10).split("\n\n")
+    table, text = assumptions.clear_leads(supports * 10).split("\n\n")
     assert table.splitlines()[2:4] == ["| credit, ψ(N) | level 1 | 4.00 | 2.00 [1.00, 3.00] |",
                                        "| credit, ψ(N) | level 2 | 4.00 | −2.00 [−3.00, −1.00] |"]
-    assert told == "Of 30 levels, 20 are listed; chance alone would list about 2."
+    assert text == "Of 30 levels, 20 are listed; chance alone would list about 2."
     assert "Of 1 levels, 1 is listed" in assumptions.clear_leads(supports[1:2])
     assert assumptions.clear_leads(supports[:1]) == (
         "Of 0 levels, 0 are listed; chance alone would list about 0.")

@@ -13,7 +13,7 @@ from neorl.core.stream import new_stream, randint, uniform
 QUICK = replace(INVERSION, learning_rate=0.3)
 
 
-def told_anew(chamber, learning, visits, seed=0, run=0):
+def restated(chamber, learning, visits, seed=0, run=0):
     """The values of one run of `learn_in` in plain Python, bout by bout and visit by visit: (visits, 4, 2)."""
     stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run,)))
     q, over, values = np.zeros((4, 2)), True, []
@@ -49,7 +49,7 @@ def told_anew(chamber, learning, visits, seed=0, run=0):
 @pytest.mark.filterwarnings("ignore:overflow encountered")
 def test_the_kernel_does_what_the_rules_say(chamber, learning):
     values = learn_in(chamber, learning, visits=20, runs=2, seed=5)
-    np.testing.assert_allclose(values[1], told_anew(chamber, learning, 20, seed=5, run=1), atol=2e-5)
+    np.testing.assert_allclose(values[1], restated(chamber, learning, 20, seed=5, run=1), atol=2e-5)
 
 
 def test_with_one_step_a_visit_both_rules_are_the_same():

@@ -24,14 +24,14 @@ def task():
     return decision.reaching(grid.next_state, {3: 1.0}, slip=0.2)
 
 
-@pytest.mark.parametrize("late, told", [
+@pytest.mark.parametrize("late, expected", [
     ([0.5, 0.9, 0.95], "The model thus learns from fewer steps."),
     ([0.95, 0.95, 0.95], "The interval leaves open which one needs fewer."),
 ])
-def test_the_larger_table_needs_fewer_steps_only_if_the_interval_says_so(task, late, told):
+def test_the_larger_table_needs_fewer_steps_only_if_the_interval_says_so(task, late, expected):
     made = {"Q-learning": np.array([late, late]), "model": np.array([[0.95, 1.0, 1.0], [0.95, 1.0, 1.0]])}
     text = decision_report.model_against_values(made, [1_000, 2_000, 3_000], task)
-    assert told in text and "6,400 multiplications" in text
+    assert expected in text and "6,400 multiplications" in text
     steps = "3,000 steps and the model 1,000" if late[0] < 0.95 else "1,000 steps and the model 1,000"
     assert f"Q-learning takes {steps}; " in text
 

@@ -27,14 +27,14 @@ def test_the_table_has_a_row_for_each_kind_with_its_states_and_what_it_knows():
         "| Latent heads | 1,665 | 1,500 | 3.00 [3.00, 3.00] |"]
 
 
-@pytest.mark.parametrize("latent, told", [
+@pytest.mark.parametrize("latent, expected", [
     (5, "Latent heads learn more from the same steps than heads (difference 3.00"),
     (1, "Latent heads learn less from the same steps than heads (difference −1.00"),
     (2, "Latent heads are indistinguishable from heads"),
 ])
-def test_latent_heads_are_better_than_heads_if_the_interval_says_so(latent, told):
+def test_latent_heads_are_better_than_heads_if_the_interval_says_so(latent, expected):
     text = report.lead_of_heads(kinds(played([0, 0, 0]), played([0, 0, 2]), played([0, 0, latent])))
-    assert told in text and "with probability 1.00 [1.00, 1.00]. " in text
+    assert expected in text and "with probability 1.00 [1.00, 1.00]. " in text
 
 
 def test_the_single_learner_catches_up_where_its_mean_first_reaches_the_final_score_of_heads():
@@ -51,10 +51,11 @@ def test_the_final_score_of_a_single_learner_that_does_not_catch_up_is_reported(
                     "−2.5.")
 
 
-@pytest.mark.parametrize("caught, told", [(6, "The separation thus has a price"), (7, "does not show in this number.")])
-def test_the_separation_has_a_price_if_all_heads_are_caught_more_often(caught, told):
+@pytest.mark.parametrize("caught, expected", [(6, "The separation thus has a price"),
+                                              (7, "does not show in this number.")])
+def test_the_separation_has_a_price_if_all_heads_are_caught_more_often(caught, expected):
     text = report.price(kinds(played([0, 0, 0], caught), played([0, 0, 0], 9), played([0, 0, 0], 7)))
-    assert told in text
+    assert expected in text
     assert f"is caught in {caught} % of its games, heads in 9 % and latent heads in 7 %." in text
 
 

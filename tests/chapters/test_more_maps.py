@@ -56,7 +56,7 @@ def test_ability_that_levels_off_is_said_to():
         "scales, and it levels off.")
 
 
-def test_maps_that_help_in_some_cases_or_in_none_are_told_apart():
+def test_maps_that_help_in_some_cases_or_in_none_are_distinguished():
     flat, level = (0.1, 0.1, 0.1, 0.1), (0.1, 0.2, 0.3, 0.3)
     assert more_maps.in_words(results(flat, level, level)).endswith(
         "The interval is above zero with object-vector cells and both. From four to six no interval is above zero any "

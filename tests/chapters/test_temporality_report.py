@@ -6,11 +6,11 @@ import pytest
 from neorl.chapters.chapter_3 import temporality_report as report
 
 
-@pytest.mark.parametrize("last, told", [(9, "Every learner meets all"), (8, "Not every learner meets all")])
-def test_all_histories_are_met_or_not(last, told):
+@pytest.mark.parametrize("last, expected", [(9, "Every learner meets all"), (8, "Not every learner meets all")])
+def test_all_histories_are_met_or_not(last, expected):
     memories = np.array([1, 2])
     met = {2: (memories, np.array([[2, 4], [2, 4]])), 3: (memories, np.array([[3, 9], [3, last]]))}
-    assert report.states_met(met).startswith(told)
+    assert report.states_met(met).startswith(expected)
 
 
 def test_states_are_listed_for_every_second_memory():
@@ -26,13 +26,14 @@ def test_the_factors_of_experience_carry_the_names_of_their_worlds():
     assert report.experience_factors(needed) == "2.00 with Ψ = 2; 3.00 with Ψ = 3"
 
 
-@pytest.mark.parametrize("short, told", [(0.5, True), (0.6, False)])
-def test_a_short_memory_is_worth_a_guess_or_more(short, told):
+@pytest.mark.parametrize("short, expected", [(0.5, True), (0.6, False)])
+def test_a_short_memory_is_worth_a_guess_or_more(short, expected):
     paid = {"sum": np.array([[0.5, short, 0.9]] * 2), "table": np.array([[0.5, 0.8, 0.9]] * 2)}
     text = report.short_memory(paid, memory=2)
     assert text.startswith(f"With the sum, agents that remember 1 of the 2 steps earn {short:.2f} [{short:.2f}, "
                            f"{short:.2f}] per step, and agents that remember all earn 0.90 [0.90, 0.90]. ")
-    assert ("no more than a guess" in text) == told and "With the table, 1 steps earn 0.80 [0.80, 0.80]: there" in text
+    assert ("no more than a guess" in text) == expected
+    assert "With the table, 1 steps earn 0.80 [0.80, 0.80]: there" in text
 
 
 def curves(certain, remembering, sticky, sticky_remembering):

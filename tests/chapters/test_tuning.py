@@ -7,7 +7,7 @@ from matplotlib import pyplot as plt
 from neorl import NresMap
 from neorl.chapters.chapter_2 import tuning_figures
 from neorl.chapters.chapter_2.tuning import (Trajectory, TuningCurve, cartesian, egocentric, in_field, information,
-                                          likeness, rate_maps, rates, roam, spikes, told_by_spikes, tuning_curve)
+                                          likeness, rate_maps, rates, roam, spikes, information_in_spikes, tuning_curve)
 from neorl.core.geometry import TAU
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, HEAD_DIRECTION_CELL, LANDMARK_VECTOR_CELL,
                                  OBJECT_VECTOR_CELL, SPEED_CELL)
@@ -153,21 +153,21 @@ def test_information_is_the_mutual_information_of_a_rare_spike():
     share, rate, step = np.array([0.2, 0.5, 0.3]), np.array([5.0, 1.0, 0.2]), 1e-4
     spike = rate * step
     mean = np.sum(share * spike)
-    told = np.sum(share * (spike * np.log2(spike / mean) + (1 - spike) * np.log2((1 - spike) / (1 - mean))))
-    assert information(TuningCurve(rate, share)) == pytest.approx(told / mean, rel=1e-3)
+    found = np.sum(share * (spike * np.log2(spike / mean) + (1 - spike) * np.log2((1 - spike) / (1 - mean))))
+    assert information(TuningCurve(rate, share)) == pytest.approx(found / mean, rel=1e-3)
 
 
 def test_spikes_inform_about_what_they_follow_and_only_by_chance_about_anything_else(trajectory):
     walk = Trajectory(trajectory.position[:20_000], trajectory.velocity[:20_000], 0.02)
     trains = {"north": walk.direction > 0.5 * TAU, "fast": walk.speed > 0.3, "corner": walk.position.max(axis=1) < 0.3,
               "chance": np.random.default_rng(0).random(20_000) < 0.1}
-    told = told_by_spikes(trains, walk, seed=1)
-    assert {cell: [each.clear for each in about.values()] for cell, about in told.items()} == {
+    found = information_in_spikes(trains, walk, seed=1)
+    assert {cell: [each.clear for each in about.values()] for cell, about in found.items()} == {
         "north": [False, True, False], "fast": [False, False, True], "corner": [True, False, False],
         "chance": [False, False, False]}
-    assert [*told["north"]] == ["position", "direction", "speed"]
+    assert [*found["north"]] == ["position", "direction", "speed"]
     expected = information(tuning_curve(trains["north"], walk.direction, 0.02, TAU, 18, closed=True))
-    assert told["north"]["direction"].bits == expected > 0.5
+    assert found["north"]["direction"].bits == expected > 0.5
 
 
 def test_rate_maps_are_drawn_from_a_stream_for_each_cell(trajectory):

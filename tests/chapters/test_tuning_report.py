@@ -4,17 +4,17 @@ import numpy as np
 import pytest
 
 from neorl import NresMap
-from neorl.chapters.chapter_2.tuning import Told
+from neorl.chapters.chapter_2.tuning import Information
 from neorl.chapters.chapter_2.tuning_report import (describe_frames, describe_information, describe_likeness,
                                                    describe_sizes, information_table)
 
 CELLS = {"place cell": "position", "head-direction cell": "direction", "speed cell": "speed"}
 
 
-def told(*others, unclear=()):
+def informed(*others, unclear=()):
     """Cells with 2 bits about the variable of their own modality, and half a bit about others: (cell, variable)."""
-    return {cell: {variable: Told(2.0, cell not in unclear) if variable == own else
-                   Told(0.5 if (cell, variable) in others else 0.01, (cell, variable) in others)
+    return {cell: {variable: Information(2.0, cell not in unclear) if variable == own else
+                   Information(0.5 if (cell, variable) in others else 0.01, (cell, variable) in others)
                    for variable in CELLS.values()} for cell, own in CELLS.items()}
 
 
@@ -29,13 +29,13 @@ def test_the_frames_are_compared_while_the_animal_turns(length, when):
 
 
 def test_the_table_sets_clear_information_in_bold():
-    assert information_table(told(("speed cell", "position"))).splitlines() == [
+    assert information_table(informed(("speed cell", "position"))).splitlines() == [
         "| Cell | position | direction | speed |", "|---|---|---|---|", "| place cell | **2.00** | 0.01 | 0.01 |",
         "| head-direction cell | 0.01 | **2.00** | 0.01 |", "| speed cell | **0.50** | 0.01 | **2.00** |"]
 
 
 def test_cells_informative_only_about_their_own_variable_are_reported_as_such():
-    words = describe_information(told())
+    words = describe_information(informed())
     assert words.startswith("All of the 3 cells are most informative, and above chance, about the variable of their "
                             "own modality. No other information exceeds that of shifted spikes. With 99 shifts, ")
     assert words.endswith("in 6 of the comparisons here there is nothing to find. So each cell informs about the "
@@ -43,23 +43,23 @@ def test_cells_informative_only_about_their_own_variable_are_reported_as_such():
 
 
 def test_further_information_of_cells_is_named():
-    words = describe_information(told(("speed cell", "position")))
+    words = describe_information(informed(("speed cell", "position")))
     assert "Beyond that, the speed cell's information about position exceeds that of shifted spikes. With 99" in words
     assert "nothing to find, unless the animal's path links the variables. So each cell" in words
-    words = describe_information(told(("speed cell", "position"), ("place cell", "speed")))
+    words = describe_information(informed(("speed cell", "position"), ("place cell", "speed")))
     assert "the place cell's information about speed, the speed cell's information about position exceed that" in words
     assert words.endswith("hardly about the others.")
-    many = told(("speed cell", "position"), ("place cell", "speed"), ("place cell", "direction"))
+    many = informed(("speed cell", "position"), ("place cell", "speed"), ("place cell", "direction"))
     assert describe_information(many).endswith("links the variables.")
 
 
 def test_cells_uninformative_about_their_own_variable_are_not_counted():
-    words = describe_information(told(unclear=["place cell"]))
+    words = describe_information(informed(unclear=["place cell"]))
     assert words.startswith("2 of the 3 cells are most informative, and above chance, about the variable of their own "
                             "modality in so short a recording. No other")
     assert words.endswith("nothing to find.")
-    outdone = told(("place cell", "speed"))
-    outdone["place cell"]["speed"] = Told(3.0, True)
+    outdone = informed(("place cell", "speed"))
+    outdone["place cell"]["speed"] = Information(3.0, True)
     assert describe_information(outdone).startswith("2 of the 3 cells")
 
 

@@ -54,7 +54,7 @@ def test_the_table_has_where_each_desire_between_nodes_lands():
 
 
 def test_a_network_that_cannot_be_evaluated_is_refused_in_short_lines():
-    told = wiring.refusal(network_a([2]), Desire("OVC", "PC"))
-    assert told.startswith("desire 'PC' → 'OVC': it closes the cycle") and max(map(len, told.splitlines())) <= 66
-    assert len(told.splitlines()) == 2
+    message = wiring.refusal(network_a([2]), Desire("OVC", "PC"))
+    assert message.startswith("desire 'PC' → 'OVC': it closes the cycle") and max(map(len, message.splitlines())) <= 66
+    assert len(message.splitlines()) == 2
     assert wiring.refusal(network_a([2]), Desire("OVC", "OVC", valence=-1.0)) == ""

@@ -124,7 +124,7 @@ def test_a_run_shorter_than_the_points_of_a_curve_has_a_point_a_bin():
 
 
 @pytest.mark.parametrize("count", [8, 20, 28])
-def test_any_number_of_curves_is_drawn_and_told_apart(count):
+def test_any_number_of_curves_is_drawn_and_distinguished(count):
     axes = drawing.draw_curves(np.arange(9), {f"agent {i}": np.full((1, 9), float(i)) for i in range(count)})
     assert len({(line.get_color(), line.get_linestyle()) for line in axes.lines}) == len(axes.lines) == count
     axes.figure.draw_without_rendering()

@@ -125,7 +125,7 @@ def test_a_place_is_named():
     assert "(0.1, 0.9): +1" in texts()
 
 
-def test_desires_of_some_elements_are_told_apart():
+def test_desires_of_some_elements_are_distinguished():
     draw_network(network_b())
     labels = {text.get_text(): text.get_color() for text in plt.gca().texts}
     assert labels["green: Σ w"] == GREEN and labels["red: Σ w"] == RED

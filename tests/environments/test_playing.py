@@ -92,7 +92,7 @@ def test_commands_are_what_the_environment_takes_for_actions():
     assert mirrored.truncated.sum() == 10 and not mirrored.terminated.any()
 
 
-def test_actions_have_the_numbers_of_the_environment_unless_told_otherwise():
+def test_actions_have_the_numbers_of_the_environment_unless_mapped_otherwise():
     unnamed = play(Agent([Node("PC", GRID, [12])]), gymnasium.make("CliffWalking-v1"), square, steps=100)
     assert unnamed.learner.world.actions == Actions(("0", "1", "2", "3"), ((0, 0),) * 4)
     counted = gymnasium.wrappers.TransformAction(gymnasium.make("CliffWalking-v1"), lambda action: int(action) - 3,

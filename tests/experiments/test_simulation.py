@@ -22,7 +22,7 @@ SENSES = (Node("PC", PLACE_CELL, (2, 5), gain=0.5), Node("border", BORDER_CELL, 
           Node("polar", OBJECT_VECTOR_CELL, (4, 5)), Node("HD", HEAD_DIRECTION_CELL, (6,), gain=0.7),
           Node("landmark", LANDMARK_VECTOR_CELL, (4,)), Node("wall", BOUNDARY_VECTOR_CELL, (3, 4)),
           Node("speed", SPEED_CELL, (3, 4), weighting="cells"))
-WISHES = (Desire("green", "polar", 1.0), Desire("red", "polar", -0.5), Desire("polar", "PC"),
+DESIRES = (Desire("green", "polar", 1.0), Desire("red", "polar", -0.5), Desire("polar", "PC"),
           Desire("green", "border", 0.3), Desire("green", "HD", 1.0), Desire("HD", "polar", valence=0.2, scale=0.5),
           Desire((0.3, 0.9), "PC", 1.0), Desire((0.4,), "speed", 0.5), Desire((0.1, np.pi), "wall", -1.0),
           Desire(Place(0.2, 0.7), "PC", 0.5), Desire(Place(0.6, 0.1), "polar", -0.4),
@@ -63,7 +63,7 @@ READINGS = {
     "C": network_c([3], object_gain=0.5),
     "D": network_d([2, 5], policy=Policy(exploration=0.05)),
     "A that recurs": A_THAT_RECURS,
-    "all senses": Agent(SENSES, WISHES),
+    "all senses": Agent(SENSES, DESIRES),
     "compass": Agent((Node("PC", PLACE_CELL, (7,), gain=0.0), Node("HD", HEAD_DIRECTION_CELL, (4,))),
                      (Desire("green", "PC", 1.0), Desire("PC", "HD"))),
 }
@@ -76,7 +76,7 @@ class Track:
         self.cell, self.events, self.trace, self.memory = cell, [], [], {}
 
 
-def told_again(agent, world, steps, seed, run):
+def restated(agent, world, steps, seed, run):
     """A run in plain Python, by public functions alone: (rewards, q of each map)."""
     sequence = np.random.SeedSequence(seed).spawn(run + 1)[run]
     stream = new_stream(sequence.spawn(1)[0])
@@ -90,18 +90,18 @@ def told_again(agent, world, steps, seed, run):
         if policy.exploration > 0 and execute(uniform, stream) < policy.exploration:
             action = int(execute(uniform, stream) * 4)
         else:
-            value = values_told_again(agent, world, state, q, tracks, pull, worth)
+            value = values_restated(agent, world, state, q, tracks, pull, worth)
             best = np.flatnonzero(value == value.max())
             if policy.when_indifferent == "no-op" and not value.any():
                 action = 4
             else:
                 action = int(best[int(execute(uniform, stream) * len(best))] if len(best) > 1 else best[0])
         activity = keep * activity + (np.float32(1) - keep) * (np.arange(4) == action).astype(np.float32)
-        before, attended = state.scene.things.copy(), attended_told_again(rule, state.scene)
+        before, attended = state.scene.things.copy(), attended_restated(rule, state.scene)
         reward, hits, done = world.step(state, action)
         still = state.scene._replace(things=before)
         rewards.append(reward)
-        cells = cells_told_again(agent, world, state)
+        cells = cells_restated(agent, world, state)
         for m, each in enumerate(maps):
             for point, track in enumerate(tracks[m]):
                 met = each.modality.follows == "objects" and hits[point]
@@ -119,7 +119,7 @@ def told_again(agent, world, steps, seed, run):
                 if (arrives or not ends) and (cell_t != track.cell or rule.update_on == "step"):
                     own = rule.causes == "own" and is_thing and not arrives
                     caused = not own or each.encode(each.modality.coordinates(still, world.size))[point] != track.cell
-                    learn_told_again(rule, world, q[m], track, cell_t, action, activity, caused)
+                    learn_restated(rule, world, q[m], track, cell_t, action, activity, caused)
                 if ends:
                     tracks[m][point] = Track(cells[m][point])
         if done:
@@ -129,15 +129,15 @@ def told_again(agent, world, steps, seed, run):
     return rewards, q
 
 
-def cells_told_again(agent, world, state):
+def cells_restated(agent, world, state):
     return [each.encode(each.modality.coordinates(state.scene, world.size)).tolist() for each in agent.maps]
 
 
 def fresh_tracks(agent, world, state):
-    return [[Track(cell) for cell in cells] for cells in cells_told_again(agent, world, state)]
+    return [[Track(cell) for cell in cells] for cells in cells_restated(agent, world, state)]
 
 
-def attended_told_again(rule, scene):
+def attended_restated(rule, scene):
     """The thing to learn about, or None for every thing."""
     if rule.attention == "each":
         return None
@@ -165,7 +165,7 @@ def meeting(nres_map, cell):
     return int(nres_map.encode([0, 0]))
 
 
-def values_told_again(agent, world, state, q, tracks, pull, worth):
+def values_restated(agent, world, state, q, tracks, pull, worth):
     """The value of each action; `pull` and `worth` of each desire enter from the previous step and are updated."""
     owner = [node.name for node in agent.nodes for _ in node.resolutions]
     here, creeps = state.scene.position / world.width, state.scene.things / world.width
@@ -176,7 +176,7 @@ def values_told_again(agent, world, state, q, tracks, pull, worth):
         weights = np.array([float(n) ** power for n in node.resolutions])
         weights /= weights.sum()
         mine = [m for m, other in enumerate(owner) if other == name]
-        elements = {e: elements_told_again(agent, desire, here, creeps - here, state.scene.kinds == GREEN, pull, worth)
+        elements = {e: elements_restated(agent, desire, here, creeps - here, state.scene.kinds == GREEN, pull, worth)
                     for e, desire in enumerate(agent.desires) if desire.target == name}
         for e, found in elements.items():
             pull[e], worth[e] = 0, 0
@@ -201,7 +201,7 @@ def values_told_again(agent, world, state, q, tracks, pull, worth):
     return value
 
 
-def elements_told_again(agent, desire, here, creeps, green, pull, worth):
+def elements_restated(agent, desire, here, creeps, green, pull, worth):
     """The elements of a desire: [(place relative to the agent, or point of the node's space, valence), …]."""
     if isinstance(desire.source, tuple):
         return [(desire.source, desire.valence)]
@@ -219,7 +219,7 @@ def elements_told_again(agent, desire, here, creeps, green, pull, worth):
     return [(desire.scale * place, valence if desire.valence is None else desire.valence)]
 
 
-def learn_told_again(rule, world, table, track, cell_t, action, activity, caused):
+def learn_restated(rule, world, table, track, cell_t, action, activity, caused):
     alpha, decay = np.float32(rule.learning_rate), np.float32(rule.learning_rate) * np.float32(rule.absent_decay)
     away, one = rule.absent_form == "away", np.float32(1)
     counts = np.array([track.events.count(event) for event in range(4)])
@@ -229,7 +229,7 @@ def learn_told_again(rule, world, table, track, cell_t, action, activity, caused
               "last": (np.arange(4) == action).astype(np.float32)}[rule.credit]
     rates = np.minimum(alpha * credit, one)
     if rule.memory:
-        fade_told_again(rule, world, track)
+        fade_restated(rule, world, track)
     if not caused:
         track.cell, track.events = cell_t, []
         return
@@ -240,7 +240,7 @@ def learn_told_again(rule, world, table, track, cell_t, action, activity, caused
         highest = one if rule.terminal else one / (one - np.float32(rule.discount))
         for event in range(4):
             rate, old = rates[event], table[track.cell, event].copy()
-            absent = sunk_told_again(old, decay, target, away, highest) if decay > 0 else old
+            absent = sunk_restated(old, decay, target, away, highest) if decay > 0 else old
             new = old + rate * (target - old) if rate > 0 else absent
             table[track.cell, event] = np.where(new > 1e-30, new, 0)
     if rule.memory:
@@ -250,26 +250,26 @@ def learn_told_again(rule, world, table, track, cell_t, action, activity, caused
                 found[0] += one
                 found[1][:] += np.array([rates, np.where(rates > 0, np.float32(0), decay)])
             else:
-                remember_told_again(table, track, cell_t, away)
+                remember_restated(table, track, cell_t, away)
     else:
         fading = one
         for back, (cell_left, rates) in enumerate(track.trace):
             if back > 0 or not rule.bootstrap:
                 for event in range(4):
                     old = table[cell_left, event, cell_t]
-                    absent = sunk_told_again(old, fading * decay, one, away, one) if decay > 0 else old
+                    absent = sunk_restated(old, fading * decay, one, away, one) if decay > 0 else old
                     learned = old + fading * rates[event] * (1 - old)
                     table[cell_left, event, cell_t] = learned if rates[event] else absent
             fading *= np.float32(rule.discount)
     track.cell, track.events = cell_t, []
 
 
-def sunk_told_again(old, rate, target, away, highest):
+def sunk_restated(old, rate, target, away, highest):
     new = np.minimum(old - rate * (target - old), highest) if away else old - rate * old
     return np.where(new > 1e-30, new, np.float32(0))
 
 
-def fade_told_again(rule, world, track):
+def fade_restated(rule, world, track):
     """Decay `track.memory`, {cell: [strength, [weights, worths] of events that occurred and that were absent]}."""
     constant = rule.memory * (world.fps if rule.memory_unit == "seconds" else 1)
     once = factor = np.float32(constant / (1 + constant))
@@ -283,7 +283,7 @@ def fade_told_again(rule, world, track):
             del track.memory[cell]
 
 
-def remember_told_again(table, track, goal, away):
+def remember_restated(table, track, goal, away):
     one = np.float32(1)
     for cell, (_, (weights, worths)) in track.memory.items():
         for event in range(4):
@@ -291,7 +291,7 @@ def remember_told_again(table, track, goal, away):
             if weights[0, event] > 0:
                 value += min(weights[0, event], one) * (worths[0, event] / weights[0, event] - value)
             if weights[1, event] > 0:
-                value = sunk_told_again(value, min(weights[1, event], one), worths[1, event] / weights[1, event], away,
+                value = sunk_restated(value, min(weights[1, event], one), worths[1, event] / weights[1, event], away,
                                         one)
             table[cell, event, goal] = value if value > 1e-30 else 0
 
@@ -301,7 +301,7 @@ def test_a_run_equals_the_rules_in_plain_python(name):
     agent, world, steps = READINGS[name], WaterWorld(width=100, n_creeps=2, win_reward=5.0), 1_500
     run = Run(agent, world, seed=3, run=2)
     brought = run.advance(steps)
-    rewards, q = told_again(agent, world, steps, seed=3, run=2)
+    rewards, q = restated(agent, world, steps, seed=3, run=2)
     assert brought == sum(rewards) != 0
     for m, table in enumerate(q):
         np.testing.assert_array_equal(run.q(m), table)

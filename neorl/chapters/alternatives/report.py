@@ -177,10 +177,10 @@ def _pace(earned):
     taken = {name: np.median(each.steps_to(level, WINDOW * each.steps)) for name, each in earned.items()
              if each.kind in (TABLES, DEEP, THESIS, BEYOND)}
     order = sorted((name for name in taken if np.isfinite(taken[name])), key=taken.get)
-    told = listed([f"{name} {taken[name] / 1_000:,.0f}" for name in order])
+    text = listed([f"{name} {taken[name] / 1_000:,.0f}" for name in order])
     least = min(each.steps for each in earned.values() if each.kind in (TABLES, DEEP, THESIS, BEYOND)) * WINDOW
     return (f"**Sample efficiency.** Thousands of steps until half of the runs have reached {level} per second with "
-            f"three creeps, in the mean over {least / 1_000:,.3g} thousand steps, so that none is lower: {told}. The "
+            f"three creeps, in the mean over {least / 1_000:,.3g} thousand steps, so that none is lower: {text}. The "
             "others do not reach it.")
 
 

@@ -38,8 +38,8 @@ def describe_errors(by_learner):
 
 def findings_table(found):
     """Which of the original's findings each kind of animal shows, as a Markdown table: {learner: {name: `Finding`}}."""
-    rows = [[told[0].text, *(f"**{'yes' if each.holds else 'no'}** {each.here}" for each in told)]
-            for told in zip(*(findings.values() for findings in found.values()))]
+    rows = [[row[0].text, *(f"**{'yes' if each.holds else 'no'}** {each.here}" for each in row)]
+            for row in zip(*(findings.values() for findings in found.values()))]
     return wording.table(["", *found], rows)
 
 

@@ -150,15 +150,15 @@ def information(tuned):
     return np.sum(share * ratio * np.log2(ratio, out=np.zeros_like(ratio), where=ratio > 0), axis=axes)
 
 
-class Told(NamedTuple):
+class Information(NamedTuple):
     """The information that the spikes of a cell carry about a variable."""
 
     bits: float  # per spike
     clear: bool  # whether that is more than with any of `SHIFTS` shifts of the spikes in time
 
 
-def told_by_spikes(trains, trajectory, seed=0):
-    """The information in spikes about an animal's position, direction and speed: {cell: {variable: `Told`}}.
+def information_in_spikes(trains, trajectory, seed=0):
+    """The information in spikes about an animal's position, direction and speed: {cell: {variable: `Information`}}.
 
     trains: {cell: spikes at each step}, (steps,) each. Shifts are circular, by 1,000 steps or more either way,
     or by a tenth or more of a recording of fewer than 10,000.
@@ -166,15 +166,15 @@ def told_by_spikes(trains, trajectory, seed=0):
     steps = len(trajectory.position)
     margin = min(1_000, steps // 10)
     shifts = np.random.default_rng(seed).integers(margin, steps - margin, size=SHIFTS)
-    told = {}
+    found = {}
     for cell, train in trains.items():
         shifted = np.stack([train, *(np.roll(train, shift) for shift in shifts)])
-        told[cell] = {}
+        found[cell] = {}
         for variable, (high, bins, closed) in VARIABLES.items():
             values = getattr(trajectory, variable)
             bits, *by_chance = information(tuning_curve(shifted, values, trajectory.step, high, bins, closed=closed))
-            told[cell][variable] = Told(bits, bits > max(by_chance))
-    return told
+            found[cell][variable] = Information(bits, bits > max(by_chance))
+    return found
 
 
 def rate_maps(cells, trajectory, objects, seed, **axes):

@@ -18,27 +18,27 @@ def describe_frames(seconds, allocentric, seen, turned):
             f"egocentric one by up to {spans[1]:.2f}. The distance is the same in both frames {when}.")
 
 
-def information_table(told):
-    """Bits per spike as a Markdown table, bold where they exceed shifted spikes: {cell: {variable: `Told`}}."""
+def information_table(found):
+    """Bits per spike as a Markdown table, bold where they exceed shifted spikes: {cell: {variable: `Information`}}."""
     rows = [[cell, *(f"**{each.bits:.2f}**" if each.clear else f"{each.bits:.2f}" for each in about.values())]
-            for cell, about in told.items()]
-    return wording.table(["Cell", *next(iter(told.values()))], rows)
+            for cell, about in found.items()]
+    return wording.table(["Cell", *next(iter(found.values()))], rows)
 
 
-def describe_information(told):
-    """Which cells inform about their own modality's variable, and which about others: {cell: {variable: `Told`}}."""
+def describe_information(found):
+    """Which cells inform about their own modality's variable, and which about others. found: as for the table."""
     right, others = 0, []
-    for cell, about in told.items():
+    for cell, about in found.items():
         own = OWN.get(cell, "position")
         right += about[own].clear and about[own].bits == max(each.bits for each in about.values())
         others += [f"the {cell}'s information about {variable}" for variable, each in about.items()
                    if each.clear and variable != own]
-    complete = right == len(told)
+    complete = right == len(found)
     beyond = (f"Beyond that, {', '.join(others)} {'exceeds' if len(others) == 1 else 'exceed'} that of shifted spikes."
               if others else "No other information exceeds that of shifted spikes.")
-    return (f"{'All' if complete else right} of the {len(told)} cells are most informative, and above chance, about "
+    return (f"{'All' if complete else right} of the {len(found)} cells are most informative, and above chance, about "
             f"the variable of their own modality{'' if complete else ' in so short a recording'}. {beyond} With "
-            f"{SHIFTS} shifts, one in a hundred comparisons does so by chance, and in {2 * len(told)} of the "
+            f"{SHIFTS} shifts, one in a hundred comparisons does so by chance, and in {2 * len(found)} of the "
             f"comparisons here there is nothing to find"
             + (", unless the animal's path links the variables." if others else ".")
             + (" So each cell informs about the concern of its modality, and hardly about the others."

@@ -34,8 +34,8 @@ def places_of_rank_voting(made):
     verdict = ("So the place of rank voting depends on the task and on the measure, as the footnote "
                "suggests." if len(set(places.values())) > 1 else
                "So rank voting has the same place in both mazes and by both measures.")
-    told = ", ".join(f"{ORDINALS[place - 1]} {where}" for where, place in places.items())
-    return f"Among the four rules rank voting is {told}. {verdict}"
+    text = ", ".join(f"{ORDINALS[place - 1]} {where}" for where, place in places.items())
+    return f"Among the four rules rank voting is {text}. {verdict}"
 
 
 def greediness_table(tempered):

@@ -62,8 +62,8 @@ def states_needed(following, outcome):
     """
     label = np.unique(outcome, return_inverse=True)[1]
     while True:
-        told_apart = np.column_stack([label, label[following]])
-        finer = np.unique(told_apart, axis=0, return_inverse=True)[1].ravel()
+        distinguished = np.column_stack([label, label[following]])
+        finer = np.unique(distinguished, axis=0, return_inverse=True)[1].ravel()
         if finer.max() == label.max():
             return int(label.max()) + 1
         label = finer

@@ -9,7 +9,7 @@ from neorl.chapters.chapter_4.credit import INVERSION, Chamber, by_role, lead_of
 from neorl.chapters.shared.wording import table
 from neorl.evidence.statistics import estimate, probability_of_improvement
 
-TOLD = [0, 9, 99]  # after 1, 10 and 100 visits
+SHOWN = [0, 9, 99]  # after 1, 10 and 100 visits
 
 
 def leads(values):
@@ -17,7 +17,7 @@ def leads(values):
 
     The first rule is inference inversion and the second temporal difference.
     """
-    lead = {name: lead_of_cause(each)[:, TOLD] for name, each in values.items()}
+    lead = {name: lead_of_cause(each)[:, SHOWN] for name, each in values.items()}
     right = {name: np.mean(each > 0, axis=0) for name, each in lead.items()}
     rows = [[name, estimate(np.mean, each[:, 1]), estimate(np.mean, each[:, 2]),
              ", ".join(f"{100 * share:.0f}" for share in right[name]) + " %"] for name, each in lead.items()]
@@ -103,7 +103,7 @@ def bright_light(values):
     """How often the cause comes first under each rule, and the values of cause and light, as text: a line per rule."""
     lines = []
     for name, each in values.items():
-        _, after_10, after_100 = np.mean(lead_of_cause(each)[:, TOLD] > 0, axis=0)
+        _, after_10, after_100 = np.mean(lead_of_cause(each)[:, SHOWN] > 0, axis=0)
         cause, _, light, _ = by_role(each)[:, -1].mean(axis=0)
         lines.append(f"{name}: cause first in {100 * after_10:.0f} % of runs after 10 visits, {100 * after_100:.0f} % "
                      f"after 100; value of the cause {cause:.2f}, of the light {light:.2f}")

@@ -29,10 +29,10 @@ def summary(verdicts, found):
     properties = {}
     for claim in verdicts:
         properties.setdefault(claim.verdict, []).append(claim.statement.text.partition(":")[0].lower())
-    told = "; ".join(f"{verdict}: {listed(names)}" for verdict, names in properties.items())
+    text = "; ".join(f"{verdict}: {listed(names)}" for verdict, names in properties.items())
     return (f"With one learning rule and one policy the agent does better than chance in {len(better)} of "
             f"{len(found)} worlds: {listed(better)}. Of the properties that Kaelbling (2020) asks of a "
-            f"learner, {told}.")
+            f"learner, {text}.")
 
 
 def cells():
@@ -49,9 +49,9 @@ def cells():
 
 def luck(shares):
     """How often a random driver reaches the flag. shares: from `hill.luck`."""
-    told = "; ".join(f"with actions held for {held} step{'s' * (held > 1)} a random driver reaches the flag in "
+    text = "; ".join(f"with actions held for {held} step{'s' * (held > 1)} a random driver reaches the flag in "
                      f"{100 * share:.0f}\u00a0% of {hill.EPISODES} episodes" for held, share in shares.items())
-    return f"{told.capitalize()}."
+    return f"{text.capitalize()}."
 
 
 def reaching(reached, feared):

@@ -110,12 +110,12 @@ def expected_points(world):
 
 def points_in_words(found, expected):
     """How `expected_points` arise, and how many intervals of `points_a_reset` contain them, if there are any."""
-    told = f"A new board has {expected / 2:.2f} green creeps on average, which gives {expected:.2f} points per reset."
+    text = f"A new board has {expected / 2:.2f} green creeps on average, which gives {expected:.2f} points per reset."
     intervals = [each for of_agents in found.values() for each in of_agents.values() if not np.isnan(each.low)]
     if not intervals:
-        return told
+        return text
     within = sum(each.low <= expected <= each.high for each in intervals)
-    return f"{told} That lies within {within} of the {len(intervals)} intervals."
+    return f"{text} That lies within {within} of the {len(intervals)} intervals."
 
 
 def red_a_minute(lived):
