@@ -2,7 +2,7 @@
 
 Kernels are left out, since users of the package call the functions around them. The fields of a class are
 described by the comments beside them. Types and defaults appear as in code. A name in single backticks links to its
-entry, if the reference has one in the same room or below, unless it is an argument of what is described.
+entry, if the reference has one that can be meant there.
 """
 
 import ast
@@ -123,7 +123,7 @@ def escaped(line):
 
 
 def find_name(app, env, node, content):
-    """Resolve a name in a docstring from its own room and those below; others stay as written."""
+    """Resolve a name in a docstring, but not that of an argument, from anywhere; others stay as written."""
     if node.get("refdomain") != "py":
         return None
     target, here = node["reftarget"], node.get("py:module")
@@ -132,13 +132,26 @@ def find_name(app, env, node, content):
     named = pydoc.locate(target) if target.startswith("neorl.") else None
     whole = f"{getattr(named, '__module__', '')}.{getattr(named, '__qualname__', '')}"  # "neorl.Run" is imported there
     find = env.get_domain("py").find_obj
-    found = find(env, None, None, whole, None) or [
-        each for each in find(env, None, None, target.removeprefix("neorl."), None, searchmode=1)
-        if not here or height(each[0]) <= height(here)]
+    short = target.removeprefix("neorl.")
+    found = find(env, None, None, whole, None) or find(env, None, None, short, None, searchmode=1)
+    if here and target.isidentifier():
+        found = meant(found, here, target[0].isupper())
     if len(found) == 1:
         [(name, entry)] = found
         return make_refnode(app.builder, node["refdoc"], entry.docname, entry.node_id, content, name)
     return None if target.startswith("neorl.") and named is None else content
+
+
+def meant(found, here, is_class):
+    """Which objects of one short name, [(name, entry)], a docstring of the module `here` can mean.
+
+    A class of its room or below, or else of any; a function of its room or below, a method of its module, a room.
+    """
+    below = [(name, entry) for name, entry in found if height(name) <= height(here)]
+    if is_class:
+        return below or found
+    return [(name, entry) for name, entry in below if entry.objtype == "function"
+            or name.count(".") == 1 or entry.objtype != "module" and name.startswith(f"{here}.")]
 
 
 def arguments(node):

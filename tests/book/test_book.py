@@ -150,8 +150,9 @@ def test_what_a_function_raises_is_no_part_of_an_argument():
 
 def test_a_name_links_to_its_room_or_below_and_an_argument_to_nothing(make_book):
     _, reference = make_book(modules=[f"neorl.{name}" for name in (
-        "core.kernel", "core.modality", "core.maps", "core.choices", "agents.individual", "agents.learner",
-        "chapters.chapter_3.hybrid_reward", "chapters.other_spaces.lives")])
+        "core.kernel", "core.modality", "core.maps", "core.choices", "core.scene", "worlds.world", "worlds.arena",
+        "agents.individual", "agents.learner", "experiments.run", "chapters.chapter_3.hybrid_reward",
+        "chapters.other_spaces.lives")])
     of_polar = reference.split('id="neorl.core.modality.polar"')[1].split("</dl>")[0]
     assert ">reach<" in of_polar and "#neorl.chapters.other_spaces.lives.reach" not in of_polar
     of_axis = reference.split('id="neorl.core.modality.Axis"')[1].split("</dl>")[0]
@@ -159,6 +160,9 @@ def test_a_name_links_to_its_room_or_below_and_an_argument_to_nothing(make_book)
     assert 'href="#neorl.core.kernel.kernel" title' in of_axis  # neorl.kernel
     of_individual = reference.split('id="neorl.agents.individual.Individual"')[1].split("</dl>")[0]
     assert "#neorl.agents.learner.Learner" in of_individual  # not the Learner of chapter 3
+    assert 'href="#neorl.experiments.run.Run"' in of_individual
+    of_worlds = reference.split('id="module-neorl.worlds.world"')[1].split('id="neorl.worlds.world.Dynamics"')[0]
+    assert "Arena.kinds" not in of_worlds and 'href="#module-neorl.core.scene"' not in of_worlds
     of_choices = reference.split('id="neorl.core.choices.Capture"')[1].split("</dl>")[0]
     assert "contact</span></code> 0, " in of_choices and "qualname" not in of_choices
 
