@@ -16,6 +16,7 @@ import textwrap
 from numpy.typing import ArrayLike
 from sphinx import addnodes
 from sphinx.ext.autodoc import PropertyDocumenter
+from sphinx.util.inspect import stringify_signature
 from sphinx.util.nodes import make_refnode
 from sphinx.util.typing import stringify_annotation
 
@@ -61,6 +62,9 @@ def read_signature(app, what, name, member, options, signature, returned):
         return None
     if what == "class" and issubclass(member, enum.Enum):
         return "", None
+    if signature.startswith("(*args") and "__init__" in vars(member):  # of a widget: traitlets hides its own
+        _, *own = inspect.signature(member.__init__).parameters.values()
+        signature = stringify_signature(inspect.Signature(own))
     if dataclasses.is_dataclass(member):
         written = {node.target.id: ast.unparse(node.value) for node in fields_of(member) if node.value}
         for field in dataclasses.fields(member):

@@ -100,10 +100,10 @@ def test_a_summary_of_the_sidebar_has_a_name_and_others_stay():
 
 def test_names_and_roles_of_a_body_are_put_right():
     wrong = ('<summary aria-label="Toggle hidden content"><p>Show</p></summary><div role="doc-biblioentry">A</div>'
-             '<tr><th class="head"><p></p></th><th></th><th>A</th></tr>')
+             '<tr><th class="head"><p></p></th><th></th><th>A</th></tr><span class="pre">neorl.core.new_x</span>')
     assert describe.mended(wrong, describe.IN_BODIES) == (
         '<summary><p>Show</p></summary><div role="listitem">A</div>'
-        '<tr><td class="head"></td><td></td><th>A</th></tr>')
+        '<tr><td class="head"></td><td></td><th>A</th></tr><span class="pre">neorl.<wbr>core.<wbr>new_<wbr>x</span>')
 
 
 def test_a_command_names_the_repository_that_is_set(tmp_path, monkeypatch):
@@ -169,7 +169,7 @@ def test_a_name_links_to_its_room_or_below_and_an_argument_to_nothing(make_book)
 
 def test_the_reference_has_types_and_defaults_as_in_code(make_book):
     _, reference = make_book(modules=[f"neorl.{name}" for name in (
-        "agents.agent", "agents.rules", "checks", "core.maps", "core.scene", "drawing.curves",
+        "agents.agent", "agents.rules", "browser.replay", "checks", "core.maps", "core.scene", "drawing.curves",
         "evidence.calibration_table")])
     signatures = " ".join(re.findall(r'<dt class="sig[^>]*>(.*?)</dt>', reference, re.DOTALL))
     signatures = " ".join(html.unescape(re.sub(r"<[^>]+>", "", signatures)).split())
@@ -177,7 +177,7 @@ def test_the_reference_has_types_and_defaults_as_in_code(make_book):
                     "statistics: dict = dict())", "read_table(path=SHIPPED)",
                     "draw_curves(xs: ArrayLike, curves: Mapping[str, ArrayLike],", "(name: str, array: NDArray[",
                     "→ NDArray[float64]", "modality: Modality = PLACE_CELL)", "table: NDArray[float64]",
-                    "position: array('float64', 'axes')"):
+                    "position: array('float64', 'axes')", "Replay(recordings, playing=True)"):
         assert written in signatures
     assert not re.search(r"[~<]|Path\(|_Buffer|ndarray", signatures)
     assert "−`" not in reference
