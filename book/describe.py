@@ -20,7 +20,9 @@ IN_BODIES = (
     # Entries of the bibliography are items of a list; their special role is deprecated.
     (r'role="doc-biblioentry"', 'role="listitem"'),
     # The empty corner of a table is not a header.
-    (r"<th([^>]*)>\s*(?:<p></p>)?\s*</th>", r"<td\1></td>"))
+    (r"<th([^>]*)>\s*(?:<p></p>)?\s*</th>", r"<td\1></td>"),
+    # A long name breaks between its parts.
+    (r'(?<=<span class="pre">)neorl\.[\w.]+', lambda found: re.sub(r"(?<=[._])(?=\w)", "<wbr>", found[0])))
 IN_PAGES = (
     # The button is named by its own text, including the keys.
     (r'(<button class="btn search-button-field [^>]*?) aria-label="Search"', r"\1"),

@@ -1,7 +1,7 @@
 """Checks of user input: each returns the value, or raises a ValueError that names the argument, its value and the rule.
 
-NumPy scalars and zero-dimensional arrays count as numbers. Numbers are finite and at most `LARGEST` in magnitude, so
-that sums and products of several do not overflow; divisors are at least `SMALLEST`.
+NumPy scalars and zero-dimensional arrays count as numbers. Numbers are finite and at most 1e30 (`LARGEST`) in
+magnitude, so that sums and products of several do not overflow; divisors are at least 1e-30 (`SMALLEST`).
 """
 
 import math
@@ -65,7 +65,7 @@ def real(name: str, value: Any, at_least: float = -LARGEST, at_most: float = LAR
 
 
 def positive(name: str, value: Any) -> float:
-    """`value` as a float, if it is a number ≥ `SMALLEST`."""
+    """`value` as a float, if it is a number ≥ 1e-30 (`SMALLEST`)."""
     return real(name, value, SMALLEST)
 
 
@@ -78,7 +78,7 @@ def one_of(name: str, value: Any, allowed: Iterable[Kind]) -> Kind:
 
 
 def several(name: str, values: Any) -> tuple[Any, ...]:
-    """`values` as a tuple, if they are a list, a tuple, a range or an array of at most `MOST` values."""
+    """`values` as a tuple, if they are a list, a tuple, a range or an array of at most 2²⁰ values."""
     if isinstance(values, list | tuple | range) or isinstance(values, np.ndarray) and values.ndim:
         if _is_short(values):
             return tuple(values)

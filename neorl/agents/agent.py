@@ -29,7 +29,8 @@ LEARNED, FIRST_WORTH = "learned", 1.0  # optimistic, so that unknown things are 
 class Node(checks.Final):
     """The maps of one modality, which learn in parallel and sum their values (paper A, experiment 2).
 
-    name: a string that is not a kind of thing in the agent's worlds. resolutions: one or more integers ≥ 1.
+    name: a string that is not a kind of thing in the agent's worlds. modality: the `Modality` of its maps.
+    resolutions: one or more integers ≥ 1.
     weighting: how the maps are weighted in the sum: "equal"; "resolution", by N; "cells", by N². The weights sum to 1.
     gain: weight of the node's values in the agent's; with 0 only the node's desires count.
     goals: what the node learns to reach: all "cells", the Horde of the thesis, or only "contacts" with things, see

@@ -24,7 +24,7 @@ def learn(q: NDArray[np.float32], cell_tm1: int, cell_t: int, credit: Sequence[f
     """Update every goal, in place, from one transition cell_tm1 → cell_t (thesis eq. 4.8; eq. 4.6 with one event).
 
     q: float32 (cells, actions, cells), C-contiguous, finite. cell_tm1, cell_t: 0 … cells − 1.
-    credit: (actions,), ψ of each event in [0, 1]. learning_rate α, discount γ: in [0, 1].
+    credit: (actions,), ψ of each event in [0, 1]. learning_rate: α in [0, 1]. discount: γ in [0, 1].
     terminal: whether a goal reached is worth 1, instead of 1 + γ times the value that follows.
     Raises ValueError for anything else.
     """
@@ -50,7 +50,7 @@ def superpose(q: NDArray[np.float32], cell: int, goals: Sequence[int], valences:
               own_cell: str = "counts") -> NDArray[np.float64]:
     """The value of each action in a cell: float64 (actions,) (thesis eq. 4.3 and 4.4).
 
-    q: float32 (cells, actions, cells). cell: where the agent is. goals: the cells of the elements of interest;
+    q: float32 (cells, actions, cells). cell: where the agent is. goals: the cells of the elements of interest.
     valences: their weights, one for each. own_cell: whether an element in `cell` itself is "silent" or "counts".
     Raises ValueError for anything else.
     """

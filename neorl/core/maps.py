@@ -25,6 +25,7 @@ class NresMap(checks.Final):
     """A map of one modality.
 
     resolution: N, intervals per axis, at least 1; at most `neorl.core.modality.MOST_CELLS` cells in all.
+    modality: the `Modality` that its cells represent.
 
     Raises ValueError for anything else.
     """

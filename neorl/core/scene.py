@@ -18,7 +18,7 @@ class Scene(NamedTuple):
     """What an agent perceives, in the world's units of length and in seconds."""
 
     position: array("float64", "axes")  # of the agent
-    velocity: array("float64", "axes") = None
+    velocity: array("float64", "axes") = None  # of the agent; None at rest
     things: array("float64", "things", "axes") = ()  # their positions
     kinds: array("int64", "things") = ()  # the number of each one's kind, or ABSENT
     met: array("int64", "things") = ()  # 0, or 1 + the kind of a thing met in this step; its slot is now a fresh one's

@@ -154,7 +154,7 @@ def _draw_means(curves, xlabel, ylabel, styles, ax):
         axes.plot(xs, mean, color=colour, linestyle=dashes)
         if len(curve) > 1:
             axes.fill_between(xs, *mean_band(curve), color=colour, alpha=0.2, linewidth=0)
-        ends.append((numbers[-max(1, len(xs) // 10):].mean(), name, colour))
+        ends.append((numbers[-1], name, colour))
     axes.set(xlabel=xlabel, ylabel=ylabel, xlim=(0, max(xs[-1] for xs, _ in curves.values())))
     name_ends(axes, ends)
     return axes

@@ -120,12 +120,13 @@ def name_ends(axes, ends, line=0.075, leaders=False):
     line: the room that a name needs, as a share of the height of the axes; more in a low panel. Many names are written
     in smaller letters to fit. leaders: whether a thin line leads from each end to its name, which may be far from it.
     """
-    low, high = axes.get_ylim()
+    scale = axes.yaxis.get_transform()  # names are spread on the page, so on a logarithmic axis by logarithms
+    low, high = scale.transform(np.array(axes.get_ylim(), float))
     ends = sorted(ends)
     share = min(1.0, 1.0 / (line * len(ends))) if ends else 1.0
     apart = share * line * (high - low) * np.arange(len(ends))
-    lowest = scipy.optimize.isotonic_regression([height for height, *_ in ends] - apart).x
-    heights = apart + np.clip(lowest, low, high - apart.max(initial=0.0))
+    lowest = scipy.optimize.isotonic_regression(scale.transform(np.array([height for height, *_ in ends])) - apart).x
+    heights = scale.inverted().transform(apart + np.clip(lowest, low, high - apart.max(initial=0.0)))
     size = max(CROWDED, share * plt.rcParams["font.size"])
     beside = 1.02
     if leaders:

@@ -83,9 +83,10 @@ class Run(Individual):
                 hits: NDArray[np.int16] | None = None) -> float:
         """Take `steps` more steps; returns their total reward.
 
-        rewards: float32 (bins,) and hits: int16 (bins, kinds), if given, receive the reward and the number of things
-        of each kind that were met, at most 32,767, in each 0.2 s since the run began. After an interruption the run
-        can continue from its `step`.
+        rewards: float32 (bins,); if given, receives the reward in each 0.2 s since the run began.
+        hits: int16 (bins, kinds), likewise the number of things of each kind that were met, at most 32,767.
+
+        After an interruption the run can continue from its `step`.
         Raises ValueError if they do not fit, or if the world's state is not finite.
         """
         self.world.check_state(self._world_state)

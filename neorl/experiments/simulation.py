@@ -25,6 +25,7 @@ class Result:
     rewards: float32 (runs, bins), summed over bins of 0.2 s. hits: int16 (runs, bins, kinds), the number of things of
     each kind that were met, counted up to 32,767 in a bin; in WaterWorld green and red creeps.
     changes: (step, agent) pairs, the agents that the runs became at these steps.
+    agent, world, steps, runs, seed: as in `simulate`.
     """
 
     agent: Agent
@@ -85,8 +86,8 @@ class Result:
     def to_xarray(self) -> Any:
         """An `xarray.Dataset` of dimensions run, time and kind, with coordinates of the same names.
 
-        time: when each bin ends, in simulated seconds. rewards: float32 (run, time), the sum over the bin; hits: int16
-        (run, time, kind), the number of things met in the bin. Attributes: steps and runs; agent, world and changes as
+        time: when each bin ends, in simulated seconds. rewards: float32 (run, time), the sum over the bin. hits: int16
+        (run, time, kind), the number of things met in the bin. attributes: steps and runs; agent, world and changes as
         JSON texts (see `neorl.core.description`); seed and the version of neorl as texts.
         Raises ImportError without xarray, ValueError for an agent or a world that cannot be imported by name.
         """

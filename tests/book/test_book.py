@@ -100,10 +100,10 @@ def test_a_summary_of_the_sidebar_has_a_name_and_others_stay():
 
 def test_names_and_roles_of_a_body_are_put_right():
     wrong = ('<summary aria-label="Toggle hidden content"><p>Show</p></summary><div role="doc-biblioentry">A</div>'
-             '<tr><th class="head"><p></p></th><th></th><th>A</th></tr>')
+             '<tr><th class="head"><p></p></th><th></th><th>A</th></tr><span class="pre">neorl.core.new_x</span>')
     assert describe.mended(wrong, describe.IN_BODIES) == (
         '<summary><p>Show</p></summary><div role="listitem">A</div>'
-        '<tr><td class="head"></td><td></td><th>A</th></tr>')
+        '<tr><td class="head"></td><td></td><th>A</th></tr><span class="pre">neorl.<wbr>core.<wbr>new_<wbr>x</span>')
 
 
 def test_a_command_names_the_repository_that_is_set(tmp_path, monkeypatch):
@@ -140,15 +140,44 @@ def test_a_line_in_the_middle_of_a_sentence_is_no_item_however_it_begins():
     assert lines == ["A cell.", "", "1. Neighbours: its own. It may have", "   none: an edge counts."]
 
 
+def test_what_a_function_raises_is_no_part_of_an_argument():
+    lines = ["A map.", "", "size: of the map. Raises ValueError otherwise.", "one, two, three, four, five: numbers."]
+    api_links.read_docstring(None, "function", "map", None, None, lines)
+    assert [line.strip() for line in lines if line] == [
+        "A map.", "``size``", "of the map.", "*Raises*", "ValueError otherwise.", "``one, two, three, four, five``",
+        "numbers."]
+
+
+def test_a_name_links_to_its_room_or_below_and_an_argument_to_nothing(make_book):
+    _, reference = make_book(modules=[f"neorl.{name}" for name in (
+        "core.kernel", "core.modality", "core.maps", "core.choices", "core.scene", "worlds.world", "worlds.arena",
+        "agents.individual", "agents.learner", "experiments.run", "chapters.chapter_3.hybrid_reward",
+        "chapters.other_spaces.lives")])
+    of_polar = reference.split('id="neorl.core.modality.polar"')[1].split("</dl>")[0]
+    assert ">reach<" in of_polar and "#neorl.chapters.other_spaces.lives.reach" not in of_polar
+    of_axis = reference.split('id="neorl.core.modality.Axis"')[1].split("</dl>")[0]
+    assert "#neorl.core.maps.NresMap.intervals" not in of_axis
+    assert 'href="#neorl.core.kernel.kernel" title' in of_axis  # neorl.kernel
+    of_individual = reference.split('id="neorl.agents.individual.Individual"')[1].split("</dl>")[0]
+    assert "#neorl.agents.learner.Learner" in of_individual  # not the Learner of chapter 3
+    assert 'href="#neorl.experiments.run.Run"' in of_individual
+    of_worlds = reference.split('id="module-neorl.worlds.world"')[1].split('id="neorl.worlds.world.Dynamics"')[0]
+    assert "Arena.kinds" not in of_worlds and 'href="#module-neorl.core.scene"' not in of_worlds
+    of_choices = reference.split('id="neorl.core.choices.Capture"')[1].split("</dl>")[0]
+    assert "contact</span></code> 0, " in of_choices and "qualname" not in of_choices
+
+
 def test_the_reference_has_types_and_defaults_as_in_code(make_book):
     _, reference = make_book(modules=[f"neorl.{name}" for name in (
-        "agents.agent", "agents.rules", "checks", "drawing.curves", "evidence.calibration_table")])
+        "agents.agent", "agents.rules", "browser.replay", "checks", "core.maps", "core.scene", "drawing.curves",
+        "evidence.calibration_table")])
     signatures = " ".join(re.findall(r'<dt class="sig[^>]*>(.*?)</dt>', reference, re.DOTALL))
     signatures = " ".join(html.unescape(re.sub(r"<[^>]+>", "", signatures)).split())
     for written in ("learning: Learning = Learning(), policy: Policy = Policy(),", "choose: Callable = greedy)",
                     "statistics: dict = dict())", "read_table(path=SHIPPED)",
                     "draw_curves(xs: ArrayLike, curves: Mapping[str, ArrayLike],", "(name: str, array: NDArray[",
-                    "→ NDArray[float64]"):
+                    "→ NDArray[float64]", "modality: Modality = PLACE_CELL)", "table: NDArray[float64]",
+                    "position: array('float64', 'axes')", "Replay(recordings, playing=True)"):
         assert written in signatures
     assert not re.search(r"[~<]|Path\(|_Buffer|ndarray", signatures)
     assert "−`" not in reference

@@ -172,23 +172,32 @@ def test_what_is_said():
     said = report.summary(LOOPS, SPEEDS, rows, rows)
     assert "500 ns to 500 ns" in said and "the aim of 2 is met by none" in said and "200 (NumPy)" in said
     assert "**" not in said
-    bounds = report.bound_table(LOOPS, SPEEDS)
+    bounds = spaced(report.bound_table(LOOPS, SPEEDS))
     assert "| 500 ns | 2.3 [" in bounds and "| 0.1 MiB |" in bounds
-    assert "| a step | NumPy | 20 µs | 200 |" in report.contest_table(rows)
-    assert "less than 1 ns" in report.spent_table({"N3": {"world": 1e-7, "learning": -1e-9}})
+    assert "| a step | NumPy | 20 µs | 200 |" in spaced(report.contest_table(rows))
+    assert "less than 1 ns" in spaced(report.spent_table({"N3": {"world": 1e-7, "learning": -1e-9}}))
     series = [growth.Series("N", "values", "bytes", np.array([1.0, 2.0, 3.0]), np.array([1.0, 4.0, 9.0]), 2, True)]
-    assert "| values | N | at most 2 | 2.00 [2.00, 2.00] |" in report.growth_table(series)
+    assert "| values | N | at most 2 | 2.00 [2.00, 2.00] |" in spaced(report.growth_table(series))
     assert "No page" in report.minutes_table([])
     assert "| all pages | 1 | 2 | 30 | 4 | 37 |" in report.minutes_table([minutes.PageTime("a", 1.0, 2.0, 30.0, 4.0)])
+    assert "| 1,200 |" in report.minutes_table([minutes.PageTime("a", 0.0, 0.0, 1200.0, 0.0)])
+
+
+def spaced(text):
+    """A table with ordinary spaces for those that do not break, of which it has some."""
+    assert "\N{NO-BREAK SPACE}" in text
+    return text.replace("\N{NO-BREAK SPACE}", " ")
 
 
 def test_figures_are_drawn():
     rows = contest.Contest("a step of WaterWorld", {"neoRL": np.array([1e-7]), "PLE": np.array([2e-5])}, ())
     series = [growth.Series("N", "cost", "seconds", np.array([1.0, 2.0]), np.array([1e-7, -1e-9]), 2, True)] * 3
     performance_figures.draw_bandwidths(SPEEDS, LOOPS)
+    assert plt.gca().get_yscale() == "log"
     performance_figures.draw_bounds(LOOPS, SPEEDS)
     assert [text.get_text() for text in plt.gca().texts] == ["2.3 ×"] * 4
     performance_figures.draw_contests(rows, rows)
+    assert not plt.gca().patches and len(plt.gca().lines) == 4  # a bar on a logarithmic axis has no meaningful length
     performance_figures.draw_growth(series)
     performance_figures.draw_minutes([minutes.PageTime("a", 1.0, 2.0, 30.0, 4.0)])
     assert plt.gca().get_yticklabels()[0].get_text() == "a"

@@ -53,4 +53,5 @@ def test_reports_name_what_they_compare():
 def test_the_box_has_transfer_checkpoint_and_steering():
     text = report.in_short([(3.0, 1.0), (2.0, 2.0)], 100, np.ones(2), np.ones(2), {"neoRL": np.full(10, 0.2)})
     assert text.startswith("In 100 steps, agents that began with the values of another earned 2 points (median over ")
-    assert "without a break: the same to the last bit. An agent steers" in text and text.endswith("neoRL 0.20 m.")
+    assert "without a break: the same to the last bit. In another simulator, an agent" in text
+    assert text.endswith("neoRL 0.20 m.")

@@ -75,6 +75,19 @@ def test_names_of_many_curves_at_one_edge_stay_within_the_axes(level):
     assert np.all(np.diff(heights) >= 0.0749) and min(heights) >= 0 and max(heights) <= 1
 
 
+def test_names_on_a_logarithmic_axis_stand_at_the_ends_of_their_curves_and_apart_as_seen():
+    axes = plt.figure().add_subplot()
+    axes.set(yscale="log", ylim=(1, 1000))
+    name_ends(axes, [(10.0, "a", "k"), (10.0, "b", "k"), (500.0, "c", "k")])
+    a, b, c = np.log10([text.xy[1] for text in axes.texts])
+    assert b - a == pytest.approx(3 * 0.075) and (a + b) / 2 == pytest.approx(1) and c == pytest.approx(np.log10(500))
+
+
+def test_the_name_of_a_mean_stands_at_its_last_point():
+    axes = drawing.draw_curves([1, 2, 3], {"up": [[0, 0, 5]], "gap": [[1, 2, np.nan]]}, "x", "y")
+    assert [(text.get_text(), text.xy[1]) for text in axes.texts] == [("gap", 2), ("up", 5)]
+
+
 # Linear red, green and blue as seen without one kind of cone (Machado, Oliveira and Fernandes 2009).
 SEEN = {"by most": np.eye(3),
         "without red": [[0.152, 1.053, -0.205], [0.115, 0.786, 0.099], [-0.004, -0.048, 1.052]],

@@ -41,7 +41,7 @@ def in_short(finds, python_seconds, kernel_seconds, steps, runs):
 
 def table(results):
     """Finds per thousand steps in the last fifth of the runs, mean and standard deviation: {name: `Result`}."""
-    rows = ["| agent | finds per thousand steps, mean ± standard deviation over runs |", "|---|---|"]
+    rows = ["| agent | finds per thousand steps in the last fifth, mean ± standard deviation over runs |", "|---|---|"]
     for name, result in results.items():
         last = 1_000 * result.rate(0.8) / result.world.fps
         rows.append(f"| {name} | {last.mean():.1f} ± {last.std():.1f} |")

@@ -16,8 +16,13 @@ def draw_bandwidths(bandwidths, loops):
     ways = {"in order": (bandwidths.copied, CURVES[0]), "lone values": (bandwidths.scattered, CURVES[1])}
     for speeds, colour in ways.values():
         axes.plot(bandwidths.working_sets, speeds / GIGA, color=colour, marker="o", markersize=3)
-    top = 1.15 * max(speeds.max() for speeds, _ in ways.values()) / GIGA  # names of lines stand above the curves
-    axes.set(xscale="log", xlabel="working set", ylabel="gigabytes per second", ylim=(0, top))
+    top = 1.5 * max(speeds.max() for speeds, _ in ways.values()) / GIGA  # names of lines stand above the curves
+    axes.set(xscale="log", yscale="log", xlabel="working set", ylabel="gigabytes per second")
+    axes.set_ylim(top=top)
+    axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axes.yaxis.set_major_formatter(lambda value, place: f"{value:g}")
+    axes.yaxis.set_minor_formatter(NullFormatter())
+    axes.tick_params(axis="y", which="minor", length=0)
     for name, side in (("N23 (memory)", "left"), ("twelve maps (memory)", "right")):
         axes.axvline(loops[name].moved.working_set, color=INK, linewidth=0.8, linestyle="--")
         axes.annotate(name.split(" (")[0], (loops[name].moved.working_set, 1), xycoords=("data", "axes fraction"),
@@ -49,10 +54,10 @@ def draw_contests(*contests):
     names = [f"{name}\n({each.what.split(' of ')[1]})" for each in contests for name in each.seconds]
     axes = plt.figure(figsize=(4.9, 0.6 * len(bars) + 0.8)).add_subplot()
     for place, (_, taken, other) in enumerate(bars):
-        axes.barh(place, taken, 0.6, color=INK if other else AGENT)
-        axes.annotate(f"{taken:,.0f}", (taken, place), xytext=(4, 0), textcoords="offset points", va="center")
+        axes.plot(taken, place, color=INK if other else AGENT, marker="s" if other else "o", markersize=8)
+        axes.annotate(f"{taken:,.0f}", (taken, place), xytext=(8, 0), textcoords="offset points", va="center")
     axes.set(yticks=range(len(bars)), yticklabels=names, xscale="log", xlabel="nanoseconds per step")
-    axes.margins(x=0.15)
+    axes.margins(x=0.2, y=0.15)
     axes.invert_yaxis()
 
 

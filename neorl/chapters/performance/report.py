@@ -17,13 +17,13 @@ def summary(loops, bandwidths, rivals, worlds):
     within = [name for name, ratio in ratios.items() if ratio <= AIM]
     least, most = min(ratios.values()), max(ratios.values())
     quickest, slowest = (of(loop.loop.min() for loop in loops.values()) for of in (min, max))
-    several = ", ".join(f"{_times(ratio.value)} ({name})" for name, ratio in rivals.ratios.items())
+    several = " and ".join(f"{_times(ratio.value)} ({name})" for name, ratio in rivals.ratios.items())
     original = "".join(f" {name} takes {_times(ratio.value)} times as long for a step of the world." for name, ratio in
                        worlds.ratios.items())
     return (f"On this machine one core takes {_seconds(quickest)} to {_seconds(slowest)} for a step of world and "
             f"agent. That is {least:.1f} to {most:.1f} times the lower bound set by world and memory; "
-            f"the aim of {AIM} is met by {listed(within)}. The agent's part with N23 takes longer in other "
-            f"implementations, by a factor of {several}.{original}")
+            f"the aim of {AIM} is met by {' and '.join(within) or 'none'}. The agent's part with one map of 23 × 23 "
+            f"cells (N23) takes longer in other implementations, by a factor of {several}.{original}")
 
 
 def bound_table(loops, bandwidths):
@@ -32,19 +32,22 @@ def bound_table(loops, bandwidths):
         ["agent", "changes of cell per step", "bytes per step", "working set", "world", "moving bytes", "loop",
          "loop / bound"],
         [[name, number(loop.moved.changes), f"{loop.moved.bytes:,.0f}",
-          f"{loop.moved.working_set / 2**20:.1f} MiB", _seconds(loop.world.min()), _seconds(loop.moving(bandwidths)),
-          _seconds(loop.loop.min()), _interval(loop.ratio(bandwidths))] for name, loop in loops.items()])
+          whole(f"{loop.moved.working_set / 2**20:.1f} MiB"), whole(_seconds(loop.world.min())),
+          whole(_seconds(loop.moving(bandwidths))), whole(_seconds(loop.loop.min())),
+          _interval(loop.ratio(bandwidths))] for name, loop in loops.items()])
 
 
 def spent_table(spent):
     """Where the time of a step goes. spent: as `neorl.chapters.performance.bound.spent` returns it."""
     parts = list(next(iter(spent.values())))
-    return table(["agent", *parts], [[name, *(_seconds(of[part]) for part in parts)] for name, of in spent.items()])
+    return table(["agent", *parts],
+                 [[name, *(whole(_seconds(of[part])) for part in parts)] for name, of in spent.items()])
 
 
 def contest_table(*contests):
     """The time of each implementation, and its ratio to the package."""
-    rows = [[each.what, name, _seconds(seconds.min()), _interval(each.ratios[name]) if name in each.ratios else "1"]
+    rows = [[each.what, name, whole(_seconds(seconds.min())),
+             _interval(each.ratios[name]) if name in each.ratios else "1"]
             for each in contests for name, seconds in each.seconds.items()]
     return table(["task", "implementation", "time", "times as long"], rows)
 
@@ -58,8 +61,8 @@ def absent(*contests):
 def growth_table(series):
     """Exponents, predicted and fitted."""
     return table(["cost", "grows with", "predicted exponent", "fitted"],
-                 [[each.cost, each.of, f"{'at most ' if each.at_most else ''}{each.predicted}", str(each.exponent)]
-                  for each in series])
+                 [[each.cost, each.of, f"{'at most ' if each.at_most else ''}{each.predicted}",
+                   str(each.exponent).replace(", ", whole(", "))] for each in series])
 
 
 def minutes_table(pages):
@@ -67,9 +70,9 @@ def minutes_table(pages):
     if not pages:
         return "No page of the book has been computed here, so there are no times to show."
     parts = ("starting", "importing", "computing", "drawing", "total")
-    rows = [[page.page, *(f"{getattr(page, part):.0f}" for part in parts)] for page in pages]
-    sums = [f"{sum(getattr(page, part) for page in pages):.0f}" for part in parts]
-    return table(["page, seconds", *parts], [*rows, ["all pages", *sums]])
+    rows = [[page.page, *(f"{getattr(page, part):,.0f}" for part in parts)] for page in pages]
+    sums = [f"{sum(getattr(page, part) for page in pages):,.0f}" for part in parts]
+    return table(["seconds of the page", *parts], [*rows, ["all pages", *sums]])
 
 
 def _times(ratio):
@@ -77,8 +80,13 @@ def _times(ratio):
 
 
 def _interval(ratio):
-    bounds = "" if ratio.low != ratio.low else f" [{_times(ratio.low)}, {_times(ratio.high)}]"
-    return f"{_times(ratio.value)}{bounds}"
+    bounds = "" if ratio.low != ratio.low else whole(f"[{_times(ratio.low)}, {_times(ratio.high)}]")
+    return f"{_times(ratio.value)} {bounds}".strip()
+
+
+def whole(text):
+    """A text that is not broken in a narrow column."""
+    return text.replace(" ", "\N{NO-BREAK SPACE}")
 
 
 def _seconds(value):

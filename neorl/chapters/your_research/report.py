@@ -5,7 +5,7 @@ import numpy as np
 
 def last_fifth(results, unit="reward per second"):
     """A table of rewards in the last fifth of runs, mean and standard deviation: {name: `neorl.Result`}."""
-    rows = [f"| agent | {unit}, mean ± standard deviation over runs |", "|---|---|"]
+    rows = [f"| agent | {unit} in the last fifth, mean ± standard deviation over runs |", "|---|---|"]
     for name, result in results.items():
         rate = result.rate(0.8)
         rows.append(f"| {name} | {rate.mean():.3f} ± {rate.std():.3f} |")
@@ -29,9 +29,9 @@ def same_bits(name, one, other):
 
 def in_short(found, steps, one, other, away):
     """The page's results in a few sentences. Arguments as in `transfer`, `same_bits` and `distances`."""
-    resumed = same_bits("A run that was saved and loaded, beside the same run without a break", one, other)
-    return (f"{transfer(found, steps)} {resumed} An agent steers an animal in another simulator by the firing "
-            f"of its neurons. {distances(away)}")
+    resumed = same_bits("A run that was saved and loaded, compared with the same run without a break", one, other)
+    return (f"{transfer(found, steps)} {resumed} In another simulator, an agent steers an animal by the firing of the "
+            f"animal's neurons. {distances(away)}")
 
 
 def distances(by_name):
