@@ -177,7 +177,7 @@ def test_what_is_said():
     assert "| a step | NumPy | 20 µs | 200 |" in spaced(report.contest_table(rows))
     assert "less than 1 ns" in spaced(report.spent_table({"N3": {"world": 1e-7, "learning": -1e-9}}))
     series = [growth.Series("N", "values", "bytes", np.array([1.0, 2.0, 3.0]), np.array([1.0, 4.0, 9.0]), 2, True)]
-    assert "| values | N | at most 2 | 2.00 [2.00, 2.00] |" in spaced(report.growth_table(series))
+    assert "| values | N | at most 2 | 2.00 [2.00, 2.00] |" in report.growth_table(series)
     assert "No page" in report.minutes_table([])
     assert "| all pages | 1 | 2 | 30 | 4 | 37 |" in report.minutes_table([minutes.PageTime("a", 1.0, 2.0, 30.0, 4.0)])
     assert "| 1,200 |" in report.minutes_table([minutes.PageTime("a", 0.0, 0.0, 1200.0, 0.0)])

@@ -34,7 +34,7 @@ def bound_table(loops, bandwidths):
         [[name, number(loop.moved.changes), f"{loop.moved.bytes:,.0f}",
           whole(f"{loop.moved.working_set / 2**20:.1f} MiB"), whole(_seconds(loop.world.min())),
           whole(_seconds(loop.moving(bandwidths))), whole(_seconds(loop.loop.min())),
-          _interval(loop.ratio(bandwidths))] for name, loop in loops.items()])
+          _interval(loop.ratio(bandwidths)).replace(", ", whole(", "))] for name, loop in loops.items()])
 
 
 def spent_table(spent):
@@ -61,8 +61,8 @@ def absent(*contests):
 def growth_table(series):
     """Exponents, predicted and fitted."""
     return table(["cost", "grows with", "predicted exponent", "fitted"],
-                 [[each.cost, each.of, f"{'at most ' if each.at_most else ''}{each.predicted}",
-                   str(each.exponent).replace(", ", whole(", "))] for each in series])
+                 [[each.cost, each.of, f"{'at most ' if each.at_most else ''}{each.predicted}", str(each.exponent)]
+                  for each in series])
 
 
 def minutes_table(pages):
@@ -80,8 +80,8 @@ def _times(ratio):
 
 
 def _interval(ratio):
-    bounds = "" if ratio.low != ratio.low else whole(f"[{_times(ratio.low)}, {_times(ratio.high)}]")
-    return f"{_times(ratio.value)} {bounds}".strip()
+    bounds = "" if ratio.low != ratio.low else f" [{_times(ratio.low)}, {_times(ratio.high)}]"
+    return f"{_times(ratio.value)}{bounds}"
 
 
 def whole(text):
