@@ -45,7 +45,7 @@ SHARES = "assumptions"  # finds the shares of readings,
 READ_SHARES = ("calibration", "chapter_4", "own_world", "paper_a", "paper_b", "paper_c")  # which these read
 CONCLUSION = "chapter_5"  # reads what all others have found
 ALONE = ("paper_b", "performance")  # measure times
-ORDER = (SHARES, "chapter_2", "chapter_3", "chapter_1", *READ_SHARES)  # dependencies and long ones first
+ORDER = (SHARES, "beyond_agents", *READ_SHARES)  # dependencies and long ones first
 # Much of a notebook keeps only one core busy: compiling, drawing. The papers' tables of values take gigabytes.
 AT_ONCE, GIGABYTES_EACH = 2, 4
 # Beside another notebook, threads of linear algebra waiting for each other took fifty times as long as one thread.
