@@ -187,6 +187,17 @@ def test_red_creeps_are_reported_before_and_after_the_change_and_finally():
         "in the hundredth of the run before the change, 6.0 in the one after it, and 10.0 in the last fifth.")
 
 
+def test_green_creeps_are_reported_before_the_change_and_finally():
+    def revalued(later):
+        rates = {(0.3, 0.5): 0.2, (0.8, 1): later}
+        return {"revalued": SimpleNamespace(hit_rate=lambda *part: np.array([[rates[part], 9.0]] * 2))}
+
+    assert findings.green_in_words({"one": revalued(0.19), "other": revalued(0.05)}) == (
+        "One, they take 12.0 green creeps per minute in the fifth of the run before the change and 11.4 in the last "
+        "fifth. Other, they take 12.0 green creeps per minute in the fifth of the run before the change and 3.0 in the "
+        "last fifth: without a fear these agents lose most of what they took.")
+
+
 def test_distances_are_reported_for_the_first_two_moves_and_the_later_ones():
     assert findings.distances_in_words({"to the letter": watched(), "calibrated": watched()}).startswith(
         "To the letter, it is 0.30 and 0.20 for experienced agents, 0.40 and 0.40 for untrained ones. Calibrated, it ")
