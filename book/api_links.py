@@ -12,6 +12,8 @@ import inspect
 import pydoc
 import re
 import textwrap
+import tomllib
+from pathlib import Path
 
 from numpy.typing import ArrayLike
 from sphinx import addnodes
@@ -20,9 +22,12 @@ from sphinx.util.inspect import stringify_signature
 from sphinx.util.nodes import make_refnode
 from sphinx.util.typing import stringify_annotation
 
+import neorl
 from neorl.core.kernel import Kernel
 
-ROOMS = "checks extras files core worlds agents experiments evidence drawing gym browser chapters".split()  # upwards
+PROJECT = tomllib.loads(Path(neorl.__file__).parents[1].joinpath("pyproject.toml").read_text(encoding="utf-8"))
+LAYERS = PROJECT["tool"]["importlinter"]["contracts"][0]["layers"]
+ROOMS = [room for layer in reversed(LAYERS) for room in layer.split(" | ")]  # upwards
 ITEM = re.compile(r"(Raises|Returns) |([a-z_]\w*(?:(?:, \w+)*|(?:,? \w+){0,3})): ")
 ENDS = (".", ".)", ";", ":")  # of the line before an item: in the middle of a sentence, a line may begin like one
 ARRAY_LIKE = stringify_annotation(ArrayLike, "smart")

@@ -67,8 +67,8 @@ def summary(judged):
         lines.append(f"- **{name}** {STATEMENTS[name].text}: *{'; '.join(where) or 'none of these readings'}*.")
     score = {reading: tuple([*verdicts.values()].count(kind) for kind in ("reproduced", "partly"))
              for reading, verdicts in by_reading.items()}
-    closest = [reading for reading in score if score[reading] == max(score.values())]
-    best, partly = max(score.values())
+    best, partly = highest = max(score.values())
+    closest = [reading for reading in score if score[reading] == highest]
     text = (f"The {'reading' if len(closest) == 1 else 'readings'} closest to the thesis "
             f"{'is' if len(closest) == 1 else 'are'} *{'*, *'.join(closest)}*: {best} "
             f"{'claim is' if best == 1 else 'claims are'} reproduced and {partly} partly.")
