@@ -1,4 +1,4 @@
-"""A page with nothing but Explorers and the host that runs them."""
+"""A page with nothing but Explorers and the host that runs them, and what its reader does."""
 
 import json
 import sys
@@ -21,3 +21,28 @@ def write_page(folder, explorers, change=None):
     (folder / "page.html").write_text(f'<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">'
                                       f'<body style="width: 700px">{body}<script src="widgets.js"></script>')
     (folder / "widgets.js").write_text((BOOK / "vendor" / "widgets.js").read_text())
+
+
+def explorer_of(page, state="paused|running|ended"):
+    explorer = page.locator(".neorl-explorer").first
+    wait(page, state)
+    return explorer
+
+
+def wait(page, state):
+    page.wait_for_function("""wanted => wanted.split("|").includes(
+        document.querySelector(".neorl-explorer")?.dataset.state)""", arg=state)
+
+
+def press(page, action):
+    page.locator(f'.neorl-explorer [data-action="{action}"]').first.click()
+
+
+def drop_by_keyboard(page):
+    page.locator('[data-action="drop"]').press("Enter")
+
+
+def play_to_the_end(page):
+    press(page, "play")
+    wait(page, "ended")
+    return float(page.locator(".neorl-explorer").first.get_attribute("data-score"))

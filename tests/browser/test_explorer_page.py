@@ -4,13 +4,11 @@ import re
 from dataclasses import replace
 
 import pytest
-from explorer_page import write_page
+from explorer_page import drop_by_keyboard, explorer_of, play_to_the_end, press, wait, write_page
 from playwright.sync_api import expect
 
-from neorl import (Arena, Desire, Explorer, Learning, Place, Run, WaterWorld, multimodal, network_d, place_cells,
-                   simulate)
-from neorl.browser.explorer import IN_THE_ARENA, OTHER_SPACES, STEPS
-from neorl.core.modality import BOUNDARY_VECTOR_CELL, OBJECT_VECTOR_CELL
+from neorl import Desire, Explorer, Learning, Place, Run, WaterWorld, multimodal, network_d, place_cells, simulate
+from neorl.core.modality import OBJECT_VECTOR_CELL
 
 SIZE = {"steps": 30_000, "runs": 12, "seed": 3, "progress": False}
 TANK = WaterWorld()
@@ -35,31 +33,6 @@ def site(tmp_path, conditions):
         write_page(tmp_path, explorers, change)
         return tmp_path, "page.html"
     return write
-
-
-def explorer_of(page, state="paused|running|ended"):
-    explorer = page.locator(".neorl-explorer").first
-    wait(page, state)
-    return explorer
-
-
-def wait(page, state):
-    page.wait_for_function("""wanted => wanted.split("|").includes(
-        document.querySelector(".neorl-explorer")?.dataset.state)""", arg=state)
-
-
-def press(page, action):
-    page.locator(f'.neorl-explorer [data-action="{action}"]').first.click()
-
-
-def drop_by_keyboard(page):
-    page.locator('[data-action="drop"]').press("Enter")
-
-
-def play_to_the_end(page):
-    press(page, "play")
-    wait(page, "ended")
-    return float(page.locator(".neorl-explorer").first.get_attribute("data-score"))
 
 
 def set_slider(page, name, value):
@@ -272,72 +245,6 @@ def test_arrow_keys_play_against_the_agent_and_both_scores_are_shown(open_page, 
     assert page.evaluate("scrollY") == scrolled
     page.keyboard.press("Escape")
     expect(explorer).not_to_contain_text("You: ")
-
-
-def test_in_the_arena_it_computes_the_run_of_python_and_has_no_controls_for_creeps(open_page, site):
-    ((name, agent),) = IN_THE_ARENA.items()
-    page = open_page(*site(name))
-    explorer_of(page)
-    page.locator(".neorl-explorer summary").click()
-    for control in ("n_creeps", "valence_red"):
-        expect(page.locator(f'[name="{control}"]')).to_be_hidden()
-    expect(page.locator('[data-action="game"]')).to_be_disabled()
-    expect(page.locator(".grip")).to_have_count(0)
-    expect(page.locator(".said")).not_to_contain_text("creeps")
-    assert play_to_the_end(page) == lived(agent, Arena(), steps=STEPS)
-    page.evaluate("""() => {  // the run may be over, and the button disabled again, before the test can look
-        const game = document.querySelector('[data-action="game"]');
-        new MutationObserver(() => { window.offered ||= !game.disabled; }).observe(game, { attributes: true });
-    }""")
-    page.locator('[name="preset"]').select_option("both")
-    expect(page.locator(".grip")).to_have_count(TANK.n_creeps)
-    for control in ("n_creeps", "valence_red"):
-        expect(page.locator(f'[name="{control}"]')).to_be_visible()
-    assert play_to_the_end(page) == lived(BOTH)
-    assert page.evaluate("window.offered")
-
-
-@pytest.mark.parametrize("name", OTHER_SPACES)
-def test_in_another_space_it_computes_the_run_of_python(open_page, site, name):
-    page = open_page(*site(name))
-    explorer_of(page)
-    for action in ("game", "red"):
-        expect(page.locator(f'[data-action="{action}"]')).to_be_disabled()
-    expect(page.locator(".limb")).to_be_visible(visible=name.startswith("Arm"))
-    assert play_to_the_end(page) == lived(*OTHER_SPACES[name], steps=STEPS)
-
-
-def test_a_pilot_keeps_the_maps_of_each_node_until_others_are_chosen(open_page, site):
-    page = open_page(*site("Vessel with a radar"))
-    explorer_of(page)
-    expect(page.locator('[name="map"] option')).to_have_text(["far N8", "near N4"])
-    page.locator('[name="resolutions"]').fill("6")
-    page.locator('[name="resolutions"]').press("Enter")
-    expect(page.locator('[name="map"] option')).to_have_text(["far N6", "near N6"])
-
-
-def test_a_condition_in_another_maze_is_not_the_one_that_is_seen(open_page, tmp_path):
-    ((name, agent),) = IN_THE_ARENA.items()
-    walls = simulate(agent, Arena(obstacles=[(0.4, 0.4, 0.6, 0.6)]), steps=500, runs=2, progress=False)
-    write_page(tmp_path, [Explorer({"walls": walls}, playing=False, speed=0.0)])
-    page = open_page(tmp_path, "page.html")
-    assert explorer_of(page).get_attribute("data-condition") == "walls"
-    assert play_to_the_end(page) == walls.totals[0]
-    page.locator('[name="preset"]').select_option(name)
-    wait(page, "paused|running")
-    assert explorer_of(page).get_attribute("data-condition") == ""
-
-
-def test_what_is_dropped_into_the_arena_draws_the_agent_there(open_page, site):
-    ((name, agent),) = IN_THE_ARENA.items()
-    page = open_page(*site(name))
-    explorer_of(page)
-    drop_by_keyboard(page)
-    page.locator('[name="modality"]').select_option("boundary-vector cell")
-    dropped = Desire(Place(0.5, 0.5), "PC", 1.0)
-    node = replace(agent.nodes[0], modality=BOUNDARY_VECTOR_CELL)
-    assert play_to_the_end(page) == lived(replace(agent, nodes=[node], desires=(*agent.desires, dropped)), Arena(),
-                                          steps=STEPS)
 
 
 def test_it_pauses_out_of_view_and_in_a_hidden_tab(open_page, site):

@@ -1,0 +1,81 @@
+"""Widgets are saved beside their page, each with the state that it needs, and run on any page."""
+
+import json
+import shutil
+import sys
+from pathlib import Path
+
+import nbformat
+import pytest
+
+ROOT = Path(__file__).parents[2]
+sys.path.insert(0, str(ROOT / "book"))
+import excerpts  # noqa: E402
+
+TEXT = "</script><!-- <script> </SCRIPT >"  # must not end the tag that contains it
+
+
+def anywidget(**values):
+    esm = f"export default {{ render({{ el }}) {{ el.append({json.dumps(TEXT)}); el.className = 'shown'; }} }}"
+    return {"model_module": "anywidget", "state": {"_esm": esm, **values}}
+
+
+def page_of_widgets(*cells):
+    """A notebook that stores four models, one of which refers to two others, and whose cells show the given ones."""
+    state = {"one": anywidget(layout="IPY_MODEL_two", parts=[{"part": "anywidget:three"}], lost="IPY_MODEL_lost"),
+             "two": {"model_module": "@jupyter-widgets/base", "state": {"_view_name": "LayoutView"}},
+             "three": anywidget(parent="IPY_MODEL_one"), "four": anywidget()}
+    widgets = {excerpts.WIDGET_STATE: {"version_major": 2, "version_minor": 0, "state": state}}
+    page = nbformat.v4.new_notebook(metadata={"widgets": widgets})
+    for name, models in cells:
+        views = [nbformat.v4.new_output("display_data", {excerpts.WIDGET_VIEW: {"model_id": each}}) for each in models]
+        cell = nbformat.v4.new_code_cell(outputs=views, metadata={"widget": {"name": name}} if name else {})
+        page.cells += [cell, nbformat.v4.new_markdown_cell("Prose.")]
+    return page
+
+
+def contents(folder, name):
+    """The JSON in the two tags of a named widget: the state by model, and the view."""
+    lines = (folder / f"{name}.html").read_text().splitlines()
+    tags = [f'<script type="{kind}">' for kind in (excerpts.WIDGET_STATE, excerpts.WIDGET_VIEW)]
+    state, view = [json.loads(line.removeprefix(tag).removesuffix("</script>"))
+                   for line, tag in zip(lines, tags, strict=True)]
+    return state["state"], view
+
+
+def test_a_named_widget_is_saved_with_the_state_of_all_that_it_refers_to(tmp_path):
+    page = page_of_widgets(("first", ["one"]), (None, ["four"]), ("last", ["four"]))
+    stored = page.metadata.widgets[excerpts.WIDGET_STATE].state.copy()
+    excerpts.save_widgets(page, tmp_path)
+    state = {model: stored[model] for model in ["one", "two", "three"]}
+    assert contents(tmp_path, "first") == (state, {"model_id": "one"})
+    assert contents(tmp_path, "last") == ({"four": stored["four"]}, {"model_id": "four"})
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["first.html", "last.html"]
+
+
+def test_the_state_of_widgets_that_a_page_does_not_show_is_dropped(tmp_path):
+    for models, kept in [(["four"], {"four"}), (["one", "four"], {"one", "two", "three", "four"}), ([], set())]:
+        page = page_of_widgets((None, models))
+        excerpts.save_widgets(page, tmp_path)
+        assert set(page.metadata.widgets[excerpts.WIDGET_STATE].state) == kept
+    page = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell()])
+    excerpts.save_widgets(page, tmp_path)
+    assert page.metadata == {}
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("models", [[], ["one", "four"]])
+def test_a_named_cell_shows_one_widget(tmp_path, models):
+    message = f"cell of widget first shows {len(models)} widgets, allowed is 1"
+    with pytest.raises(ValueError, match=message):
+        excerpts.save_widgets(page_of_widgets(("first", models)), tmp_path)
+
+
+def test_a_saved_widget_runs_on_any_page(tmp_path, open_page):
+    excerpts.save_widgets(page_of_widgets(("first", ["one"])), tmp_path)
+    shutil.copy(ROOT / "book" / "vendor" / "widgets.js", tmp_path)
+    head = '<!doctype html><link rel="icon" href="data:,"><script defer src="widgets.js"></script><body>'
+    (tmp_path / "page.html").write_text(f"{head}{(tmp_path / 'first.html').read_text()}<p>The end.</p>")
+    page = open_page(tmp_path, "page.html", over="file")
+    assert page.locator(".shown").inner_text() == TEXT
+    assert page.locator("p").inner_text() == "The end."

@@ -1,0 +1,89 @@
+"""Runs equal a slow second implementation of the rules (`restated`), under every option of learning and of desires."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from golden import plain_rule
+from restated import restated
+
+from neorl import (Agent, Desire, Node, Place, Policy, Run, WaterWorld, multimodal, network_a, network_b, network_c,
+                   network_d, object_vector_cells, place_cells)
+from neorl.core.horde import as_vectors
+from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, HEAD_DIRECTION_CELL, LANDMARK_VECTOR_CELL,
+                                 OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL)
+
+SENSES = (Node("PC", PLACE_CELL, (2, 5), gain=0.5), Node("border", BORDER_CELL, (3,)),
+          Node("polar", OBJECT_VECTOR_CELL, (4, 5)), Node("HD", HEAD_DIRECTION_CELL, (6,), gain=0.7),
+          Node("landmark", LANDMARK_VECTOR_CELL, (4,)), Node("wall", BOUNDARY_VECTOR_CELL, (3, 4)),
+          Node("speed", SPEED_CELL, (3, 4), weighting="cells"))
+DESIRES = (Desire("green", "polar", 1.0), Desire("red", "polar", -0.5), Desire("polar", "PC"),
+          Desire("green", "border", 0.3), Desire("green", "HD", 1.0), Desire("HD", "polar", valence=0.2, scale=0.5),
+          Desire((0.3, 0.9), "PC", 1.0), Desire((0.4,), "speed", 0.5), Desire((0.1, np.pi), "wall", -1.0),
+          Desire(Place(0.2, 0.7), "PC", 0.5), Desire(Place(0.6, 0.1), "polar", -0.4),
+          Desire(Place(0.9, 0.9), "HD", 0.3),
+          Desire("PC", "landmark", signed=True), Desire("polar", "polar", -0.5, of=("green", "polar")))
+A_THAT_RECURS = replace(network_a([3, 5]), desires=(
+    *network_a().desires, Desire("OVC", "OVC", valence=0.5, scale=2.0, signed=False),
+    Desire("OVC", "OVC", valence=-0.7, of=("PC", "OVC"), scale=2.0, signed=False)))
+READINGS = {
+    "default": place_cells([3, 7]),
+    "several": place_cells([2, 5, 9], weighting="cells", policy=Policy(exploration=0.3, when_indifferent="no-op")),
+    "happened": place_cells([5], learning=plain_rule(credit="happened", absent_decay=0.1)),
+    "last": place_cells([5], learning=plain_rule(credit="last", terminal=False), own_cell="counts"),
+    "step": multimodal([5], learning=plain_rule(update_on="step")),
+    "trace": multimodal([4, 7], learning=plain_rule(trace=7)),
+    "leaky": place_cells([6], tiled_fraction=0.5, learning=plain_rule(trace=5, bootstrap=False)),
+    "objects": object_vector_cells([3, 4], weighting="resolution"),
+    "memory": multimodal([3, 6], learning=plain_rule(memory=4.0)),
+    "memory alone": multimodal([2, 5], learning=plain_rule(memory=30.0, bootstrap=False, absent_decay=0.3,
+                                                           learning_rate=0.3)),
+    "memory of seconds": multimodal([4], learning=plain_rule(memory=0.2, memory_unit="seconds",
+                                                             memory_value="discounted",
+                                                           bootstrap=False, credit="happened")),
+    "away": multimodal([5], learning=plain_rule(absent_decay=0.2, absent_form="away", terminal=False)),
+    "away alone": multimodal([5], learning=plain_rule(absent_decay=0.2, absent_form="away", bootstrap=False, trace=4)),
+    "away with memory": multimodal([5], learning=plain_rule(absent_decay=0.4, absent_form="away", memory=6.0,
+                                                            bootstrap=False,
+                                                          memory_value="discounted")),
+    "count": place_cells([4], learning=plain_rule(credit="count", learning_rate=0.4)),
+    "activity": multimodal([4], learning=plain_rule(credit="activity", activity=0.1, absent_decay=0.1, memory=2.0)),
+    "own causes": multimodal([7], learning=plain_rule(causes="own", memory=5.0)),
+    "leap": multimodal([4], learning=plain_rule(capture="leap", causes="own", memory=3.0, bootstrap=False)),
+    "silent": object_vector_cells([4], learning=plain_rule(capture="silent")),
+    "nearest": multimodal([5], learning=plain_rule(attention="nearest", memory=5.0)),
+    "wanted": multimodal([5], learning=plain_rule(attention="wanted", causes="own")),
+    "A": network_a([2, 3]),
+    "B": network_b([3, 5], signed=True),
+    "C": network_c([3], object_gain=0.5),
+    "D": network_d([2, 5], policy=Policy(exploration=0.05)),
+    "A that recurs": A_THAT_RECURS,
+    "all senses": Agent(SENSES, DESIRES),
+    "compass": Agent((Node("PC", PLACE_CELL, (7,), gain=0.0), Node("HD", HEAD_DIRECTION_CELL, (4,))),
+                     (Desire("green", "PC", 1.0), Desire("PC", "HD"))),
+}
+
+
+@pytest.mark.parametrize("name", READINGS)
+def test_a_run_equals_the_rules_in_plain_python(name):
+    agent, world, steps = READINGS[name], WaterWorld(width=100, n_creeps=2, win_reward=5.0), 1_500
+    run = Run(agent, world, seed=3, run=2)
+    brought = run.advance(steps)
+    rewards, q = restated(agent, world, steps, seed=3, run=2)
+    assert brought == sum(rewards) != 0
+    for m, table in enumerate(q):
+        np.testing.assert_array_equal(run.q(m), table)
+        assert table.any() or agent.maps[m].cells < 10
+
+
+def test_recursion_takes_vectors_and_valences_of_the_step_before():
+    run = Run(A_THAT_RECURS, WaterWorld(), seed=0)
+    run.advance(2_000)
+    while not run.state.desires.q[2:].any(axis=1).all():
+        run.advance(1)
+    run._state.desires.valence[2:] *= -1  # as if the valences of the previous step had the opposite sign
+    pull, worth = run.state.desires.q[2:].copy(), run.state.desires.valence[2:].copy()
+    run.advance(1)
+    expected = 2.0 * np.where(worth > 0, 1.0, -1.0) @ as_vectors(pull)
+    assert expected.all()
+    np.testing.assert_allclose(run.state.desires.target[3:, :2], [expected, expected])
