@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import neorl
-from neorl.chapters.paper_b import experiments, findings
+from neorl.chapters.paper_b import experiments, findings, trials
 from neorl.chapters.paper_b.trials import Costs, Watched
 from neorl.chapters.shared import side_by_side
 from neorl.core.modality import MODALITIES
@@ -173,7 +173,7 @@ def test_intervals_that_hold_the_expected_points_are_counted():
 
 def test_red_creeps_a_minute_add_up_to_those_taken():
     result = made_up(0.3, runs=2, red=0.5)
-    curves, minutes = findings.red_a_minute({"a": {"revalued": result}})
+    curves, minutes = findings.red_a_minute({"a": result})
     assert curves["a"].shape == (2, 100) and minutes[[0, -1]] == pytest.approx([0.05, 9.95])
     np.testing.assert_allclose(curves["a"].mean(axis=1) * 10, result.hits[..., 1].sum(axis=1))
 
@@ -182,20 +182,48 @@ def test_red_creeps_are_reported_before_and_after_the_change_and_finally():
     curve = np.zeros((2, 100))
     curve[:, 49], curve[:, 50], curve[:, 80:] = 1.0, [2.0, 4.0], 5.0
     assert findings.red_in_words({"to the letter": curve, "calibrated": 2 * curve}) == (
-        "To the letter, the agents take 1.0 red creeps per minute in the hundredth of the run before the change, "
-        "3.0 in the one after it, and 5.0 in the last fifth. Calibrated, the agents take 2.0 red creeps per minute "
-        "in the hundredth of the run before the change, 6.0 in the one after it, and 10.0 in the last fifth.")
+        "- To the letter: 1.0 red creeps per minute in the hundredth of the run before the change, 3.0 in the one "
+        "after it, and 5.0 in the last fifth.\n"
+        "- Calibrated: 2.0 red creeps per minute in the hundredth of the run before the change, 6.0 in the one after "
+        "it, and 10.0 in the last fifth.")
 
 
 def test_green_creeps_are_reported_before_the_change_and_finally():
     def revalued(later):
         rates = {(0.3, 0.5): 0.2, (0.8, 1): later}
-        return {"revalued": SimpleNamespace(hit_rate=lambda *part: np.array([[rates[part], 9.0]] * 2))}
+        return SimpleNamespace(hit_rate=lambda *part: np.array([[rates[part], 9.0]] * 2))
 
-    assert findings.green_in_words({"one": revalued(0.19), "other": revalued(0.05)}) == (
-        "One, they take 12.0 green creeps per minute in the fifth of the run before the change and 11.4 in the last "
-        "fifth. Other, they take 12.0 green creeps per minute in the fifth of the run before the change and 3.0 in the "
-        "last fifth: without a fear these agents lose most of what they took.")
+    found = findings.revaluing({"one": {"revalued": revalued(0.05), ("revalued", "exploring"): revalued(0.25)}})
+    assert findings.green_in_words(found) == (
+        "- One: 12.0 green creeps per minute in the fifth of the run before the change, and 3.0 in the last fifth.\n"
+        "- One, exploring: 12.0 green creeps per minute in the fifth of the run before the change, and 15.0 in the "
+        "last fifth.")
+
+
+def test_agents_explore_after_the_change_and_not_before():
+    made = experiments.all_conditions(READING, 1_000, 12)
+    ((turn, exploring),) = made["revalued", "exploring"].changes
+    ((same_turn, plain),) = made["revalued"].changes
+    assert turn == same_turn and exploring == replace(plain, policy=experiments.EXPLORING) != plain
+    assert made["revalued", "exploring"].agent == made["revalued"].agent
+
+
+def test_agents_roam_as_far_as_their_paths_spread():
+    tank = neorl.WaterWorld()
+    changed = neorl.simulate(neorl.brownian(), tank, steps=400, runs=2, seed=1,
+                             changes=[(200, neorl.place_cells([3]))], progress=False)
+    before, end = trials.roaming(changed, seconds=1)
+    run = neorl.Run(changed.agent, tank, seed=1, run=1)
+    run.advance(200 - tank.fps)
+    path = []
+    for _ in range(tank.fps):
+        run.advance(1)
+        path.append(run.world_state.scene.position / tank.width)
+    assert before.shape == end.shape == (2,) and end.all()
+    assert before[1] == pytest.approx(np.sqrt(np.mean(np.sum((path - np.mean(path, axis=0)) ** 2, axis=1))))
+    assert findings.roaming_in_words({"calibrated": (np.array([0.2, 0.4]), np.array([0.0, 0.1]))}) == (
+        "Calibrated, an agent's root mean square distance from its mean position is 0.30 board widths before the "
+        "change and 0.05 at the end.")
 
 
 def test_distances_are_reported_for_the_first_two_moves_and_the_later_ones():

@@ -7,6 +7,7 @@
 from dataclasses import replace
 
 from neorl.agents.papers import brownian
+from neorl.agents.rules import Policy
 from neorl.chapters.shared import side_by_side
 from neorl.chapters.shared.side_by_side import few
 from neorl.evidence.priors import WITHIN
@@ -16,6 +17,7 @@ from neorl.experiments.cache import Condition
 
 MAIN, GROUPS = ("modal", "pace"), ("layers", "resolutions", "revaluing")  # of `neorl.evidence.reading.GROUPS`
 AGENTS = {"PC": ("place", "all"), "OVC": ("objects", "all"), "PC + OVC": "both"}  # of figure 5, and their keys
+EXPLORING = Policy(0.05, "random")  # from the change on, of agents that otherwise never explore
 CELLS = {"PC": "place", "OVC": "object-vector", "PC + OVC": "place + object-vector"}  # these in words
 
 
@@ -30,6 +32,7 @@ def all_conditions(reading, steps, runs, seed=0):
     steps, runs: as `neorl.evidence.reading.conditions` takes them. The keys are those of its conditions, and
     ("points", name): figure 5's agents and Brownian motion in a tank whose reward shows when a board was reset, all but
         the agent with both modalities for a quarter of the steps;
+    ("revalued", "exploring"): "revalued", except that the agents explore from the change on;
     "joined": place cells that object-vector cells join at half-time.
     Raises ValueError for bad arguments.
     """
@@ -42,6 +45,8 @@ def all_conditions(reading, steps, runs, seed=0):
     for name, agent in agents.items():
         length = both.steps if agent == both.agent else max(1, both.steps // 4)
         made["points", name] = Condition(agent, shows_resets, length, few(runs), seed)
+    ((turn, desiring),) = made["revalued"].changes
+    made["revalued", "exploring"] = replace(made["revalued"], changes=((turn, replace(desiring, policy=EXPLORING)),))
     made["joined"] = replace(made["place", "all"], runs=few(runs), changes=((both.steps // 2, both.agent),))
     return made
 

@@ -118,16 +118,22 @@ def points_in_words(found, expected):
     return f"{text} That lies within {within} of the {len(intervals)} intervals."
 
 
-def red_a_minute(lived):
+def revaluing(lived):
+    """Results of agents that revalue red creeps under each reading, without and with exploration: {name: `Result`}."""
+    return {f"{name}{suffix}": results[key] for name, results in lived.items()
+            for suffix, key in (("", "revalued"), (", exploring", ("revalued", "exploring")))}
+
+
+def red_a_minute(revalued):
     """Red creeps taken per minute in runs that revalue them: ({name: (runs, stretches)}, (stretches,)).
 
-    The run is cut into equal stretches; the second array has their midpoints, in minutes of the first reading.
+    revalued: what `revaluing` returns. The run is cut into equal stretches; the second array has their midpoints, in
+    minutes of the first result.
     """
     edges = np.linspace(0, 1, STRETCHES + 1)
-    curves = {name: np.stack([60 * results["revalued"].hit_rate(*pair)[:, 1] for pair in zip(edges[:-1], edges[1:])],
-                             axis=1) for name, results in lived.items()}
-    seconds = next(iter(lived.values()))["revalued"].seconds
-    return curves, (edges[:-1] + edges[1:]) / 2 * seconds / 60
+    curves = {name: np.stack([60 * result.hit_rate(*pair)[:, 1] for pair in zip(edges[:-1], edges[1:])], axis=1)
+              for name, result in revalued.items()}
+    return curves, (edges[:-1] + edges[1:]) / 2 * next(iter(revalued.values())).seconds / 60
 
 
 def red_in_words(curves):
@@ -136,21 +142,26 @@ def red_in_words(curves):
     for name, curve in curves.items():
         half, fifth = curve.shape[1] // 2, curve.shape[1] // 5
         before, after, later = curve[:, half - 1].mean(), curve[:, half].mean(), curve[:, -fifth:].mean()
-        lines.append(f"{name.capitalize()}, the agents take {before:.1f} red creeps per minute in the hundredth of "
-                     f"the run before the change, {after:.1f} in the one after it, and {later:.1f} in the last fifth.")
-    return " ".join(lines)
+        lines.append(f"- {name.capitalize()}: {before:.1f} red creeps per minute in the hundredth of the run before "
+                     f"the change, {after:.1f} in the one after it, and {later:.1f} in the last fifth.")
+    return "\n".join(lines)
 
 
-def green_in_words(lived):
-    """Green creeps taken before red ones are revalued and long after, {reading: results}."""
+def green_in_words(revalued):
+    """Green creeps taken before red ones are revalued and long after, from the results of `revaluing`."""
     lines = []
-    for name, results in lived.items():
-        before, later = (60 * results["revalued"].hit_rate(*part)[:, 0].mean() for part in ((0.3, 0.5), (0.8, 1)))
-        loses = later < before / 2
-        lines.append(f"{name.capitalize()}, they take {before:.1f} green creeps per minute in the fifth of the run "
-                     f"before the change and {later:.1f} in the last fifth"
-                     f"{': without a fear these agents lose most of what they took' if loses else ''}.")
-    return " ".join(lines)
+    for name, result in revalued.items():
+        before, later = (60 * result.hit_rate(*part)[:, 0].mean() for part in ((0.3, 0.5), (0.8, 1)))
+        lines.append(f"- {name.capitalize()}: {before:.1f} green creeps per minute in the fifth of the run before the "
+                     f"change, and {later:.1f} in the last fifth.")
+    return "\n".join(lines)
+
+
+def roaming_in_words(roamed):
+    """How far agents roam before and after red creeps are revalued: {name: what `trials.roaming` returns}."""
+    return " ".join(f"{name.capitalize()}, an agent's root mean square distance from its mean position is "
+                    f"{before.mean():.2f} board widths before the change and {end.mean():.2f} at the end."
+                    for name, (before, end) in roamed.items())
 
 
 def distances_in_words(watched):

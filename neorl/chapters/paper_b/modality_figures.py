@@ -35,7 +35,7 @@ def draw_modalities(world, state):
 
 
 def draw_revaluing(minutes, curves):
-    """Draw red creeps per minute over the run, {reading: (runs, stretches)}, and a line where they are revalued."""
+    """Draw red creeps per minute over the run, {name: (runs, stretches)}, and a line where they are revalued."""
     axes = draw_curves(minutes, curves, "simulated minutes", "red creeps per minute")
     axes.axvline((minutes[0] + minutes[-1]) / 2, color=INK, linewidth=0.7)
 

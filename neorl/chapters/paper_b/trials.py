@@ -1,7 +1,7 @@
 """Trials of paper B's agents, for claims that rewards alone cannot decide.
 
-They measure the distance to a desired place that moves, the time spent in a cell of a map, the size of values, the
-computing time of a step, and whether maps keep their values when others join.
+They measure the distance to a desired place that moves, the time spent in a cell of a map, how far agents roam, the
+size of values, the computing time of a step, and whether maps keep their values when others join.
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -123,16 +123,30 @@ def mean_stays(reading, steps, runs, seed=0, watched=15_000):
     def of_run(k):
         run = Run(agent, world, seed, k)
         run.advance(lived)
-        path, moved = np.empty((path_steps, 2)), np.empty(path_steps, bool)
-        for step in range(path_steps):
-            run.advance(1)
-            scene = run.world_state.scene
-            path[step] = scene.position / world.size
-            moved[step] = scene.velocity.any() or (path[step] != 0.5).any()  # False just after a reset
+        path, moved = _path(run, world, path_steps)
         changes = [((np.diff(each.encode(path)) != 0) & moved[1:]).sum() for each in agent.maps]
         return path_steps / world.fps / np.maximum(changes, 1)
 
     return _of_runs(of_run, agent, world, runs)
+
+
+def roaming(revalued, seconds=100):
+    """How far agents roam before a result's only change and at its end, in board widths: (2, runs).
+
+    It is the root mean square distance of an agent from its mean position, over up to `seconds` of simulated time.
+    """
+    world, ((turn, agent),) = revalued.world, revalued.changes
+    path_steps = min(seconds * world.fps, turn, revalued.steps - turn)
+
+    def of_run(k):
+        run = Run(revalued.agent, world, revalued.seed, k)
+        run.advance(turn - path_steps)
+        before, _ = _path(run, world, path_steps)
+        run.change(agent)
+        run.advance(revalued.steps - turn - path_steps)
+        return [np.sqrt(path.var(axis=0).sum()) for path in (before, _path(run, world, path_steps)[0])]
+
+    return _of_runs(of_run, revalued.agent, world, revalued.runs).T
 
 
 def mean_values(reading, steps, runs, seed=0):
@@ -193,6 +207,20 @@ def maps_kept(before, after, world, steps, seed=0):
     knew = [run.q(m).copy() for m in maps]
     run.change(after)
     return sum(np.array_equal(run.q(m), knew[m]) for m in maps)
+
+
+def _path(run, world, steps):
+    """Advance a run: its positions in board widths, (steps, 2), and whether each step moved it there, (steps,).
+
+    A board's reset puts an agent in the middle, at rest, without moving it.
+    """
+    path, moved = np.empty((steps, 2)), np.empty(steps, bool)
+    for step in range(steps):
+        run.advance(1)
+        scene = run.world_state.scene
+        path[step] = scene.position / world.size
+        moved[step] = scene.velocity.any() or (path[step] != 0.5).any()
+    return path, moved
 
 
 def _tank(reading):
