@@ -150,7 +150,7 @@ def draw_standing(record, names, ax=None):
     handles = [Rectangle((0, 0), 1, 1, color=COLOURS["holds"]), Rectangle((0, 0), 1, 1, **UNDECIDED)]
     handles.append(Line2D([], [], **DIAMOND))
     axes.legend(handles, ["holds", "undecided", "agrees, in long runs"], frameon=False, fontsize=SMALL, ncols=3,
-                labelcolor=TEXT, loc="lower left", bbox_to_anchor=(0, 1.0), borderpad=0)
+                labelcolor=TEXT, loc="lower right", bbox_to_anchor=(1, 1.0), borderpad=0)  # beyond 100 % is no room
     return axes
 
 

@@ -41,16 +41,24 @@ def test_each_reading_has_verdicts_of_its_own():
     assert list(found) == [LETTER, CALIBRATED]
     assert (found[LETTER]["A2"], found[CALIBRATED]["A2"]) == ("partly", "reproduced")
     assert found[CALIBRATED]["A3"] == "not computed in this build"
-    assert conclusions.both_verdicts(found)["A2"] == "*reproduced* calibrated, *partly* to the letter"
+    assert conclusions.both_verdicts(found)["A2"] == "*reproduced* in the calibrated reading, *partly* to the letter"
+    assert conclusions.both_verdicts(verdicts({"A2": "partly"}, {"A2": "partly"}))["A2"] == "*partly* in both readings"
 
 
 def test_the_box_counts_verdicts():
     text = conclusions.in_short(verdicts(all_claims("reproduced") | {"A1": "partly", "G2": "partly"}, {"A2": "partly"}))
     text = re.sub("<[^>]+>", "", text).replace("\u00a0", " ")
-    assert (f"results: to the letter, ◐ 1 partly, {len(CLAIMS) - 1} not computed in this build; calibrated, ● "
-            f"{len(CLAIMS) - 2} reproduced, ◐ 2 partly. How far the two conclusions hold in the calibrated reading: "
-            "*Superposition*: *in full* (") in text
+    assert (f"results: to the letter, ◐ 1 partly, {len(CLAIMS) - 1} judged only in the calibrated reading; calibrated, "
+            f"● {len(CLAIMS) - 2} reproduced, ◐ 2 partly. In the calibrated reading the two conclusions hold as "
+            "follows. **Superposition**: *in full* (reproduced: A2, ") in text
     assert text.endswith("the pages beyond the thesis judge 5: ● 4 reproduced, ◐ 1 partly.")
+
+
+def test_the_box_counts_claims_that_neither_reading_has():
+    text = conclusions.in_short(verdicts({"A1": "partly"}, {"A2": "partly"}))
+    missing = f"{len(CLAIMS) - 1} not computed in this build"
+    assert f"1 judged only in the calibrated reading, {len(CLAIMS) - 2} not computed in this build; " in text
+    assert f"partly, {missing}. In the calibrated reading" in text
 
 
 def test_what_lies_beyond_the_thesis_has_its_verdicts_and_numbers():
@@ -62,14 +70,15 @@ def test_what_lies_beyond_the_thesis_has_its_verdicts_and_numbers():
 
 @pytest.mark.parametrize("found, held", [
     ({}, "*without a verdict*"), (dict.fromkeys(SEPARATION, "no verdict"), "*without a verdict*"),
-    (dict.fromkeys(SEPARATION, "reproduced"), "*in full* (T1, T7, C1, C2, C3, C4, of 6 claims judged)"),
-    ({"T1": "reproduced", "C1": "not reproduced", "C2": "no verdict"}, "*in part* (T1, of 2 claims judged)"),
+    (dict.fromkeys(SEPARATION, "reproduced"), "*in full* (reproduced: T1, T7, C1, C2, C3, C4, of 6 claims judged)"),
+    ({"T1": "reproduced", "C1": "not reproduced", "C2": "no verdict"},
+     "*in part* (reproduced: T1, of 2 claims judged)"),
     ({"T1": "partly", "C1": "not testable"}, "*not at all* (1 partly, 1 not testable)"),
 ])
 def test_a_conclusion_holds_as_far_as_its_claims_do(found, held):
     lines = conclusions.overview(verdicts(found, {"C4": "reproduced"})).splitlines()
-    assert ("- **Learning apart from behaviour**: to the letter, *in part* (C4, of 1 claims judged); calibrated, "
-            f"{held}.") in lines
+    assert ("- **Learning apart from behaviour**: to the letter, *in part* (reproduced: C4, of 1 claims judged); "
+            f"calibrated, {held}.") in lines
     assert "- **Superposition**: to the letter, *without a verdict*; calibrated, *without a verdict*." in lines
 
 
@@ -113,5 +122,7 @@ def test_claims_that_hold_in_no_short_run_or_are_undecided_in_most_are_named():
     assert what_did_not_hold(all_claims("reproduced"), {}, shares)[-1] == (
         "In short runs under 4 readings within the text, A2 held under none that could be decided; A3 was undecided "
         "under more than half of them.")
+    shares["A3"]["readings"] = 5
+    assert "In short runs under 4 to 5 readings within" in what_did_not_hold(all_claims("reproduced"), {}, shares)[-1]
     del shares["A2"], shares["A3"]
     assert len(what_did_not_hold(all_claims("reproduced"), {}, shares)) == 2  # H1 is a demonstration

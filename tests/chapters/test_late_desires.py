@@ -72,5 +72,5 @@ def test_desires_begin_earlier_and_later(monkeypatch):
     earned = late_desires.vary_begin(Reading(), [1_500, 15_000], steps=30_000, runs=2)
     np.testing.assert_allclose(asked, [(0.05, 0.15), (0.5, 0.6)])
     assert late_desires.beginnings(earned).splitlines() == [
-        " 0.50 minutes without desires: 0.20 [0.20, 0.20] per second in the next tenth",
-        " 5.00 minutes without desires: 0.40 [0.40, 0.40] per second in the next tenth"]
+        " 0.50 minutes without: 0.20 [0.20, 0.20] per second in the next tenth",
+        " 5.00 minutes without: 0.40 [0.40, 0.40] per second in the next tenth"]

@@ -54,20 +54,20 @@ def shares(compared):
 
 
 def test_the_sum_is_reported_as_a_share_of_the_plan():
-    text = shares({(1, 0): made_up(1.0), (2, 0): made_up(1.0, -0.2), (1, 1): made_up(0.6), (2, 1): made_up(0.75)})
+    text = shares({(1, 0): made_up(1.0), (2, 0): made_up(1.0, -0.2), (1, 1): made_up(0.6), (2, 1): made_up(0.75, 0.05)})
     assert text.splitlines()[2:6] == [
         "| Desired | none feared | one feared | random actions, none feared |", "|---|---|---|---|",
         "| 1 | 1.00 [1.00, 1.00] | 0.60 [0.60, 0.60] | 0.10 [0.10, 0.10] |",
         "| 2 | 1.00 [1.00, 1.00] | 0.75 [0.75, 0.75] | −0.20 [−0.20, −0.20] |"]
     assert "With 1 or 2 desired and no feared elements, the sum lost nothing in any placement. Following" in text
-    assert "Following it earns 60 to 100 % of the plan's return, and random actions −20 to 10 %." in text
-    assert "It does worst with 1 desired and 1 feared." in text
+    assert ("Following it earns 60 to 100 % of the plan's return. Random actions earn −20 to 10 % if no element is "
+            "feared, and otherwise 5 to 10 %. The sum does worst with 1 desired and 1 feared.") in text
     assert text.endswith("with γ = 0.5 it earns 0.80 [0.80, 0.80] and 0.70 [0.70, 0.70].")
 
 
 def test_a_sum_that_always_loses_is_not_said_to_lose_nothing():
     text = shares({(1, 0): made_up(0.9), (1, 1): made_up(0.95)})
-    assert "lost nothing" not in text and "It does worst with 1 desired and 0 feared." in text
+    assert "lost nothing" not in text and "The sum does worst with 1 desired and 0 feared." in text
 
 
 def test_the_largest_weights_stand_first_beside_their_valences():

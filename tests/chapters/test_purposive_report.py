@@ -45,7 +45,7 @@ def test_functions_stand_beside_their_sums(monkeypatch):
     sums = {"twice x": (np.array([2.0, 4.0]), "x + x", np.array([2.0, 4.25]))}
     monkeypatch.setattr(purposive_report, "exact_sums", lambda x, y: sums)
     assert purposive_report.sums_at_a_glance(0, 0).splitlines() == [
-        "| Function | As a sum | Largest difference |", "|---|---|---|", "| twice x | x + x | 2e-01 |"]
+        "| Function | As a sum | Largest difference |", "|---|---|---|", "| twice x | x + x | 2 × 10<sup>−1</sup> |"]
 
 
 @pytest.mark.parametrize("angles", [(1, 3), (3, 1)])

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from neorl.chapters.shared.wording import by_interval, listed, number, table
+from neorl.chapters.shared.wording import by_interval, listed, number, scientific, table
 from neorl.evidence.statistics import Estimate
 
 
@@ -21,6 +21,11 @@ def test_names_are_listed_and_an_empty_list_is_none():
 def test_a_number_has_a_minus_sign_and_zero_has_none():
     assert [number(value) for value in (1.234, -1.5, -0.001)] == ["1.23", "−1.50", "0.00"]
     assert number(-12.34, 1) == "−12.3"
+
+
+def test_a_number_is_written_with_a_power_of_ten():
+    assert [scientific(value) for value in (2.4e-16, 3e9, 0.0)] == ["2 × 10<sup>−16</sup>", "3 × 10<sup>9</sup>", "0"]
+    assert scientific(2.96e9, 1) == "3.0 × 10<sup>9</sup>"
 
 
 def test_an_interval_decides_only_if_it_leaves_out_zero():

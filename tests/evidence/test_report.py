@@ -7,6 +7,7 @@ from matplotlib import pyplot as plt
 from test_claims import brownian, made_up, paper_a, paper_c
 
 from neorl.drawing.multiverse_figures import draw_standing
+from neorl.drawing.style import STYLE
 from neorl.evidence import claims, report
 from neorl.evidence.errata import ERRATA
 
@@ -138,4 +139,13 @@ def test_readings_are_drawn_beside_the_verdicts(record):
     assert [(bar.get_x(), bar.get_width()) for bar in axes.patches] == [(0, 25), (25, pytest.approx(100 * 26 / 256))]
     assert [line.get_xydata().tolist() for line in axes.lines] == [[[5, 0]]]
     assert [text.get_text() for text in axes.texts] == ["not varied over readings"] * 2
+    plt.close()
+
+
+def test_the_drawing_of_readings_is_no_wider_than_other_figures_so_that_its_letters_are_as_large(record):
+    with plt.rc_context(STYLE):
+        draw_standing(record, ["C2", "A6", "T5"])
+        figure = plt.gcf()
+        figure.draw_without_rendering()
+        assert figure.get_tightbbox().x1 <= STYLE["figure.figsize"][0]
     plt.close()

@@ -14,12 +14,15 @@ def in_short(by_learner, claim):
     drops = [(name, by_learner[name]["delayed"].errors.mean(axis=0)) for name in LEARNERS]
     (first, errors), *others = ((name, [f"{daily[day]:.1f}" for day in (FIRST_REWARD - 1, FIRST_REWARD)])
                                 for name, daily in drops)
-    also = " and ".join(f"{before} to {after} with {name}" for name, (before, after) in others)
+    also = " and ".join(f"from {before} to {after} with {name}" for name, (before, after) in others)
+    verdict = {"reproduced": "they overtake, since it lies below 0",
+               "partly": "they draw level but do not overtake, which takes an interval below 0",
+               }.get(claim.verdict, "they overtake if the whole interval lies below 0")
     return (f"In Tolman and Honzik's maze of 1930, rats that first found food on day {FIRST_REWARD} overtook rats fed "
             f"throughout. Simulated animals go from {errors[0]} errors on that day to {errors[1]} on the next if they "
-            f"learn as the thesis proposes ({first}), and two standard kinds of learner go from {also}. From then on "
-            f"the errors per day of the {first} animals, less those of animals fed throughout, are {claim.here}, with "
-            "the 95 % interval in brackets: they overtake if the whole interval lies below 0.")
+            f"learn as the thesis proposes ({first}); two standard kinds of learner go {also}. From then on the errors "
+            f"per day of the {first} animals, less those of animals fed throughout, are {claim.here}, with the 95 % "
+            f"interval in brackets: {verdict}.")
 
 
 def describe_errors(by_learner):
@@ -48,8 +51,8 @@ def describe_findings(found):
     level, one_meal, below, never = (
         " and ".join(name for name in found if found[name][key].holds) or "none of the three"
         for key in ("level", "one meal", "below", "never"))
-    return (f"The delayed group is level with the group fed throughout right after its first food with {level}. This "
-            f"is due to latent learning, not to quick learning, with {one_meal}. It overtakes with {below}. The "
+    return (f"The delayed group is level with the group fed throughout right after its first food with {level}. With "
+            f"{one_meal} this is due to latent learning, not to quick learning. It overtakes with {below}. The "
             f"unrewarded group improves without food with {never}.")
 
 
@@ -58,9 +61,9 @@ def describe_known(by_learner, units):
     neorl, q_learning, sarsa = (by_learner[name]["delayed"].known[:, FIRST_REWARD - 2].mean() * units
                                 for name in LEARNERS)
     same = np.array_equal(by_learner["neoRL"]["delayed"].known, by_learner["neoRL"]["throughout"].known)
-    fed = ("On each day and in every animal this equals the knowledge of the group fed throughout, so the delayed "
-           "group draws level and does not overtake" if same else
-           "The group fed throughout does not know quite the same")
+    fed = ("With neoRL this equals the knowledge of the group fed throughout, on each day and in every animal, so the "
+           "delayed group draws level and does not overtake" if same else
+           "With neoRL the group fed throughout does not know quite the same")
     return (f"On the evening of day {FIRST_REWARD - 1}, before it has found any food, the delayed group knows the way "
             f"to the food box at {neorl:.1f} of {units} choice points with neoRL, at {q_learning:.1f} with Q-learning "
             f"and at {sarsa:.1f} with Sarsa(λ). {fed}: in a maze with one way out and one-way doors, every animal "

@@ -18,11 +18,20 @@ def draw_latencies(latencies, published):
 
 
 def draw_sessions(curves, phases, ylabel):
-    """Curves over sessions, {name: (runs, sessions)}, with phases {name: the session it begins with, from 0}."""
+    """Curves over sessions, {name: (runs, sessions)}, with phases {name: the session it begins with, from 0}.
+
+    The names of curves stand above them, in the middle of the phase that sets them furthest apart.
+    """
     (_, sessions), *_ = (each.shape for each in curves.values())
     axes = draw_curves(np.arange(sessions) + 1, curves, "session", ylabel)
-    axes.set_ylim(-0.07 * axes.get_ylim()[1], None)  # room for the names of curves that end at 0
     ends = [*phases.values()][1:] + [sessions]
+    means = np.array([each.mean(axis=0) for each in curves.values()])
+    middle = max(((begin + end) // 2 for begin, end in zip(phases.values(), ends)), key=lambda at: np.ptp(means[:, at]))
+    for name in axes.texts:  # written by `draw_curves` beside ends, where these curves are alike
+        height = means[[*curves].index(name.get_text()), middle]
+        name.set(position=(0, 3), va="bottom", ha="center")
+        name.xy, name.xycoords, name.anncoords = (middle + 1, height), "data", "offset points"
+    axes.set_ylim(0, 1.1 * means.max())
     for (name, begin), end in zip(phases.items(), ends):
         axes.text((begin + end + 1) / 2, 1.02, name, transform=axes.get_xaxis_transform(), ha="center")
         if begin:

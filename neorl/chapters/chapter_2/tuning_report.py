@@ -48,11 +48,11 @@ def describe_information(found):
 def describe_sizes(tuned, active):
     """The savings of separate maps: {cell: (`NresMap`, which of its cells)}, {cell: when it is active, (steps,)}."""
     cells = [nres_map.cells for nres_map, _ in tuned.values()]
-    digits, power = f"{np.prod(cells, dtype=float):.1e}".split("e")
+    joint = wording.scientific(np.prod(cells, dtype=float), 1)
     shares = [100 * np.mean(each) for each in active.values()]
     return (f"Separate maps also save cells. The {len(cells)} maps of this box have {sum(cells)} cells in all. A "
-            f"single joint map, with a cell for each combination, would need {digits} × 10<sup>{int(power)}</sup>. At "
-            "most a few cells of each map are active at a time: the cells shown here were active for "
+            f"single joint map, with a cell for each combination, would need {joint}. At most a few "
+            "cells of each map are active at a time: the cells shown here were active for "
             f"{min(shares):.1f} to {max(shares):.1f} % of the time. Separate maps cannot represent "
             f"combinations: that the animal runs just when it is near a wall, for instance, is in none of them.")
 

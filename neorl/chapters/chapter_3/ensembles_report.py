@@ -40,7 +40,7 @@ def places_of_rank_voting(made):
 
 def greediness_table(tempered):
     """The final reward of each rule by its greediness, from `final_by_greediness`."""
-    return table(("Rule", "Halved", "As in the paper", "Doubled"),
+    return table(("Rule", "greediness halved", "as in the paper", "doubled"),
                  [(rule, *(estimate(np.mean, final) for final in finals)) for rule, finals in tempered.items()])
 
 

@@ -100,11 +100,10 @@ def _final_leads(values):
 
 
 def bright_light(values):
-    """How often the cause comes first under each rule, and the values of cause and light, as text: a line per rule."""
-    lines = []
+    """How often the cause comes first under each rule, and the values of cause and light, as a table."""
+    rows = []
     for name, each in values.items():
         _, after_10, after_100 = np.mean(lead_of_cause(each)[:, SHOWN] > 0, axis=0)
         cause, _, light, _ = by_role(each)[:, -1].mean(axis=0)
-        lines.append(f"{name}: cause first in {100 * after_10:.0f} % of runs after 10 visits, {100 * after_100:.0f} % "
-                     f"after 100; value of the cause {cause:.2f}, of the light {light:.2f}")
-    return "\n".join(lines)
+        rows.append([name, f"{100 * after_10:.0f}, {100 * after_100:.0f} %", f"{cause:.2f}", f"{light:.2f}"])
+    return table(["Rule", "Cause first after 10, 100 visits", "Value of the cause", "of the light"], rows)

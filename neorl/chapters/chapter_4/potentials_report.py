@@ -53,10 +53,12 @@ def shares_of_plan(compared, feared, by_discount):
     if exact:
         said.append(f"With {' or '.join(exact)} desired and no feared elements, the sum lost nothing in any placement.")
     shares = [each.achieved.mean() for each in compared.values()]
-    drawn = [each.at_random.mean() for each in compared.values()]
+    drawn, beside = ([each.at_random.mean() for (_, m), each in compared.items() if bool(m) == fears]
+                     for fears in (False, True))
     n, m = min(zip(shares, compared))[1]
-    said.append(f"Following it earns {_range(shares)} of the plan's return, and random actions {_range(drawn)}. It "
-                f"does worst with {n} desired and {m} feared.")
+    said.append(f"Following it earns {_range(shares)} of the plan's return. Random actions earn {_range(drawn)} if no "
+                f"element is feared, and otherwise {_range(beside)}. The sum does worst with {n} desired and {m} "
+                "feared.")
     others = (f"with γ = {discount:g} it earns " + " and ".join(str(estimate(np.mean, each.achieved)) for each in both)
               for discount, both in by_discount.items())
     said.append(f"The share that the sum earns depends on the discount: for six desired and none feared, and for one "

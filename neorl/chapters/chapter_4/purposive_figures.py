@@ -22,7 +22,7 @@ def draw_walks(paths_by_title, goal):
     for axes, (title, paths) in zip(panels, paths_by_title.items()):
         for path, colour in zip(paths, CURVES):
             axes.plot(*path.T, color=colour, linewidth=0.7)
-            axes.plot(*path[-1:].T, color=colour, marker="o", markersize=6, zorder=3)
+            axes.plot(*path[-1:].T, color=colour, marker="o", markersize=7, markeredgecolor="white", zorder=3)
         axes.plot(0, 0, 0, color=UNDER_WHITE, marker="X", markersize=11, markeredgecolor="white", zorder=4)
         for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
             axis.set_pane_color((0.5, 0.5, 0.5, 0.08))

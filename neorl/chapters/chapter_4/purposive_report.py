@@ -4,7 +4,7 @@ import numpy as np
 
 from neorl.chapters.chapter_4.superposition import DEGREE, exact_sums
 from neorl.chapters.chapter_4.walks import NEAR, first_arrivals, powers_of_time
-from neorl.chapters.shared.wording import table
+from neorl.chapters.shared.wording import scientific, table
 from neorl.evidence.statistics import estimate
 
 
@@ -55,7 +55,7 @@ def decomposition(errors):
 
 def sums_at_a_glance(x, y):
     """The functions of `exact_sums`, with their largest differences from the sums at points x, y, as a table."""
-    rows = [[name, formula, f"{np.abs(function - total).max():.0e}"]
+    rows = [[name, formula, scientific(np.abs(function - total).max())]
             for name, (function, formula, total) in exact_sums(x, y).items()]
     return table(["Function", "As a sum", "Largest difference"], rows)
 

@@ -19,6 +19,7 @@ SEPARATION = ("T1", "T7", "C1", "C2", "C3", "C4")
 BEYOND = ("C5", "G1", "G2", "G3", "G4")  # judged by the pages beyond the thesis
 GROUND = tuple(name for name in CLAIMS if name not in SUPERPOSITION + SEPARATION + BEYOND)
 CONCLUSIONS = {"Superposition": SUPERPOSITION, "Learning apart from behaviour": SEPARATION}
+JUDGED_ONCE = "judged only in the calibrated reading"  # or alike in both
 WITHOUT = {"no verdict": "without a verdict"}  # the form within a sentence
 OTHER_VERDICTS = {"partly": "Partly: {}; the page of claims gives the details.",
                   "not testable": "Not testable, because the agents have not learned: {}.",
@@ -33,23 +34,25 @@ def verdicts_by_reading(record):
 
 def in_short(verdicts):
     """Number of claims with each verdict, and how far each conclusion holds, in a few sentences of Markdown."""
-    tallies = "; ".join(f"{reading}, {_tally(found)}" for reading, found in verdicts.items())
+    once = {name: JUDGED_ONCE for name in CLAIMS if verdicts[LETTER][name] == NOT_COMPUTED
+            and verdicts[CALIBRATED][name] in VERDICTS}
+    tallies = f"{LETTER}, {_tally(verdicts[LETTER] | once)}; {CALIBRATED}, {_tally(verdicts[CALIBRATED])}"
     others = _tally({name: verdicts[CALIBRATED][name] for name in BEYOND})
-    held = " ".join(f"*{title}*: {_held(verdicts[CALIBRATED], names)}." for title, names in CONCLUSIONS.items())
+    held = " ".join(f"**{title}**: {_held(verdicts[CALIBRATED], names)}." for title, names in CONCLUSIONS.items())
     return (f"The book lists {len(CLAIMS)} claims of the thesis, each judged by a rule that was fixed before the "
-            f"results: {tallies}. How far the two conclusions hold in the calibrated reading: {held} Of all claims, "
-            f"the pages beyond the thesis judge {len(BEYOND)}: {others}.")
+            f"results: {tallies}. In the calibrated reading the two conclusions hold as follows. {held} Of all "
+            f"claims, the pages beyond the thesis judge {len(BEYOND)}: {others}.")
 
 
 def _tally(found):
     """Number of claims with each verdict, with its symbol: "● 6 reproduced, ◐ 11 partly"."""
-    counts = {each: len(_with(each, found)) for each in (*VERDICTS, NOT_COMPUTED)}
+    counts = {each: len(_with(each, found)) for each in (*VERDICTS, JUDGED_ONCE, NOT_COMPUTED)}
     return ", ".join(f"{_symbol(each)}{count} {WITHOUT.get(each, each)}" for each, count in counts.items() if count)
 
 
 def _symbol(verdict):
     """The symbol of a verdict and a space, to stand before a number; "" for a verdict without one."""
-    return f"{html(verdict)}\u00a0" if leads(verdict) else ""
+    return f"{html(verdict)}\u00a0" if verdict != JUDGED_ONCE and leads(verdict) else ""
 
 
 def overview(verdicts):
@@ -79,14 +82,16 @@ def _held(found, names):
     if not kept:
         counts = {verdict: [found[name] for name in judged].count(verdict) for verdict in VERDICTS}
         return f"*not at all* ({', '.join(f'{count} {verdict}' for verdict, count in counts.items() if count)})"
-    return (f"*{'in full' if len(kept) == len(names) else 'in part'}* ({', '.join(kept)}, of {len(judged)} claims "
-            "judged)")
+    return (f"*{'in full' if len(kept) == len(names) else 'in part'}* (reproduced: {', '.join(kept)}, of {len(judged)} "
+            "claims judged)")
 
 
 def both_verdicts(verdicts):
     """The verdicts on each claim under both readings, in Markdown: {name: text}."""
-    return {name: f"*{_said(verdicts, CALIBRATED, name)}* calibrated, *{_said(verdicts, LETTER, name)}* to the letter"
-            for name in CLAIMS}
+    said = {name: [_said(verdicts, reading, name) for reading in (CALIBRATED, LETTER)] for name in CLAIMS}
+    return {name: f"*{calibrated}* in both readings" if calibrated == letter else
+            f"*{calibrated}* in the calibrated reading, *{letter}* to the letter"
+            for name, (calibrated, letter) in said.items()}
 
 
 def _said(verdicts, reading, name):
@@ -132,9 +137,10 @@ def _in_short_runs(shares):
     never = [name for name, share in shares.items() if not share["holds"]]
     unclear = [name for name, share in shares.items() if share["undecided"] > share["readings"] / 2]
     verb = "was" if len(unclear) == 1 else "were"
-    return (f"In short runs under {max(share['readings'] for share in shares.values())} readings within the text, "
-            f"{_listed(never)} held under none that could be decided; {_listed(unclear)} {verb} undecided under more "
-            f"than half of them.")
+    readings = sorted({share["readings"] for share in shares.values()})
+    span = f"{readings[0]} to {readings[-1]}" if len(readings) > 1 else str(readings[0])
+    return (f"In short runs under {span} readings within the text, {_listed(never)} held under none that could be "
+            f"decided; {_listed(unclear)} {verb} undecided under more than half of them.")
 
 
 def _with(verdict, found):

@@ -70,5 +70,5 @@ def vary_begin(reading, begins, steps, runs, seed=0):
 
 def beginnings(earned):
     """The results of `vary_begin` as text, one line each."""
-    return "\n".join(f"{minutes:5.2f} minutes without desires: {reward} per second in the next tenth"
+    return "\n".join(f"{minutes:5.2f} minutes without: {reward} per second in the next tenth"
                      for minutes, reward in earned.items())

@@ -17,6 +17,12 @@ def number(value, digits=2):
     return f"{value:z.{digits}f}".replace("-", "−")
 
 
+def scientific(value, digits=0):
+    """A number above 0 with `digits` decimals as a multiple of a power of ten, in Markdown; 0 as "0"."""
+    factor, power = f"{value:.{digits}e}".split("e")
+    return f"{factor} × 10<sup>{int(power)}</sup>".replace("-", "−") if value else "0"
+
+
 def by_interval(estimate, above, below, undecided):
     """One of three texts, by whether the interval of an `Estimate` lies above 0, below it, or leaves the sign open."""
     return above if estimate.low > 0 else below if estimate.high < 0 else undecided
