@@ -1,16 +1,18 @@
 """Sphinx extension: the rendering of docstrings on the reference pages.
 
 Kernels are left out, since users of the package call the functions around them. The fields of a class are
-described by the comments beside them. Types and defaults appear as in code. A name in single backticks links to its
-entry, if the reference has one that can be meant there.
+described by the comments beside them. Types and defaults appear as in code, except that a constant appears as its
+value if that is short. A name in single backticks links to its entry, if the reference has one that can be meant there.
 """
 
 import ast
 import dataclasses
 import enum
 import inspect
+import operator
 import pydoc
 import re
+import sys
 import textwrap
 import tomllib
 from pathlib import Path
@@ -30,6 +32,7 @@ LAYERS = PROJECT["tool"]["importlinter"]["contracts"][0]["layers"]
 ROOMS = [room for layer in reversed(LAYERS) for room in layer.split(" | ")]  # upwards
 ITEM = re.compile(r"(Raises|Returns) |([a-z_]\w*(?:(?:, \w+)*|(?:,? \w+){0,3})): ")
 ENDS = (".", ".)", ";", ":")  # of the line before an item: in the middle of a sentence, a line may begin like one
+DEFAULT = re.compile(r"(?<==)( ?-?)([A-Za-z_][\w.]*)(?=[,)])")
 ARRAY_LIKE = stringify_annotation(ArrayLike, "smart")
 ANNOTATED = re.compile(r"(?:~typing\.)?Annotated\[(?:~numpy\.)?ndarray, ([^]]+)\]")  # by `neorl.core.kernel.array`
 ARRAY = re.compile(r"~numpy\.ndarray\[tuple\[~typing\.Any, \.\.\.\], ~numpy\.dtype\[([^]]+)\]\]")
@@ -79,12 +82,27 @@ def read_signature(app, what, name, member, options, signature, returned):
                 signature = signature.replace(repr(field.default), written[field.name], 1)
     signature = ANNOTATED.sub(r"array(\1)", signature)
     signature = re.sub(r"<kernel [\w.]*?(\w+)>", r"\1", signature)
+    module = sys.modules.get(getattr(member, "__module__", None))
+    signature = DEFAULT.sub(lambda found: found[1] + value_of(found[2], module), signature)
     return tuple(each and ARRAY.sub(r"NDArray[\1]", each.replace(ARRAY_LIKE, "ArrayLike"))
                  for each in (signature, returned))
 
 
+def value_of(name, module):
+    """What a default names in a module, as code, if that is a number, a text or a short tuple; else the name."""
+    try:
+        value = operator.attrgetter(name)(module)
+    except AttributeError:  # a keyword, such as None, or a builtin
+        return name
+    plain = all(type(each) in (bool, int, float, str) for each in (value if type(value) is tuple else [value]))
+    return repr(value) if plain and len(repr(value)) <= 40 else name
+
+
 def read_docstring(app, what, name, member, options, lines):
     """List the items of a docstring, and append the comments beside the fields of a class, or its choices."""
+    if what == "data":
+        lines[:] = [*assignment(name), ""]  # its docstring would be that of its class
+        return
     opening, *rest = SENTENCE.split(lines[0], maxsplit=1) if lines else [""]
     lines[:] = [escaped(opening), *as_list(rest + lines[1:])]  # a docstring opens with a sentence, not an item
     if what == "class" and issubclass(member, enum.Enum):
@@ -96,6 +114,16 @@ def read_docstring(app, what, name, member, options, lines):
             if comment:
                 lines += as_list([f"{node.target.id}: {comment[1]}"])
         lines += [""]
+
+
+def assignment(name):
+    """What a module assigns to a constant, as in code, and the comment beside it: lines of text."""
+    module, _, constant = name.rpartition(".")
+    source = inspect.getsource(sys.modules[module])
+    for node in ast.parse(source).body:
+        if isinstance(node, ast.Assign) and constant == getattr(node.targets[0], "id", None):
+            comment = re.search(r"  # (.*)", source.splitlines()[node.end_lineno - 1])
+            yield f"``{ast.unparse(node.value)}``" + (f" {escaped(comment[1])}" if comment else "")
 
 
 def fields_of(kind):
@@ -154,13 +182,14 @@ def find_name(app, env, node, content):
 def meant(found, here, is_class):
     """Which objects of one short name, [(name, entry)], a docstring of the module `here` can mean.
 
-    A class of its room or below, or else of any; a function of its room or below, a method of its module, a room.
+    A class or constant of its module, else of its room or below, or else of any; a function of its room or below, a
+    method of its module, a room.
     """
     below = [(name, entry) for name, entry in found if height(name) <= height(here)]
     if is_class:
-        return below or found
-    return [(name, entry) for name, entry in below if entry.objtype == "function"
-            or name.count(".") == 1 or entry.objtype != "module" and name.startswith(f"{here}.")]
+        return [(name, entry) for name, entry in found if name.rpartition(".")[0] == here] or below or found
+    return [(name, entry) for name, entry in below if entry.objtype == "function" or name.count(".") == 1
+            or entry.objtype != "module" and name.rpartition(".")[0].rpartition(".")[0] == here]
 
 
 def arguments(node):

@@ -30,8 +30,8 @@ function keyOf({ things, nodes, landings, player, active, field, seen, arm, head
   });
   const entries = [
     ["agent", arm ? "The posture of the arm: the angle of its first joint across, of its second down"
-      : "The agent; the line ends where it will be in half a second", !heading],
-    ["hull", "The vessel; the line ends where it will be in half a second", heading],
+      : "The agent; the line ends where its velocity would take it in half a second", !heading],
+    ["hull", "The vessel; the line ends where its velocity would take it in half a second", heading],
     ["green", "Target: pays +1 (one of its postures)", kinds.has("target")],
     ["red", "Obstacle: pays −1 (one of its postures)", kinds.has("obstacle")],
     ["place", "Waypoint: pays +1", kinds.has("waypoint")], ["vessel", "Another vessel: a collision pays −1",

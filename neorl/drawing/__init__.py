@@ -10,7 +10,7 @@ is returned.
 - curves: `draw_accumulated`, `draw_proficiency`, `draw_smoothed`, `draw_curves`, `draw_sweep`, `draw_costs`;
 - boards: `new_board`, `new_boards`, `draw_world`, `draw_walls`, `draw_tank`, `draw_desires`, `animate`;
 - maps: `draw_cells`, `draw_values`, `draw_value_map`, `draw_receptive_fields`; `track`, `rate_map`, `draw_rate_map`;
-- networks: `draw_network`, `draw_networks`;
+- networks: `draw_network`, `neorl.drawing.draw_networks`;
 - comparison with the thesis's numbers: `draw_against_thesis`, `mark_levels`;
 - style: `use_style`, `STYLE` and the colours.
 

@@ -24,7 +24,9 @@ def draw_receptive_fields(nres_map: NresMap, world: World, state: Any, ax: Axes 
     By modality, a place stands for itself, for a thing there as the agent would perceive it, or for the velocity that
     takes the agent there in half a second.
 
-    nres_map: a `neorl.NresMap` of a modality of one vector. world: of two axes; state: of that world.
+    nres_map: a `neorl.NresMap` of a modality of one vector.
+    world: of two axes.
+    state: of that world.
     Returns the axes. Raises ValueError for anything else.
 
     >>> tank = neorl.WaterWorld()

@@ -60,7 +60,7 @@ class Target:
         return self.low <= value <= self.high
 
     def distance(self, value, error=0.0):
-        """How far a value lies outside the interval: ≥ 0, see rule 4. Takes numbers and arrays."""
+        """How far a value lies outside the interval: ≥ 0, see point 4 of the module. Takes numbers and arrays."""
         outside = np.maximum(np.maximum(self.low - value, value - self.high), 0.0)
         return outside / np.hypot(self.scale, error)
 

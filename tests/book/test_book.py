@@ -29,7 +29,8 @@ def make_book(tmp_path):
         shutil.rmtree(tmp_path / "book", ignore_errors=True)
         chapters = tmp_path / "book" / "chapters"
         chapters.mkdir(parents=True)
-        for name in ("launch.py", "api_links.py", "describe.py", "weight.py", "references.bib", "vendor"):
+        for name in ("launch.py", "api_links.py", "describe.py", "weight.py", "sidebar.py", "references.bib",
+                     "vendor"):
             (tmp_path / "book" / name).symlink_to(ROOT / "book" / name)
         shutil.copy(ROOT / "_config.yml", tmp_path)
         (tmp_path / "pyproject.toml").write_text(f'[project.urls]\nRepository = "{url}"' if url else "[project]")
@@ -70,7 +71,7 @@ def test_a_notebook_opens_from_the_repository_that_is_set(make_book, tmp_path):
     assert "fontawesome.js" not in page + reference and "tex-chtml.js" not in page and "tex-chtml.js" in reference
 
 
-def test_without_a_repository_there_are_no_buttons_and_docstrings_become_lists_with_links(make_book):
+def test_without_a_repository_there_are_no_buttons_and_docstrings_become_lists_with_links(make_book, tmp_path):
     page, reference = make_book(modules=["neorl.agents.individual", "neorl.experiments.run",
                                          "neorl.experiments.simulation", "neorl.experiments.cache",
                                          "neorl.experiments.sweeping"])
@@ -82,6 +83,8 @@ def test_without_a_repository_there_are_no_buttons_and_docstrings_become_lists_w
     assert re.search(r'href="#neorl.experiments.simulation.Result"[^>]*><code[^>]*><span class="pre">Result', of_store)
     assert "float64 (actions,): the value of each action" in text  # a comment beside a field
     assert "Alias for field number" not in text
+    search = (tmp_path / "_build" / "html" / "_static" / "language_data.js").read_text(encoding="utf-8")
+    assert "var Scorer" in search  # book/vendor/search_order.js
 
 
 def test_a_page_is_described_by_its_first_paragraph_cut_at_a_word():
@@ -150,8 +153,8 @@ def test_what_a_function_raises_is_no_part_of_an_argument():
 
 def test_a_name_links_to_its_room_or_below_and_an_argument_to_nothing(make_book):
     _, reference = make_book(modules=[f"neorl.{name}" for name in (
-        "core.kernel", "core.modality", "core.maps", "core.choices", "core.scene", "worlds.world", "worlds.arena",
-        "agents.individual", "agents.learner", "experiments.run", "chapters.chapter_3.hybrid_reward",
+        "core.kernel", "core.modality", "core.maps", "core.choices", "core.scene", "worlds", "worlds.world",
+        "worlds.arena", "agents.individual", "agents.learner", "experiments.run", "chapters.chapter_3.hybrid_reward",
         "chapters.other_spaces.lives")])
     of_polar = reference.split('id="neorl.core.modality.polar"')[1].split("</dl>")[0]
     assert ">reach<" in of_polar and "#neorl.chapters.other_spaces.lives.reach" not in of_polar
@@ -161,6 +164,8 @@ def test_a_name_links_to_its_room_or_below_and_an_argument_to_nothing(make_book)
     of_individual = reference.split('id="neorl.agents.individual.Individual"')[1].split("</dl>")[0]
     assert "#neorl.agents.learner.Learner" in of_individual  # not the Learner of chapter 3
     assert 'href="#neorl.experiments.run.Run"' in of_individual
+    of_room = reference.split('id="module-neorl.worlds"')[1].split('id="module-neorl.worlds.world"')[0]
+    assert ">kinds<" in of_room and "Arena.kinds" not in of_room
     of_worlds = reference.split('id="module-neorl.worlds.world"')[1].split('id="neorl.worlds.world.Dynamics"')[0]
     assert "Arena.kinds" not in of_worlds and 'href="#module-neorl.core.scene"' not in of_worlds
     of_choices = reference.split('id="neorl.core.choices.Capture"')[1].split("</dl>")[0]
@@ -169,18 +174,22 @@ def test_a_name_links_to_its_room_or_below_and_an_argument_to_nothing(make_book)
 
 def test_the_reference_has_types_and_defaults_as_in_code(make_book):
     _, reference = make_book(modules=[f"neorl.{name}" for name in (
-        "agents.agent", "agents.rules", "browser.replay", "checks", "core.maps", "core.scene", "drawing.curves",
-        "evidence.calibration_table")])
+        "agents.agent", "agents.papers", "agents.rules", "browser.replay", "checks", "core.maps", "core.scene",
+        "drawing.curves", "evidence.calibration_table\n\n.. autodata:: neorl.core.modality.MOST_CELLS\n   :no-value:")])
     signatures = " ".join(re.findall(r'<dt class="sig[^>]*>(.*?)</dt>', reference, re.DOTALL))
     signatures = " ".join(html.unescape(re.sub(r"<[^>]+>", "", signatures)).split())
     for written in ("learning: Learning = Learning(), policy: Policy = Policy(),", "choose: Callable = greedy)",
                     "statistics: dict = dict())", "read_table(path=SHIPPED)",
                     "draw_curves(xs: ArrayLike, curves: Mapping[str, ArrayLike],", "(name: str, array: NDArray[",
                     "→ NDArray[float64]", "modality: Modality = PLACE_CELL)", "table: NDArray[float64]",
-                    "position: array('float64', 'axes')", "Replay(recordings, playing=True)"):
+                    "position: array('float64', 'axes')", "Replay(recordings, playing=True)",
+                    "resolutions: Sequence[int] = (2, 3, 5, 7, 11, 13),", "at_least: float = -1e+30,"):
         assert written in signatures
     assert not re.search(r"[~<]|Path\(|_Buffer|ndarray", signatures)
     assert "−`" not in reference
+    of_constant = reference.split('id="neorl.core.modality.MOST_CELLS"')[1].split("</dl>")[0]
+    assert "2 ** 31 - 1 of a map" in " ".join(re.sub(r"<[^>]+>", "", of_constant).split())
+    assert 'href="#neorl.core.modality.MOST_CELLS" title' in reference.split('id="neorl.core.maps.NresMap"')[1]
 
 
 def test_the_reference_has_every_module():

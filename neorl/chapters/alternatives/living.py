@@ -3,7 +3,7 @@
 A *contestant* is two kernels, ``act(setting, memory, state, rules)``, which returns the number of an action, and
 ``learn(setting, memory, state, rules, action, reward, restarted)``, called after the world's step. `state` is the
 `WaterWorldState` and `rules` are its rules; a learner reads only the scene in it, a controller all of it. When the last
-green creep is captured the board is reset before `learn` is called, with `restarted` true, and learning continues.
+green creep is captured the board is reset before ``learn`` is called, with `restarted` true, and learning continues.
 """
 
 import functools

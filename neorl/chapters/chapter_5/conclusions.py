@@ -4,8 +4,8 @@
    both.
 2. A conclusion holds *in full* if all its claims are reproduced, *in part* if some are, *not at all* if none of those
    judged is, and it is *without a verdict* if none is judged.
-3. `verdicts` are {reading: {name of a claim: its verdict}} for the readings `LETTER` and `CALIBRATED`, in the words of
-   `neorl.evidence.report.verdict`.
+3. ``verdicts`` are {reading: {name of a claim: its verdict}} for the readings `LETTER` and `CALIBRATED`, in the words
+   of `neorl.evidence.report.verdict`.
 """
 
 from neorl.evidence import report
