@@ -246,7 +246,8 @@ def counts_beyond(outside, judged_outside, judged):
     beyond, within = np.array(_held(judged_outside)), np.array(_held(judged))
     which = "all of which" if all(broken) else f"of which {np.count_nonzero(broken)}"
     return (f"{len(outside)} readings, {which} break the text, in {np.mean(broken):.1f} choices on average. Beyond the "
-            f"text {beyond.mean():.1f} of {len(judged[0])} claims hold on average; within it, {within.mean():.1f}; the difference is {estimate(difference, beyond, within)}.")
+            f"text {beyond.mean():.1f} of {len(judged[0])} claims hold on average; within it, {within.mean():.1f}; the "
+            f"difference is {estimate(difference, beyond, within)}.")
 
 
 def _in_order(found):

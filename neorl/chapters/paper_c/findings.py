@@ -23,9 +23,9 @@ def in_short(results):
     orders = _order(calibrated), _order(letter)
     unclear = "; the 95 % interval of a lead marked ≈ includes 0" if any("≈" in each for each in orders) else ""
     return (f"The thesis has A < B < C ≪ D: each network earns more than the one before, and D far more. Here, by "
-            f"final reward per second, the order is {orders[0]} in the calibrated reading, and "
-            f"{orders[1]} to the letter{unclear}. Calibrated, recursion brings D to {lead} times as much as C, with the "
-            f"95 % interval in brackets; random motion earns {_control(calibrated)}.")
+            f"final reward per second, the order is {orders[0]} in the calibrated reading, and {orders[1]} to the "
+            f"letter{unclear}. Calibrated, recursion brings D to {lead} times as much as C, with the 95 % interval "
+            f"in brackets; random motion earns {_control(calibrated)}.")
 
 
 def in_words(results):
