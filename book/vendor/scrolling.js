@@ -1,6 +1,8 @@
 // Tables wider than their column scroll within themselves. Here they also scroll by keyboard, have a name for screen
-// readers, and fade at an edge that hides more. Tables that fit are left alone.
+// readers, and fade at an edge that hides more. On a phone, rows of claims become cards instead (book.css). Tables that
+// fit are left alone.
 const BOXES = ".bd-content :is(.pst-scrollable-table-container, .wide-table)";
+const PHONE = window.matchMedia("screen and (max-width: 768px)");
 
 // A table that a notebook wrote as HTML has no box yet.
 const wrap = (table) => {
@@ -23,7 +25,19 @@ const nameOf = (box) => {
   return counts[name] > 1 ? `${name} (${counts[name]})` : name;
 };
 
+// Each cell of a table that sets claims of the thesis beside findings says which column it is in, for cards.
+const label = (box) => {
+  const heads = [...box.querySelectorAll("thead th")].map((cell) => cell.textContent.trim());
+  if (heads[0] !== "Claim" || !heads.includes("Thesis") || box.closest(".claims")) return;
+  box.dataset.claims = "";
+  for (const row of box.querySelectorAll("tbody tr")) {
+    [...row.cells].forEach((cell, at) => { cell.dataset.head = heads[at] ?? ""; });
+  }
+};
+
 const mark = (box) => {
+  box.classList.remove("cards");
+  box.classList.toggle("cards", "claims" in box.dataset && PHONE.matches && box.scrollWidth > box.clientWidth + 1);
   const hidden = box.scrollWidth - box.clientWidth;
   const scrolls = hidden > 1;
   box.classList.toggle("more-right", scrolls && box.scrollLeft < hidden - 1);
@@ -44,6 +58,7 @@ const start = () => {
   }
   const watch = new ResizeObserver((entries) => entries.forEach((entry) => mark(entry.target)));
   for (const box of document.querySelectorAll(BOXES)) {
+    label(box);
     box.addEventListener("scroll", () => mark(box), { passive: true });
     watch.observe(box);
   }

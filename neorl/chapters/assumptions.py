@@ -244,9 +244,10 @@ def counts_beyond(outside, judged_outside, judged):
     """
     broken = [len(reading.within_the_text.broken) for reading in outside]
     beyond, within = np.array(_held(judged_outside)), np.array(_held(judged))
-    return (f"{len(outside)} readings, of which {np.count_nonzero(broken)} break the text, in {np.mean(broken):.1f} "
-            f"choices on average. Beyond the text {beyond.mean():.1f} of {len(judged[0])} claims hold on average; "
-            f"within it, {within.mean():.1f}; the difference is {estimate(difference, beyond, within)}.")
+    which = "all of which" if all(broken) else f"of which {np.count_nonzero(broken)}"
+    return (f"{len(outside)} readings, {which} break the text, in {np.mean(broken):.1f} choices on average. Beyond the "
+            f"text {beyond.mean():.1f} of {len(judged[0])} claims hold on average; within it, {within.mean():.1f}; the "
+            f"difference is {estimate(difference, beyond, within)}.")
 
 
 def _in_order(found):

@@ -12,8 +12,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from neorl.drawing.multiverse_figures import SHADES
-from neorl.drawing.style import (AGENT, CURVES, INK, RED, SMALL, TEXT, axes_or_new, figure_or_new, letters, mark,
+from neorl.drawing.style import (AGENT, CURVES, INK, RED, SMALL, TEXT, axes_or_new, figure_or_new, letters,
                                  name_ends, width_of_figures)
+from neorl.drawing.thesis_figures import name_level
 from neorl.evidence.calibration_results import binned, marginal, progress
 from neorl.evidence.claims import FINAL
 from neorl.evidence.curves import binned_rate, low_passed
@@ -169,7 +170,7 @@ def draw_modalities(lives, ax=None):
     lengths = _minutes(lives, MODALITIES)
     axes = _draw_curves(_smooth(lives, MODALITIES), lengths, ax)
     for level, minutes, colour in zip(LEVELS, MINUTES, (CURVES[0], CURVES[2])):
-        _mark_level(axes, level, f"{level:.2f}", colour, at=0.45)
+        _mark_level(axes, level, f"{level:.2f}", colour)
         if minutes <= max(lengths):
             axes.axvline(minutes, color=colour, linewidth=0.9, linestyle=":")
             axes.annotate(f"{minutes} min", (minutes, 0.99), xycoords=("data", "axes fraction"), color=letters(colour),
@@ -210,10 +211,10 @@ def _draw_curves(curves, lengths, ax, colours=CURVES):
     return axes
 
 
-def _mark_level(axes, level, words, colour, at=0.01):
-    """Draw a level of the thesis as a dashed line, labelled at `at` of its length; extend the axes to it."""
+def _mark_level(axes, level, words, colour):
+    """Draw a level of the thesis as a dashed line, with its name; extend the axes to it."""
     low, high = axes.get_ylim()
     axes.set_ylim(low, max(high, 1.05 * level))
     axes.axhline(level, color=colour, linewidth=0.9, linestyle="--")
-    mark(axes, (at, level), words, xycoords=("axes fraction", "data"), va="center")
+    name_level(axes, level, words)
     return axes

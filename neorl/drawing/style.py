@@ -103,10 +103,10 @@ def letters(colour):
 def mark(axes, place, text, **options):
     """Write a few letters in white on a dark background, legible on any fill and over curves.
 
-    place, options: as in `Axes.annotate`.
+    place, options: as in `Axes.annotate`, whose annotation is returned.
     """
     ground = {"boxstyle": "round,pad=0.12", "facecolor": UNDER_WHITE, "edgecolor": "none"}
-    axes.annotate(text, place, color="white", fontsize=SMALL, bbox=ground, zorder=5, **options)
+    return axes.annotate(text, place, color="white", fontsize=SMALL, bbox=ground, zorder=5, **options)
 
 
 def looks(count):

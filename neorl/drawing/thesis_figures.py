@@ -16,6 +16,7 @@ from neorl.evidence.statistics import Estimate
 MARKERS = "osD^vP*"  # of readings, one for each colour
 ROW = 0.62  # inches
 ROOM = 0.06  # of the height of a panel, left beyond the marked levels
+LIFTS = 4, -4, -12, 12, -20, 20  # points from a level to its name, tried in this order
 REACH = 0.5  # of the range of the numbers: intervals are cut off that far beyond them
 
 
@@ -86,10 +87,36 @@ def mark_levels(axes: Axes, levels: Mapping[str, float]) -> Axes:
                   max([top, *(height + room for height in heights)]))
     for name, height in zip(levels, heights):
         axes.axhline(height, color=INK, linewidth=1.1, linestyle=(0, (5, 3)), zorder=1)
-        mark(axes, (0.02, height), name, xycoords=("axes fraction", "data"), xytext=(0, 4),
-             textcoords="offset points", va="bottom")
+        name_level(axes, height, name)
     names = [text for text in axes.texts if isinstance(text, Annotation) and text.xy[0] > 1]
     for text in names:
         text.remove()
     name_ends(axes, [(text.xy[1], text.get_text(), text.get_color()) for text in names])
     return axes
+
+
+def name_level(axes, height, name):
+    """Write the name of a level beside its line, at the place where it covers least of the curves drawn so far.
+
+    Places are tried from left to right, at each distance of `LIFTS` from the line; the first of the best is taken.
+    """
+    label = mark(axes, (0.02, height), name, xycoords=("axes fraction", "data"), xytext=(0, LIFTS[0]),
+                 textcoords="offset points")
+    axes.figure.canvas.figure.draw_without_rendering()  # lays the figure out
+    panel, box = axes.bbox, label.get_window_extent()
+    _, level = axes.transData.transform((0, height))
+    curves = [line.get_transform().transform(line.get_xydata()) for line in axes.lines]
+    point, last = axes.figure.dpi / 72, max(0.02, 0.98 - box.width / panel.width)
+
+    def covered(place):
+        at, lift = place
+        across = panel.x0 + at * panel.width + box.width * np.linspace(0, 1, 15)
+        near, far = sorted([level + lift * point, level + lift * point + np.sign(lift) * box.height])
+        if near < panel.y0 or far > panel.y1:
+            return np.inf
+        return sum(np.mean((near - 2 * point < passing) & (passing < far + 2 * point))
+                   for passing in (np.interp(across, *curve.T) for curve in curves))
+
+    at, lift = min(((at, lift) for lift in LIFTS for at in np.linspace(0.02, last, 13)), key=covered)
+    label.set(position=(0, lift), va="bottom" if lift > 0 else "top")
+    label.xy = at, height

@@ -85,7 +85,7 @@ def _table(record, names):
 def _row(record, name):
     statement, found, share = STATEMENTS[name], record["claims"].get(name), record["shares"].get(name)
     verdict = report.verdict(record, name)
-    judged = f"{marks.html(verdict)} {verdict}"
+    judged = f"{marks.html(verdict)}\u00a0{verdict}"
     if found:
         judged += f" {{ref}}`figure <{statement.figure}>`, {{ref}}`rule <{report.label(statement.rule)}>`"
     cells = [f'<span id="{anchor(name)}"></span>**{name}** {statement.text} <small>{statement.statistic}</small>',
@@ -98,7 +98,7 @@ def _marked(found):
     """A number, after the symbol of its verdict."""
     if not found:
         return ""
-    mark = f"{marks.html(found['verdict'])} " if marks.leads(found["verdict"]) else ""
+    mark = f"{marks.html(found['verdict'])}\u00a0" if marks.leads(found["verdict"]) else ""
     return f"{mark}{report.number(found)}"
 
 

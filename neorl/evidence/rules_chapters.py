@@ -106,8 +106,10 @@ def judge_more_maps(additions):
     least = min(counted, key=lambda name: sooner[name].value)
     as_soon = [sooner[name].low >= -room[name] for name in counted]
     found = "; ".join(f"{sooner[name]} by {name}" for name in counted)
+    rest = ", ".join(name for name in additions if name not in counted)
+    left_out = f" Left out, since no agent with fewer maps has learned there: {rest}." if rest else ""
     return judged("T6", sooner[least], f"It is {found}, at half the final level of the best agent with fewer maps, "
-                  "over the quickest. Not slower is read as at most a fortieth of the run later.",
+                  f"over the quickest.{left_out} Not slower is read as at most a fortieth of the run later.",
                   min(fewest_runs(more, *fewer) for more, fewer, _ in additions.values()),
                   reproduced=all(as_soon), partly=any(as_soon),
                   possible=all(sooner[name].high >= -room[name] for name in counted), testable=bool(testable))

@@ -180,6 +180,8 @@ def test_readings_beyond_the_text_break_it_and_their_claims_are_counted():
     text = assumptions.counts_beyond(outside, judged_outside, [claims(["B1", "C1"])] * 4)
     assert text == ("3 readings, of which 2 break the text, in 1.0 choices on average. Beyond the text 0.3 of 2 claims "
                     "hold on average; within it, 2.0; the difference is −1.67 [−2.00, −1.00].")
+    text = assumptions.counts_beyond(outside[1:], judged_outside[1:], [claims(["B1", "C1"])] * 4)
+    assert text.startswith("2 readings, all of which break the text, in 1.5 choices on average.")
 
 
 def test_the_box_has_the_shares_at_length_and_in_short_runs(shares):

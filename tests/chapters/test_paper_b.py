@@ -167,6 +167,8 @@ def test_intervals_that_hold_the_expected_points_are_counted():
     assert findings.points_in_words(found, 3.4) == (
         "A new board has 1.70 green creeps on average, which gives 3.40 points per reset. That lies within 2 of the 4 "
         "intervals.")
+    assert findings.points_in_words({name: {"PC": each["PC"]} for name, each in found.items()}, 3.4).endswith(
+        "That lies within all 2 intervals.")
     single = {"one": {"PC": Estimate(3.0, np.nan, np.nan)}}
     assert findings.points_in_words(single, 3.4).endswith("which gives 3.40 points per reset.")
 

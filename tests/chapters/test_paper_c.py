@@ -58,6 +58,10 @@ def test_what_was_found_is_put_in_words(results):
     assert "order is D (" in in_words({"book": backwards})
     short = in_short({"to the letter": backwards, "calibrated": results})
     assert f"the order is A ({numbers[0]}) <" in short and short.index("D (") < short.index("to the letter")
+    assert "≈" not in short
+    alike = results | {("network", "B"): results["network", "A"]}
+    short = in_short({"to the letter": alike, "calibrated": results})
+    assert f"A ({numbers[0]}) ≈ B ({numbers[0]}) <" in short and "lead marked ≈ includes 0. Calibrated" in short
 
 
 def test_neighbours_differ_in_one_choice_and_are_more_with_many_runs():

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from neorl.chapters.shared.wording import by_interval, listed, number, scientific, table
+from neorl.chapters.shared.wording import by_interval, listed, number, of_all, scientific, table
 from neorl.evidence.statistics import Estimate
 
 
@@ -34,3 +34,7 @@ def test_an_interval_decides_only_if_it_leaves_out_zero():
     assert by_interval(Estimate(-2, -3, -1), *texts) == "less"
     assert by_interval(Estimate(1, -1, 3), *texts) == by_interval(Estimate(-1, -3, 1), *texts) == "open"
     assert by_interval(Estimate(1, np.nan, np.nan), *texts) == "open"
+
+
+def test_a_share_that_is_everything_says_all():
+    assert (of_all(8, 8), of_all(2, 8), of_all(0, 8)) == ("all 8", "2 of the 8", "0 of the 8")

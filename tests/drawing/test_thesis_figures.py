@@ -76,6 +76,20 @@ def test_a_level_within_reach_leaves_the_axes_alone():
     assert plt.gca().get_ylim() == before
 
 
+@pytest.mark.parametrize("curve", [np.full(50, 0.52), np.linspace(0.5, 0.9, 50), np.linspace(1, 0.5, 50)])
+def test_the_name_of_a_level_covers_no_curve_where_there_is_room(curve):
+    axes = drawing.draw_curves(np.arange(50.0), {"one": curve * np.ones((3, 1)), "zero": np.zeros((3, 50))}, "x", "y")
+    mark_levels(axes, {"thesis: half": 0.5})
+    axes.figure.draw_without_rendering()
+    (name,) = [text for text in axes.texts if text.get_text() == "thesis: half"]
+    box = name.get_window_extent()
+    for line in axes.lines:
+        points = line.get_transform().transform(line.get_xydata())
+        assert not np.any((box.x0 < points[:, 0]) & (points[:, 0] < box.x1) & (box.y0 < points[:, 1])
+                          & (points[:, 1] < box.y1))
+    assert axes.bbox.x0 < box.x0 and box.x1 < axes.bbox.x1
+
+
 def test_a_level_that_is_no_number_is_refused():
     with pytest.raises(ValueError, match=r"levels\['thesis'\] is nan"):
         mark_levels(plt.figure().add_subplot(), {"thesis": np.nan})

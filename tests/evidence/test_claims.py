@@ -280,6 +280,10 @@ def test_more_maps_are_compared_with_the_quickest_of_those_with_fewer(more, expe
     assert claim.verdict == expected and "by a modality" in claim.detail
     nothing = {name: (each, fewer, brownian(0.5)) for name, (each, fewer, _) in additions.items()}
     assert claims.judge_more_maps(nothing).verdict == "not testable"
+    assert "Left out" not in claim.detail + claims.judge_more_maps(nothing).detail
+    one = {"maps": additions["maps"], "a modality": nothing["a modality"]}
+    assert ("Left out, since no agent with fewer maps has learned there: a modality."
+            in claims.judge_more_maps(one).detail)
 
 
 @pytest.mark.parametrize("steps, expected", [

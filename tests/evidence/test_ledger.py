@@ -32,6 +32,7 @@ def test_a_row_has_both_readings_the_verdict_and_shares_in_columns_of_their_own(
     assert row("A6").endswith("| 0.19 | ◇ no verdict {ref}`figure (fig-proficiency>`, {ref}`rule "
                               "(rule-judge-multiple-layers>` |  | 25 % of 4 | 0 % |")
     assert row("H1").endswith("| fewer |  |  | ◇ not computed in this build |  |  |  |")
+    assert "●</span>\u00a0reproduced" in ledger.page(RECORD)  # a symbol stays beside its word
 
 
 def test_the_page_has_every_claim_once_in_a_row_and_once_in_what_verdicts_rest_on():

@@ -7,6 +7,7 @@
 import numpy as np
 
 from neorl.chapters.paper_b.experiments import of_figure_5
+from neorl.chapters.shared.wording import of_all
 from neorl.core.modality import MODALITIES
 from neorl.evidence import claims
 from neorl.evidence.reading import PRIMES, additions, judge
@@ -115,7 +116,7 @@ def points_in_words(found, expected):
     if not intervals:
         return text
     within = sum(each.low <= expected <= each.high for each in intervals)
-    return f"{text} That lies within {within} of the {len(intervals)} intervals."
+    return f"{text} That lies within {of_all(within, len(intervals))} intervals."
 
 
 def revaluing(lived):

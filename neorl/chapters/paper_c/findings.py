@@ -10,7 +10,7 @@ from neorl.chapters.paper_c.experiments import NETWORKS, networks
 from neorl.chapters.shared.side_by_side import each_in_words
 from neorl.chapters.shared.wording import number
 from neorl.evidence.report import CALIBRATED, LETTER
-from neorl.evidence.statistics import estimate, ratio
+from neorl.evidence.statistics import difference, estimate, ratio
 from neorl.evidence.verdict import FINAL
 
 DRASTIC = 1.5  # "drastically" is read as by half or more
@@ -20,10 +20,12 @@ def in_short(results):
     """The findings in three sentences, beside the thesis's order."""
     calibrated, letter = results[CALIBRATED], results[LETTER]
     lead = estimate(ratio, calibrated["network", "D"].rate(*FINAL), calibrated["network", "C"].rate(*FINAL))
+    orders = _order(calibrated), _order(letter)
+    unclear = "; the 95 % interval of a lead marked ≈ includes 0" if any("≈" in each for each in orders) else ""
     return (f"The thesis has A < B < C ≪ D: each network earns more than the one before, and D far more. Here, by "
-            f"final reward per second, the order is {_order(calibrated)} in the calibrated reading, and "
-            f"{_order(letter)} to the letter. Calibrated, recursion brings D to {lead} times as much as C, with the "
-            f"95 % interval in brackets; random motion earns {_control(calibrated)}.")
+            f"final reward per second, the order is {orders[0]} in the calibrated reading, and {orders[1]} to the "
+            f"letter{unclear}. Calibrated, recursion brings D to {lead} times as much as C, with the 95 % interval "
+            f"in brackets; random motion earns {_control(calibrated)}.")
 
 
 def in_words(results):
@@ -34,9 +36,14 @@ def in_words(results):
 
 
 def _order(results):
-    """Networks with their final reward per second, in ascending order."""
-    final = {name: result.rate(*FINAL).mean() for name, result in networks(results).items()}
-    return " < ".join(f"{name} ({number(final[name])})" for name in sorted(final, key=final.get))
+    """Networks with their final reward per second, in ascending order; ≈ where the interval of a lead includes 0."""
+    final = {name: result.rate(*FINAL) for name, result in networks(results).items()}
+    first, *others = names = sorted(final, key=lambda name: final[name].mean())
+    text = f"{first} ({number(final[first].mean())})"
+    for below, name in zip(names, others):
+        sign = "≈" if estimate(difference, final[name], final[below]).low <= 0 else "<"
+        text += f" {sign} {name} ({number(final[name].mean())})"
+    return text
 
 
 def _control(results):

@@ -12,6 +12,11 @@ def listed(names, nothing="none"):
     return ", ".join(names) or nothing
 
 
+def of_all(count, total):
+    """How many of a total, as text: "all 8", or "2 of the 8"."""
+    return f"all {total}" if count == total else f"{count} of the {total}"
+
+
 def number(value, digits=2):
     """A number with `digits` decimals, and a minus sign in place of a hyphen."""
     return f"{value:z.{digits}f}".replace("-", "−")
