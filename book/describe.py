@@ -1,7 +1,8 @@
 """Sphinx extension: metadata of pages for search engines, shared links and screen readers.
 
 The description of a page is its first paragraph, shortened, and its picture for shared links is the book's card.
-Accessible names and roles that the theme or other extensions omit or get wrong are corrected.
+Accessible names and roles that the theme or other extensions omit or get wrong are corrected, and so are the places
+where names and numbers may break.
 """
 
 import html
@@ -21,6 +22,8 @@ IN_BODIES = (
     (r'role="doc-biblioentry"', 'role="listitem"'),
     # The empty corner of a table is not a header.
     (r"<th([^>]*)>\s*(?:<p></p>)?\s*</th>", r"<td\1></td>"),
+    # A per cent sign stays on the line of its number; code is left as it is.
+    (r"(?s)<pre.*?</pre>|(?<=\d) (?=%)", lambda found: "\u00a0" if found[0] == " " else found[0]),
     # A long name breaks between its parts.
     (r'(?<=<span class="pre">)neorl\.[\w.]+', lambda found: re.sub(r"(?<=[._])(?=\w)", "<wbr>", found[0])))
 IN_PAGES = (

@@ -109,6 +109,11 @@ def test_names_and_roles_of_a_body_are_put_right():
         '<tr><td class="head"></td><td></td><th>A</th></tr><span class="pre">neorl.<wbr>core.<wbr>new_<wbr>x</span>')
 
 
+def test_a_per_cent_sign_stays_on_the_line_of_its_number_but_code_is_left_as_it_is():
+    assert describe.mended("<p>a 95 % interval of 2.5 %, in %</p><pre># 5 %\n6 %</pre> 7 %", describe.IN_BODIES) == (
+        "<p>a 95\u00a0% interval of 2.5\u00a0%, in %</p><pre># 5 %\n6 %</pre> 7\u00a0%")
+
+
 def test_a_command_names_the_repository_that_is_set(tmp_path, monkeypatch):
     text = (ROOT / "book" / "running.md").read_text(encoding="utf-8")
     for address, wanted in (("https://example.org/n", 'git+https://example.org/n"`.'), (None, 'git+URL"`, with the')):

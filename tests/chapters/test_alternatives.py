@@ -275,6 +275,14 @@ def test_the_summary_names_the_best_of_each_sort_and_an_agent_beyond_the_thesis_
     assert "the best learner (ours) earns" in report.meaning(ours)
 
 
+def test_the_summary_says_for_which_learners_the_lead_is_not_certain(boards):
+    assert "includes zero" not in report.summary(boards)
+    apart = earned(TABLES, 0.5)
+    close = replace(apart, rewards=apart.rewards * np.linspace(0.8, 1.22, apart.runs)[:, None])
+    text = report.summary({**boards, 3: {**boards[3], "monolithic": close}})
+    assert text.startswith("With three creeps, 4 of the 4") and "For monolithic the 95 % interval of the diff" in text
+
+
 def test_the_table_has_thirds_levels_time_and_memory(boards):
     rows = {row.split(" | ")[0].lstrip("| "): row for row in report.results_table(boards[3]).splitlines()[2:]}
     assert re.match(r"\| hybrid reward \| 10 \| 0\.69 \| 1\.94 \| 2\.50 \[2\.50, 2\.50\] \| 25 \| 45 \| 85 \| – \| 1 \|"

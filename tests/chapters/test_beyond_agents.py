@@ -1,5 +1,7 @@
 """The page on the forager: its parts, its sentences and the record of the search."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -41,6 +43,7 @@ def test_receptive_fields_are_as_large_without_mirror_images():
 
 def test_the_page_says_and_draws_what_was_found(lived):
     assert "per second over the last third" in report.summary(lived) and "**" not in report.summary(lived)
+    assert re.search(r"most without “[^”]+” \([\d.−]+\), “", report.summary(lived))
     assert report.target_table(lived).count("\n") == 1 + len(experiments.TARGETS)
     assert report.part_table(lived).count("\n") == 1 + len(experiments.PARTS)
     for draw in (figures.draw_learning, figures.draw_long, figures.draw_parts, figures.draw_revalued):

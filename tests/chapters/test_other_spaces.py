@@ -142,6 +142,7 @@ def test_the_report_and_the_figures(reached, sailed, swum, asked, driven):
     feared = {valence: reached[2, "agent"] for valence in lives.VALENCES}
     assert report.reaching(reached, feared).count("\n") == 2 + 1 + len(lives.VALENCES)
     assert report.sailing(sailed).count("\n") == 1 + len(sailed) and "Trial 4" in report.swimming(swum)
+    assert "| Seconds to the platform, from day 5 on |" in report.swimming(swum)
     assert "saves" in report.savings(swum) and "newborn" in report.thinking(asked, 6)
     assert "| 1.00 [" in report.driving(driven) and "343" in report.cells()
     assert report.luck({1: 0.0, 16: 0.1}).startswith("With actions held for 1 step a random driver reaches the flag")

@@ -13,7 +13,7 @@ from neorl.chapters.alternatives.living import BOARDS
 from neorl.chapters.alternatives.stored import FOLDER, chosen, read_search
 from neorl.chapters.shared.wording import listed, number, table
 from neorl.evidence.claims import RUNS_FOR_A_VERDICT, judge_alternatives
-from neorl.evidence.statistics import estimate
+from neorl.evidence.statistics import difference, estimate
 
 LEVELS = (0.5, 1, 2, 3)  # reward per second
 FINAL = 0.8  # share of a run after which its reward is final
@@ -154,11 +154,13 @@ def _over_the_thesis(earned):
 
 
 def _more(earned):
-    others = {name: final(each).mean() for name, each in earned.items() if each.kind in (TABLES, DEEP)}
-    best = final(earned[best_of(earned, THESIS)]).mean()
-    more = [name for name, rate in others.items() if rate > best]
+    others = {name: final(each) for name, each in earned.items() if each.kind in (TABLES, DEEP)}
+    best = final(earned[best_of(earned, THESIS)])
+    more = [name for name, rates in others.items() if rates.mean() > best.mean()]
+    unclear = [name for name in more if estimate(difference, others[name], best).low <= 0]
     return (f"With three creeps, {len(more)} of the {len(others)} tabular and deep learners earn more over the last "
-            f"fifth of the run than the thesis's best agent: {listed(more)}.")
+            f"fifth of the run than the thesis's best agent: {listed(more)}."
+            + (f" For {listed(unclear)} the 95 % interval of the difference includes zero." if unclear else ""))
 
 
 def _heads(boards):

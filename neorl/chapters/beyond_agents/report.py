@@ -34,7 +34,7 @@ def summary(lived):
             f"the last third of the runs, while it learns; the thesis's agent of place and object-vector cells earns "
             f"{interval(thesis)} in the calibrated reading. The forager meets {len(met)} of the {len(TARGETS)} targets"
             + (f" and misses {listed(missed)}" if missed else "") + ". Its reward falls most without "
-            f"{', '.join(f'{part} ({number(parts[part])})' for part in most)}. It has no neural network, no replay and "
+            f"{listed(f'“{part}” ({number(parts[part])})' for part in most)}. It has no neural network, no replay and "
             "no model, and learns in a single pass through its experience; revalued elements need no retraining.")
 
 

@@ -81,7 +81,8 @@ def swimming(swum):
     rows = [[f"{name}, platform {platform}", *(estimate(np.mean, seconds[:, scores.LATER, trial].mean(axis=1))
                                                for trial in range(seconds.shape[2]))]
             for platform, by_name in swum.items() for name, seconds in by_name.items()]
-    return table(["Seconds to the platform", *(f"Trial {trial}" for trial in range(1, len(rows[0])))], rows)
+    return table([f"Seconds to the platform, from day {scores.LATER.start + 1} on",
+                  *(f"Trial {trial}" for trial in range(1, len(rows[0])))], rows)
 
 
 def savings(swum):

@@ -22,8 +22,8 @@ def summary(loops, bandwidths, rivals, worlds):
                        worlds.ratios.items())
     return (f"On this machine one core takes {_seconds(quickest)} to {_seconds(slowest)} for a step of world and "
             f"agent. That is {least:.1f} to {most:.1f} times the lower bound set by world and memory; "
-            f"the aim of {AIM} is met by {' and '.join(within) or 'none'}. The agent's part with one map of 23 × 23 "
-            f"cells (N23) takes longer in other implementations, by a factor of {several}.{original}")
+            f"the aim of at most {AIM} is met by {' and '.join(within) or 'none'}. The agent's part with one map of "
+            f"23 × 23 cells (N23) takes longer in other implementations, by a factor of {several}.{original}")
 
 
 def bound_table(loops, bandwidths):
