@@ -8,8 +8,8 @@ fragment as a selector, which allows few other characters. */
 
 const PREFIX = "#explorer";
 const SHORT = { agent: "preset", run: "run", seed: "seed", resolutions: "resolutions", modality: "modality",
-  recursion: "recursion", red: "valence_red", gains: "gains", rate: "learning_rate", discount: "discount",
-  memory: "memory", creeps: "n_creeps" };
+  recursion: "recursion", red: "valence_red", gains: "gains", exploration: "exploration", rate: "learning_rate",
+  discount: "discount", memory: "memory", creeps: "n_creeps" };
 const LISTS = ["resolutions", "gains"];
 
 const slug = (text) => text.toLowerCase().replaceAll(/[^a-z0-9]+/g, "-").replaceAll(/^-|-$/g, "");

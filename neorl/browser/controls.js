@@ -180,7 +180,7 @@ class Controls {
     }
     this.offer("memory", can_remember);
     this.control("memory").previousElementSibling.textContent = `Memory, ${learning.memory_by_time ? "seconds" : "cells"}`;
-    const sliders = ["recursion", "valence_red", "n_creeps"];
+    const sliders = ["recursion", "valence_red", "n_creeps", "exploration"];
     for (const name of sliders) this.showSlider(name, model.get(name) ?? 0);
     const [rate, horizon, memory] = [model.get("learning_rate"), 1 / (1 - model.get("discount")), model.get("memory")];
     this.showSlider("learning_rate", Math.log10(rate || 0.001), shown(rate));

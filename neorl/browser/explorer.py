@@ -83,9 +83,10 @@ class Explorer(AnyWidget):
 
     Traits: resolutions (1 … 90 each), modality (by name, with the preset's ranges if it is the preset's own; "" if the
     preset has more than one node or a modality of its own), recursion (None if there is none), valence_red (of
-    obstacles or vessels in worlds where these are to be avoided), gains (one per node), learning_rate and discount
-    (0 … 1), memory (≥ 0, in the unit of the preset; 0 if it has a trace or learns at every step), n_creeps (1 … 20;
-    None outside WaterWorld), seed (below 2³²), run, speed (times real time, 0 for as fast as possible), playing.
+    obstacles or vessels in worlds where these are to be avoided), gains (one per node), exploration, learning_rate
+    and discount (0 … 1), memory (≥ 0, in the unit of the preset; 0 if it has a trace or learns at every step), n_creeps
+    (1 … 20; None outside WaterWorld), seed (below 2³²), run, speed (times real time, 0 for as fast as possible),
+    playing.
     Choosing a preset sets the traits that it determines. An agent that is not a condition is in the tank of the first
     condition in WaterWorld, or else in one with 3 creeps; an agent to the letter has the letter's steps per second and
     contacts; agents in the arena are in `neorl.Arena()`, and agents of other spaces in their own worlds.
@@ -109,6 +110,7 @@ class Explorer(AnyWidget):
     recursion = traitlets.Float(allow_none=True).tag(sync=True)
     valence_red = traitlets.Float().tag(sync=True)
     gains = traitlets.List(traitlets.Float()).tag(sync=True)
+    exploration = traitlets.Float(min=0, max=1).tag(sync=True)
     learning_rate = traitlets.Float(min=0, max=1).tag(sync=True)
     discount = traitlets.Float(min=0, max=1).tag(sync=True)
     memory = traitlets.Float(min=0).tag(sync=True)
@@ -156,7 +158,8 @@ class Explorer(AnyWidget):
                    for each in preset.desires]
         learning = replace(preset.learning, learning_rate=self.learning_rate, discount=self.discount,
                            memory=self.memory)
-        return replace(preset, nodes=nodes, desires=desires, learning=learning)
+        return replace(preset, nodes=nodes, desires=desires, learning=learning,
+                       policy=replace(preset.policy, exploration=self.exploration))
 
     @property
     def world(self):
@@ -217,7 +220,7 @@ def _check_condition(name, result):
 def _settings(preset):
     """The traits that a preset determines."""
     return {name: preset[name] for name in ("resolutions", "modality", "recursion", "valence_red", "gains",
-                                            "learning_rate", "discount", "memory", "n_creeps")}
+                                            "exploration", "learning_rate", "discount", "memory", "n_creeps")}
 
 
 def _preset(name, agent, world, result):
@@ -235,8 +238,8 @@ def _preset(name, agent, world, result):
                   "In other spaces" if name in OTHER_SPACES else "Calibrated"),
         "resolutions": list(agent.nodes[0].resolutions),
         "modality": _named(modality) if len(names) == 1 else "",
-        "gains": [node.gain for node in agent.nodes], "learning_rate": learning.learning_rate,
-        "discount": learning.discount, "memory": learning.memory,
+        "gains": [node.gain for node in agent.nodes], "exploration": agent.policy.exploration,
+        "learning_rate": learning.learning_rate, "discount": learning.discount, "memory": learning.memory,
         "can_remember": learning.update_on == "cell" and learning.trace == 1,
         "valence_red": agent.desires[red[0]].valence if red else 0.0,
         "recursion": agent.desires[recurring[0]].valence if recurring else None,

@@ -55,7 +55,8 @@ const pageOf = (id) => `<p role="alert" hidden></p>
     ${slide("recursion", "Recursion", -3, 1, 0.1)}${slide("valence_red", "Valence of red", -2, 2, 0.1)}</div></div>
   <div class="open">${number("open-run", "Open run")}${choice("open-preset", "of")}${press("open", "Open")}</div>
   <p class="refused" role="status"></p>
-  <details><summary>More</summary><div class="more">${slide("learning_rate", "Learning rate α", -3, 0, 0.01)}
+  <details><summary>More</summary><div class="more">${slide("exploration", "Exploration ε", 0, 1, 0.01)}
+    ${slide("learning_rate", "Learning rate α", -3, 0, 0.01)}
     ${slide("horizon", "Horizon, cells", 0, 3, 0.01)}${slide("memory", "Memory", NO_MEMORY, 3, 0.01)}
     ${slide("n_creeps", "Creeps", 1, 12, 1)}<div class="gains"></div>
     ${number("seed", "Seed")}${number("run", "Run")}</div></details><p class="unseen told" aria-live="polite"></p>`;

@@ -1,7 +1,8 @@
 // From the controls to the engine's parameters: those of a preset, overridden by the reader's settings.
 
-const GOES_ON = ["recursion", "valence_red", "gains", "learning_rate", "discount"]; // may change during a run
-const OF_PRESET = [...GOES_ON, "memory", "resolutions", "modality", "n_creeps"]; // settings with defaults in a preset
+// Those that may change during a run, and those with defaults in a preset.
+const GOES_ON = ["recursion", "valence_red", "gains", "exploration", "learning_rate", "discount"];
+const OF_PRESET = [...GOES_ON, "memory", "resolutions", "modality", "n_creeps"];
 
 /** The keys of the presets in Python's order; the stored state may have another. */
 function orderedKeys(presets) {
@@ -16,7 +17,7 @@ function initialSettings(presets, key) {
 function chosenParameters(layout, presets, modalities, settings, elements = []) {
   const preset = presets[settings.preset];
   const parameters = structuredClone(preset.parameters);
-  const { names, maps, nodes, axes, desires, learning } = parameters;
+  const { names, maps, nodes, axes, desires, learning, policy } = parameters;
   if (settings.resolutions.join() !== preset.resolutions.join()) { // the preset's may differ between nodes
     maps.resolution = names.flatMap(() => settings.resolutions);
     nodes.first_map = [0, ...names.map((_, n) => (n + 1) * settings.resolutions.length)];
@@ -30,6 +31,7 @@ function chosenParameters(layout, presets, modalities, settings, elements = []) 
     if (settings.modality) rename(parameters, settings.modality); // so that its maps are named after the new modality
   }
   nodes.gain = [...settings.gains];
+  policy.exploration = settings.exploration;
   learning.learning_rate = Math.fround(settings.learning_rate);
   learning.discount = Math.fround(settings.discount);
   const memory = settings.memory * (learning.memory_by_time ? preset.world.fps : 1); // in changes of cell, or in steps

@@ -1,6 +1,7 @@
 /* Things to try with one click. Each sets the controls as a reader would; a later action is `due` at a step. */
 
 const [LEARNED, CORNER, FINE_ENOUGH] = [60_000, { x: 0.04, y: 0.04 }, 7]; // steps, a place, a resolution
+const EXPLORING = 0.05; // the least exploration that goes with a changed valence
 
 class Starters extends Hands {
   /** A new run with the settings of the preset, and with an action that is due later, if any. */
@@ -19,10 +20,12 @@ class Starters extends Hands {
   revalueRed() {
     const { steps } = this.presets[this.model.get("preset")];
     const half = Math.floor(steps / 2);
-    const after = "Red is desirable now: its valence is +1, and the agent seeks it at once. It still pays −1.";
+    const after = "Red is desirable now: its valence is +1, and the agent seeks it at once. It still pays −1. "
+      + "One action in 20 is random: without fear or chance, an agent gets stuck between two cells.";
     const act = () => {
       this.life.news = after;
-      this.write({ valence_red: 1, speed: 50 });
+      const exploration = Math.max(EXPLORING, this.model.get("exploration"));
+      this.write({ valence_red: 1, exploration, speed: 50 });
     };
     const before = "In the middle of the run, red creeps become desirable.";
     this.fresh({ speed: 1000, playing: true }, { step: half, hurries: false, act, news: before });

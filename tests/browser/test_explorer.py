@@ -74,11 +74,11 @@ def test_conditions_come_first_and_set_tank_seed_and_traits(conditions):
 
 def test_each_trait_changes_its_field_of_the_agent():
     explorer = Explorer(preset="Network D", learning_rate=0.2, discount=0.5, recursion=0.5, valence_red=-2.0,
-                        gains=[0.5, 2.0], n_creeps=4, resolutions=[3, 6], memory=20.0)
+                        gains=[0.5, 2.0], exploration=0.1, n_creeps=4, resolutions=[3, 6], memory=20.0)
     agent = network_d([3, 6], recursion=0.5, place_gain=0.5, object_gain=2.0,
                       learning=Learning(0.2, 0.5, memory=20.0))
     desires = [replace(each, valence=-2.0) if each.source == "red" else each for each in agent.desires]
-    assert explorer.agent == replace(agent, desires=desires)
+    assert explorer.agent == replace(agent, desires=desires, policy=Policy(exploration=0.1))
     assert explorer.world == WaterWorld(n_creeps=4)
     explorer.preset = "Object-vector cells"
     assert explorer.agent == object_vector_cells()
@@ -112,7 +112,8 @@ def test_the_state_is_json_and_a_second_widget_brings_its_own(conditions):
     ("recursion", float("inf"), "recursion is inf, allowed are finite numbers"),
     ("resolutions", [], "resolutions"), ("resolutions", [91], "91"), ("n_creeps", 0, "n_creeps"), ("seed", -1, "seed"),
     ("memory", -1, "memory"), ("memory", float("inf"), "memory is inf, allowed are finite numbers"),
-    ("discount", 1.5, "discount"), ("learning_rate", -0.1, "learning_rate"), ("speed", -1, "speed"),
+    ("discount", 1.5, "discount"), ("exploration", 1.1, "exploration"),
+    ("learning_rate", -0.1, "learning_rate"), ("speed", -1, "speed"),
 ])
 def test_a_bad_trait_is_refused_and_the_old_one_stays(trait, value, allowed):
     explorer = Explorer()

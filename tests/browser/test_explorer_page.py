@@ -85,6 +85,7 @@ def test_a_run_opened_by_its_number_ends_with_the_score_of_python(open_page, sit
     ("recursion", 0.7, lambda agent: replace(agent, desires=[
         replace(each, valence=0.7) if each.source == each.target else each for each in agent.desires])),
     ("gain-1", 3.0, lambda agent: replace(agent, nodes=[agent.nodes[0], replace(agent.nodes[1], gain=3.0)])),
+    ("exploration", 0.1, lambda agent: replace(agent, policy=replace(agent.policy, exploration=0.1))),
     ("horizon", 0.3, lambda agent: replace(agent, learning=replace(agent.learning, discount=0.5))),
     ("memory", 1.48, lambda agent: replace(agent, learning=replace(agent.learning, memory=30.0))),
 ])

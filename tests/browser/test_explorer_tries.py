@@ -7,7 +7,7 @@ import pytest
 from explorer_page import write_page
 from playwright.sync_api import expect
 
-from neorl import Explorer, Run, WaterWorld, object_vector_cells, place_cells, simulate
+from neorl import Explorer, Policy, Run, WaterWorld, object_vector_cells, place_cells, simulate
 
 TANK = WaterWorld()
 PLACES = place_cells([5, 3])
@@ -49,9 +49,11 @@ def test_red_becomes_desirable_in_the_middle_of_the_run(visit):
     wait(page, "ended")
     run = Run(PLACES, TANK, SIZE["seed"], 0)
     reward = run.advance(10_000)
-    run.change(replace(PLACES, desires=[replace(each, valence=1.0) for each in PLACES.desires]))
+    run.change(replace(PLACES, desires=[replace(each, valence=1.0) for each in PLACES.desires],
+                       policy=Policy(exploration=0.05)))
     assert float(shown(page, "score")) == reward + run.advance(10_000)
     expect(page.locator('[name="valence_red"]')).to_have_value("1")
+    expect(page.locator('[name="exploration"]')).to_have_value("0.05")
     expect(page.locator(".said")).to_contain_text("Red is desirable now")
 
 
