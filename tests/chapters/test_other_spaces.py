@@ -161,6 +161,8 @@ def test_the_report_and_the_figures(reached, sailed, swum, asked, driven):
     assert len(right.lines) == 4 and len(left.lines) > figures.SEEN
     left, right = figures.draw_vessel(sailed, lives.watch(minds.pilot(), lives.WATERS, 100, 30, 3))
     assert len(right.lines) == len(sailed)
+    assert right.get_ylabel() == "reward per minute"  # as in the table
+    assert right.lines[0].get_ydata()[-1] == pytest.approx(60 * sailed["radar"].rate(0.95).mean())
     figures.draw_pool(swum, pool.last_path(pool.experienced(0), 2))
     figures.draw_birds(asked, birds.path(True, 0, [(0.2, 0.3)]))
     figures.draw_car(driven, hill.learned(0))

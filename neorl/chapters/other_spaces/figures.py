@@ -76,15 +76,15 @@ def joints_of(posture):
 
 
 def draw_vessel(sailed, seen):
-    """A vessel's track among others, and the reward per second of pilots over their runs.
+    """A vessel's track among others, and the reward per minute of pilots over their runs.
 
     sailed: from `lives.sail`. seen: from `lives.watch`.
     """
     above, below = pair()
     draw_track(seen, above)
     minutes = lives.curve(sailed["radar"])[0]
-    draw_curves(minutes, {name: lives.curve(result)[1] for name, result in sailed.items()}, "simulated minutes",
-                "reward per second", below)
+    draw_curves(minutes, {name: 60 * lives.curve(result)[1] for name, result in sailed.items()}, "simulated minutes",
+                "reward per minute", below)
     return above, below
 
 
