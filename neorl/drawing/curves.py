@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.transforms import offset_copy
 from numpy.typing import ArrayLike
 
 from neorl import checks
@@ -17,6 +18,7 @@ from neorl.evidence.statistics import Estimate, mean_band, tolerance_band
 from neorl.experiments.simulation import Result
 
 POINTS = 400  # per curve; more would not be visible
+APART = 3  # points between intervals at one x
 
 
 def draw_accumulated(results: Mapping[str, Result], control: Mapping[str, Result] | None = None,
@@ -185,12 +187,18 @@ def draw_sweep(xs: ArrayLike, estimates_by_name: Mapping[str, Sequence[Estimate]
 
 
 def add_estimates(axes, xs, estimates_by_name, linewidth):
-    """Add points with their 95 % intervals, joined by lines: {name: [Estimate for each of xs]}."""
-    ends = []
-    for (name, estimates), (colour, dashes) in zip(estimates_by_name.items(), looks(len(estimates_by_name))):
+    """Add points with their 95 % intervals, joined by lines: {name: [Estimate for each of xs]}.
+
+    Intervals at one x stand side by side, so that none hides the end of another.
+    """
+    ends, middle = [], (len(estimates_by_name) - 1) / 2
+    styles = looks(len(estimates_by_name))
+    for rank, ((name, estimates), (colour, dashes)) in enumerate(zip(estimates_by_name.items(), styles)):
         value, low, high = np.array(estimates).T
-        axes.plot(xs, value, color=colour, linewidth=linewidth, linestyle=dashes, marker="o", markersize=5)
-        axes.vlines(xs, low, high, color=colour, linewidth=1.8)
+        (curve,) = axes.plot(xs, value, color=colour, linewidth=linewidth, linestyle=dashes, marker="o", markersize=5)
+        intervals = axes.vlines(xs, low, high, color=colour, linewidth=1.8)
+        for each in (curve, intervals):  # moved once the limits of the axes include them
+            each.set_transform(offset_copy(axes.transData, axes.figure, (rank - middle) * APART, units="points"))
         ends.append((value[-1], name, colour))
     name_ends(axes, ends)
 

@@ -17,6 +17,7 @@ MARKERS = "osD^vP*"  # of readings, one for each colour
 ROW = 0.62  # inches
 ROOM = 0.06  # of the height of a panel, left beyond the marked levels
 LIFTS = 4, -4, -12, 12, -20, 20  # points from a level to its name, tried in this order
+CLEAR = 3  # points between the vertical axis and a name beside it
 REACH = 0.5  # of the range of the numbers: intervals are cut off that far beyond them
 
 
@@ -46,9 +47,9 @@ def draw_against_thesis(thesis: Mapping[str, float], readings: Mapping[str, Mapp
     axes = axes_or_new(ax, figsize=(width_of_figures(), 1.1 + ROW * len(rows)))
     printed = [*thesis.values()]
     axes.vlines(printed, rows - 0.36, rows + 0.36, color=INK, linewidth=2.2)
-    for row, number in zip(rows, printed):
-        axes.annotate(f"thesis {number:g}".replace("-", "−"), (number, row - 0.38), fontsize=SMALL, ha="center",
-                      va="bottom")
+    names = [axes.annotate(f"thesis {number:g}".replace("-", "−"), (number, row - 0.38), xytext=(0, 0),
+                           textcoords="offset points", fontsize=SMALL, ha="center", va="bottom")
+             for row, number in zip(rows, printed)]
     intervals: list[tuple[float, float, float, str]] = []
     shifts = 0.5 * (np.arange(len(readings)) - (len(readings) - 1) / 2) / max(len(readings), 1)
     for (name, found), shift, colour, marker in zip(readings.items(), shifts, CURVES, MARKERS):
@@ -67,7 +68,18 @@ def draw_against_thesis(thesis: Mapping[str, float], readings: Mapping[str, Mapp
                 axes.plot(end, height, color=colour, marker=sign, markersize=6, clip_on=False)
     if readings:
         axes.legend(frameon=False, ncols=len(readings), loc="lower center", bbox_to_anchor=(0.5, 1), borderpad=0.2)
+    _keep_right_of_the_axis(axes, names)
     return axes
+
+
+def _keep_right_of_the_axis(axes, names):
+    """Move names that cross the vertical axis, or come close to it, to its right."""
+    axes.figure.canvas.figure.draw_without_rendering()  # lays the figure out
+    point = axes.figure.dpi / 72
+    for name in names:
+        missing = axes.bbox.x0 + CLEAR * point - name.get_window_extent().x0
+        if missing > 0:
+            name.set_x(missing / point)
 
 
 def mark_levels(axes: Axes, levels: Mapping[str, float]) -> Axes:

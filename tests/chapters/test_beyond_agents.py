@@ -43,7 +43,7 @@ def test_receptive_fields_are_as_large_without_mirror_images():
 
 def test_the_page_says_and_draws_what_was_found(lived):
     assert "per second over the last third" in report.summary(lived) and "**" not in report.summary(lived)
-    assert re.search(r"most without “[^”]+” \([\d.−]+\), “", report.summary(lived))
+    assert re.search(r"most without “[^”]+” \(to [\d.−]+\), “", report.summary(lived))
     assert report.target_table(lived).count("\n") == 1 + len(experiments.TARGETS)
     assert report.part_table(lived).count("\n") == 1 + len(experiments.PARTS)
     for draw in (figures.draw_learning, figures.draw_long, figures.draw_parts, figures.draw_revalued):
@@ -78,7 +78,7 @@ def test_the_record_of_the_search_was_made_by_this_code():
     assert search.agent_of(best) == forager()
     found = simulate(search.agent_of(best), WaterWorld(), runs=4, steps=150_000, seed=search.SEED, progress=False)
     assert np.isclose(found.rate(2 / 3).mean(), best["with_3"], atol=2e-3)
-    assert str(len(record)) in report.search_in_words()
+    assert str(len(record)) in report.search_in_words() and "horizon 0.389 s, " in report.search_in_words()
 
 
 def test_settings_span_their_ranges():

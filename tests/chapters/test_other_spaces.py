@@ -132,6 +132,14 @@ def test_more_is_better_in_every_score(reached, sailed, swum, asked, driven):
     assert all(found[world][0].mean() > found[world][1].mean() for world in ("water maze", "birds", "mountain car"))
 
 
+def test_the_number_of_a_path_stands_beside_it():
+    path = np.column_stack([np.linspace(0.05, 0.5, 90), np.full(90, 0.5)])
+    axes = figures.draw_paths([path])
+    (number,) = axes.texts
+    assert number.get_text() == "1" and 0.04 < np.hypot(*(path - number.get_position()).T).min() < 0.06
+    assert figures.draw_paths([path[:1]]).texts[0].get_position() == tuple(path[0])
+
+
 def test_the_report_and_the_figures(reached, sailed, swum, asked, driven):
     verdicts = report.judge(reached, sailed, swum, asked, driven)
     found = scores.of_each_world(reached, sailed, swum, asked, driven)
@@ -153,6 +161,8 @@ def test_the_report_and_the_figures(reached, sailed, swum, asked, driven):
     assert len(right.lines) == 4 and len(left.lines) > figures.SEEN
     left, right = figures.draw_vessel(sailed, lives.watch(minds.pilot(), lives.WATERS, 100, 30, 3))
     assert len(right.lines) == len(sailed)
+    assert right.get_ylabel() == "reward per minute"  # as in the table
+    assert right.lines[0].get_ydata()[-1] == pytest.approx(60 * sailed["radar"].rate(0.95).mean())
     figures.draw_pool(swum, pool.last_path(pool.experienced(0), 2))
     figures.draw_birds(asked, birds.path(True, 0, [(0.2, 0.3)]))
     figures.draw_car(driven, hill.learned(0))

@@ -187,6 +187,15 @@ def test_a_sweep_shows_values_and_intervals():
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("r", "reward")
 
 
+def test_intervals_at_one_x_do_not_hide_each_other():
+    axes = drawing.draw_sweep([-1, 0.5], {name: [Estimate(0.1, 0.0, 0.3)] * 2 for name in "CD"})
+    plt.gcf().draw_without_rendering()
+    of_c, of_d = (lines.get_transform().transform(lines.get_segments()[0]) for lines in axes.collections)
+    assert 2 < (of_d - of_c)[0, 0] * 72 / axes.figure.dpi < 6
+    np.testing.assert_allclose((of_c + of_d)[:, 0] / 2, axes.transData.transform((-1, 0))[0], atol=0.01)
+    assert axes.get_xlim()[0] < -1 < 0.5 < axes.get_xlim()[1] and axes.get_ylim()[1] > 0.3
+
+
 def test_arrows_point_where_values_pull():
     axes = drawing.new_board()
     values = np.zeros((4, 4))

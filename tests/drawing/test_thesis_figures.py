@@ -45,6 +45,14 @@ def test_readings_differ_in_more_than_colour():
     assert len(set(markers)) == len(markers)
 
 
+def test_the_name_of_a_number_does_not_cross_the_vertical_axis():
+    found = {"here": {"low": Estimate(3.8, 3.5, 4.5), "high": Estimate(99.0, 98.0, 100.0)}}
+    axes = draw_against_thesis({"low": 3.5, "high": 50.0}, found)
+    low, high = (text.get_window_extent() for text in axes.texts)
+    assert 0 < low.x0 - axes.bbox.x0 < 10
+    assert (high.x0 + high.x1) / 2 == pytest.approx(axes.transData.transform((50, 0))[0], abs=1)
+
+
 @pytest.mark.parametrize("thesis, readings, message", [
     ({}, {}, "thesis is {}"),
     (THESIS, {"calibrated": {"both": Estimate(1, 1, 1)}}, r"readings\['calibrated'\] has both, allowed are the labels"),

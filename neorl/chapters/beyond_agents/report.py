@@ -11,6 +11,8 @@ from neorl.chapters.beyond_agents.search import RANGES, read_record, score_of
 from neorl.chapters.shared.wording import listed, number, table
 from neorl.evidence.statistics import difference, estimate
 
+UNITS = {"horizon": " s", "familiarity": " visits"}  # of the numbers that were searched
+
 
 def interval(each):
     """An `Estimate` as text."""
@@ -34,8 +36,8 @@ def summary(lived):
             f"the last third of the runs, while it learns; the thesis's agent of place and object-vector cells earns "
             f"{interval(thesis)} in the calibrated reading. The forager meets {len(met)} of the {len(TARGETS)} targets"
             + (f" and misses {listed(missed)}" if missed else "") + ". Its reward falls most without "
-            f"{listed(f'“{part}” ({number(parts[part])})' for part in most)}. It has no neural network, no replay and "
-            "no model, and learns in a single pass through its experience; revalued elements need no retraining.")
+            f"{listed(f'“{part}” (to {number(parts[part])})' for part in most)}. It has no neural network, no replay "
+            "and no model, and learns in a single pass through its experience; revalued elements need no retraining.")
 
 
 def target_table(lived):
@@ -69,13 +71,14 @@ def search_in_words():
     return (f"{len(tried)} settings of {len(RANGES)} numbers and the resolutions were tried by differential "
             "evolution. A setting's score is the sum of three rewards per second: with 3 creeps, half of that with 8, "
             f"and with 3 around step 600,000. The scores lie between {low} and {high}, half of them above {half}. The "
-            f"best has the resolutions {listed(map(str, best['resolutions']))} and {_named(best)}, and earned "
+            f"best has the resolutions {listed(map(str, best['resolutions']))} and, in the terms of "
+            f"`neorl.Contacts`, {_named(best)}. It earned "
             f"{earned[0]} per second with 3 creeps, {earned[1]} with 8 and {earned[2]} around step 600,000, on the "
             "runs by which it was chosen.")
 
 
 def _named(setting):
-    return ", ".join(f"{name.replace('_', ' ')} {setting[name]:g}" for name in RANGES)
+    return ", ".join(f"{name.replace('_', ' ')} {setting[name]:g}{UNITS.get(name, '')}" for name in RANGES)
 
 
 def revalued_in_words(lived):
@@ -100,9 +103,9 @@ def fear_in_words(middles, fears):
     """Fear as a function of approach."""
     mean = mean_fear(fears)
     half, high = mean[np.abs(middles - 0.5).argmin()], np.nanmax(mean)
-    return (f"Where approach is worth half a contact, fear is {number(float(half))}; its maximum is "
-            f"{number(float(high))}. A fear linear in approach would be "
-            f"{number(float(high * 0.5 / middles[np.nanargmax(mean)]))} there.")
+    linear = high * 0.5 / middles[np.nanargmax(mean)]
+    return (f"Where approach is worth half a contact, fear is {number(float(half))}. A fear that grew in proportion to "
+            f"approach, up to the same maximum of {number(float(high))}, would be {number(float(linear))} there.")
 
 
 def cost_in_words(cost):

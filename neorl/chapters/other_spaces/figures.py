@@ -20,6 +20,7 @@ BIRD = 0.05  # half the length of a bird's body, as a share of the square
 # Names of birds that do not fit above their body, where another bird or a path is: right, down, side.
 ASIDE = {"gingerbread": (-0.03, 0.07, "right"), "sleigh": (-0.03, 0.15, "left")}
 MULTIPLES = (1, 2, 5, 10, 20)  # ticks
+FIRST_STEPS, ASIDE_OF_PATH = 10, 0.05  # a path's number stands beside its first steps, diameters of the pool from it
 
 
 def pair(heights=(1, 0.8)):
@@ -45,7 +46,7 @@ def draw_arms(reached, seen):
 
 
 def draw_reaching(seen, ax=None, targets=2):
-    """Postures of an arm until it has met `targets` targets, later ones darker, with the targets and obstacles."""
+    """Postures of an arm until it has met `targets` targets, earlier ones fainter, with the targets and obstacles."""
     axes = board_or_new(ax)
     ends = [at for at, (_, met) in enumerate(seen) if met][: targets + 1]
     begin, end = (ends[0] + 1, ends[-1]) if len(ends) > 1 else (0, len(seen))
@@ -75,15 +76,15 @@ def joints_of(posture):
 
 
 def draw_vessel(sailed, seen):
-    """A vessel's track among others, and the reward per second of pilots over their runs.
+    """A vessel's track among others, and the reward per minute of pilots over their runs.
 
     sailed: from `lives.sail`. seen: from `lives.watch`.
     """
     above, below = pair()
     draw_track(seen, above)
     minutes = lives.curve(sailed["radar"])[0]
-    draw_curves(minutes, {name: lives.curve(result)[1] for name, result in sailed.items()}, "simulated minutes",
-                "reward per second", below)
+    draw_curves(minutes, {name: 60 * lives.curve(result)[1] for name, result in sailed.items()}, "simulated minutes",
+                "reward per minute", below)
     return above, below
 
 
@@ -131,7 +132,9 @@ def draw_paths(paths, ax=None):
     axes.add_patch(Circle((0.5, 0.5), 0.5, fill=False, edgecolor=INK, linewidth=1.4))
     for number, (path, colour) in enumerate(zip(paths, (INK, AGENT)), 1):
         axes.plot(*path.T, color=colour, linewidth=1.0 if number == 1 else 2.0)
-        axes.text(*path[0], f" {number}", color=letters(colour), weight="bold")
+        ahead = path[min(FIRST_STEPS, len(path) - 1)] - path[0]
+        aside = path[0] + ASIDE_OF_PATH * np.array([ahead[1], -ahead[0]]) / max(np.hypot(*ahead), 1e-9)
+        axes.text(*aside, str(number), color=letters(colour), weight="bold", ha="center", va="center")
     axes.add_patch(Circle(pool.MOVED.places[-1], pool.MOVED.radius, facecolor=GREEN, alpha=0.6))
     return axes
 
