@@ -24,6 +24,8 @@ IN_BODIES = (
     (r"<th([^>]*)>\s*(?:<p></p>)?\s*</th>", r"<td\1></td>"),
     # A per cent sign stays on the line of its number; code is left as it is.
     (r"(?s)<pre.*?</pre>|(?<=\d) (?=%)", lambda found: "\u00a0" if found[0] == " " else found[0]),
+    # A mark of punctuation stays on the line of the formula before it.
+    (r'(<span class="math notranslate nohighlight">[^<]*</span>[.,;:?!)’]+)', r'<span class="unbroken">\1</span>'),
     # A long name breaks between its parts.
     (r'(?<=<span class="pre">)neorl\.[\w.]+', lambda found: re.sub(r"(?<=[._])(?=\w)", "<wbr>", found[0])))
 IN_PAGES = (

@@ -82,10 +82,10 @@ def in_short(shares, judged, foremost):
     """The page's results in a few sentences. foremost: as `foremost_choices` returns it."""
     agreeing = [found["agrees"] / found["measured"] for found in shares.values() if found.get("measured")]
     holding = [_share(found, "holds") for found in shares.values()]
-    return (f"At the papers' own lengths, a claim's numbers agree with the thesis under {_percent(np.mean(agreeing))} "
-            f"of the readings that the text allows, on average over {len(agreeing)} claims. In short runs under "
-            f"{len(judged)} readings, with an interval required, a claim holds under {_percent(np.mean(holding))}. "
-            f"{foremost}")
+    return (f"At the papers' own lengths, a claim's numbers agree with the thesis in {_percent(np.mean(agreeing))} "
+            f"of the readings that the text allows, on average over {len(agreeing)} claims. In short runs of "
+            f"{len(judged)} readings, with an interval required, a claim holds in {_percent(np.mean(holding))} of "
+            f"them. {foremost}")
 
 
 def agreement_at_length(shares):
@@ -108,9 +108,9 @@ def holding_in_short_runs(shares, judged, judged_part, steps, runs):
             f"runs, which show early behaviour ({steps / 60 / PAPER_FPS:.3g} minutes of simulated time at {PAPER_FPS} "
             f"steps per second, {runs} runs per condition), {len(shares)} claims were judged under "
             f"{len(judged)} readings within the text, the expensive ones ({', '.join(judged_part[0])}) under "
-            f"{len(judged_part)} of these. On average a claim holds under "
-            f"**{_percent(np.mean([*holding.values()]))}** of the readings. Under more than half of "
-            f"them: {listed(name for name, share in holding.items() if share > 0.5)}; under none of them: "
+            f"{len(judged_part)} of these. On average a claim holds in "
+            f"**{_percent(np.mean([*holding.values()]))}** of the readings. In more than half of "
+            f"them: {listed(name for name, share in holding.items() if share > 0.5)}; in none of them: "
             f"{listed(name for name, share in holding.items() if share == 0)}. Of the {len(judged[0])} claims that "
             f"were judged under every reading, {max(counts)} hold under the best reading, and {np.mean(counts):.1f} on "
             f"average.")
@@ -119,7 +119,7 @@ def holding_in_short_runs(shares, judged, judged_part, steps, runs):
 def foremost_choices(importance, predicted, points):
     """The choice that matters most for each claim that the choices predict.
 
-    importance: {claim: {choice: importance}}. predicted: names of claims. points: how many readings there are.
+    importance: as `importances` returns it. predicted: names of claims. points: how many readings there are.
     """
     if not predicted:
         return f"With {points} readings, no choice predicts the number of any claim."
@@ -128,7 +128,10 @@ def foremost_choices(importance, predicted, points):
         foremost = max(importance[name], key=importance[name].get)
         claims.setdefault(WITHIN[foremost].label, []).append(name)
     words = "; ".join(f"*{label}* ({', '.join(names)})" for label, names in claims.items())
-    return f"The choice that matters most for each claim: {words}. For the others no choice predicts the number."
+    few = [name for name, found in importance.items() if not found]
+    unknown = f" There are too few readings for {listed(few)}." if few else ""
+    return (f"The choice that matters most for each claim: {words}.{unknown} For the others no choice predicts the "
+            "number.")
 
 
 def verdicts(shares):

@@ -1,6 +1,7 @@
 """The figures of the multiverse: the effect of a claim under every reading, the share of readings under which each
 claim holds, and the choices that matter."""
 
+import re
 from textwrap import fill
 
 import numpy as np
@@ -73,11 +74,17 @@ def draw_specification(readings, judged, name, choices=WITHIN, figure=None):
     strips.set_yticks(range(len(shown)), [choice.label for choice in shown.values()], fontsize=SMALL)
     strips.set(xlabel="readings, in order of the number above", xticks=[])
     ends = strips.secondary_yaxis("right")
-    ends.set_yticks(range(len(shown)), [choice.levels for choice in shown.values()], fontsize=SMALL)
+    ends.set_yticks(range(len(shown)), [_in_brief(choice.levels) for choice in shown.values()], fontsize=SMALL)
     for axes in (strips, ends):
         axes.tick_params(length=0)
         axes.spines[:].set_visible(False)
     return panels
+
+
+def _in_brief(levels):
+    """The levels of a choice, in words: their ends if there are more than three, since lists would narrow the curve."""
+    brief = re.sub(r"\{(\d+), [^}]*, (\d+)\}", r"{\1 … \2}", levels).split(", ")
+    return f"{brief[0]} … {brief[-1]}" if len(brief) > 3 else ", ".join(brief)
 
 
 def _curve(axes, claims, name):

@@ -24,7 +24,7 @@ ERRATA = (
             "the two desire vectors for red and green come “from ξ^OVC”",
             "from ξ^PC, as section 2 of the paper and their names say"),
     Erratum("paper C, section 1", "“Operant Value-function Components (OVC)”",
-            "everywhere else these are operant (or orthogonal) value functions, OVF, and OVC is the object vector "
+            "everywhere else these are operant (or orthogonal) value functions, OVF, and OVC is the object-vector "
             "cell, also in the ξ^OVC of the same paper"),
     Erratum("paper C, section 1", "“Thorndike's law-an-effect”, and operant conditioning “from E. C. Skinner”",
             "the law of effect; B. F. Skinner, as in section 2.1.1"),

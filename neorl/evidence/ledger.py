@@ -13,7 +13,8 @@ from neorl.evidence.verdict import RUNS_FOR_A_VERDICT, VERDICTS
 
 COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict", "Agrees", "Holds", "Undecided")
 CHAPTERS = {"A": "Paper A: maps of one space", "B": "Paper B: modalities", "C": "Paper C: networks of desires",
-            "T": "The thesis as a whole", "G": "General, compositional, incremental", "H": "A demonstration"}
+            "T": "The thesis as a whole", "G": "Efficient, general, compositional, incremental",
+            "H": "A demonstration"}
 
 
 def page(record):

@@ -9,6 +9,7 @@
 Quotations are verbatim except for mathematics, which is set in plain characters; square brackets are the source's.
 """
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -66,7 +67,8 @@ def tables(labels=None):
                 f"{pin.follows} |" for pin in PINS if pin.status == status]
         head = [f"**{status.capitalize()}**", "", "| Choice | What the text says | What follows |", "|---|---|---|"]
         parts.append("\n".join([*head, *rows]))
-    return "\n\n".join(parts)
+    raised = re.sub(r"\^(\w+)", r"<sup>\1</sup>", "\n\n".join(parts))
+    return re.sub(r"_(\w+)", r"<sub>\1</sub>", raised)
 
 
 def _called(pin, labels):
@@ -173,12 +175,12 @@ OBJECTS = (
         "time: the nearest, or the nearest green one."),
     Pin("gain of place cells, paper B", ("place_gain",), "behavior can later be harvested as a weighted sum over the "
         "OVF’s according to priorities", "paper B, section 2.2",
-        "Priorities of modalities are not given, and 1 : 1 is plainest, as in paper C. The author's later code has a "
+        "Priorities of modalities are not given, and 1:1 is plainest, as in paper C. The author's later code has a "
         "factor for places; a drawing on the author's site has 5."),
 )
 
 NETWORKS = (
-    Pin("gain of place cells, paper C", ("network_gain",), "1:1 weight ratio between ξPC and ξOVC",
+    Pin("gain of place cells, paper C", ("network_gain",), "1:1 weight ratio between ξ^PC and ξ^OVC",
         "paper C, section 3", "A gain of 1. A drawing of network D on the author's site has 5.",
         lambda reading: reading.network_gain == 1),
     Pin("desire vector", ("vectors",), "represents the vector sum", "paper C, section 1",

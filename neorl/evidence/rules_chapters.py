@@ -85,8 +85,8 @@ def judge_real_time(load, delay):
     load: (windows,). delay: (windows, steps), the time from when a step was due until it was done, in steps.
     """
     share, latest = estimate(np.mean, load), delay.max()
-    return judged("T5", share, f"Of {delay.size} steps, {(delay > 1).sum()} were done after the next one was due; "
-                  f"the latest was done {latest:.2f} steps after it was due. The rule allows 2.", len(load),
+    return judged("T5", share, f"Steps done after the next one was due: {(delay > 1).sum()} of {delay.size}; the "
+                  f"latest was done {latest:.2f} steps after it was due. The rule allows 2.", len(load),
                   reproduced=share.high < 1 and latest <= 2, partly=share.high < 1, possible=share.low < 1)
 
 

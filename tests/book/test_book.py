@@ -114,6 +114,12 @@ def test_a_per_cent_sign_stays_on_the_line_of_its_number_but_code_is_left_as_it_
         "<p>a 95\u00a0% interval of 2.5\u00a0%, in %</p><pre># 5 %\n6 %</pre> 7\u00a0%")
 
 
+def test_a_mark_of_punctuation_stays_on_the_line_of_the_formula_before_it():
+    formula = r'<span class="math notranslate nohighlight">\(N^2\)</span>'
+    assert describe.mended(f"<p>{formula}). {formula} cells</p>", describe.IN_BODIES) == (
+        f'<p><span class="unbroken">{formula}).</span> {formula} cells</p>')
+
+
 def test_a_command_names_the_repository_that_is_set(tmp_path, monkeypatch):
     text = (ROOT / "book" / "running.md").read_text(encoding="utf-8")
     for address, wanted in (("https://example.org/n", 'git+https://example.org/n"`.'), (None, 'git+URL"`, with the')):

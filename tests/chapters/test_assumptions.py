@@ -86,19 +86,23 @@ def test_claims_that_hold_in_short_runs_are_counted(shares):
     text = plain(assumptions.holding_in_short_runs(shares, judged, part, 30_000, 2))
     assert "behaviour (10 minutes of simulated time at 50 steps per second, 2 runs per condition), 3 claims" in text
     assert "3 claims were judged under 3 readings within the text, the expensive ones (A2) under 2" in text
-    assert ("a claim holds under **42 %** of the readings. Under more than half of them: A2; under none of them: B1."
+    assert ("a claim holds in **42 %** of the readings. In more than half of them: A2; in none of them: B1."
             in text)
     assert text.endswith("Of the 2 claims that were judged under every reading, 2 hold under the best reading, and "
                          "1.0 on average.")
     shares |= {"A2": shares["C1"], "B1": shares["C1"]}
     text = assumptions.holding_in_short_runs(shares, judged, part, 30_000, 2)
-    assert "Under more than half of them: none; under none of them: none." in text
+    assert "In more than half of them: none; in none of them: none." in text
 
 
 def test_claims_are_listed_by_the_choice_that_matters_most():
-    importance = {"A1": {"credit": 0.2, "discount": 0.5}, "A2": {"credit": 0.3}, "A3": {"discount": 0.1}, "A4": {}}
+    importance = {"A1": {"credit": 0.2, "discount": 0.5}, "A2": {"credit": 0.3}, "A3": {"discount": 0.1}, "A4": {},
+                  "A5": {}, "A6": {"discount": 0.0}}
     text = assumptions.foremost_choices(importance, ["A1", "A2", "A3"], 64)
     assert text.startswith("The choice that matters most for each claim: *discount, γ* (A1, A3); *credit, ψ(N)* (A2).")
+    assert text.endswith(" There are too few readings for A4, A5. For the others no choice predicts the number.")
+    all_known = assumptions.foremost_choices({"A1": {"credit": 0.2}}, ["A1"], 64)
+    assert "too few" not in all_known
     assert assumptions.foremost_choices(importance, [], 16) == (
         "With 16 readings, no choice predicts the number of any claim.")
 
@@ -186,8 +190,8 @@ def test_readings_beyond_the_text_break_it_and_their_claims_are_counted():
 
 def test_the_box_has_the_shares_at_length_and_in_short_runs(shares):
     text = plain(assumptions.in_short(shares, [claims(["B1"])] * 3, "Credit matters most."))
-    assert "agree with the thesis under 20 % of the readings that the text allows, on average over 1 claims" in text
-    assert "under 3 readings, with an interval required, a claim holds under 42 %. Credit matters most." in text
+    assert "agree with the thesis in 20 % of the readings that the text allows, on average over 1 claims" in text
+    assert "of 3 readings, with an interval required, a claim holds in 42 % of them. Credit matters most." in text
 
 
 def test_only_predicted_claims_have_importances():

@@ -12,6 +12,7 @@ from matplotlib import pyplot as plt
 from neorl import Learning, Run, WaterWorld, place_cells
 from neorl.chapters.performance import (bandwidth, bound, contest, growth, minutes, performance_figures, report, rivals,
                                         timing)
+from neorl.drawing.style import use_style
 
 STEPS, LIVED = 1_000, 3_000
 
@@ -205,3 +206,12 @@ def test_figures_are_drawn():
     for number in plt.get_fignums():
         plt.figure(number).canvas.draw()
     plt.close("all")
+
+
+def test_a_legend_wider_than_the_bars_does_not_narrow_them():
+    with plt.rc_context():
+        use_style()
+        performance_figures.draw_minutes([minutes.PageTime("a_long_name", 1.0, 2.0, 30.0, 4.0)])
+        plt.gcf().canvas.draw()
+        assert plt.gca().get_position().width > 0.6
+        plt.close()

@@ -44,7 +44,8 @@ def test_curves_are_means_of_whole_stretches():
 def test_reports_name_what_they_compare():
     assert report.same_bits("Values", np.ones(3), np.ones(3)) == "Values: the same to the last bit."
     assert report.same_bits("Values", np.ones(3), np.zeros(3)) == "Values: not the same."
-    assert "neoRL 0.10 m, random 0.50 m" in report.distances({"neoRL": np.full(10, 0.1), "random": np.full(10, 0.5)})
+    away = report.distances({"neoRL": np.full(10, 0.1), "random": np.full(10, 0.5)})
+    assert "in one run each: neoRL 0.10\u00a0m, random 0.50\u00a0m" in away
     assert report.transfer([(9, 5), (40, 7), (2, 8)], 20_000) == (
         "In 20,000 steps, agents that began with the values of another earned 9 points (median over runs), and agents "
         "that began without earned 7; the former earned more in 2 of 3 runs.")
@@ -54,4 +55,4 @@ def test_the_box_has_transfer_checkpoint_and_steering():
     text = report.in_short([(3.0, 1.0), (2.0, 2.0)], 100, np.ones(2), np.ones(2), {"neoRL": np.full(10, 0.2)})
     assert text.startswith("In 100 steps, agents that began with the values of another earned 2 points (median over ")
     assert "without a break: the same to the last bit. In another simulator, an agent" in text
-    assert text.endswith("neoRL 0.20 m.")
+    assert text.endswith("neoRL 0.20\u00a0m.")

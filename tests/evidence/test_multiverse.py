@@ -314,6 +314,9 @@ def test_a_specification_curve_is_in_order_and_shows_every_choice_below(made_up)
     labels = [tick.get_text() for tick in strips.get_yticklabels()]
     row = labels.index("discount, γ")
     assert labels == [choice.label for choice in WITHIN.values() if "C" in choice.papers]
+    levels = {label: tick.get_text() for label, tick in zip(labels, strips.child_axes[0].get_yticklabels())}
+    assert levels["credit, ψ(N)"] == "happened … activity" and levels["resolutions, C"] == "{3 … 23}, {2 … 13}"
+    assert levels["steps per second"] == "50, 30, 60" and levels[WITHIN["memory"].label] == "0 … 1,000"
     np.testing.assert_allclose(image.get_array()[row], [WITHIN["discount"].place(readings[i].discount) for i in order])
     plt.close(figure)
 

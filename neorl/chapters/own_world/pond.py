@@ -1,4 +1,7 @@
-"""A pond with a lily pad: an agent takes steps in a square, and restarts elsewhere when it finds the pad."""
+"""A pond with a lily pad.
+
+An agent takes steps in a square, and restarts elsewhere when it finds the pad.
+"""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -19,7 +22,7 @@ class PondState(NamedTuple):
 
 
 class PondRules(NamedTuple):
-    """Everything that stays the same: the pushes of the actions, and of no action."""
+    """Everything that stays the same: the pushes of actions, and of none."""
 
     push: array("float64", 5, 2)
 

@@ -44,5 +44,6 @@ def table(results):
     rows = ["| agent | finds per thousand steps in the last fifth, mean ± standard deviation over runs |", "|---|---|"]
     for name, result in results.items():
         last = 1_000 * result.rate(0.8) / result.world.fps
-        rows.append(f"| {name} | {last.mean():.1f} ± {last.std():.1f} |")
+        unbroken = name.replace(" = ", "\u00a0=\u00a0")
+        rows.append(f"| {unbroken} | {last.mean():.1f} ± {last.std():.1f} |")
     return "\n".join(rows)

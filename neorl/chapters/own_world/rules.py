@@ -1,4 +1,4 @@
-"""User-defined rules: credit for events, the feature of an axis, the choice of actions."""
+"""User-defined rules: credit, the feature of an axis, and a policy."""
 
 from neorl import kernel, kernel_maker
 from neorl.core.stream import randint, uniform

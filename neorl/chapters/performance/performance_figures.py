@@ -107,5 +107,5 @@ def _bytes(axes):
 
 def _legend(axes, colours):
     handles = [plt.Rectangle((0, 0), 1, 1, color=colour) for colour in colours.values()]
-    axes.legend(handles, colours, frameon=False, labelcolor=TEXT, loc="lower left", bbox_to_anchor=(0, 1),
-                ncols=len(colours), handlelength=1, columnspacing=1, borderaxespad=0.2)
+    axes.legend(handles, colours, frameon=False, labelcolor=TEXT, loc="lower right", bbox_to_anchor=(1, 1),
+                ncols=len(colours), handlelength=1, columnspacing=1, borderaxespad=0.2)  # names of bars leave room

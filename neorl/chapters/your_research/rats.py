@@ -18,26 +18,31 @@ OBJECT = (0.75, 0.3)
 
 
 def decode_place(cells):
-    """The place that RatInABox's `PlaceCells` signal, in metres: float64 (2,)."""
+    """The place that `PlaceCells` signal, in metres: float64 (2,)."""
     return _weighted_mean(cells.firingrate, cells.place_cell_centres)
 
 
 def decode_vector(cells):
-    """The vector from the animal to an object that RatInABox's `ObjectVectorCells` signal, in metres: float64 (2,).
+    """The vector from the animal to an object, in metres: float64 (2,).
 
-    None while no cell fires.
+    It is what RatInABox's `ObjectVectorCells` signal; None while none fires.
     """
-    along = np.column_stack([np.cos(cells.tuning_angles), np.sin(cells.tuning_angles)])
+    angles, lengths = cells.tuning_angles, cells.tuning_distances
     if not np.any(cells.firingrate):
         return None
-    return _weighted_mean(cells.firingrate, cells.tuning_distances[:, None] * along)
+    along = np.column_stack([np.cos(angles), np.sin(angles)])
+    return _weighted_mean(cells.firingrate, lengths[:, None] * along)
 
 
 def scene_of(places, vectors):
-    """The scene that the two populations signal: where the animal is, and where the object is, if its cells fire."""
+    """The scene that the two populations signal.
+
+    It has the animal's place, and the object's if its cells fire.
+    """
     position, vector = decode_place(places), decode_vector(vectors)
-    kind = "object" if vector is not None else None
-    return Scene(position, things=[position + (0 if vector is None else vector)], kinds=[kind])
+    if vector is None:
+        return Scene(position, things=[position], kinds=[None])
+    return Scene(position, things=[position + vector], kinds=["object"])
 
 
 def forage(agent, steps, seed=0, n_cells=200):

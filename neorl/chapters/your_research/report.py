@@ -36,5 +36,5 @@ def in_short(found, steps, one, other, away):
 
 def distances(by_name):
     """A sentence on how far animals were from the object in the last fifth of their time: {name: float64 (steps,)}."""
-    parts = [f"{name} {np.mean(each[-len(each) // 5:]):.2f} m" for name, each in by_name.items()]
-    return f"Mean distance from the object in the last fifth of the time: {', '.join(parts)}."
+    parts = [f"{name} {np.mean(each[-len(each) // 5:]):.2f}\u00a0m" for name, each in by_name.items()]
+    return f"Mean distance from the object in the last fifth of the time, in one run each: {', '.join(parts)}."
