@@ -15,6 +15,13 @@ from docutils import nodes
 LONGEST = 200  # characters; more is cut off where descriptions are shown
 CARD = "card.png"
 NAMELESS = re.compile(r"<summary>(?=<span class=\"toctree-toggle\")")
+
+
+def breakable(found):
+    """A name that has been found, as HTML that may break between its parts."""
+    return re.sub(r"(?<=[._])(?=\w)", "<wbr>", found[0])
+
+
 IN_BODIES = (
     # A fold is named by its own text.
     (r'<summary aria-label="Toggle hidden content">', "<summary>"),
@@ -25,8 +32,10 @@ IN_BODIES = (
     # A per cent sign stays on the line of its number; code is left as it is.
     (r"(?s)<pre.*?</pre>|(?<=\d) (?=%)", lambda found: "\u00a0" if found[0] == " " else found[0]),
     # A long name breaks between its parts.
-    (r'(?<=<span class="pre">)neorl\.[\w.]+', lambda found: re.sub(r"(?<=[._])(?=\w)", "<wbr>", found[0])))
+    (r'(?<=<span class="pre">)neorl\.[\w.]+', breakable))
 IN_PAGES = (
+    # So does one in the index, whether at the end of an entry or as the whole of it.
+    (r'(?<=[( ]|>)neorl\.[\w.]+(?=[^<>]*\)</a>|</code></a></td>)', breakable),
     # The button is named by its own text, including the keys.
     (r'(<button class="btn search-button-field [^>]*?) aria-label="Search"', r"\1"),
     # Every part of a page lies in a landmark.

@@ -45,7 +45,7 @@ def test_real_time_is_judged_by_the_share_of_a_core_and_by_the_latest_step(load,
     claim = claims.judge_real_time(np.full(12, load), delay)
     assert (claim.verdict, claim.here.value) == (expected, pytest.approx(load))
     assert claim.undecided == (expected == "partly")  # the machine may have been busy otherwise
-    assert f"Of 360 steps, {int(latest > 1)} were done after" in claim.detail
+    assert f"due: {int(latest > 1)} of 360;" in claim.detail
     assert claims.judge_real_time(np.full(9, load), delay[:9]).verdict == "no verdict"
 
 
