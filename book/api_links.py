@@ -97,7 +97,8 @@ def value_of(name, module):
     except AttributeError:  # a keyword, such as None, or a builtin
         return name
     plain = all(type(each) in (bool, int, float, str) for each in (value if type(value) is tuple else [value]))
-    return repr(value) if plain and len(repr(value)) <= 40 else name
+    written = f"{value:.3g}" if type(value) is float else repr(value)
+    return written if plain and len(written) <= 40 else name
 
 
 def read_docstring(app, what, name, member, options, lines):
@@ -182,9 +183,10 @@ def find_name(app, env, node, content):
     if len(found) == 1:
         [(name, entry)] = found
         return make_refnode(app.builder, node["refdoc"], entry.docname, entry.node_id, content, name)
-    if here and target.isupper() and not found and value_of(target, sys.modules[here]) != target:
+    value = value_of(target, sys.modules[here]) if here and target.isupper() and not found else target
+    if value != target:
         content.clear()
-        content += nodes.Text(f"{target} = {value_of(target, sys.modules[here])}")
+        content += nodes.Text(f"{target} = {value}")
     return None if target.startswith("neorl.") and named is None else content
 
 

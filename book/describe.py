@@ -60,6 +60,16 @@ def describe(app, page, template, context, doctree):
         context["generate_toctree_html"] = lambda kind, **choices: named(make(kind, **choices))
     if "body" in context:
         context["body"] = mended(context["body"], IN_BODIES)
+    if page == "genindex":
+        context["genindexentries"] = without_modules(context["genindexentries"])
+
+
+def without_modules(index):
+    """The index, [(letter, [(name, (links, parts, key)), …]), …], without modules, which have an index of their own."""
+    kept = [(letter, [(name, entry) for name, entry in entries
+                      if entry[0] or name != "module" and [part for part, _ in entry[1]] != ["module"]])
+            for letter, entries in index]
+    return [(letter, entries) for letter, entries in kept if entries]
 
 
 def description(doctree):
