@@ -97,7 +97,7 @@ def value_of(name, module):
     except AttributeError:  # a keyword, such as None, or a builtin
         return name
     plain = all(type(each) in (bool, int, float, str) for each in (value if type(value) is tuple else [value]))
-    written = f"{value:.3g}" if type(value) is float else repr(value)
+    written = f"{value:.3g}" if type(value) is float and len(repr(value)) > 8 else repr(value)
     return written if plain and len(written) <= 40 else name
 
 

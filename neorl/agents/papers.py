@@ -110,8 +110,9 @@ def network_d(resolutions: Sequence[int] = LAYERS, recursion: float = -1.0, scal
               signed: bool = Desire.signed, place_gain: float = 1.0, object_gain: float = 1.0, **choices: Any) -> Agent:
     """Agent D of paper C (fig. 4d): as C, and object-vector cells receive their own previous desire, with valence r.
 
-    recursion: r, a finite number, which is negative in the thesis. Raises ValueError for anything else.
+    recursion: r, a finite number, which is negative in the thesis.
     resolutions, scale, signed, place_gain, object_gain, choices: as in `network_c`.
+    Raises ValueError for anything else.
     """
     without = network_c(resolutions, scale, signed, place_gain, object_gain, **choices)
     recurring = Desire("OVC", "OVC", valence=checks.real("recursion", recursion), scale=scale, signed=signed)

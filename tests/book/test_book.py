@@ -115,6 +115,13 @@ def test_names_in_the_indices_break_between_their_parts_and_addresses_stay():
         assert describe.mended(text.format("neorl.b_c"), describe.IN_PAGES) == text.format("neorl.<wbr>b_<wbr>c")
 
 
+def test_the_index_leaves_modules_to_their_own():
+    step = ("step() (in module a.b)", ([("", "a.html#a.b.step")], [], None))
+    modules = [("a.b", ([], [("module", [("", "a.html#a.b")])], None)),
+               ("module", ([], [("a.b", [("", "a.html#a.b")])], None))]
+    assert describe.without_modules([("A", modules[:1]), ("M", modules[1:]), ("S", [step])]) == [("S", [step])]
+
+
 def test_a_per_cent_sign_stays_on_the_line_of_its_number_but_code_is_left_as_it_is():
     assert describe.mended("<p>a 95 % interval of 2.5 %, in %</p><pre># 5 %\n6 %</pre> 7 %", describe.IN_BODIES) == (
         "<p>a 95\u00a0% interval of 2.5\u00a0%, in %</p><pre># 5 %\n6 %</pre> 7\u00a0%")
