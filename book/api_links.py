@@ -2,7 +2,8 @@
 
 Kernels are left out, since users of the package call the functions around them. The fields of a class are
 described by the comments beside them. Types and defaults appear as in code, except that a constant appears as its
-value if that is short. A name in single backticks links to its entry, if the reference has one that can be meant there.
+value if that is short. A name in single backticks links to its entry, if the reference has one that can be meant
+there; a constant without an entry is followed by its value.
 """
 
 import ast
@@ -17,6 +18,7 @@ import textwrap
 import tomllib
 from pathlib import Path
 
+from docutils import nodes
 from numpy.typing import ArrayLike
 from sphinx import addnodes
 from sphinx.ext.autodoc import PropertyDocumenter
@@ -30,13 +32,13 @@ from neorl.core.kernel import Kernel
 PROJECT = tomllib.loads(Path(neorl.__file__).parents[1].joinpath("pyproject.toml").read_text(encoding="utf-8"))
 LAYERS = PROJECT["tool"]["importlinter"]["contracts"][0]["layers"]
 ROOMS = [room for layer in reversed(LAYERS) for room in layer.split(" | ")]  # upwards
-ITEM = re.compile(r"(Raises|Returns) |([a-z_]\w*(?:(?:, \w+)*|(?:,? \w+){0,3})): ")
+ITEM = re.compile(r"(Raises|Returns) |([a-z_]\w*(?:(?:, \w+)*|(?:,? \w+){0,3})):(?: |$)")
 ENDS = (".", ".)", ";", ":")  # of the line before an item: in the middle of a sentence, a line may begin like one
 DEFAULT = re.compile(r"(?<==)( ?-?)([A-Za-z_][\w.]*)(?=[,)])")
 ARRAY_LIKE = stringify_annotation(ArrayLike, "smart")
 ANNOTATED = re.compile(r"(?:~typing\.)?Annotated\[(?:~numpy\.)?ndarray, ([^]]+)\]")  # by `neorl.core.kernel.array`
 ARRAY = re.compile(r"~numpy\.ndarray\[tuple\[~typing\.Any, \.\.\.\], ~numpy\.dtype\[([^]]+)\]\]")
-SENTENCE = re.compile(r"(?<=\.) (?=[a-z_]\w*(?:, \w+)*: )")
+SENTENCE = re.compile(r"(?<=\.) (?=[a-z_]\w*(?:, \w+)*:(?: |$))")
 OF_THE_WHOLE = re.compile(r"(?<=\.) (?=(?:Raises|Returns) )")  # in an item, which is of one argument
 
 
@@ -95,7 +97,8 @@ def value_of(name, module):
     except AttributeError:  # a keyword, such as None, or a builtin
         return name
     plain = all(type(each) in (bool, int, float, str) for each in (value if type(value) is tuple else [value]))
-    return repr(value) if plain and len(repr(value)) <= 40 else name
+    written = f"{value:.3g}" if type(value) is float and len(repr(value)) > 8 else repr(value)
+    return written if plain and len(written) <= 40 else name
 
 
 def read_docstring(app, what, name, member, options, lines):
@@ -143,11 +146,12 @@ def as_list(lines):
     while waiting:
         line = waiting.pop(0)
         start = ITEM.match(line) if not before or before.endswith(ENDS) else None
-        if start and start[2] or in_item and line:
+        if start or in_item and line:
             line, *rest = OF_THE_WHOLE.split(line, maxsplit=1)
             waiting = rest + waiting
         if start:
-            made += ["", f"*{start[1]}*" if start[1] else f"``{start[2]}``", f"    {line[start.end():]}"]
+            made += ["", f"*{start[1]}*" if start[1] else f"``{start[2]}``"]
+            made += [f"    {line[start.end():]}"] if line[start.end():] else []
         else:
             made.append(f"    {line.strip()}" if in_item and line else line)
         in_item, before = bool(start or in_item and line), line
@@ -160,7 +164,10 @@ def escaped(line):
 
 
 def find_name(app, env, node, content):
-    """Resolve a name in a docstring, but not that of an argument, from anywhere; others stay as written."""
+    """Resolve a name in a docstring, but not that of an argument, from anywhere; others stay as written.
+
+    A constant without an entry is followed by its value, if that is short.
+    """
     if node.get("refdomain") != "py":
         return None
     target, here = node["reftarget"], node.get("py:module")
@@ -176,6 +183,10 @@ def find_name(app, env, node, content):
     if len(found) == 1:
         [(name, entry)] = found
         return make_refnode(app.builder, node["refdoc"], entry.docname, entry.node_id, content, name)
+    value = value_of(target, sys.modules[here]) if here and target.isupper() and not found else target
+    if value != target:
+        content.clear()
+        content += nodes.Text(f"{target} = {value}")
     return None if target.startswith("neorl.") and named is None else content
 
 

@@ -15,6 +15,13 @@ from docutils import nodes
 LONGEST = 200  # characters; more is cut off where descriptions are shown
 CARD = "card.png"
 NAMELESS = re.compile(r"<summary>(?=<span class=\"toctree-toggle\")")
+
+
+def breakable(found):
+    """A name that has been found, as HTML that may break between its parts."""
+    return re.sub(r"(?<=[._])(?=\w)", "<wbr>", found[0])
+
+
 IN_BODIES = (
     # A fold is named by its own text.
     (r'<summary aria-label="Toggle hidden content">', "<summary>"),
@@ -27,8 +34,10 @@ IN_BODIES = (
     # A mark of punctuation stays on the line of the formula before it.
     (r'(<span class="math notranslate nohighlight">[^<]*</span>[.,;:?!)’]+)', r'<span class="unbroken">\1</span>'),
     # A long name breaks between its parts.
-    (r'(?<=<span class="pre">)neorl\.[\w.]+', lambda found: re.sub(r"(?<=[._])(?=\w)", "<wbr>", found[0])))
+    (r'(?<=<span class="pre">)neorl\.[\w.]+', breakable))
 IN_PAGES = (
+    # So does one in the index, whether at the end of an entry or as the whole of it.
+    (r'(?<=[( ]|>)neorl\.[\w.]+(?=[^<>]*\)</a>|</code></a></td>)', breakable),
     # The button is named by its own text, including the keys.
     (r'(<button class="btn search-button-field [^>]*?) aria-label="Search"', r"\1"),
     # Every part of a page lies in a landmark.
@@ -53,6 +62,16 @@ def describe(app, page, template, context, doctree):
         context["generate_toctree_html"] = lambda kind, **choices: named(make(kind, **choices))
     if "body" in context:
         context["body"] = mended(context["body"], IN_BODIES)
+    if page == "genindex":
+        context["genindexentries"] = without_modules(context["genindexentries"])
+
+
+def without_modules(index):
+    """The index, [(letter, [(name, (links, parts, key)), …]), …], without modules, which have an index of their own."""
+    kept = [(letter, [(name, entry) for name, entry in entries
+                      if entry[0] or name != "module" and [part for part, _ in entry[1]] != ["module"]])
+            for letter, entries in index]
+    return [(letter, entries) for letter, entries in kept if entries]
 
 
 def description(doctree):

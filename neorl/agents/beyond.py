@@ -34,7 +34,7 @@ def forager(resolutions: Sequence[int] = (5, 9, 15, 25), valence_green: float | 
     """One node of foveated cells at several resolutions, with contacts as goals.
 
     resolutions: increasing integers ≥ 1. valence_green, valence_red: of a creep, a number or "learned".
-    contacts: how it learns, a `Contacts`.
+    contacts: how it learns, a `Contacts`. Raises ValueError for anything else.
     """
     return Agent([Node("OVC × V", foveated_cells(), resolutions, goals="contacts")],
                  [Desire("green", "OVC × V", valence_green), Desire("red", "OVC × V", valence_red)], contacts=contacts)

@@ -73,7 +73,7 @@ class Individual:
 
     @property
     def state(self) -> State:
-        """The agent's `State`, as read-only views."""
+        """The agent's `neorl.core.state.State`, as read-only views."""
         return mapped(read_only, self._state)
 
     def q(self, index: int = 0) -> NDArray[np.float32]:

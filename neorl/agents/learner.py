@@ -46,10 +46,10 @@ class Surroundings(checks.Final):
 class Learner(Individual):
     """An agent in the user's own loop: `begin` with a scene, then alternate `act` and `observe`.
 
-    agent: an `Agent`. things: the greatest number of things at any time. kinds: the names of their kinds, first the
-    one that an agent wants by default. actions: the agent's actions, an `Actions`; by default N, S, E, W, and being
-    idle. seed: integer ≥ 0, of the agent's random numbers. size: the world's unit of length, such as its width.
-    fps: steps per second, on which memories in seconds depend.
+    agent: an `Agent`. things: the greatest number of things at any time, 0 … 2²⁰. kinds: the names of their kinds, the
+    one that an agent wants by default first. actions: the agent's actions, an `Actions`; by default N, S, E, W, and
+    being idle. seed: integer ≥ 0, of the agent's random numbers. size: the world's unit of length, such as its width,
+    > 0. fps: steps per second, > 0, on which memories in seconds depend.
 
     Raises ValueError for anything else, or if agent and world are incompatible, MemoryError if the agent's values do
     not fit into the free memory.
@@ -107,7 +107,7 @@ class Learner(Individual):
             None meaning at rest; things, (things, axes), their positions; kinds, the name or number of each thing's
             kind, or None while it is absent; met, for each whether it was met in this step, () if none was. A thing
             that was met may have moved, changed its kind or vanished: its slot then holds a new thing.
-        reward: of the action, from which desires with learned valence learn.
+        reward: of the action, a finite number, from which desires with learned valence learn.
 
         Raises ValueError for a scene that does not fit or is not finite, RuntimeError unless the agent has acted.
         """

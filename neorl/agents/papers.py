@@ -41,7 +41,7 @@ def place_cells(resolutions: Sequence[int] = PRIMES, valence_green: float = 1.0,
                 valence_red: float = -1.0, **choices: Any) -> Agent:
     """The agent of paper A, and PC of paper B: one node of place cells that desires green creeps and fears red ones.
 
-    resolutions: integers ≥ 1. valence_green, valence_red: of a creep. choices: see the module.
+    resolutions: integers ≥ 1. valence_green, valence_red: of a creep, numbers. choices: see the module.
     """
     return _network([("PC", PLACE_CELL, 1.0)], resolutions, _creeps("PC", valence_green, valence_red), choices)
 
@@ -110,8 +110,9 @@ def network_d(resolutions: Sequence[int] = LAYERS, recursion: float = -1.0, scal
               signed: bool = Desire.signed, place_gain: float = 1.0, object_gain: float = 1.0, **choices: Any) -> Agent:
     """Agent D of paper C (fig. 4d): as C, and object-vector cells receive their own previous desire, with valence r.
 
-    recursion: r, which is negative in the thesis. The others are as in `network_c`: resolutions, scale, signed,
-    place_gain, object_gain, choices. Raises ValueError unless r is a finite number.
+    recursion: r, a finite number, which is negative in the thesis.
+    resolutions, scale, signed, place_gain, object_gain, choices: as in `network_c`.
+    Raises ValueError for anything else.
     """
     without = network_c(resolutions, scale, signed, place_gain, object_gain, **choices)
     recurring = Desire("OVC", "OVC", valence=checks.real("recursion", recursion), scale=scale, signed=signed)

@@ -20,14 +20,18 @@ FARTHEST, NEAR = 1.0, 0.3  # the ranges of a radar's two maps, in widths of the 
 
 
 def seeker(nodes: Sequence[Node], desires: Sequence[Desire] = ()) -> Agent:
-    """An agent of these nodes and desires, with the shared rule and policy."""
+    """An agent of these nodes and desires, with the shared rule and policy.
+
+    nodes: one `Node` or more. desires: any number of `Desire`. Raises ValueError for what `Agent` refuses.
+    """
     return Agent(nodes, desires, RULE, POLICY, "silent")
 
 
 def reacher(links: int, valence: float = AVERSION) -> Agent:
     """An agent for an arm of two or three links: cells for the offset of a posture, joint by joint, on closed axes.
 
-    links: 2 or 3. valence: of obstacles.
+    links: 2, with 9 cells along each axis, or 3, with 7. valence: of obstacles, a number; that of targets is 1.
+    Raises KeyError for another number of links, ValueError for what `Desire` refuses.
     """
     axes = [Axis("objects", "component", joint, -0.5, 0.5, closed=True) for joint in range(links)]
     desires = [Desire("target", "joints", 1.0), Desire("obstacle", "joints", valence)]
@@ -43,7 +47,10 @@ def bearing(scene, point):
 
 
 def radar_node(name: str, reach: float, rings: int) -> Node:
-    """A node of cells for the distance of a thing, up to `reach`, and its bearing, in `rings` × 8 cells."""
+    """A node of cells for the distance of a thing, up to `reach`, and its bearing, in `rings` × 8 cells.
+
+    name: as in `Node`. reach: in widths of the area, > 0. rings: integer ≥ 1. Raises ValueError for anything else.
+    """
     return Node(name, Modality("radar cell", [Axis("objects", "length", high=reach),
                                               Axis(bearing, closed=True, intervals=8)]), [rings])
 

@@ -94,6 +94,8 @@ def draw_world(world: World, state: Any, ax: Axes | None = None) -> Axes:
 def draw_walls(world: World, ax: Axes | None = None) -> Axes:
     """Draw the walls and obstacles of a `neorl.Arena`, or the border of another world's board.
 
+    world: a `neorl.World`. Raises ValueError for an `ax` that is not axes.
+
     >>> axes = drawing.draw_walls(neorl.Arena(obstacles=[(0.4, 0.4, 0.6, 0.5)]))
     """
     axes = board_or_new(ax)

@@ -34,7 +34,8 @@ NETWORKS = {name: ("network", name) for name in "ABCD"}
 def draw_marginals(remaining, nearest=None, names=tuple(WITHIN), columns=2, figure=None):
     """Prior (outlines) and posterior (bars) of each choice, as shares of its levels.
 
-    remaining: a `Posterior`, the bars. nearest: another, whose shares are drawn as points.
+    remaining: a `Posterior`, the bars. nearest: another, whose shares are drawn as points, or None. names: of the
+    choices. columns: of panels.
     """
     each = [marginal(name, remaining) for name in names]
     rows = [each[i : i + columns] for i in range(0, len(each), columns)]
@@ -105,7 +106,9 @@ def draw_together(together, ax=None):
     """Which claims hold together: % of the readings with both measured in which both hold, on the diagonal each alone.
     A bar below each number has that length.
 
-    together: a `Together`. A cross marks pairs that never hold together, although by chance some readings would.
+    A cross marks pairs that never hold together, although by chance some readings would.
+
+    together: a `Together`.
     """
     axes = axes_or_new(ax, figsize=(width_of_figures(), width_of_figures()))
     share = np.divide(together.both, together.rows, out=np.zeros(together.both.shape), where=together.rows > 0)
@@ -125,7 +128,10 @@ def draw_together(together, ax=None):
 
 
 def draw_distances(table, ax=None):
-    """The distance of readings to all targets, wave by wave: those with all groups measured, and the nearest so far."""
+    """The distance of readings to all targets, wave by wave: those with all groups measured, and the nearest so far.
+
+    table: a list of `Row`.
+    """
     axes = axes_or_new(ax)
     complete = [row for row in table if row.complete]
     shift = np.random.default_rng(0).uniform(-0.3, 0.3, len(complete))  # so that points do not overlap
@@ -179,7 +185,7 @@ def draw_modalities(lives, ax=None):
 
 
 def draw_networks(lives, ax=None):
-    """Figure 4.7e: networks A to D. lives: see `draw_modalities`. A dashed line marks 1.5 times C's final level."""
+    """Figure 4.7e: networks A to D. A dashed line marks 1.5 times C's final level. lives: see `draw_modalities`."""
     axes = _draw_curves(_smooth(lives, NETWORKS), _minutes(lives, NETWORKS), ax)
     return _mark_level(axes, 1.5 * lives[0]["network", "C"].rate(*FINAL).mean(), "1.5 × C", INK)
 

@@ -73,7 +73,9 @@ def draw_proficiency(results: Mapping[str, Result], total: tuple[str, Sequence[R
 def draw_smoothed(results: Mapping[str, Result], ax: Axes | None = None) -> Axes:
     """Draw mean reward per second over the run, low-passed as in paper B, with the 95 % interval of the mean.
 
-    results: {name: `neorl.Result`}. The unfiltered mean is a thin line behind the curve, clipped to the axes.
+    The unfiltered mean is a thin line behind the curve, clipped to the axes.
+
+    results: {name: `neorl.Result`}.
     Raises ValueError for anything else, and for runs of 40 bins (8 s) or fewer, which are too short to smooth.
 
     >>> results = {"N7": neorl.simulate(neorl.place_cells([7]), neorl.WaterWorld(), steps=5_000, runs=4)}

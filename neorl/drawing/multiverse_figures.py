@@ -27,8 +27,9 @@ ABREAST = 3  # small curves per row
 def draw_specifications(judged, figure=None):
     """Specification curves of many claims, small and side by side: each claim's estimate under every reading, sorted.
 
-    judged: {name: [`Claim`, …]}, each claim under its readings. Numbers beyond an axis are drawn as in
-    `draw_specification`.
+    Numbers beyond an axis are drawn as in `draw_specification`.
+
+    judged: {name: [`Claim`, …]}, each claim under its readings.
     figure: a figure or a part of one to fill, by default a new one. Returns an array of the claims' axes.
     """
     rows = -(-len(judged) // ABREAST)
@@ -53,9 +54,11 @@ def draw_specifications(judged, figure=None):
 def draw_specification(readings, judged, name, choices=WITHIN, figure=None):
     """The specification curve of a claim: its estimate under every reading, sorted, and the choices of each below.
 
-    readings: [Reading, …]. judged: {name: `Claim`} for each of them. choices: those shown, in the form that `design`
-    takes. A number outside the middle 95 % is a triangle at the edge, pointing outward; a missing number is a cross at
-    the lower edge.
+    A number outside the middle 95 % is a triangle at the edge, pointing outward; a missing number is a cross at the
+    lower edge.
+
+    readings: [Reading, …]. judged: {name: `Claim`} for each of them. name: of the claim. choices: those shown, in the
+    form that `neorl.evidence.multiverse.design` takes.
     figure: a figure or a part of one to fill, by default a new one. Returns the axes of the curve and of the choices.
     """
     claims = [each[name] for each in judged]
@@ -132,9 +135,10 @@ def _limits(values, borders):
 def draw_standing(record, names, ax=None):
     """The verdicts of claims, and the share of readings under which they hold.
 
-    record: as `neorl.evidence.report.load` returns it. names: of the claims, from the top. Bars are from short runs:
-    the undecided share follows the one that holds, in another colour. Points are from runs as long as the papers',
-    where there are any.
+    Bars are from short runs: the undecided share follows the one that holds, in another colour. Points are from runs as
+    long as the papers', where there are any.
+
+    record: as `neorl.evidence.report.load` returns it. names: of the claims, from the top.
     Returns the axes, `ax` or those of a new figure.
     """
     axes = axes_or_new(ax, figsize=(width_of_figures(), 1.3 * ROW * len(names) + 0.7))
@@ -164,8 +168,8 @@ def draw_standing(record, names, ax=None):
 def draw_importance(importance, choices=WITHIN, ax=None):
     """Which choices matter for which claim, as areas of discs.
 
-    importance: {name of the claim: {name of the choice: importance}}. choices: those varied, in the form that `design`
-    takes. Returns the axes, `ax` or those of a new figure.
+    importance: {name of the claim: {name of the choice: importance}}. choices: those varied, in the form that
+    `neorl.evidence.multiverse.design` takes. Returns the axes, `ax` or those of a new figure.
     """
     axes = axes_or_new(ax, figsize=(width_of_figures(), ROW * 1.25 * len(choices) + 0.5))
     keys = list(choices)

@@ -57,9 +57,11 @@ def track(run: Run, seconds: float, index: int = 0) -> Track:
 def rate_map(track: Track, cell: int | None = None, bins: int = 20) -> NDArray[np.floating]:
     """The rate of a cell by place, or without a cell the agent's seconds at each place: float64 (bins, bins).
 
-    track: a `Track`. cell: of its map, 0 … cells − 1. bins: along each side of the unit board, integer from 1 to 1000,
-    row by row from the upper left; positions beyond the board belong to the bins at its edge. The rate is in 0 … 1, and
-    NaN at unvisited places. Raises ValueError for anything else.
+    Bins are row by row from the upper left; positions beyond the board belong to those at its edge. The rate is in
+    0 … 1, and NaN at unvisited places.
+
+    track: a `Track`. cell: of its map, 0 … cells − 1, or None. bins: along each side of the unit board, integer from 1
+    to 1000. Raises ValueError for anything else.
 
     >>> run = neorl.Run(neorl.place_cells([2]), neorl.WaterWorld())
     >>> drawing.rate_map(drawing.track(run, seconds=60), cell=0, bins=2)[0, 0]
@@ -91,9 +93,10 @@ def _checked(track):
 def draw_rate_map(track: Track, cell: int | None = None, bins: int = 20, ax: Axes | None = None) -> Axes:
     """Draw a `rate_map` over the board, with a scale beside it, into `ax` or a new figure; returns the axes.
 
-    track, cell, bins: as in `rate_map`. Seconds are coloured by their square root, so that places where the agent
-    rested do not darken all others. In WaterWorld a strip in the east and the south is empty: the agent's position is
-    that of its upper left corner.
+    Seconds are coloured by their square root, so that places where the agent rested do not darken all others. In
+    WaterWorld a strip in the east and the south is empty: the agent's position is that of its upper left corner.
+
+    track, cell, bins: as in `rate_map`. Raises ValueError for anything else.
 
     >>> run = neorl.Run(neorl.object_vector_cells([3]), neorl.WaterWorld())
     >>> seen = drawing.track(run, seconds=60)

@@ -67,8 +67,9 @@ def draw_cells(nres_map: NresMap, colour: Any = INK, fills: Mapping[int, tuple[A
 def draw_values(nres_map: NresMap, values: ArrayLike, actions: Actions = CARDINAL, ax: Axes | None = None) -> Axes:
     """Draw an arrow in every cell for its action values: the sum of the actions' pushes times their values.
 
-    nres_map: as in `draw_cells`. values: float (cells, actions). actions: the world's `neorl.Actions`, of two axes.
     Arrows grow with the fourth root of the values, so that small ones are visible.
+
+    nres_map: as in `draw_cells`. values: float (cells, actions). actions: the world's `neorl.Actions`, of two axes.
     Raises ValueError for anything else.
 
     >>> values = np.array([[0.0, 0.0, 1.0, 0.0]] * 9)  # east is best everywhere

@@ -52,6 +52,7 @@ def calibrate(minutes, table=(), executor=None, seed=0, runs=RUNS, steps=STEPS, 
     table: rows to continue from. executor: see `neorl.sweep`. seed: of the design and of the candidates; row i of the
     table is run with the seed 1000 · seed + i. runs, steps: of each reading, see `reading.conditions`.
     keep: called with the table whenever it has grown, for instance to save it.
+
     The clock is checked between chunks of 16 readings, so the call may take up to a chunk longer.
     Raises ValueError for a bad argument.
     """

@@ -29,8 +29,8 @@ def low_passed(rates: ArrayLike) -> NDArray[np.float64]:
 
     At either end a curve is extended by its point reflection, in the end point of a straight line fitted to its first
     or last cutoff period: its own end point is as noisy as an unfiltered curve.
-    rates: (runs, points). Raises ValueError for anything but finite numbers, or if there are no more than 2
-    `CUTOFF_PERIODS` points.
+    rates: (runs, points). Raises ValueError for anything but finite numbers, or if there are no more points than
+    twice `CUTOFF_PERIODS`.
     """
     rates = checks.doubles("rates", rates)
     if rates.ndim != 2 or rates.shape[1] <= 2 * CUTOFF_PERIODS or not len(rates):

@@ -51,6 +51,7 @@ class Reading:
     vectors: how a desire vector adds up. "signed", "by size" (see `Desire`), or "incoming": by size, except that the
         recurrent one is signed and sums only what comes in from other nodes.
     network_resolutions: of the maps of paper C.
+
     The other fields are those of `Learning`, `Policy`, `Node`, `Desire`, `Agent` and `WaterWorld` of the same names.
     Raises ValueError for invalid vectors, resolutions, memory, exploration, recursion or fps; its agents and conditions
     check the other fields.
@@ -131,7 +132,7 @@ def conditions(reading: Reading, steps: int, runs: int, seed: int = 0,
 
     steps: of a run at 50 steps per second, but no more than the paper's; runs of papers B and C last the same simulated
     time at any rate. For B4 runs are 16 times as long and half as many, but at least two, unless steps reach paper B's
-    length. Brownian motion with 8 creeps always runs as long as in paper A, where it meets with no reset.
+    length. Brownian motion with 8 creeps always runs as long as in paper A, which reports no reset in that time.
     seed: integer ≥ 0. groups: names in `GROUPS`, which has the keys of each.
     Raises ValueError for anything else.
     """

@@ -30,8 +30,10 @@ PARTS = ("claims", "letter", "shares")  # of a record
 def table(claims, letter=(), shares=None):
     """Claims as a Markdown table, and below it the evidence for each verdict.
 
+    A column without an entry is left out; without claims to the letter there is no choice of a reading.
+
     claims: a sequence of `Claim`, under the book's reading. letter: the same, under that to the letter. shares: as in
-    `save`. A column without an entry is left out; without claims to the letter there is no choice of a reading.
+    `save`.
     """
     record = {"claims": _kept(claims), "letter": _kept(letter), "shares": shares or {}}
     names = [claim.name for claim in claims]
@@ -87,9 +89,11 @@ def errata(place=""):
 def save(page, claims=(), shares=None, letter=()):
     """Save the findings of a page as JSON, with the digest of the source that computed them.
 
-    claims, letter: sequences of `Claim`, under the book's reading and under that to the letter. shares: {name of a
-    claim: {"holds", "undecided", "readings"}}, counts of readings within the text in short runs, with "agrees" and
-    "measured" if there are counts at the papers' lengths too. A missing bound, as with a single run, is null.
+    A missing bound, as with a single run, is null.
+
+    page: its name. claims, letter: sequences of `Claim`, under the book's reading and under that to the letter.
+    shares: {name of a claim: {"holds", "undecided", "readings"}}, counts of readings within the text in short runs,
+        with "agrees" and "measured" if there are counts at the papers' lengths too.
     """
     content = {"page": page, "source": source_digest(), "claims": _kept(claims), "letter": _kept(letter),
                "shares": shares or {}}

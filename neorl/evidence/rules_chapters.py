@@ -18,6 +18,7 @@ def judge_changes(revalued, moved=None):
     moved: mean distances, in board widths, to a desired place in the time after each of its moves between two points:
         {"experienced": (runs, moves), "ignorant": (runs, moves)}, an even number of moves, 4 or more, of agents with
         and without experience among creeps. Readings are judged without it, by revaluing alone.
+    Returns a `Claim`.
     """
     before, after, later = (_red_a_minute(revalued, *share) for share in (BEFORE_TURN, AFTER_TURN, FINAL))
     kept, turn = estimate(ratio, after, later), estimate(difference, after, before)
@@ -41,6 +42,7 @@ def judge_cost(together, alone, none):
     """Claim T2, from the cost of an agent's maps together and alone; each (repetitions,), in the same unit per step.
 
     together: with all maps. alone: a sequence, with each map alone. none: without any.
+    Returns a `Claim`.
     """
     cost = estimate(_cost_ratio, together, none, *alone)
     return judged("T2", cost, "The rule allows a tenth more.", len(together), reproduced=cost.high <= 1.1,
@@ -53,6 +55,7 @@ def judge_temporality(whole, short):
 
     whole, short: {name of a process: reward above chance, (runs,)}, of agents that remember all L steps, and of agents
     that remember one step less.
+    Returns a `Claim`.
     """
     loss = {name: estimate(_loss, whole[name], short[name]) for name in whole}
     least = min(loss, key=lambda name: loss[name].value)
@@ -70,6 +73,7 @@ def judge_tables(states, values, entries, filled):
 
     states: S of each process, (sizes,). values, entries, filled: the numbers of a learner's action values, of entries
     in its model of the transitions, and of those that are not 0; each (runs, sizes).
+    Returns a `Claim`.
     """
     value, entry, full = (estimate(np.mean, _powers(np.log(states), np.log(table)))
                           for table in (values, entries, filled))
@@ -83,6 +87,7 @@ def judge_real_time(load, delay):
     """Claim T5, from the load of each window of a run in real time, in cores, and the delay of each step.
 
     load: (windows,). delay: (windows, steps), the time from when a step was due until it was done, in steps.
+    Returns a `Claim`.
     """
     share, latest = estimate(np.mean, load), delay.max()
     return judged("T5", share, f"Steps done after the next one was due: {(delay > 1).sum()} of {delay.size}; the "
@@ -95,6 +100,7 @@ def judge_more_maps(additions):
 
     additions: {what is added: (more, fewer, brownian)}. more: the `Result` of the agent with more maps. fewer: a
     sequence of those of the agents with fewer, in runs of the same length. brownian: Brownian motion on the same board.
+    Returns a `Claim`.
     """
     sooner, room, testable = {}, {}, []
     for name, (more, fewer, brownian) in additions.items():
@@ -129,6 +135,7 @@ def judge_persistence(persistent, per_step, brownian):
 
     persistent: agents that learn at changes of cell. per_step: {discount: agents that learn at every step}, otherwise
     the same; the best one counts. brownian: Brownian motion.
+    Returns a `Claim`.
     """
     best = max(per_step, key=lambda name: per_step[name].rate(*FINAL).mean())
     step, cell, chance = per_step[best].rate(*FINAL), persistent.rate(*FINAL), brownian.rate()
@@ -144,7 +151,9 @@ def judge_persistence(persistent, per_step, brownian):
 def judge_time_scale(resolutions, stays):
     """Claim T8, from how long agents stay in the cells of maps of several resolutions.
 
-    resolutions: N of each map, (maps,). stays: the mean time from one change of cell to the next, (runs, maps).
+    resolutions: N of each map, (maps,). stays: the mean time from one change of cell to the next, (runs, maps), in
+    any unit.
+    Returns a `Claim`.
     """
     order = np.argsort(resolutions)[::-1]
     width, time = -np.log(np.asarray(resolutions, float)[order]), np.log(stays)[:, order]
@@ -161,6 +170,7 @@ def judge_latent_learning(agent, rivals, first_reward=11):
 
     agent: of neoRL, for the groups "throughout", "never" and "delayed", which is rewarded from day ``first_reward`` on.
     rivals: {name: the same} of other learners, which are reported and not judged.
+    Returns a `Claim`.
     """
     runs = min(len(record.errors) for record in agent.values())
     after, next_day = slice(first_reward, None), slice(first_reward, first_reward + 1)

@@ -18,6 +18,7 @@ def judge_single_layer(by_resolution, brownian):
 
     by_resolution: {N: `Result`} for N 10, 30, 50, 70, 90. brownian: the `Result` of the control, in which the last
     green creep brings an extra reward.
+    Returns a list of `Claim`s: A1 to A5.
     """
     runs = fewest_runs(*by_resolution.values(), brownian)
     rate = {n: result.rate() for n, result in sorted(by_resolution.items())}
@@ -79,6 +80,7 @@ def judge_multiple_layers(by_resolution, together, brownian):
 
     by_resolution: {N: `Result`} for N 3, 7, 23. together: the `Result` of the agent with all three maps, in runs of the
     same length. brownian: that of Brownian motion on the same board.
+    Returns a list of `Claim`s: A6 to A8.
     """
     alone = [*by_resolution.values()]
     runs = fewest_runs(*alone, together)

@@ -19,6 +19,7 @@ def judge_modalities(place, objects, both, brownian):
 
     place, objects, both: `Result`s of the agents with all resolutions of place cells, of object-vector cells, and of
     both, in runs of the same length. brownian: that of Brownian motion on the same board.
+    Returns a list of `Claim`s: B1, B3 and B6.
     """
     runs = fewest_runs(place, objects, both)
     pc, ovc, joint = (result.rate(*FINAL) for result in (place, objects, both))
@@ -57,6 +58,7 @@ def judge_resolutions(place, objects, brownian):
 
     place, objects: {N: `Result`} for single resolutions, and {"all": `Result`} for all of them together, of agents of
     place cells and of object-vector cells. brownian: the `Result` of Brownian motion on the same board.
+    Returns a `Claim`.
     """
     runs = fewest_runs(*place.values(), *objects.values())
     leads, best = {}, {}
@@ -76,6 +78,7 @@ def judge_pace(place, objects, both, brownian):
     """Claim B4 of paper B, from `Result`s of agents with all maps of place cells, of object-vector cells, and of both.
 
     brownian: that of Brownian motion on the same board.
+    Returns a `Claim`.
     """
     minutes = {name: time_to_final_level(result) / 60
                for name, result in (("place cells", place), ("object-vector cells", objects))}
@@ -96,6 +99,7 @@ def judge_points(result):
     """Claim B5 of paper B, from the `Result` of an agent with an extra reward for the last green creep, not counted.
 
     The extra reward marks a reset of the board; the agent never sees it, so its runs are those of the paper.
+    Returns a `Claim`.
     """
     boards = resets(result)
     brought = estimate(ratio, points(result), boards)
@@ -109,6 +113,7 @@ def judge_joining(joined, place, brownian):
 
     joined: agents of place cells that gain object-vector cells at half-time. place: agents that keep place cells alone.
     brownian: Brownian motion on the same board.
+    Returns a `Claim`.
     """
     gain = estimate(difference, joined.rate(*FINAL), place.rate(*FINAL))
     kept = estimate(ratio, joined.rate(*AFTER_TURN), place.rate(*AFTER_TURN))

@@ -13,6 +13,7 @@ def judge_networks(a, b, c, d, brownian):
     """Claims C1–C4 of paper C, from its figure 4e and the `Result`s of its four agents.
 
     brownian: the `Result` of Brownian motion on the same board.
+    Returns a list of `Claim`s: C1 to C4.
     """
     results = dict(zip("ABCD", (a, b, c, d)))
     runs = fewest_runs(*results.values())
@@ -52,6 +53,7 @@ def judge_alternatives(alternatives, thesis, brownian, real_time):
     alternatives: {name: (final rewards, seconds to compute a step)}, of learners that observe no more of the board
         than can be seen on it. thesis: {name: final rewards} of the thesis's agents.
     brownian: final rewards of Brownian motion. real_time: seconds that a step lasts.
+    Returns a `Claim`.
     """
     best = max(thesis, key=lambda name: thesis[name].mean())
     over = {name: estimate(ratio, final, thesis[best]) for name, (final, _) in alternatives.items()}

@@ -11,6 +11,7 @@ def judge_efficiency(agent, table, chance):
     """Claim G1, from the duration of the second trial at a new place, in seconds (runs,).
 
     agent: of agents. table: of Q-learning on the same cells. chance: of animals that swim at random.
+    Returns a `Claim`.
     """
     share, gain = estimate(ratio, agent, table), estimate(difference, chance, agent)
     return judged("G1", share, f"They take {gain} seconds less than at random. “Efficient” is read as half of "
@@ -20,7 +21,10 @@ def judge_efficiency(agent, table, chance):
 
 
 def judge_generality(scores):
-    """Claim G2, from {world: (agent (runs,), chance (runs,))}, of agents with one learning rule and at random."""
+    """Claim G2, from {world: (agent (runs,), chance (runs,))}, of agents with one learning rule and at random.
+
+    Returns a `Claim`.
+    """
     better = {world: probability_of_improvement(*pair) for world, pair in scores.items()}
     least = min(better, key=lambda world: better[world].value)
     text = "; ".join(f"{world} {each}" for world, each in better.items())
@@ -35,6 +39,7 @@ def judge_composition(apart, whole, chance):
     """Claim G3, from the steps to a point of a space of two features, as multiples of the fewest possible (runs,).
 
     apart: of agents with a map for each feature. whole: with one map of both. chance: at random.
+    Returns a `Claim`.
     """
     cost, gain = estimate(ratio, apart, whole), estimate(ratio, chance, apart)
     return judged("G3", cost, f"Random agents take {gain} times as long as those with a map for each. “Compositional” "
@@ -48,6 +53,7 @@ def judge_extension(joined, alone, chance):
     """Claim G4, from `Result`s of runs of the same length.
 
     joined: agents that gain a second map at half-time. alone: agents that do not. chance: at random.
+    Returns a `Claim`.
     """
     gain = estimate(difference, 60 * joined.rate(*FINAL), 60 * alone.rate(*FINAL))
     kept = estimate(ratio, joined.rate(*AFTER_TURN), alone.rate(*AFTER_TURN))

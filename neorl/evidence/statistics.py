@@ -30,15 +30,18 @@ class Estimate(NamedTuple):
     high: float
 
     def __str__(self):
-        bounds = "" if np.isnan(self.low) else f" [{self.low:z.2f}, {self.high:z.2f}]"
-        return f"{self.value:z.2f}{bounds}".replace("-", "−")
+        digits = 2 if abs(self.value) < 1000 else 0
+        bounds = "" if np.isnan(self.low) else f" [{self.low:z.{digits}f}, {self.high:z.{digits}f}]"
+        return f"{self.value:z.{digits}f}{bounds}".replace("-", "−")
 
 
 def estimate(statistic: Callable, *samples: ArrayLike, rng: Rng = 0) -> Estimate:
     """A statistic of one or several independent samples (each (runs,)), with its bootstrap interval.
 
-    statistic: takes the samples, and `axis`, the axis of the runs. A sample of a single run has no interval: its
-    bounds are NaN. rng: see the module. Raises ValueError for a sample that is empty or not finite.
+    A sample of a single run has no interval: its bounds are NaN.
+
+    statistic: takes the samples, and `axis`, the axis of the runs. rng: see the module. Raises ValueError for a sample
+    that is empty or not finite.
     """
     if not callable(statistic) or not samples:
         raise ValueError(f"statistic is {checks.shown(statistic)} of {len(samples)} samples, allowed are functions of "
@@ -133,9 +136,11 @@ def resets(result: Result) -> NDArray[np.float64]:
 def tolerance_band(curves: ArrayLike, share: float = 0.75, confidence: float = 0.95) -> NDArray[np.float64]:
     """The band between two order statistics that contains a share of all possible runs, at each point: (low, high).
 
-    curves: (runs, points). It is the narrowest band, with as many runs above as below, that contains `share` of them
-    with `confidence`, whatever their distribution (Wilks 1941). With too few runs, fewer than 18 by default, it is
-    their whole range and contains less, by as much as `tolerated_share` says.
+    It is the narrowest band, with as many runs above as below, that contains `share` of them with `confidence`,
+    whatever their distribution (Wilks 1941). With too few runs, fewer than 18 by default, it is their whole range and
+    contains less, by as much as `tolerated_share` says.
+
+    curves: (runs, points). share, confidence: numbers from 0 to 1. Returns float64 (2, points).
     Raises ValueError unless both are numbers from 0 to 1, and the curves finite, of one run or more.
     """
     share, confidence = checks.real("share", share, 0, 1), checks.real("confidence", confidence, 0, 1)
@@ -231,9 +236,10 @@ def _mean_of_runs(rates, chosen):
 def time_to_final_level(result: Result, share: float = 0.9) -> NDArray[np.float64]:
     """When each run first reaches `share` of its final level: float64 (runs,), in simulated seconds.
 
-    result: a `Result`. The final level is a run's own reward per second in its last fifth, and is reached as in
-    `time_to_level`. A run whose final level is not positive never reaches it. Raises ValueError for a share that is not
-    from 0 to 1.
+    The final level is a run's own reward per second in its last fifth, and is reached as in `time_to_level`. A run
+    whose final level is not positive never reaches it.
+
+    result: a `Result`. share: from 0 to 1. Raises ValueError for anything else.
     """
     final, share = checks.instance("result", result, Result).rate(0.8, 1.0), checks.real("share", share, 0, 1)
     return _time_to_level(result, np.where(final > 0, share * final, np.inf))

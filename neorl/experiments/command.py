@@ -47,7 +47,11 @@ def main(arguments=None):
 
 
 def run_file(path, save=None):
-    """Run the experiment in a file, and print its results. save: where to write them to, or None."""
+    """Run the experiment in a file, and print its results.
+
+    path: as in `read_experiment`. save: where to write them to, or None; with variations, each to a file of its own.
+    Raises what `read_experiment`, `sweep` and `neorl.Result.save` raise.
+    """
     conditions = read_experiment(path)
     targets = [Path(save).with_stem(f"{Path(save).stem}-{name}") if name else Path(save) for name in conditions
                ] if save else [None] * len(conditions)

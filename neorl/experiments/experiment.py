@@ -2,15 +2,15 @@
 
     steps = 150_000
     runs = 20
-    seed = 0                                # anything left out has its default
+    seed = 0  # anything left out has its default
     world = { is = "WaterWorld", n_creeps = 8 }
 
     [agent]
-    is = "place_cells"                      # an agent of the papers, or nodes and desires in full
+    is = "place_cells"  # one of the papers' agents, or nodes and desires
     resolutions = [3, 7, 23]
     learning = { memory = 10.0 }
 
-    [variations.coarse]                     # with variations, they alone are the conditions
+    [variations.coarse]  # with variations, they alone are the conditions
     agent.resolutions = [3]
 
     [variations.forgetful]

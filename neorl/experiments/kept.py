@@ -79,7 +79,8 @@ def conditions():
 def clear(which="all"):
     """Remove files that neorl keeps: "all", "compiled" code (kernels and WebAssembly), or "older" files.
 
-    Returns the list of `Kept` that were removed. Raises ValueError for anything else, OSError without permission.
+    which: one of these three. Raises ValueError for anything else, OSError without permission.
+    Returns the list of `Kept` that were removed.
     """
     checks.one_of("which", which, WHICH)
     removed = [each for each in kept() if which == "all" or which == "older" and each.is_older

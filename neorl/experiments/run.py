@@ -125,6 +125,6 @@ def bin_steps(world):
 
 
 def new_bins(world, runs, steps):
-    """Arrays of zeros for the rewards and hits of `runs` runs of `steps` steps each."""
+    """Zeros for the rewards and hits of runs of `steps` steps: float32 (runs, bins) and int16 (runs, bins, kinds)."""
     bins = -(-steps // bin_steps(world))
     return np.zeros((runs, bins), np.float32), np.zeros((runs, bins, len(world.kinds)), np.int16)

@@ -127,8 +127,10 @@ def simulate(agent: Agent, world: World, *, steps: int, runs: int, seed: int = 0
 
     agent: an `Agent`. world: a `neorl.World`. steps, runs: integers ≥ 1.
     seed: integer ≥ 0; run k is the same for any number of runs and threads.
-    changes: (step, agent) pairs in order of time: from that step on every learner is that agent, see `Run.change`.
-    threads: the number of runs in parallel; by default one per core, as far as they fit into the free memory.
+    changes: (step, agent) pairs in order of time: from that step on every learner is that agent, see
+        `neorl.Run.change`.
+    threads: the number of runs in parallel, an integer ≥ 1; by default one per core, as far as they fit into the free
+        memory.
     progress: show a progress bar.
     Raises ValueError for a bad argument, MemoryError if a single run does not fit into the free memory.
     """

@@ -3,13 +3,13 @@
 Importing this package registers three environments; Gymnasium imports it when it is named before a colon::
 
     env = gymnasium.make("neorl.gym:neorl/WaterWorld-v0", n_creeps=8)
-    env = gymnasium.make("neorl.gym:neorl/Arena-v0", places=[("platform", 0.65, 0.35)])
-    env = gymnasium.make("neorl.gym:neorl/World-v0", world=Pond())  # any `neorl.World`
+    env = gymnasium.make("neorl.gym:neorl/Arena-v0", shape="square")
+    env = gymnasium.make("neorl.gym:neorl/World-v0", world=Pond())
     envs = gymnasium.make_vec("neorl.gym:neorl/WaterWorld-v0", num_envs=64)
 
-They take the fields of the world, and the arguments of `WorldEnv` or, for many environments, of `VectorWorldEnv`. An
-episode in WaterWorld lasts a minute, 3,000 steps, unless `max_episode_steps` says otherwise; one in an arena is a
-trial. `play` runs a neoRL agent in any Gymnasium environment.
+They take the fields of the world, or any `neorl.World` as a whole, and the arguments of `WorldEnv` or, for many
+environments, of `VectorWorldEnv`. An episode in WaterWorld lasts a minute, 3,000 steps, unless `max_episode_steps` says
+otherwise; one in an arena is a trial. `play` runs a neoRL agent in any Gymnasium environment.
 
 The package needs gymnasium, and pygame to show an environment in a window: the extra ``gym``. It depends on
 `neorl.agents`, `neorl.worlds` and the rooms below them.

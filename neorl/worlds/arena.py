@@ -63,13 +63,13 @@ class ArenaRules(NamedTuple):
 class Arena(World, checks.Final):
     """An arena in the plane, see the module for its rules. Lengths are fractions of its size, its width and height.
 
-    places: (kind, x, y) each, the kind a name. pay: the reward for meeting a place of each kind, in the order in which
-        kinds first appear in `places`; 1 for those left out.
-    obstacles: (left, top, right, bottom) each.
-    shape: of the walls, "round" or "square". motion: "inertia", or plain "steps" of `step_length`.
+    places: (kind, x, y) each, the kind a name, x and y in 0 … 1. pay: the reward for meeting a place of each kind, in
+        the order in which kinds first appear in `places`; 1 for those left out.
+    obstacles: (left, top, right, bottom) each, in 0 … 1.
+    shape: of the walls, "round" or "square". motion: "inertia", or plain "steps" of `step_length`, 10⁻⁹ … 1.
     radius: the distance within which a place is met, > 0. ends: whether a meeting ends the trial.
-    start: where trials start, (x, y); () stands for one of four points of the rim.
-    trial_seconds: the maximum duration of a trial, > 0. fps: steps per second, 1 … 2³¹.
+    start: where trials start, (x, y) in 0 … 1; () stands for one of four points of the rim.
+    trial_seconds: the maximum duration of a trial, > 0, at most 10⁹. fps: steps per second, 1 … 2³¹.
 
     Raises ValueError for anything else, and for a start in a wall or an obstacle.
     """

@@ -27,7 +27,7 @@ from neorl.core.stream import uniform
 from neorl.worlds.world import Dynamics, World
 
 PUSH = 0.05  # turns per second
-DRAG = 0.9
+DRAG = 0.9  # share of the velocity that a step retains
 TERMS = 10  # of the series of sine and cosine, exact to the last few bits
 TARGET, OBSTACLE = range(2)
 

@@ -19,9 +19,9 @@ HALF_SECOND = 0.5  # a velocity is shown at the place that the agent would reach
 class Probes(NamedTuple):
     """The kernels that `probes_with` makes."""
 
-    survey: Kernel
-    cell_seen_at: Kernel
-    step_second: Kernel
+    survey: Kernel  # computes the value of each action at places all over the board
+    cell_seen_at: Kernel  # returns the cell of a map for a place
+    step_second: Kernel  # takes a step of a second player in WaterWorld, and returns its reward
 
 
 @functools.cache

@@ -31,7 +31,7 @@ from neorl.core.stream import randint, uniform
 from neorl.worlds.world import Dynamics, World
 
 HELM = Actions(("port", "starboard"), ((0.0, 0.0), (0.0, 0.0)), "amidships")
-CLEAR = 0.25
+CLEAR = 0.25  # widths of the area
 WAYPOINT, TRAFFIC = range(2)
 PORT, STARBOARD = range(2)
 DIAGONAL = math.sqrt(0.5)

@@ -29,8 +29,8 @@ from neorl.core.stream import randint
 from neorl.worlds.arena import RIM
 from neorl.worlds.world import Dynamics, World
 
-PUSH = 0.02
-DRAG = 0.95
+PUSH = 0.02  # diameters per second that an action adds to the velocity
+DRAG = 0.95  # share of the velocity that a step retains
 PLATFORM = 0
 
 

@@ -109,6 +109,19 @@ def test_names_and_roles_of_a_body_are_put_right():
         '<tr><td class="head"></td><td></td><th>A</th></tr><span class="pre">neorl.<wbr>core.<wbr>new_<wbr>x</span>')
 
 
+def test_names_in_the_indices_break_between_their_parts_and_addresses_stay():
+    entry, module = '<a href="a.html#neorl.b_c">d() (in module {})</a>', '<code class="xref">{}</code></a></td>'
+    for text in (entry, entry.replace("in module ", "").replace(")<", " property)<"), module):
+        assert describe.mended(text.format("neorl.b_c"), describe.IN_PAGES) == text.format("neorl.<wbr>b_<wbr>c")
+
+
+def test_the_index_leaves_modules_to_their_own():
+    step = ("step() (in module a.b)", ([("", "a.html#a.b.step")], [], None))
+    modules = [("a.b", ([], [("module", [("", "a.html#a.b")])], None)),
+               ("module", ([], [("a.b", [("", "a.html#a.b")])], None))]
+    assert describe.without_modules([("A", modules[:1]), ("M", modules[1:]), ("S", [step])]) == [("S", [step])]
+
+
 def test_a_per_cent_sign_stays_on_the_line_of_its_number_but_code_is_left_as_it_is():
     assert describe.mended("<p>a 95 % interval of 2.5 %, in %</p><pre># 5 %\n6 %</pre> 7 %", describe.IN_BODIES) == (
         "<p>a 95\u00a0% interval of 2.5\u00a0%, in %</p><pre># 5 %\n6 %</pre> 7\u00a0%")
@@ -146,6 +159,9 @@ def test_a_docstring_opens_with_a_sentence_and_lists_what_follows():
     lines = ["Speeds: float64 (steps,). step: seconds.", "", "seed: integer ≥ 0."]
     api_links.read_docstring(None, "function", "speed", None, None, lines)
     assert lines[0] == "Speeds: float64 (steps,)." and lines.count("``step``") == lines.count("``seed``") == 1
+    lines = ["A walk.", "", "steps: integer ≥ 1. seed:", "integer ≥ 0."]
+    api_links.read_docstring(None, "function", "walk", None, None, lines)
+    assert lines[-3:] == ["", "``seed``", "    integer ≥ 0."]
 
 
 def test_a_line_in_the_middle_of_a_sentence_is_no_item_however_it_begins():
@@ -160,6 +176,9 @@ def test_what_a_function_raises_is_no_part_of_an_argument():
     assert [line.strip() for line in lines if line] == [
         "A map.", "``size``", "of the map.", "*Raises*", "ValueError otherwise.", "``one, two, three, four, five``",
         "numbers."]
+    lines = ["A map.", "", "Returns one. Raises OSError."]
+    api_links.read_docstring(None, "function", "map", None, None, lines)
+    assert [line.strip() for line in lines if line] == ["A map.", "*Returns*", "one.", "*Raises*", "OSError."]
 
 
 def test_a_name_links_to_its_room_or_below_and_an_argument_to_nothing(make_book):
@@ -186,7 +205,8 @@ def test_a_name_links_to_its_room_or_below_and_an_argument_to_nothing(make_book)
 def test_the_reference_has_types_and_defaults_as_in_code(make_book):
     _, reference = make_book(modules=[f"neorl.{name}" for name in (
         "agents.agent", "agents.papers", "agents.rules", "browser.replay", "checks", "core.maps", "core.scene",
-        "drawing.curves", "evidence.calibration_table\n\n.. autodata:: neorl.core.modality.MOST_CELLS\n   :no-value:")])
+        "drawing.curves", "chapters.assumptions",
+        "evidence.calibration_table\n\n.. autodata:: neorl.core.modality.MOST_CELLS\n   :no-value:")])
     signatures = " ".join(re.findall(r'<dt class="sig[^>]*>(.*?)</dt>', reference, re.DOTALL))
     signatures = " ".join(html.unescape(re.sub(r"<[^>]+>", "", signatures)).split())
     for written in ("learning: Learning = Learning(), policy: Policy = Policy(),", "choose: Callable = greedy)",
@@ -198,6 +218,8 @@ def test_the_reference_has_types_and_defaults_as_in_code(make_book):
         assert written in signatures
     assert not re.search(r"[~<]|Path\(|_Buffer|ndarray", signatures)
     assert "−`" not in reference
+    of_page = " ".join(re.sub(r"<[^>]+>", "", reference.split('id="module-neorl.chapters.assumptions"')[1]).split())
+    assert "estimated from ENOUGH = 32 readings or more" in of_page  # a constant without an entry
     of_constant = reference.split('id="neorl.core.modality.MOST_CELLS"')[1].split("</dl>")[0]
     assert "2 ** 31 - 1 of a map" in " ".join(re.sub(r"<[^>]+>", "", of_constant).split())
     assert 'href="#neorl.core.modality.MOST_CELLS" title' in reference.split('id="neorl.core.maps.NresMap"')[1]

@@ -108,6 +108,7 @@ def test_an_estimate_is_written_with_its_interval():
     assert str(Estimate(0.5, -0.001, 1.25)) == "0.50 [0.00, 1.25]"
     assert str(Estimate(-0.5, -1.0, 0.1)) == "−0.50 [−1.00, 0.10]"
     assert str(Estimate(0.5, math.nan, math.nan)) == "0.50"
+    assert str(Estimate(1040.3, 902.07, 1183.72)) == "1040 [902, 1184]"
 
 
 def test_the_time_to_the_final_level_is_that_of_each_run():

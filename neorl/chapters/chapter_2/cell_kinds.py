@@ -1,6 +1,6 @@
 """Kinds of cells that represent places, objects and directions, as defined by the modalities of this book.
 
-``THESIS`` is the thesis's table 2.1, after Bicanski and Burgess (2020): whether the locality and the direction of a
+`THESIS` is the thesis's table 2.1, after Bicanski and Burgess (2020): whether the locality and the direction of a
 kind are allocentric, a distance or neither, and what the kind concerns.
 """
 

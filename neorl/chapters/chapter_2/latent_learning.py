@@ -49,7 +49,7 @@ KNOWN = Surroundings(1, ("food",), Actions(("N", "S", "E", "W"), [(0,)] * 4), si
 class Animal:
     """How an animal learns and explores.
 
-    learner: one of ``LEARNERS``. learning_rate α, discount γ, exploration ε, trace λ (of Sarsa(λ) only): from 0 to 1.
+    learner: one of `LEARNERS`. learning_rate α, discount γ, exploration ε, trace λ (of Sarsa(λ) only): from 0 to 1.
     Raises ValueError for anything else.
     """
 
@@ -197,7 +197,7 @@ def compare_learners(by_learner):
 
 
 def judge(by_learner):
-    """Judge neoRL on demonstration H1, from {learner: {group: `Record`}} of all ``LEARNERS``: a `Claim`."""
+    """Judge neoRL on demonstration H1, from {learner: {group: `Record`}} of all `LEARNERS`: a `Claim`."""
     rivals = {learner: by_learner[learner] for learner in LEARNERS[1:]}
     return judge_latent_learning(by_learner["neoRL"], rivals, FIRST_REWARD)
 

@@ -1,6 +1,6 @@
 """Data published by others.
 
-``TRANSISTORS`` is the largest microprocessor of each year in the table of Rupp (2022; CC BY 4.0), in thousands of
+`TRANSISTORS` is the largest microprocessor of each year in the table of Rupp (2022; CC BY 4.0), in thousands of
 transistors: the file "50yrs/transistors.dat" of github.com/karlrupp/microprocessor-trend-data, rounded to three digits.
 Up to 2010 that table was itself collected by Horowitz and others. Years without an entry there have none here.
 """

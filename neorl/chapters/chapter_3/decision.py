@@ -105,7 +105,9 @@ def lattice(side, dimensions):
 def action_values(probability, reward, values, discount):
     """The value of each action if the next states have `values`, (…, states): float64 (…, states, actions).
 
-    probability: (…, states, actions, states). reward: (…, states, actions). The right side of eq. 3.7.
+    It is the right side of eq. 3.7.
+
+    probability: (…, states, actions, states). reward: (…, states, actions). discount: γ.
     """
     states, actions = reward.shape[-2:]
     flat = probability.reshape(*probability.shape[:-3], states * actions, states)
@@ -178,8 +180,10 @@ def sweeps_until_stable(probability, reward, discount, sweeps):
 def plan(probability, reward, discount, sweeps=200):
     """The best action values, by sweeps of the Bellman optimality equation: float64 (…, states, actions).
 
-    Value iteration (Sutton and Barto 2018, section 4.4). probability: (…, states, actions, states), reward: (…, states,
-    actions). The error at the start shrinks to discount ** sweeps of its size.
+    Value iteration (Sutton and Barto 2018, section 4.4). The error at the start shrinks to discount ** sweeps of its
+    size.
+
+    probability: (…, states, actions, states). reward: (…, states, actions). discount: γ. sweeps: their number.
     """
     q = np.zeros(reward.shape)
     for _ in range(sweeps):

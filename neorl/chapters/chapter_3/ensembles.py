@@ -125,7 +125,7 @@ class GridMazeArrays(NamedTuple):
 def run_ensemble(maze, chooser, *, steps, runs, seed=0, doublings=0):
     """Reward per step in each twentieth of ``runs`` runs of ``steps`` steps: float64 (runs, 20).
 
-    maze: a `GridMaze`. chooser: of actions, one of ``CHOOSERS``: a learner alone, a rule for all five, or chance.
+    maze: a `GridMaze`. chooser: of actions, one of `CHOOSERS`: a learner alone, a rule for all five, or chance.
     steps: ≥ 20. doublings: how often the chooser's greediness is doubled, or halved if negative, from −5 to 5.
     Run k is the same for any number of runs.
     Raises ValueError for a bad argument.
@@ -198,7 +198,7 @@ def _run(maze, chooser, doublings, edges, stream, preferences, critics, weight, 
 
 @kernel
 def _learn(learner, preference, critic, state_tm1, action_tm1, reward_t, state_t, action_t, terminal):
-    """One update of a learner, given by its index in ``LEARNERS``."""
+    """One update of a learner, given by its index in `LEARNERS`."""
     rate, discount = LEARNING_RATES[learner], DISCOUNTS[learner]
     if learner == 0:
         learn_q(preference, state_tm1, action_tm1, reward_t, state_t, terminal, rate, discount)

@@ -74,7 +74,7 @@ class Game:
         return self.grid.marked("o")
 
     def states(self, kind):
-        """The number of states of a learner of a kind (one of ``KINDS``), over all its heads."""
+        """The number of states of a learner of a kind (one of `KINDS`), over all its heads."""
         return _states(kind, self.grid.states, len(self.places))
 
 
@@ -85,7 +85,7 @@ def times_fewer(cells, places):
 
 @dataclass(frozen=True)
 class Learner:
-    """A learner by its kind, one of ``KINDS``, and the three rates of Q-learning, each from 0 to 1.
+    """A learner by its kind, one of `KINDS`, and the three rates of Q-learning, each from 0 to 1.
 
     exploration: the probability of a random action instead of the best one.
 
@@ -109,7 +109,7 @@ class Played:
 
     edges: int64 (bins + 1,), the steps at which bins begin and end, each bin but the first a quarter as long as all
     before it. rewards: float64 (runs, bins), reward per 100 steps. ends: int64 (runs, bins, 3), the number of games
-    with each of ``ENDS``. known: int64 (runs,), the number of states about which anything has been learned.
+    with each of `ENDS`. known: int64 (runs,), the number of states about which anything has been learned.
     """
 
     edges: np.ndarray
@@ -123,7 +123,7 @@ class Played:
         return self.rewards[:, -1]
 
     def share(self, end):
-        """The share of games with this end in the last fifth, over all runs. end: one of ``ENDS``."""
+        """The share of games with this end in the last fifth, over all runs. end: one of `ENDS`."""
         games = self.ends[:, -1].sum(axis=0)
         return float(games[ENDS.index(end)] / max(games.sum(), 1))
 

@@ -14,7 +14,7 @@ BONUSES = np.arange(0.02, 0.5, 0.02)  # the bonuses that are tried
 
 
 def least_tempting(race, on_buoy, start, discount):
-    """The least of ``BONUSES`` for which the best policy never finishes from the start; None if each lets it finish.
+    """The least of `BONUSES` for which the best policy never finishes from the start; None if each lets it finish.
 
     race: a `Process` that pays at the finish. on_buoy: bool, of the shape of its rewards, true for steps to the buoy.
     start: a state. discount: from 0 to 0.9999.

@@ -1,7 +1,7 @@
 """Processes with memory: what came steps ago determines what comes next (thesis section 3.4.2, observation 1).
 
 A *mechanism* of memory L shows one of Ψ symbols at each step, drawn uniformly, and pays 1 for naming its *outcome*, a
-symbol that its last L symbols determine by one of ``RULES``. A *history* is the last L symbols, as a number in base Ψ
+symbol that its last L symbols determine by one of `RULES`. A *history* is the last L symbols, as a number in base Ψ
 whose last digit is the newest. The Ψ^L histories are the states of a Markov process; `states_needed` counts how many of
 them have to be distinguished, by what follows them.
 
@@ -40,7 +40,7 @@ def next_histories(alphabet, memory):
 def outcomes(alphabet, memory, rule, seed=0):
     """The outcome of each history: int64 (alphabet ** memory,).
 
-    rule: one of ``RULES``. seed: of the rule "table". Raises ValueError for anything else.
+    rule: one of `RULES`. seed: of the rule "table". Raises ValueError for anything else.
     """
     digits = symbols(alphabet, memory)
     checks.one_of("rule", rule, tuple(RULES))

@@ -96,7 +96,7 @@ def learn_in(chamber, learning, visits, runs, seed=0):
 
 
 def by_role(values):
-    """Values by the role of an event for an exit, see ``ROLES``, averaged over both exits: float32 (…, 4).
+    """Values by the role of an event for an exit, see `ROLES`, averaged over both exits: float32 (…, 4).
 
     values: (…, 4, 2), as `learn_in` returns them.
     """

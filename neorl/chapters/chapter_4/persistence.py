@@ -24,8 +24,8 @@ STAYS = (1, 10, 50)  # steps
 def live(readings, steps, runs, seed=0):
     """Results under each reading: {name: {label: Result}}, labelled `CHANGES`, `BROWNIAN`, or by their discount.
 
-    readings: {name: Reading}. steps, runs, seed: as in `conditions`, except that agents that learn at every step have
-    at most 10 runs.
+    readings: {name: Reading}. steps, runs, seed: as in `reading.conditions`, except that agents that learn at every
+    step have at most 10 runs.
     """
     return {name: _live(reading, steps, runs, seed) for name, reading in readings.items()}
 

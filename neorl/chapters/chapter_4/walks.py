@@ -61,7 +61,7 @@ def _towards(to_goal):
 
 
 def first_arrivals(paths, goal):
-    """First step at which each walk is within ``NEAR`` units of a goal: float64 (runs,), infinite if it never is.
+    """First step at which each walk is within `NEAR` units of a goal: float64 (runs,), infinite if it never is.
 
     paths: (runs, steps + 1, 3). goal: three numbers.
     """

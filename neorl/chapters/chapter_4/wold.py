@@ -19,7 +19,7 @@ LENGTHS = (300, 1_000, 3_000, 10_000, 30_000)  # of the series that `errors` dec
 
 
 class Parts(NamedTuple):
-    """A decomposed series, without its first ``PAST`` values, whose past is too short to predict them."""
+    """A decomposed series, without its first `PAST` values, whose past is too short to predict them."""
 
     deterministic: np.ndarray  # u_t: float64 (steps − PAST,)
     stochastic: np.ndarray  # z_t: float64 (steps − PAST,)
@@ -28,10 +28,10 @@ class Parts(NamedTuple):
 
 
 def generate(coefficients, amplitude, period, steps, run=0, seed=0):
-    """A series and its parts, the parts without the first ``PAST`` values: (float64 (steps,), `Parts`).
+    """A series and its parts, the parts without the first `PAST` values: (float64 (steps,), `Parts`).
 
     coefficients: b_1, b_2, … of noise with a standard deviation of 1. amplitude: of the oscillation, ≥ 0. period: of
-    the oscillation, in steps, ≥ 2. steps: integer > 2 ``PAST``. run, seed: integers ≥ 0.
+    the oscillation, in steps, ≥ 2. steps: integer, more than twice `PAST`. run, seed: integers ≥ 0.
     Raises ValueError for anything else.
     """
     coefficients = checks.finite("coefficients", np.asarray(coefficients, float))
@@ -49,7 +49,7 @@ def generate(coefficients, amplitude, period, steps, run=0, seed=0):
 
 
 def decompose(series, order):
-    """Decompose a series into `Parts`, with b_1 … b_order. series: float64 (steps,), steps > 2 ``PAST``.
+    """Decompose a series into `Parts`, with b_1 … b_order. series: float64 (steps,), more than twice `PAST`.
 
     Raises ValueError for anything else.
     """
@@ -75,7 +75,7 @@ def errors(coefficients, period, longest, runs, seed=0):
 
     They are the root mean square errors of u_t and of y_t, and the largest error of b_1, b_2, …; the oscillation has an
     amplitude of 1.
-    longest: steps of the longest series; greater ``LENGTHS`` are left out. runs: of each length. Other arguments as in
+    longest: steps of the longest series; greater `LENGTHS` are left out. runs: of each length. Other arguments as in
     `generate`.
     """
     return {steps: np.transpose([_error(coefficients, period, steps, run, seed) for run in range(runs)])

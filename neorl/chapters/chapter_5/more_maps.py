@@ -2,7 +2,7 @@
 
 1. Maps are added from the coarsest on, up to all six of paper B.
 2. Agents of both modalities have as many maps in each.
-3. Results are {modality: [Result for each of ``COUNTS``]}.
+3. Results are {modality: [Result for each of `COUNTS`]}.
 """
 
 import numpy as np
@@ -27,7 +27,7 @@ def live(reading, steps, runs, seed=0):
 
 
 def final_rewards(results):
-    """Reward per second in the last fifth of a run: {modality: [Estimate for each of ``COUNTS``]}."""
+    """Reward per second in the last fifth of a run: {modality: [Estimate for each of `COUNTS`]}."""
     return {name: [estimate(np.mean, result.rate(*FINAL)) for result in of_counts]
             for name, of_counts in results.items()}
 

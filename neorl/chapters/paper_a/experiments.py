@@ -17,11 +17,11 @@ CONTROL = "control"
 
 
 def live(readings, steps, runs, seed=0, groups=("layers", "single")):
-    """The results of both experiments under each reading: {name: {key: Result}}, with the keys of `conditions`.
+    """The results of both experiments under each reading: {name: {key: Result}}, with the keys of `reading.conditions`.
 
-    readings: {name: Reading}. steps, runs, seed: as in `conditions`, except that the group "single" has at most 10
-    runs. groups: of `conditions`, "layers" and "single". The latter adds the key `CONTROL`, Brownian motion for as many
-    steps and runs.
+    readings: {name: Reading}. steps, runs, seed: as in `reading.conditions`, except that the group "single" has at most
+    10 runs. groups: of `reading.conditions`, "layers" and "single". The latter adds the key `CONTROL`, Brownian motion
+    for as many steps and runs.
     """
     made = {name: {} for name in readings}
     for name, reading in readings.items():

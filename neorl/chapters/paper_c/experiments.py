@@ -15,7 +15,7 @@ MANY_RUNS = 100  # with as many or more there are more `neighbours`
 def live(readings, steps, runs, seed=0):
     """Results of networks A to D, and of Brownian motion, under each reading: {name: {key: Result}}.
 
-    readings: {name: Reading}. steps, runs, seed: as in `conditions`, which also has the keys.
+    readings: {name: Reading}. steps, runs, seed: as in `reading.conditions`, which also has the keys.
     """
     return side_by_side.live({name: conditions(reading, steps, runs, seed, groups=("networks",))
                               for name, reading in readings.items()})
@@ -29,8 +29,8 @@ def networks(results):
 def recur(readings, weights, steps, runs, seed=0):
     """Results of network D by its weight of recursion: {name: [Result for each weight]}.
 
-    readings: {name: Reading}. weights: numbers; with 0, D is C. steps, runs, seed: as in `conditions`, except that
-    conditions that `live` does not have are run at most 10 times.
+    readings: {name: Reading}. weights: numbers; with 0, D is C. steps, runs, seed: as in `reading.conditions`, except
+    that conditions that `live` does not have are run at most 10 times.
     """
     made = {name: {} for name in readings}
     for name, reading in readings.items():
