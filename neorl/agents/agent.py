@@ -231,8 +231,8 @@ class Agent(Described, checks.Final):
             return tuple(TopologicalSorter(before).static_order())
         except CycleError as error:
             source, target = error.args[1][:2]
-            raise ValueError(f"desire {source!r} → {target!r}: it closes the cycle {' → '.join(error.args[1])}, "
-                             "allowed is recursion of a node to itself alone") from None
+            raise ValueError(f"desire {source!r} → {target!r}: it closes the cycle {' → '.join(error.args[1])}; "
+                             "allowed is only recursion of a node to itself") from None
 
     @property
     def maps(self) -> tuple[NresMap, ...]:

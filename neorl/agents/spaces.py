@@ -6,6 +6,7 @@ what they seek. `RULE` is plain bootstrapping at changes of cell, without memory
 
 from collections.abc import Sequence
 
+from neorl import checks
 from neorl.agents.agent import Agent, Desire, Node
 from neorl.agents.rules import Learning, Policy
 from neorl.core.geometry import turn
@@ -16,6 +17,7 @@ RULE = Learning(learning_rate=0.1, discount=0.9, update_on="cell", credit="share
                 memory=0.0, bootstrap=True, causes="any", capture="contact", attention="each")
 POLICY = Policy(exploration=0.1)
 AVERSION = -0.3  # the valence of things to avoid; that of things sought is 1
+JOINT_CELLS = {2: 9, 3: 7}  # along each axis, by the number of links
 FARTHEST, NEAR = 1.0, 0.3  # the ranges of a radar's two maps, in widths of the area
 
 
@@ -31,11 +33,12 @@ def reacher(links: int, valence: float = AVERSION) -> Agent:
     """An agent for an arm of two or three links: cells for the offset of a posture, joint by joint, on closed axes.
 
     links: 2, with 9 cells along each axis, or 3, with 7. valence: of obstacles, a number; that of targets is 1.
-    Raises KeyError for another number of links, ValueError for what `Desire` refuses.
+    Raises ValueError for anything else.
     """
+    resolution = JOINT_CELLS[checks.one_of("links", links, tuple(JOINT_CELLS))]
     axes = [Axis("objects", "component", joint, -0.5, 0.5, closed=True) for joint in range(links)]
     desires = [Desire("target", "joints", 1.0), Desire("obstacle", "joints", valence)]
-    return seeker([Node("joints", Modality("joint-vector cell", axes), [{2: 9, 3: 7}[links]])], desires)
+    return seeker([Node("joints", Modality("joint-vector cell", axes), [resolution])], desires)
 
 
 @kernel

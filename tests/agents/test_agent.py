@@ -107,7 +107,7 @@ def test_resolutions_may_be_numbers_of_numpy_but_not_a_single_one():
     ([Desire("PC", "OVC"), Desire("OVC", "PC")], "desire ('PC' → 'OVC'|'OVC' → 'PC'): it closes the cycle .* itself"),
     ([Desire("PC", "OVC"), Desire("OVC", "HD"), Desire("HD", "PC")],
      "desire ('PC' → 'OVC': .* PC → OVC → HD → PC|'OVC' → 'HD': .* OVC → HD → PC → OVC|"
-     "'HD' → 'PC': .* HD → PC → OVC → HD), allowed is recursion"),
+     "'HD' → 'PC': .* HD → PC → OVC → HD); allowed is only"),
     ([Desire("green", "speed", 1.0)], "desire 'green' → 'speed': things and places have no coordinates for speed"),
     ([Desire(Place(0.5, 0.5), "speed", 1.0)], "desire Place.* → 'speed': things and places have"),
     ([Desire((0.5,), "PC", 1.0)], r"desire \(0.5,\) → 'PC': allowed for place cells are points of 2 coordinates: x, y"),

@@ -38,6 +38,11 @@ def driven():
             for name, last in (("neoRL", 150), ("Q-learning", 160), ("random", 195))}
 
 
+def test_an_arm_of_other_than_two_or_three_links_is_refused():
+    with pytest.raises(ValueError, match="links is 4, allowed are 2, 3"):
+        minds.reacher(4)
+
+
 def test_all_agents_have_one_rule_and_one_policy():
     agents = [minds.reacher(2), minds.reacher(3), minds.pilot(), minds.far_pilot(), minds.compass_pilot(),
               minds.swimmer(), minds.thinker(True), minds.thinker(False), minds.driver()]
