@@ -73,7 +73,8 @@ def test_what_lies_beyond_the_thesis_has_its_verdicts_and_numbers():
     (dict.fromkeys(SEPARATION, "reproduced"), "*in full* (reproduced: T1, T7, C1, C2, C3, C4, of 6 claims judged)"),
     ({"T1": "reproduced", "C1": "not reproduced", "C2": "no verdict"},
      "*in part* (reproduced: T1, of 2 claims judged)"),
-    ({"T1": "partly", "C1": "not testable"}, "*not at all* (1 partly, 1 not testable)"),
+    ({"T1": "partly", "C1": "not testable"}, "*undecided* (1 partly, 1 not testable)"),
+    ({"T1": "partly", "C1": "not reproduced"}, "*not at all* (1 partly, 1 not reproduced)"),
 ])
 def test_a_conclusion_holds_as_far_as_its_claims_do(found, held):
     lines = conclusions.overview(verdicts(found, {"C4": "reproduced"})).splitlines()

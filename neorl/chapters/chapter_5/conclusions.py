@@ -3,7 +3,7 @@
 1. Each conclusion rests on some claims, and claims on other worlds and agents on none; all others are the ground of
    both.
 2. A conclusion holds *in full* if all its claims are reproduced, *in part* if some are, *not at all* if none of those
-   judged is, and it is *without a verdict* if none is judged.
+   judged is; but it is *undecided* if none is and some cannot be tested, and *without a verdict* if none is judged.
 3. ``verdicts`` are {reading: {name of a claim: its verdict}} for the readings `LETTER` and `CALIBRATED`, in the words
    of `neorl.evidence.report.verdict`.
 """
@@ -60,7 +60,7 @@ def overview(verdicts):
     lines = [f"**{title}**: " + "; ".join(f"{reading}, {_held(found, names)}" for reading, found in verdicts.items())
              + "." for title, names in CONCLUSIONS.items()]
     return ("A conclusion holds *in full* if all its claims are reproduced, *in part* if some are, and *not at all* if "
-            "none is.\n\n"
+            "none is; but it is *undecided* if none is and some cannot be tested.\n\n"
             + "\n".join(f"- {line}" for line in lines))
 
 
@@ -81,7 +81,8 @@ def _held(found, names):
         return "*without a verdict*"
     if not kept:
         counts = {verdict: [found[name] for name in judged].count(verdict) for verdict in VERDICTS}
-        return f"*not at all* ({', '.join(f'{count} {verdict}' for verdict, count in counts.items() if count)})"
+        held = "undecided" if counts["not testable"] else "not at all"
+        return f"*{held}* ({', '.join(f'{count} {verdict}' for verdict, count in counts.items() if count)})"
     return (f"*{'in full' if len(kept) == len(names) else 'in part'}* (reproduced: {', '.join(kept)}, of {len(judged)} "
             "claims judged)")
 
