@@ -206,6 +206,14 @@ def test_deep_agents_see_how_fast_creeps_move_nearest_first():
     assert env.observation_space.contains(observation) and env.rewards.shape == (2,)
 
 
+@pytest.mark.parametrize("creeps", BOARDS)
+@pytest.mark.parametrize("steps", [150_000, 600_000])
+def test_the_runs_of_deep_agents_are_stored_whole(creeps, steps):
+    each = contestants.of_deep(creeps, steps)
+    assert {name: (one.runs, one.steps) for name, one in each.items()} == dict.fromkeys(stored.METHODS, (10, steps))
+    assert all(0 < one.seconds < 0.02 for one in each.values())  # also where only shorter runs were timed
+
+
 def test_the_search_of_deep_agents_is_stored_whole():
     rows = stored.read_search(stored.FOLDER / "deep_search.csv")
     assert {row["method"] for row in rows} == set(stored.METHODS) == set(deep_settings.RANGES)
@@ -304,8 +312,14 @@ def test_the_tables_of_what_is_stored_name_every_method(boards):
     counts = dict.fromkeys(search.RANGES, 256) | dict.fromkeys(stored.METHODS, deep_settings.SETTINGS)
     assert all(f"| {name} | {count} |" in text for name, count in counts.items())
     assert all(f"\n- *{name}*: " in text for name in counts)
-    assert "256 settings" in report.search_in_words() and "36,000 steps" in report.search_in_words()
-    text = report.long_table(boards)
+    searched = report.search_in_words({"joint cells": earned(TABLES, 1.0), "DQN": earned(DEEP, 1.0, seconds=1e-3)})
+    assert "256 settings" in searched and "36,000 steps" in searched
+    assert "about 154 seconds" in searched and "and 216 for each deep one" in searched
+    late = report.long_runs(boards)
+    words = report.long_in_words(late)
+    assert "over the last 50,000 of 600,000 steps: with 3 creeps " in words and "Brownian" not in words
+    assert words.index("DQN (") < words.index("hybrid reward (") < words.index("calibrated (") < words.index("; with 8")
+    text = report.long_table(late)
     assert all(f"| {creeps} | {name} | 10 |" in text for creeps in (3, 8) for name in ("hybrid reward", "joint cells"))
     assert "planner" not in text
 

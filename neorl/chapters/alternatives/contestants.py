@@ -131,23 +131,25 @@ def after_long(creeps, kinds):
     longest = max(row["steps"] for row in rows)
     found = {}
     for name, kind in kinds.items():
-        found |= _of_rows(kind, [row for row in rows if row["steps"] == longest], [name], creeps, longest)
+        found |= _of_rows(kind, rows, [name], creeps, longest)
     return found
 
 
 def _of_rows(kind, rows, names, creeps, steps):
-    """The first `steps` of each run, from its shortest row that is long enough: {name: `Earned`}."""
+    """The first `steps` of each run, from its shortest row that is long enough: {name: `Earned`}.
+
+    The time of a step is the median over all rows of a contestant on the board that have one.
+    """
     found, minutes = {}, steps // MINUTE
     for name in names:
-        of_run = {}
-        for row in sorted(rows, key=lambda row: -row["steps"]):
-            if row["method"] == name and row["creeps"] == creeps and len(row["rewards"]) >= minutes:
-                of_run[row["run"]] = row
+        own = [row for row in rows if row["method"] == name and row["creeps"] == creeps]
+        of_run = {row["run"]: row for row in sorted(own, key=lambda row: -row["steps"])
+                  if len(row["rewards"]) >= minutes}
         if of_run:
             lived = [of_run[run] for run in sorted(of_run)]
             found[name] = Earned(kind, np.arange(minutes + 1) * MINUTE,
                                  np.array([row["rewards"][:minutes] for row in lived]),
-                                 float(np.median([row["seconds"] / row["steps"] for row in lived])),
+                                 float(np.nanmedian([row["seconds"] / row["steps"] for row in own])),
                                  lived[0]["kilobytes"])
     return found
 

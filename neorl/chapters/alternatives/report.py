@@ -7,7 +7,7 @@ is {creeps: earned}.
 import numpy as np
 
 from neorl.chapters.alternatives import deep_settings, search
-from neorl.chapters.alternatives.contestants import (BEYOND, DEEP, PHYSICS, READINGS, TABLES, THESIS,
+from neorl.chapters.alternatives.contestants import (BEYOND, CHANCE, DEEP, PHYSICS, READINGS, TABLES, THESIS,
                                                      after_long)
 from neorl.chapters.alternatives.living import BOARDS
 from neorl.chapters.alternatives.stored import FOLDER, chosen, read_search
@@ -105,14 +105,31 @@ def _microseconds(each):
     return f"{each.seconds * 1e6:.2g}" if each.seconds < 1e-4 else f"{each.seconds * 1e6:,.0f}"
 
 
-def long_table(boards):
-    """Reward per second over the `LATE` steps before three moments of the stored long runs."""
-    rows = []
+def long_runs(boards):
+    """The stored long runs of all contestants that learn: {creeps: {name: `Earned`}}."""
+    return {creeps: after_long(creeps, {name: each.kind for name, each in earned.items() if each.kind != PHYSICS})
+            for creeps, earned in boards.items()}
+
+
+def long_in_words(boards):
+    """What the best contestant of each kind earns at the end of the long runs. boards: from `long_runs`."""
+    parts = []
     for creeps, earned in boards.items():
-        kinds = {name: each.kind for name, each in earned.items() if each.kind != PHYSICS}
-        for name, each in after_long(creeps, kinds).items():
-            rows.append([creeps, name, each.runs, *(estimate(np.mean, each.rate(end - LATE, end))
-                                                    for end in (150_000, each.steps // 2, each.steps))])
+        late = {name: each.rate(each.steps - LATE, each.steps).mean() for name, each in earned.items()}
+        best = {max((name for name in late if earned[name].kind == kind), key=late.get)
+                for kind in {each.kind for each in earned.values()} - {CHANCE}}
+        names = sorted(best, key=late.get, reverse=True)
+        parts.append(f"with {creeps} creeps {listed([f'{name} ({number(late[name])})' for name in names])}")
+    steps = max(each.steps for earned in boards.values() for each in earned.values())
+    return (f"The best contestant of each kind, with its reward per second over the last {LATE:,} of {steps:,} steps: "
+            f"{'; '.join(parts)}.")
+
+
+def long_table(boards):
+    """Reward per second over the `LATE` steps before three moments of the long runs. boards: from `long_runs`."""
+    rows = [[creeps, name, each.runs, *(estimate(np.mean, each.rate(end - LATE, end))
+                                        for end in (150_000, each.steps // 2, each.steps))]
+            for creeps, earned in boards.items() for name, each in earned.items()]
     return table(["creeps", "", "runs", "before step 150,000", "300,000", "600,000"], rows)
 
 
@@ -131,12 +148,16 @@ def search_table():
                       "The settings used:", "", *used])
 
 
-def search_in_words():
-    """The size of the search for settings."""
+def search_in_words(earned):
+    """The size of the search for settings, in runs, and in processor time at each learner's time per step."""
+    tabular, deep = (steps * np.median([each.seconds for each in earned.values() if each.kind == kind])
+                     for kind, steps in ((TABLES, search.SETTINGS * search.RUNS * search.STEPS),
+                                         (DEEP, deep_settings.SETTINGS * deep_settings.SEARCH_STEPS)))
     return (f"For each tabular learner and for PD, {search.SETTINGS} settings were drawn and tried in {search.RUNS} "
             f"runs of {search.STEPS:,} steps each. Deep learners take thousands of times as long, so for each of them "
             f"{deep_settings.SETTINGS} settings were drawn and tried in one run of {deep_settings.SEARCH_STEPS:,} "
-            "steps each.")
+            f"steps each. At their times per step above, the search took about {tabular:.0f} seconds of processor time "
+            f"for each tabular learner and {deep:.0f} for each deep one.")
 
 
 def _short(value):

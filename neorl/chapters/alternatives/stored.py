@@ -1,9 +1,9 @@
 """Stored tables of runs that take too long for a page: those of deep learners, and long ones of all others.
 
 A table of a search has a row for each setting tried, with its reward per second in the last third. A table of runs has
-a row for each run, with its processor seconds, kilobytes, and reward in each minute of 3,000 steps. The package has
-``deep_search.csv`` and ``deep_runs.csv`` (`neorl.chapters.alternatives.deep_runs`), ``search.csv``
-(`neorl.chapters.alternatives.search`) and ``long_runs.csv`` (`neorl.chapters.alternatives.long_runs`).
+a row for each run, with its processor seconds (NaN if it was not timed), kilobytes, and reward in each minute of 3,000
+steps. The package has ``deep_search.csv`` and ``deep_runs.csv`` (`neorl.chapters.alternatives.deep_runs`),
+``search.csv`` (`neorl.chapters.alternatives.search`) and ``long_runs.csv`` (`neorl.chapters.alternatives.long_runs`).
 """
 
 import csv
