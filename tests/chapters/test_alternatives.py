@@ -317,8 +317,9 @@ def test_the_tables_of_what_is_stored_name_every_method(boards):
     assert "about 154 seconds" in searched and "and 216 for each deep one" in searched
     late = report.long_runs(boards)
     words = report.long_in_words(late)
-    assert "over the last 50,000 of 600,000 steps: with 3 creeps " in words and "Brownian" not in words
-    assert words.index("DQN (") < words.index("hybrid reward (") < words.index("calibrated (") < words.index("; with 8")
+    assert "over the last 50,000 of 600,000 steps. With 3 creeps: " in words and "Brownian" not in words
+    places = [words.index(each) for each in ("DQN (", "hybrid reward (", "calibrated (", ". With 8 creeps: ")]
+    assert places == sorted(places)
     text = report.long_table(late)
     assert all(f"| {creeps} | {name} | 10 |" in text for creeps in (3, 8) for name in ("hybrid reward", "joint cells"))
     assert "planner" not in text

@@ -119,10 +119,10 @@ def long_in_words(boards):
         best = {max((name for name in late if earned[name].kind == kind), key=late.get)
                 for kind in {each.kind for each in earned.values()} - {CHANCE}}
         names = sorted(best, key=late.get, reverse=True)
-        parts.append(f"with {creeps} creeps {listed([f'{name} ({number(late[name])})' for name in names])}")
+        parts.append(f"With {creeps} creeps: {listed([f'{name} ({number(late[name])})' for name in names])}.")
     steps = max(each.steps for earned in boards.values() for each in earned.values())
-    return (f"The best contestant of each kind, with its reward per second over the last {LATE:,} of {steps:,} steps: "
-            f"{'; '.join(parts)}.")
+    return (f"The best contestant of each kind, with its reward per second over the last {LATE:,} of {steps:,} steps. "
+            f"{' '.join(parts)}")
 
 
 def long_table(boards):
