@@ -20,11 +20,11 @@ SHORT, LONG = 200, 6_000
 SEED, RUN = 7, 3
 PLAIN = {"learning_rate": 0.03, "discount": 0.8, "update_on": "cell", "credit": "share", "absent_decay": 0.0,
          "terminal": True,
-         "trace": 1, "bootstrap": True, "memory": 0.0, "memory_unit": "cells", "memory_value": "reached",
-         "activity": 0.5, "absent_form": "decay", "causes": "any", "capture": "contact", "attention": "each"}
+         "bootstrap": True, "memory": 0.0, "activity": 0.5, "absent_form": "decay"}
+OF_OBJECTS = {"object_state": "object", "object_reach": 0.0, "object_beyond": "outermost", "object_centred": False}
 PRIMES = (2, 3, 5, 7, 11, 13)
 CHOICES = {"policy": Policy(0.02, "random"), "own_cell": "silent", "tiled_fraction": 0.5, "object_tiled_fraction": 0.5,
-           "weighting": "resolution"}
+           "weighting": "resolution", **OF_OBJECTS}
 
 
 def plain_rule(**changes):
@@ -66,22 +66,25 @@ def contact_network():
 
 RULES = {
     "happened": {"credit": "happened"}, "last": {"credit": "last"}, "absence": {"absent_decay": 0.1},
-    "not terminal": {"terminal": False}, "trace": {"trace": 12}, "no bootstrapping": {"bootstrap": False},
-    "long trace alone": {"trace": 60, "bootstrap": False, "discount": 0.95}, "step": {"update_on": "step"},
+    "not terminal": {"terminal": False}, "no bootstrapping": {"bootstrap": False}, "step": {"update_on": "step"},
     "step, not terminal": {"update_on": "step", "terminal": False},
 }
-# The calibrated choices, and memories with each way to fade, to assign credit and to learn captures.
-CALIBRATED = {"learning_rate": 0.0157, "discount": 0.9045, "credit": "happened", "activity": 3.331,
-              "absent_decay": 0.1101,
-              "absent_form": "away", "memory": 4.396, "memory_unit": "seconds", "bootstrap": False, "causes": "own",
-              "capture": "leap", "attention": "wanted"}
 MEMORIES = {
-    "memory of cells": {"memory": 30.0},
-    "memory, discounted": {"memory": 40.0, "memory_value": "discounted", "discount": 0.95, "bootstrap": False},
-    "memory of seconds": {"memory": 0.5, "memory_unit": "seconds", "credit": "activity", "activity": 0.1,
-                          "absent_decay": 0.2, "absent_form": "away"},
-    "silent captures": {"memory": 5.0, "capture": "silent", "attention": "nearest", "credit": "count"},
-    "calibrated": CALIBRATED,
+    "memory, bootstrapping": {"memory": 30.0},
+    "memory, discounted": {"memory": 40.0, "discount": 0.95, "bootstrap": False},
+    "memory, activity": {"memory": 5.0, "credit": "activity", "activity": 0.1, "absent_decay": 0.2,
+                         "absent_form": "away"},
+    "memory, count": {"memory": 12.0, "credit": "count", "discount": 1.0, "bootstrap": False},
+}
+# A rule near the calibrated one, and readings of the state of object vectors.
+CALIBRATED = {"learning_rate": 0.03, "discount": 1.0, "credit": "happened", "absent_decay": 0.9, "absent_form": "away",
+              "memory": 20.0, "bootstrap": False}
+STATES = {
+    "self": {"object_state": "self"}, "per object": {"object_state": "per object"},
+    "self, ends": {"object_state": "self", "object_beyond": "none"},
+    "self, centred": {"object_state": "self", "object_centred": True},
+    "object, reach": {"object_state": "object", "object_reach": 0.096},
+    "object, ends, centred": {"object_state": "object", "object_beyond": "none", "object_centred": True},
 }
 BOOK = {"policy": Policy(0.0, "random"), "own_cell": "counts", "weighting": "cells"}
 MAZE = Arena(obstacles=[(0.4, 0.3, 0.6, 0.5)], trial_seconds=15.0)
@@ -110,8 +113,13 @@ RUNS = {
     **{f"both, {name}": (multimodal([4, 7], place_gain=1.0, **learning(**rules)), 3)
        for name, rules in MEMORIES.items()},
     **{f"place N{n}, calibrated": (place_cells([n], **learning(**CALIBRATED) | BOOK), 8) for n in (10, 40)},
-    **{f"network {name}, calibrated": (make([3, 7, 23], scale=1.0, signed=True, **learning(**CALIBRATED) | BOOK), 3)
+    **{f"network {name}, calibrated": (make([3, 7, 23], scale=30.0, signed=False,
+                                            **learning(**CALIBRATED) | BOOK | STATES["self"]), 3)
        for name, make in NETWORKS.items()},
+    **{f"both, {name}": (multimodal([4, 7, 13], place_gain=3.0, **learning(**CALIBRATED) | BOOK | state), 3)
+       for name, state in STATES.items()},
+    **{f"both, {name}, bootstrapping": (multimodal([4, 7], place_gain=3.0, **learning(memory=5.0) | BOOK | state), 3)
+       for name, state in STATES.items()},
     "arena": (seeker(learning=plain_rule(), policy=Policy(0.1, "no-op")), MAZE),
     "arena, calibrated": (seeker(learning=plain_rule(**CALIBRATED), policy=Policy(0.0, "random")), MAZE),
     "softmax": (multimodal([4], place_gain=1.0, **learning(credit="activity", memory=3.0)
@@ -121,7 +129,7 @@ RUNS = {
 }
 CHANGES = {
     "joined by objects": ((LONG // 3, "both"),),
-    "with a memory, moved": ((LONG // 3, "both, calibrated"), (LONG // 2, "network D, calibrated")),
+    "with a memory, moved": ((LONG // 3, "both, self"), (LONG // 2, "network D, calibrated")),
     "revalued and back": ((LONG // 4, "network C"), (LONG // 2, "network D"), (3 * LONG // 4, "objects")),
 }
 BEFORE = {"joined by objects": "place N7", "with a memory, moved": "network C, calibrated",
@@ -179,9 +187,9 @@ def in_order(agent, q):
     """The values of each map as q[state, action, goal], or as stored if its goals are contacts."""
     for node in agent.nodes:
         for each in node.maps:
-            contacts = node.goals == "contacts"
-            one, q = np.split(q, [4 * each.cells * (3 if contacts else each.cells)])
-            in_place = contacts or agent.learning.bootstrap
+            contacts, of_self = node.goals == "contacts", node.state != "object"
+            one, q = np.split(q, [4 * each.cells * (3 if contacts else 1 if of_self else each.cells)])
+            in_place = contacts or of_self or agent.learning.bootstrap
             yield one if in_place else one.reshape(each.cells, each.cells, 4).swapaxes(1, 2)
 
 

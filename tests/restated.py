@@ -12,7 +12,7 @@ class Track:
     """A point that a map follows."""
 
     def __init__(self, cell):
-        self.cell, self.events, self.trace, self.memory = cell, [], [], {}
+        self.cell, self.events, self.memory, self.passed = cell, [], {}, []
 
 
 def restated(agent, world, steps, seed, run):
@@ -21,7 +21,9 @@ def restated(agent, world, steps, seed, run):
     stream = new_stream(sequence.spawn(1)[0])
     state = world.reset(sequence)
     policy, maps = agent.policy, agent.maps
-    q = [np.zeros((each.cells, 4, each.cells), np.float32) for each in maps]
+    node_of = [node for node in agent.nodes for _ in node.resolutions]
+    q = [np.zeros((each.cells if node.state == "object" else 1, 4, each.cells), np.float32)
+         for each, node in zip(maps, node_of)]
     tracks, pull, worth = fresh_tracks(agent, world, state), np.zeros((len(agent.desires), 4)), np.zeros(20)
     rule, rewards, activity = agent.learning, [], np.zeros(4, np.float32)
     keep = np.float32(rule.activity * world.fps / (1 + rule.activity * world.fps))
@@ -36,12 +38,13 @@ def restated(agent, world, steps, seed, run):
             else:
                 action = int(best[int(execute(uniform, stream) * len(best))] if len(best) > 1 else best[0])
         activity = keep * activity + (np.float32(1) - keep) * (np.arange(4) == action).astype(np.float32)
-        before, attended = state.scene.things.copy(), attended_restated(rule, state.scene)
         reward, hits, done = world.step(state, action)
-        still = state.scene._replace(things=before)
         rewards.append(reward)
         cells = cells_restated(agent, world, state)
         for m, each in enumerate(maps):
+            if node_of[m].state != "object":
+                perceive_self_restated(agent, node_of[m], each, world, state, hits, action, activity, q[m], tracks[m])
+                continue
             for point, track in enumerate(tracks[m]):
                 met = each.modality.follows == "objects" and hits[point]
                 if without_direction(each.modality, world, state.scene, point) and not met:
@@ -50,15 +53,11 @@ def restated(agent, world, steps, seed, run):
                 track.events.append(action)
                 is_thing = each.modality.follows == "objects"
                 met = is_thing and hits[point]
-                arrives, ends = met and rule.capture == "contact", met and rule.capture != "leap"
-                if is_thing and attended not in (None, point):
-                    tracks[m][point] = Track(cells[m][point])
-                    continue
+                arrives = met and track.cell is not None
+                ends = met or track.cell is None or cells[m][point] is None
                 cell_t = meeting(each, track.cell) if arrives else cells[m][point]
                 if (arrives or not ends) and (cell_t != track.cell or rule.update_on == "step"):
-                    own = rule.causes == "own" and is_thing and not arrives
-                    caused = not own or each.encode(each.modality.coordinates(still, world.size))[point] != track.cell
-                    learn_restated(rule, world, q[m], track, cell_t, action, activity, caused)
+                    learn_restated(rule, q[m], track, cell_t, action, activity)
                 if ends:
                     tracks[m][point] = Track(cells[m][point])
         if done:
@@ -69,19 +68,79 @@ def restated(agent, world, steps, seed, run):
 
 
 def cells_restated(agent, world, state):
-    return [each.encode(each.modality.coordinates(state.scene, world.size)).tolist() for each in agent.maps]
+    nodes = [node for node in agent.nodes for _ in node.resolutions]
+    return [[cell_restated(node, each, at) for at in each.modality.coordinates(state.scene, world.size)]
+            for node, each in zip(nodes, agent.maps)]
+
+
+def cell_restated(node, nres_map, coordinates):
+    """The cell of a point, or None beyond the range of a map that ends there."""
+    ends = node.beyond == "none" and not nres_map.covers(coordinates)
+    return None if ends else int(nres_map.encode(coordinates))
 
 
 def fresh_tracks(agent, world, state):
-    return [[Track(cell) for cell in cells] for cells in cells_restated(agent, world, state)]
+    nodes = [node for node in agent.nodes for _ in node.resolutions]
+    return [[Track(cell) for cell in cells] if node.state == "object" else
+            [fresh_self(place) for place in places_of_self(node, world, state)]
+            for node, cells in zip(nodes, cells_restated(agent, world, state))]
 
 
-def attended_restated(rule, scene):
-    """The thing to learn about, or None for every thing."""
-    if rule.attention == "each":
-        return None
-    distances = ((scene.things - scene.position) ** 2).sum(axis=1)
-    return int(np.where((scene.kinds == GREEN) | (rule.attention == "nearest"), distances, np.inf).argmin())
+def places_of_self(node, world, state):
+    """Where the agent is, or where it is as seen from each thing."""
+    here = state.scene.position / world.size
+    return [here] if node.state == "self" else [-(thing / world.size - here) for thing in state.scene.things]
+
+
+def fresh_self(place):
+    track = Track(None)
+    track.passed = [(place, None)]
+    return track
+
+
+def perceive_self_restated(agent, node, nres_map, world, state, hits, action, activity, table, tracks):
+    """Learn if the self has moved by half a cell along an axis since the map was last centred on it."""
+    axes = nres_map.modality.axes
+    width = [(axis.high - axis.low) / (axis.intervals or nres_map.resolution) for axis in axes]
+    for point, place in enumerate(places_of_self(node, world, state)):
+        track = tracks[point]
+        track.events.append(action)
+        if node.state == "per object" and hits[point]:
+            tracks[point] = fresh_self(place)
+        elif np.any(np.abs((place - track.passed[0][0]) * (1 / np.array(width))) >= 0.5):
+            learn_self_restated(agent, node, nres_map, table[0], track, place, action, activity)
+
+
+def learn_self_restated(agent, node, nres_map, table, track, place, action, activity):
+    rule, one = agent.learning, np.float32(1)
+    rates, decay = rates_restated(rule, track, action, activity)
+    track.passed[0] = track.passed[0][0], rates
+    keep = np.float32(rule.memory / (1 + rule.memory))
+    reached = cell_restated(node, nres_map, place - track.passed[0][0])
+    if rule.bootstrap and reached is not None:
+        n, centre = nres_map.intervals[0], meeting(nres_map, 0)
+        rows, columns = np.divmod(np.arange(nres_map.cells), n)
+        row, column = rows - reached // n + centre // n, columns - reached % n + centre % n
+        inside = (0 <= row) & (row < n) & (0 <= column) & (column < n)
+        best = np.where(inside, table.max(axis=0)[np.where(inside, row * n + column, 0)], np.float32(0))
+        bootstrap_restated(rule, table, best, reached, rates, decay)
+    found, strength, worth = {}, one, one
+    for back, (passed, of_it) in enumerate(track.passed):
+        cell = cell_restated(node, nres_map, place - passed)
+        if cell is not None and (back > 0 or not rule.bootstrap):
+            both = np.array([of_it, np.where(of_it > 0, np.float32(0), decay)])
+            sums = found.setdefault(cell, np.zeros((2, 2, 4), np.float32))
+            sums += np.array([strength * both, worth * both])
+        strength *= keep
+        worth *= keep * np.float32(rule.discount)
+        worth = worth if worth > 1e-30 else np.float32(0)
+        if strength < np.float32(0.01):
+            break
+    for cell, sums in found.items():
+        remember_restated(table[:, cell], sums, rule.absent_form == "away")
+    track.passed, track.events = [(place, None), *track.passed], []
+
+
 
 
 def has_direction(modality):
@@ -131,13 +190,28 @@ def values_restated(agent, world, state, q, tracks, pull, worth):
                         vector = here + place if modality.follows == "position" else place
                         pairs = [(tracks[m][0].cell, int(nres_map.encode(modality.tune(vector))))]
                     else:
-                        cell = int(nres_map.encode(modality.tune(place)))
-                        pairs = [(cell, meeting(nres_map, cell))]
+                        pairs = pairs_restated(node, nres_map, modality.tune(place))
                     for cell, goal in pairs:
                         if cell != goal or agent.own_cell == "counts":
-                            pull[e] += weight * valence * q[m][cell, :, goal].astype(float)
+                            state_of = cell if node.state == "object" else 0
+                            pull[e] += weight * valence * q[m][state_of, :, goal].astype(float)
             value += node.gain * pull[e]
     return value
+
+
+def pairs_restated(node, nres_map, coordinates):
+    """The cells (of the state, of the goal) that count for a thing."""
+    cell = cell_restated(node, nres_map, coordinates)
+    if cell is None:
+        return []
+    if node.state != "object":
+        return [(meeting(nres_map, cell), cell)]
+    if not node.reach:
+        return [(cell, meeting(nres_map, cell))]
+    (left, top), (right, bottom) = (np.array(np.unravel_index(int(nres_map.encode([each, each])), nres_map.intervals,
+                                                              "F")) for each in (-node.reach, node.reach))
+    return [(cell, int(np.ravel_multi_index((column, row), nres_map.intervals, order="F")))
+            for row in range(top, bottom + 1) for column in range(left, right + 1)]
 
 
 def elements_restated(agent, desire, here, creeps, green, pull, worth):
@@ -158,49 +232,52 @@ def elements_restated(agent, desire, here, creeps, green, pull, worth):
     return [(desire.scale * place, valence if desire.valence is None else desire.valence)]
 
 
-def learn_restated(rule, world, table, track, cell_t, action, activity, caused):
-    alpha, decay = np.float32(rule.learning_rate), np.float32(rule.learning_rate) * np.float32(rule.absent_decay)
-    away, one = rule.absent_form == "away", np.float32(1)
+def learn_restated(rule, table, track, cell_t, action, activity):
+    rates, decay = rates_restated(rule, track, action, activity)
+    if rule.memory:
+        fade_restated(rule, track)
+    if rule.bootstrap:
+        bootstrap_restated(rule, table[track.cell], table[cell_t].max(axis=0), cell_t, rates, decay)
+    away = rule.absent_form == "away"
+    if rule.memory:
+        for joins in (rule.bootstrap, not rule.bootstrap):
+            if not joins:
+                found = track.memory.setdefault(track.cell, [np.float32(0), np.zeros((2, 2, 4), np.float32)])
+                found[0] += np.float32(1)
+                found[1][:] += np.array([rates, np.where(rates > 0, np.float32(0), decay)])
+            else:
+                for cell, (_, sums) in track.memory.items():
+                    remember_restated(table[cell, :, cell_t], sums, away)
+    elif not rule.bootstrap:
+        for event in range(4):
+            old = table[track.cell, event, cell_t]
+            absent = sunk_restated(old, decay, np.float32(1), away, np.float32(1)) if decay > 0 else old
+            table[track.cell, event, cell_t] = old + rates[event] * (1 - old) if rates[event] else absent
+    track.cell, track.events = cell_t, []
+
+
+def rates_restated(rule, track, action, activity):
+    """The rates of the events that occurred, and the one of those that did not."""
+    alpha = np.float32(rule.learning_rate)
     counts = np.array([track.events.count(event) for event in range(4)])
     credit = {"share": counts.astype(np.float32) / np.float32(len(track.events)),
               "happened": (counts > 0).astype(np.float32), "count": counts.astype(np.float32),
               "activity": np.where(activity < np.float32(0.01), np.float32(0), activity),
               "last": (np.arange(4) == action).astype(np.float32)}[rule.credit]
-    rates = np.minimum(alpha * credit, one)
-    if rule.memory:
-        fade_restated(rule, world, track)
-    if not caused:
-        track.cell, track.events = cell_t, []
-        return
-    track.trace = [(track.cell, rates), *track.trace][:rule.trace]
-    if rule.bootstrap:
-        target = np.float32(rule.discount) * table[cell_t].max(axis=0)
-        target[cell_t] = 1 if rule.terminal else 1 + target[cell_t]
-        highest = one if rule.terminal else one / (one - np.float32(rule.discount))
-        for event in range(4):
-            rate, old = rates[event], table[track.cell, event].copy()
-            absent = sunk_restated(old, decay, target, away, highest) if decay > 0 else old
-            new = old + rate * (target - old) if rate > 0 else absent
-            table[track.cell, event] = np.where(new > 1e-30, new, 0)
-    if rule.memory:
-        for joins in (rule.bootstrap, not rule.bootstrap):
-            if not joins:
-                found = track.memory.setdefault(track.cell, [np.float32(0), np.zeros((2, 2, 4), np.float32)])
-                found[0] += one
-                found[1][:] += np.array([rates, np.where(rates > 0, np.float32(0), decay)])
-            else:
-                remember_restated(table, track, cell_t, away)
-    else:
-        fading = one
-        for back, (cell_left, rates) in enumerate(track.trace):
-            if back > 0 or not rule.bootstrap:
-                for event in range(4):
-                    old = table[cell_left, event, cell_t]
-                    absent = sunk_restated(old, fading * decay, one, away, one) if decay > 0 else old
-                    learned = old + fading * rates[event] * (1 - old)
-                    table[cell_left, event, cell_t] = learned if rates[event] else absent
-            fading *= np.float32(rule.discount)
-    track.cell, track.events = cell_t, []
+    return np.minimum(alpha * credit, np.float32(1)), alpha * np.float32(rule.absent_decay)
+
+
+def bootstrap_restated(rule, row, best, reached, rates, decay):
+    """Eq. 4.8 for all goals of a state, row[action, goal], from the best values of the state that followed."""
+    away, one = rule.absent_form == "away", np.float32(1)
+    target = np.float32(rule.discount) * best
+    target[reached] = 1 if rule.terminal else 1 + target[reached]
+    highest = one if rule.terminal else one / (one - np.float32(rule.discount))
+    for event in range(4):
+        rate, old = rates[event], row[event].copy()
+        absent = sunk_restated(old, decay, target, away, highest) if decay > 0 else old
+        new = old + rate * (target - old) if rate > 0 else absent
+        row[event] = np.where(new > 1e-30, new, 0)
 
 
 def sunk_restated(old, rate, target, away, highest):
@@ -208,28 +285,24 @@ def sunk_restated(old, rate, target, away, highest):
     return np.where(new > 1e-30, new, np.float32(0))
 
 
-def fade_restated(rule, world, track):
+def fade_restated(rule, track):
     """Decay `track.memory`, {cell: [strength, [weights, worths] of events that occurred and that were absent]}."""
-    constant = rule.memory * (world.fps if rule.memory_unit == "seconds" else 1)
-    once = factor = np.float32(constant / (1 + constant))
-    for _ in range(len(track.events) - 1 if rule.memory_unit == "seconds" else 0):
-        factor = factor * once if factor > np.float32(1e-4) else np.float32(0)
+    factor = np.float32(rule.memory / (1 + rule.memory))
     for cell, found in [*track.memory.items()]:
         found[0] *= factor
         found[1] *= factor
-        found[1][1] *= np.float32(rule.discount) if rule.memory_value == "discounted" else np.float32(1)
+        found[1][1] *= np.float32(rule.discount)
         if found[0] < np.float32(1e-4):
             del track.memory[cell]
 
 
-def remember_restated(table, track, goal, away):
-    one = np.float32(1)
-    for cell, (_, (weights, worths)) in track.memory.items():
-        for event in range(4):
-            value = table[cell, event, goal]
-            if weights[0, event] > 0:
-                value += min(weights[0, event], one) * (worths[0, event] / weights[0, event] - value)
-            if weights[1, event] > 0:
-                value = sunk_restated(value, min(weights[1, event], one), worths[1, event] / weights[1, event], away,
-                                        one)
-            table[cell, event, goal] = value if value > 1e-30 else 0
+def remember_restated(values, sums, away):
+    """Move the values of each event for one goal. sums: [weights, worths], see `fade_restated`."""
+    one, (weights, worths) = np.float32(1), sums
+    for event in range(4):
+        value = values[event]
+        if weights[0, event] > 0:
+            value += min(weights[0, event], one) * (worths[0, event] / weights[0, event] - value)
+        if weights[1, event] > 0:
+            value = sunk_restated(value, min(weights[1, event], one), worths[1, event] / weights[1, event], away, one)
+        values[event] = value if value > 1e-30 else 0

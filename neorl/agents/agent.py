@@ -13,7 +13,7 @@ from graphlib import CycleError, TopologicalSorter
 
 from neorl import checks
 from neorl.agents.rules import Contacts, Learning, Policy
-from neorl.core.choices import Weighting
+from neorl.core.choices import MapState, Weighting
 from neorl.core.description import Described
 from neorl.core.horde import OWN_CELL
 from neorl.core.maps import NresMap
@@ -22,6 +22,8 @@ from neorl.core.modality import Modality
 WEIGHTINGS = tuple(Weighting.__members__)
 MOST_PARTS = 4_096  # nodes, or desires; time and memory are quadratic in their number
 GOALS = ("cells", "contacts")
+STATES = tuple(name.replace("_", " ") for name in MapState.__members__)
+BEYOND_RANGE = ("outermost", "none")
 LEARNED, FIRST_WORTH = "learned", 1.0  # optimistic, so that unknown things are approached
 
 
@@ -36,6 +38,14 @@ class Node(checks.Final):
     goals: what the node learns to reach: all "cells", the Horde of the thesis, or only "contacts" with things, see
         `Contacts`. With contacts, the modality must be of objects, the resolutions must increase, and the weighting
         has no effect.
+    state: in a map of things relative to the agent, what its state and its goals are (paper B, section 3). "object": the
+        state is the cell of a thing, and the goal is the contact, distance 0. "self": the state is the agent, always at
+        the centre, and the goal is the cell of the thing; a value for each cell is all there is to learn, from the
+        agent's own motion. "per object": the same, from the agent's motion as seen from each thing until it is met.
+        For the last two, the modality must have one component along every axis of the world and no other axis.
+    reach: with the state "object", half the side of the square around the agent that counts as contact, in units of the
+        world's size, ≥ 0: every cell that it overlaps is a goal. 0 stands for the cell at distance 0.
+    beyond: the cell of what lies beyond the range of a map: the "outermost", or "none".
 
     Raises ValueError for anything else.
     """
@@ -46,6 +56,9 @@ class Node(checks.Final):
     weighting: str = "cells"
     gain: float = 1.0
     goals: str = "cells"
+    state: str = "object"
+    reach: float = 0.0
+    beyond: str = "outermost"
 
     def __post_init__(self):
         checks.instance("modality", self.modality, Modality)
@@ -55,7 +68,9 @@ class Node(checks.Final):
             raise ValueError("resolutions is (), allowed are one integer or more")
         checks.assign(self, resolutions=tuple(each.resolution for each in self.maps),
                      weighting=checks.one_of("weighting", self.weighting, WEIGHTINGS),
-                     gain=checks.real("gain", self.gain), goals=checks.one_of("goals", self.goals, GOALS))
+                     gain=checks.real("gain", self.gain), goals=checks.one_of("goals", self.goals, GOALS),
+                     state=checks.one_of("state", self.state, STATES), reach=checks.real("reach", self.reach, 0),
+                     beyond=checks.one_of("beyond", self.beyond, BEYOND_RANGE))
         if self.goals == "contacts" and self.modality.follows != "objects":
             raise ValueError(f"goals is 'contacts', allowed for {self.modality.name}s is 'cells': they follow no "
                              "objects")
@@ -64,6 +79,18 @@ class Node(checks.Final):
             raise ValueError(f"resolutions is {self.resolutions}, allowed for contacts are integers that grow")
         if self.goals == "cells" and self.modality.mirrored:
             raise ValueError(f"goals is 'cells', allowed for {self.modality.name}s, which are mirrored, is 'contacts'")
+
+        if self.state != "object" or self.reach > 0:
+            given = f"state is {self.state!r}" if self.state != "object" else f"reach is {self.reach}"
+            if not self.modality.is_cartesian or self.modality.follows != "objects" or self.goals == "contacts":
+                raise ValueError(f"{given}, allowed for {self.modality.name}s is the state 'object' with a reach of 0: "
+                                 "others take one component of objects along every axis of the world, with cells as "
+                                 "goals")
+        if self.state != "object" and self.reach > 0:
+            raise ValueError(f"reach is {self.reach}, allowed with the state {self.state!r} is 0: its goals are the "
+                             "cells of the things")
+        if self.beyond == "none" and self.goals == "contacts":
+            raise ValueError("beyond is 'none', allowed with contacts as goals is 'outermost'")
 
     @property
     def maps(self) -> tuple[NresMap, ...]:
@@ -179,6 +206,10 @@ class Agent(Described, checks.Final):
         checks.instance("policy", self.policy, Policy)
         checks.instance("contacts", self.contacts, Contacts)
         checks.assign(self, own_cell=checks.one_of("own_cell", self.own_cell, OWN_CELL))
+        for node in self.nodes:
+            if node.state != "object" and self.learning.update_on == "step":
+                raise ValueError(f"update_on is 'step', allowed for the node {node.name!r} with the state "
+                                 f"{node.state!r} is 'cell': within a step, the self stays in the centre")
         for desire in self.desires:
             self._check_desire(desire)
         self.evaluation_order  # raises ValueError for a cycle

@@ -9,11 +9,11 @@ import itertools
 import numpy as np
 
 from neorl.agents.agent import FIRST_WORTH, LEARNED, Place
-from neorl.core.choices import Attention, Capture, Credit, Source, UpdateOn, Weighting
+from neorl.core.choices import Credit, MapState, Source, UpdateOn, Weighting
 from neorl.core.constants import Constants, features, no_credit
 from neorl.core.kernel import execute, new_tuple
 from neorl.core.modality import as_turns, axis_parameters, firsts, integers
-from neorl.core.parameters import ENTRIES, Parameters, derive
+from neorl.core.parameters import ENTRIES, Parameters, derive, most_passed
 from neorl.worlds.arena import Arena
 from neorl.worlds.waterworld import WaterWorld
 
@@ -41,19 +41,27 @@ def constants_of(agent, world):
 
 def n_values(agent, world):
     """The number of values that an agent holds in a world, of four bytes each."""
-    return sum(len(world.actions.names) * nres_map.cells * (ENTRIES if node.goals == "contacts" else nres_map.cells)
+    return sum(len(world.actions.names) * nres_map.cells * goals_of(node, nres_map)
                for node in agent.nodes for nres_map in node.maps)
+
+
+def goals_of(node, nres_map):
+    """The number of values of an action in a cell of a map."""
+    return ENTRIES if node.goals == "contacts" else nres_map.cells if node.state == "object" else 1
 
 
 def n_bytes(agent, world):
     """The bytes that an agent in a world needs for its values and for its memory of the cells it has left."""
     rule, actions, axes = agent.learning, len(world.actions.names), world.actions.axes
     total = 4 * n_values(agent, world)
+    passed = int(execute(most_passed, _retained(rule.memory))) * (8 * axes + 4 * actions)
     for node in agent.nodes:
         several = {"objects": world.things, "boundaries": 2 * axes, "landmarks": len(node.modality.landmarks)}
+        points = 1 if node.state == "self" else several.get(node.modality.follows, 1)
         for nres_map in node.maps:
-            remembered = nres_map.cells * (20 + 16 * actions) if rule.memory > 0 and node.goals == "cells" else 0
-            total += several.get(node.modality.follows, 1) * (remembered + rule.trace * (8 + 4 * actions))
+            of_self = node.state != "object"
+            remembers = node.goals == "cells" and (of_self or rule.memory > 0)
+            total += points * (remembers * nres_map.cells * (20 + 16 * actions) + of_self * passed)
     return total
 
 
@@ -64,6 +72,9 @@ def chosen(agent, world):
     modalities = [node.modality for node in agent.nodes]
     choices, sizes = axis_parameters(modalities, n_axes)
     choices["nodes"] |= {"learns_contacts": np.array([node.goals == "contacts" for node in agent.nodes], np.bool_),
+                         "state": integers(MapState[node.state.replace(" ", "_")] for node in agent.nodes),
+                         "ends": np.array([node.beyond == "none" for node in agent.nodes], np.bool_),
+                         "reach": np.array([node.reach for node in agent.nodes]),
                          "weighting": integers(Weighting[node.weighting] for node in agent.nodes),
                          "gain": np.array([node.gain for node in agent.nodes]),
                          "first_map": firsts(len(node.resolutions) for node in agent.nodes),
@@ -93,6 +104,9 @@ def _check_meeting(agent, world):
             raise ValueError(f"a node is called {node.name!r}, allowed are names other than the kinds of this world's "
                              f"things: {', '.join(map(repr, kinds))}")
         node.modality.check_axes(n_axes)
+        if (node.state != "object" or node.reach > 0) and len(node.modality.axes) != n_axes:
+            raise ValueError(f"node {node.name!r} has {len(node.modality.axes)} components, allowed in this world with "
+                             f"the state {node.state!r} and a reach of {node.reach} are {n_axes}")
     for desire in agent.desires:
         if isinstance(desire.source, str) and not agent.comes_from_node(desire) and desire.source not in kinds:
             raise ValueError(f"desire {desire}: {desire.source!r} is neither a node of the agent nor a kind of this "
@@ -140,7 +154,6 @@ def _source(agent, desire):
 
 
 def _learning(learning, fps):
-    by_time = learning.memory_unit == "seconds"
     return {"learning_rate": np.float32(learning.learning_rate),
             "discount": np.float32(learning.discount),
             "absent_decay": np.float32(learning.absent_decay),
@@ -149,14 +162,8 @@ def _learning(learning, fps):
             "credit": int(Credit.own if callable(learning.credit) else Credit[learning.credit]),
             "activity_retained": _retained(learning.activity * fps),
             "terminal": learning.terminal,
-            "trace": learning.trace,
-            "memory_retained": _retained(learning.memory * (fps if by_time else 1)),
-            "memory_by_time": by_time,
-            "memory_discounts": learning.memory_value == "discounted",
-            "bootstrap": learning.bootstrap,
-            "own_causes": learning.causes == "own",
-            "capture": int(Capture[learning.capture]),
-            "attention": int(Attention[learning.attention])}
+            "memory_retained": _retained(learning.memory),
+            "bootstrap": learning.bootstrap}
 
 
 def _contacts(agent, fps):

@@ -24,8 +24,9 @@ from neorl.files import read_arrays, write_arrays
 
 # The arrays of `State` that have a part for each map, by the array of where each part begins.
 OF_A_MAP = {"first_value": ("values.q",), "first_cell": ("values.goal_range",),
-            "first_track": ("tracks.cell", "tracks.events", "tracks.trace_cell", "tracks.trace_rates",
-                            "tracks.trace_count", "tracks.remembered_count", "contacts.frame"),
+            "first_track": ("tracks.cell", "tracks.events", "tracks.passed_count", "tracks.remembered_count",
+                            "contacts.frame"),
+            "first_passed": ("tracks.passed_at", "tracks.passed_rates"),
             "first_trace": ("tracks.remembered", "tracks.remembered_at", "tracks.strength", "tracks.trace_weight",
                             "tracks.trace_worth")}
 
@@ -79,8 +80,9 @@ class Individual:
     def q(self, index: int = 0) -> NDArray[np.float32]:
         """The values of one of the agent's maps, as a read-only view.
 
-        float32 (cells, actions, cells), q[state, action, goal]; contiguous only if the agent bootstraps. For a node
-        with contacts as goals (cells, actions, 3): approach, fear, number of visits (see `neorl.core.contacts`).
+        float32 (cells, actions, cells), q[state, action, goal]; contiguous only if the agent bootstraps. If the state
+        is the self, there is one: (1, actions, cells). For a node with contacts as goals (cells, actions, 3): approach,
+        fear, number of visits (see `neorl.core.contacts`).
 
         index: the map's position in `Agent.maps`. Raises ValueError if there is none.
         """
@@ -99,8 +101,7 @@ class Individual:
         """Continue as another agent, which keeps what this one has learned.
 
         A map keeps its values, its active cells and its memory of how they were reached if both agents have it, in a
-        node of the same name with the same goals, and an equally long trace; a desire that both have keeps its learned
-        valence. Everything else is reset, including the desires of the previous step.
+        node of the same name with the same states and goals; a desire that both have keeps its learned valence. Everything else is reset, including the desires of the previous step.
         Raises ValueError unless it is an `Agent` compatible with the world, MemoryError if its values do not fit into
         the free memory.
         """
@@ -123,7 +124,7 @@ class Individual:
                         new[name][width * begin : width * end] = old[name][width * begin_old : width * end_old]
                 _values_of(agent, parameters, state, m)[...] = _values_of(self.agent, self._parameters, self._state,
                                                                           old_maps[key])
-        for name in ("last_event", "activity", "attended"):
+        for name in ("last_event", "activity"):
             new[name][:] = old[name]
         for e, desire in enumerate(agent.desires):
             if desire.valence == LEARNED and desire in self.agent.desires:
@@ -197,7 +198,10 @@ def _values_of(agent, parameters, state, m):
     """The values of a map in the layout of `Individual.q`, as a view."""
     first, end = parameters.maps.first_value[m : m + 2]
     values, cells, actions = state.values.q[first:end], agent.maps[m].cells, len(parameters.push)
-    if [node.goals for node in agent.nodes for _ in node.resolutions][m] == "contacts":
+    node = [node for node in agent.nodes for _ in node.resolutions][m]
+    if node.state != "object":
+        return values.reshape(1, cells, actions).swapaxes(1, 2)
+    if node.goals == "contacts":
         return values.reshape(cells, actions, ENTRIES)
     if agent.learning.bootstrap:  # see `neorl.core.learning.Order`
         return values.reshape(cells, actions, cells)
@@ -205,5 +209,6 @@ def _values_of(agent, parameters, state, m):
 
 
 def _map_keys(agent):
-    rule = agent.learning
-    return [(node.name, node.goals, each, rule.trace, rule.memory > 0) for node in agent.nodes for each in node.maps]
+    memory = agent.learning.memory
+    return [(node.name, node.goals, node.state, node.beyond, each, memory > 0 if node.state == "object" else memory)
+            for node in agent.nodes for each in node.maps]

@@ -2,7 +2,8 @@
 
 `choices` are other fields of `Agent` (learning, policy, own_cell) or, for all nodes, `weighting` of `Node` and
 `tiled_fraction`: the central fraction of each axis's range that the maps divide into equal cells. Values beyond it
-belong to the outermost cells. `object_tiled_fraction` is the one of object-vector cells, if it differs.
+belong to the outermost cells. Of object-vector cells alone, `object_tiled_fraction` is that fraction, if it differs;
+`object_state`, `object_reach` and `object_beyond` are fields of `Node`, and `object_centred` of `Axis`.
 
 Every function raises ValueError for values that `Agent` and its parts refuse, and TypeError for an unknown choice.
 """
@@ -21,7 +22,8 @@ Maker = TypeVar("Maker", bound=Callable[..., Agent])
 LAYERS = (3, 7, 23)  # the resolutions of paper A's last experiment, and of paper C by its figures
 PRIMES = (2, 3, 5, 7, 11, 13)  # the resolutions of paper B
 TILED_FRACTION = 1.0
-OF_NODES = ("weighting", "tiled_fraction", "object_tiled_fraction")  # the choices that are not fields of the agent
+OF_OBJECTS = {"object_state": "self", "object_reach": 0.0, "object_beyond": "outermost", "object_centred": False}
+OF_NODES = ("weighting", "tiled_fraction", "object_tiled_fraction", *OF_OBJECTS)  # choices that are no field of `Agent`
 CHOICES = (*OF_NODES, *(each.name for each in fields(Agent)[2:]))
 HINTS = get_type_hints(Agent)
 
@@ -140,14 +142,18 @@ def _network(nodes, resolutions, desires, choices):
     weighting = choices.pop("weighting", Node.weighting)
     tiled_fraction = checks.positive("tiled_fraction", choices.pop("tiled_fraction", TILED_FRACTION))
     of_objects = checks.positive("object_tiled_fraction", choices.pop("object_tiled_fraction", tiled_fraction))
-    nodes = tuple(Node(name, _covering(tiled_fraction if modality is PLACE_CELL else of_objects, modality), resolutions,
-                       weighting, gain) for name, modality, gain in nodes)
+    own = {name.removeprefix("object_"): choices.pop(name, value) for name, value in OF_OBJECTS.items()}
+    centred = checks.flag("object_centred", own.pop("centred"))
+    nodes = tuple(Node(name, _covering(tiled_fraction, modality), resolutions, weighting, gain)
+                  if modality is PLACE_CELL else
+                  Node(name, _covering(of_objects, modality, centred), resolutions, weighting, gain, **own)
+                  for name, modality, gain in nodes)
     return Agent(nodes, desires, **choices)
 
 
-def _covering(share, modality):
-    """The modality with the ranges of its axes reduced to their central fraction `share`."""
+def _covering(share, modality, centred=False):
+    """The modality with the ranges of its axes reduced to their central fraction `share`, and `centred`."""
     margin = (1 - share) / 2
     cut = [margin * (axis.high - axis.low) for axis in modality.axes]
-    return replace(modality, axes=[replace(axis, low=axis.low + each, high=axis.high - each)
+    return replace(modality, axes=[replace(axis, low=axis.low + each, high=axis.high - each, centred=centred)
                                    for axis, each in zip(modality.axes, cut)])

@@ -8,16 +8,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from neorl import checks
-from neorl.core.choices import Attention, Capture, Credit, UpdateOn
+from neorl.core.choices import Credit, UpdateOn
 from neorl.core.kernel import check_kernel
 from neorl.core.policy import greedy
 
-UPDATES_ON, CAPTURES, ATTENTIONS = (tuple(kind.__members__) for kind in (UpdateOn, Capture, Attention))
+UPDATES_ON = tuple(UpdateOn.__members__)
 CREDITS = tuple(name for name in Credit.__members__ if name != "own")
 ABSENT_FORMS = ("decay", "away")
-MEMORY_UNITS = ("cells", "seconds")
-MEMORY_VALUES = ("reached", "discounted")
-CAUSES = ("any", "own")
 FEARS = ("avoidance", "approach")
 RIVALS = ("highest", "add")
 WHEN_INDIFFERENT = ("random", "no-op")
@@ -27,8 +24,7 @@ WHEN_INDIFFERENT = ("random", "no-op")
 class Learning(checks.Final):
     """How the Horde learns (thesis section 4.1.3).
 
-    learning_rate: α in [0, 1]. discount: γ in [0, 1] for each update. It has no effect unless something discounts:
-        bootstrapping, a trace of several cells, or a memory with `memory_value` "discounted".
+    learning_rate: α in [0, 1]. discount: γ in [0, 1] for each update. It has no effect without bootstrapping or memory.
     update_on: when values are updated. "cell": at a change of cell, inference inversion (eq. 4.7, 4.8); "step": at
         every step, temporal difference (eq. 4.6), to which no field below except `terminal` applies: see
         `AT_EVERY_STEP`.
@@ -44,20 +40,11 @@ class Learning(checks.Final):
     absent_form: "decay" towards zero, or "away" from the target, as in eq. 4.8 with a negative rate; values are then
         kept between 0 and the highest possible value.
     terminal: reaching a goal is worth 1; otherwise 1 plus the discounted value of reaching it again.
-    trace: the number of most recently left cells that learn to reach the cell just entered, the k-th before the last at
-        γ^k times its rate. With 1, only the cell just left learns.
-    memory: a leaky integrator over all cells left, ≥ 0. All of them learn to reach the cell just entered, at rates that
-        fade with time or with each cell left since. 0 disables it. It takes the place of a trace.
-    memory_unit: "seconds", a time constant: rates fade at each step. "cells": they fade by memory / (1 + memory) at
-        each change of cell, so that `memory` is the mean number of earlier cells remembered.
-    memory_value: the value of the goal for a cell left k cells ago: 1, "reached", or γ^k, "discounted".
+    memory: a leaky integrator over all cells left, ≥ 0: the mean number of earlier cells remembered. All of them learn
+        to reach the cell just entered, at rates that fade by memory / (1 + memory) with each change of cell; a goal
+        reached k changes later is worth γ^k. 0 disables it: only the cell just left learns. Of the places that the self
+        has passed (see `Node`), the latest 10,000 are remembered at most.
     bootstrap: the cell just left also learns about all other goals from the cell entered (the γ max Q of eq. 4.8).
-    causes: from which changes of cell the maps of things learn: "any", or the agent's "own", those that would have
-        occurred had the thing stood still.
-    capture: what the capture of a thing is to these maps: "contact", arrival at distance 0; "leap", a change to the
-        cell of the new thing like any other; "silent", nothing. Except with "leap", they start over with the new thing.
-    attention: which things they follow: "each", the "nearest", or the one "wanted", the nearest of the kind that the
-        world names first: in WaterWorld, green.
 
     Raises ValueError for anything else.
     """
@@ -70,14 +57,8 @@ class Learning(checks.Final):
     absent_decay: float = 0.1101
     absent_form: str = "away"
     terminal: bool = True
-    trace: int = 1
-    memory: float = 4.396
-    memory_unit: str = "seconds"
-    memory_value: str = "reached"
+    memory: float = 30.0
     bootstrap: bool = False
-    causes: str = "own"
-    capture: str = "leap"
-    attention: str = "wanted"
 
     def __post_init__(self):
         checks.assign(
@@ -91,26 +72,17 @@ class Learning(checks.Final):
             absent_decay=checks.real("absent_decay", self.absent_decay, 0, 1),
             absent_form=checks.one_of("absent_form", self.absent_form, ABSENT_FORMS),
             terminal=checks.flag("terminal", self.terminal),
-            trace=checks.integer("trace", self.trace, at_least=1, at_most=checks.MOST),
             memory=checks.real("memory", self.memory, 0),
-            memory_unit=checks.one_of("memory_unit", self.memory_unit, MEMORY_UNITS),
-            memory_value=checks.one_of("memory_value", self.memory_value, MEMORY_VALUES),
-            bootstrap=checks.flag("bootstrap", self.bootstrap),
-            causes=checks.one_of("causes", self.causes, CAUSES),
-            capture=checks.one_of("capture", self.capture, CAPTURES),
-            attention=checks.one_of("attention", self.attention, ATTENTIONS))
+            bootstrap=checks.flag("bootstrap", self.bootstrap))
         if self.update_on == "step":
             for name, value in AT_EVERY_STEP.items():
                 if getattr(self, name) not in (value, getattr(Learning, name)):
                     raise ValueError(f"{name} is {getattr(self, name)!r}, allowed with update_on 'step' is {value!r}")
                 checks.assign(self, **{name: value})
-        if self.memory > 0 and self.trace > 1:
-            raise ValueError(f"trace is {self.trace}, allowed with memory, here {self.memory}, is 1")
 
 
 # The fields that temporal difference fixes, with the values that then replace the defaults.
-AT_EVERY_STEP = {"credit": "share", "absent_decay": 0.0, "trace": 1, "memory": 0.0, "bootstrap": True, "causes": "any",
-                 "capture": "contact", "attention": "each"}
+AT_EVERY_STEP = {"credit": "share", "absent_decay": 0.0, "memory": 0.0, "bootstrap": True}
 
 
 @dataclass(frozen=True)

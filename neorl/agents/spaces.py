@@ -14,7 +14,7 @@ from neorl.core.kernel import kernel
 from neorl.core.modality import PLACE_CELL, Axis, Modality
 
 RULE = Learning(learning_rate=0.1, discount=0.9, update_on="cell", credit="share", absent_decay=0.0, terminal=True,
-                memory=0.0, bootstrap=True, causes="any", capture="contact", attention="each")
+                memory=0.0, bootstrap=True)
 POLICY = Policy(exploration=0.1)
 AVERSION = -0.3  # the valence of things to avoid; that of things sought is 1
 JOINT_CELLS = {2: 9, 3: 7}  # along each axis, by the number of links

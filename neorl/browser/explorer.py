@@ -46,14 +46,14 @@ CALIBRATED = {  # the defaults of the package
     "Place and object-vector cells": papers.multimodal(), "Network A": papers.network_a(),
     "Network B": papers.network_b(), "Network C": papers.network_c(), "Network D": papers.network_d()}
 TO_THE_LETTER = {
-    "Place cells, to the letter": papers.place_cells(**LETTER.place_agents),
+    "Place cells, to the letter": papers.place_cells(**LETTER.agents),
     "Object-vector cells, to the letter": papers.object_vector_cells(**LETTER.agents),
     "Place and object-vector cells, to the letter": papers.multimodal(place_gain=LETTER.place_gain, **LETTER.agents),
     "Network D, to the letter": networks(LETTER)["D"]}
 IN_THE_ARENA = {  # since the platform never moves, only exploration gets an agent out of a deadlock
     "Place cells in the water maze": Agent(
         [Node("PC", PLACE_CELL, [5, 9, 13])], [Desire("platform", "PC", 1.0)],
-        Learning(learning_rate=0.05, discount=0.8, memory=2.0, memory_value="discounted"), Policy(exploration=0.5))}
+        Learning(learning_rate=0.05, discount=0.8, memory=2.0), Policy(exploration=0.5))}
 BEYOND = {"Foveated cells, contacts alone": beyond.forager(valence_green=1.0, valence_red=-1.0)}
 OTHER_SPACES = {  # agents, and their worlds
     "Arm of two links": (spaces.reacher(2), Arm((0.5, 0.5), radius=0.15)),

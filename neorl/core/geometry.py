@@ -17,6 +17,7 @@ import numpy as np
 
 from neorl.core.choices import Cut, Feature, Vector
 from neorl.core.kernel import array, inlined_kernel, kernel
+from neorl.core.scene import ABSENT
 
 TAU = 2.0 * math.pi
 SQRT_3 = math.sqrt(3.0)
@@ -132,7 +133,7 @@ def locate(parameters, constants, scene, n, point, given, offset, coordinates):
                 all_have = all_have and has_direction
                 followed_has = followed_has and (has_direction or vector != follows)
                 coordinate = turn(x, y) if has_direction else np.nan
-        if axes.what[axis, CUT] != Cut.equal:
+        if axes.what[axis, CUT] > Cut.centred:
             coordinate = in_range(axes, axis, coordinate)
         coordinates[axis - first] = coordinate
     return followed_has, all_have
@@ -155,6 +156,19 @@ def cell_of(parameters, coordinates, n, m):
 
 
 @inlined_kernel
+def cell_within(parameters, coordinates, n, m):
+    """The cell of a point in a map of a node, or ABSENT beyond the range of a node whose maps end there."""
+    if parameters.nodes.ends[n]:
+        for axis in range(np.uint64(parameters.nodes.first_axis[n]), np.uint64(parameters.nodes.first_axis[n + 1])):
+            coordinate = coordinates[axis - np.uint64(parameters.nodes.first_axis[n])]
+            is_open = parameters.axes.what[axis, CUT] <= Cut.centred and parameters.axes.what[
+                axis, FEATURE] != Feature.direction
+            if is_open and (coordinate < parameters.axes.low[axis] or coordinate > parameters.axes.high[axis]):
+                return ABSENT
+    return cell_of(parameters, coordinates, n, m)
+
+
+@inlined_kernel
 def interval_at(cut, coordinate):
     """The number of the interval that contains a coordinate, or of the one at the end of the range."""
     interval = np.floor((coordinate - cut[LOW]) * cut[SCALE])
@@ -165,7 +179,7 @@ def interval_at(cut, coordinate):
 @kernel
 def in_range(axes, axis, coordinate):
     """A coordinate wrapped into the range of an axis that closes; among boundaries, the number of its interval."""
-    if coordinate != coordinate or axes.what[axis, CUT] == Cut.equal:
+    if coordinate != coordinate or axes.what[axis, CUT] <= Cut.centred:
         return coordinate
     if axes.what[axis, CUT] == Cut.closed:
         low, length = axes.low[axis], axes.high[axis] - axes.low[axis]

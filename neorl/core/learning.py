@@ -6,13 +6,17 @@ there is no other reward.
 1. A track's change of cell drives the update (*inference inversion*, eq. 4.7 and 4.8): for each event that occurred in
    the cell just left, the values of all goals move towards γ max q of the cell entered, at the rate ψ(a) α. With an
    update after every step, and the action taken as its only event, this is *temporal difference* (eq. 4.6).
-2. The cells that a track remembers, by a leaky integrator or by a trace of the cells left most recently, learn that
-   they led to the cell entered. With a leaky integrator, a cell joins the memory when it is left: each event adds its
-   rate to a weight of its own, one for having occurred there and one, by ψ(0), for having been absent. At every change
-   of cell the weights fade by one factor, and the worth of a goal to them by another (1, or γ). The value of each
-   remembered event for the cell entered moves towards that worth, at its weight or at 1, whichever is less. A cell is
-   forgotten when its strength, which grows by 1 each time it is left, has faded below 1e-4.
+2. The cells that a track remembers, by a leaky integrator, learn that they led to the cell entered. A cell joins the
+   memory when it is left: each event adds its rate to a weight of its own, one for having occurred there and one, by
+   ψ(0), for having been absent. At every change of cell the weights fade, and the worth of a goal to them by γ. The
+   value of each remembered event for the cell entered moves towards that worth, at its weight or at 1, whichever is
+   less. A cell is forgotten when its strength, which grows by 1 each time it is left, has faded below 1e-4.
 3. The value of an event that did not occur sinks, towards zero or away from the target.
+4. A map whose state is the self has one state, the centre, and a value for every goal: q[goal, action]. Its transition
+   is that the self leaves the centre cell, and the map is centred on it anew: half a cell along an axis. What is
+   remembered is the places where this happened; each has led to the cell in which the self now is, as seen from there.
+   So the cell looked up is that of the goal instead of the state, and all else is as above, except that a place is
+   forgotten at a strength of 0.01. By eq. 4.8, a goal is worth γ max q of the same place as seen from the new centre.
 
 A value below 1e-30 counts as zero, because arithmetic on subnormal numbers is slow.
 """
@@ -21,12 +25,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl.core.choices import Credit
+from neorl.core.choices import Credit, MapState
+from neorl.core.geometry import LAST, SCALE, STRIDE, cell_within
 from neorl.core.kernel import array, inlined_kernel, kernel
+from neorl.core.parameters import FORGOTTEN
+from neorl.core.scene import ABSENT
 
 ZERO, UNIT, SMALLEST = np.float32(0.0), np.float32(1.0), np.float32(1e-30)
 UNBOUNDED = np.float32(np.inf)
-CUT = np.float32(1e-4)
 INACTIVE = np.float32(0.01)
 
 
@@ -35,7 +41,7 @@ class MapValues(NamedTuple):
 
     q: array("float32", "values")  # of this map and possibly others, see `Order`
     first: int  # where in q the map begins
-    cells: int
+    goals: int  # of each cell; 1 where a cell is itself a goal, see rule 4
     actions: int
     goal_range: array("int64", "cells", 2)  # for each cell, the range of goals whose values may differ from 0
     scratch: array("float32", "scratch")  # working memory: a number per goal or, with memory, per goal and action
@@ -77,69 +83,44 @@ class Trace(NamedTuple):
 
 
 @inlined_kernel
-def learn_transition(parameters, constants, state, m, point, cell_t, caused):
-    """Learn from a track's change of cell; if the agent did not cause it, only let the memory fade."""
+def learn_transition(parameters, constants, state, n, m, point, cell_t):
+    """Learn from a track's change of cell, or from the cell that the self has reached as seen from the last centre."""
     learning, tracks = parameters.learning, state.tracks
     track = np.uint64(parameters.maps.first_track[m] + point)
     cell_tm1 = tracks.cell[track]
     rule = Rule(learning.discount, learning.terminal, learning.learning_rate * learning.absent_decay, learning.away)
-    remembers = learning.memory_retained > ZERO
-    if remembers:
-        tracks.remembered_count[track] = fade(
-            trace_of(parameters, constants, tracks, m, point), tracks.remembered_count[track],
-            retained_since(learning, constants, tracks, track),
-            learning.discount if learning.memory_discounts else UNIT)
-    if not caused:
-        return
     values, order = values_of(parameters, state, m), order_of(parameters, m)
-    slot = tracks.trace_count[track] % learning.trace
-    tracks.trace_cell[track, slot] = cell_tm1
-    rates = tracks.trace_rates[track, slot]
+    trace, rates = trace_of(parameters, constants, tracks, m, point), state.rates
     rate_events(learning, constants, state, track, rates)
-    tracks.trace_count[track] += 1
+    if parameters.nodes.state[n] != MapState.object:
+        if learning.bootstrap and cell_t >= 0:
+            learn_all_displacements(parameters, values, rule, n, m, cell_t, rates)
+        count = join_passed(parameters, state, trace, rule, n, m, point, rates)
+        learn_remembered(values, order, rule, trace, count, 0)
+        forget_all(trace, count)
+        pass_by(parameters, state, m, point, track)
+        return
     if learning.bootstrap:
         learn_all_goals(values, rule, cell_tm1, cell_t, rates)
-    if remembers:
-        trace = trace_of(parameters, constants, tracks, m, point)
+    if learning.memory_retained > ZERO:
+        tracks.remembered_count[track] = fade(trace, tracks.remembered_count[track], learning.memory_retained,
+                                              learning.discount)
         for turn in range(2):
             if turn == learning.bootstrap:  # a cell that has already learned by bootstrapping joins afterwards
                 tracks.remembered_count[track] = join(trace, tracks.remembered_count[track], cell_tm1, rates,
-                                                      rule.absent_rate)
+                                                      rule.absent_rate, UNIT, UNIT)
             else:
                 learn_remembered(values, order, rule, trace, tracks.remembered_count[track], cell_t)
-        return
-    fading = UNIT
-    for back in range(min(tracks.trace_count[track], learning.trace)):
-        if back > 0 or not learning.bootstrap:
-            slot = (tracks.trace_count[track] - 1 - back) % learning.trace
-            learn_one_goal(values, order, rule, tracks.trace_cell[track, slot], cell_t,
-                           tracks.trace_rates[track, slot], fading)
-        fading *= learning.discount
-
-
-@inlined_kernel
-def steps_in_cell(constants, tracks, track):
-    """The number of steps that a track has spent in its active cell."""
-    steps = 0
-    for event in range(len(constants.actions) + 1):
-        steps += tracks.events[track, event]
-    return steps
-
-
-@inlined_kernel
-def retained_since(learning, constants, tracks, track):
-    """The share of the memory that is retained when a track leaves its cell."""
-    retained = learning.memory_retained
-    if learning.memory_by_time:
-        for _ in range(steps_in_cell(constants, tracks, track) - 1):
-            retained = retained * learning.memory_retained if retained > CUT else ZERO
-    return retained
+    elif not learning.bootstrap:
+        learn_one_goal(values, order, rule, cell_tm1, cell_t, rates)
 
 
 @inlined_kernel
 def rate_events(learning, constants, state, track, rates):
     """The rates α ψ of the events in the cell that a track leaves (thesis eq. 4.7)."""
-    steps = steps_in_cell(constants, state.tracks, track)
+    steps = 0
+    for event in range(len(constants.actions) + 1):
+        steps += state.tracks.events[track, event]
     for event in range(len(constants.actions)):
         count = state.tracks.events[track, event]
         credit = np.float32(count) / np.float32(steps)
@@ -162,16 +143,16 @@ def values_of(parameters, state, m):
     """The `MapValues` of a map."""
     maps = parameters.maps
     begin, end = maps.first_cell[m], maps.first_cell[m + 1]
-    return MapValues(state.values.q, maps.first_value[m], maps.cells[m], parameters.push.shape[0],
+    return MapValues(state.values.q, maps.first_value[m], maps.goals[m], parameters.push.shape[0],
                      state.values.goal_range[begin:end], state.values.scratch)
 
 
 @inlined_kernel
 def order_of(parameters, m):
     """The `Order` of a map's values."""
-    cells, actions = np.uint64(parameters.maps.cells[m]), np.uint64(parameters.push.shape[0])
+    goals, actions = np.uint64(parameters.maps.goals[m]), np.uint64(parameters.push.shape[0])
     if parameters.learning.bootstrap:
-        return Order(np.uint64(1), cells)
+        return Order(np.uint64(1), goals)
     return Order(actions, np.uint64(1))
 
 
@@ -187,12 +168,14 @@ def trace_of(parameters, constants, tracks, m, point):
 
 
 @inlined_kernel
-def start_track(parameters, constants, tracks, m, point, cell):
-    """Start the track of a point in a cell."""
-    track = np.uint64(parameters.maps.first_track[m] + point)
+def start_track(parameters, constants, state, n, m, point, cell):
+    """Start the track of a point in a cell, or of the self at state.coordinates in the centre."""
+    tracks, track = state.tracks, np.uint64(parameters.maps.first_track[m] + point)
     enter(constants, tracks, track, cell)
-    tracks.trace_count[track] = 0
-    if tracks.remembered_count[track] > 0:
+    if parameters.nodes.state[n] != MapState.object:
+        tracks.passed_count[track] = 0
+        pass_by(parameters, state, m, point, track)
+    elif tracks.remembered_count[track] > 0:
         forget_all(trace_of(parameters, constants, tracks, m, point), tracks.remembered_count[track])
         tracks.remembered_count[track] = 0
 
@@ -204,13 +187,101 @@ def enter(constants, tracks, track, cell):
         tracks.events[track, event] = 0
 
 
+@inlined_kernel
+def pass_by(parameters, state, m, point, track):
+    """Centre a map on the self at state.coordinates: the newest of the places that its track has passed."""
+    tracks, count = state.tracks, state.tracks.passed_count[track]
+    slot = passed_slots(parameters, m, point) + count % parameters.maps.passed[m]
+    for axis in range(tracks.passed_at.shape[1]):
+        tracks.passed_at[slot, axis] = state.coordinates[axis]
+    tracks.passed_count[track] = count + 1
+
+
+@inlined_kernel
+def passed_slots(parameters, m, point):
+    """Where the ring buffer of the places that a track has passed begins."""
+    return np.uint64(parameters.maps.first_passed[m] + point * parameters.maps.passed[m])
+
+
+@inlined_kernel
+def has_left_centre(parameters, state, m, point, track):
+    """Whether the self is half a cell or more from the centre, along an axis; its offset is then in state.offset."""
+    tracks, far = state.tracks, False
+    slot = passed_slots(parameters, m, point) + (tracks.passed_count[track] - 1) % parameters.maps.passed[m]
+    for axis in range(tracks.passed_at.shape[1]):
+        state.offset[axis] = state.coordinates[axis] - tracks.passed_at[slot, axis]
+        cells = state.offset[axis] * parameters.grid[np.uint64(parameters.maps.first_grid[m] + axis), SCALE]
+        far = far or cells >= 0.5 or cells <= -0.5
+    return far
+
+
+@inlined_kernel
+def join_passed(parameters, state, trace, rule, n, m, point, rates):
+    """List where the self now is as seen from each place that it has passed, and return the number of such cells."""
+    learning, maps, tracks = parameters.learning, parameters.maps, state.tracks
+    track, begin, size = np.uint64(maps.first_track[m] + point), passed_slots(parameters, m, point), maps.passed[m]
+    newest, count = (tracks.passed_count[track] - 1) % size, 0
+    strength, worth = UNIT, UNIT
+    for event in range(rates.shape[0]):
+        tracks.passed_rates[begin + newest, event] = rates[event]
+    for back in range(min(tracks.passed_count[track], size)):
+        slot = begin + (newest - back if back <= newest else newest - back + size)
+        if back > 0 or not learning.bootstrap:  # the last centre has already learned by bootstrapping
+            for axis in range(tracks.passed_at.shape[1]):
+                state.offset[axis] = state.coordinates[axis] - tracks.passed_at[slot, axis]
+            cell = cell_within(parameters, state.offset, n, m)
+            if cell >= 0:
+                count = join(trace, count, cell, tracks.passed_rates[slot], rule.absent_rate, strength, worth)
+        strength *= learning.memory_retained
+        worth *= learning.memory_retained * learning.discount
+        worth = worth if worth > SMALLEST else ZERO
+    return count
+
+
+@inlined_kernel
+def learn_all_displacements(parameters, values, rule, n, m, reached, rates):
+    """One update of every goal of the self, which has reached a cell as seen from the last centre (eq. 4.8)."""
+    q, actions, target, cells = values.q, values.actions, values.scratch, parameters.maps.cells[m]
+    for goal in range(cells):
+        target[goal] = ZERO
+        seen = seen_from(parameters, n, m, goal, reached)
+        if seen >= 0:
+            for event in range(actions):
+                target[goal] = higher(q[values.first + seen * actions + event], target[goal])
+        target[goal] *= rule.discount
+    target[reached] = UNIT if rule.terminal else UNIT + target[reached]
+    highest = UNIT if rule.terminal else UNIT / (UNIT - rule.discount)
+    for goal in range(cells):
+        widen(values.goal_range, goal, 0)
+        for event in range(actions):
+            index = values.first + goal * actions + event
+            if rates[event] > ZERO:
+                q[index] = stepped(q[index], rates[event], target[goal], UNBOUNDED)
+            elif rule.absent_rate > ZERO:
+                q[index] = sunk(q[index], rule.absent_rate, target[goal], rule.away, highest)
+
+
+@inlined_kernel
+def seen_from(parameters, n, m, goal, centre):
+    """The cell of a goal once the map is centred on another of its cells, or ABSENT outside the map."""
+    cell, first = 0, parameters.maps.first_grid[m]
+    for axis in range(parameters.nodes.first_axis[n + 1] - parameters.nodes.first_axis[n]):
+        stride, intervals = int(parameters.grid[first + axis, STRIDE]), int(parameters.grid[first + axis, LAST]) + 1
+        interval = (goal // stride % intervals - centre // stride % intervals
+                    + parameters.maps.contact[m] // stride % intervals)
+        if interval < 0 or interval >= intervals:
+            return ABSENT
+        cell += stride * interval
+    return cell
+
+
 @kernel
 def learn_all_goals(values, rule, cell_tm1, cell_t, rates):
     """One update of every goal of a map. rates: α ψ for each event.
 
     All values outside goal_range are zero and remain so, which saves most of the work in fine maps.
     """
-    q, cells, goal_range, target = values.q, values.cells, values.goal_range, values.scratch
+    q, cells, goal_range, target = values.q, values.goals, values.goal_range, values.scratch
     begin = min(min(goal_range[cell_tm1, 0], goal_range[cell_t, 0]), cell_t)
     end = max(max(goal_range[cell_tm1, 1], goal_range[cell_t, 1]), cell_t + 1)
     goal_range[cell_tm1, 0], goal_range[cell_tm1, 1] = begin, end
@@ -238,9 +309,7 @@ def learn_all_goals(values, rule, cell_tm1, cell_t, rates):
         if occurred or rule.away and rule.absent_rate > ZERO:
             rate, bound = (rates[event], UNBOUNDED) if occurred else (-rule.absent_rate, highest)
             for goal in range(count):
-                new = value[goal] + rate * (target[goal] - value[goal])
-                new = new if new < bound else bound
-                value[goal] = new if new > SMALLEST else ZERO
+                value[goal] = stepped(value[goal], rate, target[goal], bound)
         elif rule.absent_rate > ZERO:
             for goal in range(count):
                 new = value[goal] - rule.absent_rate * value[goal]
@@ -253,22 +322,30 @@ def higher(one, other):
     return one if one > other else other
 
 
+@inlined_kernel
+def stepped(value, rate, target, bound):
+    """A value after a step towards its target, up to a bound."""
+    new = value + rate * (target - value)
+    new = new if new < bound else bound
+    return new if new > SMALLEST else ZERO
+
+
 @kernel
-def learn_one_goal(values, order, rule, cell_tm1, goal, rates, fading):
-    """Move each event's value for one goal towards 1, at `rates` times `fading`; those of absent events sink."""
+def learn_one_goal(values, order, rule, cell_tm1, goal, rates):
+    """Move each event's value for one goal towards 1, at `rates`; those of absent events sink."""
     widen(values.goal_range, cell_tm1, goal)
     for event in range(values.actions):
         index = place_of(values, order, cell_tm1, goal) + np.uint64(event) * order.action
         if rates[event] > ZERO:
-            values.q[index] += fading * rates[event] * (UNIT - values.q[index])
+            values.q[index] += rates[event] * (UNIT - values.q[index])
         elif rule.absent_rate > ZERO:
-            values.q[index] = sunk(values.q[index], fading * rule.absent_rate, UNIT, rule.away, UNIT)
+            values.q[index] = sunk(values.q[index], rule.absent_rate, UNIT, rule.away, UNIT)
 
 
 @inlined_kernel
 def place_of(values, order, cell, goal):
     """The index in q at which a cell's action values for a goal begin; unsigned, since it is never negative."""
-    return np.uint64(values.first + cell * values.actions * values.cells) + np.uint64(goal) * order.goal
+    return np.uint64(values.first + cell * values.actions * values.goals) + np.uint64(goal) * order.goal
 
 
 @inlined_kernel
@@ -303,7 +380,7 @@ def fade(trace, count, retained, discount):
             worths[i] = reached if reached > SMALLEST else ZERO
     i = 0
     while i < count:
-        if trace.strength[i] < CUT:
+        if trace.strength[i] < FORGOTTEN:
             count -= 1
             forget(trace, i, count)
         else:
@@ -332,8 +409,8 @@ def forget_all(trace, count):
 
 
 @kernel
-def join(trace, count, cell, rates, absent_rate):
-    """Add a cell just left to the memory, and return how many cells are remembered."""
+def join(trace, count, cell, rates, absent_rate, strength, worth):
+    """Add a cell to the memory, at a strength and a worth of the goal, and return how many cells are remembered."""
     actions, half = len(trace.actions), trace.cells.shape[0] * len(trace.actions)
     i = trace.places[cell] - 1
     if i < 0:
@@ -343,13 +420,13 @@ def join(trace, count, cell, rates, absent_rate):
         for begin in range(i * actions, i * actions + 2 * half, half):
             for at in range(begin, begin + actions):
                 trace.weight[at] = trace.goal_worth[at] = ZERO
-    trace.strength[i] += UNIT
+    trace.strength[i] += strength
     for event in range(actions):
         absent = rates[event] == ZERO
         at = i * actions + event + absent * half
         rate = absent_rate if absent else rates[event]
-        trace.weight[at] += rate
-        trace.goal_worth[at] += rate
+        trace.weight[at] += strength * rate
+        trace.goal_worth[at] += worth * rate
     return count
 
 

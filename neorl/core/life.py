@@ -3,12 +3,13 @@
 1. Desires determine the values of the actions through the network of nodes; the policy chooses by these values.
 2. The action is an event in the active cell of every track until the track leaves that cell.
 3. A map learns all its goals from each track whose active cell changes (with update_on "step", after every step).
-4. When the agent meets a thing, the thing's tracks learn from the contact, then follow the fresh thing as if it had
-   always been there. At the end of an episode the world is reset. Neither leap is a transition to learn from, nor is
-   the appearance or disappearance of a thing.
+4. When the agent meets a thing, the thing's tracks learn that it has arrived at distance 0, then follow the fresh thing
+   as if it had always been there. At the end of an episode the world is reset. Neither leap is a transition to learn
+   from, nor is the appearance or disappearance of a thing.
 5. At rest, or at distance 0, a track keeps its last direction.
-6. How a capture counts, which changes of cell a thing's tracks learn from and which things are learned about are
-   choices of `neorl.agents.rules.Learning`; a track that does not learn still follows its point.
+6. Where the state of a node's maps is the self, one track follows the agent, and captures do not concern it; or the
+   agent as seen from each thing has a track, which starts afresh when that thing is met. A transition is then that the
+   agent leaves the centre of the map, see `neorl.core.learning`.
 7. A node whose only goals are contacts learns by its own rules, see `neorl.core.contacts`.
 
 `scene` is what the agent perceives of its world (`neorl.core.scene.Scene`).
@@ -16,11 +17,11 @@
 
 import numpy as np
 
-from neorl.core.choices import Attention, Capture, Credit, UpdateOn, Vector
+from neorl.core.choices import Credit, MapState, UpdateOn, Vector
 from neorl.core.contacts import begin_contacts, learn_worth, observe_contacts
-from neorl.core.geometry import cell_of, contact_cell, locate, maps_of, with_kept_directions
+from neorl.core.geometry import cell_within, component, contact_cell, locate, maps_of, with_kept_directions
 from neorl.core.kernel import inlined_kernel
-from neorl.core.learning import UNIT, ZERO, enter, learn_transition, start_track
+from neorl.core.learning import UNIT, ZERO, enter, has_left_centre, learn_transition, start_track
 from neorl.core.network import choose
 from neorl.core.scene import ABSENT
 
@@ -47,10 +48,11 @@ def observe(parameters, constants, state, scene):
         for point in range(parameters.nodes.points[n]):
             if parameters.nodes.learns_contacts[n]:
                 observe_contacts(parameters, constants, state, scene, n, point)
+            elif parameters.nodes.state[n] != MapState.object:
+                perceive_self(parameters, constants, state, scene, n, point)
             else:
                 perceive(parameters, constants, state, scene, n, point)
     learn_worth(parameters, state, scene)
-    attend(parameters, constants, state, scene)
 
 
 @inlined_kernel
@@ -59,60 +61,58 @@ def perceive(parameters, constants, state, scene, n, point):
     learning, tracks = parameters.learning, state.tracks
     things = parameters.nodes.follows[n] == Vector.objects
     met = things and scene.met[point] != 0
-    absent = things and scene.kinds[point] < 0
-    attended = not things or learning.attention == Attention.each or state.attended[0] == point
-    breaks = not attended or absent or met and learning.capture != Capture.leap
     _, all_have_directions = locate(parameters, constants, scene, n, point, False, state.offset, state.coordinates)
-    looked_alone = False
     for m in maps_of(parameters.nodes, n):
         track = np.uint64(parameters.maps.first_track[m] + point)
-        cell_tm1, cell = tracks.cell[track], cell_of(parameters, state.coordinates, n, m)
-        ends = breaks or cell_tm1 < 0
+        cell_tm1, cell = tracks.cell[track], cell_within(parameters, state.coordinates, n, m)
+        if things and scene.kinds[point] < 0:
+            cell = ABSENT
+        ends = met or cell < 0 or cell_tm1 < 0
         if not (all_have_directions or ends):
             cell = with_kept_directions(parameters.grid, parameters.maps.first_grid[m], state.coordinates,
                                         parameters.nodes.first_axis[n + 1] - parameters.nodes.first_axis[n], cell,
                                         cell_tm1)
-        arrives = met and learning.capture == Capture.contact and cell_tm1 >= 0
+        arrives = met and cell_tm1 >= 0
         cell_t = contact_cell(parameters.maps, m, cell_tm1) if arrives else cell
-        if attended and (arrives or not ends) and (cell_t != cell_tm1 or learning.update_on == UpdateOn.step):
-            drifts = things and learning.own_causes and not arrives
-            if drifts and not looked_alone:
-                look_alone(parameters, constants, state, scene, n, point)
-                looked_alone = True
-            caused = not drifts or cell_of(parameters, state.alone, n, m) != cell_tm1
-            learn_transition(parameters, constants, state, m, point, cell_t, caused)
+        if (arrives or not ends) and (cell_t != cell_tm1 or learning.update_on == UpdateOn.step):
+            learn_transition(parameters, constants, state, n, m, point, cell_t)
             enter(constants, tracks, track, cell_t)
         if ends:
-            start_track(parameters, constants, tracks, m, point, ABSENT if absent else cell)
+            start_track(parameters, constants, state, n, m, point, cell)
 
 
 @inlined_kernel
-def look_alone(parameters, constants, state, scene, n, point):
-    """Locate a thing as if it had stood still in this step, into state.alone."""
+def perceive_self(parameters, constants, state, scene, n, point):
+    """Follow the agent, or the agent as seen from a thing, and learn in every map whose centre it has left."""
+    of_thing, tracks = parameters.nodes.state[n] == MapState.per_object, state.tracks
+    starts = of_thing and (scene.met[point] != 0 or scene.kinds[point] < 0)
+    locate_self(parameters, constants, state, scene, n, point)
+    for m in maps_of(parameters.nodes, n):
+        track = np.uint64(parameters.maps.first_track[m] + point)
+        if starts or tracks.cell[track] < 0:
+            start_self(parameters, constants, state, scene, n, m, point)
+        elif has_left_centre(parameters, state, m, point, track):
+            cell = cell_within(parameters, state.offset, n, m)
+            learn_transition(parameters, constants, state, n, m, point, cell)
+            enter(constants, tracks, track, parameters.maps.contact[m])
+
+
+@inlined_kernel
+def locate_self(parameters, constants, state, scene, n, point):
+    """Write where the agent is, or where it is as seen from a thing, into state.coordinates."""
     for axis in range(len(constants.axes)):
-        state.offset[axis] = (state.things[point, axis] - scene.position[axis]) / parameters.size
-    locate(parameters, constants, scene, n, point, True, state.offset, state.alone)
+        if parameters.nodes.state[n] == MapState.per_object:
+            state.coordinates[axis] = -component(parameters, constants, scene, n, parameters.nodes.follows[n], point,
+                                                 axis)
+        else:
+            state.coordinates[axis] = scene.position[axis] / parameters.size
 
 
 @inlined_kernel
-def attend(parameters, constants, state, scene):
-    """Record where the things are, and select the one to learn about."""
-    attention = parameters.learning.attention
-    if parameters.learning.own_causes:
-        for thing in range(scene.things.shape[0]):
-            for axis in range(len(constants.axes)):
-                state.things[thing, axis] = scene.things[thing, axis]
-    if attention != Attention.each:
-        nearest = np.inf
-        for thing in range(scene.kinds.shape[0]):
-            distance = 0.0
-            for axis in range(len(constants.axes)):
-                offset = scene.things[thing, axis] - scene.position[axis]
-                distance += offset * offset
-            wanted = scene.kinds[thing] == 0 or attention != Attention.wanted and scene.kinds[thing] > 0
-            if distance < nearest and wanted:
-                nearest = distance
-                state.attended[0] = thing
+def start_self(parameters, constants, state, scene, n, m, point):
+    """Start a track in the centre of its map, or nowhere if its thing is absent."""
+    absent = parameters.nodes.state[n] == MapState.per_object and scene.kinds[point] < 0
+    start_track(parameters, constants, state, n, m, point, ABSENT if absent else parameters.maps.contact[m])
 
 
 @inlined_kernel
@@ -123,7 +123,6 @@ def begin(parameters, constants, state, scene):
             begin_point(parameters, constants, state, scene, n, point)
     for event in range(len(constants.actions)):
         state.activity[event] = ZERO
-    attend(parameters, constants, state, scene)
     for e in range(state.desires.valence.shape[0]):
         state.desires.valence[e] = 0.0
         for action in range(len(constants.actions)):
@@ -136,8 +135,13 @@ def begin_point(parameters, constants, state, scene, n, point):
     if parameters.nodes.learns_contacts[n]:
         begin_contacts(parameters, constants, state, scene, n, point)
         return
+    if parameters.nodes.state[n] != MapState.object:
+        locate_self(parameters, constants, state, scene, n, point)
+        for m in maps_of(parameters.nodes, n):
+            start_self(parameters, constants, state, scene, n, m, point)
+        return
     locate(parameters, constants, scene, n, point, False, state.offset, state.coordinates)
     absent = parameters.nodes.follows[n] == Vector.objects and scene.kinds[point] < 0
     for m in maps_of(parameters.nodes, n):
-        cell = cell_of(parameters, state.coordinates, n, m)
-        start_track(parameters, constants, state.tracks, m, point, ABSENT if absent else cell)
+        cell = cell_within(parameters, state.coordinates, n, m)
+        start_track(parameters, constants, state, n, m, point, ABSENT if absent else cell)

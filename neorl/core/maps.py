@@ -42,7 +42,8 @@ class NresMap(checks.Final):
     @property
     def intervals(self) -> tuple[int, ...]:
         """The number of intervals along each axis: a tuple."""
-        return tuple(axis.intervals or self.resolution for axis in self.modality.axes)
+        counts = [axis.intervals or self.resolution for axis in self.modality.axes]
+        return tuple(count + (axis.centred and count % 2 == 0) for count, axis in zip(counts, self.modality.axes))
 
     @property
     def cells(self) -> int:

@@ -57,6 +57,8 @@ class Axis(checks.Final):
         interval at its end. For a margin, `high` is its width; for a foveated component, both are square roots. A
         direction has none.
     closed: whether the range closes on itself, as for an angle; a direction always does.
+    centred: whether an interval is centred on the middle of the range also if their number is even; there is then one
+        more, of which half lies beyond either end.
     intervals: their number, whatever the resolution of the map; None stands for that resolution.
     boundaries: of unequal intervals, from the first to the last, in place of `low`, `high` and `intervals`.
     name: of the coordinate; by default derived from the other fields.
@@ -73,6 +75,7 @@ class Axis(checks.Final):
     intervals: int | None = None
     boundaries: Sequence[float] = ()
     name: str = ""
+    centred: bool = False
 
     def __post_init__(self):
         of = check_kernel("of", self.of) if callable(self.of) else checks.one_of("of", self.of, VECTORS)
@@ -85,7 +88,10 @@ class Axis(checks.Final):
                 raise ValueError(f"boundaries is {self.boundaries!r}, allowed are two numbers or more that increase")
             checks.assign(self, low=self.boundaries[0], high=self.boundaries[-1], intervals=len(self.boundaries) - 1)
         checks.assign(self, low=checks.real("low", self.low), high=checks.real("high", self.high),
-                     closed=checks.flag("closed", self.closed) or self.is_direction)
+                     closed=checks.flag("closed", self.closed) or self.is_direction,
+                     centred=checks.flag("centred", self.centred))
+        if self.centred and (self.closed or self.boundaries):
+            raise ValueError("centred is True, allowed for an axis that is closed or has boundaries is False")
         if self.intervals is not None:
             checks.assign(self, intervals=checks.integer("intervals", self.intervals, 1, MOST_CELLS))
         if self.low >= self.high or not np.isfinite(MOST_CELLS / (self.high - self.low)):
@@ -187,6 +193,12 @@ class Modality(checks.Final):
         vectors = [axis.of for axis in self.axes if not callable(axis.of)]
         several = [each for each in vectors if each in SEVERAL]
         return several[0] if several else "position" if "position" in vectors or not vectors else "velocity"
+
+    @property
+    def is_cartesian(self) -> bool:
+        """Whether the axes are the components of one vector, in turn, cut into equal intervals of an open range."""
+        return all((axis.of, axis.feature, axis.along) == (self.follows, "component", along)
+                   and not (axis.closed or axis.boundaries) for along, axis in enumerate(self.axes))
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -311,7 +323,8 @@ def axis_parameters(modalities, n_axes):
 
 def _what(axis, own):
     """The row of an axis in `AxisParameters.what`. own: the axes with user-defined kernels."""
-    cut = Cut.boundaries if axis.boundaries else Cut.closed if axis.closed and not axis.is_direction else Cut.equal
+    cut = (Cut.boundaries if axis.boundaries else Cut.closed if axis.closed and not axis.is_direction else
+           Cut.centred if axis.centred else Cut.equal)
     vector, along = (Vector.own, own.index(axis)) if callable(axis.of) else (Vector[axis.of], axis.along)
     return vector, Feature[axis.feature], along, cut, axis.intervals or 0
 

@@ -2,10 +2,12 @@
 
 1. For every element of interest, each map of its node evaluates the value function of a goal at the cell of one point.
    If the map represents the agent itself (its place, its direction), the point is the agent and the goal is the cell
-   of the element. If it represents things relative to the agent, the point is the element and the goal is the contact
-   of the two: distance 0, in a polar map in the direction of the thing. An element at the agent's own place has no
-   direction, and adds nothing to a map of directions. Along axes of conjunctive cells that do not represent its place,
-   an element is everywhere: it is in several cells, and their values add up.
+   of the element. If it represents things relative to the agent, there are two readings. The state is the self, always
+   at the centre, and the goal is the cell of the element. Or the state is the cell of the element, and the goal is the
+   contact of the two: distance 0, in a polar map in the direction of the thing, or every cell that the contact reaches.
+   An element at the agent's own place has no direction, and adds nothing to a map of directions. Along axes of
+   conjunctive cells that do not represent its place, an element is everywhere: it is in several cells, and their values
+   add up. An element beyond the range of a map that ends there adds nothing to it.
 2. These values, weighted by valence and by the weight of the map, add up to the node's Q-vector (thesis eq. 4.3, 4.4).
 3. The sum of the pushes of all actions, times their values, turns a Q-vector into a vector in the world: a desire. The
    end of that vector is an element of interest for the next node.
@@ -15,9 +17,9 @@
 
 import numpy as np
 
-from neorl.core.choices import Source, Vector
+from neorl.core.choices import MapState, Source, Vector
 from neorl.core.contacts import evaluate_contacts
-from neorl.core.geometry import cell_of, contact_cell, locate, maps_of
+from neorl.core.geometry import STRIDE, cell_within, contact_cell, interval_at, locate, maps_of
 from neorl.core.kernel import inlined_kernel
 from neorl.core.learning import order_of, place_of, values_of
 from neorl.core.stream import randint, uniform
@@ -99,10 +101,12 @@ def evaluate_desire(parameters, constants, state, scene, n, e):
         for m in maps_of(parameters.nodes, n):
             for track in range(parameters.maps.first_track[m], parameters.maps.first_track[m + 1]):
                 if state.tracks.cell[track] >= 0:
-                    add_value(parameters, constants, state, m, state.tracks.cell[track], chosen.goal[e, m], valence, q)
+                    add_value(parameters, constants, state, n, m, state.tracks.cell[track], chosen.goal[e, m], valence,
+                              q)
         return
     of_place = parameters.nodes.follows[n] == Vector.position
-    sees_things = source == Source.kind and parameters.nodes.follows[n] == Vector.objects
+    sees_things = (source == Source.kind and parameters.nodes.follows[n] == Vector.objects
+                   and parameters.nodes.state[n] == MapState.object)
     for thing in range(scene.kinds.shape[0] if source == Source.kind else 1):
         if source == Source.kind:
             if scene.kinds[thing] != chosen.kind[e]:
@@ -111,7 +115,7 @@ def evaluate_desire(parameters, constants, state, scene, n, e):
         if sees_things:
             for m in maps_of(parameters.nodes, n):
                 cell = state.tracks.cell[np.uint64(parameters.maps.first_track[m] + thing)]
-                add_goals(parameters, constants, state, m, cell, contact_cell(parameters.maps, m, cell), valence, q)
+                add_contact(parameters, constants, state, n, m, cell, valence, q)
             continue
         for axis in range(n_axes):
             here = state.here[axis]
@@ -137,31 +141,57 @@ def add_element(parameters, constants, state, scene, n, valence, q):
     if of_agent and not has_direction:
         return
     for m in maps_of(nodes, n):
-        goal = cell_of(parameters, coordinates, n, m)
+        cell = cell_within(parameters, coordinates, n, m)
         if of_agent:
-            cell = state.tracks.cell[np.uint64(maps.first_track[m])]
+            add_goals(parameters, constants, state, n, m, state.tracks.cell[np.uint64(maps.first_track[m])], cell,
+                      valence, q)
+        elif nodes.state[n] == MapState.object:
+            add_contact(parameters, constants, state, n, m, cell, valence, q)
         else:
-            cell, goal = goal, contact_cell(maps, m, goal)
-        add_goals(parameters, constants, state, m, cell, goal, valence, q)
+            add_value(parameters, constants, state, n, m, maps.contact[m], cell, valence, q)
 
 
 @inlined_kernel
-def add_goals(parameters, constants, state, m, cell, goal, valence, q):
+def add_contact(parameters, constants, state, n, m, cell, valence, q):
+    """Add the values of a thing's contact with the agent, or of every cell that the contact reaches."""
+    reach, first = parameters.nodes.reach[n], np.uint64(parameters.maps.first_grid[m])
+    if reach == 0.0 or cell < 0:
+        add_goals(parameters, constants, state, n, m, cell, contact_cell(parameters.maps, m, cell), valence, q)
+        return
+    boxes = 1
+    for axis in range(len(constants.axes)):
+        cut = parameters.grid[first + axis]
+        boxes *= int(interval_at(cut, reach) - interval_at(cut, -reach)) + 1
+    for box in range(boxes):
+        goal, rest = 0, box
+        for axis in range(len(constants.axes)):
+            cut = parameters.grid[first + axis]
+            lowest = int(interval_at(cut, -reach))
+            side = int(interval_at(cut, reach)) - lowest + 1
+            goal += int(cut[STRIDE]) * (lowest + rest % side)
+            rest //= side
+        add_value(parameters, constants, state, n, m, cell, goal, valence, q)
+
+
+@inlined_kernel
+def add_goals(parameters, constants, state, n, m, cell, goal, valence, q):
     """Add the values of all goals that differ from one only along axes on which an element has no place."""
     followed = parameters.maps.followed[m]
     if followed == parameters.maps.cells[m]:
-        add_value(parameters, constants, state, m, cell, goal, valence, q)
-    else:
+        add_value(parameters, constants, state, n, m, cell, goal, valence, q)
+    elif goal >= 0:
         for other in range(goal % followed, parameters.maps.cells[m], followed):
-            add_value(parameters, constants, state, m, cell, other, valence, q)
+            add_value(parameters, constants, state, n, m, cell, other, valence, q)
 
 
 @inlined_kernel
-def add_value(parameters, constants, state, m, cell, goal, valence, q):
+def add_value(parameters, constants, state, n, m, cell, goal, valence, q):
     """Add one goal's value of each action in a cell, times its valence and the weight of the map."""
     maps, actions = parameters.maps, len(constants.actions)
-    if goal != cell or parameters.own_cell_counts:
+    if cell >= 0 and goal >= 0 and (goal != cell or parameters.own_cell_counts):
         weight, order = maps.weight[m] * valence, order_of(parameters, m)
+        if parameters.nodes.state[n] != MapState.object:
+            cell, goal = goal, 0  # the only state is the centre, so the values are found by the goal
         place = place_of(values_of(parameters, state, m), order, cell, goal)
         for action in range(actions):
             q[action] += weight * state.values.q[place + np.uint64(action) * order.action]

@@ -11,12 +11,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl.core.choices import Cut, Feature, Vector
+from neorl.core.choices import Cut, Feature, MapState, Vector
 from neorl.core.geometry import (ALONG, BEYOND, CUT, FEATURE, INTERVALS, LAST, LOW, SCALE, STRIDE, VECTOR,
                                  AxisParameters, in_range, interval_at)
 from neorl.core.kernel import array, inlined_kernel, kernel
 
 
+FORGOTTEN = np.float32(1e-4)  # the strength below which a cell is no longer remembered
+FADED, MOST_PASSED = np.float32(0.01), 10_000  # the same for a place that the self has passed, and the most of them
 ENTRIES = 3  # values of an action in a cell of a map of contacts: `contacts.APPROACH`, `FEAR`, `VISITS`
 
 
@@ -27,6 +29,7 @@ class MapParameters(NamedTuple):
     # derived
     cells: array("int64", "maps")
     placed: array("int64", "maps")  # number of cells along the axes on which a contact determines the place
+    goals: array("int64", "maps")  # that a cell has values for: all cells, or 1 if a cell is itself a goal
     contact: array("int64", "maps")  # the first cell at distance 0
     followed: array("int64", "maps")  # number of cells along the axes of the vector that the node follows
     weight: array("float64", "maps")
@@ -35,12 +38,17 @@ class MapParameters(NamedTuple):
     first_cell: array("int64", "maps + 1")  # number of cells in the maps before it
     first_track: array("int64", "maps + 1")
     first_trace: array("int64", "maps + 1")  # where its tracks' memory begins, which has room for all cells
+    passed: array("int64", "maps")  # the most places that a track of the self remembers
+    first_passed: array("int64", "maps + 1")  # where its tracks' passed places begin
 
 
 class NodeParameters(NamedTuple):
     """The nodes. `first_…` arrays have one more entry, for the end of the last node."""
 
     follows: array("int64", "nodes")  # see `choices.Vector`: the one in which an element has a place
+    state: array("int64", "nodes")  # see `choices.MapState`
+    ends: array("bool", "nodes")  # whether no cell represents what lies beyond the range of its maps
+    reach: array("float64", "nodes")  # half the side of the square around the self that counts as contact
     weighting: array("int64", "nodes")  # see `choices.Weighting`
     gain: array("float64", "nodes")
     first_map: array("int64", "nodes + 1")
@@ -85,14 +93,8 @@ class LearningParameters(NamedTuple):
     credit: int  # see `choices.Credit`
     activity_retained: np.float32  # share of an event's activity that a step retains
     terminal: bool
-    trace: int
-    memory_retained: np.float32  # share that a change of cell, or a step, retains; 0 without memory
-    memory_by_time: bool
-    memory_discounts: bool
+    memory_retained: np.float32  # share that a change of cell retains; 0 without memory
     bootstrap: bool
-    own_causes: bool
-    capture: int  # see `choices.Capture`
-    attention: int  # see `choices.Attention`
 
 
 class ContactParameters(NamedTuple):
@@ -149,7 +151,9 @@ def derive(parameters: Parameters, n_things: int) -> None:
     maps, nodes = parameters.maps, parameters.nodes
     for n in range(nodes.follows.shape[0]):
         points = 1
-        if nodes.follows[n] == Vector.objects:
+        if nodes.state[n] == MapState.self:
+            points = 1
+        elif nodes.follows[n] == Vector.objects:
             points = n_things
         elif nodes.follows[n] == Vector.boundaries:
             points = 2 * parameters.push.shape[1]
@@ -160,7 +164,7 @@ def derive(parameters: Parameters, n_things: int) -> None:
         for axis in range(nodes.first_axis[n], nodes.first_axis[n + 1]):
             what = parameters.axes.what[axis]
             if (what[VECTOR] != nodes.follows[n] or what[FEATURE] != Feature.component
-                    or what[ALONG] != axis - nodes.first_axis[n] or what[CUT] != Cut.equal):
+                    or what[ALONG] != axis - nodes.first_axis[n] or what[CUT] > Cut.centred):
                 nodes.is_cartesian[n] = False
         total = 0.0
         for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
@@ -170,15 +174,28 @@ def derive(parameters: Parameters, n_things: int) -> None:
             for _ in range(nodes.weighting[n]):
                 maps.weight[m] *= maps.resolution[m]
             total += maps.weight[m]
-            values = ENTRIES if nodes.learns_contacts[n] else cells
-            maps.first_value[m + 1] = maps.first_value[m] + parameters.push.shape[0] * cells * values
+            of_self = nodes.state[n] != MapState.object
+            maps.goals[m] = ENTRIES if nodes.learns_contacts[n] else 1 if of_self else cells
+            maps.first_value[m + 1] = maps.first_value[m] + parameters.push.shape[0] * cells * maps.goals[m]
             maps.first_cell[m + 1] = maps.first_cell[m] + cells
             maps.first_track[m + 1] = maps.first_track[m] + points
-            remembered = 0 if nodes.learns_contacts[n] else points * cells
-            maps.first_trace[m + 1] = maps.first_trace[m] + remembered
+            remembers = not nodes.learns_contacts[n] and (of_self or parameters.learning.memory_retained > 0)
+            maps.first_trace[m + 1] = maps.first_trace[m] + (points * cells if remembers else 0)
+            maps.passed[m] = most_passed(parameters.learning.memory_retained) if of_self else 0
+            maps.first_passed[m + 1] = maps.first_passed[m] + points * maps.passed[m]
         for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
             maps.weight[m] /= total
         find_inputs(parameters, n)
+
+
+@kernel
+def most_passed(retained):
+    """The number of places passed that are remembered at a strength of 0.01 or more, at most MOST_PASSED."""
+    count, strength = 1, retained
+    while strength >= FADED and count < MOST_PASSED:
+        count += 1
+        strength *= retained
+    return count
 
 
 @kernel
@@ -197,7 +214,11 @@ def cut_axes(parameters, n, m):
             high = 1.0 + low
         elif axes.what[axis, CUT] == Cut.boundaries:  # here the coordinate is the number of the interval
             low, high = 0.0, float(intervals)
-        grid[g, LOW], grid[g, SCALE], grid[g, LAST] = low, intervals / (high - low), intervals - 1.0
+        grid[g, SCALE] = intervals / (high - low)
+        if axes.what[axis, CUT] == Cut.centred and intervals % 2 == 0:  # half an interval more at either end
+            low -= 0.5 / grid[g, SCALE]
+            intervals += 1
+        grid[g, LOW], grid[g, LAST] = low, intervals - 1.0
         grid[g, BEYOND] = 0.0 if is_direction or axes.what[axis, CUT] == Cut.closed else intervals - 1.0
         grid[g, STRIDE] = maps.cells[m]
         maps.cells[m] *= intervals

@@ -22,9 +22,9 @@ class TrackState(NamedTuple):
 
     cell: array("int64", "tracks")  # the active cell, or ABSENT
     events: array("int64", "tracks", "actions + 1")  # steps in the cell on which each action was taken, idleness last
-    trace_cell: array("int64", "tracks", "trace")  # cells left, a ring buffer
-    trace_rates: array("float32", "tracks", "trace", "actions")  # the rates of their events
-    trace_count: array("int64", "tracks")  # cells left since the track started
+    passed_at: array("float64", "passed", "axes")  # where the self has left a cell, a ring buffer for each track
+    passed_rates: array("float32", "passed", "actions")  # the rates of the events until it left the next
+    passed_count: array("int64", "tracks")  # since the track started
     remembered: array("int64", "traces")  # the fields of a `learning.Trace`, one track after the other
     remembered_at: array("int64", "traces")
     remembered_count: array("int64", "tracks")
@@ -60,14 +60,12 @@ class State(NamedTuple):
     desires: DesireState
     last_event: array("int64", 1)
     activity: array("float32", "actions")  # of each event
-    things: array("float64", "things", "axes")  # where they were after the last step
-    attended: array("int64", 1)  # the thing that is learned about
+    rates: array("float32", "actions")  # working memory: of the events in the cell that a track leaves
     reward: array("float64", 1)  # of the last step
     action_value: array("float64", "actions")  # at the last choice that was not random
     stream: array("uint64", 4)  # the random numbers of the policy
     here: array("float64", "axes")  # working memory: where the agent is, in units of the world's size
     coordinates: array("float64", "coordinates")  # working memory: of the point being located
-    alone: array("float64", "coordinates")  # working memory: of that point if it had not moved
     offset: array("float64", "axes")  # working memory: of an element of interest from the agent
     seen: array("int64", "maps")  # working memory: the cells of a point
     rival: array("float64", "actions")  # working memory: a thing's contribution to the action values
@@ -81,11 +79,11 @@ def new_state(parameters, stream, n_things, old=None):
     reused: getting a gigabyte from the system, page by page, takes longer than a run.
     """
     maps, (actions, axes) = parameters.maps, parameters.push.shape
-    traces = maps.first_trace[-1] if parameters.learning.memory_retained > 0 else 0
+    traces = maps.first_trace[-1]
     sizes = {"values": maps.first_value[-1], "cells": maps.first_cell[-1], "tracks": maps.first_track[-1],
              "scratch": actions * maps.first_cell[-1],
-             "trace": parameters.learning.trace, "traces": traces, "trace_weights": 2 * actions * traces,
-             "desires": len(parameters.desires.source), "things": n_things, "actions": actions, "axes": axes,
+             "traces": traces, "trace_weights": 2 * actions * traces, "passed": maps.first_passed[-1],
+             "desires": len(parameters.desires.source), "actions": actions, "axes": axes,
              "coordinates": parameters.desires.at.shape[1], "maps": len(maps.cells),
              "left": parameters.contacts.trace}
     values = {}
@@ -108,7 +106,7 @@ def clear_q(parameters: Parameters, state: State) -> None:
                 for i in range(values.first, maps.first_value[m + 1]):
                     values.q[i] = 0.0
                 continue
-            for cell in range(values.cells):
+            for cell in range(maps.cells[m]):
                 begin = place_of(values, order, cell, values.goal_range[cell, 0])
                 end = place_of(values, order, cell, values.goal_range[cell, 1])
                 for event in range(1 if order.action == 1 else values.actions):  # if 1, the range covers all events

@@ -4,7 +4,7 @@ The method is history matching (Craig et al. 1997; Vernon et al. 2010), a search
 rather than one that climbs to the best fit:
 
 1. *Design.* Readings are spread evenly through the priors within the text by a scrambled Sobol sequence. All are run in
-   the cheapest group of conditions, and the first 48 in every group, so that the expensive groups are not run for
+   the first group of conditions, that of paper B, and the first 48 in every group, so that the others are not run for
    favourites alone.
 2. *Emulator.* Random forests, fitted to the readings that have been run, predict each statistic from the choices. The
    uncertainty of a prediction combines the disagreement of the trees and the noise of a few runs.
@@ -14,7 +14,8 @@ rather than one that climbs to the best fit:
    the target's scale and the prediction's uncertainty; its maximum over targets must be below 3. The most promising of
    these candidates are run, and as many others at random, since the emulator errs where it has few data.
 4. *Waves.* The next emulator is fitted to these results too, and so on until time is up. Each wave runs its candidates
-   in the cheapest group, and in every other group the most promising of all readings so far, fewer from group to group.
+   in the first group, and in every other group the most promising of all readings so far: as many in the cheap one of
+   paper A, fewer in the others.
 5. *Confirmation.* A search over thousands of noisy numbers finds lucky ones. So the nearest readings are run again with
    fresh seeds and more runs, and only these results count.
 
@@ -37,7 +38,7 @@ from neorl.extras import require
 RUNS, STEPS = 2, 600_000  # of a reading: the papers' own lengths
 DESIGN, IN_FULL = 512, 48  # readings in wave 0, a power of two, and how many of them are run in every group
 CHUNK = 16  # readings run between two checks of the clock
-WAVE = {"layers": 192, "modalities": 64, "networks": 40, "single": 12}  # readings per wave in each group
+WAVE = {"modalities": 192, "layers": 192, "networks": 32, "single": 24}  # readings per wave in each group
 POOL = 4_000  # candidates per wave
 PARENTS, RENEWED, MOVED = 30, 0.1, 0.05  # of children: best rows, share of choices redrawn, spread of moved numbers
 IMPLAUSIBLE = 3.0

@@ -4,7 +4,9 @@
 2. A choice is *pinned* if the sentence excludes a value; a test then says whether a `neorl.evidence.reading.Reading`
    obeys it. Otherwise the choice is *open*, also if there is no such sentence.
 3. A choice pinned by several sentences has several pins, and a reading has to obey all of them.
-4. Only the text decides. The pins were written down before any reading was judged by them, and results change none.
+4. Only the text decides. Pins are written down before the readings that they judge are run. The first list pinned or
+   omitted some choices that the text leaves open: what an object-vector map's state is, how ties are broken, what memory
+   holds, and the valence and the unit of a desire vector. This list replaced it before the present calibration.
 
 Quotations are verbatim except for mathematics, which is set in plain characters; square brackets are the source's.
 """
@@ -86,14 +88,13 @@ POLICY_AND_MAPS = (
         "ε = 0: the action of highest value is taken, as in a = argmax Q_tot(s, a) of paper A (The Control Problem by "
         "Superposition). Section 4.3.1, too, contrasts directed exploration with ε-greedy policies.",
         lambda reading: reading.exploration == 0),
-    Pin("action when idle", ("when_indifferent",),
+    Pin("ties", ("when_indifferent",),
         "Basal actions affect the agent by accelerating it in the cardinal directions, [N, S, E, W].",
         "paper A, WaterWorld",
-        "The no-op is not among the agent's actions, and equal values are a tie, broken by a uniform draw: “Learning "
-        "can be regarded as inserting bias into this stochastic process” (section 4.1.1). With ε = 0 the agent would "
-        "otherwise stay where it starts for ever, with no event to learn from. The author's later code takes no action "
-        "while values add up to zero.",
-        lambda reading: reading.when_indifferent == "random"),
+        "How equal values are told apart is open. A uniform draw is plainest: “Learning can be regarded as inserting "
+        "bias into this stochastic process” (section 4.1.1). With ε = 0, an agent that takes no action while values "
+        "add up to zero, as in the author's later code, never moves, and one that takes the first action is stuck at "
+        "a wall; so only the draw is run."),
     Pin("range of place cells", ("tiled_fraction",), "Each axis is divided into N = 5 equal intervals",
         "paper B, figure 3",
         "Maps of places cut the whole board into equal cells, as in figure 2 and Results of paper A.",
@@ -106,9 +107,9 @@ POLICY_AND_MAPS = (
     Pin("elements in the agent's own cell", ("own_cell",), "the set of NRES cells occupied by an element of interest",
         "paper A, equation 4; section 4.1.2, equation 4.4", "Every cell that holds an element counts, the agent's own "
         "included.", lambda reading: reading.own_cell == "counts"),
-    Pin("state of a map", (), "N13 signifies a 13 × 13 tile set in ℝ²", "paper B, section 2.1",
-        "The state of object-vector cells is a cell of the plane of o − s. Pairs of the agent's cell and the object's "
-        "would be a tile set in four dimensions, and are excluded.", _always),
+    Pin("cells of a map", (), "N13 signifies a 13 × 13 tile set in ℝ²", "paper B, section 2.1",
+        "The cells of an object-vector map tile the plane of o − s. Pairs of the agent's cell and the object's would be "
+        "a tile set in four dimensions, and are excluded.", _always),
 )
 
 LEARNING = (
@@ -131,22 +132,17 @@ LEARNING = (
         "towards zero decreases, too."),
     Pin("memory", ("memory", "credit"), "assigning credit to events after each transition s⁻ → s⁺ as a leaky "
         "integrator", "section 4.1.3",
-        "The memory holds the cells left earlier with their events, or how active each event was, or both. "
-        "Section 4.4 has “an update rule based on the persistence school and memory traces”. Its length is open; a "
-        "memory of cells is plainest.",
-        lambda reading: (reading.memory > 0 or reading.credit == "activity") and reading.credit != "step"),
-    Pin("time of memory", ("memory_unit",), "assigning credit to events after each transition", "section 4.1.3",
-        "Memory fades with each transition, which is plainest, or with time."),
-    Pin("value in memory", ("memory_value",), "inferences are updated according to how active the corresponding event "
-        "was before state transition", "section 4.4",
-        "Earlier cells learn at a faded rate: towards 1, which is plainest, or towards γ^k if left k cells ago."),
+        "What leaks is open. How active an event is, or how often it occurred in the cell, is plainest: section 4.4 "
+        "has “how active the corresponding event was before state transition”. Cells left earlier may be remembered "
+        "with their events as well: “memory traces” (section 4.4); but no sentence gives credit to them, and their "
+        "number is ours."),
     Pin("time constant of activity", ("activity",), "how active the corresponding event was before state transition",
         "section 4.4", "How active an event was may be a leaky integrator rather than its count in the cell. The time "
         "constant is open."),
     Pin("learning rate, α", ("learning_rate",), "is a ‘learning factor’", "section 4.1.3, equation 4.6",
         "No value is given."),
     Pin("discount, γ", ("discount",), "is the scalar discounting factor", "section 3.1, equation 3.2",
-        "Between 0 and 1; no value is given."),
+        "Between 0 and 1; no value is given. 1 is allowed: a goal reached later is then worth as much."),
     Pin("bootstrapping", ("bootstrap",), "it is still possible to utilize a transition-driven update by inference "
         "inversion", "section 4.1.3, equation 4.8",
         "Equation 4.8 prints γ max Q, so bootstrapping is plainest. A memory of cells does the same work, though, and "
@@ -157,38 +153,48 @@ LEARNING = (
 )
 
 OBJECTS = (
+    Pin("state and goal of object vectors", ("object_state",),
+        "with the self in the center and allocentric direction to external objects", "paper B, section 3",
+        "Open, and decisive. The state is the self, always at the centre, and the goal is the object's cell, which is "
+        "plainest: “the current parameter configuration of the agent” tells the state (paper A, figure 2), and "
+        "the cell “occupied by an element of interest” the value function (paper A, equation 4). Or the same in the "
+        "frame of each object. Or the state is the object's cell and the goal the contact."),
+    Pin("transition of object vectors", (), "after each transition s⁻ → s⁺", "section 4.1.3",
+        "A state that is always the centre never changes. The self leaves the centre cell when it has moved by half a "
+        "cell along an axis, and the map is then centred on it anew; a change of the object's cell if that is the "
+        "state.", _always),
+    Pin("goal of an object's cell", ("object_reach",), "When the agent encounters an object, it is replaced by a new "
+        "object", "paper B, section 3",
+        "If the state is the object's cell, the goal is the cell at o − s = 0, which is plainest, or every cell that "
+        "the contact of the two overlaps."),
     Pin("range of object-vector cells", ("object_tiled_fraction",),
         "One can also compute a simple object vector cell (OVC) interpretation by vector subtraction",
         "paper B, section 3",
         "Differences of places lie between −1 and 1 board width. It is open whether the N intervals divide all of "
-        "that, which is plainest, or less, with everything beyond in the outermost."),
-    Pin("transitions of object vectors", ("causes",), "the learning agent should look for the cause of the "
-        "transition rather than delving into one’s own actions", "section 4.1.2",
-        "Each change of an object's cell is a transition to learn from, which is plainest, or only a change that the "
-        "agent's own motion helps to cause."),
-    Pin("capture", ("capture",), "When the agent encounters an object, it is replaced by a new object",
-        "paper B, section 3",
-        "To encounter an object is to be where it is, so an arrival at o − s = 0 is plainest; or its vector leaps to "
-        "the new object's, which is learned like any change of cell; or neither is learned."),
-    Pin("objects with a vector", ("attention",), "OVC is centered on the self with an allocentric representation of "
-        "other objects", "paper B, figure 4", "Each object has a vector to learn from, which is plainest, or one at a "
-        "time: the nearest, or the nearest green one."),
+        "that, which is plainest, or less."),
+    Pin("cell beyond the range", ("object_beyond",), "most OVC cells have a receptive field up to 30cm away in mice",
+        "section 2.2, footnote 4", "An object beyond the range of a map belongs to the outermost cell, which is "
+        "plainest, or to none."),
+    Pin("grid of object vectors", ("object_centred",), "OVC is centered on the self with an allocentric representation "
+        "of other objects", "paper B, figure 4",
+        "With N even, the self lies where four cells meet, or the grid is shifted by half a cell, so that the self is "
+        "in the middle of one. N equal intervals are plainest."),
     Pin("gain of place cells, paper B", ("place_gain",), "behavior can later be harvested as a weighted sum over the "
         "OVF’s according to priorities", "paper B, section 2.2",
         "Priorities of modalities are not given, and 1:1 is plainest, as in paper C. The author's later code has a "
-        "factor for places; a drawing on the author's site has 5."),
+        "factor for places, with the remark that object-vector values seem three times as high; a drawing on the "
+        "author's site has 5."),
 )
 
 NETWORKS = (
     Pin("gain of place cells, paper C", ("network_gain",), "1:1 weight ratio between ξ^PC and ξ^OVC",
         "paper C, section 3", "A gain of 1. A drawing of network D on the author's site has 5.",
         lambda reading: reading.network_gain == 1),
-    Pin("desire vector", ("vectors",), "represents the vector sum", "paper C, section 1",
-        "Q-vectors add up as they are, with the sign of each element's valence.",
-        lambda reading: reading.vectors == "signed"),
+    Pin("valence in desire vectors", ("vectors",), "represents the vector sum", "paper C, section 1",
+        "Open: whether the Q-vectors that add up hold the valence of their elements. Without it is plainest, since the "
+        "desire carries the valence as well; a red creep's would otherwise act twice, and red would attract."),
     Pin("where a desire lies", ("scale",), "e^out = d", "paper C, section 1",
-        "At d itself, seen from the agent: a scale of 1. The unit of length is ours, the width of the board.",
-        lambda reading: reading.scale == 1),
+        "At d itself, seen from the agent; no unit is given, and the one of the book is ours."),
     Pin("recursion, r", ("recursion",), "experiment [d] only explores a unitary feedback loop r = −1.0",
         "paper C, section 3", "A weight of −1.", lambda reading: reading.recursion == -1),
     Pin("resolutions, paper C", ("network_resolutions",), "The individual neoRL sub-nodes ξ³, ξ⁷, ξ²³ are trained by "

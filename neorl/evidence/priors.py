@@ -6,7 +6,9 @@
 3. Beyond the text (`BEYOND`), pinned choices are varied as well, jointly with all others.
 4. The reading to the letter takes the values that the text pins. Where more than one is left, it takes the one that a
    sentence or an equation prints, or else the plainest, which stands first among the levels, or else the middle of the
-   prior. `neorl.evidence.pins` says which and why.
+   prior, which is a number of ours. `neorl.evidence.pins` says which and why.
+5. Trials outside this project had found α of 0.03, −ψ(0) of 0.9 and memories of some 20 cells before these priors were
+   written; they reach far beyond on either side.
 """
 
 import math
@@ -28,38 +30,46 @@ MEASURES = {"": (lambda value: value, lambda measure: measure),
 class LogUniform:
     """A distribution of numbers that is uniform in the logarithm of their `measure`.
 
-    low, high: the ends of that measure, which is the number itself or one of `MEASURES`. zero: the probability of 0,
-    outside these ends.
+    low, high: the ends of that measure, which is the number itself or one of `MEASURES`. apart: a number at one of the
+    ends or beyond, if it has a probability of its own. chance: that probability.
     """
 
     low: float
     high: float
     measure: str = ""
-    zero: float = 0.0
+    apart: float | None = None
+    chance: float = 0.0
+
+    @property
+    def _apart_is_highest(self):
+        return self.apart is not None and self.apart > MEASURES[self.measure][1](self.low)
 
     def ppf(self, share):
         """The quantile at a share in [0, 1]."""
-        if share < self.zero:
-            return 0.0
-        share = (share - self.zero) / (1 - self.zero)
-        return float(MEASURES[self.measure][1](self.low * (self.high / self.low) ** share))
+        begin, end = (0.0, 1 - self.chance) if self._apart_is_highest else (self.chance, 1.0)
+        if self.apart is not None and not begin <= share < end:
+            return self.apart
+        return float(MEASURES[self.measure][1](self.low * (self.high / self.low) ** ((share - begin) / (end - begin))))
 
     def cdf(self, value):
-        """The share that lies below a number; 0 at the extra zero."""
-        if self.zero and value == 0:
-            return 0.0
+        """The share that lies below a number; 0 or 1 for the number apart."""
+        if value == self.apart:
+            return float(self._apart_is_highest)
         measure = MEASURES[self.measure][0](value)
-        share = math.log(measure / self.low) / math.log(self.high / self.low)
-        return self.zero + (1 - self.zero) * min(max(share, 0.0), 1.0)
+        share = min(max(math.log(measure / self.low) / math.log(self.high / self.low), 0.0), 1.0)
+        return (1 - self.chance) * share + (0.0 if self._apart_is_highest else self.chance)
 
     def support(self):
         """The least and the greatest number."""
-        least = 0.0 if self.zero else MEASURES[self.measure][1](self.low)
-        return least, MEASURES[self.measure][1](self.high)
+        ends = [MEASURES[self.measure][1](end) for end in (self.low, self.high)]
+        ends += [] if self.apart is None else [self.apart]
+        return min(ends), max(ends)
 
     def __str__(self):
         words = "log-uniform" + (f" in {self.measure}" if self.measure else "")
-        return words + (f", or 0 ({self.zero:.0%})".replace("%", "\u00a0%") if self.zero else "")
+        if self.apart is None:
+            return words
+        return words + f", or {self.apart:g} ({self.chance:.0%})".replace("%", "\u00a0%")
 
 
 class Choice(NamedTuple):
@@ -110,44 +120,44 @@ class Choice(NamedTuple):
         return self.prior.cdf(value)
 
 
+CONTACT_REACH = 0.096  # half the side of the square of contact, 24 of 250 pixels (`neorl.worlds.waterworld`)
 WITHIN = {
     "learning_rate": Choice("learning rate, α", LogUniform(3e-4, 0.5), "ABCT"),
-    "discount": Choice("discount, γ", LogUniform(1.5, 300, "1 / (1 − value)"), "ABCT"),
-    "credit": Choice("credit, ψ(N)", ("happened", "share", "count", "activity"), "ABCT"),
+    "discount": Choice("discount, γ", LogUniform(1.5, 300, "1 / (1 − value)", apart=1.0, chance=0.25), "ABCT"),
+    "credit": Choice("credit, ψ(N)", ("activity", "count", "happened", "share"), "ABCT"),
     "absent_decay": Choice("absence, −ψ(0)", LogUniform(1e-3, 1), "ABCT"),
     "absent_form": Choice("form of absence", ("away", "decay"), "ABCT"),
-    "memory": Choice("memory, cells or 0.1\u00a0s", LogUniform(1, 1_001, "1 + value"), "ABCT"),
-    "memory_unit": Choice("memory fades with", ("cells", "seconds"), "ABCT"),
-    "memory_value": Choice("value in memory", ("reached", "discounted"), "ABCT"),
+    "memory": Choice("memory, cells", LogUniform(1.5, 1_001, "1 + value", apart=0.0, chance=0.15), "ABCT"),
     "activity": Choice("activity, in seconds", LogUniform(0.05, 5), "ABCT"),
     "bootstrap": Choice("bootstrapping", (True, False), "ABCT"),
     "terminal": Choice("goals terminal", (False, True), "ABCT"),
-    "causes": Choice("causes", ("any", "own"), "BCT"),
-    "capture": Choice("capture", ("contact", "leap", "silent"), "BCT"),
-    "attention": Choice("attention", ("each", "nearest", "wanted"), "BCT"),
+    "object_state": Choice("state of object vectors", ("self", "per object", "object"), "BCT"),
+    "object_reach": Choice("reach of contact", (0.0, CONTACT_REACH), "BCT"),
     "object_tiled_fraction": Choice("range of objects", (1.0, 0.5, 0.25), "BCT"),
+    "object_beyond": Choice("cell beyond the range", ("outermost", "none"), "BCT"),
+    "object_centred": Choice("centred on the self", (False, True), "BCT"),
     "weighting": Choice("map weights", ("resolution", "cells"), "ABCT"),
-    "place_gain": Choice("gain of place, B", (1.0, 3.0, 5.0), "BT"),
+    "place_gain": Choice("gain of place, B", (1.0, 2.0, 3.0, 4.0, 5.0, 7.0, 10.0, 14.0, 20.0), "BT"),
+    "vectors": Choice("desire vectors", ("by size", "signed"), "C"),
+    "scale": Choice("desire scale", LogUniform(0.1, 1_000), "C"),
     "network_resolutions": Choice("resolutions, C", (LAYERS, papers.PRIMES), "C"),
-    "fps": Choice("steps per second", (50, 30, 60), "ABCT"),
+    "fps": Choice("steps per second", (50, 60), "ABCT"),
     "contact": Choice("contact", CONTACTS, "ABCT"),
 }
 PINNED: dict[str, Any] = {
     "own_cell": "counts", "tiled_fraction": 1.0, "exploration": 0.0, "when_indifferent": "random", "network_gain": 1.0,
-    "vectors": "signed", "scale": 1.0, "recursion": -1.0}
-TO_THE_LETTER = Reading(**PINNED, **{name: choice.plainest for name, choice in WITHIN.items()})
+    "recursion": -1.0}
+TO_THE_LETTER = Reading(**PINNED, **{name: choice.plainest for name, choice in WITHIN.items()} | {"memory": 0.0})
 _BEYOND = WITHIN | {
-    "credit": Choice("credit, ψ(N)", ("happened", "share", "count", "activity", "last", "step"), "ABCT"),
-    "absent_decay": Choice("absence, −ψ(0)", LogUniform(1e-3, 1, zero=0.4), "ABCT"),
-    "memory": Choice("memory, cells or 0.1\u00a0s", LogUniform(1, 1_001, "1 + value", zero=0.2), "ABCT"),
+    "credit": Choice("credit, ψ(N)", ("activity", "count", "happened", "share", "last", "step"), "ABCT"),
+    "absent_decay": Choice("absence, −ψ(0)", LogUniform(1e-3, 1, apart=0.0, chance=0.4), "ABCT"),
     "own_cell": Choice("own cell", ("counts", "silent"), "ABCT"),
     "tiled_fraction": Choice("range of places", (1.0, 0.5), "ABCT"),
     "weighting": Choice("map weights", ("resolution", "cells", "equal"), "ABCT"),
     "exploration": Choice("exploration, ε", (0.0, 0.02, 0.1), "ABCT"),
     "when_indifferent": Choice("when idle", WHEN_INDIFFERENT, "ABCT"),
     "network_gain": Choice("gain of place, C", (1.0, 3.0, 5.0), "C"),
-    "vectors": Choice("desire vectors", ("signed", "by size", "incoming"), "C"),
-    "scale": Choice("desire scale", LogUniform(0.25, 4), "C"),
     "recursion": Choice("recursion, r", (-1.0, -3.0, -2.0, -0.5, 0.5, 1.0), "C"),
+    "fps": Choice("steps per second", (50, 30, 60), "ABCT"),
 }
 BEYOND = {field.name: _BEYOND[field.name] for field in fields(Reading)}

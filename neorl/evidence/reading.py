@@ -19,8 +19,7 @@ from neorl.experiments.cache import Condition
 from neorl.worlds.waterworld import WaterWorld
 
 SINGLE, LAYERS, PRIMES = (10, 30, 50, 70, 90), papers.LAYERS, papers.PRIMES
-VECTORS = ("signed", "by size", "incoming")
-CELLS_A_SECOND = 10  # converts memory between cells and seconds: about one cell of N23 in 0.1 s
+VECTORS = ("by size", "signed")
 PAPER_FPS = 50  # steps per second at which lengths are given
 LENGTHS = {"A": 150_000, "B": 600_000, "C": 300_000}  # of the papers' runs, in steps
 LONGER = 16  # times as long are the runs that measure the time to the final level
@@ -43,17 +42,16 @@ class Reading:
     """A value for every choice in building the agents; the defaults are those of the book.
 
     credit: one of `rules.CREDITS`, or "step" for temporal difference, which of the other fields of `Learning` uses
-        the learning rate, the discount and `terminal` alone. memory: in cells or, if it fades with seconds, in tenths
-        of a second: 0 … 1,000 for both.
+        the learning rate, the discount and `terminal` alone, and for which the state of object vectors is "object".
     tiled_fraction, object_tiled_fraction: shares of their range that maps of places and of object vectors cover.
+    object_state, object_reach, object_beyond, object_centred: of object vectors, see `neorl.agents.papers`.
     when_indifferent: always "random" if `exploration` is 0, since the agent would otherwise never move.
     place_gain, network_gain: of place cells, relative to object-vector cells, in papers B and C.
-    vectors: how a desire vector adds up. "signed", "by size" (see `Desire`), or "incoming": by size, except that the
-        recurrent one is signed and sums only what comes in from other nodes.
+    vectors: whether the valence of an element is in the vector of a desire ("signed") or not ("by size"), see `Desire`.
     network_resolutions: of the maps of paper C.
 
     The other fields are those of `Learning`, `Policy`, `Node`, `Desire`, `Agent` and `WaterWorld` of the same names.
-    Raises ValueError for invalid vectors, resolutions, memory, exploration, recursion or fps; its agents and conditions
+    Raises ValueError for invalid vectors, resolutions, exploration, recursion or fps; its agents and conditions
     check the other fields.
     """
 
@@ -62,24 +60,23 @@ class Reading:
     credit: str = Learning.credit  # type: ignore[assignment]
     absent_decay: float = Learning.absent_decay
     absent_form: str = Learning.absent_form
-    memory: float = Learning.memory * CELLS_A_SECOND
-    memory_unit: str = Learning.memory_unit
-    memory_value: str = Learning.memory_value
+    memory: float = Learning.memory
     activity: float = Learning.activity
     bootstrap: bool = Learning.bootstrap
     terminal: bool = Learning.terminal
-    causes: str = Learning.causes
-    capture: str = Learning.capture
-    attention: str = Learning.attention
     own_cell: str = Agent.own_cell
     tiled_fraction: float = papers.TILED_FRACTION
+    object_state: str = papers.OF_OBJECTS["object_state"]  # type: ignore[assignment]
+    object_reach: float = papers.OF_OBJECTS["object_reach"]  # type: ignore[assignment]
     object_tiled_fraction: float = papers.TILED_FRACTION
+    object_beyond: str = papers.OF_OBJECTS["object_beyond"]  # type: ignore[assignment]
+    object_centred: bool = papers.OF_OBJECTS["object_centred"]  # type: ignore[assignment]
     weighting: str = Node.weighting
     exploration: float = Policy.exploration
     when_indifferent: str = Policy.when_indifferent
-    place_gain: float = 5.0
+    place_gain: float = 3.0
     network_gain: float = 1.0
-    vectors: str = "signed"
+    vectors: str = "by size"
     scale: float = Desire.scale
     recursion: float = -1.0
     network_resolutions: tuple[int, ...] = LAYERS
@@ -89,7 +86,7 @@ class Reading:
     def __post_init__(self):
         checks.one_of("vectors", self.vectors, VECTORS)
         resolutions = checks.several("network_resolutions", self.network_resolutions)
-        checks.assign(self, network_resolutions=resolutions, memory=checks.real("memory", self.memory, 0),
+        checks.assign(self, network_resolutions=resolutions,
                       exploration=checks.real("exploration", self.exploration, 0, 1),
                       recursion=checks.real("recursion", self.recursion),
                       fps=checks.integer("fps", self.fps, at_least=1))
@@ -104,26 +101,21 @@ class Reading:
         """Its `Learning`."""
         if self.credit == "step":
             return Learning(self.learning_rate, self.discount, update_on="step", terminal=self.terminal)
-        memory = self.memory / CELLS_A_SECOND if self.memory_unit == "seconds" else self.memory
         return Learning(self.learning_rate, self.discount, credit=self.credit, absent_decay=self.absent_decay,
-                        absent_form=self.absent_form, terminal=self.terminal, memory=memory,
-                        memory_unit=self.memory_unit, memory_value=self.memory_value, activity=self.activity,
-                        bootstrap=self.bootstrap, causes=self.causes, capture=self.capture, attention=self.attention)
+                        absent_form=self.absent_form, terminal=self.terminal, memory=self.memory,
+                        activity=self.activity, bootstrap=self.bootstrap)
 
     @property
     def agents(self):
         """The arguments that are common to all its agents, for the functions that make them."""
         policy = Policy(self.exploration, self.when_indifferent if self.exploration else "random")
+        of_step = self.credit == "step"
         return {"learning": self.learning, "policy": policy, "own_cell": self.own_cell,
-                "tiled_fraction": self.tiled_fraction, "object_tiled_fraction": self.object_tiled_fraction,
-                "weighting": self.weighting}
-
-    @property
-    def place_agents(self):
-        """The same for agents of place cells alone, with the choices about objects at their defaults."""
-        learning = replace(self.learning, causes=Learning.causes, capture=Learning.capture,
-                           attention=Learning.attention)
-        return {**self.agents, "learning": learning, "object_tiled_fraction": papers.TILED_FRACTION}
+                "tiled_fraction": self.tiled_fraction, "weighting": self.weighting,
+                "object_state": "object" if of_step else self.object_state,
+                "object_reach": self.object_reach if of_step or self.object_state == "object" else 0.0,
+                "object_tiled_fraction": self.object_tiled_fraction, "object_beyond": self.object_beyond,
+                "object_centred": self.object_centred}
 
 
 def conditions(reading: Reading, steps: int, runs: int, seed: int = 0,
@@ -147,7 +139,7 @@ def conditions(reading: Reading, steps: int, runs: int, seed: int = 0,
 def _all_conditions(reading, steps, runs, seed):
     eight, three = (WaterWorld(n_creeps=n, win_reward=win, fps=reading.fps, contact=reading.contact)
                     for n, win in ((8, 5.0), (3, 0.0)))
-    each, of_places = reading.agents, reading.place_agents
+    each = reading.agents
 
     def living(agent, paper, length=steps, runs=runs):
         world, length = (eight if paper == "A" else three), min(length, LENGTHS[paper])
@@ -156,11 +148,11 @@ def _all_conditions(reading, steps, runs, seed):
 
     made = {("brownian", 8): living(papers.brownian(), "A", LENGTHS["A"], CONTROLS * runs),
             ("brownian", 3): living(papers.brownian(), "B", runs=CONTROLS * runs)}
-    made |= {("layer", n): living(papers.place_cells([n], **of_places), "A") for n in LAYERS}
-    made["layers"] = living(papers.place_cells(LAYERS, **of_places), "A")
-    made |= {("single", n): living(papers.place_cells([n], **of_places), "A") for n in SINGLE}
+    made |= {("layer", n): living(papers.place_cells([n], **each), "A") for n in LAYERS}
+    made["layers"] = living(papers.place_cells(LAYERS, **each), "A")
+    made |= {("single", n): living(papers.place_cells([n], **each), "A") for n in SINGLE}
     for name, chosen in {**{n: [n] for n in PRIMES}, "all": PRIMES}.items():
-        made["place", name] = living(papers.place_cells(chosen, **of_places), "B")
+        made["place", name] = living(papers.place_cells(chosen, **each), "B")
         made["objects", name] = living(papers.object_vector_cells(chosen, **each), "B")
     both = papers.multimodal(PRIMES, place_gain=reading.place_gain, **each)
     made["both"] = living(both, "B")
@@ -179,11 +171,8 @@ def networks(reading: Reading) -> dict[str, Agent]:
     shared = {"resolutions": reading.network_resolutions, "scale": reading.scale,
               "signed": reading.vectors == "signed", **reading.agents}
     adding = {"place_gain": reading.network_gain, **shared}
-    made = {"A": papers.network_a(**shared), "B": papers.network_b(**shared), "C": papers.network_c(**adding),
+    return {"A": papers.network_a(**shared), "B": papers.network_b(**shared), "C": papers.network_c(**adding),
             "D": papers.network_d(recursion=reading.recursion, **adding)}
-    if reading.vectors == "incoming":
-        *others, recurring = made["D"].desires
-        made["D"] = replace(made["D"], desires=[*others, replace(recurring, of=("PC",), signed=True)])
     return made
 
 

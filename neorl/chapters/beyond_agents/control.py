@@ -55,7 +55,7 @@ def control_network(layers, setting):
         desires += [Desire("OVC", "PC", 1.0, scale=setting["reach"]), Desire("PC", "V", 1.0, scale=setting["scale"])]
     choices = {"learning_rate": setting["learning_rate"], "discount": setting["discount"]}
     learning = (Learning(update_on="step", **choices) if setting["update_on"] == "step" else
-                Learning(**choices, memory=0.0, bootstrap=True, credit="last", causes="any"))
+                Learning(**choices, memory=0.0, bootstrap=True, credit="last"))
     return Agent(nodes, desires, learning, own_cell=setting["own_cell"],
                  contacts=Contacts(horizon=setting["horizon"], caution=setting["caution"]))
 
