@@ -138,7 +138,7 @@ def learn_self_restated(agent, node, nres_map, table, track, place, action, acti
             break
     for cell, sums in found.items():
         remember_restated(table[:, cell], sums, rule.absent_form == "away")
-    track.passed, track.events = [(place, None), *track.passed], []
+    track.passed, track.events = [(place, None), *track.passed[:499]], []
 
 
 

@@ -43,7 +43,7 @@ class Learning(checks.Final):
     memory: a leaky integrator over all cells left, ≥ 0: the mean number of earlier cells remembered. All of them learn
         to reach the cell just entered, at rates that fade by memory / (1 + memory) with each change of cell; a goal
         reached k changes later is worth γ^k. 0 disables it: only the cell just left learns. Of the places that the self
-        has passed (see `Node`), the latest 10,000 are remembered at most.
+        has passed (see `Node`), the latest 500 are remembered at most.
     bootstrap: the cell just left also learns about all other goals from the cell entered (the γ max Q of eq. 4.8).
 
     Raises ValueError for anything else.

@@ -102,10 +102,9 @@ def choices(readings):
 
 def idle_discount(best):
     """A sentence saying that γ has no effect under the best `Reading`, if so; else ""."""
-    if best.learning.bootstrap or best.learning.memory_value != "reached":
+    if best.learning.bootstrap or best.learning.memory > 0:
         return ""
-    return ("Without bootstrapping, and with a memory of goals that were simply reached, nothing is discounted, so γ "
-            "has no effect under the best reading.")
+    return "Without bootstrapping and memory nothing is discounted, so γ has no effect under the best reading."
 
 
 def largest_sets(together):

@@ -18,7 +18,7 @@ from neorl.core.kernel import array, inlined_kernel, kernel
 
 
 FORGOTTEN = np.float32(1e-4)  # the strength below which a cell is no longer remembered
-FADED, MOST_PASSED = np.float32(0.01), 10_000  # the same for a place that the self has passed, and the most of them
+FADED, MOST_PASSED = np.float32(0.01), 500  # the same for a place that the self has passed, and the most of them
 ENTRIES = 3  # values of an action in a cell of a map of contacts: `contacts.APPROACH`, `FEAR`, `VISITS`
 
 

@@ -37,7 +37,7 @@ from neorl.extras import require
 
 RUNS, STEPS = 2, 600_000  # of a reading: the papers' own lengths
 DESIGN, IN_FULL = 512, 48  # readings in wave 0, a power of two, and how many of them are run in every group
-CHUNK = 16  # readings run between two checks of the clock
+CHUNK = 32  # readings run between two checks of the clock
 WAVE = {"modalities": 192, "layers": 192, "networks": 32, "single": 24}  # readings per wave in each group
 POOL = 4_000  # candidates per wave
 PARENTS, RENEWED, MOVED = 30, 0.1, 0.05  # of children: best rows, share of choices redrawn, spread of moved numbers
@@ -54,7 +54,7 @@ def calibrate(minutes, table=(), executor=None, seed=0, runs=RUNS, steps=STEPS, 
     table is run with the seed 1000 · seed + i. runs, steps: of each reading, see `reading.conditions`.
     keep: called with the table whenever it has grown, for instance to save it.
 
-    The clock is checked between chunks of 16 readings, so the call may take up to a chunk longer.
+    The clock is checked between chunks of 32 readings, so the call may take up to a chunk longer.
     Raises ValueError for a bad argument.
     """
     end = time.monotonic() + 60 * checks.real("minutes", minutes, 0)

@@ -48,6 +48,8 @@ READINGS = {
            "no memory": {"bootstrap": False, "credit": "count"},
            "bootstrapping": {"credit": "happened", "absent_decay": 0.2, "absent_form": "away"},
            "both": {"memory": 4.0, "terminal": False}}.items()},
+    "self, more places than are remembered": object_vector_cells([40], object_state="self", learning=plain_rule(
+        memory=300.0, bootstrap=False)),
     "self, centred": object_vector_cells([2, 4], object_state="self", object_centred=True),
     "self, ends": object_vector_cells([5], object_state="self", object_beyond="none", object_tiled_fraction=0.2,
                                       own_cell="silent"),

@@ -54,14 +54,15 @@ def all_conditions(reading, steps, runs, seed=0):
 def neighbours(reading, steps, runs, seed=0):
     """The conditions of B1, B3 and B6 in readings one choice away from a reading: {name: {key: `Condition`}}.
 
-    The choices are how an object vector becomes a state, and how the two modalities are weighted; each takes the other
-    values that the text leaves open.
+    The choices are what the state of an object vector is, its grid and range, and how the two modalities are weighted;
+    each takes the other values that the text leaves open, the gain those next to its own.
     """
     made = {}
-    for field in ("causes", "capture", "attention", "object_tiled_fraction", "place_gain"):
+    for field in ("object_state", "object_tiled_fraction", "object_beyond", "object_centred", "place_gain"):
         choice = WITHIN[field]
-        for level in choice.prior:
-            if level != getattr(reading, field):
+        own = choice.prior.index(getattr(reading, field))
+        for place, level in enumerate(choice.prior):
+            if place != own and (field != "place_gain" or abs(place - own) == 1):
                 other = replace(reading, **{field: level})
                 made[f"{choice.label}: {choice.words(level)}"] = conditions(other, steps, runs, seed, ["modal"])
     return made

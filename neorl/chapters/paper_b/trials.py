@@ -70,7 +70,7 @@ def watch(readings, steps, runs, seed=0):
 
 def desiring(reading, place):
     """An agent of place cells whose only desire is a place."""
-    return replace(papers.place_cells(PRIMES, **reading.place_agents), desires=[Desire(place, "PC", valence=1.0)])
+    return replace(papers.place_cells(PRIMES, **reading.agents), desires=[Desire(place, "PC", valence=1.0)])
 
 
 def distances(reading, steps, runs, seed=0):
@@ -80,7 +80,7 @@ def distances(reading, steps, runs, seed=0):
     quarter of `steps` among creeps before, and of untrained ones. seconds: from the move to each sample, (samples,).
     """
     world = _tank(reading)
-    agent, desires = papers.place_cells(PRIMES, **reading.place_agents), [desiring(reading, at) for at in PLACES]
+    agent, desires = papers.place_cells(PRIMES, **reading.agents), [desiring(reading, at) for at in PLACES]
     interval = bin_steps(world)
     samples = SECONDS_A_MOVE * world.fps // interval
 
@@ -103,7 +103,7 @@ def distances(reading, steps, runs, seed=0):
 def live_with_moving_desire(reading, steps, runs, seed=0):
     """The first two moves of experienced agents, as the `Result` of a condition that can be replayed."""
     tank = _tank(reading)
-    agent, desires = papers.place_cells(PRIMES, **reading.place_agents), [desiring(reading, at) for at in PLACES]
+    agent, desires = papers.place_cells(PRIMES, **reading.agents), [desiring(reading, at) for at in PLACES]
     lived, move = steps // 4, SECONDS_A_MOVE * tank.fps
     return simulate_once(agent, tank, steps=lived + 2 * move, runs=runs, seed=seed,
                          changes=[(lived, desires[0]), (lived + move, desires[1])])
@@ -116,7 +116,7 @@ def mean_stays(reading, steps, runs, seed=0, watched=15_000):
     which puts an agent elsewhere, does not count as a change of cell; without any change, a stay is the time measured.
     """
     world = _tank(reading)
-    agent = papers.place_cells(PRIMES, **reading.place_agents)
+    agent = papers.place_cells(PRIMES, **reading.agents)
     lived = round(LIVED * steps)
     path_steps = max(2, min(lived, watched))
 
@@ -153,8 +153,8 @@ def mean_values(reading, steps, runs, seed=0):
     """Mean values of agents with both modalities after `steps` steps: {node: (runs,)}.
 
     For a map it is the value of the best action, averaged over states and over the goals that the node can be asked
-    for: any other cell of a map of places, the agent's own cell of a map of object vectors. Maps count by their
-    weights; gains are left out.
+    for: any other cell of a map of places; of a map of object vectors the contact, from any other cell, or any other
+    cell if the state is the self. Maps count by their weights; gains are left out.
     """
     world = _tank(reading)
     agent = papers.multimodal(PRIMES, **reading.agents)
@@ -168,7 +168,8 @@ def mean_values(reading, steps, runs, seed=0):
             if each.modality.follows == "position":
                 means.append(best[~np.eye(each.cells, dtype=bool)].mean())
             else:
-                means.append(np.delete(best[:, maps.contact[m]], maps.contact[m]).mean())
+                of_goals = best[0] if len(best) == 1 else best[:, maps.contact[m]]
+                means.append(np.delete(of_goals, maps.contact[m]).mean())
         return [np.dot(maps.weight[begin:end], means[begin:end])
                 for begin, end in zip(nodes.first_map[:-1], nodes.first_map[1:])]
 

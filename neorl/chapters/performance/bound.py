@@ -140,20 +140,19 @@ def moved(run, steps):
     ordered = scattered = changes = remembered = most = 0
     near = [np.empty(0, int)] * len(tracks.cell)  # lines that the previous change touched
     for _ in range(steps):
-        before, learned_before = tracks.cell.copy(), tracks.trace_count.copy()
+        before = tracks.cell.copy()
         run.advance(1)
         for track in np.flatnonzero(tracks.cell != before):
             m, left, entered = map_of[track], before[track], tracks.cell[track]
             cells, first, count = maps.cells[m], maps.first_value[m], tracks.remembered_count[track]
             ordered += count * 4 * 2 * (4 * actions + 1)  # fades
-            if tracks.trace_count[track] <= learned_before[track]:
+            if learning.memory > 0 and count == 0:  # the board was reset
                 continue
             changes += 1
             remembered += count
             if learning.bootstrap:
                 begin, end = state.values.goal_range[maps.first_cell[m] + left]
-                rates = tracks.trace_rates[track, (tracks.trace_count[track] - 1) % learning.trace]
-                written = actions if learning.absent_decay > 0 else np.count_nonzero(rates)
+                written = actions if learning.absent_decay > 0 else np.count_nonzero(state.rates)
                 ordered += 4 * (end - begin) * (actions + 2 * written)
                 for row in np.add.outer([left, entered], np.zeros(actions, int)).ravel() * actions * cells + first + (
                         np.tile(np.arange(actions), 2) * cells):
