@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from neorl.agents.rules import Learning
 from neorl.chapters.chapter_4 import credit
-from neorl.chapters.chapter_4.credit import DIFFERENCE, INVERSION, Chamber, by_role, learn_in
+from neorl.chapters.chapter_4.credit import DEFAULT, DIFFERENCE, INVERSION, Chamber, by_role, learn_in
 from neorl.core.kernel import execute
 from neorl.core.stream import new_stream, randint, uniform
 
@@ -35,17 +36,23 @@ def restated(chamber, learning, visits, seed=0, run=0):
             q += learning.learning_rate * seen[-1][:, None] * (goal - q)
         else:
             times = sum(seen)
-            psi = {"share": times / len(seen), "happened": times > 0, "last": seen[-1]}[learning.credit]
+            psi = {"share": times / len(seen), "happened": times > 0, "last": seen[-1],
+                   "count": times}[learning.credit]
             psi = psi[:, None].astype(float)
-            target = np.where(psi > 0, goal, 0)
-            q += learning.learning_rate * np.where(psi > 0, psi, learning.absent_decay) * (target - q)
+            learns = 1.0 if learning.bootstrap else goal
+            rate = learning.learning_rate * np.where(psi > 0, psi, learning.absent_decay) * learns
+            away = -rate * (goal - q) if learning.absent_form == "away" else -rate * q
+            q = np.clip(q + np.where(psi > 0, np.minimum(rate, 1) * (goal - q), away), 0, 1)
         values.append(q.copy())
     return np.array(values)
 
 
 @pytest.mark.parametrize("chamber", [Chamber(), Chamber(effort=3, hold=2.0, light=0.9), Chamber(delay=7, hold=4.0)])
 @pytest.mark.parametrize("learning", [QUICK, replace(QUICK, credit="happened"), replace(QUICK, credit="last"),
-                                      replace(QUICK, absent_decay=0.5), replace(QUICK, discount=0.9, update_on="step")])
+                                      replace(QUICK, absent_decay=0.5), replace(QUICK, credit="count"),
+                                      replace(QUICK, absent_decay=0.5, absent_form="away"),
+                                      replace(QUICK, absent_decay=0.5, bootstrap=False),
+                                      replace(DEFAULT, learning_rate=0.3), replace(QUICK, discount=0.9, update_on="step")])
 @pytest.mark.filterwarnings("ignore:overflow encountered")
 def test_the_kernel_does_what_the_rules_say(chamber, learning):
     values = learn_in(chamber, learning, visits=20, runs=2, seed=5)
@@ -118,12 +125,21 @@ def test_a_bad_chamber_is_refused(change, message):
 
 
 @pytest.mark.parametrize("change, message", [
-    ({"chamber": None}, "chamber is None"), ({"learning": replace(INVERSION, trace=2)}, "trace is 2, allowed are 1"),
-    ({"learning": replace(INVERSION, memory=3.0)}, "memory is 3.0, allowed are 0.0"),
-    ({"learning": replace(INVERSION, credit="count")}, "credit is 'count', allowed are 'share', 'happened', 'last'"),
-    ({"learning": replace(INVERSION, absent_form="away")}, "absent_form is 'away'"),
+    ({"chamber": None}, "chamber is None"),
+    ({"learning": replace(INVERSION, credit="activity")},
+     "credit is 'activity', allowed are 'share', 'happened', 'count', 'last'"),
     ({"visits": 0}, "visits is 0"), ({"runs": 0}, "runs is 0"), ({"seed": -1}, "seed is -1"),
 ])
 def test_learning_in_a_chamber_refuses_what_it_cannot_do(change, message):
     with pytest.raises(ValueError, match=message):
         learn_in(**{"chamber": Chamber(), "learning": INVERSION, "visits": 1, "runs": 1, "seed": 0, **change})
+
+
+def test_the_default_rule_is_that_of_the_agents_at_the_rates_of_the_others():
+    assert replace(DEFAULT, learning_rate=Learning().learning_rate, discount=Learning().discount) == Learning()
+    assert (DEFAULT.learning_rate, DEFAULT.discount) == (INVERSION.learning_rate, INVERSION.discount)
+
+
+def test_an_agent_that_is_put_back_remembers_no_earlier_cell():
+    learned = [learn_in(Chamber(), replace(DEFAULT, memory=memory), 30, 2) for memory in (0.0, 5.0)]
+    np.testing.assert_array_equal(*learned)

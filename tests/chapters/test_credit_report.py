@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from neorl.agents.rules import Learning
 from neorl.chapters.chapter_4 import credit_report
 from neorl.evidence.statistics import Estimate
 
@@ -17,31 +18,40 @@ def values(*leads, light=0.0, visits=100):
 def test_leads_are_reported_for_each_rule_after_some_visits():
     rising = values(0.5, 0.5)
     rising[:, :50] *= -1
-    text = credit_report.leads({"inversion": rising, "difference": values(0.1, 0.1), "other": values(0.2, -0.2)})
+    text = credit_report.leads({"book": values(0.2, -0.2), "inversion": rising, "difference": values(0.1, 0.1)})
     table = [line for line in text.splitlines() if line.startswith("|")]
-    assert table[2:] == ["| inversion | −0.50 [−0.50, −0.50] | 0.50 [0.50, 0.50] | 0, 0, 100 % |",
-                         "| difference | 0.10 [0.10, 0.10] | 0.10 [0.10, 0.10] | 100, 100, 100 % |",
-                         "| other | 0.00 [−0.20, 0.20] | 0.00 [−0.20, 0.20] | 50, 50, 50 % |"]
+    assert table[2:] == ["| book | 0.00 [−0.20, 0.20] | 0.00 [−0.20, 0.20] | 50, 50, 50 % |",
+                         "| inversion | −0.50 [−0.50, −0.50] | 0.50 [0.50, 0.50] | 0, 0, 100 % |",
+                         "| difference | 0.10 [0.10, 0.10] | 0.10 [0.10, 0.10] | 100, 100, 100 % |"]
     assert ("is −0.600 [−0.600, −0.600] after 1 visit, −0.600 [−0.600, −0.600] after 10 and 0.400 [0.400, 0.400] after "
             "100; by then a run of the former beats a run of the latter with probability 1.00") in text
+    assert text.endswith("The lead of the book's rule after 100 visits, less that of plain inversion, is −0.500 "
+                         "[−0.700, −0.300], and less that of temporal difference −0.100 [−0.300, 0.100].")
+
+
+def leads(inversion, difference):
+    """The sentences on these leads, one for each run, beside the book's rule."""
+    own = np.full(len(inversion), 0.1)
+    return credit_report.leads({"book": values(*own), "inversion": values(*inversion),
+                                "difference": values(*difference)})
 
 
 def test_a_lead_that_is_clearly_larger_in_the_end_is_reported_with_its_size():
-    text = credit_report.leads({"inversion": values(0.6, 0.6), "difference": values(0.2, 0.2)})
+    text = leads((0.6, 0.6), (0.2, 0.2))
     assert "So in the end inversion has the larger lead, 3 times as large: for temporal difference" in text
-    text = credit_report.leads({"inversion": values(0.6, 0.1), "difference": values(0.2, 0.2)})
+    text = leads((0.6, 0.1), (0.2, 0.2))
     assert "So in the end" not in text
 
 
 def test_rules_that_put_the_cause_first_equally_often_are_said_to():
-    text = credit_report.leads({"inversion": values(0.6, 0.6), "difference": values(0.2, 0.2)})
+    text = leads((0.6, 0.6), (0.2, 0.2))
     assert "But *both* put the cause first about equally often" in text
-    text = credit_report.leads({"inversion": values(0.6, 0.6), "difference": values(0.2, -0.1)})
+    text = leads((0.6, 0.6), (0.2, -0.1))
     assert "But *both*" not in text
 
 
 def test_leads_of_single_runs_have_no_interval():
-    text = credit_report.leads({"inversion": values(0.5), "difference": values(0.25)})
+    text = leads((0.5,), (0.25,))
     assert "is 0.250 after 1 visit, 0.250 after 10" in text
 
 
@@ -70,8 +80,8 @@ def test_inversion_depends_on_the_length_of_steps_if_its_lead_falls_or_is_not_mu
 def late_effects(shortest, usual):
     """The sentences for leads of inversion of `shortest` with bouts of 2 steps and `usual` with bouts of 20."""
     first = {name: [Estimate(1, 1, 1), Estimate(share, 0, 1)]
-             for name, share in (("inversion", 0.75), ("last event", 0.5), ("difference", 0.25))}
-    brief = {hold: {"inversion": values(lead, lead), "difference": values(0.1, 0.1)}
+             for name, share in (("inversion", 0.75), ("last event", 0.5), ("book's rule", 1), ("difference", 0.25))}
+    brief = {hold: {"book": values(0.2, 0.2), "inversion": values(lead, lead), "difference": values(0.1, 0.1)}
              for hold, lead in ((2, shortest), (20, usual))}
     quick = {"inversion": values(0.6), "difference": values(0.3)}
     return credit_report.late_effects([0, 50], first, brief, quick)
@@ -80,9 +90,11 @@ def late_effects(shortest, usual):
 def test_late_effects_are_reported_by_rule():
     text = late_effects(0.1, 0.5)
     assert text.startswith("With a delay of 50 steps the cause comes first in 75 % of the runs with credit by share, "
-                           "in 50 % with credit for the last event and in 25 % with temporal difference.")
+                           "in 50 % with credit for the last event, in 100 % with the book's rule and in 25 % with "
+                           "temporal difference.")
     assert "open at once, after 10 presses in all.\n\n| Events last |" in text
-    assert "| 2 steps | 0.10 [0.10, 0.10] | 0.10 [0.10, 0.10] |\n| 20 steps | 0.50 [0.50, 0.50] |" in text
+    assert ("| 2 steps | 0.20 [0.20, 0.20] | 0.10 [0.10, 0.10] | 0.10 [0.10, 0.10] |\n"
+            "| 20 steps | 0.20 [0.20, 0.20] | 0.50 [0.50, 0.50] |") in text
     assert text.endswith("All this is with α = 0.03. With α = 0.3, ten times as much, the lead after 100 visits is "
                          "0.60 with inversion and 0.30 with temporal difference.")
 
@@ -95,3 +107,16 @@ def test_credit_by_share_is_weak_if_brief_events_leave_it_a_smaller_lead():
 def test_a_bright_light_is_reported_beside_the_cause():
     text = credit_report.bright_light({"one": values(0.25, -0.25, light=0.5), "other": values(0.5, 0.5)})
     assert text.splitlines()[2:] == ["| one | 50, 50 % | 0.50 | 0.50 |", "| other | 100, 100 % | 0.50 | 0.00 |"]
+
+
+def test_the_default_rule_is_described_by_its_fields():
+    text = credit_report.rule_in_words(Learning(credit="happened", absent_decay=0.25, absent_form="away", memory=2.0,
+                                                bootstrap=False))
+    assert text == ("By default the agents of this book credit an event that occurred with 1, however often it "
+                    "occurred; values of absent events move away from the target, by ψ(0) = −0.25. At a change of cell "
+                    "only the goal that has been entered learns, from the cell just left and those left before, which "
+                    "a memory holds.")
+    text = credit_report.rule_in_words(Learning(credit="share", absent_decay=0.0, memory=0.0, bootstrap=True))
+    assert "values of absent events stay" in text and text.endswith("all goals learn, from the cell just left alone.")
+    assert "towards zero, by ψ(0) = −0.5" in credit_report.rule_in_words(Learning(absent_decay=0.5,
+                                                                                 absent_form="decay"))

@@ -44,6 +44,13 @@ def test_agents_whose_functions_depend_on_each_other_are_left_out():
     assert "*independent* in 0 of 2 agents" in text and text.endswith("with rank 3.")
 
 
+def test_the_overlap_by_the_default_rule_is_reported_beside_that_by_the_plain_one():
+    cosines = {"learned": np.array([[1.0, 0.6, 0.1]]), "planned": np.array([[1.0, 0.5, 0.2]]),
+               "book's rule": np.array([[1.0, 0.75, 0.5]])}
+    text = potentials_report.overlaps(np.array([BASIS]), np.eye(3), cosines)
+    assert text.endswith("By the book's default rule, neighbours have a cosine of 0.75, and opposite corners of 0.50.")
+
+
 def made_up(achieved, at_random=0.1):
     return Comparison(np.ones(2), np.full(2, achieved), np.full(2, at_random))
 

@@ -97,6 +97,31 @@ def draw_rate_maps(trajectory, spikes, maps, objects):
             axes.plot(x, y, marker="s", markersize=7, markerfacecolor="white", markeredgecolor=RED, markeredgewidth=2)
 
 
+def draw_grid_cells(maps):
+    """Rate maps of grid cells, {title: rate (bins, bins)}, x first, side by side."""
+    for axes, (title, rate) in zip(new_boards(len(maps), 1), maps.items()):
+        _draw_rate(axes, rate.T, (0, 1, 1, 0), title)
+
+
+def draw_object_maps(maps):
+    """Rates of cells over the vector to an object, {cell: {frame: rate (bins, bins)}}, a row for each cell.
+
+    A cross marks the animal; the first axis of a rate is upwards.
+    """
+    panels = iter(new_boards(2, len(maps)))
+    for cell, frames in maps.items():
+        for frame, rate in frames.items():
+            axes = next(panels)
+            _draw_rate(axes, rate[::-1], (0, 1, 1, 0), f"{cell}, {frame} map")
+            axes.plot(0.5, 0.5, marker="+", color="white", markersize=10, markeredgewidth=2)
+
+
+def _draw_rate(axes, image, extent, title):
+    axes.imshow(image, extent=extent, cmap="viridis", vmin=0)
+    axes.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
+    axes.set_title(title, fontsize=11)
+
+
 def draw_tuning_curves(direction, speed, fastest):
     """Rates over direction, as a polar plot, and over speed: {name: (bins,)} each; speeds up to ``fastest``."""
     width, _ = plt.rcParams["figure.figsize"]

@@ -8,7 +8,8 @@
 4. With *inference inversion* (thesis eq. 4.7, 4.8) the agent learns once per visit, when its cell changes from the
    chamber to an exit. With *temporal difference* (eq. 4.6) it learns after every step, and most steps lead from the
    chamber to the chamber; every event that occurs on a step counts as an action of that step.
-5. The stream does not depend on what is learned. Nothing is learned about the way back.
+5. The stream does not depend on what is learned. Nothing is learned about the way back, and an agent that is put back
+   remembers no earlier cell, so that a rule with a memory learns as it would without.
 """
 
 from dataclasses import astuple, dataclass, replace
@@ -20,18 +21,19 @@ from neorl import checks
 from neorl.agents.rules import Learning
 from neorl.core.choices import Credit
 from neorl.core.kernel import execute, kernel
-from neorl.core.learning import UNIT, ZERO, MapValues, Rule, learn_all_goals
+from neorl.core.learning import UNIT, ZERO, MapValues, Order, Rule, learn_all_goals, learn_one_goal
 from neorl.core.stream import randint, new_stream, uniform
 
 ROLES = ("cause", "other lever", "light", "bell")
 N_EVENTS = len(ROLES)
 CELLS = 3  # the chamber, and one behind each exit
-POSSIBLE = {"trace": (1,), "memory": (0.0,), "credit": ("share", "happened", "last"), "absent_form": ("decay",)}
+CREDITS = ("share", "happened", "count", "last")
 # The plainest rule of its kind, independent of the rule that the book's agents have.
 INVERSION = Learning(learning_rate=0.03, discount=0.8, update_on="cell", credit="share", absent_decay=0.0,
-                     absent_form="decay", terminal=True, trace=1, memory=0.0, bootstrap=True, causes="any",
-                     capture="contact", attention="each")
+                     absent_form="decay", terminal=True, memory=0.0, bootstrap=True)
 DIFFERENCE = replace(INVERSION, update_on="step")
+# The rule of the book's agents, with the α and γ of the other two.
+DEFAULT = replace(Learning(), learning_rate=INVERSION.learning_rate, discount=INVERSION.discount)
 
 
 @dataclass(frozen=True)
@@ -71,27 +73,26 @@ def learn_in(chamber, learning, visits, runs, seed=0):
     """Learn the values of a chamber's events for either exit: float32 (runs, visits, 4, 2), after each visit.
 
     The four events are the levers of the two exits, the light and the bell.
-    learning: a `Learning` without a longer trace or memory, whose credit is "share", "happened" or "last", and whose
-    absent form is "decay". visits, runs: integers ≥ 1. seed: integer ≥ 0; run k is the same for any number of runs, and
-    has the same stream of events under any ``learning``.
+    learning: a `Learning` whose credit is one of `CREDITS`. visits, runs: integers ≥ 1. seed: integer ≥ 0; run k is
+    the same for any number of runs, and has the same stream of events under any ``learning``.
     Raises ValueError for anything else.
     """
     checks.instance("chamber", chamber, Chamber)
     checks.instance("learning", learning, Learning)
-    for name, allowed in POSSIBLE.items():
-        checks.one_of(name, getattr(learning, name), allowed)
+    checks.one_of("credit", learning.credit, CREDITS)
     checks.integer("visits", visits, at_least=1)
     values = np.zeros((checks.integer("runs", runs, at_least=1), visits, N_EVENTS, 2), np.float32)
     by_step, credit = learning.update_on == "step", int(Credit[learning.credit])
     rate = np.float32(learning.learning_rate)
     absent_rate = ZERO if by_step else rate * np.float32(learning.absent_decay)
-    rule = Rule(np.float32(learning.discount), learning.terminal, absent_rate, False)
+    rule = Rule(np.float32(learning.discount), learning.terminal, absent_rate, learning.absent_form == "away")
     for run in range(runs):
         sequence = np.random.SeedSequence(checks.integer("seed", seed, at_least=0), spawn_key=(run,))
         learned = MapValues(np.zeros(CELLS * N_EVENTS * CELLS, np.float32), 0, CELLS, N_EVENTS,
                             np.tile([0, CELLS], (CELLS, 1)), np.zeros(CELLS, np.float32))
-        execute(_live_in, ChamberRules(*astuple(chamber)), new_stream(sequence), by_step, credit, rate, rule, learned,
-                np.zeros(N_EVENTS, np.int64), np.zeros(N_EVENTS, np.bool_), np.zeros(N_EVENTS, np.float32), values[run])
+        execute(_live_in, ChamberRules(*astuple(chamber)), new_stream(sequence), by_step, learning.bootstrap, credit,
+                rate, rule, learned, np.zeros(N_EVENTS, np.int64), np.zeros(N_EVENTS, np.bool_),
+                np.zeros(N_EVENTS, np.float32), values[run])
     return values
 
 
@@ -144,7 +145,7 @@ def variants(chamber):
 
 
 @kernel
-def _live_in(chamber, stream, by_step, credit, learning_rate, rule, learned, counts, occurs, rates, values):
+def _live_in(chamber, stream, by_step, bootstrap, credit, learning_rate, rule, learned, counts, occurs, rates, values):
     """Live a visit for each row of `values`, and store the chamber's values after it there."""
     over = True
     lever = 0
@@ -178,8 +179,13 @@ def _live_in(chamber, stream, by_step, credit, learning_rate, rule, learned, cou
                     share = UNIT if counts[event] > 0 else ZERO
                 elif credit == Credit.last:
                     share = UNIT if occurs[event] else ZERO
-                rates[event] = learning_rate * share
-            learn_all_goals(learned, rule, 0, cell, rates)
+                elif credit == Credit.count:
+                    share = np.float32(counts[event])
+                rates[event] = min(learning_rate * share, UNIT)
+            if bootstrap:
+                learn_all_goals(learned, rule, 0, cell, rates)
+            else:
+                learn_one_goal(learned, Order(np.uint64(1), np.uint64(CELLS)), rule, 0, cell, rates, UNIT)
         for event in range(N_EVENTS):
             values[visit, event, 0] = learned.q[event * CELLS + 1]
             values[visit, event, 1] = learned.q[event * CELLS + 2]

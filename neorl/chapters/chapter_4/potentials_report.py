@@ -10,7 +10,7 @@ def overlaps(learned, planned, cosines):
     """Whether the value functions of all cells are orthogonal, and whether they are a basis.
 
     learned: (runs, goals, cells). planned: (goals, cells). cosines: by the distance between goals, {"learned": (runs,
-    distances), "planned": (1, distances)}.
+    distances), "planned": (1, distances), "book's rule": (runs, distances)}, the last if there is such a curve.
     """
     runs, cells = learned.shape[:2]
     neighbours, opposite = (estimate(np.mean, cosines["learned"][:, apart]) for apart in (1, -1))
@@ -35,6 +35,9 @@ def overlaps(learned, planned, cosines):
         said.append("The condition number, 1 for orthogonal functions, measures their independence: its median "
                     f"over agents is {typical:,.0f}, and for the planned functions it is "
                     f"{np.linalg.cond(planned):,.0f}.")
+    if "book's rule" in cosines:
+        near, far = (estimate(np.mean, cosines["book's rule"][:, apart]) for apart in (1, -1))
+        said.append(f"By the book's default rule, neighbours have a cosine of {near}, and opposite corners of {far}.")
     return " ".join(said)
 
 
