@@ -5,8 +5,9 @@ import pytest
 
 from neorl import NresMap
 from neorl.chapters.chapter_2.tuning import Information
-from neorl.chapters.chapter_2.tuning_report import (describe_frames, describe_information, describe_likeness,
-                                                   describe_sizes, information_table)
+from neorl.chapters.chapter_2.tuning_report import (describe_drift, describe_frames, describe_information,
+                                                   describe_likeness, describe_modules, describe_sizes,
+                                                   information_table)
 
 CELLS = {"place cell": "position", "head-direction cell": "direction", "speed cell": "speed"}
 
@@ -74,3 +75,16 @@ def test_a_single_map_of_everything_is_as_large_as_the_product_of_all():
 def test_each_cell_has_a_line_with_the_correlation_of_its_maps():
     assert describe_likeness({"place cell": 0.987, "border cell": -0.25}).splitlines() == [
         "place cell: correlation of the maps 0.99", "border cell: correlation of the maps -0.25"]
+
+
+def test_one_module_is_said_to_mistake_places_and_several_are_not():
+    assert describe_modules((0.3, 0.42)) == ("By its phases to a tenth of a period, the module of scale 0.3 takes "
+                                             "100 % of the places in the box for some place elsewhere in it; the 2 "
+                                             "modules together 0 %.")
+
+
+def test_errors_of_path_integration_are_given_early_and_late():
+    errors = {"sum alone": np.tile([0.1, 0.2, 0.3, 0.4], (2, 1)), "corrected at walls": np.full((2, 4), 0.05)}
+    assert describe_drift(errors) == ("From a quarter of the time to its end, the mean error goes from 0.10 [0.10, "
+                                      "0.10] to 0.40 [0.40, 0.40] with the *sum alone*, and from 0.05 [0.05, 0.05] to 0.05 "
+                                      "[0.05, 0.05] if it is *corrected at walls*.")

@@ -5,8 +5,10 @@ from matplotlib import pyplot as plt
 from matplotlib.patches import Arc, Rectangle
 from matplotlib.ticker import MaxNLocator
 
+from neorl.chapters.chapter_2.further_cells import STEP
 from neorl.chapters.chapter_2.tuning import cartesian, egocentric
 from neorl.drawing.boards import new_boards
+from neorl.drawing.curves import draw_curves
 from neorl.drawing.style import AGENT, CURVES, GREEN, INK, LOW_PANEL, RED, letters, name_ends
 
 
@@ -112,8 +114,17 @@ def draw_object_maps(maps):
     for cell, frames in maps.items():
         for frame, rate in frames.items():
             axes = next(panels)
-            _draw_rate(axes, rate[::-1], (0, 1, 1, 0), f"{cell}, {frame} map")
+            _draw_rate(axes, rate[::-1], (0, 1, 1, 0), f"{cell},\n{frame} map")
             axes.plot(0.5, 0.5, marker="+", color="white", markersize=10, markeredgewidth=2)
+
+
+def draw_drift(errors, step=STEP):
+    """Errors of path integration over time: {name: (runs, steps)}, with a point every half second. step: seconds."""
+    every = max(1, round(0.5 / step))
+    curves = {name: each[:, ::every] for name, each in errors.items()}
+    steps = next(iter(errors.values())).shape[1]
+    axes = draw_curves(step * np.arange(0, steps, every), curves, "seconds", "error, box widths")
+    axes.set_ylim(0, None)
 
 
 def _draw_rate(axes, image, extent, title):

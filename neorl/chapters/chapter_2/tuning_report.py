@@ -2,8 +2,10 @@
 
 import numpy as np
 
+from neorl.chapters.chapter_2.further_cells import mistakable
 from neorl.chapters.chapter_2.tuning import SHIFTS
 from neorl.chapters.shared import wording
+from neorl.evidence.statistics import estimate
 
 OWN = {"head-direction cell": "direction", "speed cell": "speed"}  # the variable of a cell's modality, if not position
 SAME = 1e-9  # lengths that differ by less are equal
@@ -60,3 +62,20 @@ def describe_sizes(tuned, active):
 def describe_likeness(found):
     """How alike two maps of each cell are, a line for each: {cell: correlation}."""
     return "\n".join(f"{cell}: correlation of the maps {number:.2f}" for cell, number in found.items())
+
+
+def describe_modules(scales):
+    """The shares of places that a module of the first scale mistakes for distant ones, and modules of all scales."""
+    alone, joint = (100 * mistakable(each) for each in (scales[:1], scales))
+    return (f"By its phases to a tenth of a period, the module of scale {scales[0]:g} takes {alone:.0f} % of the "
+            f"places in the box for some place elsewhere in it; the {len(scales)} modules together {joint:.0f} %.")
+
+
+def describe_drift(errors):
+    """The mean errors of path integration at a quarter of the time and at its end, {name: (runs, steps)}."""
+    said = []
+    for name, each in errors.items():
+        early, late = (estimate(np.mean, each[:, step]) for step in (each.shape[1] // 4 - 1, -1))
+        said.append(f"from {early} to {late} with the *{name}*" if name == "sum alone" else f"from {early} to {late} "
+                    f"if it is *{name}*")
+    return f"From a quarter of the time to its end, the mean error goes {', and '.join(said)}."
