@@ -52,7 +52,8 @@ def restated(chamber, learning, visits, seed=0, run=0):
                                       replace(QUICK, absent_decay=0.5), replace(QUICK, credit="count"),
                                       replace(QUICK, absent_decay=0.5, absent_form="away"),
                                       replace(QUICK, absent_decay=0.5, bootstrap=False),
-                                      replace(DEFAULT, learning_rate=0.3), replace(QUICK, discount=0.9, update_on="step")])
+                                      replace(DEFAULT, learning_rate=0.3),
+                                      replace(QUICK, discount=0.9, update_on="step")])
 @pytest.mark.filterwarnings("ignore:overflow encountered")
 def test_the_kernel_does_what_the_rules_say(chamber, learning):
     values = learn_in(chamber, learning, visits=20, runs=2, seed=5)
