@@ -124,12 +124,7 @@ TABLE = {
     "neorl.agents.rules.Learning": entry(
         Learning, learning_rate=shares, discount=shares, update_on=["cell"], credit=["happened", "activity", "share"],
         activity=st.floats(0, 9), absent_decay=shares, absent_form=["decay", "away"], terminal=[True, False],
-        trace=[1], memory=st.floats(0, 9), memory_unit=["cells", "seconds"], memory_value=["reached", "discounted"],
-        bootstrap=[True, False], causes=["any", "own"], capture=["contact", "leap", "silent"],
-        attention=["each", "nearest", "wanted"],
-        then=lambda learning: live(neorl.multimodal([3], learning=learning))),
-    "neorl.agents.rules.Learning, traces": entry(
-        Learning, trace=st.integers(1, 9), memory=[0], discount=shares, update_on=["cell"],
+        memory=st.floats(0, 9), bootstrap=[True, False],
         then=lambda learning: live(neorl.multimodal([3], learning=learning))),
     "neorl.agents.rules.Contacts": entry(
         Contacts, horizon=st.floats(0.01, 9), learning_rate=shares, familiarity=st.floats(0, 99), first_value=shares,
@@ -318,8 +313,7 @@ TABLE |= {
     "neorl.evidence.multiverse.design": entry(multiverse.design, points=[2, 4], seed=seeds, long=("points",)),
     "neorl.evidence.reading.Reading": entry(
         reading.Reading, learning_rate=shares, discount=[0.9], credit=["happened", "step"], memory=st.floats(0, 99),
-        memory_unit=["cells", "seconds"], exploration=shares, place_gain=reals,
-        vectors=["signed", "by size", "incoming"], recursion=reals, network_resolutions=[(3, 7), [2]],
+        exploration=shares, place_gain=reals, vectors=["signed", "by size"], recursion=reals, network_resolutions=[(3, 7), [2]],
         fps=st.integers(10, 60), contact=["rounded"],
         also=("resolution", "gain", "scale"),
         then=lambda made: (reading.conditions(made, 1_000, 1), made.within_the_text)),

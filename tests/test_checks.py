@@ -57,7 +57,6 @@ def state_with(**fields):
     (lambda: Learner(place_cells([3]), 1, ("green", "red"), fps=2**101), "fps is .*, allowed are finite numbers"),
     (lambda: Arena(pay=[1e308]), "pay is 1e[+]308, allowed are finite numbers"),
     (lambda: Learning(memory=1e308), "memory is 1e[+]308, allowed are finite numbers from 0 to 1e[+]30"),
-    (lambda: Learning(trace=2**80, memory=0), "trace is .*, allowed are integers from 1 to 1048576"),
     (lambda: Desire("green", "PC", 1e308), "valence is 1e[+]308, allowed are finite numbers"),
     (lambda: Place.of_fields(None), "coordinates is None, allowed are lists and tuples"),
     (lambda: place_cells([3]).comes_from_node(None), "desire is None, allowed is a Desire"),
@@ -154,6 +153,8 @@ def test_a_kernel_that_cannot_be_compiled_is_named():
 
 
 def test_what_is_remembered_counts_as_memory():
-    plain, long = (place_cells([3], learning=Learning(memory=0, trace=trace)) for trace in (1, 2**20))
-    assert n_bytes(long, WORLD) - n_bytes(plain, WORLD) == (2**20 - 1) * (8 + 4 * 4)
+    none, some = (place_cells([3], learning=Learning(memory=memory)) for memory in (0, 2))
+    assert n_bytes(some, WORLD) - n_bytes(none, WORLD) == 9 * (20 + 16 * 4)
+    short, long = (object_vector_cells([3], object_state="self", learning=Learning(memory=memory)) for memory in (0, 1e9))
+    assert n_bytes(long, WORLD) - n_bytes(short, WORLD) == (500 - 1) * (2 * 8 + 4 * 4)
     assert neorl.agents.memory.n_bytes is n_bytes

@@ -17,8 +17,8 @@ TANK = WaterWorld(width=100, n_creeps=2, win_reward=5.0)  # small, so that episo
 AGENTS = {
     "calibrated": network_d([2, 5]),
     "every modality": every_modality(),
-    "at every step": multimodal([5], learning=plain_rule(update_on="step"), policy=Policy(0.1, "no-op")),
-    "trace": multimodal([4], learning=plain_rule(trace=7, capture="silent", attention="nearest")),
+    "at every step": multimodal([5], learning=plain_rule(update_on="step"), object_state="object", policy=Policy(0.1, "no-op")),
+    "per object": multimodal([4], learning=plain_rule(memory=7.0, bootstrap=False), object_state="per object"),
     "softmax": multimodal([4], learning=plain_rule(credit="activity", memory=3.0), policy=Policy(choose=softmax(0.2))),
 }
 
@@ -273,8 +273,8 @@ def watcher(rule):
     return learner, lambda x, kind="food", met=0, food=0.9: Scene((x, 0.5), None, [(food, 0.5)], [kind], [met])
 
 
-@pytest.mark.parametrize("rule", [plain_rule(), Learning(), plain_rule(trace=5, bootstrap=False),
-                                  plain_rule(update_on="step"), plain_rule(capture="leap", attention="nearest")])
+@pytest.mark.parametrize("rule", [plain_rule(), Learning(), plain_rule(memory=5.0, bootstrap=False),
+                                  plain_rule(update_on="step")])
 def test_nothing_is_learned_from_what_vanishes_and_appears(rule):
     learner, scene = watcher(rule)
     learner.begin(scene(0.1))
@@ -290,7 +290,7 @@ def test_nothing_is_learned_from_what_vanishes_and_appears(rule):
 
 
 def test_a_thing_that_is_met_and_vanishes_was_met():
-    learner, scene = watcher(plain_rule(capture="contact"))
+    learner, scene = watcher(plain_rule())
     learner.begin(scene(0.5))
     action = learner.act()
     before = int(learner.state.tracks.cell[0])

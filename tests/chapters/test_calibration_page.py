@@ -118,13 +118,13 @@ def test_numbers_are_marked_where_they_agree_with_the_thesis():
 def test_readings_are_compared_in_the_choices_that_the_text_leaves_open():
     table = calibration.choices({"To the letter": TO_THE_LETTER, "Best": Reading()})
     assert table.startswith("| Choice | To the letter | Best |\n|---|---|---|\n")
-    assert "| capture | contact | leap |" in table and len(table.splitlines()) == 2 + len(WITHIN)
+    assert "| form of absence | away | " in table and len(table.splitlines()) == 2 + len(WITHIN)
 
 
 @pytest.mark.parametrize("change, idle", [({}, True), ({"bootstrap": True}, False),
-                                          ({"memory_value": "discounted"}, False)])
-def test_the_discount_is_idle_without_bootstrapping_if_memory_does_not_discount(change, idle):
-    reading = Reading(**{"bootstrap": False, "memory_value": "reached", **change})
+                                          ({"memory": 3.0}, False)])
+def test_the_discount_is_idle_without_bootstrapping_and_memory(change, idle):
+    reading = Reading(**{"bootstrap": False, "memory": 0.0, **change})
     assert ("γ has no effect" in calibration.idle_discount(reading)) == idle
     assert idle or calibration.idle_discount(reading) == ""
 

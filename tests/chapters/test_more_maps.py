@@ -6,7 +6,6 @@ from types import SimpleNamespace
 import numpy as np
 
 from neorl import WaterWorld
-from neorl.agents.rules import CAUSES
 from neorl.chapters.chapter_5 import more_maps
 from neorl.chapters.chapter_5.more_maps import COUNTS
 from neorl.evidence.reading import Reading, conditions
@@ -25,7 +24,7 @@ def results(place=(0.1, 0.2, 0.3, 0.4), objects=(0.1, 0.2, 0.3, 0.4), both=(0.2,
 
 def test_agents_have_the_coarsest_maps_of_paper_b_up_to_all(monkeypatch):
     monkeypatch.setattr(more_maps, "simulate_once", lambda agent, world, **chosen: (agent, world, chosen))
-    reading = replace(Reading(), causes=next(each for each in CAUSES if each != Reading.causes))
+    reading = replace(Reading(), memory=2.0)
     found = more_maps.live(reading, steps=700, runs=3, seed=5)
     paper_b = conditions(reading, 700, 3, 5, ["modal"])
     for name, key in (("place cells", ("place", "all")), ("object-vector cells", ("objects", "all")), ("both", "both")):

@@ -38,7 +38,7 @@ def test_both_experiments_are_run_under_each_reading(cache_folder):
     assert list(found) == list(readings)
     assert all(set(each) == set(GROUPS["layers"]) for each in found.values())
     assert found["book"]["layers"].runs == 11 and found["book"]["layers"].steps == 300
-    assert found["to the letter"]["layers"].agent == place_cells(LAYERS, **TO_THE_LETTER.place_agents)
+    assert found["to the letter"]["layers"].agent == place_cells(LAYERS, **TO_THE_LETTER.agents)
 
 
 def test_single_maps_have_as_many_runs_as_a_verdict_needs_and_a_control(cache_folder, monkeypatch):

@@ -14,7 +14,7 @@ from neorl.core.modality import MODALITIES
 from neorl.evidence.reading import Reading
 from neorl.evidence.statistics import Estimate
 
-READING = Reading(causes="any", capture="contact", attention="each", place_gain=1.0, weighting="resolution")
+READING = Reading(object_state="object", place_gain=1.0, weighting="resolution")
 
 
 def made_up(rate, runs=12, red=0.0, bins=3_000, win_reward=0.0):
@@ -67,10 +67,10 @@ def test_all_conditions_are_lived_under_each_reading(monkeypatch):
 
 def test_neighbours_differ_in_one_choice():
     made = experiments.neighbours(READING, 1_000, 2)
-    assert "causes: own" in made and "gain of place, B: 3" in made
-    assert READING.capture not in [name.split(": ")[1] for name in made if name.startswith("capture")]
-    wanted = made["attention: wanted"]["both"].agent
-    assert wanted.learning == replace(READING.learning, attention="wanted")
+    assert "gain of place, B: 2" in made and "gain of place, B: 3" not in made
+    assert READING.object_state not in [name.split(": ")[1] for name in made if name.startswith("state")]
+    of_self = made["state of object vectors: self"]["both"].agent
+    assert [node.state for node in of_self.nodes] == ["object", "self"]
 
 
 def test_the_figures_of_the_paper_have_their_agents_in_order(lived):

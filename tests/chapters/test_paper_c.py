@@ -67,11 +67,11 @@ def test_what_was_found_is_put_in_words(results):
 def test_neighbours_differ_in_one_choice_and_are_more_with_many_runs():
     reading = Reading(network_resolutions=(3, 7, 23), memory=5.0, scale=0.5, bootstrap=True)
     made = neighbours(reading, runs=99)
-    assert list(made) == ["maps of primes", "no memory", "places × 5", "by size"]
+    assert list(made) == ["maps of primes", "no memory", "places × 5", "valence in vectors"]
     assert made["places × 5"] == replace(reading, network_gain=5.0)
     more = neighbours(reading, runs=100)
     assert list(more)[:4] == list(made) and "no bootstrapping" in more and "bootstrapping" not in more
-    assert more["twice as far"].scale == 1.0 and more["incoming"].vectors == "incoming"
+    assert more["ten times as far"].scale == 5.0 and more["valence in vectors"].vectors == "signed"
 
 
 def test_the_explorer_offers_the_networks_of_both_readings(results):

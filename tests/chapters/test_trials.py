@@ -8,7 +8,7 @@ from neorl.agents import papers
 from neorl.chapters.paper_b import trials
 from neorl.evidence.reading import Reading
 
-READING = Reading(causes="any", capture="contact", attention="each", place_gain=1.0, weighting="resolution")
+READING = Reading(object_state="object", bootstrap=True, place_gain=1.0, weighting="resolution")
 PRIMES = (2, 3)
 
 
@@ -20,7 +20,7 @@ def small(monkeypatch):
 
 def test_a_stay_is_the_time_from_one_change_of_cell_to_the_next_but_for_resets():
     (found,) = trials.mean_stays(READING, 8_000, 1)
-    agent = papers.place_cells(PRIMES, **READING.place_agents)
+    agent = papers.place_cells(PRIMES, **READING.agents)
     run, changes = neorl.Run(agent, neorl.WaterWorld(win_reward=100.0), 0), np.zeros(2)
     run.advance(2_000)
     run.advance(1)
@@ -37,7 +37,7 @@ def test_a_stay_is_the_time_from_one_change_of_cell_to_the_next_but_for_resets()
 def test_the_desired_place_moves_and_experience_is_worth_something():
     moved, seconds = trials.distances(READING, 40_000, 2)
     assert moved["ignorant"].shape == moved["experienced"].shape == (2, 6, 150) and seconds[-1] == 30
-    run = neorl.Run(papers.place_cells(PRIMES, **READING.place_agents), neorl.WaterWorld(), 0, 1)
+    run = neorl.Run(papers.place_cells(PRIMES, **READING.agents), neorl.WaterWorld(), 0, 1)
     run.advance(10_000)
     for place in trials.PLACES:
         run.change(trials.desiring(READING, place))
@@ -77,7 +77,7 @@ def test_costs_are_those_of_agents_with_one_more_map_each_time():
 def test_a_desire_that_moves_is_a_condition_that_can_be_rerun(cache_folder):
     result = trials.live_with_moving_desire(READING, 4_001, 2, seed=3)
     assert (result.steps, result.runs, result.seed) == (1_000 + 2 * 1_500, 2, 3)
-    assert result.agent == papers.place_cells(PRIMES, **READING.place_agents)
+    assert result.agent == papers.place_cells(PRIMES, **READING.agents)
     assert [step for step, _ in result.changes] == [1_000, 2_500]
     assert [later.desires[0].source for _, later in result.changes] == [*trials.PLACES]
 

@@ -41,8 +41,8 @@ class Cave(World):
 
 learnings = st.one_of(
     st.builds(Learning, learning_rate=SHARES, discount=SHARES, memory=st.floats(0, 1e9), terminal=st.booleans(),
-              credit=st.sampled_from(["share", "last", of_a_module]), memory_unit=UNITS),
-    st.builds(Learning, trace=st.integers(1, 2**20), memory=st.just(0.0)), st.just(Learning(update_on="step")))
+              credit=st.sampled_from(["share", "last", of_a_module])),
+    st.just(Learning(update_on="step")))
 policies = st.builds(Policy, SHARES, choose=st.sampled_from([softmax(0.1), softmax(3), Policy().choose]))
 choices = st.fixed_dictionaries({"learning": learnings, "policy": policies}, optional={
     "own_cell": st.sampled_from(["silent", "counts"]), "tiled_fraction": st.floats(0.1, 2.0),

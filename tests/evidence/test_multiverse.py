@@ -58,12 +58,11 @@ PAPERS = {"brownian": "A", "single": "A", "layer": "A", "layers": "A", "place": 
 
 @pytest.mark.parametrize("change", [
     {"learning_rate": 0.1}, {"discount": 0.5}, {"credit": "last"}, {"credit": "step"}, {"credit": "activity"},
-    {"absent_decay": 0.3}, {"absent_form": "decay"}, {"memory": 10}, {"memory_unit": "seconds"},
-    {"memory_value": "discounted"}, {"activity": 2.0}, {"bootstrap": False}, {"terminal": True}, {"causes": "own"},
-    {"capture": "leap"}, {"attention": "wanted"}, {"own_cell": "silent"}, {"tiled_fraction": 0.5},
+    {"absent_decay": 0.3}, {"absent_form": "decay"}, {"memory": 10}, {"activity": 2.0}, {"bootstrap": False}, {"terminal": True}, {"object_state": "object"},
+    {"object_beyond": "none"}, {"object_centred": True}, {"own_cell": "silent"}, {"tiled_fraction": 0.5},
     {"object_tiled_fraction": 0.25},
-    {"weighting": "cells"}, {"exploration": 0.1}, {"place_gain": 5.0}, {"network_gain": 3.0}, {"vectors": "by size"},
-    {"vectors": "incoming"}, {"scale": 0.5}, {"recursion": 1.0}, {"network_resolutions": (2, 3)}, {"fps": 30},
+    {"weighting": "cells"}, {"exploration": 0.1}, {"place_gain": 5.0}, {"network_gain": 3.0}, {"vectors": "signed"},
+    {"scale": 0.5}, {"recursion": 1.0}, {"network_resolutions": (2, 3)}, {"fps": 30},
     {"contact": "truncated"}])
 def test_every_choice_changes_the_conditions_of_the_papers_that_it_belongs_to_and_no_others(change):
     (name,) = change
@@ -78,15 +77,16 @@ def test_an_agent_that_would_never_move_draws_its_actions_instead():
 
 
 def test_temporal_difference_overrides_the_other_choices_of_learning():
-    reading = replace(TO_THE_LETTER, credit="step", causes="own")
+    reading = replace(TO_THE_LETTER, credit="step", memory=3.0)
     assert reading.learning == Learning(reading.learning_rate, reading.discount, update_on="step", terminal=False)
-    assert set(AT_EVERY_STEP) < {field.name for field in fields(Reading)} | {"trace"}
+    assert set(AT_EVERY_STEP) < {field.name for field in fields(Reading)}
 
 
-def test_memory_in_seconds_is_a_tenth_of_that_in_cells():
-    seconds = replace(TO_THE_LETTER, memory=40, memory_unit="seconds").learning
-    assert (seconds.memory, seconds.memory_unit) == (4.0, "seconds")
-    assert replace(TO_THE_LETTER, memory=40).learning.memory == 40
+def test_a_reach_of_contact_is_for_states_of_the_object_alone():
+    for state, reach in (("object", 0.1), ("self", 0.0), ("per object", 0.0)):
+        agents = replace(TO_THE_LETTER, object_state=state, object_reach=0.1).agents
+        assert (agents["object_state"], agents["object_reach"]) == (state, reach)
+    assert replace(TO_THE_LETTER, credit="step").agents["object_state"] == "object"
 
 
 @pytest.mark.parametrize("choices", [WITHIN, BEYOND])
@@ -95,7 +95,7 @@ def test_every_reading_of_a_design_has_valid_agents(choices):
         assert conditions(reading, 1_000, 1)
 
 
-@pytest.mark.parametrize("change, message", [({"vectors": "long"}, "vectors is 'long', allowed are 'signed'"),
+@pytest.mark.parametrize("change, message", [({"vectors": "long"}, "vectors is 'long', allowed are 'by size'"),
                                              ({"network_resolutions": 5}, "network_resolutions is 5, allowed are")])
 def test_another_value_is_refused(change, message):
     with pytest.raises(ValueError, match=message):
@@ -112,7 +112,7 @@ def test_conditions_come_in_groups_that_hold_all_in_the_end():
         conditions(TO_THE_LETTER, 3_000, 2, groups=["fast"])
 
 
-@pytest.mark.parametrize("field", ["memory", "exploration", "recursion", "fps"])
+@pytest.mark.parametrize("field", ["exploration", "recursion", "fps"])
 def test_a_reading_names_the_field_that_is_invalid(field):
     with pytest.raises(ValueError, match=f"^{field} is 1j, allowed are "):
         Reading(**{field: 1j})
@@ -134,38 +134,32 @@ def test_brownian_motion_runs_as_long_as_in_paper_a_and_is_shared():
 
 
 def test_choices_about_things_make_no_difference_to_place_cells():
-    other = replace(TO_THE_LETTER, causes="own", capture="silent", attention="nearest", object_tiled_fraction=0.5)
+    other = replace(TO_THE_LETTER, object_state="object", object_reach=0.1, object_beyond="none",
+                    object_tiled_fraction=0.5)
     found, same = conditions(TO_THE_LETTER, 3_000, 2), conditions(other, 3_000, 2)
     assert all((found[key] == same[key]) == (key[0] in ("brownian", "layer", "single", "place") or key == "layers" or
                                              key == ("pace", "place")) for key in found)
-
-
-def test_a_desire_that_recurs_may_come_from_other_nodes_alone():
-    made = networks(replace(TO_THE_LETTER, vectors="incoming"))
-    *others, recurring = made["D"].desires
-    assert recurring.of == ("PC",) and recurring.signed
-    assert not any(desire.signed for desire in others if made["D"].comes_from_node(desire))
-    assert networks(TO_THE_LETTER)["D"].desires[-1].of == ()
 
 
 @pytest.mark.parametrize("prior, ends, middle", [
     (LogUniform(3e-4, 0.5), (3e-4, 0.5), np.sqrt(1.5e-4)),
     (LogUniform(1, 101, "1 + value"), (0, 100), np.sqrt(101) - 1),
     (LogUniform(1.5, 300, "1 / (1 − value)"), (1 / 3, 299 / 300), 1 - 1 / np.sqrt(450)),
-    (LogUniform(1, 16, zero=0.2), (0, 16), 16 ** 0.375)])
+    (LogUniform(1, 16, apart=0.0, chance=0.2), (0, 16), 16 ** 0.375),
+    (LogUniform(1, 16, apart=20.0, chance=0.2), (1, 20), 16 ** 0.625)])
 def test_a_prior_is_uniform_in_the_logarithm_of_its_measure(prior, ends, middle):
     assert prior.support() == pytest.approx(ends) and prior.ppf(0.5) == pytest.approx(middle)
-    for share in (0.21, 0.5, 0.9, 1.0):
+    for share in (0.21, 0.5, 0.79):
         assert prior.cdf(prior.ppf(share)) == pytest.approx(share)
     assert prior.ppf(0.0) == pytest.approx(ends[0]) and prior.cdf(ends[0]) == pytest.approx(0, abs=1e-9)
 
 
 def test_a_prior_says_what_it_is():
     assert str(LogUniform(1, 101, "1 + value")) == "log-uniform in 1 + value"
-    assert str(LogUniform(1, 4, zero=0.2)) == "log-uniform, or 0 (20\u00a0%)"
+    assert str(LogUniform(1, 4, apart=0.0, chance=0.2)) == "log-uniform, or 0 (20\u00a0%)"
     assert Choice("r", (-1.0, 0.5, (3, 7)), "C").levels == "−1, 0.5, {3, 7}"
     assert WITHIN["memory"].levels == "0 … 1,000"
-    assert WITHIN["discount"].stated == "0.333 … 0.997, log-uniform in 1 / (1 − value)"
+    assert WITHIN["discount"].stated == "0.333 … 1, log-uniform in 1 / (1 − value), or 1 (25\u00a0%)"
 
 
 def test_a_design_fills_the_priors_evenly_and_any_power_of_two_is_part_of_the_next():

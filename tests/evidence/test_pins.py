@@ -23,17 +23,15 @@ def test_what_is_pinned_is_quoted_and_located():
 
 
 @pytest.mark.parametrize("change, broken", [
-    ({"exploration": 0.02}, ["policy"]), ({"when_indifferent": "no-op"}, ["action when idle"]),
+    ({"exploration": 0.02}, ["policy"]), 
     ({"tiled_fraction": 0.5}, ["range of place cells"]), ({"weighting": "equal"}, ["weight of a map"]),
     ({"own_cell": "silent"}, ["elements in the agent's own cell"]),
     ({"credit": "step"}, ["driver of learning", "credit of events that occurred", "credit of events that did not occur",
-                          "memory"]),
+                          ]),
     ({"credit": "last"}, ["credit of events that occurred"]),
     ({"absent_decay": 0.0}, ["credit of events that did not occur"]),
-    ({"memory": 0.0}, ["memory"]), ({"network_gain": 5.0}, ["gain of place cells, paper C"]),
-    ({"vectors": "by size"}, ["desire vector"]), ({"vectors": "incoming"}, ["desire vector"]),
-    ({"scale": 2.0}, ["where a desire lies"]), ({"recursion": -2.0}, ["recursion, r"]),
-    ({"recursion": 1.0, "scale": 0.5}, ["where a desire lies", "recursion, r"])])
+    ({"fps": 30}, ["steps per second"]), ({"network_gain": 5.0}, ["gain of place cells, paper C"]),
+    ({"recursion": -2.0}, ["recursion, r"]), ({"recursion": 1.0, "fps": 30}, ["recursion, r", "steps per second"])])
 def test_a_reading_against_the_text_says_which_sentences_it_breaks(change, broken):
     found = replace(TO_THE_LETTER, **change).within_the_text
     assert not found and [pin.choice for pin in found.broken] == broken
@@ -44,7 +42,8 @@ def test_a_reading_against_the_text_says_which_sentences_it_breaks(change, broke
     {"weighting": "cells"}, {"credit": "count"}, {"credit": "share"}, {"credit": "activity", "memory": 0.0},
     {"absent_form": "decay"}, {"bootstrap": False}, {"terminal": True}, {"object_tiled_fraction": 0.25},
     {"place_gain": 5.0},
-    {"network_resolutions": (2, 3)}, {"fps": 30}, {"learning_rate": 0.9}, {"memory_unit": "seconds"}])
+    {"network_resolutions": (2, 3)}, {"fps": 60}, {"learning_rate": 0.9}, {"memory": 0.0}, {"vectors": "signed"},
+    {"scale": 100.0}, {"when_indifferent": "no-op"}, {"object_state": "object"}])
 def test_what_is_open_breaks_nothing(change):
     assert replace(TO_THE_LETTER, **change).within_the_text
 

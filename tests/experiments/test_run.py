@@ -147,11 +147,10 @@ def test_an_interrupted_run_goes_on_where_it_stopped():
 
 
 def test_equal_conditions_are_kept_under_one_key():
-    plain = Condition(place_cells([3], 1.0, learning=Learning(0.5, memory=2.0, trace=1), policy=Policy(0.0)),
+    plain = Condition(place_cells([3], 1.0, learning=Learning(0.5, memory=2.0), policy=Policy(0.0)),
                       WaterWorld(win_reward=5.0), steps=100, runs=2, changes=[(50, place_cells([4]))])
     numpy = Condition(place_cells(np.array([3]), np.float64(1), policy=Policy(np.float32(0)),
-                                  learning=Learning(np.float64(0.5), memory=2, trace=np.int32(1),
-                                                    terminal=np.bool_(True))),
+                                  learning=Learning(np.float64(0.5), memory=2, terminal=np.bool_(True))),
                       WaterWorld(np.int64(250), np.int8(3), win_reward=5, contact=np.str_("rounded")),
                       steps=np.int64(100), runs=np.uint8(2), changes=[(np.int64(50), place_cells([4]))])
     assert plain == numpy and plain.key == numpy.key
@@ -159,7 +158,7 @@ def test_equal_conditions_are_kept_under_one_key():
 
 def test_a_number_of_another_type_compiles_nothing_again():
     Run(place_cells([3]), TANK).advance(1)
-    rule = Learning(np.float32(0.5), trace=np.int32(1), memory=np.float64(2.0), bootstrap=np.bool_(True))
+    rule = Learning(np.float32(0.5), memory=np.float64(2.0), bootstrap=np.bool_(True))
     agent, world = place_cells([3], learning=rule), WaterWorld(np.int16(250), win_reward=np.int64(1))
     Run(agent, world).advance(1)
     assert rollout_in(world.dynamics, constants_of(agent, world)) is rollout_in(
@@ -168,7 +167,7 @@ def test_a_number_of_another_type_compiles_nothing_again():
 
 
 @pytest.mark.parametrize("make", [lambda: Learning(terminal=1), lambda: Learning(bootstrap=0.0),
-                                  lambda: Desire("green", "PC", 1.0, signed=1), lambda: Learning(trace=np.array([1]))])
+                                  lambda: Desire("green", "PC", 1.0, signed=1), lambda: Learning(memory=np.array([1]))])
 def test_what_is_nearly_a_flag_or_a_number_is_refused(make):
     with pytest.raises(ValueError, match="allowed are"):
         make()

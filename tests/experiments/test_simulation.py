@@ -16,7 +16,7 @@ TANK = WaterWorld(n_creeps=8, win_reward=5.0)
 
 
 def test_becoming_the_same_agent_changes_nothing():
-    agent = multimodal([4, 7], learning=plain_rule(trace=7))
+    agent = multimodal([4, 7], learning=plain_rule(memory=7.0, bootstrap=False))
     whole, changed = (Run(agent, TANK, seed=4) for _ in range(2))
     whole.advance(3_000)
     changed.advance(1_234)
@@ -209,7 +209,7 @@ def test_a_run_that_fails_ends_the_others(monkeypatch):
 
 
 @pytest.mark.parametrize("agent", [multimodal([3, 12]),
-                                   place_cells([14], learning=plain_rule(trace=5, absent_decay=0.2))])
+                                   place_cells([14], learning=plain_rule(memory=5.0, absent_decay=0.2))])
 def test_a_run_in_the_memory_of_another_begins_with_nothing_and_is_the_same(agent):
     before = Run(agent, WaterWorld(), seed=0, run=3)
     before.advance(20_000)
@@ -223,7 +223,7 @@ def test_a_run_in_the_memory_of_another_begins_with_nothing_and_is_the_same(agen
 def test_a_run_takes_over_the_memory_of_a_larger_agent_and_is_the_same():
     before = Run(multimodal([3, 14]), WaterWorld())
     before.advance(5_000)
-    smaller = place_cells([13], learning=plain_rule(trace=5))
+    smaller = place_cells([13], learning=plain_rule(memory=5.0))
     after, fresh = Run(smaller, WaterWorld(), after=before), Run(smaller, WaterWorld())
     assert np.shares_memory(after.state.values.q, before.state.values.q) and not after.state.values.q.any()
     assert after.advance(5_000) == fresh.advance(5_000)

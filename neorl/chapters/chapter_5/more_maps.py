@@ -19,7 +19,7 @@ COUNTS = (1, 2, 4, 6)
 def live(reading, steps, runs, seed=0):
     """The results under a `Reading`. steps, runs, seed: as `neorl.simulate` takes them."""
     both = {"place_gain": reading.place_gain, **reading.agents}
-    makers = {"place cells": (papers.place_cells, reading.place_agents),
+    makers = {"place cells": (papers.place_cells, reading.agents),
               "object-vector cells": (papers.object_vector_cells, reading.agents), "both": (papers.multimodal, both)}
     world = WaterWorld(fps=reading.fps, contact=reading.contact)
     return {name: [simulate_once(make(papers.PRIMES[:count], **choices), world, steps=steps, runs=runs, seed=seed)
