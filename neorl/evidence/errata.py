@@ -1,6 +1,6 @@
 """Errata of the source: errors of the thesis that may mislead a reader, with corrections.
 
-Slips of the pen are not listed, nor is anything that a claim of `neorl.evidence.statements` tests.
+Slips of the pen are not listed.
 """
 
 from typing import NamedTuple
@@ -40,4 +40,24 @@ ERRATA = (
             "learning in rats”",
             "it is in another paper by Tolman and Honzik of 1930, “Introduction and removal of reward, and maze "
             "performance in rats”"),
+    Erratum("section 2.2", "a membrane “that is impermeable to electrons”",
+            "to ions: the membrane potential is a difference in their concentrations, which the ion pumps sustain"),
+    Erratum("section 2.2", "“Some neurotransmitters activate voltage-gated channels”",
+            "ligand-gated channels; voltage opens the channels along the axon"),
+    Erratum("caption of table 2.1",
+            "the vector cells “respond to conditions that combine the current heading with distance”",
+            "an allocentric direction with a distance, as the table itself says; heading is coded by head-direction "
+            "cells"),
+    Erratum("section 4.1.1, equation 4.2",
+            "Kolmogorov's paper of 1956 is cited for the sum of functions of one variable",
+            "it is in his paper of 1957, “On the representation of continuous functions of many variables by "
+            "superposition of continuous functions of one variable and addition”"),
+    Erratum("section 4.3.1",
+            "maps in the brain “steadily increase in resolution along the dorsal-to-ventral axis of the hippocampus”",
+            "they decrease: fields grow from the dorsal to the ventral end"),
+    Erratum("paper B, section 3", "“(on average) 1.5 points per reset”",
+            "1.5 is the expected number of green creeps among three (3 × ½); on a board with one at least it is 12/7. "
+            "As every second creep taken is replaced by a green one, the points from one reset to the next are twice "
+            "that, 24/7, whatever the agent does"),
+    Erratum("paper C, section 1", "“Edward C. Tolman (1866-1959)”", "1886–1959, as in section 2.1.2"),
 )

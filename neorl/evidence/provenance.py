@@ -38,7 +38,7 @@ def constants():
         Constant("drag", f"{waterworld.DRAG} per step", PLE),
         Constant("speed of creeps", "up to a quarter of the width per second", PLE),
         Constant("creeps, paper A", f"{eight.n_creeps}", "paper A, WaterWorld (and the author's later public code)"),
-        Constant("creeps, papers B and C", f"{three.n_creeps}", "paper C, section 2; for paper B " + AUTHOR),
+        Constant("creeps, papers B and C", f"{three.n_creeps}", "paper B, section 3, and paper C, section 2"),
         Constant("reward for the last green creep, paper A", f"{eight.win_reward:g}", "paper A, WaterWorld"),
         Constant("the same reward, papers B and C", f"{three.win_reward:g}", "paper B, section 3; " + AUTHOR),
         Constant("valence of creeps", "+1 and −1", "paper B, section 3, and paper C, section 2"),

@@ -20,6 +20,7 @@ def test_the_values_are_those_of_the_code():
     assert values["exploration, ε"] == f"{Policy().exploration:g}"
     assert values["resolutions, paper B"] == "N2, N3, N5, N7, N11, N13"
     assert values["steps of a run, paper A"] == "150,000" and values["creeps, paper A"] == "8"
+    assert {each.name: each.source for each in provenance.constants()}["creeps, papers B and C"].startswith("paper B")
     assert provenance.table().count("\n") == len(values) + 1
 
 
