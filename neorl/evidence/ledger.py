@@ -13,18 +13,17 @@ from neorl.evidence.verdict import RUNS_FOR_A_VERDICT, VERDICTS
 
 COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict", "Agrees", "Holds", "Undecided")
 CHAPTERS = {"A": "Paper A: maps of one space", "B": "Paper B: modalities", "C": "Paper C: networks of desires",
-            "T": "The thesis as a whole", "G": "Efficient, general, compositional, incremental",
-            "H": "A demonstration"}
+            "T": "The thesis as a whole"}
 
 
 def page(record):
     """The strip, the tally, the tables and the evidence, in MyST Markdown. record: as `report.load` returns it."""
-    parts = [strip(record), tally(record), _table(record, CLAIMS), "## Beside the claims: a demonstration",
+    parts = [strip(record), tally(record), _table(record, CLAIMS), "## Beside the claims: demonstrations",
              _table(record, DEMONSTRATIONS), "## What each verdict rests on",
              "The sentence that is judged, what was measured, and what was found."]
-    for letter, title in CHAPTERS.items():
-        lines = report.evidence(record, [name for name in STATEMENTS if name[0] == letter])
-        parts.append("\n".join([f":::{{dropdown}} {title}", *lines, ":::"]))
+    groups = {title: [name for name in CLAIMS if name[0] == letter] for letter, title in CHAPTERS.items()}
+    for title, names in (groups | {"Demonstrations": DEMONSTRATIONS}).items():
+        parts.append("\n".join([f":::{{dropdown}} {title}", *report.evidence(record, names), ":::"]))
     return "\n\n".join(parts) + "\n"
 
 

@@ -9,7 +9,7 @@ from html import escape
 from neorl.evidence.ledger import anchor
 from neorl.evidence.marks import html
 from neorl.evidence.statements import STATEMENTS
-from neorl.evidence.verdict import RUNS_FOR_A_VERDICT
+from neorl.evidence.verdict import RUNS_FOR_A_VERDICT, VERDICTS
 
 CLAIMS_PAGE = "../claims.html"  # relative to the built pages
 REASONS = {"not testable": ", because the agents learned too little"}
@@ -39,11 +39,17 @@ def verdicts_of(judged):
 
 
 def _line(reading, found):
-    """One reading's verdicts, each with the claims that have it: "Calibrated: ● A2, A7 reproduced; ◐ A3 partly"."""
+    """One reading's verdicts, each with the claims that have it: "Calibrated: ● A2, A7 reproduced; ◐ A3 partly".
+
+    Demonstrations follow the claims.
+    """
     groups = []
-    for verdict in dict.fromkeys(found.values()):
-        names = [_link(name) for name, each in found.items() if each == verdict]
-        groups.append(f"{html(verdict)}\u00a0{', '.join(names)} {verdict}{REASONS.get(verdict, '')}")
+    for demonstration, verdict in sorted({(STATEMENTS[name].demonstration, each) for name, each in found.items()},
+                                         key=lambda group: (group[0], VERDICTS.index(group[1]))):
+        names = [_link(name) for name, each in found.items()
+                 if (STATEMENTS[name].demonstration, each) == (demonstration, verdict)]
+        beside = "beside the claims, " if demonstration else ""
+        groups.append(f"{beside}{html(verdict)}\u00a0{', '.join(names)} {verdict}{REASONS.get(verdict, '')}")
     return f"{reading.capitalize()}{': ' if reading else ''}{'; '.join(groups)}"
 
 

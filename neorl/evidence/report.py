@@ -24,11 +24,12 @@ COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict", "Share w
 LEGEND = "● reproduced, ◐ partly, ○ not reproduced, ◇ no learning to test; without a symbol, no verdict. "
 EMPTY = "An empty cell was not computed, or does not depend on the reading. "
 NUMBERS = "Numbers, with 95\u00a0% intervals over runs, are {}."
+BESIDE = "Beside the claims stand demonstrations of this book:"
 PARTS = ("claims", "letter", "shares")  # of a record
 
 
 def table(claims, letter=(), shares=None):
-    """Claims as a Markdown table, and below it the evidence for each verdict.
+    """Claims as a Markdown table, and below it the evidence for each verdict; then demonstrations in the same way.
 
     A column without an entry is left out; without claims to the letter there is no choice of a reading.
 
@@ -36,8 +37,13 @@ def table(claims, letter=(), shares=None):
     `save`.
     """
     record = {"claims": _kept(claims), "letter": _kept(letter), "shares": shares or {}}
-    names = [claim.name for claim in claims]
-    return "\n".join([*_filled(record, names, "the quantities in italics below"), "", *evidence(record, names)])
+    lines = []
+    for kind, title in ((CLAIMS, []), (DEMONSTRATIONS, [BESIDE, ""])):
+        names = [claim.name for claim in claims if claim.name in kind]
+        if names:
+            lines += [*title, *_filled(record, names, "the quantities in italics below"), "", *evidence(record, names),
+                      ""]
+    return "\n".join(lines[:-1])
 
 
 def comparison(judged):
@@ -127,7 +133,7 @@ def in_short(record):
     """The tables of all claims and demonstrations, in plain Markdown and without the evidence."""
     claims, demonstrations = (_lines(COLUMNS, [_cells(record, name) for name in some])
                               for some in (CLAIMS, DEMONSTRATIONS))
-    return "\n".join([*claims, "", "Beside the claims stands a demonstration:", "", *demonstrations]) + "\n"
+    return "\n".join([*claims, "", BESIDE, "", *demonstrations]) + "\n"
 
 
 def evidence(record, names):

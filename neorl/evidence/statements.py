@@ -1,5 +1,7 @@
 """The claims of the thesis: each with its place, the sentence that is judged, and the thesis's own number.
 
+*Demonstrations* stand beside them: experiments of this book on sentences that ask for something and report no result.
+
 Nothing here is computed. `neorl.evidence.claims` judges the claims, `neorl.evidence.report` reports the findings, and
 `neorl.evidence.errata` lists the errors of the source. Quotations are from the thesis (Leikanger 2022), shortened where
 there is a "…".
@@ -19,7 +21,7 @@ class Statement(NamedTuple):
     figure: str  # the label of the figure of this book that shows it
     rule: str  # the function of `neorl.evidence.claims` that judges it
     borders: tuple[float, ...] = (0.0,)  # the thresholds that the rule sets for our number
-    demonstration: bool = False  # shown beside the claims, not counted among them
+    demonstration: bool = False  # an experiment of this book, shown beside the claims and not counted among them
 
 
 ONE_MAP, MAPS = "paper A, Results, Single layer", "paper A, Results, Multiple resolutions"
@@ -125,7 +127,7 @@ STATEMENTS = {
         "modules",
         "A modality added half-way helps, and costs nothing already learned",
         "Final lead in reward per second over agents without it",
-        "> 0", "fig-joining", "judge_joining"),
+        "> 0", "fig-joining", "judge_joining", demonstration=True),
     "C1": Statement(
         NETWORKS,
         "The neoRL network from illustration 4a improves navigational proficiency over time; however … a single "
@@ -218,27 +220,27 @@ STATEMENTS = {
         "Navigation has to be efficient (require few interactions for learning new behaviors)",
         "Efficient: after one trial at a new place, agents find it again sooner than Q-learning on the same cells",
         "Seconds of the second trial at a new place in a water maze, divided by those of Q-learning",
-        "few", "fig-spaces-pool", "judge_efficiency", (0.5, 1.0)),
+        "few", "fig-spaces-pool", "judge_efficiency", (0.5, 1.0), demonstration=True),
     "G2": Statement(
         "paper B, section 3",
         "it is crucial that NRES-oriented navigation can operate based on different Euclidean spaces",
         "General: with one learning rule, agents beat chance in every other space that was tried",
         "Smallest probability, over the worlds, that a run of the agent beats a run of random actions",
-        "> 0.5", "fig-spaces-all", "judge_generality", (0.5,)),
+        "> 0.5", "fig-spaces-all", "judge_generality", (0.5,), demonstration=True),
     "G3": Statement(
         "paper B, section 3",
         "NeoRL navigation must be … compositional across conceptual components, without any significant decline in "
         "learning efficiency.",
         "Compositional: a map for each feature reaches any combination as directly as one map of both",
         "Steps to a point of a space of two features with a map for each, divided by those with one map of both",
-        "1", "fig-spaces-birds", "judge_composition", (1.25, 2.0)),
+        "1", "fig-spaces-birds", "judge_composition", (1.25, 2.0), demonstration=True),
     "G4": Statement(
         "chapter 5, on paper B",
         "The neoRL framework is general across NRES modalities, compositional and incremental by additional neoRL "
         "modules",
         "Incremental: a second map added half-way helps a vessel, and costs nothing already learned",
         "Final lead in reward per minute over agents without it",
-        "> 0", "fig-spaces-vessel", "judge_extension"),
+        "> 0", "fig-spaces-vessel", "judge_extension", demonstration=True),
     "H1": Statement(
         "section 2.1.2, on figure 2.2",
         "When later motivated by food, however, the rats in the initially unrewarded group started to perform better "

@@ -46,12 +46,11 @@ def test_each_reading_has_verdicts_of_its_own():
 
 
 def test_the_box_counts_verdicts():
-    text = conclusions.in_short(verdicts(all_claims("reproduced") | {"A1": "partly", "G2": "partly"}, {"A2": "partly"}))
+    text = conclusions.in_short(verdicts(all_claims("reproduced") | {"A1": "partly", "C5": "partly"}, {"A2": "partly"}))
     text = re.sub("<[^>]+>", "", text).replace("\u00a0", " ")
     assert (f"results: to the letter, ◐ 1 partly, {len(CLAIMS) - 1} judged only in the calibrated reading; calibrated, "
             f"● {len(CLAIMS) - 2} reproduced, ◐ 2 partly. In the calibrated reading the two conclusions hold as "
             "follows. **Superposition**: *in full* (reproduced: A2, ") in text
-    assert text.endswith("the pages beyond the thesis judge 5: ● 4 reproduced, ◐ 1 partly.")
 
 
 def test_the_box_counts_claims_that_neither_reading_has():
@@ -59,13 +58,6 @@ def test_the_box_counts_claims_that_neither_reading_has():
     missing = f"{len(CLAIMS) - 1} not computed in this build"
     assert f"1 judged only in the calibrated reading, {len(CLAIMS) - 2} not computed in this build; " in text
     assert f"partly, {missing}. In the calibrated reading" in text
-
-
-def test_what_lies_beyond_the_thesis_has_its_verdicts_and_numbers():
-    made = record({"C5": "not reproduced"})
-    first, second, *_ = conclusions.beyond(made, conclusions.verdicts_by_reading(made)).splitlines()
-    assert "○" in first and "**C5** No other method" in first and first.endswith(": 0.50 [0.40, 0.60]).")
-    assert "**G1**" in second and second.endswith("*not computed in this build*.")
 
 
 @pytest.mark.parametrize("found, held", [

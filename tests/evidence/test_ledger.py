@@ -39,7 +39,7 @@ def test_the_page_has_every_claim_once_in_a_row_and_once_in_what_verdicts_rest_o
     lines = ledger.page(RECORD).splitlines()
     rows = [line.split("**")[1] for line in lines if line.startswith('| <span id="claim-')]
     assert rows == [line.split("**")[1] for line in lines if line.startswith("- **")] == [*CLAIMS, *DEMONSTRATIONS]
-    assert {name[0] for name in STATEMENTS} == set(ledger.CHAPTERS)
+    assert {name[0] for name in CLAIMS} == set(ledger.CHAPTERS)
 
 
 def test_every_square_of_the_strip_leads_to_the_row_of_its_claim():

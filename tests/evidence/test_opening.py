@@ -17,6 +17,13 @@ def test_a_box_has_verdicts_by_reading_with_symbols_names_and_links():
     assert "C1</a> not testable, because the agents learned too little" in untested
 
 
+def test_demonstrations_stand_beside_the_claims():
+    text = opening.what_was_found("", 10, {"": {"G1": "partly", "A2": "reproduced", "B7": "reproduced"}})
+    claims, better, worse = text.split("\n\n")[2].split("; ")
+    assert "A2</a> reproduced" in claims and "beside" not in claims
+    assert better.startswith("beside the claims, ") and "B7</a> reproduced" in better and "G1</a> partly" in worse
+
+
 def test_with_few_runs_a_box_says_that_there_are_no_verdicts():
     text = opening.what_was_found("It earns 0.30.", 9, {"calibrated": {"A2": "reproduced"}})
     assert "**Quick look: no verdicts.**" in text and "computed with 9" in text and "A2" not in text

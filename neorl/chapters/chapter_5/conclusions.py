@@ -14,9 +14,9 @@ from neorl.evidence.report import CALIBRATED, LETTER, NOT_COMPUTED
 from neorl.evidence.statements import CLAIMS, STATEMENTS
 from neorl.evidence.verdict import VERDICTS
 
-SUPERPOSITION = ("A2", "A3", "A4", "A6", "A7", "A8", "B1", "B2", "B3", "B4", "B6", "B7", "T6")
+SUPERPOSITION = ("A2", "A3", "A4", "A6", "A7", "A8", "B1", "B2", "B3", "B4", "B6", "T6")
 SEPARATION = ("T1", "T7", "C1", "C2", "C3", "C4")
-BEYOND = ("C5", "G1", "G2", "G3", "G4")  # judged by the pages beyond the thesis
+BEYOND = ("C5",)  # judged by the pages beyond the thesis
 GROUND = tuple(name for name in CLAIMS if name not in SUPERPOSITION + SEPARATION + BEYOND)
 CONCLUSIONS = {"Superposition": SUPERPOSITION, "Learning apart from behaviour": SEPARATION}
 JUDGED_ONCE = "judged only in the calibrated reading"  # or alike in both
@@ -37,11 +37,9 @@ def in_short(verdicts):
     once = {name: JUDGED_ONCE for name in CLAIMS if verdicts[LETTER][name] == NOT_COMPUTED
             and verdicts[CALIBRATED][name] in VERDICTS}
     tallies = f"{LETTER}, {_tally(verdicts[LETTER] | once)}; {CALIBRATED}, {_tally(verdicts[CALIBRATED])}"
-    others = _tally({name: verdicts[CALIBRATED][name] for name in BEYOND})
     held = " ".join(f"**{title}**: {_held(verdicts[CALIBRATED], names)}." for title, names in CONCLUSIONS.items())
     return (f"The book lists {len(CLAIMS)} claims of the thesis, each judged by a rule that was fixed before the "
-            f"results: {tallies}. In the calibrated reading the two conclusions hold as follows. {held} Of all "
-            f"claims, the pages beyond the thesis judge {len(BEYOND)}: {others}.")
+            f"results: {tallies}. In the calibrated reading the two conclusions hold as follows. {held}")
 
 
 def _tally(found):
@@ -62,15 +60,6 @@ def overview(verdicts):
     return ("A conclusion holds *in full* if all its claims are reproduced, *in part* if some are, and *not at all* if "
             "none is; but it is *undecided* if none is and some cannot be tested.\n\n"
             + "\n".join(f"- {line}" for line in lines))
-
-
-def beyond(record, verdicts):
-    """Verdicts of the pages beyond the thesis on its claims, as a Markdown list."""
-    return "\n".join(
-        f"- {_symbol(verdicts[CALIBRATED][name])}**{name}** {STATEMENTS[name].text}: "
-        f"*{_said(verdicts, CALIBRATED, name)}*"
-        + (f" ({STATEMENTS[name].statistic}: {report.number(record['claims'][name])})."
-           if name in record["claims"] else ".") for name in BEYOND)
 
 
 def _held(found, names):
