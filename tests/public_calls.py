@@ -244,6 +244,9 @@ TABLE = {
     "neorl.evidence.statistics.minutes_sooner": entry(
         lambda **each: statistics.minutes_sooner(**each).value, quick=[RESULT, [RESULT, RESULT]], slow=[RESULT],
         level=reals),
+    "neorl.evidence.statistics.minutes_to_own_level": entry(
+        lambda result, share: statistics.minutes_to_own_level(result, share=share).value, result=[RESULT],
+        share=shares, also="results"),
     "neorl.evidence.statistics.mean_band": entry(statistics.mean_band, curves=[CURVES], rng=seeds),
     "neorl.agents.papers.place_cells": paper(neorl.place_cells, valence_green=reals, valence_red=reals),
     "neorl.agents.papers.object_vector_cells": paper(neorl.object_vector_cells, valence_green=reals, valence_red=reals),

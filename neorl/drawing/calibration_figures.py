@@ -19,12 +19,12 @@ from neorl.evidence.calibration_results import binned, marginal, progress
 from neorl.evidence.claims import FINAL
 from neorl.evidence.curves import binned_rate, low_passed
 from neorl.evidence.priors import WITHIN
+from neorl.evidence.statements import STATEMENTS
 
 ROW = 0.15  # inches, for a bar with its name
 NARROW = 12  # letters per line
 ROOMY = 4  # most levels whose labels do not touch in a pair's panel
 POINTS = 100  # of a predicted curve
-LEVELS, MINUTES = (0.29, 0.55), (160, 15)  # of place cells and of both nodes, from paper B
 SINGLE = {f"N{n}": ("single", n) for n in (10, 30, 50)}
 LAYERS = {"N3": ("layer", 3), "N7": ("layer", 7), "N23": ("layer", 23), "all three": "layers"}
 MODALITIES = {"place": ("place", "all"), "objects": ("objects", "all"), "both": "both"}
@@ -160,12 +160,13 @@ def draw_single(lives, ax=None):
 def draw_layers(lives, ax=None):
     """Figure 4.4, bottom: three maps together, each of them alone, and their sum. lives: see `draw_modalities`.
 
-    A dashed line marks 3.5 times the final reward rate of N7 under the first reading.
+    A dashed line marks the thesis's multiple of the final reward rate of N7 under the first reading.
     """
     curves = _smooth(lives, LAYERS)
     curves["sum"] = [sum(alone) for alone in zip(*(curves[name] for name in ("N3", "N7", "N23")))]
     axes = _draw_curves(curves, _minutes(lives, LAYERS), ax, [*CURVES[:len(LAYERS)], INK])
-    return _mark_level(axes, 3.5 * lives[0]["layer", 7].rate(*FINAL).mean(), "3.5 × N7", INK)
+    times = STATEMENTS["A7"].bounds.number
+    return _mark_level(axes, times * lives[0]["layer", 7].rate(*FINAL).mean(), f"{times:g} × N7", INK)
 
 
 def draw_modalities(lives, ax=None):
@@ -175,19 +176,25 @@ def draw_modalities(lives, ax=None):
     """
     lengths = _minutes(lives, MODALITIES)
     axes = _draw_curves(_smooth(lives, MODALITIES), lengths, ax)
-    for level, minutes, colour in zip(LEVELS, MINUTES, (CURVES[0], CURVES[2])):
+    levels, minutes = ((statement.also["place cells"].number, statement.bounds.number)
+                       for statement in (STATEMENTS["B3"], STATEMENTS["B4"]))
+    for level, minute, colour in zip(levels, minutes, (CURVES[0], CURVES[2])):
         _mark_level(axes, level, f"{level:.2f}", colour)
-        if minutes <= max(lengths):
-            axes.axvline(minutes, color=colour, linewidth=0.9, linestyle=":")
-            axes.annotate(f"{minutes} min", (minutes, 0.99), xycoords=("data", "axes fraction"), color=letters(colour),
+        if minute <= max(lengths):
+            axes.axvline(minute, color=colour, linewidth=0.9, linestyle=":")
+            axes.annotate(f"{minute:g} min", (minute, 0.99), xycoords=("data", "axes fraction"), color=letters(colour),
                           fontsize=SMALL, va="top")
     return axes
 
 
 def draw_networks(lives, ax=None):
-    """Figure 4.7e: networks A to D. A dashed line marks 1.5 times C's final level. lives: see `draw_modalities`."""
+    """Figure 4.7e: networks A to D. A dashed line marks what D has to exceed, a multiple of C's final level.
+
+    lives: see `draw_modalities`.
+    """
     axes = _draw_curves(_smooth(lives, NETWORKS), _minutes(lives, NETWORKS), ax)
-    return _mark_level(axes, 1.5 * lives[0]["network", "C"].rate(*FINAL).mean(), "1.5 × C", INK)
+    times = STATEMENTS["C4"].bounds.low
+    return _mark_level(axes, times * lives[0]["network", "C"].rate(*FINAL).mean(), f"{times:g} × C", INK)
 
 
 def _minutes(lives, keys):

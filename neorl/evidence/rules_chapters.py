@@ -5,10 +5,9 @@
 
 import numpy as np
 
+from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.statistics import RECENT, difference, estimate, minutes_sooner, quotient, ratio
 from neorl.evidence.verdict import AFTER_TURN, BEFORE_TURN, FINAL, fewest_runs, judged, lead_over_brownian, learned
-
-FAILS = 0.1  # of the gain of agents that learn by persistence
 
 
 def judge_changes(revalued, moved=None):
@@ -23,19 +22,22 @@ def judge_changes(revalued, moved=None):
     before, after, later = (_red_a_minute(revalued, *share) for share in (BEFORE_TURN, AFTER_TURN, FINAL))
     kept, turn = estimate(ratio, after, later), estimate(difference, after, before)
     settled = estimate(difference, later, before)
-    whole, room = [turn.low > 0 and kept.low >= 0.8], [turn.high > 0 and kept.high >= 0.8]
+    at_once, as_near = STATEMENTS["T1"].bounds, STATEMENTS["T1"].also["moved"]
+    whole, room = [turn.low > 0 and at_once.hold(kept)], [turn.high > 0 and at_once.allow(kept)]
+    decay = "" if settled.low > 0 else " Finally the rate is not above that before the turn, so it decays."
     detail = (f"Per minute, {estimate(np.mean, before)} before the turn, {estimate(np.mean, after)} after it and "
-              f"{estimate(np.mean, later)} finally. No retraining is read as four fifths of the later level at once.")
+              f"{estimate(np.mean, later)} finally. No retraining is read as a rise at once, to {at_once} of the later "
+              f"level.{decay}")
     if moved:
         first, others = moved["experienced"][:, :2].mean(axis=1), moved["experienced"][:, 2:].mean(axis=1)
         near = estimate(ratio, others, first)
         known = estimate(difference, moved["ignorant"][:, :2].mean(axis=1), first)
-        whole.append(near.low >= 0.8 and known.low > 0)
-        room.append(near.high >= 0.8 and known.high > 0)
+        whole.append(as_near.hold(near) and known.low > 0)
+        room.append(as_near.allow(near) and known.high > 0)
         detail += (f" After later moves of a place the distance is {near} times that after the first two, and after "
                    f"these it is {known} smaller than for agents that have learned nothing.")
     return judged("T1", kept, detail, revalued.runs, reproduced=all(whole), partly=turn.low > 0 or any(whole),
-                  possible=all(room), testable=settled.low > 0)
+                  possible=all(room))
 
 
 def judge_cost(together, alone, none):
@@ -44,9 +46,9 @@ def judge_cost(together, alone, none):
     together: with all maps. alone: a sequence, with each map alone. none: without any.
     Returns a `Claim`.
     """
-    cost = estimate(_cost_ratio, together, none, *alone)
-    return judged("T2", cost, "The rule allows a tenth more.", len(together), reproduced=cost.high <= 1.1,
-                  partly=False, possible=cost.low <= 1.1)
+    cost, linear = estimate(_cost_ratio, together, none, *alone), STATEMENTS["T2"].bounds
+    return judged("T2", cost, f"The rule allows {linear}.", len(together), reproduced=linear.hold(cost), partly=False,
+                  possible=linear.allow(cost))
 
 
 def judge_temporality(whole, short):
@@ -60,11 +62,11 @@ def judge_temporality(whole, short):
     loss = {name: estimate(_loss, whole[name], short[name]) for name in whole}
     least = min(loss, key=lambda name: loss[name].value)
     found = "; ".join(f"{lost} with “{name}”" for name, lost in loss.items())
-    needed = [lost.low >= 0.1 for lost in loss.values()]
-    return judged("T3", loss[least], f"It is {found}. All L steps are needed if a tenth or more is lost "
-                  "in every process.",
+    worth = STATEMENTS["T3"].bounds
+    needed = [worth.hold(lost) for lost in loss.values()]
+    return judged("T3", loss[least], f"It is {found}. All L steps are needed if {worth} is lost in every process.",
                   min(map(len, (*whole.values(), *short.values()))), reproduced=all(needed), partly=any(needed),
-                  possible=all(lost.high >= 0.1 for lost in loss.values()),
+                  possible=all(worth.allow(lost) for lost in loss.values()),
                   testable=all(estimate(np.mean, each).low > 0 for each in whole.values()))
 
 
@@ -77,22 +79,28 @@ def judge_tables(states, values, entries, filled):
     """
     value, entry, full = (estimate(np.mean, _powers(np.log(states), np.log(table)))
                           for table in (values, entries, filled))
-    fits = [abs(value.value - 1) <= 0.1, abs(entry.value - 2) <= 0.1]
+    square, linear = STATEMENTS["T4"].bounds, STATEMENTS["T4"].also["values"]
+    fits = [linear.low <= value.value <= linear.high, square.low <= entry.value <= square.high]
     return judged("T4", entry, f"For the values of Q-learning the exponent is {value}, and for the entries of the "
-                  f"model that differ from 0 it is {full}. The rule allows 0.1 more or less.", len(values),
+                  f"model that differ from 0 it is {full}. The rule allows {square} for the model and {linear} for the "
+                  "values.", len(values),
                   reproduced=all(fits), partly=any(fits), possible=False)
 
 
-def judge_real_time(load, delay):
+def judge_real_time(load, delay, beside=None):
     """Claim T5, from the load of each window of a run in real time, in cores, and the delay of each step.
 
     load: (windows,). delay: (windows, steps), the time from when a step was due until it was done, in steps.
+    beside: processes that were ready to run on a core of the machine, on average over the minute before the run, or
+        None if the machine does not count them.
     Returns a `Claim`.
     """
-    share, latest = estimate(np.mean, load), delay.max()
+    share, latest, latest_allowed = estimate(np.mean, load), delay.max(), STATEMENTS["T5"].also["steps late"].high
+    busy = "" if beside is None else f" The machine ran {beside:.2f} processes per core just before."
     return judged("T5", share, f"Steps done after the next one was due: {(delay > 1).sum()} of {delay.size}; the "
-                  f"latest was done {latest:.2f} steps after it was due. The rule allows 2.", len(load),
-                  reproduced=share.high < 1 and latest <= 2, partly=share.high < 1, possible=share.low < 1)
+                  f"latest was done {latest:.2f} steps after it was due. The rule allows {latest_allowed:g}.{busy}",
+                  len(load), reproduced=share.high < 1 and latest <= latest_allowed, partly=share.high < 1,
+                  possible=share.low < 1)
 
 
 def judge_more_maps(additions):
@@ -130,22 +138,33 @@ def sooner_with_more(more, fewer):
     return min((minutes_sooner(more, result, level) for result in fewer), key=lambda lead: lead.value)
 
 
-def judge_persistence(persistent, per_step, brownian):
-    """Claim T7, from `Result`s on one board.
+def judge_persistence(agents):
+    """Claim T7, from agents that learn at changes of cell, and the same that learn at every step.
 
-    persistent: agents that learn at changes of cell. per_step: {discount: agents that learn at every step}, otherwise
-    the same; the best one counts. brownian: Brownian motion.
+    agents: {which: (persistent, per_step, brownian)}. persistent: the `Result` of agents that learn at changes of cell.
+    per_step: {discount: that of agents that learn at every step}, otherwise the same; the best one counts. brownian:
+    Brownian motion on the same board.
     Returns a `Claim`.
     """
-    best = max(per_step, key=lambda name: per_step[name].rate(*FINAL).mean())
-    step, cell, chance = per_step[best].rate(*FINAL), persistent.rate(*FINAL), brownian.rate()
-    share = estimate(_share_of_lead, step, cell, chance)
-    lead = estimate(difference, cell, step)
-    return judged("T7", share, f"Learning at every step does best with {best}, and leads Brownian motion by "
-                  f"{lead_over_brownian(per_step[best], brownian)}; the lead of learning at changes of cell over "
-                  f"learning at every step is {lead}. Learning fails if it gains less than a tenth.",
-                  fewest_runs(persistent, *per_step.values()), reproduced=share.high < FAILS, partly=lead.low > 0,
-                  possible=share.low < FAILS, testable=learned(persistent, brownian))
+    share, lead, text = {}, {}, {}
+    for name, (persistent, per_step, brownian) in agents.items():
+        best = max(per_step, key=lambda discount: per_step[discount].rate(*FINAL).mean())
+        step, cell = per_step[best].rate(*FINAL), persistent.rate(*FINAL)
+        share[name] = estimate(_share_of_lead, step, cell, brownian.rate())
+        lead[name] = estimate(difference, cell, step)
+        text[name] = (f"With {name}, learning at every step does best with {best}, and leads Brownian motion by "
+                      f"{lead_over_brownian(per_step[best], brownian)}; the lead of learning at changes of cell over "
+                      f"it is {lead[name]}.")
+    counted = [name for name, (persistent, _, brownian) in agents.items() if learned(persistent, brownian)]
+    rest = ", ".join(name for name in agents if name not in counted)
+    left_out = f" Left out, since agents that learn at changes of cell gain nothing: {rest}." if rest and counted else ""
+    counted, testable = counted or list(agents), bool(counted)
+    most, fails = max(counted, key=lambda name: share[name].value), STATEMENTS["T7"].bounds
+    return judged("T7", share[most], f"{' '.join(text[name] for name in counted)}{left_out} Learning fails if it gains "
+                  f"{fails} of the other.", min(fewest_runs(one, *others.values()) for one, others, _ in agents.values()),
+                  reproduced=all(fails.hold(share[name]) for name in counted),
+                  partly=any(lead[name].low > 0 for name in counted),
+                  possible=all(fails.allow(share[name]) for name in counted), testable=testable)
 
 
 def judge_time_scale(resolutions, stays):
@@ -159,10 +178,11 @@ def judge_time_scale(resolutions, stays):
     width, time = -np.log(np.asarray(resolutions, float)[order]), np.log(stays)[:, order]
     power = estimate(np.mean, _powers(width, time))
     longer = [estimate(np.mean, each) for each in np.diff(time, axis=1).T]
-    return judged("T8", power, "1 means in proportion. The rule asks for more than 0.5, and for longer stays in every "
+    direct = STATEMENTS["T8"].bounds
+    return judged("T8", power, f"1 means in proportion. The rule asks for {direct}, and for longer stays in every "
                   "coarser map.", len(stays),
-                  reproduced=power.low > 0.5 and all(each.low > 0 for each in longer), partly=power.low > 0,
-                  possible=power.high > 0.5 and all(each.high > 0 for each in longer))
+                  reproduced=direct.hold(power) and all(each.low > 0 for each in longer), partly=power.low > 0,
+                  possible=direct.allow(power) and all(each.high > 0 for each in longer))
 
 
 def judge_latent_learning(agent, rivals, first_reward=11):

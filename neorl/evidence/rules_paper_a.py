@@ -5,12 +5,13 @@
 
 import numpy as np
 
-from neorl.evidence.statistics import (RECENT, difference, estimate, lead_over_best, lead_over_sum, least_of_most,
-                                       minutes_sooner, probability_of_improvement, rank_correlation, ratio, resets)
+from neorl.evidence.statements import STATEMENTS
+from neorl.evidence.statistics import (RECENT, difference, estimate, lead_over_best, lead_over_sum,
+                                       minutes_sooner, minutes_to_own_level, probability_of_improvement, quotient,
+                                       rank_correlation, ratio, resets)
 from neorl.evidence.verdict import EARLY, FINAL, MIDDLE, fewest_runs, judged, learned
 
 LENGTH = 150_000  # of the paper's runs, in steps
-NEAR_3_5 = (2.5, 5.0)  # 3.5 within a factor of the square root of 2
 
 
 def judge_single_layer(by_resolution, brownian):
@@ -25,14 +26,14 @@ def judge_single_layer(by_resolution, brownian):
     mean = {n: values.mean() for n, values in rate.items()}
     best = max(mean, key=mean.get)
 
-    boards = estimate(np.mean, resets(brownian) * LENGTH / brownian.steps)
-    score, room = estimate(np.mean, brownian.rate()), 0.1 * mean[best]
-    none, around_0 = boards.high < 1, max(-score.low, score.high) < room
-    a1 = judged("A1", boards, f"Brownian motion scores {score} per second, and the best agent, N{best}, "
-                f"{mean[best]:.2f}. “Around 0” is read as within a tenth of that, and no reset as fewer "
-                "than one in 150,000 steps.", runs,
-                reproduced=none and around_0, partly=none or around_0,
-                possible=boards.low < 1 and score.low < room and score.high > -room)
+    a1, share = STATEMENTS["A1"], LENGTH / brownian.steps
+    score, boards = estimate(np.mean, brownian.totals * share), estimate(np.mean, resets(brownian) * share)
+    around_0, none = a1.bounds, a1.also["resets"]
+    a1 = judged("A1", score, f"“Around 0” is read as {around_0}. In as many steps of 1/{brownian.world.fps} s it resets "
+                f"the board {boards} times; no reset is read as {none}.", runs,
+                reproduced=around_0.hold(score) and none.hold(boards),
+                partly=around_0.hold(score) or none.hold(boards),
+                possible=around_0.allow(score) and none.allow(boards))
 
     lead = {n: estimate(difference, values, brownian.rate()) for n, values in rate.items()}
     some_learned = any(each.low > 0 for each in lead.values())
@@ -49,11 +50,20 @@ def judge_single_layer(by_resolution, brownian):
                 "if it is above 0, the claim holds in part.", runs, reproduced=ahead.low > 0, partly=ends.low > 0,
                 possible=ahead.high > 0, testable=some_learned)
 
-    spread, pair = estimate(least_of_most, *rate.values()), estimate(ratio, rate[70], rate[10])
-    a5 = judged("A5", spread, f"N70 accumulates {pair} times as much as N10. “Comparable” is read as half or more of "
-                "the most, and for these two alone as between a half and two.", runs, reproduced=spread.low >= 0.5,
-                partly=0.5 <= pair.low and pair.high <= 2, possible=spread.high >= 0.5, testable=some_learned)
+    order = sorted(by_resolution)
+    spread = minutes_to_own_level(*by_resolution.values(), share=0.5, of=_least_of_most)
+    pair = minutes_to_own_level(by_resolution[70], by_resolution[10], share=0.5, of=quotient)
+    took = "; ".join(f"N{n} {minutes_to_own_level(by_resolution[n], share=0.5)}" for n in order)
+    comparable, near = STATEMENTS["A5"].bounds, STATEMENTS["A5"].also["N70 to N10"]
+    a5 = judged("A5", spread, f"Minutes of the mean over runs: {took}. N70 takes {pair} times as long as N10. "
+                f"“Comparable” is read as {comparable}, and for these two alone as {near}.", runs,
+                reproduced=comparable.hold(spread), partly=near.hold(pair), possible=comparable.allow(spread),
+                testable=some_learned)
     return [a1, a2, _judge_saturation(by_resolution, runs, some_learned), a4, a5]
+
+
+def _least_of_most(*times):
+    return quotient(np.min(times, axis=0), np.max(times, axis=0))
 
 
 def _judge_saturation(by_resolution, runs, some_learned):
@@ -97,12 +107,11 @@ def judge_multiple_layers(by_resolution, together, brownian):
 
     gain = estimate(ratio, all_final, final[7])
     sooner = minutes_sooner(together, by_resolution[7], 0.5 * final[7].mean())
-    room = RECENT * together.seconds / 60
-    a7 = judged("A7", gain, f"Near 3.5 is read as from {NEAR_3_5[0]} to {NEAR_3_5[1]}. At half the final level of N7, "
+    room, near = RECENT * together.seconds / 60, STATEMENTS["A7"].bounds
+    a7 = judged("A7", gain, f"Near {near.number:g} is read as {near}. At half the final level of N7, "
                 f"their lead over it is {sooner} minutes; as fast is read as at most {room:.2f} minutes later.", runs,
-                reproduced=NEAR_3_5[0] <= gain.low and gain.high <= NEAR_3_5[1] and sooner.low >= -room,
-                partly=gain.low > 1,
-                possible=gain.high >= NEAR_3_5[0] and gain.low <= NEAR_3_5[1] and sooner.high >= -room,
+                reproduced=near.hold(gain) and sooner.low >= -room, partly=gain.low > 1,
+                possible=near.allow(gain) and sooner.high >= -room,
                 testable=learned(by_resolution[7], brownian))
 
     level = 0.5 * final[best].mean()

@@ -5,13 +5,10 @@
 
 import numpy as np
 
-from neorl.evidence.statistics import (difference, estimate, lead_over_best, minutes_sooner, points,
-                                       probability_of_improvement, ratio, resets, time_to_final_level)
+from neorl.evidence.statements import STATEMENTS
+from neorl.evidence.statistics import (difference, estimate, lead_over_best, minutes_sooner, minutes_to_own_level,
+                                       points, ratio, resets)
 from neorl.evidence.verdict import AFTER_TURN, FINAL, fewest_runs, judged, learned
-
-COMPARABLE = (0.8, 1.25)
-BOTH, PLACE = (0.44, 0.69), (0.23, 0.36)  # reward per second: the paper's 0.55 and 0.29 within a factor of 1.25
-PER_BOARD = (1.35, 1.65)  # the paper's 1.5 points, a tenth more or less
 
 
 def judge_modalities(place, objects, both, brownian):
@@ -26,21 +23,21 @@ def judge_modalities(place, objects, both, brownian):
     knows_place, knows_objects = (learned(result, brownian) for result in (place, objects))
 
     level, efficiency = estimate(ratio, ovc, pc), estimate(ratio, objects.rate(), place.rate())
-    comparable, no_loss = _within(level, COMPARABLE), efficiency.low >= COMPARABLE[0]
-    b1 = judged("B1", level, f"Over the whole run the ratio is {efficiency}. “Comparable” is read as from 0.8 to "
-                "1.25, and no loss in sample efficiency as 0.8 or more over the whole run.", runs,
-                reproduced=comparable and no_loss, partly=comparable or no_loss,
-                possible=_touches(level, COMPARABLE) and efficiency.high >= COMPARABLE[0], testable=knows_place)
+    comparable, no_loss = STATEMENTS["B1"].bounds, STATEMENTS["B1"].also["whole run"]
+    b1 = judged("B1", level, f"Over the whole run the ratio is {efficiency}. “Comparable” is read as {comparable}, and "
+                f"no loss in sample efficiency as {no_loss} over the whole run.", runs,
+                reproduced=comparable.hold(level) and no_loss.hold(efficiency),
+                partly=comparable.hold(level) or no_loss.hold(efficiency),
+                possible=comparable.allow(level) and no_loss.allow(efficiency), testable=knows_place)
 
     reward, alone = estimate(np.mean, joint), estimate(np.mean, pc)
-    lead = estimate(lead_over_best, joint, pc, ovc)
-    chance = probability_of_improvement(joint, pc)
-    b3 = judged("B3", reward, f"Place cells earn {alone}, object-vector cells {estimate(np.mean, ovc)}; the lead over "
-                f"the better one is {lead}. A run of both beats one of place cells with probability {chance}. The rule "
-                "allows a factor of 1.25.", runs,
-                reproduced=_within(reward, BOTH) and _within(alone, PLACE) and lead.low > 0, partly=lead.low > 0,
-                possible=_touches(reward, BOTH) and _touches(alone, PLACE) and lead.high > 0, testable=knows_place)
+    near, near_alone = STATEMENTS["B3"].bounds, STATEMENTS["B3"].also["place cells"]
+    b3 = judged("B3", reward, f"Place cells earn {alone}. The rule allows {near} for both and {near_alone} for place "
+                "cells.", runs, reproduced=near.hold(reward) and near_alone.hold(alone),
+                partly=near.hold(reward) or near_alone.hold(alone),
+                possible=near.allow(reward) and near_alone.allow(alone))
 
+    lead = estimate(lead_over_best, joint, pc, ovc)
     half = 0.5 * max(pc.mean(), ovc.mean())
     sooner = {"place cells": minutes_sooner(both, place, half),
               "object-vector cells": minutes_sooner(both, objects, half)}
@@ -80,19 +77,18 @@ def judge_pace(place, objects, both, brownian):
     brownian: that of Brownian motion on the same board.
     Returns a `Claim`.
     """
-    minutes = {name: time_to_final_level(result) / 60
-               for name, result in (("place cells", place), ("object-vector cells", objects))}
-    quick = time_to_final_level(both) / 60
-    ahead = {name: estimate(difference, quick, slow) for name, slow in minutes.items()}
-    took, slow = estimate(np.mean, quick), {name: estimate(np.mean, each) for name, each in minutes.items()}
-    text = "; ".join(f"{name} take {slow[name]} (both, less these: {ahead[name]})" for name in minutes)
-    pc = slow["place cells"]
-    return judged("B4", took, f"{text[0].upper()}{text[1:]}. The rule allows twice the thesis's time for both, and "
-                  "half of it for place cells.", fewest_runs(place, objects, both),
-                  reproduced=took.high <= 30 and pc.low >= 80 and all(each.high < 0 for each in ahead.values()),
+    others = {"place cells": place, "object-vector cells": objects}
+    took, slow = minutes_to_own_level(both), {name: minutes_to_own_level(each) for name, each in others.items()}
+    ahead = {name: minutes_to_own_level(both, each, of=np.subtract) for name, each in others.items()}
+    text = "; ".join(f"{name} take {slow[name]} (both, less these: {ahead[name]})" for name in others)
+    quick, late, pc = STATEMENTS["B4"].bounds, STATEMENTS["B4"].also["place cells"], slow["place cells"]
+    return judged("B4", took, f"{text[0].upper()}{text[1:]}. The rule allows {quick} for both, and {late} for place "
+                  "cells.", fewest_runs(place, objects, both),
+                  reproduced=quick.hold(took) and late.hold(pc) and all(each.high < 0 for each in ahead.values()),
                   partly=any(each.high < 0 for each in ahead.values()),
-                  possible=took.low <= 30 and pc.high >= 80 and all(each.low < 0 for each in ahead.values()),
-                  testable=learned(place, brownian) and learned(both, brownian) and both.seconds >= 60 * 160)
+                  possible=quick.allow(took) and late.allow(pc) and all(each.low < 0 for each in ahead.values()),
+                  testable=(learned(place, brownian) and learned(both, brownian)
+                            and both.seconds >= 60 * late.number))
 
 
 def judge_points(result):
@@ -102,14 +98,14 @@ def judge_points(result):
     Returns a `Claim`.
     """
     boards = resets(result)
-    brought = estimate(ratio, points(result), boards)
-    return judged("B5", brought, f"A run resets its board {estimate(np.mean, boards)} times. The rule allows a tenth "
-                  "more or less.", result.runs, reproduced=_within(brought, PER_BOARD), partly=False,
-                  possible=_touches(brought, PER_BOARD), testable=boards.sum() > 0)
+    brought, near = estimate(ratio, points(result), boards), STATEMENTS["B5"].bounds
+    return judged("B5", brought, f"A run resets its board {estimate(np.mean, boards)} times. The rule allows {near}.",
+                  result.runs, reproduced=near.hold(brought), partly=False, possible=near.allow(brought),
+                  testable=boards.sum() > 0)
 
 
 def judge_joining(joined, place, brownian):
-    """Claim B7 of paper B, from `Result`s of runs of the same length.
+    """Demonstration B7, from `Result`s of runs of the same length.
 
     joined: agents of place cells that gain object-vector cells at half-time. place: agents that keep place cells alone.
     brownian: Brownian motion on the same board.
@@ -117,16 +113,8 @@ def judge_joining(joined, place, brownian):
     """
     gain = estimate(difference, joined.rate(*FINAL), place.rate(*FINAL))
     kept = estimate(ratio, joined.rate(*AFTER_TURN), place.rate(*AFTER_TURN))
-    helps, costs_nothing = gain.low > 0, kept.low >= 0.9
+    helps, nothing_lost = gain.low > 0, STATEMENTS["B7"].also["kept"]
     return judged("B7", gain, f"In the fortieth of the run after the change they earn {kept} times what agents without "
-                  "it earn; the rule allows a tenth less.", fewest_runs(joined, place),
-                  reproduced=helps and costs_nothing, partly=helps or costs_nothing,
-                  possible=gain.high > 0 and kept.high >= 0.9, testable=learned(place, brownian))
-
-
-def _within(found, borders):
-    return borders[0] <= found.low and found.high <= borders[1]
-
-
-def _touches(found, borders):
-    return borders[0] <= found.high and found.low <= borders[1]
+                  f"it earn; the rule allows {nothing_lost}.", fewest_runs(joined, place),
+                  reproduced=helps and nothing_lost.hold(kept), partly=helps or nothing_lost.hold(kept),
+                  possible=gain.high > 0 and nothing_lost.allow(kept), testable=learned(place, brownian))

@@ -7,21 +7,55 @@ Nothing here is computed. `neorl.evidence.claims` judges the claims, `neorl.evid
 there is a "…".
 """
 
-from typing import NamedTuple
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 
-class Statement(NamedTuple):
+@dataclass(frozen=True)
+class Bounds:
+    """The interval of an estimate that agrees with a claim.
+
+    low, high: its ends, which may be infinite. number: the thesis's own, if it gives one.
+    """
+
+    low: float = -math.inf
+    high: float = math.inf
+    number: float | None = None
+
+    def hold(self, found):
+        """Whether the interval of an `Estimate` lies within."""
+        return self.low <= found.low and found.high <= self.high
+
+    def allow(self, found):
+        """Whether the interval of an `Estimate` reaches inside, so that more runs might show the claim."""
+        return self.low <= found.high and found.low <= self.high
+
+    def __str__(self):
+        if math.isinf(self.low) or math.isinf(self.high):
+            return f"{self.low:g} or more" if math.isinf(self.high) else f"{self.high:g} or less"
+        return f"from {self.low:g} to {self.high:g}".replace("-", "−")
+
+
+@dataclass(frozen=True)
+class Statement:
     """One claim, as stated before any result."""
 
     place: str  # of the quotation, in the thesis
     quotation: str  # the words that the rule judges
     text: str  # the claim in our words
     statistic: str
-    thesis: str  # its number
+    thesis: str  # its number, in words
     figure: str  # the label of the figure of this book that shows it
     rule: str  # the function of `neorl.evidence.claims` that judges it
-    borders: tuple[float, ...] = (0.0,)  # the thresholds that the rule sets for our number
+    bounds: Bounds = Bounds(low=0.0)  # of our number
+    also: Mapping[str, Bounds] = field(default_factory=dict)  # of other numbers that the rule compares
     demonstration: bool = False  # an experiment of this book, shown beside the claims and not counted among them
+
+    @property
+    def borders(self):
+        """The finite ends of the bounds of our number."""
+        return tuple(end for end in (self.bounds.low, self.bounds.high) if math.isfinite(end))
 
 
 ONE_MAP, MAPS = "paper A, Results, Single layer", "paper A, Results, Multiple resolutions"
@@ -34,8 +68,10 @@ STATEMENTS = {
         "Brownian motion seems incapable of achieving a single board reset since the accumulated score fluctuates "
         "around 0 for the length of the experiment.",
         "Brownian motion scores about 0 and never resets the board",
-        "Board resets of the control in 150,000 steps",
-        "0", "fig-accumulated", "judge_single_layer", (1.0,)),
+        "Accumulated score of the control in 150,000 steps",
+        "0", "fig-accumulated", "judge_single_layer",
+        Bounds(-5.0, 5.0, number=0.0),  # less than a single reset pays, since the absence of resets is inferred from it
+        also={"resets": Bounds(high=1.0)}),
     "A2": Statement(
         ONE_MAP,
         "All neoRL agents perform better than control.",
@@ -60,8 +96,8 @@ STATEMENTS = {
         ONE_MAP,
         "it is worth noting how all neoRL agents are comparable in learning speed.",
         "All single resolutions learn about equally fast, though N70 has 49 times the states of N10",
-        "Smallest accumulated reward of a resolution, divided by the largest",
-        "comparable", "fig-accumulated", "judge_single_layer", (0.5,)),
+        "Shortest time in which a resolution reaches half of its own final level, divided by the longest",
+        "comparable", "fig-accumulated", "judge_single_layer", Bounds(low=0.5), also={"N70 to N10": Bounds(0.5, 2.0)}),
     "A6": Statement(
         MAPS,
         "the multi-res neoRL agent learns quicker, to higher proficiency, than the sum of its parts.",
@@ -74,7 +110,8 @@ STATEMENTS = {
         "without increasing training time.",
         "Together they earn 3.5 times as much as N7 and learn at least as fast",
         "Final reward per second together, divided by that of N7",
-        "3.5", "fig-proficiency", "judge_multiple_layers", (2.5, 5.0)),
+        "3.5", "fig-proficiency", "judge_multiple_layers",
+        Bounds(2.5, 5.0, number=3.5)),  # within a factor of the square root of 2
     "A8": Statement(
         "section 4.3.1",
         "The multi-resolution neoRL agent across multiple NRES sets performed better than single-resolution neoRL "
@@ -87,7 +124,7 @@ STATEMENTS = {
         "There is no loss in sample efficiency when utilizing the OVC modality compared to PC modality.",
         "Object-vector agents match place-cell agents",
         "Final reward per second of object-vector cells, divided by that of place cells",
-        "comparable", "fig-modal", "judge_modalities", (0.8, 1.25)),
+        "comparable", "fig-modal", "judge_modalities", Bounds(0.8, 1.25), also={"whole run": Bounds(low=0.8)}),
     "B2": Statement(
         GENERAL,
         "The multi-res neoRL agent performs better than mono-res neoRL agents for both the PC and the OVC modality.",
@@ -100,21 +137,23 @@ STATEMENTS = {
         "reaches 0.29 [R/s].",
         "Both modalities earn 0.55 per second, place cells alone 0.29",
         "Final reward per second of both modalities",
-        "0.55, and 0.29 of place cells", "fig-modal", "judge_modalities", (0.44, 0.69)),
+        "0.55, and 0.29 of place cells", "fig-modal", "judge_modalities",
+        Bounds(0.44, 0.69, number=0.55), also={"place cells": Bounds(0.23, 0.36, number=0.29)}),  # a factor of 1.25
     "B4": Statement(
         BOTH,
         "The multi-modal neoRL agent reaches final proficiency after 15 min, whereas the PC neoRL agent uses more "
         "than 160 min.",
         "Agents with both modalities reach their final level after 15 minutes, place cells after more than 160",
-        "Simulated minutes until both reach their final level",
-        "15", "fig-modal", "judge_pace", (30.0,)),
+        "Simulated minutes until the mean of both reaches nine tenths of its final level",
+        "15", "fig-modal", "judge_pace",
+        Bounds(high=30.0, number=15.0), also={"place cells": Bounds(low=80.0, number=160.0)}),  # a factor of 2
     "B5": Statement(
         "paper B, section 3",
         "the agent must catch the last green in a board full of red before the board can be reset and continue beyond "
         "(on average) 1.5 points per reset.",
         "A board of three creeps yields 1.5 points per reset",
         "Green creeps less red ones, taken between resets",
-        "1.5", "fig-points", "judge_points", (1.35, 1.65)),
+        "1.5", "fig-points", "judge_points", Bounds(1.35, 1.65, number=1.5)),
     "B6": Statement(
         "paper B, section 4",
         "neoRL navigation learns quicker, to higher proficiency, when more information is available to an agent.",
@@ -127,14 +166,14 @@ STATEMENTS = {
         "modules",
         "A modality added half-way helps, and costs nothing already learned",
         "Final lead in reward per second over agents without it",
-        "> 0", "fig-joining", "judge_joining", demonstration=True),
+        "> 0", "fig-joining", "judge_joining", also={"kept": Bounds(low=0.9)}, demonstration=True),
     "C1": Statement(
         NETWORKS,
         "The neoRL network from illustration 4a improves navigational proficiency over time; however … a single "
         "desire vector … becomes too simple for proficient navigation.",
         "Network A improves over time but stays weak",
         "Final reward per second of A, less its early one",
-        "> 0", "fig-proficiency-networks", "judge_networks"),
+        "> 0", "fig-proficiency-networks", "judge_networks", also={"A / C": Bounds(high=0.5)}),
     "C2": Statement(
         NETWORKS,
         "Experiment b demonstrates the effect of separating desires according to valence, resulting in the increased "
@@ -154,14 +193,14 @@ STATEMENTS = {
         "recursive desires drastically improve the agent's navigational proficiency.",
         "Recursion (D) improves on C drastically",
         "Final reward per second of D, divided by that of C",
-        "≫ 1", "fig-proficiency-networks", "judge_networks", (1.5,)),
+        "≫ 1", "fig-proficiency-networks", "judge_networks", Bounds(low=1.5)),
     "C5": Statement(
         NETWORKS,
-        "any attempt on finding RL or AI solutions capable of allocentric Euclidean navigation in real-time has "
-        "failed.",
+        "no comparison has been made with alternative approaches for control … Still, any attempt on finding RL or AI "
+        "solutions capable of allocentric Euclidean navigation in real-time has failed.",
         "No other method of reinforcement learning or AI navigates this board in real time",
         "Final reward per second of the best alternative, divided by that of the thesis's best agent",
-        "none succeeds", "fig-alternatives-curves", "judge_alternatives", (1.0,)),
+        "none succeeds", "fig-alternatives-curves", "judge_alternatives", Bounds(high=1.0)),
     "T1": Statement(
         "paper A, The Control Problem by Superposition",
         "In the neoRL approach, moving rewards or changing agent priorities during an agent's life-time does not "
@@ -169,33 +208,35 @@ STATEMENTS = {
         "Moving or revaluing elements needs no retraining",
         "Red creeps per minute in the fortieth of the run after they become desired, divided by the same agents' "
         "final rate",
-        "1", "fig-revalued", "judge_changes", (0.8,)),
+        "1", "fig-revalued", "judge_changes", Bounds(low=0.8), also={"moved": Bounds(low=0.8)}),
     "T2": Statement(
         "section 4.4",
         "Assessing additional NRES maps in the same agent … only results in a linear increase in computation.",
         "Cost grows linearly with maps",
         "Cost of all maps together, divided by the sum of their separate costs",
-        "1", "fig-cost", "judge_cost", (1.1,)),
+        "1", "fig-cost", "judge_cost", Bounds(high=1.1, number=1.0)),
     "T3": Statement(
         "section 3.4.2, observation 1",
         "Let a temporal mechanism require knowledge about system states at L separate time steps … The full set of "
         "Markov states required to represent the temporal dynamics becomes O(Ψ^L)",
-        "The number of Markov states grows exponentially with the steps that matter: no state can be spared",
+        "The number of Markov states grows exponentially with the steps that matter, which is true by counting; no "
+        "state can be spared",
         "Smallest share of its reward above chance that an agent loses by remembering one step less",
-        "> 0", "fig-3-window", "judge_temporality", (0.1,)),
+        "> 0", "fig-3-window", "judge_temporality", Bounds(low=0.1)),
     "T4": Statement(
         "section 3.1",
         "Learning the full transition model increases the task according to |S|²·|A|, while Q-learning only requires "
         "the value for each state-action pairs, |S|·|A|.",
-        "Q-learning learns S·A values, a transition model S²·A",
+        "Q-learning learns S·A values, a transition model S²·A, which is true by counting",
         "Exponent of S in the number of entries of the model",
-        "2, and 1 for Q-learning", "fig-3-tables", "judge_tables", (1.9, 2.1)),
+        "2, and 1 for Q-learning", "fig-3-tables", "judge_tables",
+        Bounds(1.9, 2.1, number=2.0), also={"values": Bounds(0.9, 1.1, number=1.0)}),
     "T5": Statement(
         "paper B, section 3",
         "All execution runs smoothly on a single CPU core",
-        "One core keeps up with real time",
+        "One core keeps up with real time, under the load that the machine has besides",
         "Share of a core at 50 steps per second",
-        "< 1", "fig-4-realtime", "judge_real_time", (1.0,)),
+        "< 1", "fig-4-realtime", "judge_real_time", Bounds(high=1.0), also={"steps late": Bounds(high=2.0)}),
     "T6": Statement(
         "section 4.4",
         "Assessing additional NRES maps in the same agent improves navigational capabilities significantly, does not "
@@ -207,47 +248,50 @@ STATEMENTS = {
         "chapter 4, introduction",
         "following a school other than temporal-difference learning is required for neoRL.",
         "Persistence is needed: learning at every step fails",
-        "Gain of learning at every step over Brownian motion, divided by the gain of learning at changes of cell",
-        "0", "fig-persistence", "judge_persistence", (0.1,)),
+        "Gain of learning at every step over Brownian motion, divided by the gain of learning at changes of cell, of "
+        "the agents for which it is greatest",
+        "0", "fig-persistence", "judge_persistence", Bounds(high=0.1)),
     "T8": Statement(
         "section 4.4",
         "the direct relation between larger receptive fields and a slower time scale is prominent.",
         "Larger receptive fields go with a slower time scale",
         "Exponent with which the stay in a field grows with its width",
-        "direct relation", "fig-time-scale", "judge_time_scale", (0.5,)),
+        "direct relation", "fig-time-scale", "judge_time_scale", Bounds(low=0.5)),
     "G1": Statement(
         "paper B, section 1",
         "Navigation has to be efficient (require few interactions for learning new behaviors)",
         "Efficient: after one trial at a new place, agents find it again sooner than Q-learning on the same cells",
         "Seconds of the second trial at a new place in a water maze, divided by those of Q-learning",
-        "few", "fig-spaces-pool", "judge_efficiency", (0.5, 1.0), demonstration=True),
+        "few", "fig-spaces-pool", "judge_efficiency",
+        Bounds(high=0.5), also={"partly": Bounds(high=1.0)}, demonstration=True),
     "G2": Statement(
         "paper B, section 3",
         "it is crucial that NRES-oriented navigation can operate based on different Euclidean spaces",
         "General: with one learning rule, agents beat chance in every other space that was tried",
         "Smallest probability, over the worlds, that a run of the agent beats a run of random actions",
-        "> 0.5", "fig-spaces-all", "judge_generality", (0.5,), demonstration=True),
+        "> 0.5", "fig-spaces-all", "judge_generality", Bounds(low=0.5), demonstration=True),
     "G3": Statement(
         "paper B, section 3",
         "NeoRL navigation must be … compositional across conceptual components, without any significant decline in "
         "learning efficiency.",
         "Compositional: a map for each feature reaches any combination as directly as one map of both",
         "Steps to a point of a space of two features with a map for each, divided by those with one map of both",
-        "1", "fig-spaces-birds", "judge_composition", (1.25, 2.0), demonstration=True),
+        "1", "fig-spaces-birds", "judge_composition",
+        Bounds(high=1.25), also={"partly": Bounds(high=2.0)}, demonstration=True),
     "G4": Statement(
         "chapter 5, on paper B",
         "The neoRL framework is general across NRES modalities, compositional and incremental by additional neoRL "
         "modules",
         "Incremental: a second map added half-way helps a vessel, and costs nothing already learned",
         "Final lead in reward per minute over agents without it",
-        "> 0", "fig-spaces-vessel", "judge_extension", demonstration=True),
+        "> 0", "fig-spaces-vessel", "judge_extension", also={"kept": Bounds(low=0.9)}, demonstration=True),
     "H1": Statement(
         "section 2.1.2, on figure 2.2",
         "When later motivated by food, however, the rats in the initially unrewarded group started to perform better "
         "than all other subjects.",
         "Latent learning: animals first rewarded on day 11 overtake those rewarded throughout",
         "Errors per day after the first reward, less those of animals rewarded throughout",
-        "fewer", "fig-2-errors", "judge_latent_learning", demonstration=True),
+        "fewer", "fig-2-errors", "judge_latent_learning", Bounds(high=0.0), demonstration=True),
 }
 
 CLAIMS = tuple(name for name, statement in STATEMENTS.items() if not statement.demonstration)

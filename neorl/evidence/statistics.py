@@ -80,12 +80,6 @@ def lead_over_sum(a, *others, axis):
     return a.mean(axis) - sum(other.mean(axis) for other in others)
 
 
-def least_of_most(*samples, axis):
-    """The least of the means divided by the greatest, for `estimate`."""
-    means = np.array([sample.mean(axis) for sample in samples])
-    return quotient(means.min(axis=0), means.max(axis=0))
-
-
 def rank_correlation(*samples, axis):
     """Spearman's correlation of the samples' order with their values, for `estimate`; scipy's takes one pair at a time.
     """
@@ -243,6 +237,38 @@ def time_to_final_level(result: Result, share: float = 0.9) -> NDArray[np.float6
     """
     final, share = checks.instance("result", result, Result).rate(0.8, 1.0), checks.real("share", share, 0, 1)
     return _time_to_level(result, np.where(final > 0, share * final, np.inf))
+
+
+def minutes_to_own_level(*results: Result, share: float = 0.9, of: Callable | None = None) -> Estimate:
+    """The simulated minutes until the mean over a result's runs reaches `share` of its own final level.
+
+    Single runs reach a level early by chance; their mean does not. The final level is the mean reward per second in the
+    last fifth of the run, and is reached as in `minutes_sooner`; a level that is not positive is never reached.
+
+    results: one `Result`, or several with `of`, a function of the minutes of each, arrays of one shape, such as their
+    quotient. share: from 0 to 1. Returns an `Estimate`, from resampled runs. Raises ValueError for anything else.
+    """
+    share = checks.real("share", share, 0, 1)
+    if not results or (of is None and len(results) > 1):
+        raise ValueError(f"results has {len(results)}, allowed is one, or several with a function `of` their minutes")
+    minutes = [_minutes_to_own_level(checks.instance("results", each, Result), share) for each in results]
+
+    def statistic(*chosen, axis):
+        times = [each(runs) for each, runs in zip(minutes, chosen)]
+        return of(*times) if of else times[0]
+
+    return estimate(statistic, *(np.arange(result.runs) for result in results))
+
+
+def _minutes_to_own_level(result, share):
+    """A function of the runs of each resample, int (…, runs), for `minutes_to_own_level`."""
+    (rates, ends), final = _thinned(*_recent_rates(result)), result.rate(0.8, 1.0)[:, None]
+
+    def minutes(chosen):
+        level = share * _mean_of_runs(final, chosen)
+        return _first((_mean_of_runs(rates, chosen) >= level) & (level > 0), ends, result.seconds) / 60
+
+    return minutes
 
 
 def mean_band(curves: ArrayLike, rng: Rng = 0) -> Any:

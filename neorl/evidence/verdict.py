@@ -4,8 +4,8 @@
    results, and is the same for every reading of the thesis.
 2. *Reproduced* and *partly* need evidence: 95 % intervals that exclude the contrary, of the whole claim or of a part of
    it that the rule names. An interval that merely leaves room for a claim proves nothing.
-3. An agent has *learned* if it finally earns more than Brownian motion on the same board. A claim about learned
-   behaviour is *not testable* where agents have learned nothing.
+3. An agent has *learned* if it finally earns more than Brownian motion on the same board. A claim that presupposes
+   learning is *not testable* where agents have learned nothing; a claim that agents improve fails there.
 4. With fewer than 10 runs per condition there is *no verdict*.
 
 Rewards are per simulated second and means over runs; early is the first tenth of a run, final the last fifth.

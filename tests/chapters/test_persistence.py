@@ -7,7 +7,7 @@ import pytest
 
 from neorl import Result, WaterWorld, brownian
 from neorl.chapters.chapter_4 import persistence
-from neorl.chapters.chapter_4.persistence import BROWNIAN, CHANGES
+from neorl.chapters.chapter_4.persistence import AGENTS, BROWNIAN, CHANGES, PLACES
 from neorl.evidence.priors import TO_THE_LETTER
 from neorl.evidence.reading import conditions
 
@@ -22,8 +22,8 @@ def made_up(first, last=None, runs=12, bins=100):
 
 
 def results(changes=1.0, step=0.2):
-    return {CHANGES: made_up(0.5, changes), BROWNIAN: made_up(0.1, 0.9), "γ = 0.8": made_up(0.1),
-            "γ = 0.98": made_up(0.5, step)}
+    return {PLACES: {CHANGES: made_up(0.5, changes), BROWNIAN: made_up(0.1, 0.9), "γ = 0.8": made_up(0.1),
+                     "γ = 0.98": made_up(0.5, step)}}
 
 
 @pytest.fixture
@@ -36,17 +36,20 @@ def lived(monkeypatch):
 
 def test_agents_differ_in_their_temporal_driver_alone(lived):
     reading, found = lived
-    assert list(found) == [CHANGES, BROWNIAN, "γ = 0.8", "γ = 0.9779", "γ = 0.9955"]
-    made = conditions(reading, 150_000, 30, 3, ["layers"])
-    assert found[CHANGES] == made["layers"] and found[BROWNIAN] == made["brownian", 8]
-    step = found["γ = 0.9779"]
-    assert step.agent.learning.update_on == "step" and step.agent.learning.discount**10 == pytest.approx(0.8)
-    assert replace(step.agent, learning=found[CHANGES].agent.learning) == found[CHANGES].agent
+    assert list(found) == list(AGENTS)
+    made = conditions(reading, 150_000, 30, 3, ["layers", "modal"])
+    for which, (key, control) in AGENTS.items():
+        each = found[which]
+        assert list(each) == [CHANGES, BROWNIAN, "γ = 0.8", "γ = 0.9779", "γ = 0.9955"]
+        assert each[CHANGES] == made[key] and each[BROWNIAN] == made[control]
+        step = each["γ = 0.9779"]
+        assert step.agent.learning.update_on == "step" and step.agent.learning.discount**10 == pytest.approx(0.8)
+        assert replace(step.agent, learning=each[CHANGES].agent.learning) == each[CHANGES].agent
 
 
 def test_learning_at_every_step_has_as_many_runs_as_a_verdict_needs(lived):
     _, found = lived
-    assert (found[CHANGES].runs, found["γ = 0.8"].runs) == (30, 10)
+    assert (found[PLACES][CHANGES].runs, found[PLACES]["γ = 0.8"].runs) == (30, 10)
 
 
 def test_the_best_discount_counts():
@@ -59,13 +62,13 @@ def test_rewards_are_reported_beside_the_share_of_the_gain_that_is_kept():
     lived = {"to the letter": results(), "calibrated": results(step=0.5)}
     text = persistence.in_words(lived, {name: persistence.judge(each) for name, each in lived.items()})
     rows = [line for line in text.splitlines() if line.startswith("|")]
-    assert rows[0] == "| Learns at | to the letter | calibrated |"
-    assert rows[2] == "| changes of cell | 1.00 [1.00, 1.00] | 1.00 [1.00, 1.00] |"
-    assert rows[3] == "| nothing: Brownian motion | 0.26 [0.26, 0.26] | 0.26 [0.26, 0.26] |"  # over the whole run
-    assert rows[5] == "| every step | 0.20 [0.20, 0.20] (γ = 0.98) | 0.50 [0.50, 0.50] (γ = 0.98) |"
+    assert rows[0] == "| Agent | Learns at | to the letter | calibrated |"
+    assert rows[2] == "| place cells | changes of cell | 1.00 [1.00, 1.00] | 1.00 [1.00, 1.00] |"
+    assert rows[3] == "| place cells | nothing: Brownian motion | 0.26 [0.26, 0.26] | 0.26 [0.26, 0.26] |"  # over the whole run
+    assert rows[5] == "| place cells | every step | 0.20 [0.20, 0.20] (γ = 0.98) | 0.50 [0.50, 0.50] (γ = 0.98) |"
     assert text.splitlines()[-1] == (
-        "To the letter, learning at every step gains −0.08 [−0.08, −0.08] times as much as learning at changes of "
-        "cell; calibrated, learning at every step gains 0.32 [0.32, 0.32] times as much as learning at changes of "
+        "To the letter, learning at every step gains up to −0.08 [−0.08, −0.08] times as much as learning at changes of "
+        "cell; calibrated, learning at every step gains up to 0.32 [0.32, 0.32] times as much as learning at changes of "
         "cell.")
 
 

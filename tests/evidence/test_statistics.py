@@ -1,14 +1,15 @@
 """Statistics, tested on cases worked out by hand and on simulated data."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy import stats
 
 from neorl import Result, WaterWorld, place_cells
-from neorl.evidence.statistics import (Estimate, estimate, lead_over_best, lead_over_sum, least_of_most, mean_band,
-                                       minutes_sooner, points, probability_of_improvement, rank_correlation, ratio,
+from neorl.evidence.statistics import (Estimate, estimate, lead_over_best, lead_over_sum, mean_band,
+                                       minutes_sooner, minutes_to_own_level, points, probability_of_improvement, rank_correlation, ratio,
                                        resets, time_to_final_level, time_to_level, tolerance_band, tolerated_share)
 
 
@@ -124,6 +125,20 @@ def test_the_time_to_the_final_level_is_that_of_each_run():
     np.testing.assert_allclose(time_to_level(result, [9, 9, 9, -9]), [80.0, 80.0, 80.0, 2.0])
 
 
+def test_the_mean_reaches_a_level_later_than_the_luckiest_run():
+    """Half of the runs are lucky once, early; the mean only reaches its final level when all have learned."""
+    rewards = np.full((10, 400), 0.01, np.float32)
+    rewards[:5, 20:30], rewards[:, 200:] = 0.2, 0.2
+    result = Result(place_cells([1]), WaterWorld(), 4_000, 10, 0, rewards, np.zeros((10, 400, 2), np.int16))
+    assert time_to_final_level(result).min() == pytest.approx(6, abs=0.5)
+    found = minutes_to_own_level(result)
+    assert 60 * found.value == pytest.approx(42, abs=1) and 60 * found.high <= 43
+    assert minutes_to_own_level(result, result, of=np.subtract).value == 0
+    assert minutes_to_own_level(replace(result, rewards=-rewards)).value == 80 / 60  # never
+    with pytest.raises(ValueError, match="results has 2, allowed is one, or several with a function"):
+        minutes_to_own_level(result, result)
+
+
 def steps_up(bins, at, runs=10, height=1.0, before=0.0):
     """Runs that earn `before` in each bin, and `height` per second from the bin `at` on."""
     rewards = np.full((runs, bins), before, np.float32)
@@ -169,8 +184,6 @@ def test_leads_and_ratios_are_those_of_means():
     a, b, c = np.array([4.0, 6.0]), np.array([1.0, 3.0]), np.array([2.0, 2.0, 2.0])
     assert (ratio(a, b, axis=-1), ratio(a, 0 * b, axis=-1)) == (2.5, 0)
     assert (lead_over_best(a, b, c, axis=-1), lead_over_sum(a, b, c, axis=-1)) == (3, 1)
-    assert least_of_most(a, b, c, axis=-1) == 0.4
-    assert least_of_most(0 * a, 0 * b, axis=-1) == 0
 
 
 def test_a_rank_correlation_is_spearmans():

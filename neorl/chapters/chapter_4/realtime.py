@@ -7,6 +7,7 @@
    divided by the length of the window: 1 is a core that is never idle.
 """
 
+import os
 import time
 from typing import NamedTuple
 
@@ -20,6 +21,11 @@ class Pace(NamedTuple):
 
     load: np.ndarray  # of each window, in cores: float64 (windows,)
     delay: np.ndarray  # of each step, in steps: float64 (windows, steps per window)
+
+
+def busy():
+    """Processes ready to run on a core of the machine, on average over the last minute; None if it is not known."""
+    return os.getloadavg()[0] / os.cpu_count() if hasattr(os, "getloadavg") else None
 
 
 def keep_pace(run, windows, seconds):

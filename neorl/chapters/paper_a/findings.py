@@ -12,11 +12,12 @@ from neorl.evidence.claims import judge_multiple_layers
 from neorl.evidence.priors import BEYOND
 from neorl.evidence.reading import LAYERS, SINGLE
 from neorl.evidence.report import CALIBRATED, LETTER
+from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.statistics import Estimate, estimate, lead_over_sum, ratio, resets
 from neorl.evidence.verdict import FINAL
 
 REWARD, STATES = "reward, all three ÷ N7", "states, all three ÷ N7"
-THESIS = {REWARD: 3.5, STATES: 5.9}  # Results, Multiple resolutions; 5.9 is its 290 states over 49
+THESIS = {REWARD: STATEMENTS["A7"].bounds.number, STATES: 5.9}  # 5.9 is its 290 states over 49
 
 
 def beside_thesis(results):

@@ -17,7 +17,7 @@ from neorl.evidence.verdict import FINAL
 def draw_together(results):
     """Draw reward per second of N3, N7 and N23 alone, together, and summed. results: of one reading.
 
-    A dashed line marks the thesis's level for all three together: 3.5 times what N7 finally earns here.
+    A dashed line marks the thesis's level for all three together, a multiple of what N7 finally earns here.
     """
     alone = layers(results)
     axes = draw_proficiency(alone | {"all three": results["layers"]}, ("sum of the three", [*alone.values()]))

@@ -14,10 +14,13 @@ from neorl.evidence.reading import PRIMES, additions, judge
 from neorl.evidence.report import CALIBRATED, LETTER
 from neorl.evidence.rules_chapters import sooner_with_more
 from neorl.evidence.statements import STATEMENTS
-from neorl.evidence.statistics import estimate, points, quotient, ratio, resets, time_to_final_level
+from neorl.evidence.statistics import estimate, minutes_to_own_level, points, quotient, ratio, resets
 
-THESIS_LEVELS = {"PC": 0.29, "OVC": 0.29, "PC + OVC": 0.55}  # reward per second; section 3.2, and "no loss" in 3.1
-THESIS_MINUTES = {"PC": 160, "PC + OVC": 15}  # section 3.2
+B3, B4 = STATEMENTS["B3"], STATEMENTS["B4"]
+PC = B3.also["place cells"].number  # per second, and of object-vector cells too: "no loss", section 3.1
+THESIS_LEVELS = {"PC": PC, "OVC": PC, "PC + OVC": B3.bounds.number}
+THESIS_MINUTES = {"PC": B4.also["place cells"].number, "PC + OVC": B4.bounds.number}
+POINTS = STATEMENTS["B5"].bounds.number  # per reset
 TUNINGS = {("component", "component"): "cartesian", ("margin", "margin"): "proximal", ("length", "direction"): "polar",
            ("direction",): "angle", ("length",): "length"}
 STRETCHES = 100  # intervals of a run in which red creeps are counted
@@ -60,8 +63,8 @@ def _found(level, minute):
     taken = {name: f"{each.value:.0f}" for name, each in minute.items()}
     return (f"place cells finally earn {level['PC']} per second (thesis: {THESIS_LEVELS['PC']}), object-vector cells "
             f"{level['OVC']}, and both together {level['PC + OVC']} (thesis: {THESIS_LEVELS['PC + OVC']}). They reach "
-            f"their final levels after {taken['PC']} minutes (thesis: more than {THESIS_MINUTES['PC']}), "
-            f"{taken['OVC']}, and {taken['PC + OVC']} (thesis: {THESIS_MINUTES['PC + OVC']}).")
+            f"their final levels after {taken['PC']} minutes (thesis: more than {THESIS_MINUTES['PC']:g}), "
+            f"{taken['OVC']}, and {taken['PC + OVC']} (thesis: {THESIS_MINUTES['PC + OVC']:g}).")
 
 
 def levels(lived):
@@ -73,7 +76,7 @@ def levels(lived):
 def minutes(lived):
     """Minutes until figure 5's agents reach their final level, as in `judge_pace`: {name: {agent: `Estimate`}}."""
     keys = {"PC": ("pace", "place"), "OVC": ("pace", "objects"), "PC + OVC": ("pace", "both")}
-    return {name: {agent: estimate(np.mean, time_to_final_level(results[key]) / 60) for agent, key in keys.items()}
+    return {name: {agent: minutes_to_own_level(results[key]) for agent, key in keys.items()}
             for name, results in lived.items()}
 
 

@@ -10,10 +10,11 @@ from neorl.chapters.paper_c.experiments import NETWORKS, networks
 from neorl.chapters.shared.side_by_side import each_in_words
 from neorl.chapters.shared.wording import number
 from neorl.evidence.report import CALIBRATED, LETTER
+from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.statistics import difference, estimate, ratio
 from neorl.evidence.verdict import FINAL
 
-DRASTIC = 1.5  # "drastically" is read as by half or more
+DRASTIC = STATEMENTS["C4"].bounds.low  # times as much as C
 
 
 def in_short(results):
