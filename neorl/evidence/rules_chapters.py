@@ -157,11 +157,12 @@ def judge_persistence(agents):
                       f"it is {lead[name]}.")
     counted = [name for name, (persistent, _, brownian) in agents.items() if learned(persistent, brownian)]
     rest = ", ".join(name for name in agents if name not in counted)
-    left_out = f" Left out, since agents that learn at changes of cell gain nothing: {rest}." if rest and counted else ""
+    left_out = f" Left out, as learning at changes of cell gains nothing there: {rest}." if rest and counted else ""
     counted, testable = counted or list(agents), bool(counted)
+    runs = min(fewest_runs(persistent, *per_step.values()) for persistent, per_step, _ in agents.values())
     most, fails = max(counted, key=lambda name: share[name].value), STATEMENTS["T7"].bounds
-    return judged("T7", share[most], f"{' '.join(text[name] for name in counted)}{left_out} Learning fails if it gains "
-                  f"{fails} of the other.", min(fewest_runs(one, *others.values()) for one, others, _ in agents.values()),
+    return judged("T7", share[most], f"{' '.join(text[name] for name in counted)}{left_out} Learning at "
+                  f"every step fails if it gains {fails} of the other.", runs,
                   reproduced=all(fails.hold(share[name]) for name in counted),
                   partly=any(lead[name].low > 0 for name in counted),
                   possible=all(fails.allow(share[name]) for name in counted), testable=testable)

@@ -29,8 +29,8 @@ def judge_single_layer(by_resolution, brownian):
     a1, share = STATEMENTS["A1"], LENGTH / brownian.steps
     score, boards = estimate(np.mean, brownian.totals * share), estimate(np.mean, resets(brownian) * share)
     around_0, none = a1.bounds, a1.also["resets"]
-    a1 = judged("A1", score, f"“Around 0” is read as {around_0}. In as many steps of 1/{brownian.world.fps} s it resets "
-                f"the board {boards} times; no reset is read as {none}.", runs,
+    a1 = judged("A1", score, f"“Around 0” is read as {around_0}. In as many steps of 1/{brownian.world.fps} s it "
+                f"resets the board {boards} times; no reset is read as {none}.", runs,
                 reproduced=around_0.hold(score) and none.hold(boards),
                 partly=around_0.hold(score) or none.hold(boards),
                 possible=around_0.allow(score) and none.allow(boards))

@@ -39,7 +39,9 @@ def judge_generality(scores):
 
 
 def judge_composition(apart, whole, chance):
-    """Demonstration G3, from the steps to a point of a space of two features, as multiples of the fewest possible (runs,).
+    """Demonstration G3, from the steps to a point of a space of two features.
+
+    Steps are multiples of the fewest possible, (runs,).
 
     apart: of agents with a map for each feature. whole: with one map of both. chance: at random.
     Returns a `Claim`.

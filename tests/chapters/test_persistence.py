@@ -64,12 +64,12 @@ def test_rewards_are_reported_beside_the_share_of_the_gain_that_is_kept():
     rows = [line for line in text.splitlines() if line.startswith("|")]
     assert rows[0] == "| Agent | Learns at | to the letter | calibrated |"
     assert rows[2] == "| place cells | changes of cell | 1.00 [1.00, 1.00] | 1.00 [1.00, 1.00] |"
-    assert rows[3] == "| place cells | nothing: Brownian motion | 0.26 [0.26, 0.26] | 0.26 [0.26, 0.26] |"  # over the whole run
+    assert rows[3] == "| place cells | nothing: Brownian motion | 0.26 [0.26, 0.26] | 0.26 [0.26, 0.26] |"  # whole run
     assert rows[5] == "| place cells | every step | 0.20 [0.20, 0.20] (γ = 0.98) | 0.50 [0.50, 0.50] (γ = 0.98) |"
     assert text.splitlines()[-1] == (
-        "To the letter, learning at every step gains up to −0.08 [−0.08, −0.08] times as much as learning at changes of "
-        "cell; calibrated, learning at every step gains up to 0.32 [0.32, 0.32] times as much as learning at changes of "
-        "cell.")
+        "To the letter, learning at every step gains up to −0.08 [−0.08, −0.08] times as much as learning at changes "
+        "of cell; calibrated, learning at every step gains up to 0.32 [0.32, 0.32] times as much as learning at "
+        "changes of cell.")
 
 
 def test_without_a_gain_there_is_nothing_to_keep():

@@ -7,8 +7,6 @@ import pytest
 
 from neorl import Result, WaterWorld, place_cells
 from neorl.evidence import claims
-from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS, Bounds
-from neorl.evidence.statistics import Estimate
 
 
 EIGHT = WaterWorld(win_reward=5.0)
@@ -250,7 +248,8 @@ def moves(first, later, ignorant=0.5):
 
 @pytest.mark.parametrize("revalued, moved, expected", [
     (taking(1, 3, 3), None, "reproduced"), (taking(1, 2, 4), None, "partly"), (taking(1, 1, 3), None, "not reproduced"),
-    (taking(3, 3, 1), None, "not reproduced"), (taking(1, 3, 1), None, "reproduced"), (taking(1, 3, 3, runs=9), None, "no verdict"),
+    (taking(3, 3, 1), None, "not reproduced"), (taking(1, 3, 1), None, "reproduced"),
+    (taking(1, 3, 3, runs=9), None, "no verdict"),
     (taking(1, 3, 3), moves(0.1, 0.1), "reproduced"), (taking(1, 3, 3), moves(0.3, 0.1), "partly"),
     (taking(1, 3, 3), moves(0.5, 0.5), "partly"), (taking(1, 1, 3), moves(0.1, 0.1), "partly"),
     (taking(1, 1, 3), moves(0.5, 0.5), "not reproduced"),
@@ -306,7 +305,7 @@ def test_persistence_is_needed_where_the_best_of_temporal_difference_fails(steps
     unlearned = {"both": (made_up(0.6), per_step, brownian(0.7))}
     assert claims.judge_persistence(unlearned).verdict == "not testable"
     assert claims.judge_persistence(agents | unlearned).here == claim.here
-    assert "gain nothing: both." in claims.judge_persistence(agents | unlearned).detail
+    assert "gains nothing there: both." in claims.judge_persistence(agents | unlearned).detail
 
 
 def test_persistence_is_needed_by_each_kind_of_agent():
@@ -374,32 +373,3 @@ def test_agents_that_earn_nothing_cause_no_division_by_zero():
                claims.judge_persistence({"one": (nothing, {"γ": nothing}, nothing)}),
                claims.judge_more_maps({"maps": (nothing, [nothing], nothing)})]
     assert {claim.outcome for claim in judged} <= {"reproduced", "partly", "not reproduced", "not testable"}
-
-
-def test_bounds_are_read_by_both_ends_of_an_interval():
-    near = Bounds(2.5, 5.0, number=3.5)
-    within, across, beyond = Estimate(3, 2.5, 5), Estimate(3, 2, 4), Estimate(6, 5.1, 7)
-    assert [near.hold(each) for each in (within, across, beyond)] == [True, False, False]
-    assert [near.allow(each) for each in (within, across, beyond)] == [True, True, False]
-    assert [str(each) for each in (near, Bounds(low=0.8), Bounds(high=30), Bounds(-5, 5))] == [
-        "from 2.5 to 5", "0.8 or more", "30 or less", "from −5 to 5"]
-
-
-def test_a_number_stands_in_the_words_of_its_statement_and_within_its_bounds():
-    for name, statement in STATEMENTS.items():
-        for each in (statement.bounds, *statement.also.values()):
-            if each.number is not None:
-                assert f"{each.number:g}" in f"{statement.thesis} {statement.quotation}", name
-                assert each.low <= each.number <= each.high, name
-
-
-def test_every_rule_is_named_in_the_statements():
-    rules = {name for name in vars(claims) if name.startswith("judge_")}
-    assert {statement.rule for statement in STATEMENTS.values()} == rules
-
-
-def test_every_statement_quotes_what_it_judges_and_demonstrations_stand_beside_the_claims():
-    for name, statement in STATEMENTS.items():
-        assert statement.place and 5 <= len(statement.quotation.split()) <= 45, name
-    assert DEMONSTRATIONS == ("B7", "G1", "G2", "G3", "G4", "H1")
-    assert sorted((*CLAIMS, *DEMONSTRATIONS)) == sorted(STATEMENTS)

@@ -9,8 +9,9 @@ from scipy import stats
 
 from neorl import Result, WaterWorld, place_cells
 from neorl.evidence.statistics import (Estimate, estimate, lead_over_best, lead_over_sum, mean_band,
-                                       minutes_sooner, minutes_to_own_level, points, probability_of_improvement, rank_correlation, ratio,
-                                       resets, time_to_final_level, time_to_level, tolerance_band, tolerated_share)
+                                       minutes_sooner, minutes_to_own_level, points, probability_of_improvement,
+                                       rank_correlation, ratio, resets, time_to_final_level, time_to_level,
+                                       tolerance_band, tolerated_share)
 
 
 def test_the_probability_of_improvement_counts_pairs():

@@ -1,0 +1,34 @@
+"""The statements: their quotations, their bounds, and the rules that they name."""
+
+from neorl.evidence import claims
+from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS, Bounds
+from neorl.evidence.statistics import Estimate
+
+
+def test_bounds_are_read_by_both_ends_of_an_interval():
+    near = Bounds(2.5, 5.0, number=3.5)
+    within, across, beyond = Estimate(3, 2.5, 5), Estimate(3, 2, 4), Estimate(6, 5.1, 7)
+    assert [near.hold(each) for each in (within, across, beyond)] == [True, False, False]
+    assert [near.allow(each) for each in (within, across, beyond)] == [True, True, False]
+    assert [str(each) for each in (near, Bounds(low=0.8), Bounds(high=30), Bounds(-5, 5))] == [
+        "from 2.5 to 5", "0.8 or more", "30 or less", "from −5 to 5"]
+
+
+def test_a_number_stands_in_the_words_of_its_statement_and_within_its_bounds():
+    for name, statement in STATEMENTS.items():
+        for each in (statement.bounds, *statement.also.values()):
+            if each.number is not None:
+                assert f"{each.number:g}" in f"{statement.thesis} {statement.quotation}", name
+                assert each.low <= each.number <= each.high, name
+
+
+def test_every_rule_is_named_in_the_statements():
+    rules = {name for name in vars(claims) if name.startswith("judge_")}
+    assert {statement.rule for statement in STATEMENTS.values()} == rules
+
+
+def test_every_statement_quotes_what_it_judges_and_demonstrations_stand_beside_the_claims():
+    for name, statement in STATEMENTS.items():
+        assert statement.place and 5 <= len(statement.quotation.split()) <= 45, name
+    assert DEMONSTRATIONS == ("B7", "G1", "G2", "G3", "G4", "H1")
+    assert sorted((*CLAIMS, *DEMONSTRATIONS)) == sorted(STATEMENTS)
