@@ -8,14 +8,15 @@
 from neorl.evidence.rules_chapters import (judge_changes, judge_cost, judge_latent_learning, judge_more_maps,
                                            judge_persistence, judge_real_time, judge_tables, judge_temporality,
                                            judge_time_scale)
-from neorl.evidence.rules_paper_a import judge_multiple_layers, judge_single_layer
+from neorl.evidence.rules_paper_a import judge_exploration, judge_margin, judge_multiple_layers, judge_single_layer
 from neorl.evidence.rules_paper_b import judge_joining, judge_modalities, judge_pace, judge_points, judge_resolutions
 from neorl.evidence.rules_paper_c import judge_alternatives, judge_networks
 from neorl.evidence.rules_spaces import judge_composition, judge_efficiency, judge_extension, judge_generality
 from neorl.evidence.verdict import EARLY, FINAL, RUNS_FOR_A_VERDICT, VERDICTS, Claim
 
 __all__ = ["EARLY", "FINAL", "RUNS_FOR_A_VERDICT", "VERDICTS", "Claim", "judge_alternatives", "judge_changes",
-           "judge_composition", "judge_cost", "judge_efficiency", "judge_extension", "judge_generality",
-           "judge_joining", "judge_latent_learning", "judge_modalities", "judge_more_maps", "judge_multiple_layers",
-           "judge_networks", "judge_pace", "judge_persistence", "judge_points", "judge_real_time", "judge_resolutions",
-           "judge_single_layer", "judge_tables", "judge_temporality", "judge_time_scale"]
+           "judge_composition", "judge_cost", "judge_efficiency", "judge_exploration", "judge_extension",
+           "judge_generality", "judge_joining", "judge_latent_learning", "judge_margin", "judge_modalities",
+           "judge_more_maps", "judge_multiple_layers", "judge_networks", "judge_pace", "judge_persistence",
+           "judge_points", "judge_real_time", "judge_resolutions", "judge_single_layer", "judge_tables",
+           "judge_temporality", "judge_time_scale"]

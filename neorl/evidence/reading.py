@@ -192,6 +192,8 @@ def judge(results):
         judged += claims.judge_single_layer(by["single"], by["brownian"][8])
     if complete("layers"):
         judged += claims.judge_multiple_layers(by["layer"], results["layers"], by["brownian"][8])
+    if complete("layers", "single"):
+        judged += [claims.judge_margin(by["layer"] | by["single"], results["layers"], by["brownian"][8])]
     if complete("modal"):
         judged += claims.judge_modalities(by["place"]["all"], by["objects"]["all"], results["both"], by["brownian"][3])
     if complete("modal", "resolutions"):

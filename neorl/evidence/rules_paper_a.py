@@ -125,3 +125,44 @@ def judge_multiple_layers(by_resolution, together, brownian):
                 reproduced=quicker and lead.low > 0, partly=quicker or lead.low > 0,
                 possible=all(each.high > 0 for each in sooner.values()) and lead.high > 0, testable=some_learned)
     return [a6, a7, a8]
+
+
+def judge_margin(by_resolution, together, brownian):
+    """Claim A9, from agents with a single map and one with several, on the board of paper A.
+
+    by_resolution: {N: `Result`} of agents with one map. together: the `Result` of the agent with N3, N7 and N23.
+    brownian: that of Brownian motion on the same board.
+    Returns a `Claim`.
+    """
+    final = [result.rate(*FINAL) for result in by_resolution.values()]
+    gain = estimate(_mean_gain, brownian.rate(), *final)
+    share, little = estimate(_share_of_gain, together.rate(*FINAL), brownian.rate(), *final), STATEMENTS["A9"].bounds
+    return judged("A9", share, f"The mean lead of {len(final)} single maps is {gain}. “Marginally” is read as {little} "
+                  "of the lead of the three together.", fewest_runs(*by_resolution.values(), together),
+                  reproduced=gain.low > 0 and little.hold(share), partly=gain.low > 0,
+                  possible=gain.high > 0 and little.allow(share), testable=learned(together, brownian))
+
+
+def _mean_gain(chance, *single, axis):
+    return np.mean([each.mean(axis) for each in single], axis=0) - chance.mean(axis)
+
+
+def _share_of_gain(together, chance, *single, axis):
+    return quotient(_mean_gain(chance, *single, axis=axis), together.mean(axis) - chance.mean(axis))
+
+
+def judge_exploration(together, alone, brownian):
+    """Claim T9, from the number of squares of the board in which each run is in its first tenth, (runs,) each.
+
+    together: of the agent with N3, N7 and N23. alone: a sequence, of those with one of these. brownian: of Brownian
+    motion.
+    Returns a `Claim`.
+    """
+    best = max(alone, key=np.mean)
+    over_one, over_chance = (estimate(ratio, together, other) for other in (best, brownian))
+    more, more_than_chance = STATEMENTS["T9"].bounds.low, STATEMENTS["T9"].also["Brownian motion"].low
+    return judged("T9", over_one, f"They are in {estimate(np.mean, together)} squares, {over_chance} times as many as "
+                  "Brownian motion.", min(map(len, (together, *alone, brownian))),
+                  reproduced=over_one.low > more and over_chance.low > more_than_chance,
+                  partly=over_one.low > more or over_chance.low > more_than_chance,
+                  possible=over_one.high > more and over_chance.high > more_than_chance)

@@ -46,7 +46,7 @@ def judge_networks(a, b, c, d, brownian):
     drastic = STATEMENTS["C4"].bounds.low
     lead, beyond = (estimate(difference, final["D"], share * final["C"]) for share in (1.0, drastic))
     c4 = judged("C4", estimate(ratio, final["D"], final["C"]), f"D leads C by {lead}, and Brownian motion, which it "
-                f"has to exceed, by {lead_of_d}. “Drastically” is read as {drastic:g} times as much or more. A run of D "
+                f"has to exceed, by {lead_of_d}. “Drastically” is read as {drastic:g} times as much. A run of D "
                 f"beats one of C with probability {probability_of_improvement(final['D'], final['C'])}.", runs,
                 reproduced=min(beyond.low, lead_of_d.low) > 0, partly=min(lead.low, lead_of_d.low) > 0,
                 possible=min(beyond.high, lead_of_d.high) > 0)

@@ -119,6 +119,13 @@ STATEMENTS = {
         "Several resolutions learn quicker and earn more than each of them alone",
         "Smallest lead, in minutes, of 3, 7 and 23 together at half the final level of the best one alone",
         "> 0", "fig-proficiency", "judge_multiple_layers"),
+    "A9": Statement(
+        "section 4.4",
+        "Online navigation autonomy is possible by combining OVF scaled by elements-of-interest valence, allowing for "
+        "marginally improved navigation capabilities over Brownian motion in the WaterWorld environment.",
+        "Single maps improve on Brownian motion, but little beside several",
+        "Mean final lead of single maps over Brownian motion, divided by that of 3, 7 and 23 together",
+        "marginal", "fig-accumulated", "judge_margin", Bounds(high=0.5)),
     "B1": Statement(
         GENERAL,
         "There is no loss in sample efficiency when utilizing the OVC modality compared to PC modality.",
@@ -257,6 +264,14 @@ STATEMENTS = {
         "Larger receptive fields go with a slower time scale",
         "Exponent with which the stay in a field grows with its width",
         "direct relation", "fig-time-scale", "judge_time_scale", Bounds(low=0.5)),
+    "T9": Statement(
+        "section 4.3.1",
+        "Directed exploration is proposed as a plausible explanation for improved learning when navigating according "
+        "to additional information.",
+        "Several maps explore more of the board than each of them alone, and than Brownian motion",
+        "Squares of a 90 × 90 board in which 3, 7 and 23 together are in the first tenth of a run, divided by those of "
+        "the best of them alone",
+        "> 1", "fig-explored", "judge_exploration", Bounds(low=1.0), also={"Brownian motion": Bounds(low=1.0)}),
     "G1": Statement(
         "paper B, section 1",
         "Navigation has to be efficient (require few interactions for learning new behaviors)",

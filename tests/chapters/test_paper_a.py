@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from neorl import Result, WaterWorld, brownian, place_cells
-from neorl.chapters.paper_a.experiments import CONTROL, explorer_conditions, layers, live, neighbours, singles
+from neorl.chapters.paper_a.experiments import (CONTROL, explore, explorer_conditions, layers, live, neighbours,
+                                                singles, squares_entered)
 from neorl.chapters.paper_a.findings import (REWARD, STATES, THESIS, beside_thesis, choices, in_short, in_words,
-                                             judge_second_experiment)
+                                             judge_exploration, judge_second_experiment)
 from neorl.chapters.shared.side_by_side import judge_each
 from neorl.evidence.priors import TO_THE_LETTER
 from neorl.evidence.reading import GROUPS, LAYERS, SINGLE, Reading
@@ -102,6 +103,22 @@ def test_the_second_experiment_is_judged_by_itself(results):
     (judged,) = judge_second_experiment({"book": results}).values()
     assert judged == [claim for claim in judge_each({"book": results})["book"] if claim.name in ("A6", "A7", "A8")]
     assert len(judged) == 3
+
+
+def test_squares_are_counted_once_ten_times_a_second():
+    squares = squares_entered(brownian(), WORLD, 200, 2)
+    assert squares.shape == (2, 40) and (squares[:, 0] == 1).all()
+    assert set(np.diff(squares).ravel()) == {0, 1}
+    assert np.array_equal(squares, squares_entered(brownian(), WORLD, 400, 2)[:, :40])
+    assert squares_entered(brownian(), WORLD, 3, 1).shape == (1, 1)  # of a short run
+
+
+def test_exploration_is_judged_by_all_three_maps(results):
+    explored = explore(results, 20, 2)
+    assert list(explored) == ["Brownian motion", "N3", "N7", "N23", "all three"]
+    entered = {name: np.full((12, 3), count) for name, count in zip(explored, (50, 20, 30, 40, 80))}
+    claim = judge_exploration(entered)
+    assert (claim.verdict, claim.here.value, claim.runs) == ("reproduced", 2, 12)
 
 
 def test_choices_are_listed_with_what_the_text_makes_of_them():

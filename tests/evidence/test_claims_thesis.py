@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+from test_claims import brownian, made_up
 
 from neorl.chapters.chapter_2.latent_learning import Record
 from neorl.evidence import claims
@@ -98,3 +99,21 @@ def test_the_rivals_of_latent_learning_are_reported_and_not_judged():
     assert claim.here.value == pytest.approx(-1, abs=0.1)
     assert re.search(r"another (6\.9|7\.0)", claim.detail)
     assert re.search(r"effect of reward, 1(1\.9|2\.0)", claim.detail)
+
+
+@pytest.mark.parametrize("single, together, chance, expected", [
+    ((0.2, 0.4), 0.9, 0.1, "reproduced"), ((0.2, 0.8), 0.9, 0.1, "partly"), ((0.0, 0.1), 0.9, 0.1, "not reproduced"),
+    ((0.2, 0.4), 0.1, 0.3, "not testable")])
+def test_single_maps_gain_little_beside_several(single, together, chance, expected):
+    claim = claims.judge_margin(dict(enumerate(map(made_up, single))), made_up(together), brownian(chance))
+    assert claim.verdict == expected
+
+
+@pytest.mark.parametrize("together, alone, chance, expected", [
+    (500, (300, 400), 300, "reproduced"), (500, (300, 400), 600, "partly"), (500, (300, 600), 300, "partly"),
+    (500, (300, 600), 700, "not reproduced")])
+def test_exploration_is_compared_with_the_best_single_map_and_with_chance(together, alone, chance, expected):
+    claim = claims.judge_exploration(final(together), [final(each) for each in alone], final(chance))
+    assert claim.verdict == expected
+    assert claim.here.value == pytest.approx(together / max(alone), abs=0.01)
+    assert claims.judge_exploration(final(2)[:9], [final(1)], final(1)).verdict == "no verdict"

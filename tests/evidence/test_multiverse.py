@@ -196,8 +196,8 @@ def results():
 
 def test_a_reading_is_judged_on_all_claims_that_readings_matter_for(results):
     judged = judge(results)
-    assert list(judged) == ["A1", "A2", "A3", "A4", "A5", "A6", "A7", "A8", "B1", "B3", "B6", "B2", "B4", "C1", "C2",
-                            "C3", "C4", "T1", "T6"]
+    assert list(judged) == ["A1", "A2", "A3", "A4", "A5", "A6", "A7", "A8", "A9", "B1", "B3", "B6", "B2", "B4", "C1",
+                            "C2", "C3", "C4", "T1", "T6"]
     assert judged["B4"].outcome == "not testable"  # runs of minutes are too short
 
 

@@ -14,7 +14,7 @@ from neorl.evidence.report import CALIBRATED, LETTER, NOT_COMPUTED
 from neorl.evidence.statements import CLAIMS, STATEMENTS
 from neorl.evidence.verdict import VERDICTS
 
-SUPERPOSITION = ("A2", "A3", "A4", "A6", "A7", "A8", "B1", "B2", "B3", "B4", "B6", "T6")
+SUPERPOSITION = ("A2", "A3", "A4", "A6", "A7", "A8", "A9", "B1", "B2", "B3", "B4", "B6", "T6", "T9")
 SEPARATION = ("T1", "T7", "C1", "C2", "C3", "C4")
 BEYOND = ("C5",)  # judged by the pages beyond the thesis
 GROUND = tuple(name for name in CLAIMS if name not in SUPERPOSITION + SEPARATION + BEYOND)

@@ -7,11 +7,15 @@
 
 from dataclasses import replace
 
+import numpy as np
+
 from neorl.agents.papers import brownian
 from neorl.chapters.shared import side_by_side
 from neorl.chapters.shared.side_by_side import by_resolution, changed, few
+from neorl.core.maps import NresMap
 from neorl.evidence.reading import LAYERS, SINGLE, conditions
 from neorl.evidence.report import CALIBRATED, LETTER
+from neorl.experiments.run import Run
 
 CONTROL = "control"
 
@@ -40,6 +44,32 @@ def singles(results):
 def layers(results):
     """Results of the second experiment's agents with one map under one reading: {"N3": Result, …}."""
     return by_resolution(results, "layer", LAYERS)
+
+
+def squares_entered(agent, world, steps, runs, seed=0):
+    """The squares of the board in which runs of an agent have been so far, every 0.1 s: (runs, moments).
+
+    The squares are the cells of N90, which divides the board more finely than any map of the agents.
+    """
+    squares, found, interval = NresMap(max(SINGLE)), [], max(1, round(world.fps / 10))
+    for k in range(runs):
+        run, path = Run(agent, world, seed, k), np.empty((max(1, steps // interval), 2))
+        for moment in range(len(path)):
+            run.advance(interval)
+            path[moment] = run.world_state.scene.position / world.size
+        new = np.zeros(len(path), int)
+        new[np.unique(squares.encode(path), return_index=True)[1]] = 1
+        found.append(new.cumsum())
+    return np.array(found)
+
+
+def explore(results, steps, runs, seed=0):
+    """The squares in which agents of the second experiment are under one reading: {"Brownian motion": …, "N3": …, …}.
+
+    results: of one reading. The values are those of `squares_entered`.
+    """
+    agents = {"Brownian motion": results["brownian", 8], **layers(results), "all three": results["layers"]}
+    return {name: squares_entered(result.agent, result.world, steps, runs, seed) for name, result in agents.items()}
 
 
 def neighbours(reading):

@@ -8,6 +8,7 @@ import numpy as np
 from neorl.chapters.shared import side_by_side
 from neorl.chapters.shared.side_by_side import each_in_words
 from neorl.chapters.shared.wording import by_interval, number
+from neorl.evidence import claims
 from neorl.evidence.claims import judge_multiple_layers
 from neorl.evidence.priors import BEYOND
 from neorl.evidence.reading import LAYERS, SINGLE
@@ -80,6 +81,12 @@ def judge_second_experiment(results):
     """Claims A6, A7 and A8 under each reading: {name: [Claim, …]}."""
     return {name: judge_multiple_layers({n: each["layer", n] for n in LAYERS}, each["layers"], each["brownian", 8])
             for name, each in results.items()}
+
+
+def judge_exploration(explored):
+    """Claim T9 from the squares under one reading, as `experiments.explore` returns them."""
+    control, *alone, together = (entered[:, -1].astype(float) for entered in explored.values())
+    return claims.judge_exploration(together, alone, control)
 
 
 def choices(readings):
