@@ -10,6 +10,7 @@ from neorl.evidence.curves import CUTOFF_PERIODS, FILTER_ORDER
 from neorl.evidence.pins import PINS
 from neorl.evidence.priors import BEYOND, WITHIN
 from neorl.evidence.reading import LAYERS, LENGTHS, PRIMES, SINGLE, Reading, conditions
+from neorl.evidence.statements import STATEMENTS
 from neorl.experiments.run import BIN_SECONDS
 from neorl.worlds import waterworld
 
@@ -47,7 +48,7 @@ def constants():
         Constant("resolutions, paper B", _listed(PRIMES), "paper B, section 3"),
         Constant("steps of a run, paper A", f"{LENGTHS['A']:,}", "paper A, Experiments"),
         Constant("steps of a run, papers B and C", f"{LENGTHS['B']:,} and {LENGTHS['C']:,}",
-                 OURS + ": paper B speaks of more than 160 minutes"),
+                 f"{OURS}: paper B speaks of more than {STATEMENTS['B4'].also['place cells'].number:g} minutes"),
         Constant("exploration of the control", "1", "paper A, Experiments"),
         Constant("bins of reward", f"{BIN_SECONDS} s", "paper B, section 3, and " + AUTHOR),
         Constant("filter of paper B's curves", f"Butterworth, order {FILTER_ORDER}, {CUTOFF_PERIODS} periods per run",
