@@ -249,8 +249,9 @@ def minutes_to_own_level(*results: Result, share: float = 0.9, of: Callable | No
     quotient. share: from 0 to 1. Returns an `Estimate`, from resampled runs. Raises ValueError for anything else.
     """
     share = checks.real("share", share, 0, 1)
-    if not results or (of is None and len(results) > 1):
-        raise ValueError(f"results has {len(results)}, allowed is one, or several with a function `of` their minutes")
+    if not results or (not callable(of) if of is not None else len(results) > 1):
+        raise ValueError(f"results has {len(results)} and of is {checks.shown(of)}, allowed is one result, or several "
+                         "with a function of their minutes")
     minutes = [_minutes_to_own_level(checks.instance("results", each, Result), share) for each in results]
 
     def statistic(*chosen, axis):

@@ -136,7 +136,7 @@ def test_the_mean_reaches_a_level_later_than_the_luckiest_run():
     assert 60 * found.value == pytest.approx(42, abs=1) and 60 * found.high <= 43
     assert minutes_to_own_level(result, result, of=np.subtract).value == 0
     assert minutes_to_own_level(replace(result, rewards=-rewards)).value == 80 / 60  # never
-    with pytest.raises(ValueError, match="results has 2, allowed is one, or several with a function"):
+    with pytest.raises(ValueError, match="results has 2 and of is None, allowed is one result, or several"):
         minutes_to_own_level(result, result)
 
 
