@@ -241,14 +241,17 @@ def join_passed(parameters, state, trace, rule, n, m, point, rates):
 @inlined_kernel
 def learn_all_displacements(parameters, values, rule, n, m, reached, rates):
     """One update of every goal of the self, which has reached a cell as seen from the last centre (eq. 4.8)."""
-    q, actions, target, cells = values.q, values.actions, values.scratch, parameters.maps.cells[m]
-    for goal in range(cells):
-        target[goal] = ZERO
-        seen = seen_from(parameters, n, m, goal, reached)
-        if seen >= 0:
-            for event in range(actions):
-                target[goal] = higher(q[values.first + seen * actions + event], target[goal])
-        target[goal] *= rule.discount
+    q, actions, target, maps = values.q, values.actions, values.scratch, parameters.maps
+    cells, shift, width = maps.cells[m], reached - maps.contact[m], int(parameters.grid[maps.first_grid[m], LAST]) + 1
+    across = reached % width - maps.contact[m] % width  # along the first axis, whose cells follow each other
+    for row in range(0, cells, width):
+        inside = stays_inside(parameters, n, m, row, reached)
+        for goal in range(row, row + width):
+            target[goal] = ZERO
+            if inside and 0 <= goal - row - across < width:
+                for event in range(actions):
+                    target[goal] = higher(q[values.first + (goal - shift) * actions + event], target[goal])
+            target[goal] *= rule.discount
     target[reached] = UNIT if rule.terminal else UNIT + target[reached]
     highest = UNIT if rule.terminal else UNIT / (UNIT - rule.discount)
     for goal in range(cells):
@@ -262,17 +265,16 @@ def learn_all_displacements(parameters, values, rule, n, m, reached, rates):
 
 
 @inlined_kernel
-def seen_from(parameters, n, m, goal, centre):
-    """The cell of a goal once the map is centred on another of its cells, or ABSENT outside the map."""
-    cell, first = 0, parameters.maps.first_grid[m]
-    for axis in range(parameters.nodes.first_axis[n + 1] - parameters.nodes.first_axis[n]):
+def stays_inside(parameters, n, m, goal, centre):
+    """Whether a goal is in the map, along all axes but the first, once the map is centred on another of its cells."""
+    first = parameters.maps.first_grid[m]
+    for axis in range(1, parameters.nodes.first_axis[n + 1] - parameters.nodes.first_axis[n]):
         stride, intervals = int(parameters.grid[first + axis, STRIDE]), int(parameters.grid[first + axis, LAST]) + 1
         interval = (goal // stride % intervals - centre // stride % intervals
                     + parameters.maps.contact[m] // stride % intervals)
         if interval < 0 or interval >= intervals:
-            return ABSENT
-        cell += stride * interval
-    return cell
+            return False
+    return True
 
 
 @kernel
