@@ -4,18 +4,19 @@ The method is history matching (Craig et al. 1997; Vernon et al. 2010), a search
 rather than one that climbs to the best fit:
 
 1. *Design.* Readings are spread evenly through the priors within the text by a scrambled Sobol sequence. All are run in
-   the first group of conditions, that of paper B, and the first 48 in every group, so that the others are not run for
-   favourites alone.
+   the two cheap groups of conditions, and the first 48 in every group, so that the others are not run for favourites
+   alone.
 2. *Emulator.* Random forests, fitted to the readings that have been run, predict each statistic from the choices. The
    uncertainty of a prediction combines the disagreement of the trees and the noise of a few runs.
 3. *Candidates.* Thousands of readings that have not been run are drawn: half from the priors, half as children of the
    readings nearest to the targets, which take each choice from one of two parents or afresh from its prior. The
    *implausibility* of a candidate is how far its prediction lies outside the target's interval, in units that combine
-   the target's scale and the prediction's uncertainty; its maximum over targets must be below 3. The most promising of
-   these candidates are run, and as many others at random, since the emulator errs where it has few data.
+   the target's scale and the prediction's uncertainty; its maximum over targets must be below 3. Those are run that are
+   most promising for paper B alone, those most promising for all papers, and as many others at random, since the
+   emulator errs where it has few data.
 4. *Waves.* The next emulator is fitted to these results too, and so on until time is up. Each wave runs its candidates
-   in the first group, and in every other group the most promising of all readings so far: as many in the cheap one of
-   paper A, fewer in the others.
+   in both cheap groups. Object vectors and both modalities are run for the readings that are most promising for paper
+   B, whatever they give for paper A; networks and single maps for those most promising for all papers.
 5. *Confirmation.* A search over thousands of noisy numbers finds lucky ones. So the nearest readings are run again with
    fresh seeds and more runs, and only these results count.
 
@@ -38,7 +39,8 @@ from neorl.extras import require
 RUNS, STEPS = 2, 600_000  # of a reading: the papers' own lengths
 DESIGN, IN_FULL = 512, 48  # readings in wave 0, a power of two, and how many of them are run in every group
 CHUNK = 32  # readings run between two checks of the clock
-WAVE = {"modalities": 192, "layers": 192, "networks": 32, "single": 24}  # readings per wave in each group
+CHEAP = ("places", "layers")
+WAVE = {"places": 192, "layers": 192, "objects": 72, "both": 48, "networks": 32, "single": 32}  # readings per wave
 POOL = 4_000  # candidates per wave
 PARENTS, RENEWED, MOVED = 30, 0.1, 0.05  # of children: best rows, share of choices redrawn, spread of moved numbers
 IMPLAUSIBLE = 3.0
@@ -87,8 +89,6 @@ def confirm(table, n, runs, executor=None, seed=0):
 
 def _work(table, seed, runs, steps):
     """Yield without end what to run next: (group, places in the table). New rows join the table when drawn."""
-    first, *others = GROUPS
-
     def add(wave, readings):
         begin = len(table)
         table.extend(Row(wave, 1_000 * seed + begin + i, runs, steps, reading) for i, reading in enumerate(readings))
@@ -96,18 +96,22 @@ def _work(table, seed, runs, steps):
 
     if len(table) < DESIGN:
         add(0, design(DESIGN, seed)[len(table):])
-    yield from _chunks(first, _lacking(table, first, range(DESIGN)))
-    for group in others:
-        yield from _chunks(group, _lacking(table, group, range(IN_FULL)))
+    for group in GROUPS:
+        yield from _chunks(group, _lacking(table, group, range(DESIGN if group in CHEAP else IN_FULL)))
     while True:
         wave = 1 + max(row.wave for row in table)
         rng = np.random.default_rng([seed, wave])
         emulator = Emulator(table, seed=wave)
-        yield from _chunks(first, add(wave, candidates(table, emulator, WAVE[first], rng)))
-        for before, group in zip(GROUPS, others):
+        new = add(wave, candidates(table, emulator, WAVE[CHEAP[0]], rng))
+        for group, members in GROUPS.items():
+            if group in CHEAP:
+                yield from _chunks(group, new)
+                continue
             emulator = Emulator(table, seed=wave)
-            ready = [i for i in _lacking(table, group, range(len(table))) if before in table[i].groups]
-            order = np.argsort(prospects([table[i] for i in ready], emulator), kind="stable")
+            ready = _lacking(table, group, range(len(table)))
+            ready = ready if group == "objects" else [i for i in ready if "objects" in table[i].groups]
+            papers = "B" if members.paper == "B" else "ABC"
+            order = np.argsort(prospects([table[i] for i in ready], emulator, papers), kind="stable")
             yield from _chunks(group, [ready[i] for i in order[: WAVE[group]]])
 
 
@@ -195,15 +199,18 @@ def features(readings):
     return np.array(columns, float).T
 
 
-def prospects(rows, emulator):
-    """How far rows are from all targets, as measured or else as predicted: float64 (rows,).
+def prospects(rows, emulator, papers="ABC"):
+    """How far rows are from the targets of some papers, as measured or else as predicted: float64 (rows,).
 
     It is the root mean square over targets, each counted as 4 at most.
     """
     if not rows:
         return np.zeros(0)
     each = emulator.implausibility([row.reading for row in rows])
+    each = {name: distances for name, distances in each.items() if name[0] in papers}
     for name, target in TARGETS.items():
+        if name[0] not in papers:
+            continue
         each.setdefault(name, np.zeros(len(rows)))
         for i, row in enumerate(rows):
             if name in row.statistics:
@@ -212,19 +219,24 @@ def prospects(rows, emulator):
 
 
 def candidates(table, emulator, n, rng):
-    """Readings to run next, a list of n `Reading`: the most promising, and as many others that are not implausible."""
+    """Readings to run next, a list of n `Reading`.
+
+    A third is the most promising for paper B, a third for all papers, and the others are not implausible.
+    """
     drawn = [reading_at(shares) for shares in rng.random((POOL // 2, len(WITHIN)))]
-    best = [table[i].reading for i in np.argsort(prospects(table, emulator), kind="stable")[:PARENTS]]
-    drawn += [_child(*(best[i] for i in rng.integers(len(best), size=2)), rng) for _ in range(POOL - len(drawn))]
-    worst = np.max(list(emulator.implausibility(drawn).values()), axis=0)
-    mean = prospects([Row(0, 0, 0, 0, reading) for reading in drawn], emulator)
-    order = np.lexsort([mean, worst >= IMPLAUSIBLE])
-    promising = list(order[: n // 2])
-    rest = [i for i in order[n // 2 :] if worst[i] < IMPLAUSIBLE]
-    others = list(rng.permutation(rest)[: n - len(promising)])
-    short = n - len(promising) - len(others)
-    beyond = [i for i in order[n // 2 :] if worst[i] >= IMPLAUSIBLE]
-    return [drawn[i] for i in promising + others + beyond[:short]]
+    for papers in ("B", "ABC"):
+        best = [table[i].reading for i in np.argsort(prospects(table, emulator, papers), kind="stable")[:PARENTS]]
+        drawn += [_child(*(best[i] for i in rng.integers(len(best), size=2)), rng) for _ in range(POOL // 4)]
+    far, rows = emulator.implausibility(drawn), [Row(0, 0, 0, 0, reading) for reading in drawn]
+    chosen = []
+    for papers in ("B", "ABC"):
+        worst = np.max([each for name, each in far.items() if name[0] in papers], axis=0)
+        order = np.lexsort([prospects(rows, emulator, papers), worst >= IMPLAUSIBLE])
+        chosen += [i for i in order if i not in chosen][: n // 3]
+    rest = [i for i in order if i not in chosen]  # now by all papers
+    plausible = [i for i in rest if worst[i] < IMPLAUSIBLE]
+    others = [*rng.permutation(plausible), *(i for i in rest if worst[i] >= IMPLAUSIBLE)]
+    return [drawn[i] for i in (*chosen, *others[: n - len(chosen)])]
 
 
 def _child(mother, father, rng):

@@ -10,7 +10,7 @@
 4. The *error* of a statistic is its standard error over runs, by the jackknife: each run in turn is left out of every
    condition. The *distance* to a target is how far the value lies outside its interval, in units that combine the
    target's scale and the error; it is 0 inside.
-5. Targets belong to *groups* of conditions that are computed together: those of paper B first, which are the hardest.
+5. Targets belong to *groups* of conditions that are computed together, the cheap ones first.
 """
 
 import math
@@ -192,13 +192,21 @@ class Group:
     targets: tuple[str, ...]
 
 
+    @property
+    def paper(self):
+        """The paper whose numbers its targets are: "A", "B" or "C"."""
+        return self.targets[0][0]
+
+
 def _group(keys, *claims):
     return Group(keys, tuple(name for name, target in TARGETS.items() if target.claim in claims))
 
 
 GROUPS = {
-    "modalities": _group((("place", "all"), ("objects", "all"), "both"), "B1", "B3", "B4"),
+    "places": Group((("place", "all"),), ("B3 place", "B4 place")),
     "layers": _group((("layer", 3), ("layer", 7), ("layer", 23), "layers"), "A6", "A7"),
+    "objects": Group((("place", "all"), ("objects", "all")), ("B1 level",)),
+    "both": Group(("both",), ("B3 both", "B4 both")),
     "networks": _group(tuple(("network", name) for name in "ABCD"), "C1", "C2", "C3", "C4"),
     "single": _group((("single", 10), ("single", 30), ("single", 50)), "A2", "A3", "A4", "A5"),
 }
