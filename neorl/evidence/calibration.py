@@ -159,7 +159,8 @@ class Emulator:
                           for i, name in enumerate(members.targets)]
                 forest = require("sklearn.ensemble", extra="book").RandomForestRegressor(
                     TREES, min_samples_leaf=LEAF, max_features=0.5, random_state=seed)
-                self.forests[group] = forest.fit(features([row.reading for row in rows]), np.transpose(scaled))
+                self.forests[group] = forest.fit(features([row.reading for row in rows]),
+                                                 np.squeeze(np.transpose(scaled)))
                 self.noise[group] = np.median(found[:, :, 1], axis=0)
 
     def predict(self, readings):
@@ -167,7 +168,7 @@ class Emulator:
         at = features(readings)
         found = {}
         for group, forest in self.forests.items():
-            trees = np.stack([tree.predict(at) for tree in forest.estimators_])
+            trees = np.stack([tree.predict(at).reshape(len(at), -1) for tree in forest.estimators_])
             for i, name in enumerate(GROUPS[group].targets):
                 scale = TARGETS[name].scale
                 spread = np.hypot(scale * trees[..., i].std(axis=0), self.noise[group][i])

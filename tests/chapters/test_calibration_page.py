@@ -54,7 +54,7 @@ def test_the_best_row_runs_once_more_with_its_reading_and_fresh_seeds(asked):
     (best,) = rows(())
     row, life = calibration.confirm(best, 600_000, 20, 1_000_003)
     assert (row.reading, row.seed, row.steps, row.runs) == (best.reading, 1_000_003, 600_000, 20)
-    assert life == row.statistics == {"layers": 20, "modalities": 20, "networks": 20, "single": 4}
+    assert life == row.statistics == dict.fromkeys(GROUPS, 20) | {"single": 4}
     assert calibration.confirm(best, 600_000, 1, 0)[0].runs == 2
 
 
@@ -69,7 +69,7 @@ def test_other_readings_run_twice_without_the_single_maps(asked):
     assert len(calibration.lives_of_others([first, replace(best, seed=99), other], best, 600_000, 50)) == 2
     assert [(row.reading, row.seed, row.runs, row.steps) for row, _ in asked] == [
         (first.reading, 50, 2, 600_000), (other.reading, 52, 2, 600_000)]
-    assert {groups for _, groups in asked} == {("layers", "modalities", "networks")}
+    assert {groups for _, groups in asked} == {tuple(GROUPS)[:-1]}
 
 
 def test_rows_that_agree_with_all_targets_are_counted():

@@ -63,11 +63,12 @@ def test_levels_and_minutes_of_the_modalities_are_measured():
     slow = lived(*[0.05] * 9, 0.15, *[0.29] * 2, **world)
     quick = lived(0.3, *[0.55] * 11, **world)
     results = {("place", "all"): slow, ("objects", "all"): lived(0.29, **world), "both": quick}
-    found = {name: each.value for name, each in calibration_targets.measure("modalities", results).items()}
+    found = {name: each.value for group in ("places", "objects", "both")
+             for name, each in calibration_targets.measure(group, results).items()}
     assert found["B3 place"] == pytest.approx(0.25, abs=0.05) and found["B3 both"] == pytest.approx(0.55, abs=1e-4)
     assert 160 < found["B4 place"] <= 175 and 15 < found["B4 both"] < 25
     flat = results | {("place", "all"): lived(0.05, **world)}
-    assert calibration_targets.measure("modalities", flat)["B4 place"].value == 0
+    assert calibration_targets.measure("places", flat)["B4 place"].value == 0
 
 
 def test_the_error_is_that_of_the_mean_over_runs():
@@ -75,13 +76,13 @@ def test_the_error_is_that_of_the_mean_over_runs():
     rates = np.array([0.1, 0.2, 0.25, 0.45])
     varied = replace(result, rewards=(result.rewards / 0.2 * rates[:, None]).astype(np.float32))
     results = {("place", "all"): varied, ("objects", "all"): varied, "both": varied}
-    found = calibration_targets.measure("modalities", results)
+    found = calibration_targets.measure("both", results) | calibration_targets.measure("objects", results)
     assert found["B3 both"].value == pytest.approx(0.25, rel=1e-4)
     assert found["B3 both"].error == pytest.approx(rates.std(ddof=1) / 2, rel=1e-3)
     assert found["B1 level"] == pytest.approx((1, 0), abs=1e-4)  # runs with the same seed are paired
     with pytest.raises(ValueError, match="runs is 1, allowed are integers ≥ 2"):
-        calibration_targets.measure("modalities", {key: replace(each, runs=1, rewards=each.rewards[:1])
-                                                   for key, each in results.items()})
+        calibration_targets.measure("both", {key: replace(each, runs=1, rewards=each.rewards[:1])
+                                             for key, each in results.items()})
 
 
 def test_a_claim_holds_if_all_its_targets_do():
@@ -111,7 +112,7 @@ def made_up(rows, group, executor=None, progress=False):
 def table():
     """A made-up design of 64 rows, 32 of which have been run in all groups."""
     rows = made_up([Row(0, i, 2, 3_000, reading) for i, reading in enumerate(design(64))], "layers")
-    for group in list(GROUPS)[1:]:
+    for group in GROUPS:
         rows[:32] = made_up(rows[:32], group)
     return rows
 
@@ -176,7 +177,7 @@ def small(monkeypatch):
     monkeypatch.setattr(time, "monotonic", lambda: float(next(clock)))
     monkeypatch.setattr(calibration_table, "run", made_up)
     for name, value in {"DESIGN": 64, "CHUNK": 16, "POOL": 400, "TREES": 30,
-                        "WAVE": {"layers": 32, "modalities": 16, "networks": 16, "single": 16}}.items():
+                        "WAVE": {"places": 32, "layers": 32} | dict.fromkeys(tuple(GROUPS)[2:], 16)}.items():
         monkeypatch.setattr(calibration, name, value)
 
 
