@@ -66,7 +66,7 @@ def object_vector_cells(resolutions: Sequence[int] = PRIMES, valence_green: floa
 
 
 @paper_agent
-def multimodal(resolutions: Sequence[int] = PRIMES, place_gain: float = 5.0, object_gain: float = 1.0,
+def multimodal(resolutions: Sequence[int] = PRIMES, place_gain: float = 3.0, object_gain: float = 1.0,
                **choices: Any) -> Agent:
     """PC + OVC of paper B (fig. 5): both nodes desire the creeps, and their values add.
 
@@ -76,7 +76,7 @@ def multimodal(resolutions: Sequence[int] = PRIMES, place_gain: float = 5.0, obj
 
 
 @paper_agent
-def network_a(resolutions: Sequence[int] = LAYERS, scale: float = Desire.scale, signed: bool = Desire.signed,
+def network_a(resolutions: Sequence[int] = LAYERS, scale: float = Desire.scale, signed: bool = False,
               **choices: Any) -> Agent:
     """Agent A of paper C (fig. 4a): place cells merge all creeps into one desire, on which object-vector cells act.
 
@@ -87,7 +87,7 @@ def network_a(resolutions: Sequence[int] = LAYERS, scale: float = Desire.scale, 
 
 
 @paper_agent
-def network_b(resolutions: Sequence[int] = LAYERS, scale: float = Desire.scale, signed: bool = Desire.signed,
+def network_b(resolutions: Sequence[int] = LAYERS, scale: float = Desire.scale, signed: bool = False,
               **choices: Any) -> Agent:
     """Agent B of paper C (fig. 4b): one desire for the green creeps, and one for the red.
 
@@ -97,7 +97,7 @@ def network_b(resolutions: Sequence[int] = LAYERS, scale: float = Desire.scale, 
 
 
 @paper_agent
-def network_c(resolutions: Sequence[int] = LAYERS, scale: float = Desire.scale, signed: bool = Desire.signed,
+def network_c(resolutions: Sequence[int] = LAYERS, scale: float = Desire.scale, signed: bool = False,
               place_gain: float = 1.0, object_gain: float = 1.0, **choices: Any) -> Agent:
     """Agent C of paper C (fig. 4c): as B, and the values of both nodes add.
 
@@ -109,7 +109,7 @@ def network_c(resolutions: Sequence[int] = LAYERS, scale: float = Desire.scale, 
 
 @paper_agent
 def network_d(resolutions: Sequence[int] = LAYERS, recursion: float = -1.0, scale: float = Desire.scale,
-              signed: bool = Desire.signed, place_gain: float = 1.0, object_gain: float = 1.0, **choices: Any) -> Agent:
+              signed: bool = False, place_gain: float = 1.0, object_gain: float = 1.0, **choices: Any) -> Agent:
     """Agent D of paper C (fig. 4d): as C, and object-vector cells receive their own previous desire, with valence r.
 
     recursion: r, a finite number, which is negative in the thesis.

@@ -142,7 +142,8 @@ def test_claims_are_sorted_by_the_distance_that_remains_without_them():
 def test_rows_are_counted_by_group_and_wave():
     table = [replace(row, wave=2 * i) for i, row in enumerate(rows((), (), ()))]
     table[1] = replace(table[1], statistics={name: Measure(0.0, 0.0) for name in GROUPS["layers"].targets})
-    assert calibration.rows_by_group(table) == "3 layers, 2 modalities, 2 networks, 2 single; in 5 waves"
+    assert calibration.rows_by_group(table) == (
+        "2 places, 3 layers, 2 objects, 2 both, 2 networks, 2 single; in 5 waves")
 
 
 def test_every_target_has_its_reason():

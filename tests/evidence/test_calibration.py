@@ -183,8 +183,8 @@ def small(monkeypatch):
 
 def test_waves_close_in_on_the_readings_that_agree(small):
     kept = []
-    table = calibration.calibrate(0.6, keep=kept.append)
-    assert len(kept) == 35 and kept[-1] == table  # the clock is read once at the start, and once before each chunk
+    table = calibration.calibrate(1.0, keep=kept.append)
+    assert len(kept) == 59 and kept[-1] == table  # the clock is read once at the start, and once before each chunk
     assert [row.seed for row in table] == list(range(len(table)))
     waves = sorted({row.wave for row in table})
     assert waves[0] == 0 and len(waves) >= 4
@@ -196,7 +196,7 @@ def test_waves_close_in_on_the_readings_that_agree(small):
 
 
 def test_the_nearest_are_confirmed_with_fresh_seeds_and_more_runs(small):
-    table = calibration.calibrate(0.3)
+    table = calibration.calibrate(0.6)
     confirmed = calibration.confirm(table, 5, 20)
     assert confirmed[: len(table)] == table
     near = calibration_table.nearest(table)[:5]

@@ -74,9 +74,9 @@ def test_the_tables_have_a_row_for_each_choice_what_is_pinned_first():
     assert all(line.count("|") == 4 for each in rows for line in each)
     plain = pins.tables().replace("<sup>", "^").replace("<sub>", "_").replace("</sup>", "").replace("</sub>", "")
     assert all(f"“{pin.quotation}” ({pin.place}) |" in plain for pin in pins.PINS if pin.quotation)
-    assert "“e<sup>out</sup> = d”" in pinned and "Q<sub>tot</sub>(s, a)" in pinned and "^" not in pins.tables()
+    assert "“e<sup>out</sup> = d”" in unsettled and "Q<sub>tot</sub>(s, a)" in pinned and "^" not in pins.tables()
 
 
 def test_a_choice_that_other_tables_name_otherwise_has_both_names():
-    text = pins.tables({"causes": "causes", "capture": "capture"})
-    assert "| transitions of object vectors (*causes*) |" in text and "| capture |" in text
+    text = pins.tables({"scale": "desire scale", "contact": "contact"})
+    assert "| where a desire lies (*desire scale*) |" in text and "| contact |" in text
