@@ -85,8 +85,8 @@ def sizes_of(run):
             "frames": len(parameters.frames), "left": parameters.contacts.trace,
             "values": maps.first_value[-1], "cells": maps.first_cell[-1], "tracks": maps.first_track[-1],
             "scratch": actions * maps.first_cell[-1],
-            "trace": parameters.learning.trace, "traces": len(tracks.strength),
-            "trace_weights": len(tracks.trace_weight),
+            "traces": len(tracks.strength), "trace_weights": len(tracks.trace_weight),
+            "passed": maps.first_passed[-1],
             "things": run.world.things, "words": 0, "bins": 1, "kinds": len(run.world.kinds),
             **{name: worlds.sizes_of(run.world)[name] for name in ("obstacles", "places", "trials")}}
 

@@ -9,7 +9,7 @@ fragment as a selector, which allows few other characters. */
 const PREFIX = "#explorer";
 const SHORT = { agent: "preset", run: "run", seed: "seed", resolutions: "resolutions", modality: "modality",
   recursion: "recursion", red: "valence_red", gains: "gains", exploration: "exploration", rate: "learning_rate",
-  discount: "discount", memory: "memory", creeps: "n_creeps" };
+  discount: "discount", memory: "memory", creeps: "n_creeps", state: "object_state" };
 const LISTS = ["resolutions", "gains"];
 
 const slug = (text) => text.toLowerCase().replaceAll(/[^a-z0-9]+/g, "-").replaceAll(/^-|-$/g, "");
@@ -27,6 +27,7 @@ function readAddress(hash, presets, modalities, preset) {
   const valueOf = (name, text) => {
     if (name === "preset") return named(Object.keys(presets), text);
     if (name === "modality") return named(Object.keys(modalities), text);
+    if (name === "object_state") return named(Object.keys(STATES), text);
     return LISTS.includes(name) ? text.split("-").map(numberOf) : numberOf(text);
   };
   const given = Object.entries(SHORT).filter(([short]) => Object.hasOwn(said, short))

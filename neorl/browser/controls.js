@@ -24,6 +24,7 @@ class Controls {
       if (totals.length) this.control("open-preset").append(new Option(label, key));
     }
     this.control("modality").append(...Object.keys(this.modalities).map((name) => new Option(name, name)));
+    this.control("object_state").append(...Object.entries(STATES).map(([state, label]) => new Option(label, state)));
     const shown = this.model.get("preset");
     if (this.presets[shown]?.totals.length) this.control("open-preset").value = shown;
     this.part(".open").hidden = !this.control("open-preset").length;
@@ -38,7 +39,8 @@ class Controls {
     if (kind === "number") this.forgive();
     const act = { resolutions: () => this.writeResolutions(target), "open-preset": () => this.limitRun(),
       preset: () => this.write(initialSettings(this.presets, value)),
-      modality: () => this.write({ modality: value }), speed: () => this.write({ speed: SPEEDS[value] }),
+      modality: () => this.write({ modality: value }), object_state: () => this.write({ object_state: value }),
+      speed: () => this.write({ speed: SPEEDS[value] }),
       learning_rate: () => this.write({ learning_rate: power(value) }), "open-run": () => null,
       horizon: () => this.write({ discount: 1 - 1 / power(value) }),
       memory: () => this.write({ memory: Number(value) === NO_MEMORY ? 0 : power(value) }),
@@ -166,11 +168,13 @@ class Controls {
 
   showControls() {
     const { model } = this;
-    const { nodes, modality, recursion, red, avoided, can_remember, parameters: { learning } } =
-      this.presets[model.get("preset")];
+    const preset = this.presets[model.get("preset")];
+    const { nodes, modality, recursion, red, avoided, can_remember, parameters: { learning } } = preset;
     this.control("valence_red").previousElementSibling.textContent = `Valence of ${AVOIDED[avoided] ?? "red"}`;
     for (const name of ["modality", "seed", "run"]) this.control(name).value = model.get(name);
     this.offer("modality", nodes.length === 1 && modality !== "");
+    this.control("object_state").value = model.get("object_state") || "object";
+    this.offer("object_state", statedNodes(preset, this.modalities, this.settings()).length > 0);
     this.offer("recursion", recursion !== null);
     this.offer("valence_red", red.length > 0);
     this.offer("n_creeps", this.hasCreeps());
@@ -179,12 +183,11 @@ class Controls {
       chip.ariaPressed = model.get("resolutions").includes(Number(chip.dataset.chip));
     }
     this.offer("memory", can_remember);
-    this.control("memory").previousElementSibling.textContent = `Memory, ${learning.memory_by_time ? "seconds" : "cells"}`;
     const sliders = ["recursion", "valence_red", "n_creeps", "exploration"];
     for (const name of sliders) this.showSlider(name, model.get(name) ?? 0);
     const [rate, horizon, memory] = [model.get("learning_rate"), 1 / (1 - model.get("discount")), model.get("memory")];
     this.showSlider("learning_rate", Math.log10(rate || 0.001), shown(rate));
-    const discounts = learning.bootstrap || learning.trace > 1 || (learning.memory_discounts && memory > 0);
+    const discounts = learning.bootstrap || memory > 0;
     this.control("horizon").disabled = !discounts;
     const cells = horizon === Infinity ? "∞" : shown(horizon);
     this.showSlider("horizon", Math.log10(horizon), discounts ? cells : "no effect");
@@ -262,7 +265,9 @@ class Controls {
     }
     if (game) said.push(`You: ${shown(frame.player?.reward ?? 0)}. neoRL: ${shown(frame.reward - game.score)}.`,
       "Steer with the arrow keys; Escape leaves the game.");
-    if (seen.goal !== null) {
+    if (seen.goal !== null && seen.ofSelf) {
+      said.push(`${seen.name}: in each cell how to get there, whatever is in it, learned without being asked.`);
+    } else if (seen.goal !== null) {
       const ways = { position: "how to get there", velocity: "how to reach that velocity" };
       const what = ways[seen.vector] ?? "how to get a thing there";
       said.push(`Cell ${seen.goal} of ${seen.name}: ${what}, learned without being asked.`);

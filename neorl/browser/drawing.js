@@ -59,7 +59,7 @@ function drawArena(canvas, colours, frame, cursor) {
 
 function drawMap(board, cells, { active, seen: { goal } }) {
   const { unit, colours } = board;
-  for (const cell of active) fillPath(board, colours.agent, 0.24, (path) => cells.addRegion(path, cell, unit));
+  for (const cell of new Set(active)) fillPath(board, colours.agent, 0.24, (path) => cells.addRegion(path, cell, unit));
   stroke(board, colours.ink, 0.8, cells.count > 16 ? 0.3 : 0.5, (path) => cells.addBorders(path, unit));
   if (goal === null) return;
   const addGoal = (path) => cells.addRegion(path, goal, unit);
@@ -87,17 +87,18 @@ function intervalOf(cell, axis) {
 
 const intervalsOf = (axis) => (axis ? axis.borders.length - 1 : 1);
 
-function squareCells({ axes }, { x, y }, scale) {
+function squareCells({ axes, ends }, { x, y }, scale) {
   const [across, down] = [0, 1].map((along) => axes.find((each) => each.along === along));
   const placed = (axis, start) => (axis?.borders ?? [0, 1]).map((border) => {
     if (axis?.feature !== "margin") return start + scale * border;
     return border < 1e-9 ? border + axis.high : border + 1 - axis.high; // the middle of the board is the single value 0
   });
   const [xs, ys] = [placed(across, x), placed(down, y)];
-  // Places beyond the range of a map belong to the cell at its end.
+  // Places beyond the range of a map belong to the cell at its end, unless the map ends there.
   const shown = (borders, index) => {
     const last = borders.length - 2;
-    return [index > 0 ? clampedToBoard(borders[index]) : 0, index < last ? clampedToBoard(borders[index + 1]) : 1];
+    const isInner = [ends || index > 0, ends || index < last];
+    return [0, 1].map((side) => (isInner[side] ? clampedToBoard(borders[index + side]) : side));
   };
   // On a closed axis, cells continue at the other side of the board.
   const shiftsOf = (axis) => (axis?.closed ? [-1, 0, 1] : [0]);
@@ -111,9 +112,11 @@ function squareCells({ axes }, { x, y }, scale) {
     count: Math.max(intervalsOf(across), intervalsOf(down)),
     addBorders(path, unit) {
       const between = (borders, axis) => shiftsOf(axis).flatMap((shift) =>
-        borders.slice(axis?.closed ? 0 : 1, -1).map((border) => (border + shift) * unit));
-      for (const x of between(xs, across)) path.moveTo(x, 0), path.lineTo(x, unit);
-      for (const y of between(ys, down)) path.moveTo(0, y), path.lineTo(unit, y);
+        borders.slice(axis?.closed || ends ? 0 : 1, ends ? undefined : -1).map((border) => (border + shift) * unit));
+      const [[left, right], [top, bottom]] = [xs, ys].map((each) =>
+        (ends ? [each[0], each.at(-1)] : [0, 1]).map((border) => border * unit));
+      for (const x of between(xs, across)) path.moveTo(x, top), path.lineTo(x, bottom);
+      for (const y of between(ys, down)) path.moveTo(left, y), path.lineTo(right, y);
     },
     addRegion(path, cell, unit) {
       const [left, right, top, bottom] = corners(cell);
@@ -132,28 +135,29 @@ function squareCells({ axes }, { x, y }, scale) {
 }
 
 /** heading: of the agent, from which bearings are measured, as directions are from the east. */
-function roundCells({ axes }, { x, y }, scale, heading) {
+function roundCells({ axes, ends }, { x, y }, scale, heading) {
   const away = axes.find(({ feature }) => feature === "length");
   const around = axes.find(({ feature }) => ["direction", "bearing"].includes(feature));
   const ahead = around?.feature === "bearing" ? Math.atan2(heading[1], heading[0]) : 0;
   const [rings, sectors] = [intervalsOf(away), intervalsOf(around)];
   const radii = (away?.borders ?? [0, 1]).map((radius) => scale * radius);
   const angles = (around?.borders ?? [0, 1]).map((turns) => ahead + FULL_TURN * turns);
+  const furthest = ends ? radii.at(-1) : BEYOND;
   const extent = (cell) => {
     const [ring, sector] = [intervalOf(cell, away), intervalOf(cell, around)];
     const [from, to] = sectors > 1 ? [angles[sector], angles[sector + 1]] : [0, FULL_TURN];
-    return { inner: radii[ring], outer: ring < rings - 1 ? radii[ring + 1] : BEYOND, from, to, ring };
+    return { inner: radii[ring], outer: ring < rings - 1 ? radii[ring + 1] : furthest, from, to, ring };
   };
   return {
     count: Math.max(rings, sectors),
     addBorders(path, unit) {
-      for (const radius of radii.slice(1, -1)) {
+      for (const radius of radii.slice(1, ends ? undefined : -1)) {
         path.moveTo((x + radius) * unit, y * unit);
         path.arc(x * unit, y * unit, radius * unit, 0, FULL_TURN);
       }
       for (const angle of sectors > 1 ? angles.slice(1) : []) {
         path.moveTo(x * unit, y * unit);
-        path.lineTo((x + BEYOND * Math.cos(angle)) * unit, (y + BEYOND * Math.sin(angle)) * unit);
+        path.lineTo((x + furthest * Math.cos(angle)) * unit, (y + furthest * Math.sin(angle)) * unit);
       }
     },
     addRegion(path, cell, unit) {

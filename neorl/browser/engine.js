@@ -13,21 +13,20 @@ let look = { map: "", goal: null, field: 0 }; // the name of a map, a cell of it
 
 /** A run in a machine of its own, with its parameters derived and everything else at 0. */
 function newRun({ parameters: choices, world, steps, bin_steps }) {
-  const { maps, nodes, axes, desires, learning, contacts, frames, push } = choices;
+  const { maps, nodes, axes, desires, contacts, frames, push } = choices;
   const sizes = {
     maps: maps.resolution.length, map_axes: mapAxes(choices), nodes: nodes.follows.length,
     node_axes: axes.what.length, boundaries: axes.boundary.length, landmarks: nodes.landmark.length,
     frames: frames.length, left: contacts.trace, desires: desires.source.length, coordinates: choices.coordinates,
-    trace: learning.trace, actions: push.length,
-    axes: push[0].length, things: world.things, ...world.sizes,
+    actions: push.length, axes: push[0].length, things: world.things, ...world.sizes,
     kinds: world.kinds.length, bins: Math.ceil(steps / bin_steps),
   };
   const draft = new Machine(2 ** 20 + bytesOf("Parameters", sizes)); // the memory of a run follows from its parameters
   const derived = draft.tuple("Parameters", sizes, choices);
   draft.call("derive", sizes, { parameters: derived, n_things: sizes.things });
   const last = (name) => Number(derived.maps[name].at(-1));
-  Object.assign(sizes, { values: last("first_value"), cells: last("first_cell"), tracks: last("first_track") });
-  sizes.traces = learning.memory_retained > 0 ? last("first_trace") : 0;
+  Object.assign(sizes, { values: last("first_value"), cells: last("first_cell"), tracks: last("first_track"),
+    traces: last("first_trace"), passed: last("first_passed") });
   sizes.scratch = sizes.actions * sizes.cells;
   sizes.trace_weights = 2 * sizes.actions * sizes.traces;
 
@@ -103,13 +102,19 @@ const nameOf = (enumeration, number) =>
 
 const learnsContacts = (m) => run.choices.nodes.learns_contacts[nodeOf(run.choices.nodes.first_map, m)];
 
+/** Whether the state of a map is the self, always in the centre, so that each cell is a goal with values of its own. */
+function isOfSelf({ nodes }, m) {
+  return nodes.state[nodeOf(nodes.first_map, m)] !== layout.enumerations.MapState.object;
+}
+
 /** The map that is shown, as it is drawn, and the way to the goal chosen in it. */
 function seen(m) {
-  const { follows } = run.choices.nodes;
-  const vector = nameOf("Vector", follows[nodeOf(run.choices.nodes.first_map, m)]);
+  const { follows, ends, first_map } = run.choices.nodes;
+  const vector = nameOf("Vector", follows[nodeOf(first_map, m)]);
   if (learnsContacts(m)) return { name: look.map, vector, axes: [], goal: null, ways: null }; // its cells are not goals
   return {
-    name: look.map, vector, axes: axesOf(m), goal: look.goal,
+    name: look.map, vector, axes: axesOf(m), ends: ends[nodeOf(first_map, m)], ofSelf: isOfSelf(run.choices, m),
+    goal: look.goal,
     ways: look.goal === null ? null : valueFunction(m, look.goal),
   };
 }
@@ -125,6 +130,9 @@ function axesOf(m) {
     const inner = axes.boundary.slice(axes.first_boundary[first + axis], axes.first_boundary[first + axis + 1]);
     const borders = nameOf("Cut", cut) === "boundaries" ? [axes.low[first + axis], ...inner, axes.high[first + axis]]
       : Array.from({ length: last + 2 }, (_, index) => low + index / scale);
+    if (nodes.ends[n] && nameOf("Cut", cut) === "centred") { // half of either outermost interval is beyond the range
+      Object.assign(borders, { 0: axes.low[first + axis], [last + 1]: axes.high[first + axis] });
+    }
     const isBearing = nameOf("Vector", vector) === "own"; // the only user-defined axis in a module
     if (vector !== nodes.follows[n] && !isBearing) return [];
     return [{ feature: isBearing ? "bearing" : nameOf("Feature", feature), along, stride, borders,
@@ -154,7 +162,7 @@ function become(choices) {
     Object.assign(run, { step, reward, player, changes });
     call("begin_values");
     call("begin");
-    for (const name of ["stream", "last_event", "activity", "attended"]) run.state[name].set(old.state[name]);
+    for (const name of ["stream", "last_event", "activity"]) run.state[name].set(old.state[name]);
     const oldKeys = mapKeys(old.choices);
     keys.forEach((key, m) => oldKeys.includes(key) && keepMap(old, oldKeys.indexOf(key), m));
     const isKept = keys.includes(oldKeys[mapNames(old.choices).indexOf(look.map)]);
@@ -187,7 +195,9 @@ function mapKeys({ names, maps, nodes, axes, learning }) {
     const space = ["what", "low", "high"].map((name) => axes[name].slice(first, end));
     space.push(axes.boundary.slice(axes.first_boundary[first], axes.first_boundary[end]));
     const landmarks = nodes.landmark.slice(nodes.first_landmark[n], nodes.first_landmark[n + 1]);
-    return JSON.stringify([names[n], each, learning.trace, learning.memory_retained > 0, space, landmarks]);
+    const kinds = [nodes.learns_contacts, nodes.state, nodes.ends].map((kind) => kind[n]);
+    const memory = isOfSelf({ nodes }, m) ? learning.memory_retained : learning.memory_retained > 0;
+    return JSON.stringify([names[n], kinds, each, memory, space, landmarks]);
   });
 }
 
@@ -207,11 +217,11 @@ function keepMap(old, from, to) {
 
 /** The values of a map of an old run, reordered as in the present run (neorl.core.learning.Order). */
 function reordered(values, old, m) {
-  const { nodes, maps } = old.parameters;
+  const { maps } = old.parameters;
   const byGoal = old.choices.learning.bootstrap;
-  if (byGoal === run.choices.learning.bootstrap || nodes.learns_contacts[nodeOf([...nodes.first_map].map(Number), m)]) {
-    return values;
-  }
+  const { nodes } = old.choices;
+  const isSquare = !nodes.learns_contacts[nodeOf(nodes.first_map, m)] && !isOfSelf(old.choices, m);
+  if (byGoal === run.choices.learning.bootstrap || !isSquare) return values;
   const [cells, actions] = [Number(maps.cells[m]), old.sizes.actions];
   const [rows, columns] = byGoal ? [actions, cells] : [cells, actions];
   return values.map((_, at) => {
@@ -311,22 +321,24 @@ function field(side) {
   return vectors(tiles, (tile, action) => run.values[actions * tile + action]);
 }
 
-/** The learned value function of one goal, as a vector in every cell of a map. */
+/** The learned value function of a goal, as a vector in every cell of a map; of all goals, if its state is the self. */
 function valueFunction(map, goal) {
   const { first_value, cells: counts } = run.parameters.maps;
   const [first, cells, { actions }] = [Number(first_value[map]), Number(counts[map]), run.sizes];
-  return vectors(cells, (cell, action) => run.state.values.q[first + actions * cell * cells
+  const { q } = run.state.values;
+  if (isOfSelf(run.choices, map)) return vectors(cells, (cell, action) => q[first + actions * cell + action]);
+  return vectors(cells, (cell, action) => q[first + actions * cell * cells
     + (run.choices.learning.bootstrap ? action * cells + goal : goal * actions + action)]);
 }
 
-/** The cell of the map shown that contains a place. User-defined axes see the place as a thing there. */
+/** The cell of the map shown that contains a place, or null. User-defined axes see the place as a thing there. */
 function cellSeenAt(at) {
   const { scene: { things }, choices: { size } } = run;
   const before = things.slice(0, 2);
   things.set([at.x * size, at.y * size].slice(0, things.length));
   const cell = call("cell_seen_at", { m: mapNames(run.choices).indexOf(look.map), ...at });
   things.set(before);
-  return cell;
+  return cell < 0 ? null : cell;
 }
 
 const REQUESTS = {

@@ -19,7 +19,7 @@ import numpy as np
 
 from neorl import checks
 from neorl.agents import beyond, papers, spaces
-from neorl.agents.agent import LEARNED, Agent, Desire, Node
+from neorl.agents.agent import LEARNED, STATES, Agent, Desire, Node
 from neorl.agents.compile import chosen, constants_of
 from neorl.agents.rules import Learning, Policy
 from neorl.browser import wasm
@@ -75,18 +75,19 @@ class Explorer(AnyWidget):
     """A neoRL agent to watch, change and play against; in JupyterLab and, from its stored state, in a static page.
 
     conditions: {name: `Result`}, the conditions of the page, in worlds of the package; their bands and runs are shown.
-        Each agent has a single valence for red (or for obstacles or vessels) and a single one for recursion, and no
-        kernels of the user's own.
+        Each agent has a single valence for red (or for obstacles or vessels), a single one for recursion, a single
+        state of object vectors, and no kernels of the user's own.
     preset: the name of a condition or of one of `neorl.browser.explorer.AGENTS`; by default the first condition or
         agent.
     traits: initial values of any of the traits below.
 
     Traits: resolutions (1 … 90 each), modality (by name, with the preset's ranges if it is the preset's own; "" if the
-    preset has more than one node or a modality of its own), recursion (None if there is none), valence_red (of
-    obstacles or vessels in worlds where these are to be avoided), gains (one per node), exploration, learning_rate
-    and discount (0 … 1), memory (≥ 0, in the unit of the preset; 0 if it has a trace or learns at every step), n_creeps
-    (1 … 20; None outside WaterWorld), seed (below 2³²), run, speed (times real time, 0 for as fast as possible),
-    playing.
+    preset has more than one node or a modality of its own), object_state (of Cartesian object vectors with cells as
+    goals: "object", with the preset's reach, "self" or "per object", as in `Node`; "" if the preset has none),
+    recursion (None if there is none), valence_red (of obstacles or vessels in worlds where these are to be avoided),
+    gains (one per node), exploration, learning_rate and discount (0 … 1), memory (≥ 0, in cells; 0 if it learns at
+    every step), n_creeps (1 … 20; None outside WaterWorld), seed (below 2³²), run, speed (times real time, 0 for as
+    fast as possible), playing.
     Choosing a preset sets the traits that it determines. An agent that is not a condition is in the tank of the first
     condition in WaterWorld, or else in one with 3 creeps; an agent to the letter has the letter's steps per second and
     contacts; agents in the arena are in `neorl.Arena()`, and agents of other spaces in their own worlds.
@@ -107,6 +108,7 @@ class Explorer(AnyWidget):
     preset = traitlets.Unicode().tag(sync=True)
     resolutions = traitlets.List(traitlets.Int(min=1, max=90), minlen=1).tag(sync=True)
     modality = traitlets.Unicode().tag(sync=True)
+    object_state = traitlets.Unicode().tag(sync=True)
     recursion = traitlets.Float(allow_none=True).tag(sync=True)
     valence_red = traitlets.Float().tag(sync=True)
     gains = traitlets.List(traitlets.Float()).tag(sync=True)
@@ -146,13 +148,16 @@ class Explorer(AnyWidget):
     @property
     def agent(self):
         """The `Agent` that the traits describe, without elements dropped in the page."""
-        preset, _ = self._lives[self.preset]
+        preset, world = self._lives[self.preset]
         named = {each.name: each for each in MODALITIES}
         own = self.resolutions == self._presets[self.preset]["resolutions"]
         nodes = [replace(node, resolutions=node.resolutions if own else self.resolutions, gain=gain)
                  for node, gain in zip(preset.nodes, self.gains)]
         if self.modality not in ("", self._presets[self.preset]["modality"]) and len(nodes) == 1:
-            nodes = [replace(nodes[0], modality=named[self.modality])]
+            nodes = [replace(nodes[0], modality=named[self.modality], state="object", reach=0.0, beyond="outermost")]
+        for n in _stated(nodes, preset.learning, world):
+            state = self.object_state or "object"
+            nodes[n] = replace(nodes[n], state=state, reach=nodes[n].reach if state == "object" else 0.0)
         desires = [replace(each, valence=self.valence_red) if each.source in AVOIDED else
                    replace(each, valence=self.recursion) if each.source == each.target else each
                    for each in preset.desires]
@@ -167,7 +172,7 @@ class Explorer(AnyWidget):
         _, world = self._lives[self.preset]
         return replace(world, n_creeps=self.n_creeps) if isinstance(world, WaterWorld) else world
 
-    @traitlets.validate("preset", "modality", "recursion", "valence_red", "gains", "memory", "n_creeps")
+    @traitlets.validate("preset", "modality", "object_state", "recursion", "valence_red", "gains", "memory", "n_creeps")
     def _check(self, proposal):
         name, value = proposal["trait"].name, proposal["value"]
         try:
@@ -176,6 +181,8 @@ class Explorer(AnyWidget):
             if name == "modality":
                 own = self._lives[self.preset][0].nodes[0].goals == "contacts"
                 return checks.one_of(name, value, ("",) if own else ("", *self._modalities))
+            if name == "object_state":
+                return checks.one_of(name, value, self._presets[self.preset]["states"])
             agent, world = self._lives[self.preset]
             if name == "n_creeps" and value is not None and not isinstance(world, WaterWorld):
                 raise ValueError(f"n_creeps is {value!r}, allowed outside WaterWorld is None")
@@ -183,8 +190,7 @@ class Explorer(AnyWidget):
             if name == "gains" and len(value) != nodes:
                 raise ValueError(f"gains is {value!r}, allowed is one for each of the {nodes} nodes")
             if name == "memory" and value and not self._presets[self.preset]["can_remember"]:
-                raise ValueError(f"memory is {value!r}, allowed is 0 for an agent with a trace or one that learns at "
-                                 "every step")
+                raise ValueError(f"memory is {value!r}, allowed is 0 for an agent that learns at every step")
             for number in value if name == "gains" else () if value is None else (value,):
                 checks.real(name, number)
             return value
@@ -203,7 +209,9 @@ def _check_condition(name, result):
     checks.instance(f"condition {name}", result, Result)
     agent = result.agent
     for what, values in (("valences of red", {each.valence for each in agent.desires if each.source in AVOIDED}),
-                         ("recursions", {each.valence for each in agent.desires if each.source == each.target})):
+                         ("recursions", {each.valence for each in agent.desires if each.source == each.target}),
+                         ("states of object vectors", {agent.nodes[n].state for n in _stated(
+                             agent.nodes, agent.learning, result.world)})):
         if len(values) > 1:
             raise ValueError(f"condition {name} has different {what}, {values}, allowed are the same throughout")
     if any(each.valence == LEARNED for each in agent.desires):
@@ -219,8 +227,15 @@ def _check_condition(name, result):
 
 def _settings(preset):
     """The traits that a preset determines."""
-    return {name: preset[name] for name in ("resolutions", "modality", "recursion", "valence_red", "gains",
-                                            "exploration", "learning_rate", "discount", "memory", "n_creeps")}
+    return {name: preset[name] for name in ("resolutions", "modality", "object_state", "recursion", "valence_red",
+                                            "gains", "exploration", "learning_rate", "discount", "memory", "n_creeps")}
+
+
+def _stated(nodes, learning, world):
+    """The numbers of the nodes of Cartesian object vectors with cells as goals, whose state can be chosen."""
+    return [n for n, node in enumerate(nodes) if learning.update_on == "cell" and node.goals == "cells"
+            and node.modality.follows == "objects" and node.modality.is_cartesian
+            and len(node.modality.axes) == world.actions.axes]
 
 
 def _preset(name, agent, world, result):
@@ -231,16 +246,21 @@ def _preset(name, agent, world, result):
     steps = result.steps if result else STEPS
     modality = agent.nodes[0].modality
     learning = agent.learning
+    stated = _stated(agent.nodes, learning, world)
+    in_menu = _named(modality) if len(names) == 1 else ""
+    could_be = in_menu and agent.nodes[0].goals == "cells" and learning.update_on == "cell"
     return {
         "label": name, "nodes": names,
         "group": ("On this page" if result else "To the letter" if name in TO_THE_LETTER else
                   "In the arena" if name in IN_THE_ARENA else "Beyond the thesis" if name in BEYOND else
                   "In other spaces" if name in OTHER_SPACES else "Calibrated"),
         "resolutions": list(agent.nodes[0].resolutions),
-        "modality": _named(modality) if len(names) == 1 else "",
+        "modality": in_menu,
+        "object_state": agent.nodes[stated[0]].state if stated else "", "stated": stated,
+        "states": list(STATES) if stated else ["", *STATES] if could_be else [""],  # with another modality it could be
         "gains": [node.gain for node in agent.nodes], "exploration": agent.policy.exploration,
         "learning_rate": learning.learning_rate, "discount": learning.discount, "memory": learning.memory,
-        "can_remember": learning.update_on == "cell" and learning.trace == 1,
+        "can_remember": learning.update_on == "cell",
         "valence_red": agent.desires[red[0]].valence if red else 0.0,
         "recursion": agent.desires[recurring[0]].valence if recurring else None,
         "n_creeps": world.n_creeps if isinstance(world, WaterWorld) else None, "world": _world(world),
@@ -306,6 +326,7 @@ def _band(result):
 
 
 def _modalities():
-    """The parameters of a node of each modality, by name."""
-    return {each.name: _as_json(axis_parameters([each], WaterWorld.actions.axes)[0])
+    """The parameters of a node of each modality, by name, and whether its state can be chosen."""
+    return {each.name: _as_json(axis_parameters([each], WaterWorld.actions.axes)[0]) | {
+                "stated": _stated([Node(each.name, each, [1])], Learning(), WaterWorld()) == [0]}
             for each in MODALITIES if each.takes_places}

@@ -8,8 +8,10 @@ const NO_MEMORY = -1; // its position on the slider, which has logarithms to bas
 const THRUST_EVERY = 90; // milliseconds; a held key pushes for single steps, since the player could not steer otherwise
 const [REACH, SLOW, REACHING] = [0.05, 0.2, 1500]; // near a creep: board widths, times real time, milliseconds
 const KEYS = { ArrowUp: [0, 0, -1], ArrowDown: [1, 0, 1], ArrowRight: [2, 1, 0], ArrowLeft: [3, -1, 0] };
-const NEW_RUN = ["preset", "memory", "resolutions", "modality", "n_creeps", "seed", "run"];
+const NEW_RUN = ["preset", "memory", "resolutions", "modality", "object_state", "n_creeps", "seed", "run"];
 const ALLOWED = "Resolutions are whole numbers from 1 to 90, such as 3, 5, 7.";
+const STATES = { self: "the self (goal: the object's cell)", "per object": "the self, per object",
+  object: "the object's cell (goal: contact)" };
 const AVOIDED = { red: "red", obstacle: "obstacles", vessel: "vessels" };
 const WHOLE = ({ min, max }) => `Whole numbers from ${min} to ${max} are allowed here.`;
 const STOPPED = "The simulation has stopped. Reset restarts it.";
@@ -50,6 +52,7 @@ const pageOf = (id) => `<p role="alert" hidden></p>
     <p class="title">Reward per second</p>
     <canvas role="img" aria-label="Reward per simulated second over the run, in minutes"></canvas>
     <p class="legend"></p><p class="lived"></p><p class="pace"></p>${choice("modality", "Modality")}
+    ${choice("object_state", "State of object vectors")}
     <label class="labelled"><span>Resolutions</span><input type="text" name="resolutions" autocomplete="off"></label>
     <div class="chips" role="group" aria-label="Resolutions">${[2, 3, 5, 7, 11, 13].map(chip).join("")}</div>
     ${slide("recursion", "Recursion", -3, 1, 0.1)}${slide("valence_red", "Valence of red", -2, 2, 0.1)}</div></div>
@@ -57,7 +60,7 @@ const pageOf = (id) => `<p role="alert" hidden></p>
   <p class="refused" role="status"></p>
   <details><summary>More</summary><div class="more">${slide("exploration", "Exploration ε", 0, 1, 0.01)}
     ${slide("learning_rate", "Learning rate α", -3, 0, 0.01)}
-    ${slide("horizon", "Horizon, cells", 0, 3, 0.01)}${slide("memory", "Memory", NO_MEMORY, 3, 0.01)}
+    ${slide("horizon", "Horizon, cells", 0, 3, 0.01)}${slide("memory", "Memory, cells", NO_MEMORY, 3, 0.01)}
     ${slide("n_creeps", "Creeps", 1, 12, 1)}<div class="gains"></div>
     ${number("seed", "Seed")}${number("run", "Run")}</div></details><p class="unseen told" aria-live="polite"></p>`;
 

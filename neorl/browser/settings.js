@@ -2,7 +2,7 @@
 
 // Those that may change during a run, and those with defaults in a preset.
 const GOES_ON = ["recursion", "valence_red", "gains", "exploration", "learning_rate", "discount"];
-const OF_PRESET = [...GOES_ON, "memory", "resolutions", "modality", "n_creeps"];
+const OF_PRESET = [...GOES_ON, "memory", "resolutions", "modality", "object_state", "n_creeps"];
 
 /** The keys of the presets in Python's order; the stored state may have another. */
 function orderedKeys(presets) {
@@ -11,6 +11,18 @@ function orderedKeys(presets) {
 
 function initialSettings(presets, key) {
   return { preset: key, ...Object.fromEntries(OF_PRESET.map((name) => [name, presets[key][name]])) };
+}
+
+/** Whether the reader has chosen another modality than the preset's, which may have ranges of its own. */
+function hasOtherModality({ nodes, modality, parameters }, settings) {
+  return nodes.length === 1 && settings.modality !== "" && settings.modality !== modality
+    && !parameters.nodes.learns_contacts[0];
+}
+
+/** The nodes of Cartesian object vectors, whose state can be chosen. */
+function statedNodes(preset, modalities, settings) {
+  if (!hasOtherModality(preset, settings)) return preset.stated;
+  return modalities[settings.modality].stated && preset.states.length > 1 ? [0] : [];
 }
 
 /** `elements`: [{x, y, valence}], dropped by the reader; every node with a nonzero gain desires them. */
@@ -22,20 +34,23 @@ function chosenParameters(layout, presets, modalities, settings, elements = []) 
     maps.resolution = names.flatMap(() => settings.resolutions);
     nodes.first_map = [0, ...names.map((_, n) => (n + 1) * settings.resolutions.length)];
   }
-  // Only for another modality, since the preset's may have ranges of its own.
-  if (names.length === 1 && settings.modality !== preset.modality && !nodes.learns_contacts[0]) {
+  if (hasOtherModality(preset, settings)) {
     Object.assign(nodes, modalities[settings.modality].nodes);
     Object.assign(axes, modalities[settings.modality].axes);
     parameters.coordinates = Math.max(parameters.push[0].length, axes.what.length);
     desires.at = desires.at.map((at) => padded(at, parameters.coordinates));
-    if (settings.modality) rename(parameters, settings.modality); // so that its maps are named after the new modality
+    rename(parameters, settings.modality); // so that its maps are named after the new modality
+  }
+  const { MapState } = layout.enumerations;
+  for (const n of statedNodes(preset, modalities, settings)) {
+    nodes.state[n] = MapState[(settings.object_state || "object").replace(" ", "_")];
+    if (nodes.state[n] !== MapState.object) nodes.reach[n] = 0;
   }
   nodes.gain = [...settings.gains];
   policy.exploration = settings.exploration;
   learning.learning_rate = Math.fround(settings.learning_rate);
   learning.discount = Math.fround(settings.discount);
-  const memory = settings.memory * (learning.memory_by_time ? preset.world.fps : 1); // in changes of cell, or in steps
-  learning.memory_retained = Math.fround(memory / (1 + memory));
+  learning.memory_retained = Math.fround(settings.memory / (1 + settings.memory));
   for (const e of preset.red) desires.valence[e] = settings.valence_red;
   for (const e of preset.recurring) desires.valence[e] = settings.recursion;
   const source = layout.enumerations.Source.place;

@@ -39,7 +39,10 @@ class Starters extends Hands {
       this.write({ playing: false });
       await this.look({ map: this.mapOfPlaces(), goal: null });
       await this.look({ at: CORNER });
-      this.life.news = "The shaded corner has never been a goal, and the agent knows the way from everywhere.";
+      const { goal, ofSelf } = this.life.frame.seen;
+      this.life.news = goal === null ? "This map does not reach as far as the corner." : ofSelf
+        ? "The arrow in the shaded corner is the way to it, though it has never been a goal."
+        : "The shaded corner has never been a goal, and the agent knows the way from everywhere.";
       this.refresh();
     };
     if (frame.step >= Math.min(LEARNED, life.length.steps)) return act();

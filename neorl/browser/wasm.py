@@ -38,7 +38,7 @@ from neorl.agents.papers import brownian
 from neorl.agents.spaces import pilot
 from neorl.browser.worlds import PLANE
 from neorl.core import contacts, life, parameters
-from neorl.core.choices import Action, Cut, Feature, Source, Vector
+from neorl.core.choices import Action, Cut, Feature, MapState, Source, Vector
 from neorl.core.kernel import fields, is_tuple
 from neorl.core.parameters import Parameters, derive
 from neorl.core.state import State, begin_values
@@ -76,7 +76,7 @@ def _module(dynamics, constants, with_second):
 MODULES = {  # by the name under which a page requests it
     "plane": _module(PLANE, constants_of(brownian(), WaterWorld()), True),  # agents without kernels of the user's own
     "helm": _module(Vessel().dynamics, constants_of(pilot(), Vessel()), False)}  # for the two actions of a rudder
-ENUMERATIONS = (Action, Cut, Feature, Source, Vector)
+ENUMERATIONS = (Action, Cut, Feature, MapState, Source, Vector)
 SCALARS = {bool: "bool", int: "int64", float: "float64", np.float32: "float32"}
 HOT = "rollout"  # the other exports are called at most once per picture
 RARE = (life.begin, waterworld.reset, waterworld.draw_creep, arena.reset, arm.reset, arm.draw_point, water_maze.reset,

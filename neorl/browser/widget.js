@@ -338,6 +338,7 @@ function problemOf(presets, modalities, model) {
     resolutions: (value) => isList(value, isWhole(1, 90)), valence_red: isNumber, learning_rate: isNumber,
     modality: (value) => nodes.length > 1 || value === "" || Object.hasOwn(modalities, value), discount: isNumber,
     memory: (value) => value === 0 || (value > 0 && preset.can_remember),
+    object_state: (value) => preset.states.includes(value),
     exploration: (value) => value >= 0 && value <= 1,
     gains: (value) => isList(value, isNumber) && value.length === nodes.length, seed: isPlace,
     n_creeps: (value) => (preset.n_creeps === null ? value === null : isWhole(1, 20)(value)),

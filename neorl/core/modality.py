@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from neorl import checks
-from neorl.core.choices import Cut, Feature, Vector
+from neorl.core.choices import Cut, Feature, MapState, Vector
 from neorl.core.geometry import TAU, locate
 from neorl.core.constants import Constants, features, no_credit
 from neorl.core.kernel import array, check_kernel, execute, kernel, new_tuple
@@ -303,7 +303,11 @@ def space_of(modality, resolution, n_axes=None, size=1.0):
 
 
 def axis_parameters(modalities, n_axes):
-    """The parameters of the modalities of all nodes, {"nodes": …, "axes": …}, and sizes."""
+    """The parameters of the modalities of all nodes, {"nodes": …, "axes": …}, and sizes.
+
+    The choices of a node that depend on its modality are those of `Node()`: a map never ends, and its state is the
+    object.
+    """
     axes = [axis for modality in modalities for axis in modality.axes]
     own = [axis for axis in axes if callable(axis.of)]
     inner = [axis.boundaries[1:-1] for axis in axes]
@@ -312,7 +316,9 @@ def axis_parameters(modalities, n_axes):
              "first_axis": firsts(len(modality.axes) for modality in modalities),
              "first_landmark": firsts(len(modality.landmarks) for modality in modalities),
              "mirrored": np.array([modality.mirrored for modality in modalities], np.bool_),
-             "landmark": np.array(landmarks, float).reshape(-1, n_axes)}
+             "landmark": np.array(landmarks, float).reshape(-1, n_axes),
+             "state": integers(MapState.object for _ in modalities), "ends": np.zeros(len(modalities), np.bool_),
+             "reach": np.zeros(len(modalities))}
     return {"nodes": nodes, "axes": {
         "what": np.array([_what(axis, own) for axis in axes], np.int64),
         "low": np.array([axis.low for axis in axes]), "high": np.array([axis.high for axis in axes]),

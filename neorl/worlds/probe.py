@@ -4,8 +4,8 @@ import functools
 from typing import NamedTuple
 
 from neorl.core import life
-from neorl.core.choices import Vector
-from neorl.core.geometry import cell_of, locate
+from neorl.core.choices import MapState, Vector
+from neorl.core.geometry import cell_within, locate
 from neorl.core.kernel import Kernel, array, kernel
 from neorl.core.network import evaluate
 from neorl.core.parameters import Parameters
@@ -53,6 +53,7 @@ def probes_with(constants):
         """The cell of a map for a place in the world; if the map represents things, for a thing there.
 
         elsewhere: a scratch state. Along the axes of other vectors, the cell is that of what the agent perceives.
+        ABSENT for a place beyond a map that ends.
         """
         nodes, offset = parameters.nodes, elsewhere.offset
         n = 0
@@ -65,7 +66,7 @@ def probes_with(constants):
                 if nodes.follows[n] == Vector.velocity:
                     offset[axis] /= HALF_SECOND
         locate(parameters, constants, scene, n, 0, True, offset, elsewhere.coordinates)
-        return cell_of(parameters, elsewhere.coordinates, n, m)
+        return cell_within(parameters, elsewhere.coordinates, n, m)
 
     @kernel
     def step_second(parameters: Parameters, state: State, board: WaterWorldState, rules: Rules, second: Scene,
@@ -79,7 +80,7 @@ def probes_with(constants):
         reward, done = touch_creeps(WaterWorldState(second, board.direction, board.speed, board.jitter, board.stream),
                                     rules)
         for n in range(parameters.nodes.points.shape[0]):
-            if parameters.nodes.follows[n] == Vector.objects:
+            if parameters.nodes.follows[n] == Vector.objects and parameters.nodes.state[n] != MapState.self:
                 for creep in range(second.met.shape[0]):
                     if second.met[creep] != 0:
                         life.begin_point(parameters, constants, state, board.scene, n, creep)

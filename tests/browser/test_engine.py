@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from golden import learning
+from golden import STATES, learning
 
 from neorl import Arena, Explorer, Learning, NresMap, Run, WaterWorld, network_d, place_cells, simulate
 from neorl.browser import wasm
@@ -36,6 +36,8 @@ async function answers(requests) {
 PROBES = probes_with(wasm.MODULES["plane"].constants)
 TANK = WaterWorld(n_creeps=4)
 AGENT = network_d([4, 5])
+ENDS = {"per object, ends, narrow": {"object_state": "per object", "object_beyond": "none",
+                                     "object_tiled_fraction": 0.4, "object_centred": True}}
 STEPS, SEED, K = 3_000, 5, 2
 
 
@@ -98,7 +100,7 @@ def test_a_frame_reports_the_state_of_the_run(ask):
     assert [each["valence"] for each in frame["landings"]] == run.state.desires.valence[2:].tolist()
     assert [each["recurs"] for each in frame["landings"]] == [False, False, True]
 
-    assert np.array(frame["seen"]["ways"]).reshape(-1, 2) == pytest.approx(as_vectors(run.q(3)[:, :, goal]))
+    assert np.array(frame["seen"]["ways"]).reshape(-1, 2) == pytest.approx(as_vectors(run.q(3)[0].T))
     values = np.zeros((81, 4))
     execute(PROBES.survey, run._parameters, run._state, mapped(np.copy, run._state),
             scene._replace(position=np.zeros(2)), 9, values)
@@ -166,17 +168,26 @@ def test_a_radar_finds_a_place_by_its_bearing(ask):
     assert [each["feature"] for each in found[0]["seen"]["axes"]] == ["length", "bearing"]
 
 
+RULE = {"learning_rate": 0.03, "credit": "happened", "absent_decay": 0.9, "absent_form": "away", "memory": 20.0,
+        "bootstrap": False}
 RULES = [
     learning(memory=30.0),
-    learning(memory=2.0, memory_unit="seconds", memory_value="discounted", bootstrap=False),
+    learning(memory=12.0, discount=0.95, bootstrap=False),
     learning(memory=0.5, absent_decay=0.1, absent_form="away", credit="activity"),
-    learning(memory=5.0, causes="own", capture="leap", attention="wanted", credit="count"),
+    learning(memory=5.0, credit="count"),
+    *(learning(**RULE) | state for state in (STATES | ENDS).values()),
+    learning(memory=0.0, bootstrap=True) | STATES["self"],
 ]
 
 
 def learned(run, m, goal):
-    """Learned values as the engine returns them: east minus west and south minus north in each cell, in float32."""
-    return as_vectors(run.q(m)[:, :, goal].astype(float)).astype(np.float32).tolist()
+    """Learned values as the engine returns them: east minus west and south minus north in each cell, in float32.
+
+    In a map whose state is the self, each cell is a goal with values of its own.
+    """
+    q = run.q(m)
+    values = q[0].T if len(q) == 1 else q[:, :, goal]
+    return as_vectors(values.astype(float)).astype(np.float32).tolist()
 
 
 @pytest.mark.parametrize("rule", RULES, ids=str)
@@ -191,6 +202,11 @@ def test_what_is_learned_with_a_memory_is_what_python_learns_to_the_last_bit(ask
 
 
 @pytest.mark.parametrize("later", [
+    network_d([5, 7], learning=Learning(memory=30.0, discount=0.95)),
+    network_d([4, 5], learning=Learning(memory=30.0), object_state="object"),
+    network_d([4, 5], learning=Learning(memory=30.0), object_state="per object"),
+    network_d([4, 5], learning=Learning(memory=30.0), object_beyond="none"),
+    network_d([4, 5], learning=Learning(memory=30.0), object_centred=True),
     network_d([4, 5], learning=Learning(memory=100.0, discount=0.95)),
     network_d([5, 7], learning=Learning(memory=3.0)),
     network_d([4, 5], learning=Learning(memory=0.0)),
@@ -198,21 +214,29 @@ def test_what_is_learned_with_a_memory_is_what_python_learns_to_the_last_bit(ask
 ])
 def test_a_memory_that_changes_on_the_way_goes_on_as_in_python(ask, later):
     agent, goal = network_d([4, 5], learning=Learning(memory=30.0)), 9
-    frame = ask(advance(STEPS), {"type": "change", "parameters": _parameters(later, TANK)}, advance(STEPS),
-                {"type": "look", "map": "PC N5", "goal": goal}, parameters=_parameters(agent, TANK))[-1]
+    maps = [f"{node.name} N{n}" for node in later.nodes for n in node.resolutions]
+    *_, frame, objects = ask(advance(STEPS), {"type": "change", "parameters": _parameters(later, TANK)}, advance(STEPS),
+                             *({"type": "look", "map": f"{node} N5", "goal": goal} for node in ("PC", "OVC")),
+                             parameters=_parameters(agent, TANK))
     run = Run(agent, TANK, SEED, K)
     reward = run.advance(STEPS)
     run.change(later)
     assert frame["reward"] == reward + run.advance(STEPS)
-    m = [f"{node.name} N{n}" for node in later.nodes for n in node.resolutions].index("PC N5")
-    assert np.reshape(frame["seen"]["ways"], (-1, 2)).tolist() == learned(run, m, goal)
+    for each in (frame, objects):
+        m = maps.index(each["seen"]["name"])
+        assert np.reshape(each["seen"]["ways"], (-1, 2)).tolist() == learned(run, m, goal)
+        begin, end = run.parameters.maps.first_track[m : m + 2]
+        assert each["active"] == run.state.tracks.cell[begin:end].tolist()
 
 
-def test_a_second_agent_obeys_commands_on_the_same_creeps(ask):
+@pytest.mark.parametrize("object_state", ["object", "self", "per object"])
+def test_a_second_agent_obeys_commands_on_the_same_creeps(ask, object_state):
+    agent = network_d([4, 5], object_state=object_state)
     actions = np.random.default_rng(0).integers(0, 5, 1_500).tolist()
     frame = ask(advance(STEPS), *(each for action in actions
-                                  for each in ({"type": "play", "action": action}, advance(1))))[-1]
-    run = Run(AGENT, TANK, SEED, K)
+                                  for each in ({"type": "play", "action": action}, advance(1))),
+                parameters=_parameters(agent, TANK))[-1]
+    run = Run(agent, TANK, SEED, K)
     run.advance(STEPS)
     second = run.world_state.scene._replace(position=np.full(2, 0.1 * TANK.width), velocity=np.zeros(2))
     paid, touched = 0.0, 0
@@ -235,6 +259,15 @@ def test_a_place_is_found_in_the_cell_that_it_lies_in(ask):
     assert [each["seen"]["goal"] for each in found] == expected
     twice = {"type": "look", "at": {"x": 0.5, "y": 0.5}}
     assert [each["seen"]["goal"] is None for each in ask(twice, twice)[1:]] == [False, True]
+
+
+def test_a_place_beyond_a_map_that_ends_is_in_no_cell(ask):
+    agent = network_d([4, 5], **ENDS["per object, ends, narrow"])
+    look = {"type": "look", "map": "OVC N4"}
+    frames = ask(*(look | {"at": {"x": 0.5 + x, "y": 0.5}} for x in (0.39, 0.41)), parameters=_parameters(agent, TANK))
+    assert [each["seen"]["goal"] for each in frames[1:]] == [2 * 5 + 4, None]
+    for axis in frames[1]["seen"]["axes"]:  # an interval is centred on the agent, and the outermost are halves
+        assert axis["borders"] == pytest.approx([-0.4, -0.3, -0.1, 0.1, 0.3, 0.4])
 
 
 def test_the_map_that_is_looked_at_stays_and_its_goal_with_it_if_it_has_the_same_cells(ask, state):

@@ -20,6 +20,9 @@ from neorl.evidence.reading import Reading, networks
 TANK = WaterWorld(n_creeps=8, win_reward=5.0)
 SIZE = {"steps": 12_345, "runs": 12, "seed": 5, "progress": False}
 
+TWO_STATES = Agent([Node(state, modality.CARTESIAN_OBJECT_VECTOR_CELL, [3], state=state) for state in (
+    "object", "self")])
+
 
 @neorl.kernel
 def half(count, steps, last, activity):
@@ -86,6 +89,63 @@ def test_each_trait_changes_its_field_of_the_agent():
     assert explorer.agent.nodes[0].modality == modality.BORDER_CELL
 
 
+@pytest.mark.parametrize("state", ["object", "self", "per object"])
+def test_the_state_of_object_vectors_is_a_trait(state):
+    explorer = Explorer(preset="Network D", object_state=state)
+    assert explorer.agent == network_d(object_state=state)
+    explorer.preset = "Object-vector cells"
+    assert explorer.object_state == "self" and explorer.agent == object_vector_cells()
+    explorer.object_state = state
+    assert explorer.agent == object_vector_cells(object_state=state)
+
+
+def test_with_another_state_there_is_no_reach_and_with_the_object_the_reach_of_the_preset():
+    agent = object_vector_cells([5], object_state="object", object_reach=0.1, object_beyond="none")
+    explorer = Explorer({"reach": simulate(agent, TANK, steps=10, runs=1, progress=False)})
+    assert explorer.object_state == "object" and explorer.agent == agent
+    explorer.object_state = "per object"
+    assert explorer.agent == object_vector_cells([5], object_state="per object", object_beyond="none")
+    explorer.object_state = "object"
+    assert explorer.agent == agent
+
+
+def test_another_modality_has_the_state_that_it_can_have_and_the_own_one_comes_back():
+    explorer = Explorer(preset="Object-vector cells")
+    for name in ("border cell", "object-vector cell"):
+        explorer.modality = name
+        (node,) = explorer.agent.nodes
+        assert (node.modality.name, node.state, node.reach, node.beyond) == (name, "object", 0.0, "outermost")
+    explorer.modality = "object-vector cell, Cartesian"
+    assert explorer.agent == object_vector_cells()
+    explorer.preset = "Place cells"
+    assert explorer.object_state == ""
+    explorer.modality = "object-vector cell, Cartesian"
+    assert explorer.agent.nodes[0].state == "object"
+    explorer.object_state = "self"
+    assert explorer.agent.nodes[0].state == "self"
+
+
+@pytest.mark.parametrize("preset", ["Foveated cells, contacts alone", "Arm of two links", "Vessel with a radar"])
+def test_an_agent_without_cartesian_object_vectors_has_no_state_of_them(preset):
+    explorer = Explorer(preset=preset)
+    assert explorer.object_state == "" and explorer.agent == AGENTS[preset]
+    with pytest.raises(TraitError, match="object_state is 'self', allowed "):
+        explorer.object_state = "self"
+
+
+def test_an_agent_that_learns_at_every_step_keeps_its_state():
+    agent = object_vector_cells([3], object_state="object", learning=Learning(update_on="step"))
+    explorer = Explorer({"X": simulate(agent, TANK, steps=10, runs=1, progress=False)})
+    assert explorer.object_state == "" and explorer.agent == agent
+    with pytest.raises(TraitError, match="object_state is 'self', allowed "):
+        explorer.object_state = "self"
+
+
+def test_every_modality_in_the_menu_says_whether_its_state_can_be_chosen():
+    stated = {name: each["stated"] for name, each in Explorer()._modalities.items()}
+    assert [name for name, can in stated.items() if can] == ["object-vector cell, Cartesian"]
+
+
 def test_the_band_holds_the_runs_and_ends_with_them(conditions):
     band = Explorer(conditions)._presets["N3"]["band"]
     result = conditions["N3"]
@@ -105,6 +165,7 @@ def test_the_state_is_json_and_a_second_widget_brings_its_own(conditions):
 
 @pytest.mark.parametrize("trait, value, allowed", [
     ("preset", "Network E", "preset is 'Network E', allowed are 'Place cells', "),
+    ("object_state", "thing", "object_state is 'thing', allowed are '', 'object', 'self', 'per object'"),
     ("modality", "grid cell", "modality is 'grid cell', allowed are '', 'place cell', "),
     ("gains", [1.0, 1.0], r"gains is \[1.0, 1.0\], allowed is one for each of the 1 nodes"),
     ("gains", [float("inf")], "gains is inf, allowed are finite numbers"),
@@ -127,6 +188,7 @@ def test_a_bad_trait_is_refused_and_the_old_one_stays(trait, value, allowed):
     (place_cells([3]), "condition X is Agent.*, allowed is a Result"),
     (simulate(replace(multimodal(), desires=[Desire("red", "PC", -1.0), Desire("red", "OVC", -0.5)]), TANK,
               steps=10, runs=1, progress=False), "condition X has different valences of red, "),
+    (simulate(TWO_STATES, TANK, steps=10, runs=1, progress=False), "condition X has different states of object vec"),
     (simulate(place_cells([3]), TANK, steps=10, runs=1, seed=2**32, progress=False), "seed of condition X is 429"),
 ])
 def test_a_condition_that_cannot_be_shown_is_refused(result, allowed):
@@ -179,12 +241,12 @@ def test_custom_kernels_cannot_be_shown(agent):
         Explorer({"X": result})
 
 
-@pytest.mark.parametrize("rule", [Learning(trace=3, memory=0.0), Learning(update_on="step")])
-def test_an_agent_with_a_trace_or_that_learns_at_every_step_takes_no_memory(rule):
+def test_an_agent_that_learns_at_every_step_takes_no_memory():
+    rule = Learning(update_on="step")
     result = simulate(place_cells([3], learning=rule), TANK, steps=10, runs=1, progress=False)
     explorer = Explorer({"X": result})
     assert explorer.agent.learning == rule
-    with pytest.raises(TraitError, match="memory is 3.0, allowed is 0 for an agent with a trace or one that learns"):
+    with pytest.raises(TraitError, match="memory is 3.0, allowed is 0 for an agent that learns at every step"):
         explorer.memory = 3.0
     explorer.preset = "Place cells"
     explorer.memory = 3.0

@@ -8,12 +8,12 @@ from explorer_page import drop_by_keyboard, explorer_of, play_to_the_end, press,
 from playwright.sync_api import expect
 
 from neorl import Desire, Explorer, Learning, Place, Run, WaterWorld, multimodal, network_d, place_cells, simulate
-from neorl.core.modality import OBJECT_VECTOR_CELL
+from neorl.core.modality import BORDER_CELL, CARTESIAN_OBJECT_VECTOR_CELL, OBJECT_VECTOR_CELL
 
 SIZE = {"steps": 30_000, "runs": 12, "seed": 3, "progress": False}
 TANK = WaterWorld()
 BOTH, PLACES = multimodal([2, 3, 5]), place_cells([5, 3])
-NETWORK = network_d([3, 4], learning=Learning(discount=0.8, memory=0.0, memory_unit="cells", bootstrap=True))
+NETWORK = network_d([3, 4], learning=Learning(discount=0.8, memory=0.0, bootstrap=True))
 TURNED = network_d([3, 4], recursion=0.5, learning=NETWORK.learning)
 
 
@@ -108,8 +108,8 @@ def test_no_memory_stands_at_the_left_end_of_its_slider(open_page, site, conditi
 
 
 @pytest.mark.parametrize("rule, counts", [
-    ({"bootstrap": True}, True), ({"bootstrap": False}, False), ({"bootstrap": False, "memory": 0.0, "trace": 2}, True),
-    ({"bootstrap": False, "memory_value": "discounted"}, True)])
+    ({"bootstrap": True, "memory": 0.0}, True), ({"bootstrap": False, "memory": 0.0}, False),
+    ({"bootstrap": False, "memory": 2.0}, True)])
 def test_a_horizon_without_effect_is_not_offered(open_page, tmp_path, rule, counts):
     learning, short = Learning(**rule), {"steps": 5_000, "runs": 1, "progress": False}
     result = simulate(place_cells([5], learning=learning), TANK, **short)
@@ -147,6 +147,38 @@ def test_creeps_resolutions_modality_and_seed_begin_the_run_that_python_begins(o
     agent = replace(PLACES, nodes=[node])
     assert play_to_the_end(page) == lived(agent, WaterWorld(n_creeps=5), seed=2**32 - 1, run=17)
     assert explorer.get_attribute("data-condition") == ""
+
+
+@pytest.mark.parametrize("state", ["object", "per object"])
+def test_the_state_of_object_vectors_in_the_menu_begins_the_run_that_python_begins(open_page, site, conditions, state):
+    page = open_page(*site("both"))
+    menu = page.locator('[name="object_state"]')
+    expect(menu).to_have_value("self")
+    expect(menu.locator("option:checked")).to_have_text("the self (goal: the object's cell)")
+    menu.select_option(state)
+    score = play_to_the_end(page)
+    assert score == lived(multimodal([2, 3, 5], object_state=state)) != conditions["both"].totals[0]
+    assert explorer_of(page).get_attribute("data-condition") == ""
+    menu.select_option("self")
+    wait(page, "paused")
+    assert play_to_the_end(page) == conditions["both"].totals[0]
+    assert explorer_of(page).get_attribute("data-condition") == "both"
+
+
+def test_the_state_can_be_chosen_for_a_modality_that_has_one(open_page, site):
+    page = open_page(*site("places"))
+    explorer_of(page)
+    modality, state = (page.locator(f'[name="{name}"]') for name in ("modality", "object_state"))
+    expect(state).to_be_hidden()
+    modality.select_option("object-vector cell, Cartesian")
+    expect(state).to_have_value("object")
+    state.select_option("self")
+    node = replace(PLACES.nodes[0], modality=CARTESIAN_OBJECT_VECTOR_CELL, state="self")
+    assert play_to_the_end(page) == lived(replace(PLACES, nodes=[node]))
+    modality.select_option("border cell")
+    expect(state).to_be_hidden()
+    wait(page, "paused")
+    assert play_to_the_end(page) == lived(replace(PLACES, nodes=[replace(PLACES.nodes[0], modality=BORDER_CELL)]))
 
 
 def test_the_modality_of_a_preset_stands_in_the_menu_and_comes_back_with_its_ranges(open_page, site):

@@ -236,6 +236,24 @@ def test_the_address_of_a_moment_leads_back_to_it(visit):
     assert {name: shown(again, name) for name in before} == before
 
 
+def test_the_address_has_the_state_of_object_vectors(visit):
+    page = visit("#explorer_agent-things_state-per-object_minute-2")
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step === '6000'")
+    agent = object_vector_cells([4], object_state="per object")
+    assert float(shown(page, "score")) == Run(agent, TANK, SIZE["seed"], 0).advance(6_000)
+    page.locator('[name="object_state"]').select_option("object")
+    page.wait_for_function("location.hash === '#explorer_agent-things_run-0_state-object'")
+    page.locator('[name="object_state"]').select_option("self")
+    page.wait_for_function("location.hash === '#explorer_agent-things_run-0'")
+
+
+def test_the_ways_to_all_cells_are_shown_where_the_state_is_the_self(visit):
+    page = visit("#explorer_agent-things_minute-2_map-ovc-n4_goal-5")
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal === '5'")
+    expect(page.locator(".said")).to_contain_text("OVC N4: in each cell how to get there")
+    expect(page.locator(".key")).to_contain_text("The chosen cell, and in each cell the way to it")
+
+
 def test_a_link_within_the_page_is_followed(visit):
     page = visit()
     page.evaluate("location.hash = '#explorer_start-corner'")
@@ -244,7 +262,8 @@ def test_a_link_within_the_page_is_followed(visit):
 
 @pytest.mark.parametrize("address, reason", [
     ("#explorer_agent-nobody", "There is no agent “nobody”"), ("#explorer_run--1", "run = -1"),
-    ("#explorer_resolutions-3-x", "resolutions"), ("#explorer_minute-soon", "Its minute must be")])
+    ("#explorer_resolutions-3-x", "resolutions"), ("#explorer_minute-soon", "Its minute must be"),
+    ("#explorer_agent-things_state-other", 'object_state = "other"')])
 def test_an_invalid_address_is_reported_and_the_page_stays_as_it_is(visit, address, reason):
     page = visit(address)
     expect(page.locator(".refused")).to_contain_text(reason)

@@ -25,11 +25,20 @@ STEPS = 50_000
 LAYERS = (10, 30, 50, 70, 90, 3, 7, 23)
 PRIMES = (2, 3, 5, 7, 11, 13)
 MEMORIES = {
-    "memory": Learning(memory=20.0, credit="happened", absent_decay=0.1, causes="own"),
-    "memory of seconds": Learning(memory=0.5, memory_unit="seconds", memory_value="discounted", bootstrap=False,
-                                  absent_decay=0.2, absent_form="away", credit="count", capture="leap"),
-    "activity": Learning(credit="activity", absent_decay=0.2, absent_form="away", terminal=False, attention="wanted",
-                         capture="silent"),
+    "memory": Learning(memory=20.0, credit="happened", absent_decay=0.1),
+    "memory, bootstrapping": Learning(memory=5.0, discount=0.9, bootstrap=True, absent_decay=0.2, absent_form="away",
+                                      credit="count"),
+    "activity": Learning(credit="activity", absent_decay=0.2, absent_form="away", terminal=False),
+}
+STATES = {
+    "self": {"object_state": "self"},
+    "per object": {"object_state": "per object"},
+    "self, ends": {"object_state": "self", "object_beyond": "none", "object_tiled_fraction": 0.5},
+    "per object, centred": {"object_state": "per object", "object_centred": True},
+    "self, no memory, bootstrapping": {"object_state": "self", "learning": Learning(memory=0.0, bootstrap=True)},
+    "object, reach": {"object_state": "object", "object_reach": 0.096},
+    "object, ends, centred": {"object_state": "object", "object_beyond": "none", "object_centred": True,
+                              "object_tiled_fraction": 0.5},
 }
 CONJUNCTIVE = modality.Modality("place and head direction", (*modality.PLACE_CELL.axes,
                                                              *modality.HEAD_DIRECTION_CELL.axes))
@@ -44,6 +53,7 @@ PAPERS = {
     **{f"C, {make.__name__}": (make(), 3) for make in (network_a, network_b, network_c, network_d)},
     **{f"C, signed {make.__name__}": (make(signed=True), 3) for make in (network_a, network_b, network_c, network_d)},
     **{f"{name}": (multimodal([3, 7], learning=rule), 3) for name, rule in MEMORIES.items()},
+    **{f"state {name}": (multimodal([4, 7], **choices), 3) for name, choices in STATES.items()},
     "every modality": (Agent([Node(each.name, each, [1, 4]) for each in modality.MODALITIES],
                              [*(Desire("green", each.name, 1.0) for each in modality.MODALITIES if each.takes_places),
                               Desire(Place(0.2, 0.9), "object-vector cell", -1.0),
@@ -110,7 +120,8 @@ def assert_lives_alike(run):
 
 
 BEGINNINGS = {name: (PAPERS[name][0], WaterWorld(n_creeps=PAPERS[name][1]))
-              for name in ("A, cells", "B, multimodal", "C, network_d", "every modality", "axes of several kinds")}
+              for name in ("A, cells", "B, multimodal", "C, network_d", "state per object, centred",
+                           "state object, ends, centred", "every modality", "axes of several kinds")}
 BEGINNINGS["pool"] = Agent([Node("PC", modality.PLACE_CELL, [5])], [Desire("platform", "PC", 1.0)]), Arena()
 BEGINNINGS |= OTHER_SPACES
 
@@ -137,8 +148,10 @@ def test_a_run_begins_as_in_python_without_any_python(name):
         assert np.array_equal(derived[field], array), field
 
 
-def test_looking_and_joining_in_equal_native_calls():
-    run = Run(multimodal([5, 7]), WaterWorld(n_creeps=6), seed=3)
+@pytest.mark.parametrize("choices", [{"object_state": "object"}, {"object_state": "per object"},
+                                     {"object_state": "self", "object_beyond": "none", "object_tiled_fraction": 0.5}])
+def test_looking_and_joining_in_equal_native_calls(choices):
+    run = Run(multimodal([5, 7], **choices), WaterWorld(n_creeps=6), seed=3)
     run.advance(20_000)
     machine, sizes, arguments = copied(run)
     agent, rules, board = (run._parameters, run._state), run.world.rules, run.world_state
