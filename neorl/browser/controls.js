@@ -266,7 +266,7 @@ class Controls {
     if (game) said.push(`You: ${shown(frame.player?.reward ?? 0)}. neoRL: ${shown(frame.reward - game.score)}.`,
       "Steer with the arrow keys; Escape leaves the game.");
     if (seen.goal !== null && seen.ofSelf) {
-      said.push(`${seen.name}: in each cell how to get there, whatever is in it, learned without being asked.`);
+      said.push(`In each cell of ${seen.name}: how to get there, learned without being asked.`);
     } else if (seen.goal !== null) {
       const ways = { position: "how to get there", velocity: "how to reach that velocity" };
       const what = ways[seen.vector] ?? "how to get a thing there";

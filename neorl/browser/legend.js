@@ -46,7 +46,7 @@ function keyOf({ things, nodes, landings, player, active, field, seen, arm, head
       field && seen.goal === null],
     ["desire", `Dashed: the desire vectors of nodes: ${names.join("; ")}`, names.length],
     ["landing", "Where the desire of one node places an element for another", landings.length],
-    ["way", seen.ofSelf ? "The chosen cell, and in each cell the way to it" : "The chosen cell, and the way to it from "
+    ["way", seen.ofSelf ? "The chosen cell; in each cell, the way there" : "The chosen cell, and the way to it from "
       + "every other", seen.goal !== null],
   ];
   return entries.filter((entry) => entry.length < 3 || entry[2]);

@@ -41,6 +41,13 @@ def set_slider(page, name, value):
     page.locator(f'[name="{name}"]').first.fill(str(value))
 
 
+def wait_for_score(page, score):
+    page.wait_for_function("""score => {
+        const { state, score: shown } = document.querySelector(".neorl-explorer").dataset;
+        return state === "ended" && Number(shown) === score;
+    }""", arg=float(score))
+
+
 def lived(agent, world=TANK, seed=SIZE["seed"], run=0, steps=SIZE["steps"]):
     return Run(agent, world, seed, run).advance(steps)
 
@@ -159,9 +166,8 @@ def test_the_state_of_object_vectors_in_the_menu_begins_the_run_that_python_begi
     score = play_to_the_end(page)
     assert score == lived(multimodal([2, 3, 5], object_state=state)) != conditions["both"].totals[0]
     assert explorer_of(page).get_attribute("data-condition") == ""
-    menu.select_option("self")
-    wait(page, "paused")
-    assert play_to_the_end(page) == conditions["both"].totals[0]
+    menu.select_option("self")  # and the run of the preset begins at once
+    wait_for_score(page, conditions["both"].totals[0])
     assert explorer_of(page).get_attribute("data-condition") == "both"
 
 
@@ -177,8 +183,7 @@ def test_the_state_can_be_chosen_for_a_modality_that_has_one(open_page, site):
     assert play_to_the_end(page) == lived(replace(PLACES, nodes=[node]))
     modality.select_option("border cell")
     expect(state).to_be_hidden()
-    wait(page, "paused")
-    assert play_to_the_end(page) == lived(replace(PLACES, nodes=[replace(PLACES.nodes[0], modality=BORDER_CELL)]))
+    wait_for_score(page, lived(replace(PLACES, nodes=[replace(PLACES.nodes[0], modality=BORDER_CELL)])))
 
 
 def test_the_modality_of_a_preset_stands_in_the_menu_and_comes_back_with_its_ranges(open_page, site):

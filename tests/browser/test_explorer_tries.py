@@ -250,8 +250,8 @@ def test_the_address_has_the_state_of_object_vectors(visit):
 def test_the_ways_to_all_cells_are_shown_where_the_state_is_the_self(visit):
     page = visit("#explorer_agent-things_minute-2_map-ovc-n4_goal-5")
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal === '5'")
-    expect(page.locator(".said")).to_contain_text("OVC N4: in each cell how to get there")
-    expect(page.locator(".key")).to_contain_text("The chosen cell, and in each cell the way to it")
+    expect(page.locator(".said")).to_contain_text("In each cell of OVC N4: how to get there")
+    expect(page.locator(".key")).to_contain_text("The chosen cell; in each cell, the way there")
 
 
 def test_a_link_within_the_page_is_followed(visit):
