@@ -16,6 +16,7 @@ from neorl.evidence.report import CALIBRATED, LETTER
 from neorl.experiments.cache import Condition
 
 MAIN, GROUPS = ("modal", "pace"), ("layers", "resolutions", "revaluing")  # of `neorl.evidence.reading.GROUPS`
+BEFORE = "object as state"  # the calibrated reading, but with the state of object vectors that the book had before
 AGENTS = {"PC": ("place", "all"), "OVC": ("objects", "all"), "PC + OVC": "both"}  # of figure 5, and their keys
 EXPLORING = Policy(0.05, "random")  # from the change on, of agents that otherwise never explore
 CELLS = {"PC": "place", "OVC": "object-vector", "PC + OVC": "place + object-vector"}  # these in words
@@ -49,6 +50,15 @@ def all_conditions(reading, steps, runs, seed=0):
     made["revalued", "exploring"] = replace(made["revalued"], changes=((turn, replace(desiring, policy=EXPLORING)),))
     made["joined"] = replace(made["place", "all"], runs=few(runs), changes=((both.steps // 2, both.agent),))
     return made
+
+
+def live_with_objects_as_state(reading, steps, runs, seed=0):
+    """Results of figure 5's agents if the state of an object vector is the object's cell: {`BEFORE`: {key: `Result`}}.
+
+    The goal is then the cell at distance 0, and all else as in a `Reading`. Raises ValueError for bad arguments.
+    """
+    other = replace(reading, object_state="object", object_reach=0.0)
+    return side_by_side.live({BEFORE: conditions(other, steps, runs, seed, ["modal"])})
 
 
 def neighbours(reading, steps, runs, seed=0):

@@ -1,7 +1,8 @@
 """Trials of paper B's agents, for claims that rewards alone cannot decide.
 
 They measure the distance to a desired place that moves, the time spent in a cell of a map, how far agents roam, the
-size of values, the computing time of a step, and whether maps keep their values when others join.
+size of values, what a map of object vectors has learned, the computing time of a step, and whether maps keep their
+values when others join.
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -162,18 +163,44 @@ def mean_values(reading, steps, runs, seed=0):
     def of_nodes(k):
         run = Run(agent, world, seed, k)
         run.advance(steps)
-        maps, nodes, means = run.parameters.maps, run.parameters.nodes, []
-        for m, each in enumerate(agent.maps):
-            best = run.q(m).max(axis=1)
-            if each.modality.follows == "position":
-                means.append(best[~np.eye(each.cells, dtype=bool)].mean())
-            else:
-                of_goals = best[0] if len(best) == 1 else best[:, maps.contact[m]]
-                means.append(np.delete(of_goals, maps.contact[m]).mean())
-        return [np.dot(maps.weight[begin:end], means[begin:end])
+        nodes, weight, means = run.parameters.nodes, run.parameters.maps.weight, best_values(run)
+        return [np.dot(weight[begin:end], means[begin:end])
                 for begin, end in zip(nodes.first_map[:-1], nodes.first_map[1:])]
 
     return dict(zip((node.name for node in agent.nodes), _of_runs(of_nodes, agent, world, runs).T))
+
+
+def best_values(run):
+    """The mean value of the best action in each map of a `Run`, (maps,), over the states and goals of `mean_values`."""
+    means = []
+    for m, each in enumerate(run.agent.maps):
+        if each.modality.follows == "position":
+            means.append(run.q(m).max(axis=1)[~np.eye(each.cells, dtype=bool)].mean())
+        else:
+            best = values_for_objects(run, m).max(axis=1)
+            means.append(np.delete(best, run.parameters.maps.contact[m]).mean())
+    return np.array(means)
+
+
+def values_for_objects(run, index):
+    """The values of the actions for an object in each cell of a map of object vectors, (cells, actions).
+
+    The object's cell is the goal if the state is the self; otherwise it is the state, and the goal is the contact.
+    run: a `Run`. index: of the map in `Agent.maps`.
+    """
+    q = run.q(index)
+    return q[0].T if len(q) == 1 else q[:, :, run.parameters.maps.contact[index]]
+
+
+def learn(agents, world, steps, runs, seed=0):
+    """Let agents learn for some steps, {name: `Agent`}: {name: [`Run`, …]}."""
+    def learned(agent, k):
+        run = Run(agent, world, seed, k)
+        run.advance(steps)
+        return run
+
+    return {name: _each_run(lambda k, agent=agent: learned(agent, k), agent, world, runs)
+            for name, agent in agents.items()}
 
 
 def measure_costs(reading, steps, repetitions, seed=0):
@@ -237,5 +264,9 @@ def _with_maps(agent, chosen):
 
 
 def _of_runs(live_one, agent, world, runs):
+    return np.array(_each_run(live_one, agent, world, runs))
+
+
+def _each_run(live_one, agent, world, runs):
     with ThreadPoolExecutor(min(usable_threads(agent, world), runs)) as cores:
-        return np.array(list(cores.map(live_one, range(runs))))
+        return list(cores.map(live_one, range(runs)))
