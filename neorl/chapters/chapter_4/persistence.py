@@ -1,7 +1,8 @@
 """Whether learning requires persistence: agents that learn at changes of cell, or at every step (claim T7).
 
 1. The agents are those of paper A with maps N3, N7 and N23, in the tank of that paper, and those of paper B with object
-   vectors, which change when creeps move as well as when the agent does. They differ only in their temporal driver.
+   vectors. They differ only in their temporal driver, except that with learning at every step the state of an object
+   vector is the object's cell, since within a step the self stays in the centre.
 2. Agents that learn at every step have one of three discounts: γ itself, and the roots of γ with the same horizon in
    time if a stay in a cell lasts 10 or 50 steps.
 3. They have at most as many runs as a verdict needs. The best of the three counts.

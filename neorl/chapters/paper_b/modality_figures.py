@@ -1,4 +1,4 @@
-"""Figures of paper B: agents beside the thesis's numbers, states, the cells of every modality, results of the trials."""
+"""Figures of paper B: agents beside the thesis's numbers, states, cells of every modality, and results of trials."""
 
 import numpy as np
 from matplotlib.patches import Circle

@@ -35,9 +35,10 @@ from neorl.experiments.run import Run
 from neorl.worlds.waterworld import Rules, WaterWorld, WaterWorldState, reset, step
 
 NEAREST_CACHE = 2**15  # bytes, on most processors of the last decade
-ALL_GOALS = Learning(bootstrap=True, memory=0.0)
-AGENTS = {"N23 (all goals)": place_cells([23], learning=ALL_GOALS), "N23 (memory)": place_cells([23]),
-          "twelve maps (all goals)": multimodal(learning=ALL_GOALS), "twelve maps (memory)": multimodal()}
+ALL_GOALS, MEMORY = Learning(bootstrap=True, memory=0.0), Learning(bootstrap=False, memory=30.0)
+AGENTS = {"N23 (all goals)": place_cells([23], learning=ALL_GOALS), "N23 (memory)": place_cells([23], learning=MEMORY),
+          "twelve maps (all goals)": multimodal(learning=ALL_GOALS, object_state="object"),
+          "twelve maps (memory)": multimodal(learning=MEMORY, object_state="object")}
 LIVED = 20_000  # steps that an agent lives before it is timed
 STRETCH = 5_000  # timed steps, at most
 
@@ -130,7 +131,7 @@ def drawn_steps(state: WaterWorldState, rules: Rules, stream: array("uint64", 4)
 def moved(run, steps):
     """Advance a `Run` by ``steps``, and count the bytes that its agent moves: `Moved`.
 
-    The agent has to desire every creep in each map.
+    The agent has to desire every creep in each map, none of which has the self as its state.
     """
     maps, state, learning = run.parameters.maps, run.state, run.agent.learning
     tracks, actions = state.tracks, run.parameters.push.shape[0]

@@ -33,7 +33,7 @@ RESOLUTIONS = (21, 26, 32, 39, 48)
 MAPS = (1, 2, 3, 4, 6, 8, 12)
 CREEPS = (16, 32, 64, 128, 256)
 RUNS = (1, 2, 4, 8)
-MEMORIES = (0.5, 1.0, 2.0, 4.0, 8.0, 16.0)  # seconds
+MEMORIES = (1.0, 2.0, 4.0, 8.0, 16.0, 32.0)  # cells
 UPDATES = 300
 RATES = np.full(4, 0.01, np.float32)
 
@@ -122,10 +122,11 @@ def runs(steps, rounds, seed=0):
 
 def memory(steps, rounds, seed=0):
     """Time that learning adds to a step of an agent with a map of N23, by the length of its memory."""
-    agents = {seconds: place_cells([23], learning=Learning(memory=seconds), **INDIFFERENT) for seconds in MEMORIES}
+    agents = {cells: place_cells([23], learning=Learning(memory=cells, bootstrap=False), **INDIFFERENT)
+              for cells in MEMORIES}
     idle = place_cells([23], learning=LEARNS_NOTHING, **INDIFFERENT)
     found = _a_step({**agents, 0: idle}, steps, rounds, seed)
-    return _series("seconds remembered", "learning from memory, per step", "seconds", MEMORIES,
+    return _series("cells remembered", "learning from memory, per step", "seconds", MEMORIES,
                    [found[each] - found[0] for each in MEMORIES], 1, at_most=True)
 
 
