@@ -5,7 +5,7 @@
    obeys it. Otherwise the choice is *open*, also if there is no such sentence.
 3. A choice pinned by several sentences has several pins, and a reading has to obey all of them.
 4. Only the text decides. Pins are written down before the readings that they judge are run. The first list pinned or
-   omitted some choices that the text leaves open: what an object-vector map's state is, how ties are broken, what memory
+   omitted some choices that the text leaves open: the state of an object-vector map, how ties are broken, what memory
    holds, and the valence and the unit of a desire vector. This list replaced it before the present calibration.
 
 Quotations are verbatim except for mathematics, which is set in plain characters; square brackets are the source's.
@@ -91,7 +91,7 @@ POLICY_AND_MAPS = (
     Pin("ties", ("when_indifferent",),
         "Basal actions affect the agent by accelerating it in the cardinal directions, [N, S, E, W].",
         "paper A, WaterWorld",
-        "How equal values are told apart is open. A uniform draw is plainest: “Learning can be regarded as inserting "
+        "How a tie of values is broken is open. A uniform draw is plainest: “Learning can be regarded as inserting "
         "bias into this stochastic process” (section 4.1.1). With ε = 0, an agent that takes no action while values "
         "add up to zero, as in the author's later code, never moves, and one that takes the first action is stuck at "
         "a wall; so only the draw is run."),
@@ -108,8 +108,8 @@ POLICY_AND_MAPS = (
         "paper A, equation 4; section 4.1.2, equation 4.4", "Every cell that holds an element counts, the agent's own "
         "included.", lambda reading: reading.own_cell == "counts"),
     Pin("cells of a map", (), "N13 signifies a 13 × 13 tile set in ℝ²", "paper B, section 2.1",
-        "The cells of an object-vector map tile the plane of o − s. Pairs of the agent's cell and the object's would be "
-        "a tile set in four dimensions, and are excluded.", _always),
+        "The cells of an object-vector map tile the plane of o − s. Pairs of the agent's cell and the object's would be"
+        " a tile set in four dimensions, and are excluded.", _always),
 )
 
 LEARNING = (
@@ -156,7 +156,7 @@ OBJECTS = (
     Pin("state and goal of object vectors", ("object_state",),
         "with the self in the center and allocentric direction to external objects", "paper B, section 3",
         "Open, and decisive. The state is the self, always at the centre, and the goal is the object's cell, which is "
-        "plainest: “the current parameter configuration of the agent” tells the state (paper A, figure 2), and "
+        "plainest: “the current parameter configuration of the agent” gives the state (paper A, figure 2), and "
         "the cell “occupied by an element of interest” the value function (paper A, equation 4). Or the same in the "
         "frame of each object. Or the state is the object's cell and the goal the contact."),
     Pin("transition of object vectors", (), "after each transition s⁻ → s⁺", "section 4.1.3",

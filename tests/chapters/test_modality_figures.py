@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from neorl import WaterWorld
+from neorl import WaterWorld, object_vector_cells
 from neorl.chapters.paper_b import modality_figures
-from neorl.chapters.paper_b.trials import SECONDS_A_MOVE, Watched
+from neorl.chapters.paper_b.trials import SECONDS_A_MOVE, Watched, best_values, learn
 from neorl.core.modality import MODALITIES
 from neorl.evidence.reading import PRIMES
 from neorl.evidence.statistics import Estimate
@@ -20,6 +20,40 @@ def test_agents_stand_beside_the_numbers_that_the_thesis_has():
     assert [label.get_text() for label in axes.get_yticklabels()] == ["place cells", "both"]
     assert list(axes.lines[0].get_xdata()) == [100, 20] and axes.get_xlabel() == "minutes"
     assert [text.get_text() for text in axes.texts] == ["thesis 160", "thesis 15"]
+
+
+def test_state_and_goal_change_places_between_the_readings():
+    modality_figures.draw_states()
+    for axes, at_centre, start in zip(plt.gcf().axes, ("state", "goal"), ((0, 0), modality_figures.OBJECT)):
+        named = {text.get_text(): text.xyann for text in axes.texts}
+        arrow = named.pop("")
+        assert {name: place[0] for name, place in named.items()} == {
+            at_centre: 0, ({"state", "goal"} - {at_centre}).pop(): modality_figures.OBJECT[0]}
+        assert arrow == start
+
+
+@pytest.fixture(scope="module")
+def learned():
+    """Runs of agents with two small maps, whose state is the self or the object's cell."""
+    return learn({state: object_vector_cells([2, 5], object_state=state) for state in ("self", "object")},
+                 WaterWorld(), 4_000, 2)
+
+
+def test_the_values_for_objects_are_drawn_map_by_map(learned, monkeypatch):
+    monkeypatch.setattr(modality_figures, "FIELDS", (5,))
+    modality_figures.draw_object_values(learned)
+    assert [axes.get_title() for axes in plt.gcf().axes] == ["self, N5", "object, N5"]
+    for axes in plt.gcf().axes:
+        assert len(axes.patches) == 26 and axes.get_xlim()[0] < -1 and len(axes.collections[0].U) <= 25
+
+
+def test_the_best_values_of_each_map_are_means_over_runs(learned, monkeypatch):
+    monkeypatch.setattr(modality_figures, "PRIMES", (2, 5))
+    modality_figures.draw_best_values(learned)
+    axes = plt.gca()
+    of_self = np.mean([best_values(run) for run in learned["self"]], axis=0)
+    assert any(np.allclose(line.get_ydata(), of_self) for line in axes.lines if len(line.get_ydata()) == 2)
+    assert {"self", "object"} <= {text.get_text() for text in axes.texts}
 
 
 def test_every_modality_has_a_board_with_the_tank():

@@ -65,6 +65,14 @@ def test_all_conditions_are_lived_under_each_reading(monkeypatch):
                      "other": experiments.all_conditions(Reading(), 1_000, 20, 3)}
 
 
+def test_the_state_before_is_compared_in_the_agents_of_figure_5(monkeypatch):
+    monkeypatch.setattr(side_by_side, "sweep", lambda conditions: conditions)
+    reading = replace(READING, object_reach=0.096)
+    (made,) = experiments.live_with_objects_as_state(replace(reading, object_state="self"), 1_000, 2, seed=3).values()
+    before = replace(reading, object_reach=0.0)
+    assert made == experiments.conditions(before, 1_000, 2, 3, ["modal"]) and {*made} >= {*experiments.AGENTS.values()}
+
+
 def test_neighbours_differ_in_one_choice():
     made = experiments.neighbours(READING, 1_000, 2)
     assert "gain of place, B: 2" in made and "gain of place, B: 3" not in made

@@ -63,6 +63,22 @@ def test_values_are_those_of_goals_that_can_be_asked_for():
         np.testing.assert_allclose(found[node], [value], rtol=1e-5)
 
 
+def test_an_object_is_the_goal_or_the_state():
+    agents = {state: papers.object_vector_cells([2, 5], object_state=state) for state in ("self", "object")}
+    learned = trials.learn(agents, neorl.WaterWorld(), 4_000, 2, seed=3)
+    again = neorl.Run(agents["self"], neorl.WaterWorld(), 3, 1)
+    again.advance(4_000)
+    np.testing.assert_array_equal(learned["self"][1].q(1), again.q(1))
+    for state, (run, _) in learned.items():
+        centre = int(run.agent.maps[1].encode([0, 0]))
+        values = trials.values_for_objects(run, 1)
+        for cell in (0, 7, 24):
+            expected = run.q(1)[0, :, cell] if state == "self" else run.q(1)[cell, :, centre]
+            np.testing.assert_array_equal(values[cell], expected)
+        best = np.delete(values.max(axis=1), centre)
+        assert trials.best_values(run)[1] == pytest.approx(best.mean()) and best.any()
+
+
 def test_costs_are_those_of_agents_with_one_more_map_each_time():
     both = papers.multimodal(PRIMES)
     one = trials._with_maps(both, [("PC", 2), ("OVC", 3)])

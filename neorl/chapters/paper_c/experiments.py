@@ -47,7 +47,8 @@ def neighbours(reading, runs):
     The choices are those that matter here. There are more of them if the networks have `MANY_RUNS` runs or more.
     """
     changes = {"maps N3, N7, N23": {"network_resolutions": LAYERS}, "maps of primes": {"network_resolutions": PRIMES},
-               "no memory": {"memory": 0.0}, "places × 5": {"network_gain": 5.0}, "valence in vectors": {"vectors": "signed"}}
+               "no memory": {"memory": 0.0}, "places × 5": {"network_gain": 5.0},
+               "valence in vectors": {"vectors": "signed"}}
     if runs >= MANY_RUNS:
         changes |= {"bootstrapping": {"bootstrap": True}, "no bootstrapping": {"bootstrap": False},
                     "ten times as far": {"scale": 10 * reading.scale}, "a tenth as far": {"scale": reading.scale / 10},
