@@ -8,7 +8,8 @@ from neorl.agents import papers
 from neorl.chapters.paper_b import trials
 from neorl.evidence.reading import Reading
 
-READING = Reading(object_state="object", bootstrap=True, place_gain=1.0, weighting="resolution")
+READING = Reading(0.03, 0.8, "share", absent_decay=0.0, memory=0.0, bootstrap=True, terminal=True,
+                  object_state="object", place_gain=1.0, weighting="resolution")  # whatever the defaults
 PRIMES = (2, 3)
 
 
