@@ -123,9 +123,10 @@ def test_choices_are_listed_with_the_value_under_each_reading():
     table = assumptions.choices({"to the letter": TO_THE_LETTER, "calibrated": Reading()})
     header, _, *rows = table.splitlines()
     assert header == "| Choice | Prior | To the letter | Calibrated | Papers |" and len(rows) == len(BEYOND)
-    assert "| bootstrapping | yes, no | yes | no | A, B, C |" in rows
+    of_book = "yes" if Reading().bootstrap else "no"
+    assert f"| bootstrapping | yes, no | yes | {of_book} | A, B, C |" in rows
     assert "| exploration, ε | pinned | 0 | 0 | A, B, C |" in rows
-    assert "| gain of place, B | 1, 3, 5 | 1 | 5 | B |" in rows
+    assert f"| gain of place, B | 1, 2, 3, 4, 5, 7, 10, 14, 20 | 1 | {Reading().place_gain:g} | B |" in rows
 
 
 def test_a_reading_that_breaks_the_text_is_listed_with_the_sentence():
@@ -136,13 +137,13 @@ def test_a_reading_that_breaks_the_text_is_listed_with_the_sentence():
 
 
 def test_dependence_is_reported_where_the_choices_predict_a_claim(shares):
-    many = {"credit": 0.06, "discount": 0.5, "memory": 0.055, "causes": 0.1}
+    many = {"credit": 0.06, "discount": 0.5, "memory": 0.055, "object_beyond": 0.1}
     rows = assumptions.dependence({"A2": {}, "B1": many, "C1": many}, {"B1": 0.4, "C1": -0.2}, shares).splitlines()
     assert rows[2:] == ["| A2 |  | 4 readings are too few |",
-                        "| B1 | 0.40 | discount, γ (0.50), causes (0.10), credit, ψ(N) (0.06) |",
+                        "| B1 | 0.40 | discount, γ (0.50), cell beyond the range (0.10), credit, ψ(N) (0.06) |",
                         "| C1 | 0.00 | no choice predicts it |"]
-    few = assumptions.dependence({"B1": {"memory": 0.04, "causes": 0.1}}, {"B1": 0.4}, shares)
-    assert few.endswith("| causes (0.10) |")
+    few = assumptions.dependence({"B1": {"memory": 0.04, "object_beyond": 0.1}}, {"B1": 0.4}, shares)
+    assert few.endswith("| cell beyond the range (0.10) |")
     assert assumptions.dependence({"A2": {}, "B1": {}}, {}, shares).startswith("The page has too few readings")
 
 
@@ -179,7 +180,7 @@ def test_claims_beyond_the_text_stand_beside_the_shares_within(shares):
 
 
 def test_readings_beyond_the_text_break_it_and_their_claims_are_counted():
-    outside = [Reading(), replace(Reading(), exploration=0.1), replace(Reading(), exploration=0.1, scale=2.0)]
+    outside = [Reading(), replace(Reading(), exploration=0.1), replace(Reading(), exploration=0.1, network_gain=5.0)]
     judged_outside = [claims([], ["B1", "C1"]), claims(["B1"], ["C1"]), claims([], ["B1", "C1"])]
     text = assumptions.counts_beyond(outside, judged_outside, [claims(["B1", "C1"])] * 4)
     assert text == ("3 readings, of which 2 break the text, in 1.0 choices on average. Beyond the text 0.3 of 2 claims "

@@ -44,7 +44,9 @@ def test_agents_differ_in_their_temporal_driver_alone(lived):
         assert each[CHANGES] == made[key] and each[BROWNIAN] == made[control]
         step = each["γ = 0.9779"]
         assert step.agent.learning.update_on == "step" and step.agent.learning.discount**10 == pytest.approx(0.8)
-        assert replace(step.agent, learning=each[CHANGES].agent.learning) == each[CHANGES].agent
+        alike = replace(reading, object_state="object")  # which learning at every step requires
+        agent = conditions(alike, 1, 1, 0, ["layers", "modal"])[key].agent
+        assert replace(step.agent, learning=alike.learning) == agent
 
 
 def test_learning_at_every_step_has_as_many_runs_as_a_verdict_needs(lived):

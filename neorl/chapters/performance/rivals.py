@@ -52,12 +52,13 @@ def record(resolution, steps, lived, seed=0):
                     np.empty((steps, world.things), int), np.empty((steps, world.things)), run.q().copy(),
                     run.state.values.goal_range.copy())
     for step in range(steps):
-        found.cells[step], count = tracks.cell[0], tracks.trace_count[0]
+        found.cells[step] = left = tracks.cell[0]
+        before = run.q()[left].copy()
         found.goals[step] = nres_map.encode(scene.things / world.size)
         found.valences[step] = np.where(scene.kinds == GREEN, 1.0, -1.0)
         run.advance(1)
-        if tracks.trace_count[0] > count:
-            found.learns[step], found.rates[step] = True, tracks.trace_rates[0, 0]
+        if not np.array_equal(run.q()[left], before):
+            found.learns[step], found.rates[step] = True, run.state.rates
     found.cells[steps] = tracks.cell[0]
     return found
 
@@ -76,7 +77,7 @@ def replay(values, rule, cells, learns, rates, goals, valences, best):
     for step in range(learns.shape[0]):
         highest = -np.inf
         for action in range(4):
-            value, row = 0.0, (cells[step] * 4 + action) * values.cells
+            value, row = 0.0, (cells[step] * 4 + action) * values.goals
             for thing in range(goals.shape[1]):
                 value += valences[step, thing] * values.q[row + goals[step, thing]]
             if value > highest:
