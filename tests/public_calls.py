@@ -316,8 +316,8 @@ TABLE |= {
     "neorl.evidence.multiverse.design": entry(multiverse.design, points=[2, 4], seed=seeds, long=("points",)),
     "neorl.evidence.reading.Reading": entry(
         reading.Reading, learning_rate=shares, discount=[0.9], credit=["happened", "step"], memory=st.floats(0, 99),
-        exploration=shares, place_gain=reals, vectors=["signed", "by size"], recursion=reals, network_resolutions=[(3, 7), [2]],
-        fps=st.integers(10, 60), contact=["rounded"],
+        exploration=shares, place_gain=reals, vectors=["signed", "by size"], recursion=reals,
+        network_resolutions=[(3, 7), [2]], fps=st.integers(10, 60), contact=["rounded"],
         also=("resolution", "gain", "scale"),
         then=lambda made: (reading.conditions(made, 1_000, 1), made.within_the_text)),
     "neorl.evidence.reading.conditions": entry(

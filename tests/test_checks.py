@@ -9,7 +9,8 @@ from fuzzing import Unequal, Unprintable
 
 import neorl
 from neorl import (CARDINAL, Actions, Agent, Arena, Axis, Desire, Learner, Learning, Modality, Node, NresMap, Place,
-                   Policy, Run, Scene, WaterWorld, checks, kernel, kernel_maker, learn, place_cells, softmax, superpose)
+                   Policy, Run, Scene, WaterWorld, checks, kernel, kernel_maker, learn, object_vector_cells,
+                   place_cells, softmax, superpose)
 from neorl.agents.compile import n_bytes
 from neorl.core.horde import as_vectors
 from neorl.core.modality import PLACE_CELL, cartesian, polar
@@ -155,6 +156,7 @@ def test_a_kernel_that_cannot_be_compiled_is_named():
 def test_what_is_remembered_counts_as_memory():
     none, some = (place_cells([3], learning=Learning(memory=memory)) for memory in (0, 2))
     assert n_bytes(some, WORLD) - n_bytes(none, WORLD) == 9 * (20 + 16 * 4)
-    short, long = (object_vector_cells([3], object_state="self", learning=Learning(memory=memory)) for memory in (0, 1e9))
+    short, long = (object_vector_cells([3], object_state="self", learning=Learning(memory=memory))
+                   for memory in (0, 1e9))
     assert n_bytes(long, WORLD) - n_bytes(short, WORLD) == (500 - 1) * (2 * 8 + 4 * 4)
     assert neorl.agents.memory.n_bytes is n_bytes

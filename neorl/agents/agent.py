@@ -38,10 +38,11 @@ class Node(checks.Final):
     goals: what the node learns to reach: all "cells", the Horde of the thesis, or only "contacts" with things, see
         `Contacts`. With contacts, the modality must be of objects, the resolutions must increase, and the weighting
         has no effect.
-    state: in a map of things relative to the agent, what its state and its goals are (paper B, section 3). "object": the
-        state is the cell of a thing, and the goal is the contact, distance 0. "self": the state is the agent, always at
-        the centre, and the goal is the cell of the thing; a value for each cell is all there is to learn, from the
-        agent's own motion. "per object": the same, from the agent's motion as seen from each thing until it is met.
+    state: in a map of things relative to the agent, what its state and its goals are (paper B, section 3). "object":
+        the state is the cell of a thing, and the goal is the contact, distance 0. "self": the state is the agent,
+        always at the centre, and the goal is the cell of the thing; a value for each cell is all there is to learn,
+        from the agent's own motion. "per object": the same, from the agent's motion as seen from each thing until it
+        is met.
         For the last two, the modality must have one component along every axis of the world and no other axis.
     reach: with the state "object", half the side of the square around the agent that counts as contact, in units of the
         world's size, ≥ 0: every cell that it overlaps is a goal. 0 stands for the cell at distance 0.

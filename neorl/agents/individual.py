@@ -101,7 +101,8 @@ class Individual:
         """Continue as another agent, which keeps what this one has learned.
 
         A map keeps its values, its active cells and its memory of how they were reached if both agents have it, in a
-        node of the same name with the same states and goals; a desire that both have keeps its learned valence. Everything else is reset, including the desires of the previous step.
+        node of the same name with the same states and goals; a desire that both have keeps its learned valence.
+        Everything else is reset, including the desires of the previous step.
         Raises ValueError unless it is an `Agent` compatible with the world, MemoryError if its values do not fit into
         the free memory.
         """

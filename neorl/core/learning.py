@@ -29,7 +29,6 @@ from neorl.core.choices import Credit, MapState
 from neorl.core.geometry import LAST, SCALE, STRIDE, cell_within
 from neorl.core.kernel import array, inlined_kernel, kernel
 from neorl.core.parameters import FORGOTTEN
-from neorl.core.scene import ABSENT
 
 ZERO, UNIT, SMALLEST = np.float32(0.0), np.float32(1.0), np.float32(1e-30)
 UNBOUNDED = np.float32(np.inf)
@@ -83,23 +82,14 @@ class Trace(NamedTuple):
 
 
 @inlined_kernel
-def learn_transition(parameters, constants, state, n, m, point, cell_t):
-    """Learn from a track's change of cell, or from the cell that the self has reached as seen from the last centre."""
+def learn_transition(parameters, constants, state, m, point, cell_t):
+    """Learn from a track's change of cell."""
     learning, tracks = parameters.learning, state.tracks
     track = np.uint64(parameters.maps.first_track[m] + point)
     cell_tm1 = tracks.cell[track]
-    rule = Rule(learning.discount, learning.terminal, learning.learning_rate * learning.absent_decay, learning.away)
-    values, order = values_of(parameters, state, m), order_of(parameters, m)
+    rule, values, order = rule_of(learning), values_of(parameters, state, m), order_of(parameters, m)
     trace, rates = trace_of(parameters, constants, tracks, m, point), state.rates
     rate_events(learning, constants, state, track, rates)
-    if parameters.nodes.state[n] != MapState.object:
-        if learning.bootstrap and cell_t >= 0:
-            learn_all_displacements(parameters, values, rule, n, m, cell_t, rates)
-        count = join_passed(parameters, state, trace, rule, n, m, point, rates)
-        learn_remembered(values, order, rule, trace, count, 0)
-        forget_all(trace, count)
-        pass_by(parameters, state, m, point, track)
-        return
     if learning.bootstrap:
         learn_all_goals(values, rule, cell_tm1, cell_t, rates)
     if learning.memory_retained > ZERO:
@@ -113,6 +103,27 @@ def learn_transition(parameters, constants, state, n, m, point, cell_t):
                 learn_remembered(values, order, rule, trace, tracks.remembered_count[track], cell_t)
     elif not learning.bootstrap:
         learn_one_goal(values, order, rule, cell_tm1, cell_t, rates)
+
+
+@inlined_kernel
+def learn_displacement(parameters, constants, state, n, m, point, reached):
+    """Learn that the self has reached a cell as seen from the last centre, and centre the map on it."""
+    track = np.uint64(parameters.maps.first_track[m] + point)
+    rule, values = rule_of(parameters.learning), values_of(parameters, state, m)
+    trace, rates = trace_of(parameters, constants, state.tracks, m, point), state.rates
+    rate_events(parameters.learning, constants, state, track, rates)
+    if parameters.learning.bootstrap and reached >= 0:
+        learn_all_displacements(parameters, values, rule, n, m, reached, rates)
+    count = join_passed(parameters, state, trace, rule, n, m, point, rates)
+    learn_remembered(values, order_of(parameters, m), rule, trace, count, 0)
+    forget_all(trace, count)
+    pass_by(parameters, state, m, point, track)
+
+
+@inlined_kernel
+def rule_of(learning):
+    """The `Rule` of an agent."""
+    return Rule(learning.discount, learning.terminal, learning.learning_rate * learning.absent_decay, learning.away)
 
 
 @inlined_kernel

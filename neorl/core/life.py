@@ -21,7 +21,7 @@ from neorl.core.choices import Credit, MapState, UpdateOn, Vector
 from neorl.core.contacts import begin_contacts, learn_worth, observe_contacts
 from neorl.core.geometry import cell_within, component, contact_cell, locate, maps_of, with_kept_directions
 from neorl.core.kernel import inlined_kernel
-from neorl.core.learning import UNIT, ZERO, enter, has_left_centre, learn_transition, start_track
+from neorl.core.learning import UNIT, ZERO, enter, has_left_centre, learn_displacement, learn_transition, start_track
 from neorl.core.network import choose
 from neorl.core.scene import ABSENT
 
@@ -75,7 +75,7 @@ def perceive(parameters, constants, state, scene, n, point):
         arrives = met and cell_tm1 >= 0
         cell_t = contact_cell(parameters.maps, m, cell_tm1) if arrives else cell
         if (arrives or not ends) and (cell_t != cell_tm1 or learning.update_on == UpdateOn.step):
-            learn_transition(parameters, constants, state, n, m, point, cell_t)
+            learn_transition(parameters, constants, state, m, point, cell_t)
             enter(constants, tracks, track, cell_t)
         if ends:
             start_track(parameters, constants, state, n, m, point, cell)
@@ -93,7 +93,7 @@ def perceive_self(parameters, constants, state, scene, n, point):
             start_self(parameters, constants, state, scene, n, m, point)
         elif has_left_centre(parameters, state, m, point, track):
             cell = cell_within(parameters, state.offset, n, m)
-            learn_transition(parameters, constants, state, n, m, point, cell)
+            learn_displacement(parameters, constants, state, n, m, point, cell)
             enter(constants, tracks, track, parameters.maps.contact[m])
 
 

@@ -173,7 +173,6 @@ def networks(reading: Reading) -> dict[str, Agent]:
     adding = {"place_gain": reading.network_gain, **shared}
     return {"A": papers.network_a(**shared), "B": papers.network_b(**shared), "C": papers.network_c(**adding),
             "D": papers.network_d(recursion=reading.recursion, **adding)}
-    return made
 
 
 def judge(results):

@@ -17,7 +17,8 @@ TANK = WaterWorld(width=100, n_creeps=2, win_reward=5.0)  # small, so that episo
 AGENTS = {
     "calibrated": network_d([2, 5]),
     "every modality": every_modality(),
-    "at every step": multimodal([5], learning=plain_rule(update_on="step"), object_state="object", policy=Policy(0.1, "no-op")),
+    "at every step": multimodal([5], learning=plain_rule(update_on="step"), object_state="object",
+                                policy=Policy(0.1, "no-op")),
     "per object": multimodal([4], learning=plain_rule(memory=7.0, bootstrap=False), object_state="per object"),
     "softmax": multimodal([4], learning=plain_rule(credit="activity", memory=3.0), policy=Policy(choose=softmax(0.2))),
 }

@@ -12,7 +12,7 @@ from neorl.drawing.multiverse_figures import OUTCOMES, draw_importance, draw_spe
 from neorl.evidence import multiverse
 from neorl.evidence.claims import Claim
 from neorl.evidence.priors import BEYOND, PINNED, TO_THE_LETTER, WITHIN, Choice, LogUniform
-from neorl.evidence.reading import GROUPS, Reading, conditions, judge, networks
+from neorl.evidence.reading import GROUPS, Reading, conditions, judge
 from neorl.evidence.statistics import Estimate
 
 
@@ -48,7 +48,8 @@ def test_the_letter_takes_what_is_pinned_and_the_plainest_of_what_is_open():
     assert letter.absent_decay == pytest.approx(np.sqrt(1e-3)) and letter.activity == pytest.approx(0.5)
     found = conditions(letter, 600_000, 2)
     assert found["network", "D"].agent == network_d(
-        [3, 7, 23], scale=letter.scale, signed=False, object_state="self", learning=letter.learning, policy=Policy(exploration=0), own_cell="counts",
+        [3, 7, 23], scale=letter.scale, signed=False, object_state="self", learning=letter.learning,
+        policy=Policy(exploration=0), own_cell="counts",
         tiled_fraction=1, object_tiled_fraction=1, weighting="resolution", place_gain=1)
 
 
@@ -58,7 +59,8 @@ PAPERS = {"brownian": "A", "single": "A", "layer": "A", "layers": "A", "place": 
 
 @pytest.mark.parametrize("change", [
     {"learning_rate": 0.1}, {"discount": 0.5}, {"credit": "last"}, {"credit": "step"}, {"credit": "happened"},
-    {"absent_decay": 0.3}, {"absent_form": "decay"}, {"memory": 10}, {"activity": 2.0}, {"bootstrap": False}, {"terminal": True}, {"object_state": "object"},
+    {"absent_decay": 0.3}, {"absent_form": "decay"}, {"memory": 10}, {"activity": 2.0},
+    {"bootstrap": False}, {"terminal": True}, {"object_state": "object"},
     {"object_beyond": "none"}, {"object_centred": True}, {"own_cell": "silent"}, {"tiled_fraction": 0.5},
     {"object_tiled_fraction": 0.25},
     {"weighting": "cells"}, {"exploration": 0.1}, {"place_gain": 5.0}, {"network_gain": 3.0}, {"vectors": "signed"},

@@ -23,7 +23,7 @@ def test_what_is_pinned_is_quoted_and_located():
 
 
 @pytest.mark.parametrize("change, broken", [
-    ({"exploration": 0.02}, ["policy"]), 
+    ({"exploration": 0.02}, ["policy"]),
     ({"tiled_fraction": 0.5}, ["range of place cells"]), ({"weighting": "equal"}, ["weight of a map"]),
     ({"own_cell": "silent"}, ["elements in the agent's own cell"]),
     ({"credit": "step"}, ["driver of learning", "credit of events that occurred", "credit of events that did not occur",
