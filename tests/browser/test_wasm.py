@@ -187,7 +187,7 @@ def test_looking_and_joining_in_equal_native_calls(choices):
 @pytest.mark.parametrize("name", wasm.MODULES)
 def test_a_module_is_small_and_asks_for_memory_alone(name):
     _, module = compiled(name)
-    assert len(wasm.modules()[name]) <= 88_000
+    assert len(wasm.modules()[name]) <= 105_000
     assert [each.name for each in module.imports] == ["memory"]
     assert {each.name for each in module.exports} == {"__heap_base", *wasm.layout(name)["exports"]}
 
