@@ -1,9 +1,10 @@
 """The agents of the thesis's papers, as values of `Agent`.
 
 `choices` are other fields of `Agent` (learning, policy, own_cell) or, for all nodes, `weighting` of `Node` and
-`tiled_fraction`: the central fraction of each axis's range that the maps divide into equal cells. Values beyond it
-belong to the outermost cells. Of object-vector cells alone, `object_tiled_fraction` is that fraction, if it differs;
-`object_state`, `object_reach` and `object_beyond` are fields of `Node`, and `object_centred` of `Axis`.
+`tiled_fraction`: the central fraction of each axis's range that the maps of place cells divide into equal cells; values
+beyond it belong to the outermost cells. `object_tiled_fraction` is that of object-vector cells; `object_state`,
+`object_reach` and `object_beyond` are fields of their `Node`, and `object_centred` of its `Axis`. The defaults are
+those of the calibrated reading.
 
 Every function raises ValueError for values that `Agent` and its parts refuse, and TypeError for an unknown choice.
 """
@@ -19,11 +20,13 @@ from neorl.agents.rules import Learning, Policy
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL
 
 Maker = TypeVar("Maker", bound=Callable[..., Agent])
-LAYERS = (3, 7, 23)  # the resolutions of paper A's last experiment, and of paper C by its figures
-PRIMES = (2, 3, 5, 7, 11, 13)  # the resolutions of paper B
+LAYERS = (3, 7, 23)  # the resolutions of paper A's last experiment, and of paper C in its figures
+PRIMES = (2, 3, 5, 7, 11, 13)  # the resolutions of paper B, and of paper C as calibrated
 TILED_FRACTION = 1.0
-OF_OBJECTS = {"object_state": "self", "object_reach": 0.0, "object_beyond": "outermost", "object_centred": False}
-OF_NODES = ("weighting", "tiled_fraction", "object_tiled_fraction", *OF_OBJECTS)  # choices that are no field of `Agent`
+OF_OBJECTS = {"object_state": "per object", "object_reach": 0.0, "object_tiled_fraction": 0.5, "object_beyond": "none",
+              "object_centred": True}
+PLACE_GAIN, SCALE = 2.0, 17.86  # of place cells in paper B; of the desire vectors of paper C, in board widths
+OF_NODES = ("weighting", "tiled_fraction", *OF_OBJECTS)  # choices that are no field of `Agent`
 CHOICES = (*OF_NODES, *(each.name for each in fields(Agent)[2:]))
 HINTS = get_type_hints(Agent)
 
@@ -66,7 +69,7 @@ def object_vector_cells(resolutions: Sequence[int] = PRIMES, valence_green: floa
 
 
 @paper_agent
-def multimodal(resolutions: Sequence[int] = PRIMES, place_gain: float = 3.0, object_gain: float = 1.0,
+def multimodal(resolutions: Sequence[int] = PRIMES, place_gain: float = PLACE_GAIN, object_gain: float = 1.0,
                **choices: Any) -> Agent:
     """PC + OVC of paper B (fig. 5): both nodes desire the creeps, and their values add.
 
@@ -76,7 +79,7 @@ def multimodal(resolutions: Sequence[int] = PRIMES, place_gain: float = 3.0, obj
 
 
 @paper_agent
-def network_a(resolutions: Sequence[int] = LAYERS, scale: float = Desire.scale, signed: bool = False,
+def network_a(resolutions: Sequence[int] = PRIMES, scale: float = SCALE, signed: bool = False,
               **choices: Any) -> Agent:
     """Agent A of paper C (fig. 4a): place cells merge all creeps into one desire, on which object-vector cells act.
 
@@ -87,7 +90,7 @@ def network_a(resolutions: Sequence[int] = LAYERS, scale: float = Desire.scale, 
 
 
 @paper_agent
-def network_b(resolutions: Sequence[int] = LAYERS, scale: float = Desire.scale, signed: bool = False,
+def network_b(resolutions: Sequence[int] = PRIMES, scale: float = SCALE, signed: bool = False,
               **choices: Any) -> Agent:
     """Agent B of paper C (fig. 4b): one desire for the green creeps, and one for the red.
 
@@ -97,7 +100,7 @@ def network_b(resolutions: Sequence[int] = LAYERS, scale: float = Desire.scale, 
 
 
 @paper_agent
-def network_c(resolutions: Sequence[int] = LAYERS, scale: float = Desire.scale, signed: bool = False,
+def network_c(resolutions: Sequence[int] = PRIMES, scale: float = SCALE, signed: bool = False,
               place_gain: float = 1.0, object_gain: float = 1.0, **choices: Any) -> Agent:
     """Agent C of paper C (fig. 4c): as B, and the values of both nodes add.
 
@@ -108,7 +111,7 @@ def network_c(resolutions: Sequence[int] = LAYERS, scale: float = Desire.scale, 
 
 
 @paper_agent
-def network_d(resolutions: Sequence[int] = LAYERS, recursion: float = -1.0, scale: float = Desire.scale,
+def network_d(resolutions: Sequence[int] = PRIMES, recursion: float = -1.0, scale: float = SCALE,
               signed: bool = False, place_gain: float = 1.0, object_gain: float = 1.0, **choices: Any) -> Agent:
     """Agent D of paper C (fig. 4d): as C, and object-vector cells receive their own previous desire, with valence r.
 
@@ -141,9 +144,9 @@ def _network(nodes, resolutions, desires, choices):
         raise TypeError(f"{name} is no choice of this agent{of}")
     weighting = choices.pop("weighting", Node.weighting)
     tiled_fraction = checks.positive("tiled_fraction", choices.pop("tiled_fraction", TILED_FRACTION))
-    of_objects = checks.positive("object_tiled_fraction", choices.pop("object_tiled_fraction", tiled_fraction))
     own = {name.removeprefix("object_"): choices.pop(name, value) for name, value in OF_OBJECTS.items()}
     centred = checks.flag("object_centred", own.pop("centred"))
+    of_objects = checks.positive("object_tiled_fraction", own.pop("tiled_fraction"))
     nodes = tuple(Node(name, _covering(tiled_fraction, modality), resolutions, weighting, gain)
                   if modality is PLACE_CELL else
                   Node(name, _covering(of_objects, modality, centred), resolutions, weighting, gain, **own)

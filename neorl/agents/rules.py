@@ -49,15 +49,15 @@ class Learning(checks.Final):
     Raises ValueError for anything else.
     """
 
-    learning_rate: float = 0.0157
-    discount: float = 0.9045
+    learning_rate: float = 0.01408
+    discount: float = 0.9938
     update_on: str = "cell"
     credit: str | Callable = "happened"
-    activity: float = 3.331
-    absent_decay: float = 0.1101
-    absent_form: str = "away"
-    terminal: bool = True
-    memory: float = 30.0
+    activity: float = 0.5
+    absent_decay: float = 0.05974
+    absent_form: str = "decay"
+    terminal: bool = False
+    memory: float = 254.9
     bootstrap: bool = False
 
     def __post_init__(self):

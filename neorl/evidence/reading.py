@@ -11,7 +11,7 @@ from typing import Any
 
 from neorl import checks
 from neorl.agents import papers
-from neorl.agents.agent import Agent, Desire, Node
+from neorl.agents.agent import Agent, Node
 from neorl.agents.rules import Learning, Policy
 from neorl.evidence import claims
 from neorl.evidence.pins import agreement
@@ -68,18 +68,18 @@ class Reading:
     tiled_fraction: float = papers.TILED_FRACTION
     object_state: str = papers.OF_OBJECTS["object_state"]  # type: ignore[assignment]
     object_reach: float = papers.OF_OBJECTS["object_reach"]  # type: ignore[assignment]
-    object_tiled_fraction: float = papers.TILED_FRACTION
+    object_tiled_fraction: float = papers.OF_OBJECTS["object_tiled_fraction"]  # type: ignore[assignment]
     object_beyond: str = papers.OF_OBJECTS["object_beyond"]  # type: ignore[assignment]
     object_centred: bool = papers.OF_OBJECTS["object_centred"]  # type: ignore[assignment]
     weighting: str = Node.weighting
     exploration: float = Policy.exploration
     when_indifferent: str = Policy.when_indifferent
-    place_gain: float = 3.0
+    place_gain: float = papers.PLACE_GAIN
     network_gain: float = 1.0
     vectors: str = "by size"
-    scale: float = Desire.scale
+    scale: float = papers.SCALE
     recursion: float = -1.0
-    network_resolutions: tuple[int, ...] = LAYERS
+    network_resolutions: tuple[int, ...] = PRIMES
     fps: int = WaterWorld.fps
     contact: str = WaterWorld.contact
 
