@@ -53,7 +53,7 @@ class Learning(checks.Final):
     discount: float = 0.9938
     update_on: str = "cell"
     credit: str | Callable = "happened"
-    activity: float = 0.5
+    activity: float = 0.3095
     absent_decay: float = 0.05974
     absent_form: str = "decay"
     terminal: bool = False

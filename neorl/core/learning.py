@@ -211,7 +211,7 @@ def pass_by(parameters, state, m, point, track):
 @inlined_kernel
 def passed_slots(parameters, m, point):
     """Where the ring buffer of the places that a track has passed begins."""
-    return np.uint64(parameters.maps.first_passed[m] + point * parameters.maps.passed[m])
+    return parameters.maps.first_passed[m] + point * parameters.maps.passed[m]
 
 
 @inlined_kernel

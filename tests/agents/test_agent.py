@@ -156,11 +156,11 @@ def test_the_agent_of_paper_a_is_one_node_and_two_desires():
 
 
 def test_object_vectors_may_have_a_range_of_their_own():
-    places, objects = multimodal([3], tiled_fraction=1, object_tiled_fraction=0.25).nodes
+    places, objects = multimodal([3], tiled_fraction=1, object_tiled_fraction=0.25, object_centred=False).nodes
     assert places.modality == PLACE_CELL and objects.modality.axes == cartesian("objects", (-0.25, 0.25),
                                                                                                   (-0.25, 0.25))
-    assert object_vector_cells([3], tiled_fraction=0.2,
-                               object_tiled_fraction=1).nodes[0].modality == CARTESIAN_OBJECT_VECTOR_CELL
+    assert object_vector_cells([3], tiled_fraction=0.2, object_tiled_fraction=1,
+                               object_centred=False).nodes[0].modality == CARTESIAN_OBJECT_VECTOR_CELL
     for name in ("tiled_fraction", "object_tiled_fraction"):
         with pytest.raises(ValueError, match=f"{name} is 0, allowed are finite numbers from 1e-30"):
             multimodal([3], **{name: 0})

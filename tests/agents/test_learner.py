@@ -97,7 +97,7 @@ def test_a_learner_that_has_not_begun_is_kept_as_such(tmp_path):
 
 @pytest.mark.parametrize("half_way", [False, True], ids=["whole", "half-way"])
 def test_a_learner_that_becomes_the_same_agent_goes_on_to_the_same_bit(half_way):
-    agent = AGENTS["trace"]
+    agent = AGENTS["per object"]
     lives = []
     for changes in (False, True):
         learner, state = newborn(agent, TANK)

@@ -198,8 +198,8 @@ def test_a_name_links_to_its_room_or_below_and_an_argument_to_nothing(make_book)
     assert ">kinds<" in of_room and "Arena.kinds" not in of_room
     of_worlds = reference.split('id="module-neorl.worlds.world"')[1].split('id="neorl.worlds.world.Dynamics"')[0]
     assert "Arena.kinds" not in of_worlds and 'href="#module-neorl.core.scene"' not in of_worlds
-    of_choices = reference.split('id="neorl.core.choices.Capture"')[1].split("</dl>")[0]
-    assert "contact</span></code> 0, " in of_choices and "qualname" not in of_choices
+    of_choices = reference.split('id="neorl.core.choices.MapState"')[1].split("</dl>")[0]
+    assert "object</span></code> 0, " in of_choices and "qualname" not in of_choices
 
 
 def test_the_reference_has_types_and_defaults_as_in_code(make_book):

@@ -49,8 +49,8 @@ def test_the_sentences_on_each_reading_are_an_item_of_a_list():
 
 
 def test_choices_are_open_or_pinned():
-    table = side_by_side.choices({"letter": TO_THE_LETTER, "far": replace(TO_THE_LETTER, scale=2.0)},
-                                 ["scale", "network_resolutions"])
+    table = side_by_side.choices({"letter": TO_THE_LETTER, "far": replace(TO_THE_LETTER, recursion=2.0)},
+                                 ["recursion", "network_resolutions"])
     assert table.splitlines() == ["| Choice | The text | letter | far |", "|---|---|---|---|",
-                                  "| desire scale | pinned | 1 | 2 |",
+                                  "| recursion, r | pinned | −1 | 2 |",
                                   "| resolutions, C | open | {3, 7, 23} | {3, 7, 23} |"]

@@ -9,7 +9,8 @@ from neorl.chapters.paper_b import trials
 from neorl.evidence.reading import Reading
 
 READING = Reading(0.03, 0.8, "share", absent_decay=0.0, memory=0.0, bootstrap=True, terminal=True,
-                  object_state="object", place_gain=1.0, weighting="resolution")  # whatever the defaults
+                  object_state="object", object_tiled_fraction=1.0, object_beyond="outermost", object_centred=False,
+                  place_gain=1.0, weighting="resolution")  # whatever the defaults
 PRIMES = (2, 3)
 
 

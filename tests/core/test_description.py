@@ -44,7 +44,8 @@ learnings = st.one_of(
               credit=st.sampled_from(["share", "last", of_a_module])),
     st.just(Learning(update_on="step")))
 policies = st.builds(Policy, SHARES, choose=st.sampled_from([softmax(0.1), softmax(3), Policy().choose]))
-choices = st.fixed_dictionaries({"learning": learnings, "policy": policies}, optional={
+choices = st.fixed_dictionaries({
+    "learning": learnings, "policy": policies, "object_state": st.just("object")}, optional={
     "own_cell": st.sampled_from(["silent", "counts"]), "tiled_fraction": st.floats(0.1, 2.0),
     "weighting": st.sampled_from(["equal", "cells"])})
 of_papers = st.builds(lambda make, resolutions, chosen: make(resolutions, **chosen), st.sampled_from(PAPERS),

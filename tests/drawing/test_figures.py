@@ -38,7 +38,7 @@ def test_accumulated_curves_end_at_the_mean_total(results):
 def test_proficiency_draws_the_sum_of_the_parts(results):
     drawing.draw_proficiency(results, total=("sum", list(results.values())), points=10)
     n3, n7, total, _ = (line.get_ydata() for line in plt.gca().lines)
-    np.testing.assert_allclose(total, n3 + n7, rtol=1e-5)
+    np.testing.assert_allclose(total, n3 + n7, rtol=1e-5, atol=1e-12)
 
 
 def test_the_control_is_drawn_in_ink(results):
@@ -224,7 +224,7 @@ def test_cells_of_a_map_with_ranges_of_its_own():
 def test_the_outermost_cells_of_a_map_reach_as_far_as_things_can_be():
     axes = drawing.new_board(low=-1)
     for nres_map in (place_cells([2], tiled_fraction=0.5).maps[0],
-                     object_vector_cells([2], tiled_fraction=0.5).maps[0]):
+                     object_vector_cells([2], object_tiled_fraction=0.5, object_centred=False).maps[0]):
         drawing.draw_cells(nres_map, ax=axes)
     boxes = [patch.get_bbox().extents.tolist() for patch in axes.patches]
     assert boxes[:4] == [[0, 0, 0.5, 0.5], [0.5, 0, 1, 0.5], [0, 0.5, 0.5, 1], [0.5, 0.5, 1, 1]]

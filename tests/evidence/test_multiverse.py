@@ -50,7 +50,8 @@ def test_the_letter_takes_what_is_pinned_and_the_plainest_of_what_is_open():
     assert found["network", "D"].agent == network_d(
         [3, 7, 23], scale=letter.scale, signed=False, object_state="self", learning=letter.learning,
         policy=Policy(exploration=0), own_cell="counts",
-        tiled_fraction=1, object_tiled_fraction=1, weighting="resolution", place_gain=1)
+        tiled_fraction=1, object_tiled_fraction=1, object_beyond="outermost", object_centred=False,
+        weighting="resolution", place_gain=1)
 
 
 PAPERS = {"brownian": "A", "single": "A", "layer": "A", "layers": "A", "place": "B", "objects": "B", "both": "B",

@@ -29,5 +29,5 @@ def test_the_source_of_a_choice_is_the_sentence_that_pins_it_unless_the_default_
     monkeypatch.setattr(provenance, "Reading", lambda: reading)
     assert provenance.source("recursion") == "paper C, section 3"
     assert provenance.source("tiled_fraction") == "against paper B, figure 3"
-    assert provenance.source("capture") == "open in paper B, section 3; value by calibration"
+    assert provenance.source("object_state") == "open in paper B, section 3; value by calibration"
     assert provenance.source("contact") == "value by calibration"

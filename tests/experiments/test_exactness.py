@@ -8,10 +8,10 @@ import pytest
 from neorl import simulate
 from neorl.experiments.run import new_bins
 
-SPANNING = ["place N10, calibrated", "every modality", "both, memory of seconds", "both, silent captures", "no-op",
+SPANNING = ["place N10, calibrated", "every modality", "both, self", "both, per object", "no-op",
             "both, step", "network D, calibrated", "arena, calibrated", "softmax", "with a memory, moved"]
-INTERPRETED = ["place N3", "place, long trace alone", "both, absence", "network D, signed", "every modality",
-               "network D, calibrated", "both, silent captures", "arena", "softmax"]
+INTERPRETED = ["place N3", "both, self, centred, bootstrapping", "both, absence", "network D, signed", "every modality",
+               "network D, calibrated", "both, per object", "arena", "softmax"]
 
 
 def on_record(names, steps):

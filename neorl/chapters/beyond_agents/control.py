@@ -54,8 +54,9 @@ def control_network(layers, setting):
         nodes.append(Node("PC", PLACE_CELL, (setting["places"],), gain=0.0))
         desires += [Desire("OVC", "PC", 1.0, scale=setting["reach"]), Desire("PC", "V", 1.0, scale=setting["scale"])]
     choices = {"learning_rate": setting["learning_rate"], "discount": setting["discount"]}
-    learning = (Learning(update_on="step", **choices) if setting["update_on"] == "step" else
-                Learning(**choices, memory=0.0, bootstrap=True, credit="last"))
+    learning = (Learning(update_on="step", terminal=True, **choices) if setting["update_on"] == "step" else
+                Learning(**choices, memory=0.0, bootstrap=True, terminal=True, credit="last", absent_decay=0.1101,
+                         absent_form="away"))
     return Agent(nodes, desires, learning, own_cell=setting["own_cell"],
                  contacts=Contacts(horizon=setting["horizon"], caution=setting["caution"]))
 
