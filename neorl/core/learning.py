@@ -162,7 +162,7 @@ def values_of(parameters, state, m):
 def order_of(parameters, m):
     """The `Order` of a map's values."""
     goals, actions = np.uint64(parameters.maps.goals[m]), np.uint64(parameters.push.shape[0])
-    if parameters.learning.bootstrap:
+    if parameters.learning.bootstrap and goals > 1:
         return Order(np.uint64(1), goals)
     return Order(actions, np.uint64(1))
 

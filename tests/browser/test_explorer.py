@@ -12,6 +12,7 @@ from traitlets import TraitError
 import neorl
 from neorl import (Agent, Arena, Desire, Explorer, Learning, Node, Policy, WaterWorld, multimodal, network_d,
                    object_vector_cells, place_cells, simulate)
+from neorl.agents.papers import OF_OBJECTS
 from neorl.browser.explorer import AGENTS, CURVE_BINS, IN_THE_ARENA, OTHER_SPACES
 from neorl.core import modality
 from neorl.evidence.priors import TO_THE_LETTER as LETTER
@@ -94,7 +95,7 @@ def test_the_state_of_object_vectors_is_a_trait(state):
     explorer = Explorer(preset="Network D", object_state=state)
     assert explorer.agent == network_d(object_state=state)
     explorer.preset = "Object-vector cells"
-    assert explorer.object_state == "self" and explorer.agent == object_vector_cells()
+    assert explorer.object_state == OF_OBJECTS["object_state"] and explorer.agent == object_vector_cells()
     explorer.object_state = state
     assert explorer.agent == object_vector_cells(object_state=state)
 

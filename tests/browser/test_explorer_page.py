@@ -156,17 +156,17 @@ def test_creeps_resolutions_modality_and_seed_begin_the_run_that_python_begins(o
     assert explorer.get_attribute("data-condition") == ""
 
 
-@pytest.mark.parametrize("state", ["object", "per object"])
+@pytest.mark.parametrize("state", ["object", "self"])
 def test_the_state_of_object_vectors_in_the_menu_begins_the_run_that_python_begins(open_page, site, conditions, state):
     page = open_page(*site("both"))
     menu = page.locator('[name="object_state"]')
-    expect(menu).to_have_value("self")
-    expect(menu.locator("option:checked")).to_have_text("the self (goal: the object's cell)")
+    expect(menu).to_have_value("per object")
+    expect(menu.locator("option:checked")).to_have_text("the self, per object")
     menu.select_option(state)
     score = play_to_the_end(page)
     assert score == lived(multimodal([2, 3, 5], object_state=state)) != conditions["both"].totals[0]
     assert explorer_of(page).get_attribute("data-condition") == ""
-    menu.select_option("self")  # and the run of the preset begins at once
+    menu.select_option("per object")  # and the run of the preset begins at once
     wait_for_score(page, conditions["both"].totals[0])
     assert explorer_of(page).get_attribute("data-condition") == "both"
 

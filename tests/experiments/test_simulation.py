@@ -208,7 +208,7 @@ def test_a_run_that_fails_ends_the_others(monkeypatch):
         simulate(place_cells([3]), TANK, steps=10**9, runs=4, progress=False)
 
 
-@pytest.mark.parametrize("agent", [multimodal([3, 12]),
+@pytest.mark.parametrize("agent", [multimodal([3, 12]), multimodal([3, 4], learning=plain_rule(), object_state="self"),
                                    place_cells([14], learning=plain_rule(memory=5.0, absent_decay=0.2))])
 def test_a_run_in_the_memory_of_another_begins_with_nothing_and_is_the_same(agent):
     before = Run(agent, WaterWorld(), seed=0, run=3)
