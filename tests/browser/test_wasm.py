@@ -180,7 +180,7 @@ def test_looking_and_joining_in_equal_native_calls(choices):
         paid = execute(probes.step_second, *agent, board, rules, second, action)
         assert machine.call("step_second", sizes, second=second_copy, action=action, **game) == paid
         met += second.met.any()
-    assert met > 10
+    assert met > 5
     assert_equal_to(run, arguments)
 
 

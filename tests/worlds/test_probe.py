@@ -81,7 +81,7 @@ def test_a_place_is_seen_in_the_cell_that_is_as_it_lies_and_otherwise_as_the_age
 
 
 def test_a_creep_that_somebody_else_takes_is_gone_and_nothing_is_learned_from_it():
-    run = Run(object_vector_cells([5]), TANK, seed=4)
+    run = Run(object_vector_cells([5], object_state="object", object_beyond="outermost"), TANK, seed=4)
     run.advance(3_000)
     run.world_state.scene.kinds[:] = [GREEN, GREEN, RED, GREEN, RED]
     before, board = mapped(np.copy, run.state), run.world_state
@@ -92,7 +92,7 @@ def test_a_creep_that_somebody_else_takes_is_gone_and_nothing_is_learned_from_it
     assert np.array_equal(run.state.values.q, before.values.q)
     coordinates = run.agent.maps[0].modality.coordinates(board.scene, TANK.size)
     assert np.array_equal(run.state.tracks.cell[taken], run.agent.maps[0].encode(coordinates)[taken])
-    assert not run.state.tracks.events[taken].any() and not run.state.tracks.trace_count[taken].any()
+    assert not run.state.tracks.events[taken].any() and not run.state.tracks.remembered_count[taken].any()
     assert np.array_equal(run.state.tracks.cell[~taken], before.tracks.cell[~taken])
     assert np.array_equal(run.state.tracks.events[~taken], before.tracks.events[~taken])
 
