@@ -52,9 +52,9 @@ def _control(results):
 
 
 def drastic_level(results):
-    """The level that D has to exceed under one reading, {name: reward per second}; {} if C finally earns nothing."""
+    """The level that D has to exceed under one reading, {name: reward per second}; at least 0."""
     level = DRASTIC * results["network", "C"].rate(*FINAL).mean()
-    return {f"thesis: D beyond {DRASTIC} × C": level} if level > 0 else {}
+    return {f"thesis: D beyond {DRASTIC} × C": max(level, 0.0)}
 
 
 def final_rates(by_reading):
