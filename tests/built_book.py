@@ -40,7 +40,7 @@ def test_the_front_page_is_light_and_stands_still(open_page):
     page.locator(".neorl-explorer").wait_for()
     loaded = page.evaluate("""() => ["resource", "navigation"].flatMap(kind => performance.getEntriesByType(kind))
         .filter(entry => !entry.name.startsWith("blob:")).map(entry => entry.encodedBodySize)""")
-    assert sum(loaded) <= 1_500_000
+    assert sum(loaded) <= 1_510_000
     shifts = page.evaluate("""() => new Promise(resolve => new PerformanceObserver(list => resolve(
         list.getEntries().reduce((sum, entry) => sum + entry.value, 0)
     )).observe({type: "layout-shift", buffered: true}))""")
