@@ -97,7 +97,7 @@ class Roundabout(World):
 
 
 DEPTHS = Modality("place cell in a cube", cartesian("position", (0, 1), (0, 1), (0, 1)))
-AT_ONCE = Learning(0.3, 0.9, bootstrap=True, credit="last", memory=0.0, absent_decay=0.0, causes="any")
+AT_ONCE = Learning(0.3, 0.9, bootstrap=True, credit="last", memory=0.0, absent_decay=0.0, terminal=True)
 SEEKER = Agent((Node("PC", DEPTHS, [5]),), (Desire("pearl", "PC", 1.0),), AT_ONCE, Policy(0.1))
 DRIVER = Agent((Node("PC", Modality("ring cell", (Axis("position", closed=True),)), [5]),),
                (Desire(Place(0.5), "PC", 1.0),), AT_ONCE)
