@@ -147,7 +147,8 @@ def test_an_interrupted_run_goes_on_where_it_stopped():
 
 
 def test_equal_conditions_are_kept_under_one_key():
-    plain = Condition(place_cells([3], 1.0, learning=Learning(0.5, memory=2.0), policy=Policy(0.0)),
+    plain = Condition(place_cells([3], 1.0, learning=Learning(0.5, memory=2.0, terminal=True),
+                                  policy=Policy(0.0)),
                       WaterWorld(win_reward=5.0), steps=100, runs=2, changes=[(50, place_cells([4]))])
     numpy = Condition(place_cells(np.array([3]), np.float64(1), policy=Policy(np.float32(0)),
                                   learning=Learning(np.float64(0.5), memory=2, terminal=np.bool_(True))),

@@ -69,8 +69,9 @@ def test_bad_changes_are_refused(changes, message):
 def test_the_output_of_a_node():
     run = Run(network_c([2, 5], object_gain=0.5, scale=2.0, signed=False), TANK, seed=0)
     run.advance(20_000)
+    while not (run.output("PC").q.any() and run.output("OVC").q.any()):
+        run.advance(100)  # an object may be beyond the range of the map
     place, relative = run.output("PC"), run.output("OVC")
-    assert place.q.any() and relative.q.any()
     np.testing.assert_allclose(run.state.action_value, place.q + 0.5 * relative.q, atol=1e-15)
     greens, reds = (sum(run.agent.desires[e].source == colour and run.state.desires.valence[e] for e in range(2))
                     for colour in ("green", "red"))
@@ -106,7 +107,8 @@ def test_an_agent_of_any_modality_learns_which_way_to_go(modality, resolution, h
 def test_an_agent_learns_to_keep_a_speed():
     speeds = {}
     for wish in (0.1, 1.9):
-        run = Run(Agent((Node("speed", SPEED_CELL, [8]),), (Desire((wish,), "speed", 1.0),), policy=Policy(0.5)), TANK)
+        run = Run(Agent((Node("speed", SPEED_CELL, [8]),), (Desire((wish,), "speed", 1.0),), plain_rule(), Policy(0.5)),
+                  TANK)
         run.advance(50_000)
         speeds[wish] = np.empty(2_000)
         for step in range(2_000):
