@@ -9,13 +9,14 @@ from textwrap import fill
 
 import numpy as np
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
+from matplotlib.patches import Patch, Rectangle
 
 from neorl.drawing.multiverse_figures import SHADES
 from neorl.drawing.style import (AGENT, CURVES, INK, RED, SMALL, TEXT, axes_or_new, figure_or_new, letters,
                                  name_ends, width_of_figures)
 from neorl.drawing.thesis_figures import name_level
 from neorl.evidence.calibration_results import binned, marginal, progress
+from neorl.evidence.calibration_targets import TARGETS
 from neorl.evidence.claims import FINAL
 from neorl.evidence.curves import binned_rate, low_passed
 from neorl.evidence.priors import WITHIN
@@ -125,6 +126,44 @@ def draw_together(together, ax=None):
     axes.tick_params(length=0)
     axes.spines[:].set_visible(False)
     return axes
+
+
+def draw_conflicts(found, row, columns=2, figure=None):
+    """What each target that a row misses goes together with least: all readings that were run, by both statistics.
+
+    Shaded is where both targets are met; the middle 96 % of the readings are shown, the row as a ring. A panel's
+    heading says how many readings meet both, and how many would by chance.
+
+    found: of `calibration_results.conflicts`, at least one. row: the `Row` that was asked about. columns: of panels.
+    """
+    high = -(-len(found) // columns)
+    figure = figure_or_new(figure, (width_of_figures(), 2.1 * high))
+    grid = figure.subplots(high, columns, squeeze=False)
+    for axes, conflict in zip(grid.flat, found):
+        names = conflict.missed, conflict.met
+        limits = []
+        for values, name in zip(conflict.found.T, names):
+            target, here = TARGETS[name], row.statistics[name].value
+            ends = [*np.quantile(values, [0.02, 0.98]), here, *(end for end in (target.low, target.high)
+                                                                if np.isfinite(end))]
+            room = 0.08 * (max(ends) - min(ends))
+            limits.append((min(ends) - room, max(ends) + room))
+        (left, right), (bottom, top) = limits
+        (low, high_end), (under, over) = ((max(TARGETS[name].low, begin), min(TARGETS[name].high, end))
+                                          for name, (begin, end) in zip(names, limits))
+        axes.add_patch(Rectangle((low, under), high_end - low, over - under, color=AGENT, alpha=0.25, linewidth=0))
+        axes.plot(*conflict.found.T, linestyle="none", marker="o", markersize=1.5, alpha=0.4, color=AGENT)
+        axes.plot(*(row.statistics[name].value for name in names), marker="o", markersize=6, markerfacecolor="none",
+                  markeredgecolor=RED)
+        axes.set(xlim=(left, right), ylim=(bottom, top))
+        across, up = (fill(f"{TARGETS[name].claim}: {TARGETS[name].label}", 2 * NARROW) for name in names)
+        axes.set_xlabel(across, fontsize=SMALL)
+        axes.set_ylabel(up, fontsize=SMALL)
+        axes.set_title(f"{conflict.both:,} meet both, by chance {conflict.expected:,.0f}", size=SMALL, color=TEXT)
+        axes.tick_params(labelsize=SMALL)
+    for axes in grid.flat[len(found):]:
+        axes.set_visible(False)
+    return grid
 
 
 def draw_distances(table, ax=None):

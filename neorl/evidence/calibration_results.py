@@ -183,6 +183,38 @@ def giving(table):
     return found
 
 
+class Conflict(NamedTuple):
+    """A target that a row misses, and of those that it meets the one with which it goes together least.
+
+    both: rows that meet both. expected: rows that would if the two were independent. found: the values of all rows,
+    (rows, 2), those of the missed target first.
+    """
+
+    missed: str
+    met: str
+    both: int
+    expected: float
+    found: np.ndarray
+
+
+def conflicts(table, row):
+    """What meeting each target that a row misses would cost: a list of `Conflict`, in the order of the targets.
+
+    Counted are all rows in which both targets were measured, the most telling pair having the least both / expected.
+    """
+    meets = {name: target.holds(row.statistics[name].value) for name, target in TARGETS.items()}
+    return [min((_conflict(table, missed, met) for met in meets if meets[met]),
+                key=lambda each: (each.both + 1) / (each.expected + 1))
+            for missed in meets if not meets[missed] and any(meets.values())]
+
+
+def _conflict(table, *names):
+    found = np.array([[row.statistics[name].value for name in names] for row in table
+                      if all(name in row.statistics for name in names)]).reshape(-1, 2)
+    held = np.array([[TARGETS[name].holds(value) for value in found[:, i]] for i, name in enumerate(names)], bool)
+    return Conflict(*names, int(held.all(axis=0).sum()), float(np.prod(held.sum(axis=1)) / max(len(found), 1)), found)
+
+
 def progress(table):
     """The smallest distance of a complete row up to each wave: {wave: distance}, infinite while there is none."""
     least, found = math.inf, {}

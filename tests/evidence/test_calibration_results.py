@@ -184,6 +184,18 @@ def test_claims_together_are_drawn_and_the_excluded_are_crossed():
     assert [text.get_text() for text in plt.gca().texts] == ["50", "×", "25"]
 
 
+def test_what_a_missed_target_goes_together_with_least():
+    table = rows({"A6"}, {"A6"}, {"A6"}, {"C2", "C3"}, {"C2", "C3"}, {"C3", "A6"})
+    found = calibration_results.conflicts(table, table[-1])
+    missed = {conflict.missed: conflict for conflict in found}
+    assert set(missed) == {name for name, target in TARGETS.items() if target.claim not in ("C3", "A6")}
+    assert missed["C2"].met.startswith("A6") and missed["C2"].both == 0
+    assert missed["C2"].expected == pytest.approx(2 * 4 / 6) and missed["C2"].found.shape == (6, 2)
+    shown = calibration_figures.draw_conflicts([missed["C2"]], table[-1])
+    assert shown[0, 0].get_title() == "0 meet both, by chance 1"
+    assert shown[0, 0].lines[0].get_xydata() == pytest.approx(missed["C2"].found)
+
+
 def test_distances_are_drawn_by_wave():
     table = [replace(row, wave=wave) for wave, row in enumerate(rows({"A6"}, CLAIMS, set()))]
     calibration_figures.draw_distances(table)
