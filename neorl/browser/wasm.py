@@ -37,7 +37,7 @@ from neorl.agents.individual import OF_A_MAP
 from neorl.agents.papers import brownian
 from neorl.agents.spaces import pilot
 from neorl.browser.worlds import PLANE
-from neorl.core import contacts, learning, life, parameters
+from neorl.core import contacts, displacement, life, parameters
 from neorl.core.choices import Action, Cut, Feature, MapState, Source, Vector
 from neorl.core.kernel import fields, is_tuple
 from neorl.core.parameters import Parameters, derive
@@ -82,7 +82,7 @@ HOT = "rollout"  # the other exports are called at most once per picture
 RARE = (life.begin, waterworld.reset, waterworld.draw_creep, arena.reset, arm.reset, arm.draw_point, water_maze.reset,
         vessel.reset, vessel.draw_thing, parameters.cut_axes, parameters.find_inputs, contacts.begin_contacts)
 # Optimised for speed, but not inlined.
-APART = (contacts.observe_contacts, contacts.evaluate_contacts, learning.learn_displacement)
+APART = (contacts.observe_contacts, contacts.evaluate_contacts, displacement.learn_displacement)
 SHIPPED = {name: Path(__file__).with_name(f"{name}.wasm") for name in MODULES}  # in a wheel
 TRIPLE = "wasm32-unknown-unknown"
 LAYOUT = "e-m:e-p:32:32-p10:8:8-p20:8:8-i64:64-i128:128-n32:64-S128-ni:1:10:20"

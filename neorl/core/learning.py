@@ -12,21 +12,16 @@ there is no other reward.
    value of each remembered event for the cell entered moves towards that worth, at its weight or at 1, whichever is
    less. A cell is forgotten when its strength, which grows by 1 each time it is left, has faded below 1e-4.
 3. The value of an event that did not occur sinks, towards zero or away from the target.
-4. A map whose state is the self has one state, the centre, and a value for every goal: q[goal, action]. Its transition
-   is that the self leaves the centre cell, and the map is centred on it anew: half a cell along an axis. What is
-   remembered is the places where this happened; each has led to the cell in which the self now is, as seen from there.
-   So the cell looked up is that of the goal instead of the state, and all else is as above, except that a place is
-   forgotten at a strength of 0.01. By eq. 4.8, a goal is worth γ max q of the same place as seen from the new centre.
 
-A value below 1e-30 counts as zero, because arithmetic on subnormal numbers is slow.
+`neorl.core.displacement` does the same for maps whose state is the self. A value below 1e-30 counts as zero, because
+arithmetic on subnormal numbers is slow.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from neorl.core.choices import Credit, MapState
-from neorl.core.geometry import LAST, SCALE, STRIDE, cell_within
+from neorl.core.choices import Credit
 from neorl.core.kernel import array, inlined_kernel, kernel
 from neorl.core.parameters import FORGOTTEN
 
@@ -40,7 +35,7 @@ class MapValues(NamedTuple):
 
     q: array("float32", "values")  # of this map and possibly others, see `Order`
     first: int  # where in q the map begins
-    goals: int  # of each cell; 1 where a cell is itself a goal, see rule 4
+    goals: int  # of each cell; 1 where the state is the self, so that a cell is itself a goal
     actions: int
     goal_range: array("int64", "cells", 2)  # for each cell, the range of goals whose values may differ from 0
     scratch: array("float32", "scratch")  # working memory: a number per goal or, with memory, per goal and action
@@ -106,21 +101,6 @@ def learn_transition(parameters, constants, state, m, point, cell_t):
 
 
 @inlined_kernel
-def learn_displacement(parameters, constants, state, n, m, point, reached):
-    """Learn that the self has reached a cell as seen from the last centre, and centre the map on it."""
-    track = np.uint64(parameters.maps.first_track[m] + point)
-    rule, values = rule_of(parameters.learning), values_of(parameters, state, m)
-    trace, rates = trace_of(parameters, constants, state.tracks, m, point), state.rates
-    rate_events(parameters.learning, constants, state, track, rates)
-    if parameters.learning.bootstrap and reached >= 0:
-        learn_all_displacements(parameters, values, rule, n, m, reached, rates)
-    count = join_passed(parameters, state, trace, rule, n, m, point, rates)
-    learn_remembered(values, order_of(parameters, m), rule, trace, count, 0)
-    forget_all(trace, count)
-    pass_by(parameters, state, m, point, track)
-
-
-@inlined_kernel
 def rule_of(learning):
     """The `Rule` of an agent."""
     return Rule(learning.discount, learning.terminal, learning.learning_rate * learning.absent_decay, learning.away)
@@ -179,14 +159,11 @@ def trace_of(parameters, constants, tracks, m, point):
 
 
 @inlined_kernel
-def start_track(parameters, constants, state, n, m, point, cell):
-    """Start the track of a point in a cell, or of the self at state.coordinates in the centre."""
-    tracks, track = state.tracks, np.uint64(parameters.maps.first_track[m] + point)
+def start_track(parameters, constants, tracks, m, point, cell):
+    """Start the track of a point in a cell, without a memory."""
+    track = np.uint64(parameters.maps.first_track[m] + point)
     enter(constants, tracks, track, cell)
-    if parameters.nodes.state[n] != MapState.object:
-        tracks.passed_count[track] = 0
-        pass_by(parameters, state, m, point, track)
-    elif tracks.remembered_count[track] > 0:
+    if tracks.remembered_count[track] > 0:
         forget_all(trace_of(parameters, constants, tracks, m, point), tracks.remembered_count[track])
         tracks.remembered_count[track] = 0
 
@@ -196,96 +173,6 @@ def enter(constants, tracks, track, cell):
     tracks.cell[track] = cell
     for event in range(len(constants.actions) + 1):
         tracks.events[track, event] = 0
-
-
-@inlined_kernel
-def pass_by(parameters, state, m, point, track):
-    """Centre a map on the self at state.coordinates: the newest of the places that its track has passed."""
-    tracks, count = state.tracks, state.tracks.passed_count[track]
-    slot = passed_slots(parameters, m, point) + count % parameters.maps.passed[m]
-    for axis in range(tracks.passed_at.shape[1]):
-        tracks.passed_at[slot, axis] = state.coordinates[axis]
-    tracks.passed_count[track] = count + 1
-
-
-@inlined_kernel
-def passed_slots(parameters, m, point):
-    """Where the ring buffer of the places that a track has passed begins."""
-    return parameters.maps.first_passed[m] + point * parameters.maps.passed[m]
-
-
-@inlined_kernel
-def has_left_centre(parameters, state, m, point, track):
-    """Whether the self is half a cell or more from the centre, along an axis; its offset is then in state.offset."""
-    tracks, far = state.tracks, False
-    slot = passed_slots(parameters, m, point) + (tracks.passed_count[track] - 1) % parameters.maps.passed[m]
-    for axis in range(tracks.passed_at.shape[1]):
-        state.offset[axis] = state.coordinates[axis] - tracks.passed_at[slot, axis]
-        cells = state.offset[axis] * parameters.grid[np.uint64(parameters.maps.first_grid[m] + axis), SCALE]
-        far = far or cells >= 0.5 or cells <= -0.5
-    return far
-
-
-@inlined_kernel
-def join_passed(parameters, state, trace, rule, n, m, point, rates):
-    """List where the self now is as seen from each place that it has passed, and return the number of such cells."""
-    learning, maps, tracks = parameters.learning, parameters.maps, state.tracks
-    track, begin, size = np.uint64(maps.first_track[m] + point), passed_slots(parameters, m, point), maps.passed[m]
-    newest, count = (tracks.passed_count[track] - 1) % size, 0
-    strength, worth = UNIT, UNIT
-    for event in range(rates.shape[0]):
-        tracks.passed_rates[begin + newest, event] = rates[event]
-    for back in range(min(tracks.passed_count[track], size)):
-        slot = begin + (newest - back if back <= newest else newest - back + size)
-        if back > 0 or not learning.bootstrap:  # the last centre has already learned by bootstrapping
-            for axis in range(tracks.passed_at.shape[1]):
-                state.offset[axis] = state.coordinates[axis] - tracks.passed_at[slot, axis]
-            cell = cell_within(parameters, state.offset, n, m)
-            if cell >= 0:
-                count = join(trace, count, cell, tracks.passed_rates[slot], rule.absent_rate, strength, worth)
-        strength *= learning.memory_retained
-        worth *= learning.memory_retained * learning.discount
-        worth = worth if worth > SMALLEST else ZERO
-    return count
-
-
-@inlined_kernel
-def learn_all_displacements(parameters, values, rule, n, m, reached, rates):
-    """One update of every goal of the self, which has reached a cell as seen from the last centre (eq. 4.8)."""
-    q, actions, target, maps = values.q, values.actions, values.scratch, parameters.maps
-    cells, shift, width = maps.cells[m], reached - maps.contact[m], int(parameters.grid[maps.first_grid[m], LAST]) + 1
-    across = reached % width - maps.contact[m] % width  # along the first axis, whose cells follow each other
-    for row in range(0, cells, width):
-        inside = stays_inside(parameters, n, m, row, reached)
-        for goal in range(row, row + width):
-            target[goal] = ZERO
-            if inside and 0 <= goal - row - across < width:
-                for event in range(actions):
-                    target[goal] = higher(q[values.first + (goal - shift) * actions + event], target[goal])
-            target[goal] *= rule.discount
-    target[reached] = UNIT if rule.terminal else UNIT + target[reached]
-    highest = UNIT if rule.terminal else UNIT / (UNIT - rule.discount)
-    for goal in range(cells):
-        widen(values.goal_range, goal, 0)
-        for event in range(actions):
-            index = values.first + goal * actions + event
-            if rates[event] > ZERO:
-                q[index] = stepped(q[index], rates[event], target[goal], UNBOUNDED)
-            elif rule.absent_rate > ZERO:
-                q[index] = sunk(q[index], rule.absent_rate, target[goal], rule.away, highest)
-
-
-@inlined_kernel
-def stays_inside(parameters, n, m, goal, centre):
-    """Whether a goal is in the map, along all axes but the first, once the map is centred on another of its cells."""
-    first = parameters.maps.first_grid[m]
-    for axis in range(1, parameters.nodes.first_axis[n + 1] - parameters.nodes.first_axis[n]):
-        stride, intervals = int(parameters.grid[first + axis, STRIDE]), int(parameters.grid[first + axis, LAST]) + 1
-        interval = (goal // stride % intervals - centre // stride % intervals
-                    + parameters.maps.contact[m] // stride % intervals)
-        if interval < 0 or interval >= intervals:
-            return False
-    return True
 
 
 @kernel

@@ -9,7 +9,7 @@
 5. At rest, or at distance 0, a track keeps its last direction.
 6. Where the state of a node's maps is the self, one track follows the agent, and captures do not concern it; or the
    agent as seen from each thing has a track, which starts afresh when that thing is met. A transition is then that the
-   agent leaves the centre of the map, see `neorl.core.learning`.
+   agent leaves the centre of the map, see `neorl.core.displacement`.
 7. A node whose only goals are contacts learns by its own rules, see `neorl.core.contacts`.
 
 `scene` is what the agent perceives of its world (`neorl.core.scene.Scene`).
@@ -19,9 +19,10 @@ import numpy as np
 
 from neorl.core.choices import Credit, MapState, UpdateOn, Vector
 from neorl.core.contacts import begin_contacts, learn_worth, observe_contacts
+from neorl.core.displacement import has_left_centre, learn_displacement, start_self
 from neorl.core.geometry import cell_within, component, contact_cell, locate, maps_of, with_kept_directions
 from neorl.core.kernel import inlined_kernel
-from neorl.core.learning import UNIT, ZERO, enter, has_left_centre, learn_displacement, learn_transition, start_track
+from neorl.core.learning import UNIT, ZERO, enter, learn_transition, start_track
 from neorl.core.network import choose
 from neorl.core.scene import ABSENT
 
@@ -78,7 +79,7 @@ def perceive(parameters, constants, state, scene, n, point):
             learn_transition(parameters, constants, state, m, point, cell_t)
             enter(constants, tracks, track, cell_t)
         if ends:
-            start_track(parameters, constants, state, n, m, point, cell)
+            start_track(parameters, constants, tracks, m, point, cell)
 
 
 @inlined_kernel
@@ -90,7 +91,7 @@ def perceive_self(parameters, constants, state, scene, n, point):
     for m in maps_of(parameters.nodes, n):
         track = np.uint64(parameters.maps.first_track[m] + point)
         if starts or tracks.cell[track] < 0:
-            start_self(parameters, constants, state, scene, n, m, point)
+            start_self(parameters, constants, state, m, point, centre_cell(parameters, scene, n, m, point))
         elif has_left_centre(parameters, state, m, point, track):
             cell = cell_within(parameters, state.offset, n, m)
             learn_displacement(parameters, constants, state, n, m, point, cell)
@@ -109,10 +110,10 @@ def locate_self(parameters, constants, state, scene, n, point):
 
 
 @inlined_kernel
-def start_self(parameters, constants, state, scene, n, m, point):
-    """Start a track in the centre of its map, or nowhere if its thing is absent."""
+def centre_cell(parameters, scene, n, m, point):
+    """The centre of a map, or no cell if it is of an absent thing."""
     absent = parameters.nodes.state[n] == MapState.per_object and scene.kinds[point] < 0
-    start_track(parameters, constants, state, n, m, point, ABSENT if absent else parameters.maps.contact[m])
+    return ABSENT if absent else parameters.maps.contact[m]
 
 
 @inlined_kernel
@@ -138,10 +139,10 @@ def begin_point(parameters, constants, state, scene, n, point):
     if parameters.nodes.state[n] != MapState.object:
         locate_self(parameters, constants, state, scene, n, point)
         for m in maps_of(parameters.nodes, n):
-            start_self(parameters, constants, state, scene, n, m, point)
+            start_self(parameters, constants, state, m, point, centre_cell(parameters, scene, n, m, point))
         return
     locate(parameters, constants, scene, n, point, False, state.offset, state.coordinates)
     absent = parameters.nodes.follows[n] == Vector.objects and scene.kinds[point] < 0
     for m in maps_of(parameters.nodes, n):
         cell = cell_within(parameters, state.coordinates, n, m)
-        start_track(parameters, constants, state, n, m, point, ABSENT if absent else cell)
+        start_track(parameters, constants, state.tracks, m, point, ABSENT if absent else cell)
