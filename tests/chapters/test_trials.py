@@ -5,7 +5,7 @@ import pytest
 
 import neorl
 from neorl.agents import papers
-from neorl.chapters.paper_b import trials
+from neorl.chapters.paper_b import findings, trials
 from neorl.evidence.reading import Reading
 
 READING = Reading(0.03, 0.8, "share", absent_decay=0.0, memory=0.0, bootstrap=True, terminal=True,
@@ -79,6 +79,9 @@ def test_an_object_is_the_goal_or_the_state():
             np.testing.assert_array_equal(values[cell], expected)
         best = np.delete(values.max(axis=1), centre)
         assert trials.best_values(run)[1] == pytest.approx(best.mean()) and best.any()
+    sizes = trials.size_and_cost(learned, 10, repetitions=1)
+    assert {name: values for name, (values, _) in sizes.items()} == {"self": 4 * (4 + 25), "object": 4 * (16 + 625)}
+    assert findings.sizes_table({"self": (1_500, 0.25)}).splitlines()[2:] == ["| self | 1,500 | 0.25 |"]
 
 
 def test_costs_are_those_of_agents_with_one_more_map_each_time():

@@ -98,6 +98,15 @@ def values_table(watched):
     return "\n".join(rows)
 
 
+def sizes_table(sizes):
+    """The number of values and the microseconds of a step of each kind of agent, as a Markdown table.
+
+    sizes: of `trials.size_and_cost`.
+    """
+    rows = ["| State | Values | Time per step, µs |", "|---|---|---|"]
+    return "\n".join([*rows, *(f"| {name} | {values:,} | {cost:.2f} |" for name, (values, cost) in sizes.items())])
+
+
 def points_a_reset(lived):
     """Points per reset of figure 5's agents and of Brownian motion under each reading: {name: {agent: `Estimate`}}."""
     return {name: {key[1]: estimate(ratio, points(result), resets(result)) for key, result in results.items()

@@ -203,6 +203,22 @@ def learn(agents, world, steps, runs, seed=0):
             for name, agent in agents.items()}
 
 
+def size_and_cost(learned, steps, repetitions=5):
+    """The first `Run` of each kind in `learned`, after its use elsewhere: {name: (values, microseconds per step)}.
+
+    steps: of each of the repetitions, whose median is given; they take turns, so that disturbances affect all alike.
+    """
+    runs = {name: each[0] for name, each in learned.items()}
+    cost = {name: [] for name in runs}
+    for _ in range(repetitions):
+        for name, run in runs.items():
+            start = perf_counter()
+            run.advance(steps)
+            cost[name].append((perf_counter() - start) / steps * 1e6)
+    return {name: (sum(run.q(m).size for m in range(len(run.agent.maps))), float(np.median(cost[name])))
+            for name, run in runs.items()}
+
+
 def measure_costs(reading, steps, repetitions, seed=0):
     """Measure the cost of agents as maps are added one by one: a `Costs`.
 
