@@ -17,8 +17,12 @@ rather than one that climbs to the best fit:
 4. *Waves.* The next emulator is fitted to these results too, and so on until time is up. Each wave runs its candidates
    in both cheap groups. Object vectors and both modalities are run for the readings that are most promising for paper
    B, whatever they give for paper A; networks and single maps for those most promising for all papers.
-5. *Confirmation.* A search over thousands of noisy numbers finds lucky ones. So the nearest readings are run again with
-   fresh seeds and more runs, and only these results count.
+5. *Refinement.* From given readings and the nearest ones found from them, a local search runs children with more runs
+   each. A round runs them in one group after the other, and after each only the nearest half goes on.
+6. *Narrowing.* Readings between the two for which most claims hold are run with more runs yet, in every group.
+7. *Confirmation.* A search over thousands of noisy numbers finds lucky ones. So the leading readings, for which most
+   claims hold, are run again with fresh seeds and more runs, and only these results count.
+8. *Scale.* The unit of a desire vector concerns paper C alone. So the leading readings are run there with other units.
 
 Every row has its own seed, so that no tank's luck is shared by all.
 """
@@ -43,6 +47,8 @@ CHEAP = ("places", "layers")
 WAVE = {"places": 112, "layers": 112, "objects": 160, "both": 128, "networks": 32, "single": 32}  # readings per wave
 POOL = 4_000  # candidates per wave
 PARENTS, RENEWED, MOVED = 30, 0.1, 0.05  # of children: best rows, share of choices redrawn, spread of moved numbers
+ROUND = {"both": 24, "objects": 14, "places": 14, "layers": 14, "single": 8, "networks": 8}  # readings per round
+KEPT = 12  # nearest refined readings whose children a round runs
 IMPLAUSIBLE = 3.0
 TREES, LEAF, FEWEST = 100, 3, 24  # of a forest: trees, fewest rows in a leaf, fewest rows to fit
 FAR = 8.0  # scales: the emulator clips values that lie farther than this outside an interval
@@ -73,15 +79,82 @@ def calibrate(minutes, table=(), executor=None, seed=0, runs=RUNS, steps=STEPS, 
     return [row for row in table if row.statistics]
 
 
-def confirm(table, n, runs, executor=None, seed=0):
-    """Run the n nearest complete readings of a table again, with fresh seeds, and return the table that includes them.
+def refine(minutes, table, parents, runs, executor=None, seed=0, keep=None):
+    """Search near given readings for a number of minutes, and return the table that includes the rows: see point 5.
 
+    parents: readings, to which the nearest 12 complete rows of more than 2 runs are added. runs: of each condition.
+    executor, seed, keep: as in `calibrate`. A round is not interrupted, so the call may take longer.
+    Raises ValueError for a bad argument.
+    """
+    end = time.monotonic() + 60 * checks.real("minutes", minutes, 0)
+    checks.integer("runs", runs, at_least=2)
+    table = list(table)
+    while time.monotonic() < end:
+        wave, begin = 1 + max((row.wave for row in table), default=0), len(table)
+        rng = np.random.default_rng([seed, wave])
+        found = sorted((row for row in table if row.complete and row.runs > RUNS), key=lambda row: row.distance)
+        best = [*parents, *(row.reading for row in found[:KEPT])]
+        drawn = [_child(*(best[i] for i in rng.integers(len(best), size=2)), rng) for _ in range(max(ROUND.values()))]
+        rows = [Row(wave, 1_000 * seed + begin + i, runs, STEPS, reading) for i, reading in enumerate(drawn)]
+        order = list(range(len(rows)))
+        for group, n in ROUND.items():
+            order = sorted(order, key=lambda i: rows[i].distance)[:n]
+            for i, row in zip(order, calibration_table.run([rows[i] for i in order], group, executor)):
+                rows[i] = row
+        table += rows
+        if keep:
+            keep(table)
+    return table
+
+
+def narrow(table, refined_runs, n, runs, executor=None, seed=0):
+    """Run n readings between two in every group, and return the table that includes their rows: see point 6.
+
+    The two are those of the complete rows of `refined_runs` runs for which most claims hold, or else the nearest. Each
+    number lies between theirs, and all other choices are the first one's.
+    runs: of each condition. executor, seed: as in `calibrate`.
+    Raises ValueError for a bad argument, and if there are not two such rows.
+    """
+    found = sorted((row for row in table if row.complete and row.runs == refined_runs),
+                   key=lambda row: (-len(row.held), row.distance))
+    if len(found) < 2:
+        raise ValueError(f"table has {len(found)} complete rows of {refined_runs} runs, but two are needed: refine it "
+                         "with as many runs first")
+    nearest, other = (row.reading for row in found[:2])
+    begin, wave = len(table), 1 + max(row.wave for row in table)
+    rng = np.random.default_rng([seed, wave])
+    rows = [Row(wave, 1_000 * seed + begin + i, checks.integer("runs", runs, at_least=2), STEPS,
+                _between(nearest, other, rng)) for i in range(checks.integer("n", n, at_least=1))]
+    for group in GROUPS:
+        rows = calibration_table.run(rows, group, executor)
+    return [*table, *rows]
+
+
+def rescale(table, n, scales, runs, executor=None, seed=0):
+    """Run the n leading of the most-run readings in paper C with other scales of desires: see point 8.
+
+    Returns the table that includes the new rows, n for each scale, which have been run in that group alone.
+    runs: of each condition. executor, seed: as in `calibrate`. Raises ValueError for a bad argument.
+    """
+    most = max((row.runs for row in calibration_table.nearest(table)))
+    first = [row for row in calibration_table.leading(table) if row.runs == most][: checks.integer("n", n, at_least=1)]
+    begin, wave = len(table), 1 + max(row.wave for row in table)
+    readings = [replace(row.reading, scale=float(scale)) for scale in scales for row in first]
+    rows = [Row(wave, 1_000 * seed + begin + i, checks.integer("runs", runs, at_least=2), STEPS, reading)
+            for i, reading in enumerate(readings)]
+    return [*table, *calibration_table.run(rows, "networks", executor)]
+
+
+def confirm(table, n, runs, executor=None, seed=0):
+    """Run the n leading readings of a table again, with fresh seeds, and return the table that includes the new rows.
+
+    See `calibration_table.leading`; readings that have been run only twice come last.
     runs: of each condition. seed: as in `calibrate`. Raises ValueError for a bad argument, and if no row is complete.
     """
     begin, wave = len(table), 1 + max((row.wave for row in table), default=0)
-    nearest = calibration_table.nearest(table)[: checks.integer("n", n, at_least=1)]
+    first = sorted(calibration_table.leading(table), key=lambda row: row.runs <= RUNS)[: checks.integer("n", n, 1)]
     again = [Row(wave, 1_000 * seed + begin + i, checks.integer("runs", runs, at_least=2), row.steps, row.reading)
-             for i, row in enumerate(nearest)]
+             for i, row in enumerate(first)]
     for group in GROUPS:
         again = calibration_table.run(again, group, executor)
     return [*table, *again]
@@ -251,3 +324,13 @@ def _child(mother, father, rng):
             value = choice.at(np.clip(choice.place(value) + MOVED * rng.standard_normal(), 0.0, 1.0 - 1e-9))
         chosen[name] = _short(value)
     return replace(TO_THE_LETTER, **chosen)
+
+
+def _between(nearest, other, rng):
+    """A reading whose numbers lie between those of two readings, and whose other choices are the first one's."""
+    chosen = {}
+    for name, choice in WITHIN.items():
+        if not isinstance(choice.prior, tuple):
+            ends = [choice.place(getattr(reading, name)) for reading in (nearest, other)]
+            chosen[name] = _short(choice.at(np.clip(rng.uniform(min(ends), max(ends)), 0.0, 1.0 - 1e-9)))
+    return replace(nearest, **chosen)

@@ -13,7 +13,7 @@ import scipy
 
 from neorl import checks
 from neorl.evidence.calibration import IN_FULL, Emulator, reading_at
-from neorl.evidence.calibration_table import nearest
+from neorl.evidence.calibration_table import leading, nearest
 from neorl.evidence.calibration_targets import CLAIMS, TARGETS, distance
 from neorl.evidence.priors import WITHIN
 
@@ -163,11 +163,11 @@ def evenly(table):
 
 
 def best(table):
-    """The row nearest to all targets among those with the most runs, which are the confirmed ones.
+    """The row for which most claims hold among those with the most runs, which are the confirmed ones: see `leading`.
 
     Raises ValueError if no row is complete.
     """
-    complete = nearest(table)
+    complete = leading(table)
     most = max(row.runs for row in complete)
     return next(row for row in complete if row.runs == most)
 

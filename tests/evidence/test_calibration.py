@@ -12,7 +12,7 @@ from neorl.evidence import calibration, calibration_table, calibration_targets
 from neorl.evidence.calibration import Emulator, candidates, design, features, prospects
 from neorl.evidence.calibration_table import Row
 from neorl.evidence.calibration_targets import CLAIMS, GROUPS, TARGETS, Measure, Target
-from neorl.evidence.priors import TO_THE_LETTER, WITHIN
+from neorl.evidence.priors import OF_TRIALS, TO_THE_LETTER, WITHIN
 from neorl.evidence.statements import STATEMENTS
 from neorl.experiments.simulation import Result
 
@@ -195,17 +195,43 @@ def test_waves_close_in_on_the_readings_that_agree(small):
     assert sum(row.complete and row.distance == 0 for row in table) > 10
 
 
-def test_the_nearest_are_confirmed_with_fresh_seeds_and_more_runs(small):
+def test_the_leading_are_confirmed_with_fresh_seeds_and_more_runs(small):
     table = calibration.calibrate(0.6)
     confirmed = calibration.confirm(table, 5, 20)
     assert confirmed[: len(table)] == table
-    near = calibration_table.nearest(table)[:5]
-    assert [row.reading for row in confirmed[-5:]] == [row.reading for row in near]
+    first = calibration_table.leading(table)[:5]
+    assert [row.reading for row in confirmed[-5:]] == [row.reading for row in first]
     assert {row.runs for row in confirmed[-5:]} == {20} and all(row.complete for row in confirmed[-5:])
     assert not {row.seed for row in confirmed[-5:]} & {row.seed for row in table}
     assert {row.wave for row in confirmed[-5:]} == {1 + max(row.wave for row in table)}
     with pytest.raises(ValueError, match="table has 0 rows"):
         calibration.confirm([], 5, 20)
+
+
+def test_a_refined_search_comes_nearer_round_by_round(small):
+    table = calibration.calibrate(0.05)
+    refined = calibration.refine(0.2, table, design(2, 9), 6)
+    new = refined[len(table):]
+    assert refined[: len(table)] == table and {row.runs for row in new} == {6}
+    assert {group: sum(group in row.groups for row in new[:24]) for group in GROUPS} == calibration.ROUND | {
+        "places": 14, "layers": 14, "objects": 14}
+    rounds = [[row.distance for row in new if row.wave == wave and row.complete] for wave in
+              sorted({row.wave for row in new})]
+    assert len(rounds) > 2 and np.mean(rounds[-1]) < np.mean(rounds[0])
+
+
+def test_narrowing_draws_between_the_two_readings_for_which_most_claims_hold(small):
+    table = calibration.refine(0.1, [], OF_TRIALS, 6)
+    narrowed = calibration.narrow(table, 6, 5, 40)
+    one, other = (row.reading for row in calibration_table.leading(table)[:2])
+    assert len(narrowed) == len(table) + 5 and all(row.complete and row.runs == 40 for row in narrowed[-5:])
+    for row in narrowed[-5:]:
+        for name, choice in WITHIN.items():
+            value, ends = getattr(row.reading, name), [getattr(each, name) for each in (one, other)]
+            assert value == ends[0] if isinstance(choice.prior, tuple) else (
+                0.999 * min(ends) <= value <= 1.001 * max(ends))
+    with pytest.raises(ValueError, match="table has 0 complete rows of 9 runs, but two are needed"):
+        calibration.narrow(table, 9, 5, 40)
 
 
 def test_a_search_goes_on_from_a_table(small):

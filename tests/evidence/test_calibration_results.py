@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from neorl import Learning
+from neorl import CALIBRATED
 from neorl.drawing import calibration_figures
 from neorl.evidence import calibration_results, calibration_table
 from neorl.evidence.calibration import design
@@ -76,7 +76,7 @@ def test_a_row_runs_again_as_it_was(cache_folder):
 def test_the_default_is_the_best_confirmed_reading_of_the_table_of_this_package():
     best = calibration_results.best(read_table())
     assert best.reading == Reading() and best.reading.within_the_text
-    assert best.reading.learning == Learning()
+    assert best.reading.learning == CALIBRATED
 
 
 def test_a_sample_of_the_table_of_this_package_runs_again_as_it_was(cache_folder):
@@ -105,6 +105,7 @@ def test_the_best_is_a_confirmed_row_and_a_reading_counts_as_it_was_confirmed():
     assert calibration_results.best([lucky, honest]) == lucky
     confirmed = replace(lucky, seed=9, runs=20, statistics=statistics({"A7"}))
     assert calibration_results.best([lucky, honest, confirmed]) == confirmed
+    assert calibration_table.leading([honest, lucky]) == [lucky, honest]
     assert calibration_table.nearest([lucky, confirmed, honest]) == sorted([confirmed, honest],
                                                                            key=lambda row: row.distance)
 
