@@ -2,7 +2,8 @@
 
 An `Agent` is a network of `Node`s and `Desire`s; each node tiles the space of a `Modality`. `simulate` runs agents in
 `WaterWorld`, an `Arena`, an `Arm`, a `Vessel`, a `WaterMaze` or any other `World`; `sweep` runs many `Condition`s in
-parallel. A `Learner` is an agent for a loop of the user's own. The agents of the papers are values of these types.
+parallel. A `Learner` is an agent for a loop of the user's own. The agents of the papers are values of these types, and
+learn by `CALIBRATED` and choose by `GREEDY`; the defaults of `Learning` and `Policy` are plain.
 
 The package is organised in rooms; a module imports only from its own room and from the rooms below it:
 
@@ -22,7 +23,7 @@ from neorl.agents.beyond import forager
 from neorl.agents.learner import Learner
 from neorl.agents.papers import (brownian, multimodal, network_a, network_b, network_c, network_d, object_vector_cells,
                                  place_cells)
-from neorl.agents.rules import Contacts, Learning, Policy
+from neorl.agents.rules import CALIBRATED, GREEDY, TO_THE_LETTER, Contacts, Learning, Policy
 from neorl.core.horde import learn, superpose
 from neorl.core.kernel import kernel, kernel_maker
 from neorl.core.maps import NresMap
@@ -41,10 +42,10 @@ from neorl.worlds.waterworld import WaterWorld
 from neorl.worlds.world import World
 
 __version__ = "0.1.0"
-__all__ = ["Actions", "Agent", "Arena", "Arm", "Axis", "CARDINAL", "Condition", "Contacts", "Desire", "Learner",
-           "Learning", "Modality", "Node", "NresMap", "Place", "Policy", "Result", "Run", "Scene", "Vessel",
-           "WaterMaze", "WaterWorld", "World", "greedy", "kernel", "kernel_maker", "learn", "simulate",
-           "simulate_once", "softmax", "superpose", "sweep",
+__all__ = ["Actions", "Agent", "Arena", "Arm", "Axis", "CALIBRATED", "CARDINAL", "Condition", "Contacts", "Desire",
+           "GREEDY", "Learner", "Learning", "Modality", "Node", "NresMap", "Place", "Policy", "Result", "Run", "Scene",
+           "TO_THE_LETTER", "Vessel", "WaterMaze", "WaterWorld", "World", "greedy", "kernel", "kernel_maker", "learn",
+           "simulate", "simulate_once", "softmax", "superpose", "sweep",
            "brownian", "forager", "multimodal", "network_a", "network_b", "network_c", "network_d",
            "object_vector_cells", "place_cells"]
 

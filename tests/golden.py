@@ -123,7 +123,7 @@ RUNS = {
     "arena": (seeker(learning=plain_rule(), policy=Policy(0.1, "no-op")), MAZE),
     "arena, calibrated": (seeker(learning=plain_rule(**CALIBRATED), policy=Policy(0.0, "random")), MAZE),
     "softmax": (multimodal([4], place_gain=1.0, **learning(credit="activity", memory=3.0)
-                           | {"policy": Policy(choose=softmax(0.2))}), 3),
+                           | {"policy": Policy(0.0, choose=softmax(0.2))}), 3),
     "contacts": (forager([5, 9, 15], contacts=CONTACTS), 3),
     "contacts, network": (contact_network(), 8),
 }

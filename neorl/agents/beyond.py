@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from neorl import checks
 from neorl.agents.agent import LEARNED, Agent, Desire, Node
 from neorl.agents.papers import paper_agent
-from neorl.agents.rules import Contacts
+from neorl.agents.rules import GREEDY, Contacts
 from neorl.core.modality import Axis, Modality
 
 FASTEST = 2.5  # highest speed along an axis that cells resolve, in sizes of the world per second
@@ -37,4 +37,5 @@ def forager(resolutions: Sequence[int] = (5, 9, 15, 25), valence_green: float | 
     contacts: how it learns, a `Contacts`. Raises ValueError for anything else.
     """
     return Agent([Node("OVC × V", foveated_cells(), resolutions, goals="contacts")],
-                 [Desire("green", "OVC × V", valence_green), Desire("red", "OVC × V", valence_red)], contacts=contacts)
+                 [Desire("green", "OVC × V", valence_green), Desire("red", "OVC × V", valence_red)], policy=GREEDY,
+                 contacts=contacts)

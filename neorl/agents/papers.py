@@ -4,7 +4,7 @@
 `tiled_fraction`: the central fraction of each axis's range that the maps of place cells divide into equal cells; values
 beyond it belong to the outermost cells. `object_tiled_fraction` is that of object-vector cells; `object_state`,
 `object_reach` and `object_beyond` are fields of their `Node`, and `object_centred` of its `Axis`. The defaults are
-those of the calibrated reading.
+those of the calibrated reading, `CALIBRATED` and `GREEDY` of `neorl.agents.rules` among them.
 
 Every function raises ValueError for values that `Agent` and its parts refuse, and TypeError for an unknown choice.
 """
@@ -16,16 +16,16 @@ from typing import Any, TypeVar, get_type_hints
 
 from neorl import checks
 from neorl.agents.agent import Agent, Desire, Node
-from neorl.agents.rules import Learning, Policy
-from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL
+from neorl.agents.rules import CALIBRATED, GREEDY, Learning, Policy
+from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL, Axis, Modality
 
 Maker = TypeVar("Maker", bound=Callable[..., Agent])
-LAYERS = (3, 7, 23)  # the resolutions of paper A's last experiment, and of paper C in its figures
-PRIMES = (2, 3, 5, 7, 11, 13)  # the resolutions of paper B, and of paper C as calibrated
+LAYERS = (3, 7, 23)  # the resolutions of paper A's last experiment and of paper C
+PRIMES = (2, 3, 5, 7, 11, 13)  # the resolutions of paper B
 TILED_FRACTION = 1.0
-OF_OBJECTS = {"object_state": "per object", "object_reach": 0.0, "object_tiled_fraction": 0.5, "object_beyond": "none",
-              "object_centred": True}
-PLACE_GAIN, SCALE = 2.0, 17.86  # of place cells in paper B; of the desire vectors of paper C, in board widths
+OF_OBJECTS = {"object_state": "self", "object_reach": 0.0, "object_tiled_fraction": 1.0,
+              "object_beyond": "outermost", "object_centred": False}
+PLACE_GAIN, SCALE = 4.0, 74.58  # of place cells in paper B; of the desire vectors of paper C, in board widths
 OF_NODES = ("weighting", "tiled_fraction", *OF_OBJECTS)  # choices that are no field of `Agent`
 CHOICES = (*OF_NODES, *(each.name for each in fields(Agent)[2:]))
 HINTS = get_type_hints(Agent)
@@ -53,8 +53,11 @@ def place_cells(resolutions: Sequence[int] = PRIMES, valence_green: float = 1.0,
 
 @paper_agent
 def brownian() -> Agent:
-    """The control: every action is random (ε = 1), so the agent performs Brownian motion (paper A, fig. 6)."""
-    return place_cells([1], policy=Policy(exploration=1.0))
+    """The control: every action is random (ε = 1), so the agent performs Brownian motion (paper A, fig. 6).
+
+    It has one cell and no desire, and acts in any world.
+    """
+    return Agent([Node("PC", Modality("place cell", [Axis("position")]), [1])], policy=Policy(exploration=1.0))
 
 
 @paper_agent
@@ -79,7 +82,7 @@ def multimodal(resolutions: Sequence[int] = PRIMES, place_gain: float = PLACE_GA
 
 
 @paper_agent
-def network_a(resolutions: Sequence[int] = PRIMES, scale: float = SCALE, signed: bool = False,
+def network_a(resolutions: Sequence[int] = LAYERS, scale: float = SCALE, signed: bool = False,
               **choices: Any) -> Agent:
     """Agent A of paper C (fig. 4a): place cells merge all creeps into one desire, on which object-vector cells act.
 
@@ -90,7 +93,7 @@ def network_a(resolutions: Sequence[int] = PRIMES, scale: float = SCALE, signed:
 
 
 @paper_agent
-def network_b(resolutions: Sequence[int] = PRIMES, scale: float = SCALE, signed: bool = False,
+def network_b(resolutions: Sequence[int] = LAYERS, scale: float = SCALE, signed: bool = False,
               **choices: Any) -> Agent:
     """Agent B of paper C (fig. 4b): one desire for the green creeps, and one for the red.
 
@@ -100,7 +103,7 @@ def network_b(resolutions: Sequence[int] = PRIMES, scale: float = SCALE, signed:
 
 
 @paper_agent
-def network_c(resolutions: Sequence[int] = PRIMES, scale: float = SCALE, signed: bool = False,
+def network_c(resolutions: Sequence[int] = LAYERS, scale: float = SCALE, signed: bool = False,
               place_gain: float = 1.0, object_gain: float = 1.0, **choices: Any) -> Agent:
     """Agent C of paper C (fig. 4c): as B, and the values of both nodes add.
 
@@ -111,7 +114,7 @@ def network_c(resolutions: Sequence[int] = PRIMES, scale: float = SCALE, signed:
 
 
 @paper_agent
-def network_d(resolutions: Sequence[int] = PRIMES, recursion: float = -1.0, scale: float = SCALE,
+def network_d(resolutions: Sequence[int] = LAYERS, recursion: float = -1.0, scale: float = SCALE,
               signed: bool = False, place_gain: float = 1.0, object_gain: float = 1.0, **choices: Any) -> Agent:
     """Agent D of paper C (fig. 4d): as C, and object-vector cells receive their own previous desire, with valence r.
 
@@ -151,7 +154,7 @@ def _network(nodes, resolutions, desires, choices):
                   if modality is PLACE_CELL else
                   Node(name, _covering(of_objects, modality, centred), resolutions, weighting, gain, **own)
                   for name, modality, gain in nodes)
-    return Agent(nodes, desires, **choices)
+    return Agent(nodes, desires, **{"learning": CALIBRATED, "policy": GREEDY} | choices)
 
 
 def _covering(share, modality, centred=False):

@@ -1,32 +1,29 @@
 """Agents for spaces other than the plane of WaterWorld: an arm, a vessel, and the water maze.
 
-They share one learning rule and one policy, and differ only in nodes and desires: in what their cells represent and in
-what they seek. `RULE` is plain bootstrapping at changes of cell, without memory of earlier cells.
+They share a learning rule and a policy: the defaults, except that all actions taken in a cell are credited. They differ
+in nodes and desires: in what their cells represent and in what they seek.
 """
 
 from collections.abc import Sequence
 
 from neorl import checks
 from neorl.agents.agent import Agent, Desire, Node
-from neorl.agents.rules import Learning, Policy
+from neorl.agents.rules import Learning
 from neorl.core.geometry import turn
 from neorl.core.kernel import kernel
 from neorl.core.modality import PLACE_CELL, Axis, Modality
 
-RULE = Learning(learning_rate=0.1, discount=0.9, update_on="cell", credit="share", absent_decay=0.0, terminal=True,
-                memory=0.0, bootstrap=True)
-POLICY = Policy(exploration=0.1)
 AVERSION = -0.3  # the valence of things to avoid; that of things sought is 1
 JOINT_CELLS = {2: 9, 3: 7}  # along each axis, by the number of links
 FARTHEST, NEAR = 1.0, 0.3  # the ranges of a radar's two maps, in widths of the area
 
 
 def seeker(nodes: Sequence[Node], desires: Sequence[Desire] = ()) -> Agent:
-    """An agent of these nodes and desires, with the shared rule and policy.
+    """An agent of these nodes and desires, with the shared rule and policy, to which its own cell is silent.
 
     nodes: one `Node` or more. desires: any number of `Desire`. Raises ValueError for what `Agent` refuses.
     """
-    return Agent(nodes, desires, RULE, POLICY, "silent")
+    return Agent(nodes, desires, Learning(credit="share"), own_cell="silent")
 
 
 def reacher(links: int, valence: float = AVERSION) -> Agent:

@@ -12,7 +12,7 @@ from typing import Any
 from neorl import checks
 from neorl.agents import papers
 from neorl.agents.agent import Agent, Node
-from neorl.agents.rules import Learning, Policy
+from neorl.agents.rules import CALIBRATED, GREEDY, Learning, Policy
 from neorl.evidence import claims
 from neorl.evidence.pins import agreement
 from neorl.experiments.cache import Condition
@@ -55,15 +55,15 @@ class Reading:
     check the other fields.
     """
 
-    learning_rate: float = Learning.learning_rate
-    discount: float = Learning.discount
-    credit: str = Learning.credit  # type: ignore[assignment]
-    absent_decay: float = Learning.absent_decay
-    absent_form: str = Learning.absent_form
-    memory: float = Learning.memory
-    activity: float = Learning.activity
-    bootstrap: bool = Learning.bootstrap
-    terminal: bool = Learning.terminal
+    learning_rate: float = CALIBRATED.learning_rate
+    discount: float = CALIBRATED.discount
+    credit: str = CALIBRATED.credit  # type: ignore[assignment]
+    absent_decay: float = CALIBRATED.absent_decay
+    absent_form: str = CALIBRATED.absent_form
+    memory: float = CALIBRATED.memory
+    activity: float = CALIBRATED.activity
+    bootstrap: bool = CALIBRATED.bootstrap
+    terminal: bool = CALIBRATED.terminal
     own_cell: str = Agent.own_cell
     tiled_fraction: float = papers.TILED_FRACTION
     object_state: str = papers.OF_OBJECTS["object_state"]  # type: ignore[assignment]
@@ -72,14 +72,14 @@ class Reading:
     object_beyond: str = papers.OF_OBJECTS["object_beyond"]  # type: ignore[assignment]
     object_centred: bool = papers.OF_OBJECTS["object_centred"]  # type: ignore[assignment]
     weighting: str = Node.weighting
-    exploration: float = Policy.exploration
-    when_indifferent: str = Policy.when_indifferent
+    exploration: float = GREEDY.exploration
+    when_indifferent: str = GREEDY.when_indifferent
     place_gain: float = papers.PLACE_GAIN
     network_gain: float = 1.0
     vectors: str = "by size"
     scale: float = papers.SCALE
     recursion: float = -1.0
-    network_resolutions: tuple[int, ...] = PRIMES
+    network_resolutions: tuple[int, ...] = LAYERS
     fps: int = WaterWorld.fps
     contact: str = WaterWorld.contact
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from neorl import checks, files
 from neorl.agents.agent import Agent
-from neorl.agents.rules import Learning, Policy
+from neorl.agents.rules import CALIBRATED, GREEDY
 from neorl.core.description import described
 from neorl.experiments.cache import PARTS, Condition, source_digest
 from neorl.experiments.exchange import OF_A_CONDITION
@@ -31,7 +31,7 @@ KINDS = {"conditions": ("finished conditions", DIGEST),
          "compiled": ("compiled kernels", DIGEST), "wasm": ("WebAssembly modules", DIGEST),
          "claims": ("claims of pages of the book", r"[a-z0-9_]+\.json")}
 WHICH = ("all", "compiled", "older")
-USUAL = {"learning": described(Learning()), "policy": described(Policy()), "own_cell": Agent.own_cell}
+USUAL = {"learning": described(CALIBRATED), "policy": described(GREEDY), "own_cell": Agent.own_cell}
 USUAL_WORLDS = {kind.__name__: described(kind()) for kind in (WaterWorld, Arena)}
 
 

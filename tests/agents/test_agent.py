@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from neorl import (Agent, Desire, Learning, Node, NresMap, Place, Policy, Run, WaterWorld, brownian, multimodal,
-                   network_a, network_b, network_c, network_d, object_vector_cells, place_cells)
+from neorl import (CALIBRATED, GREEDY, Agent, Desire, Learning, Node, NresMap, Place, Policy, Run, WaterWorld, brownian,
+                   multimodal, network_a, network_b, network_c, network_d, object_vector_cells, place_cells)
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
                                  LANDMARK_VECTOR_CELL, MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL)
 from neorl.agents.compile import compiled, n_values
@@ -148,9 +148,10 @@ def test_an_agent_is_a_value(make):
 def test_the_agent_of_paper_a_is_one_node_and_two_desires():
     desires = (Desire("green", "PC", 1.0), Desire("red", "PC", -1.0))
     middle = replace(PLACE_CELL, axes=cartesian("position", (0.25, 0.75), (0.25, 0.75)))
-    assert place_cells([3, 7], tiled_fraction=0.5) == Agent((Node("PC", middle, (3, 7)),), desires)
-    assert place_cells([3, 7], tiled_fraction=0.5) == Agent([Node("PC", middle, np.array([3, 7]))], list(desires))
-    assert place_cells([3, 7], tiled_fraction=1) == Agent((Node("PC", PLACE_CELL, (3, 7)),), desires)
+    rules = {"learning": CALIBRATED, "policy": GREEDY}
+    assert place_cells([3, 7], tiled_fraction=0.5) == Agent((Node("PC", middle, (3, 7)),), desires, **rules)
+    assert place_cells([3, 7], tiled_fraction=0.5) == Agent([Node("PC", middle, np.array([3, 7]))], [*desires], **rules)
+    assert place_cells([3, 7], tiled_fraction=1) == Agent((Node("PC", PLACE_CELL, (3, 7)),), desires, **rules)
     assert place_cells([3], own_cell="silent") != place_cells([3], own_cell="counts")
     assert place_cells([3], object_tiled_fraction=0.1) == place_cells([3])
 

@@ -7,10 +7,10 @@ import pytest
 from golden import every_modality, plain_rule
 from saved_files import rewrite
 
-from neorl import (Actions, Agent, Desire, Learner, Learning, Node, Policy, Run, Scene, WaterWorld, kernel,
-                   multimodal, network_d, place_cells, softmax)
+from neorl import (CARDINAL, Actions, Agent, Desire, Learner, Learning, Node, Place, Policy, Run, Scene, WaterWorld,
+                   kernel, multimodal, network_d, place_cells, softmax)
 from neorl.core.kernel import arrays, execute, mapped
-from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL
+from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL
 from neorl.core.stream import new_stream
 
 TANK = WaterWorld(width=100, n_creeps=2, win_reward=5.0)  # small, so that episodes end often
@@ -32,6 +32,18 @@ def newborn(agent, world, seed=0):
     learner._state.stream[:] = new_stream(sequence.spawn(1)[0])
     learner.begin(state.scene)
     return learner, state
+
+
+def test_an_agent_with_the_defaults_learns_in_a_plain_loop_on_every_seed():
+    agent = Agent([Node("PC", PLACE_CELL, [10])], [Desire(Place(0.8, 0.3), "PC", 1.0)])
+    for seed in range(20):
+        learner, at, far = Learner(agent, seed=seed), np.array([0.5, 0.5]), []
+        learner.begin(Scene(at))
+        for _ in range(5_000):
+            at = np.clip(at + 0.05 * np.array(CARDINAL.pushes[learner.act()]), 0, 1)
+            learner.observe(Scene(at))
+            far.append(np.hypot(*(at - (0.8, 0.3))))
+        assert np.mean(far[-1_000:]) < 0.3, seed  # at random it is 0.4 to 0.55
 
 
 def take(learner, world, state, action):

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from golden import plain_rule
 
-from neorl import Agent, Axis, Desire, Learning, Modality, Node, Policy, Run, WaterWorld, kernel, multimodal
+from neorl import CALIBRATED, Agent, Axis, Desire, Modality, Node, Policy, Run, WaterWorld, kernel, multimodal
 from neorl.core.kernel import arrays
 from neorl.core.stream import randint
 
@@ -77,7 +77,7 @@ PAIRS = {  # with the user's own kernel, and with the package's that it reimplem
     "credit share": (crediting(share), crediting("share")),
     "credit last": (crediting(last_of_all), crediting("last")),
     "credit activity": (crediting(activity_above, activity=0.1), crediting("activity", activity=0.1)),
-    "credit happened, calibrated": (multimodal([5], learning=Learning(credit=happened)), multimodal([5])),
+    "credit happened, calibrated": (multimodal([5], learning=replace(CALIBRATED, credit=happened)), multimodal([5])),
     "position": (perceiving(x_share), perceiving("position")),
     "greedy": (multimodal([3, 6], learning=plain_rule(), policy=Policy(0.05, choose=highest)),
                multimodal([3, 6], learning=plain_rule(), policy=Policy(0.05))),
@@ -134,7 +134,7 @@ def check_that_own_kernels_are_heard():
     silent = Run(crediting(never), WORLD, seed=0)
     silent.advance(3_000)
     assert not silent.q(0).any()
-    diver = Run(multimodal([3], policy=Policy(choose=south)), WORLD, seed=0)
+    diver = Run(multimodal([3], policy=Policy(0.0, choose=south)), WORLD, seed=0)
     diver.advance(500)
     assert diver.world_state.scene.position[1] == 250.0 - 2 * WORLD.radius
     halves = Agent((Node("half", Modality("half", (Axis(in_the_east, intervals=2),)), [1]),), policy=Policy(1.0))

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from neorl.agents.rules import Learning
+from neorl.agents.rules import CALIBRATED
 from neorl.chapters.chapter_4 import credit
 from neorl.chapters.chapter_4.credit import DEFAULT, DIFFERENCE, INVERSION, Chamber, by_role, learn_in
 from neorl.core.kernel import execute
@@ -137,7 +137,7 @@ def test_learning_in_a_chamber_refuses_what_it_cannot_do(change, message):
 
 
 def test_the_default_rule_is_that_of_the_agents_at_the_rates_of_the_others():
-    assert replace(DEFAULT, learning_rate=Learning().learning_rate, discount=Learning().discount) == Learning()
+    assert replace(DEFAULT, learning_rate=CALIBRATED.learning_rate, discount=CALIBRATED.discount) == CALIBRATED
     assert (DEFAULT.learning_rate, DEFAULT.discount) == (INVERSION.learning_rate, INVERSION.discount)
 
 

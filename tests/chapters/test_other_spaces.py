@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from neorl import Run, Scene
+from neorl import Learning, Policy, Run, Scene
 from neorl.chapters.other_spaces import birds, figures, hill, lives, minds, pool, report, scores
 from neorl.core.kernel import function_of
 
@@ -47,7 +47,7 @@ def test_all_agents_have_one_rule_and_one_policy():
     agents = [minds.reacher(2), minds.reacher(3), minds.pilot(), minds.far_pilot(), minds.compass_pilot(),
               minds.swimmer(), minds.thinker(True), minds.thinker(False), minds.driver()]
     assert {(agent.learning, agent.policy, agent.own_cell) for agent in agents} == {
-        (minds.RULE, minds.POLICY, "silent")}
+        (Learning(credit="share"), Policy(), "silent")}
 
 
 @pytest.mark.parametrize("thing, turns", [((0.9, 0.5), 0.0), ((0.5, 0.9), 0.25), ((0.1, 0.5), 0.5), ((0.5, 0.1), 0.75)])

@@ -88,7 +88,8 @@ def test_greedy_draws_no_number_without_need():
 
 
 def test_an_agent_with_a_policy_of_softmax_prefers_what_is_better():
-    agent = Agent((Node("PC", PLACE_CELL, [1]),), (Desire((0.5, 0.5), "PC", 1.0),), policy=Policy(choose=softmax(1.0)))
+    agent = Agent((Node("PC", PLACE_CELL, [1]),), (Desire((0.5, 0.5), "PC", 1.0),),
+                  policy=Policy(0.0, choose=softmax(1.0)))
     run, actions = Run(agent, WaterWorld(), seed=0), []
     run._state.values.q[:] = [0.0, 2.0, 1.0, 0.0]
     for _ in range(3_000):

@@ -13,7 +13,7 @@ from neorl.gym import WorldEnv, play
 TANK = WaterWorld(width=60, n_creeps=2, win_reward=5.0)
 MOVES = Actions(("up", "right", "down", "left"), ((0, -1), (1, 0), (0, 1), (-1, 0)))
 GRID = Modality("place cell", [Axis("position", along=0, intervals=12), Axis("position", along=1, intervals=4)])
-LEARNING = Learning(learning_rate=0.2, discount=0.9, bootstrap=True, terminal=True, memory=3.0)
+LEARNING = Learning(learning_rate=0.2, memory=3.0)
 GOAL = Desire(Place(11.5 / 12, 3.5 / 4), "PC", 1.0)
 
 

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from neorl import Learning, Policy, multimodal, network_a, network_b, network_c, network_d, place_cells, simulate
+import neorl
+from neorl import (CALIBRATED, Learning, Policy, multimodal, network_a, network_b, network_c, network_d, place_cells,
+                   simulate)
 from neorl.agents.rules import AT_EVERY_STEP
 from neorl.drawing.multiverse_figures import OUTCOMES, draw_importance, draw_specification, draw_specifications
 from neorl.evidence import multiverse
@@ -21,7 +23,7 @@ def test_the_default_reading_is_that_of_the_book():
     assert found["layers"].agent == place_cells([3, 7, 23])
     assert found["both"].agent == multimodal()
     assert [found["network", name].agent for name in "ABCD"] == [network_a(), network_b(), network_c(), network_d()]
-    assert Reading().learning == Learning()
+    assert Reading().learning == CALIBRATED and TO_THE_LETTER.learning == neorl.TO_THE_LETTER
     assert {key: condition.steps for key, condition in found.items()}["network", "A"] == 300_000
     assert (found["single", 90].steps, found["both"].steps) == (150_000, 600_000)
     assert (found["layers"].world.n_creeps, found["layers"].world.win_reward) == (8, 5.0)

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from neorl import Policy, WaterWorld
+from neorl import GREEDY, WaterWorld
 from neorl.evidence import provenance
 from neorl.evidence.priors import BEYOND, TO_THE_LETTER
 
@@ -17,7 +17,7 @@ def test_every_choice_and_every_rule_of_the_tank_has_a_source():
 def test_the_values_are_those_of_the_code():
     values = {each.name: each.value for each in provenance.constants()}
     assert values["side of the tank"] == f"{WaterWorld().width} pixels"
-    assert values["exploration, ε"] == f"{Policy().exploration:g}"
+    assert values["exploration, ε"] == f"{GREEDY.exploration:g}"
     assert values["resolutions, paper B"] == "N2, N3, N5, N7, N11, N13"
     assert values["steps of a run, paper A"] == "150,000" and values["creeps, paper A"] == "8"
     assert {each.name: each.source for each in provenance.constants()}["creeps, papers B and C"].startswith("paper B")

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from neorl import (Actions, Agent, Axis, Desire, Learner, Learning, Modality, Node, Place, Policy, Run, Scene,
-                   World, kernel, simulate)
+                   World, brownian, kernel, simulate)
 from neorl.core.kernel import array, arrays, execute
 from neorl.core.modality import HEAD_DIRECTION_CELL, LANDMARK_VECTOR_CELL, PLACE_CELL, cartesian
 from neorl.core.stream import uniform
@@ -97,7 +97,7 @@ class Roundabout(World):
 
 
 DEPTHS = Modality("place cell in a cube", cartesian("position", (0, 1), (0, 1), (0, 1)))
-AT_ONCE = Learning(0.3, 0.9, bootstrap=True, credit="last", memory=0.0, absent_decay=0.0, terminal=True)
+AT_ONCE = Learning(0.3)
 SEEKER = Agent((Node("PC", DEPTHS, [5]),), (Desire("pearl", "PC", 1.0),), AT_ONCE, Policy(0.1))
 DRIVER = Agent((Node("PC", Modality("ring cell", (Axis("position", closed=True),)), [5]),),
                (Desire(Place(0.5), "PC", 1.0),), AT_ONCE)
@@ -113,9 +113,15 @@ def digest(name, steps):
 
 def test_an_agent_learns_its_way_in_a_world_of_three_axes_and_six_actions():
     learner, control = (simulate(agent, Dive(), steps=60_000, runs=2, progress=False)
-                        for agent in (SEEKER, Agent(SEEKER.nodes, SEEKER.desires, policy=Policy(1.0))))
+                        for agent in (SEEKER, brownian()))
     assert learner.rate(0.5).mean() > 2 * control.rate(0.5).mean() > 0
     np.testing.assert_array_equal(learner.hits.sum(axis=(1, 2)), learner.totals)
+
+
+def test_brownian_motion_needs_no_particular_world():
+    run = Run(brownian(), Roundabout())
+    run.advance(4)
+    assert run.world_state.scene.position[0] == pytest.approx(0.9)
 
 
 def test_every_goal_of_a_cube_is_learned_with_the_action_that_leads_there():

@@ -18,7 +18,7 @@ import numpy as np
 from neorl import checks
 from neorl.agents.agent import Agent, Desire, Node
 from neorl.agents.beyond import forager, foveated_cells
-from neorl.agents.rules import Contacts, Learning
+from neorl.agents.rules import GREEDY, Contacts, Learning
 from neorl.chapters.alternatives.search import drawn
 from neorl.core.modality import PLACE_CELL, Modality, cartesian
 from neorl.experiments.cache import Condition
@@ -54,10 +54,9 @@ def control_network(layers, setting):
         nodes.append(Node("PC", PLACE_CELL, (setting["places"],), gain=0.0))
         desires += [Desire("OVC", "PC", 1.0, scale=setting["reach"]), Desire("PC", "V", 1.0, scale=setting["scale"])]
     choices = {"learning_rate": setting["learning_rate"], "discount": setting["discount"]}
-    learning = (Learning(update_on="step", terminal=True, **choices) if setting["update_on"] == "step" else
-                Learning(**choices, memory=0.0, bootstrap=True, terminal=True, credit="last", absent_decay=0.1101,
-                         absent_form="away"))
-    return Agent(nodes, desires, learning, own_cell=setting["own_cell"],
+    learning = (Learning(update_on="step", **choices) if setting["update_on"] == "step" else
+                Learning(**choices, absent_decay=0.1101, absent_form="away"))
+    return Agent(nodes, desires, learning, GREEDY, own_cell=setting["own_cell"],
                  contacts=Contacts(horizon=setting["horizon"], caution=setting["caution"]))
 
 
@@ -99,7 +98,7 @@ def best_networks():
 def compared(steps, runs, seed=0):
     """Run the networks, their object-vector node alone, and the forager: {name: `Result`}."""
     alone = Agent([Node("OVC", foveated_cells(velocity=False), RESOLUTIONS, goals="contacts")],
-                  [Desire("green", "OVC", 1.0), Desire("red", "OVC", -1.0)])
+                  [Desire("green", "OVC", 1.0), Desire("red", "OVC", -1.0)], policy=GREEDY)
     agents = best_networks() | {ALONE: alone, FORAGER: forager()}
     results = sweep([Condition(agent, WaterWorld(), steps, runs, seed) for agent in agents.values()], progress=False)
     return dict(zip(agents, results))

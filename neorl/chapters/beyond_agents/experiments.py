@@ -14,7 +14,7 @@ import numpy as np
 from neorl.agents.agent import Agent, Desire, Node
 from neorl.agents.beyond import forager, foveated_cells
 from neorl.agents.papers import multimodal
-from neorl.agents.rules import Contacts
+from neorl.agents.rules import GREEDY, Contacts
 from neorl.core.contacts import APPROACH, FEAR, VISITS
 from neorl.experiments.cache import Condition
 from neorl.experiments.run import Run
@@ -68,7 +68,8 @@ def forager_with(parts):
     cells = foveated_cells("foveated fields" in parts, "velocity" in parts, mirrored)
     name = whole.nodes[0].name
     return Agent([Node(name, cells, resolutions, goals="contacts")],
-                 [Desire(each.source, name, each.valence) for each in whole.desires], contacts=contacts)
+                 [Desire(each.source, name, each.valence) for each in whole.desires], policy=GREEDY,
+                 contacts=contacts)
 
 
 def way_agents():

@@ -133,8 +133,7 @@ def live(animal, maze, first_reward, stream):
 def neorl_animal(animal, maze):
     """The neoRL `Agent`: place cells, one for each state of the maze, and a desire for food."""
     places = Node("places", Modality("place cell", [Axis("position", high=maze.states)]), [maze.states])
-    learning = Learning(animal.learning_rate, animal.discount, credit="last", absent_decay=0.0, terminal=True,
-                        memory=0.0, bootstrap=True)
+    learning = Learning(animal.learning_rate, animal.discount)
     return Agent([places], [Desire("food", "places", 1.0)], learning, Policy(animal.exploration, choose=greedy_action))
 
 

@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl import checks
-from neorl.agents.rules import Learning
+from neorl.agents.rules import CALIBRATED, Learning
 from neorl.core.choices import Credit
 from neorl.core.kernel import execute, kernel
 from neorl.core.learning import UNIT, ZERO, MapValues, Order, Rule, learn_all_goals, learn_one_goal
@@ -28,12 +28,10 @@ ROLES = ("cause", "other lever", "light", "bell")
 N_EVENTS = len(ROLES)
 CELLS = 3  # the chamber, and one behind each exit
 CREDITS = ("share", "happened", "count", "last")
-# The plainest rule of its kind, independent of the rule that the book's agents have.
-INVERSION = Learning(learning_rate=0.03, discount=0.8, update_on="cell", credit="share", absent_decay=0.0,
-                     absent_form="decay", terminal=True, memory=0.0, bootstrap=True)
+INVERSION = Learning(learning_rate=0.03, discount=0.8, credit="share")
 DIFFERENCE = replace(INVERSION, update_on="step")
 # The rule of the book's agents, with the α and γ of the other two.
-DEFAULT = replace(Learning(), learning_rate=INVERSION.learning_rate, discount=INVERSION.discount)
+DEFAULT = replace(CALIBRATED, learning_rate=INVERSION.learning_rate, discount=INVERSION.discount)
 
 
 @dataclass(frozen=True)

@@ -8,13 +8,12 @@ and the maps were found (`neorl.chapters.other_spaces.report.SEARCHED`).
 from dataclasses import replace
 
 from neorl import Axis, Desire, Modality, Node, Place, Policy
-from neorl.agents.spaces import (FAR_RADAR, POLICY, RULE, pilot, reacher,
-                                 seeker, swimmer)
+from neorl.agents.spaces import FAR_RADAR, pilot, reacher, seeker, swimmer
 from neorl.core.modality import cartesian
 
-__all__ = ["FAR_RADAR", "POLICY", "RULE", "aimless", "compass_pilot",
-           "driver", "far_pilot", "in_haste", "pilot", "reacher", "seeker",
-           "swimmer", "thinker", "thinks_of"]
+__all__ = ["FAR_RADAR", "aimless", "compass_pilot", "driver", "far_pilot",
+           "in_haste", "pilot", "reacher", "seeker", "swimmer", "thinker",
+           "thinks_of"]
 
 
 def aimless(agent):

@@ -25,7 +25,7 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl.agents.papers import multimodal, place_cells
-from neorl.agents.rules import Learning
+from neorl.agents.rules import CALIBRATED
 from neorl.chapters.performance.bandwidth import LINE
 from neorl.chapters.performance.timing import again, always, in_turns
 from neorl.core.kernel import array, execute, kernel
@@ -35,7 +35,7 @@ from neorl.experiments.run import Run
 from neorl.worlds.waterworld import Rules, WaterWorld, WaterWorldState, reset, step
 
 NEAREST_CACHE = 2**15  # bytes, on most processors of the last decade
-ALL_GOALS, MEMORY = Learning(bootstrap=True, memory=0.0), Learning(bootstrap=False, memory=30.0)
+ALL_GOALS, MEMORY = (replace(CALIBRATED, bootstrap=cells == 0, memory=cells) for cells in (0.0, 30.0))
 AGENTS = {"N23 (all goals)": place_cells([23], learning=ALL_GOALS), "N23 (memory)": place_cells([23], learning=MEMORY),
           "twelve maps (all goals)": multimodal(learning=ALL_GOALS, object_state="object"),
           "twelve maps (memory)": multimodal(learning=MEMORY, object_state="object")}
@@ -97,7 +97,7 @@ def spent(steps, rounds, seed=0, agents=AGENTS):
     world, steps = WaterWorld(), min(steps, STRETCH)
     lives = {}
     for name, agent in agents.items():
-        blank = replace(agent, learning=Learning(learning_rate=0.0, memory=0.0))
+        blank = replace(agent, learning=replace(CALIBRATED, learning_rate=0.0, memory=0.0))
         indifferent = [replace(desire, valence=0.0) for desire in agent.desires]
         for part, less in (("all", replace(agent, desires=indifferent)),
                            ("desires", replace(blank, desires=indifferent)), ("seeing", replace(blank, desires=()))):

@@ -12,12 +12,13 @@ move identically. Predictions follow from the code, for terms large enough to ou
 - memory: exponent 1 at most, since each remembered cell learns, and a path that crosses itself leaves fewer.
 """
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from neorl.agents.papers import place_cells
-from neorl.agents.rules import Learning
+from neorl.agents.rules import CALIBRATED
 from neorl.chapters.performance.bound import ALL_GOALS, LIVED, STRETCH
 from neorl.chapters.performance.timing import again, always, exponent, in_turns
 from neorl.core.kernel import array, execute, kernel
@@ -27,7 +28,7 @@ from neorl.experiments.simulation import simulate
 from neorl.worlds.waterworld import WaterWorld
 
 INDIFFERENT = {"valence_green": 0.0, "valence_red": 0.0}
-LEARNS_NOTHING = Learning(learning_rate=0.0, memory=0.0)
+LEARNS_NOTHING = replace(CALIBRATED, learning_rate=0.0, memory=0.0)
 WITHOUT_A_MAP = place_cells([1], learning=LEARNS_NOTHING, **INDIFFERENT)
 RESOLUTIONS = (21, 26, 32, 39, 48)
 MAPS = (1, 2, 3, 4, 6, 8, 12)
@@ -122,7 +123,7 @@ def runs(steps, rounds, seed=0):
 
 def memory(steps, rounds, seed=0):
     """Time that learning adds to a step of an agent with a map of N23, by the length of its memory."""
-    agents = {cells: place_cells([23], learning=Learning(memory=cells, bootstrap=False), **INDIFFERENT)
+    agents = {cells: place_cells([23], learning=replace(CALIBRATED, memory=cells, bootstrap=False), **INDIFFERENT)
               for cells in MEMORIES}
     idle = place_cells([23], learning=LEARNS_NOTHING, **INDIFFERENT)
     found = _a_step({**agents, 0: idle}, steps, rounds, seed)

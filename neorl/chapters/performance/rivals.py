@@ -27,8 +27,7 @@ from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
 from neorl.experiments.run import Run
 from neorl.worlds.waterworld import GREEN, WaterWorld
 
-PLAIN = Learning(learning_rate=0.03, discount=0.8, credit="share", absent_decay=0.0, terminal=True, memory=0.0,
-                 bootstrap=True)
+PLAIN = Learning(learning_rate=0.03, discount=0.8, credit="share")
 
 
 class Stretch(NamedTuple):
