@@ -27,7 +27,7 @@ MADE_INSIDE = {f"neorl.{name}" for name in (
 # called often or at import.
 FOR_AUTHORS = {f"neorl.{name}" for name in (
     *(f"core.kernel.{name}" for name in (
-        "array", "arrays", "check_kernel", "execute", "fields", "function_of", "inlined", "inlined_kernel", "is_tuple",
+        "array", "arrays", "check_kernel", "execute", "fields", "full_name", "function_of", "inlined", "inlined_kernel", "is_tuple",
         "length", "mapped", "new_tuple")),
     *(f"core.modality.{name}" for name in (
         "Modality.check_axes", "as_radians", "as_turns", "axis_parameters", "firsts", "integers", "space_of")),
@@ -35,7 +35,8 @@ FOR_AUTHORS = {f"neorl.{name}" for name in (
         "difference", "lead_over_best", "lead_over_sum", "least_of_most", "quotient", "rank_correlation", "ratio")),
     *(f"evidence.multiverse.{name}" for name in ("held", "importance", "outcome", "shares", "support")),  # of claims
     "evidence.reading.additions", "evidence.reading.judge", "gym.environment.checked_seed", "gym.environment.seed_row",
-    "agents.papers.paper_agent", "core.kernel.jit_is_off", "core.scene.checked_scene", "worlds.world.check_arrays")}
+    "agents.papers.paper_agent", "core.kernel.jit_is_off", "core.scene.checked_scene", "worlds.world.check_arrays",
+    "worlds.world.check_outcome")}
 NOTHING_TO_REPLACE = {"neorl.agents.papers.brownian", "neorl.drawing.style.use_style"}  # they take no arguments
 
 

@@ -57,8 +57,7 @@ class Kernel:
         return Kernel, (self.py_func, self.options)
 
     def __repr__(self):
-        made_by, arguments = getattr(self, "origin", (self, ""))
-        return f"<kernel {made_by.__module__}.{made_by.__qualname__}{arguments}>"
+        return f"<kernel {full_name(self)}>"
 
     def __call__(self, *arguments):
         raise TypeError(f"{self.__module__}.{self.__name__} is a kernel, which checks nothing: call it by "
@@ -122,6 +121,12 @@ def inlined_kernel(function):
 def inlined(kernel):
     """The same kernel, only to be inlined into other kernels."""
     return inlined_kernel(function_of(kernel))
+
+
+def full_name(kernel):
+    """The name of a kernel with that of its module; for one that was made, of its maker, with the arguments."""
+    made_by, arguments = getattr(kernel, "origin", (kernel, ""))
+    return f"{made_by.__module__}.{made_by.__qualname__}{arguments}"
 
 
 def function_of(kernel):
@@ -198,6 +203,7 @@ def array(dtype, *shape):
     return Annotated[np.ndarray, dtype, shape]
 
 
+@functools.cache
 def fields(kind):
     """The fields of a named tuple or arguments of a kernel: {name: (dtype, shape)} for arrays, else {name: type}."""
     return {name: get_args(hint)[1:] or hint for name, hint in get_type_hints(kind, include_extras=True).items()}

@@ -20,7 +20,7 @@ from neorl.core.kernel import arrays, execute
 from neorl.core.steps import steps_with
 from neorl.core.stream import new_stream
 from neorl.worlds.rollout import rollout_in
-from neorl.worlds.world import World
+from neorl.worlds.world import World, check_outcome
 
 BIN_SECONDS = 0.2
 SLICE = 10_000  # steps between two checks for an interruption
@@ -87,7 +87,7 @@ class Run(Individual):
         hits: int16 (bins, kinds), likewise the number of things of each kind that were met, at most 32,767.
 
         After an interruption the run can continue from its `step`.
-        Raises ValueError if they do not fit, or if the world's state is not finite.
+        Raises ValueError if they do not fit, or if the world's state does not or is not finite, before or after a step.
         """
         self.world.check_state(self._world_state)
         last = self.step + checks.integer("steps", steps, at_least=0)
@@ -102,6 +102,7 @@ class Run(Individual):
             while clock[0] < last:
                 paid = execute(self._rollout, self._parameters, self._state, self._world_state, self.world.rules, clock,
                                min(last, clock[0] + SLICE), paid, bin_length, rewards, hits)
+                check_outcome(self.world, self.world.dynamics.step, self._world_state)
         finally:
             self._progress = int(clock[0])  # also if interrupted: Python handles that once the kernel returns
         return paid

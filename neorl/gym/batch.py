@@ -16,7 +16,7 @@ from neorl.core.kernel import (arrays, execute, fields, inlined, inlined_kernel,
 from neorl.core.stream import new_stream
 from neorl.gym.observation import observe
 from neorl.worlds.arena import Arena, ArenaRules, ArenaState
-from neorl.worlds.world import World
+from neorl.worlds.world import World, check_outcome
 
 MOST_NUMBERS = 2**28  # in the observations of a batch, 1 GiB
 
@@ -92,8 +92,10 @@ class Batch:
     def _run(self, acts):
         row = execute(self.step_kernel, self.states, self.rules, self.task, self.slots, acts)
         if row >= 0:
-            raise ValueError(f"environment {row} reached the state {self.state_of(row)}, or its reward is not finite; "
-                             "allowed are finite numbers")
+            slots, dynamics = self.slots, self.world.dynamics
+            has_begun = slots.clock[row] == 0 and (slots.terminated[row] or slots.truncated[row])
+            check_outcome(self.world, dynamics.reset if has_begun or slots.restarted[row] else dynamics.step,
+                          mapped(lambda each: each[row].copy(), self.states), slots.reward[row])
 
     def state_of(self, row):
         """The state of one environment, as read-only views."""
@@ -129,13 +131,12 @@ def time_is_up_in(world):
 def batch_step(dynamics, time_is_up):
     """The kernel that steps many environments of a world with given `Dynamics`.
 
-    It returns −1, or the first environment whose state is not finite.
+    It returns −1, or the first environment whose step or reset broke a rule of worlds, and stops there.
     """
     reset, step, row_of = dynamics.reset, inlined(dynamics.step), rows_of(fields(dynamics.reset)["state"])
 
     @kernel
     def batch_step(states, rules, task, slots, acts):
-        broken = -1
         for i in range(slots.action.shape[0]):
             state = row_of(states, i)
             scene = state.scene
@@ -144,15 +145,19 @@ def batch_step(dynamics, time_is_up):
                 slots.restarted[i] = slots.begins[i]
                 for kind in range(task.n_kinds):
                     slots.met[i, kind] = 0
-                finite = True
                 if slots.begins[i]:
                     reset(state, rules)
                     slots.clock[i] = 0
                 else:
                     slots.reward[i], done = step(state, rules, slots.action[i])
+                    if not abs(slots.reward[i]) < np.inf:
+                        return i
                     for thing in range(scene.met.shape[0]):
-                        if scene.met[thing] > 0:
-                            slots.met[i, scene.met[thing] - 1] += 1
+                        met = scene.met[thing]
+                        if met < 0 or met > task.n_kinds:
+                            return i
+                        if met != 0:
+                            slots.met[i, met - 1] += 1
                     if done and task.continuing:
                         reset(state, rules)
                         slots.restarted[i] = True
@@ -163,15 +168,15 @@ def batch_step(dynamics, time_is_up):
                     slots.truncated[i] = slots.truncated[i] or slots.clock[i] >= task.last_step
                     over = slots.terminated[i] or slots.truncated[i]
                     if over and task.same_step:
-                        finite = observe(scene, task.size, task.n_kinds, task.egocentric, slots.distance, slots.order,
-                                         slots.last_observation[i])
+                        if not observe(scene, task.size, task.n_kinds, task.egocentric, slots.distance, slots.order,
+                                       slots.last_observation[i]):
+                            return i
                         reset(state, rules)
                         slots.clock[i] = 0
-                finite = observe(scene, task.size, task.n_kinds, task.egocentric, slots.distance, slots.order,
-                                 slots.observation[i]) and finite
-                if broken < 0 and not (finite and abs(slots.reward[i]) < np.inf):
-                    broken = i
-        return broken
+                if not observe(scene, task.size, task.n_kinds, task.egocentric, slots.distance, slots.order,
+                               slots.observation[i]):
+                    return i
+        return -1
 
     return batch_step
 

@@ -30,6 +30,7 @@ def rollout_in(dynamics, constants):
         """Take the steps clock[0] … last_step − 1, adding rewards and contacts to the bins of `rewards` and `hits`.
 
         total: the reward so far; the new total is returned. hits: things met of each kind, up to `MOST_HITS`.
+        Stops early, after a step that met a thing of no kind.
         """
         scene = world_state.scene
         for now in range(clock[0], last_step):
@@ -41,8 +42,13 @@ def rollout_in(dynamics, constants):
             interval = now // bin_steps
             rewards[interval] += np.float32(reward)
             for thing in range(scene.met.shape[0]):
-                if scene.met[thing] > 0 and hits[interval, scene.met[thing] - 1] < MOST_HITS:
-                    hits[interval, scene.met[thing] - 1] += 1
+                met = scene.met[thing]
+                if met != 0:
+                    if met < 0 or met > hits.shape[1]:
+                        clock[0] = now + 1
+                        return total
+                    if hits[interval, met - 1] < MOST_HITS:
+                        hits[interval, met - 1] += 1
             if done:
                 reset(world_state, rules)
                 life.begin(parameters, constants, state, scene)

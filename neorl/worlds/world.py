@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from neorl import checks
 from neorl.core.description import Described
-from neorl.core.kernel import Kernel, execute, fields, is_tuple, length, new_tuple
+from neorl.core.kernel import Kernel, execute, fields, full_name, is_tuple, length, new_tuple
 from neorl.core.stream import new_stream
 
 
@@ -55,12 +55,14 @@ class World(Described):
     def reset(self, seed: int | np.random.SeedSequence) -> Any:
         """A state at the beginning of an episode.
 
-        seed: an integer ≥ 0 or a `numpy.random.SeedSequence`. Raises ValueError for anything else.
+        seed: an integer ≥ 0 or a `numpy.random.SeedSequence`. Raises ValueError for anything else, and for a kernel
+        `reset` that leaves a state which is not allowed.
         """
         if not isinstance(seed, np.random.SeedSequence):
             seed = np.random.SeedSequence(checks.integer("seed", seed, at_least=0))
         state = new_tuple(self.State, self.sizes, {"stream": new_stream(seed)})
         execute(self.dynamics.reset, state, self.rules)
+        check_outcome(self, self.dynamics.reset, state)
         return state
 
     def step(self, state: Any, action: int | str) -> tuple[float, NDArray[np.bool], bool]:
@@ -69,23 +71,37 @@ class World(Described):
         action: the number of an action, or its name.
         Returns (reward: float, met: bool (things,), done: bool). After `done` the state is the last of its episode;
         `reset` gives the next one.
-        Raises ValueError for an unknown action, and for a state that does not fit or is not finite.
+        Raises ValueError for an unknown action, for a state that does not fit or is not finite, and for a kernel
+        `step` that leaves one, or returns a reward that is not finite.
         """
         names = self.actions.all_names
         action = names.index(checks.one_of("action", action, names)) if isinstance(action, str) else action
         action = checks.integer("action", action, at_least=0, at_most=len(names) - 1)
         self.check_state(state)
         reward, done = execute(self.dynamics.step, state, self.rules, action)
+        check_outcome(self, self.dynamics.step, state, reward)
         return float(reward), state.scene.met != 0, bool(done)
 
     def check_state(self, state: Any) -> None:
         """Raise ValueError unless the arrays of a state fit this world, and are finite."""
         checks.instance("state", state, self.State)
         check_arrays("state", state, self.sizes)
-        kinds = state.scene.kinds
+        kinds, met = state.scene.kinds, state.scene.met
         if kinds.size and not (-1 <= kinds.min() and kinds.max() < len(self.kinds)):
             raise ValueError(f"state.scene.kinds is {checks.shown(kinds)}, allowed are −1 and the numbers of "
                              f"{self.kinds}")
+        if met.size and not (0 <= met.min() and met.max() <= len(self.kinds)):
+            raise ValueError(f"state.scene.met is {checks.shown(met)}, allowed are 0, and for a thing that was met 1 + "
+                             f"the number of its kind among {self.kinds}")
+
+
+def check_outcome(world, kernel, state, reward=0.0):
+    """Raise ValueError, which names the kernel, unless the state that it left and the reward are allowed."""
+    try:
+        world.check_state(state)
+        checks.real("reward", reward)
+    except ValueError as error:
+        raise ValueError(f"the kernel {full_name(kernel)} broke a rule of worlds: after it, {error}") from None
 
 
 def check_arrays(name, values, sizes):
@@ -101,4 +117,5 @@ def check_arrays(name, values, sizes):
                 or not value.flags.c_contiguous or not value.flags.writeable):
             found = f"{value.dtype} {value.shape}" if isinstance(value, np.ndarray) else checks.shown(value)
             raise ValueError(f"{path} is {found}, allowed is {dtype} {expected}, contiguous and writeable")
-        checks.finite(path, value)
+        if value.dtype.kind == "f":
+            checks.finite(path, value)
