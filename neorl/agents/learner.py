@@ -92,6 +92,8 @@ class Learner(Individual):
     def act(self) -> int:
         """Choose an action, and return its number, 0 … actions − 1, or the number of actions for being idle.
 
+        ``actions.table[number]`` is its push, 0 when idle.
+
         Raises RuntimeError before the first scene, or if the outcome of the last action was not observed.
         """
         if self._progress != "to act":

@@ -7,6 +7,8 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import pytest
 
+from neorl import Agent, Desire, Node, Policy
+from neorl.core import modality
 from neorl.evidence.claims import VERDICTS
 from neorl.evidence.report import NOT_COMPUTED, in_short
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
@@ -45,3 +47,12 @@ def test_every_example_prints_what_stands_behind_its_arrow(tmp_path, monkeypatch
     promised = re.findall(r"print\(.*# → (.*)", "\n".join(examples))
     assert capsys.readouterr().out.splitlines() == promised
     assert len(promised) == "\n".join(examples).count("print(")
+
+
+def test_the_loop_of_a_learner_takes_an_agent_that_is_idle_while_it_knows_nothing(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (loop,) = [each for each in EXAMPLES.findall((ROOT / "README.md").read_text(encoding="utf-8")) if ".act()" in each]
+    names = {"Agent": lambda *parts: Agent(*parts, policy=Policy(when_indifferent="no-op")), "Desire": Desire,
+             "Node": Node, "modality": modality}
+    exec(loop.replace("1_000", "3"), names)
+    assert (names["x"], names["y"]) == (0.5, 0.5)

@@ -70,8 +70,8 @@ def forage(agent, steps, seed=0, n_cells=200):
             animal.update()
         else:
             learner.begin(scene_of(*cells)) if step == 0 else learner.observe(scene_of(*cells))
-            push = learner.world.actions.pushes[learner.act()]
-            animal.update(drift_velocity=SPEED * np.array(push), drift_to_random_strength_ratio=3)
+            push = learner.world.actions.table[learner.act()]
+            animal.update(drift_velocity=SPEED * push, drift_to_random_strength_ratio=3)
         distances[step] = np.linalg.norm(animal.pos - OBJECT)
     return distances
 
