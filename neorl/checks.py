@@ -4,6 +4,7 @@ NumPy scalars and zero-dimensional arrays count as numbers. Numbers are finite a
 magnitude, so that sums and products of several do not overflow; divisors are at least 1e-30 (`SMALLEST`).
 """
 
+import dataclasses
 import math
 import numbers
 import operator
@@ -80,6 +81,7 @@ def one_of(name: str, value: Any, allowed: Iterable[Kind]) -> Kind:
 def several(name: str, values: Any) -> tuple[Any, ...]:
     """`values` as a tuple, if they are a list, a tuple, a range or an array of at most 2²⁰ values."""
     if isinstance(values, list | tuple | range) or isinstance(values, np.ndarray) and values.ndim:
+        unmasked(name, values)
         if _is_short(values):
             return tuple(values)
         raise ValueError(f"{name} is {shown(values)}, allowed are {MOST} values or fewer")
@@ -100,6 +102,7 @@ def finite(name: str, array: NDArray, at_most: float = LARGEST) -> NDArray:
 
 def doubles(name: str, values: Any, at_most: float = LARGEST) -> NDArray[np.float64]:
     """`values` as a new array of doubles, if they are finite numbers, in lists of equal lengths."""
+    unmasked(name, values)
     try:
         if isinstance(values, range) and not _is_short(values):
             raise ValueError
@@ -112,6 +115,13 @@ def doubles(name: str, values: Any, at_most: float = LARGEST) -> NDArray[np.floa
         raise ValueError(f"{name} is {shown(values)}, allowed are numbers, in lists of equal lengths")
     with np.errstate(over="ignore"):  # wider floats than doubles, which may become infinite
         return finite(name, np.array(array, float, order="C"), at_most)
+
+
+def unmasked(name: str, values: Kind) -> Kind:
+    """`values`, unless they are a masked array with a value that is masked."""
+    if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
+        raise ValueError(f"{name} must have no masked values, but is {shown(values)}; fill them in, or leave them out")
+    return values
 
 
 def points(name: str, values: Any, axes: Sequence[str]) -> NDArray[np.float64]:
@@ -171,3 +181,11 @@ def assign(instance: object, **values: Any) -> None:
     """Set fields of a frozen dataclass to their checked values, so that equal instances are identical."""
     for name, value in values.items():
         object.__setattr__(instance, name, value)
+
+
+def equal_fields(one: Any, other: Any) -> bool:
+    """Whether two instances of a dataclass have equal fields, arrays included: the ``==`` of results."""
+    if type(one) is not type(other):
+        return NotImplemented
+    pairs = [(getattr(one, each.name), getattr(other, each.name)) for each in dataclasses.fields(one)]
+    return all(np.array_equal(a, b) if isinstance(a, np.ndarray) else a == b for a, b in pairs)

@@ -9,7 +9,7 @@ from fuzzing import Unequal, Unprintable
 
 import neorl
 from neorl import (CARDINAL, Actions, Agent, Arena, Axis, Desire, Learner, Learning, Modality, Node, NresMap, Place,
-                   Policy, Run, Scene, WaterWorld, checks, kernel, kernel_maker, learn, object_vector_cells,
+                   Policy, Run, Scene, WaterWorld, checks, drawing, kernel, kernel_maker, learn, object_vector_cells,
                    place_cells, softmax, superpose)
 from neorl.agents.compile import n_bytes
 from neorl.core.horde import as_vectors
@@ -17,6 +17,7 @@ from neorl.core.modality import PLACE_CELL, cartesian, polar
 from neorl.evidence import curves, statistics
 
 WORLD = WaterWorld(n_creeps=2)
+MASKED = np.ma.array([0.5, 0.6], mask=[True, False])
 
 
 def learner():
@@ -50,6 +51,11 @@ def state_with(**fields):
     (lambda: checks.doubles("x", [[1], [1, 2]]), "x is .*, allowed are numbers, in lists of equal lengths"),
     (lambda: checks.doubles("x", np.ones(2, complex)), "x is .*, allowed are numbers"),
     (lambda: checks.doubles("x", [1e308]), "x is .*, allowed are finite numbers from -1e[+]30 to 1e[+]30"),
+    (lambda: checks.doubles("x", MASKED), "x must have no masked values, but is masked_array.*; fill them in, or"),
+    (lambda: Actions(("a",), (MASKED,)), "pushes must have no masked values"),
+    (lambda: NresMap(3).encode(MASKED), "points must have no masked values"),
+    (lambda: learner().begin(scene(position=MASKED)), "scene.position must have no masked values"),
+    (lambda: drawing.draw_curves(MASKED, {"a": [[1, 2]]}), "xs must have no masked values"),
     (lambda: checks.path("x", None), "x is None, allowed are paths of files"),
     (lambda: checks.path("x", "a\0b"), "x is .*, allowed are paths of files"),
     (lambda: checks.instance("x", None, Agent), "x is None, allowed is an Agent"),
@@ -112,6 +118,10 @@ def state_with(**fields):
 def test_what_is_refused(call, message):
     with pytest.raises(ValueError, match=f"(?s){message}"):
         call()
+
+
+def test_a_masked_array_without_a_masked_value_is_an_array():
+    assert checks.doubles("x", np.ma.array([0.5, 0.6])).tolist() == [0.5, 0.6]
 
 
 def test_numbers_of_numpy_and_arrays_of_no_axis_are_numbers():

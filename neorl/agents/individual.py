@@ -150,16 +150,23 @@ class Individual:
     def copy(self) -> Self:
         """An independent copy, which continues from here bit for bit the same."""
         other = object.__new__(type(self))
-        vars(other).update(vars(self))
-        for name in self._kept:
-            setattr(other, name, kept_apart(mapped(np.copy, getattr(self, name))))
-        other._bind()
+        other.__setstate__({name: mapped(np.copy, value) if name in self._kept else value
+                            for name, value in self.__getstate__().items()})
         return other
 
     __copy__ = copy  # a shallow copy would share the arrays that kernels write
 
     def __deepcopy__(self, memo):
         return self.copy()
+
+    def __getstate__(self):  # without compiled code, which `_bind` finds again
+        return {name: getattr(self, name) for name in ("_agent", "_world", "_parameters", "_progress", *self._kept)}
+
+    def __setstate__(self, state):
+        vars(self).update(state)
+        for name in ("_parameters", *self._kept):
+            setattr(self, name, kept_apart(getattr(self, name)))
+        self._bind()
 
     def save(self, path: str | PathLike[str]) -> None:
         """Save everything to a file, from which `load` continues bit for bit the same.

@@ -188,6 +188,7 @@ def _is_empty(given):
 
 
 def _put(name, mine, given):
+    checks.unmasked(f"scene.{name}", given)
     try:
         values = np.asarray(checks.several(name, given) if isinstance(given, range) else given)
     except ValueError:  # lists of unequal lengths

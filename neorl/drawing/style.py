@@ -71,6 +71,7 @@ def by_name(name, values):
 
 def numbers(name, values):
     """`values` as an array of doubles within ±1e30, or NaN for gaps. Raises ValueError otherwise."""
+    checks.unmasked(name, values)
     try:
         array = np.asarray(values)
     except (TypeError, ValueError, OverflowError):

@@ -9,7 +9,7 @@ from neorl.experiments.run import Run, new_bins
 from neorl.worlds.waterworld import GREEN, WaterWorld
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Recording:
     """The movements and captures in a tank, step by step, in board widths and seconds."""
 
@@ -20,6 +20,8 @@ class Recording:
     creeps: np.ndarray  # float32 (steps + 1, creeps, 4)
     green: np.ndarray  # bool (steps + 1, creeps)
     hits: np.ndarray  # int64 (steps + 1, 2): green and red creeps taken so far
+
+    __eq__ = checks.equal_fields
 
 
 def record(name: str, run: Run, steps: int) -> Recording:

@@ -18,7 +18,7 @@ from neorl.experiments.run import SLICE, Run, bin_steps, new_bins
 from neorl.worlds.world import World
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Result:
     """The rewards and hits of the runs of one condition.
 
@@ -36,6 +36,8 @@ class Result:
     rewards: NDArray[np.float32]
     hits: NDArray[np.int16]
     changes: tuple[tuple[int, Agent], ...] = ()
+
+    __eq__ = checks.equal_fields
 
     @property
     def seconds(self) -> float:

@@ -21,7 +21,7 @@ from neorl.extras import require
 gymnasium = require("gymnasium", extra="gym")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Played:
     """The outcome of running an agent in an environment.
 
@@ -33,6 +33,8 @@ class Played:
     rewards: NDArray[np.float64]
     terminated: NDArray[np.bool]
     truncated: NDArray[np.bool]
+
+    __eq__ = checks.equal_fields
 
     @property
     def ends(self) -> NDArray[np.int64]:

@@ -117,6 +117,7 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
         over = slots.terminated | slots.truncated
         if not self._begun.all() or mode is Mode.DISABLED and over.any():
             raise gymnasium.error.ResetNeeded("step() came before reset(), allowed is step() in an episode")
+        checks.unmasked("actions", actions)
         try:
             given = np.asarray(actions)
         except ValueError:  # lists of unequal lengths

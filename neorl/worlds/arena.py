@@ -113,7 +113,8 @@ class Arena(World, checks.Final):
                                  "bottom) each")
         if len(self.start) not in (0, 2):
             raise ValueError(f"start is {self.start!r}, allowed are () and a place (x, y)")
-        if any(function_of(is_blocked)(self.rules, x, y) for x, y in self.rules.start):
+        rules = self.rules
+        if any(function_of(is_blocked)(rules, x, y) for x, y in rules.start):
             raise ValueError(f"start is {self.start!r}, allowed are places outside of walls and obstacles")
 
     @property
@@ -139,7 +140,8 @@ class Arena(World, checks.Final):
     @property
     def rules(self) -> ArenaRules:
         """The rules as the kernels take them."""
-        pay = dict(zip(self.kinds, (*self.pay, *[1.0] * len(self.kinds))))
+        kinds = {kind: number for number, kind in enumerate(self.kinds)}
+        pay = dict(zip(kinds, (*self.pay, *[1.0] * len(kinds))))
         near, far = RIM, 1.0 - RIM
         starts = [self.start] * 4 if self.start else [(0.5, near), (0.5, far), (far, 0.5), (near, 0.5)]
         return ArenaRules(
@@ -147,7 +149,7 @@ class Arena(World, checks.Final):
             self.radius, self.ends, max(1, round(self.trial_seconds * self.fps)), 1 if self.start else 4,
             np.array(starts, float), self.actions.table,
             np.array([at for _, *at in self.places], float).reshape(-1, 2),
-            np.array([self.kinds.index(kind) for kind, *_ in self.places], np.int64),
+            np.array([kinds[kind] for kind, *_ in self.places], np.int64),
             np.array([pay[kind] for kind, *_ in self.places], float), np.array(self.obstacles, float).reshape(-1, 4))
 
 

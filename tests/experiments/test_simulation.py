@@ -1,6 +1,8 @@
 """Runs stay the same after what must not change them, change as planned, and refuse what they cannot do."""
 
 import itertools
+import pickle
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,6 +13,7 @@ from neorl import Agent, Desire, Node, Policy, Run, WaterWorld, multimodal, netw
 from neorl.core.kernel import arrays
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
                                  LANDMARK_VECTOR_CELL, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL)
+from neorl.experiments.recording import record
 
 TANK = WaterWorld(n_creeps=8, win_reward=5.0)
 
@@ -130,6 +133,13 @@ def test_runs_and_seeds_differ():
     result = simulate(place_cells([3, 7]), TANK, steps=5_000, runs=3, seed=0, progress=False)
     other = simulate(place_cells([3, 7]), TANK, steps=5_000, runs=1, seed=1, progress=False)
     assert len({rewards.tobytes() for rewards in [*result.rewards, *other.rewards]}) == 4
+
+
+def test_results_are_equal_if_their_settings_and_numbers_are():
+    one, same = (simulate(place_cells([3]), TANK, steps=2_000, runs=1, progress=False) for _ in range(2))
+    assert one == same == pickle.loads(pickle.dumps(one)) and one != "result"
+    assert all(one != replace(one, **change) for change in ({"seed": 1}, {"rewards": one.rewards + 1}))
+    assert record("a", Run(place_cells([3]), TANK), 2) == record("a", Run(place_cells([3]), TANK), 2)
 
 
 def test_the_bins_add_up():

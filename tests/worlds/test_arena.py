@@ -5,6 +5,7 @@ import json
 import os
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
@@ -175,6 +176,12 @@ def test_a_trial_begins_anew_after_its_end():
 def test_a_bad_arena_is_refused(arguments, message):
     with pytest.raises(ValueError, match=message):
         Arena(**arguments)
+
+
+def test_tens_of_thousands_of_places_take_a_time_that_grows_with_their_number():
+    started = time.process_time()
+    assert Arena(places=[("a", 0.5, 0.5), ("b", 0.1, 0.5)] * 40_000).rules.kind[-2:].tolist() == [0, 1]
+    assert time.process_time() - started < 30
 
 
 WORLDS = {
