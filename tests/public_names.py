@@ -27,8 +27,8 @@ MADE_INSIDE = {f"neorl.{name}" for name in (
 # called often or at import.
 FOR_AUTHORS = {f"neorl.{name}" for name in (
     *(f"core.kernel.{name}" for name in (
-        "array", "arrays", "check_kernel", "execute", "fields", "full_name", "function_of", "inlined", "inlined_kernel", "is_tuple",
-        "length", "mapped", "new_tuple")),
+        "array", "arrays", "check_kernel", "execute", "fields", "full_name", "function_of", "inlined",
+        "inlined_kernel", "is_tuple", "length", "mapped", "new_tuple")),
     *(f"core.modality.{name}" for name in (
         "Modality.check_axes", "as_radians", "as_turns", "axis_parameters", "firsts", "integers", "space_of")),
     *(f"evidence.statistics.{name}" for name in (  # called by `estimate`

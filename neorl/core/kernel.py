@@ -6,7 +6,7 @@ the same to the last bit on any machine, on any number of threads, and with the 
 
 - it takes flat arrays, scalars and named tuples of them, and does not allocate, raise, print or look anything up;
 - it uses only ``+ - * /``, square root, floor and comparisons, whose results IEEE 754 fixes, and no ``fastmath``;
-- it draws random numbers from a stream passed to it (`neorl.core.stream`), never from ``np.random``;
+- it draws random numbers from a stream passed to it (`neorl.core.stream`); ``np.random`` and ``random`` are refused;
 - it writes ``np.float32(...)`` where single precision is meant: a literal is a double in numba, but weakly typed in
   NumPy.
 
@@ -30,6 +30,7 @@ from typing import Annotated, Any, get_args, get_type_hints
 import numpy as np
 
 from neorl import checks
+from neorl.core.global_random import global_random_in
 
 # Without numba's memory runtime (_nrt) a kernel cannot allocate, and does not count references to its arrays.
 OPTIONS = {"error_model": "numpy", "nogil": True, "_nrt": False}
@@ -105,7 +106,11 @@ class Kernel:
 
 
 def kernel(function: Callable) -> Any:
-    """Compile a kernel. Raises ValueError for anything but a Python function."""
+    """Compile a kernel.
+
+    Raises ValueError for anything but a Python function, and for one that draws from a global random stream, itself or
+    by a helper.
+    """
     return _compiled(function, OPTIONS)
 
 
@@ -137,6 +142,11 @@ def function_of(kernel):
 def _compiled(function, options):
     if not inspect.isfunction(function):
         raise ValueError(f"function is {checks.shown(function)}, allowed are Python functions to make kernels of")
+    drawn = global_random_in(function)
+    if drawn:
+        raise ValueError(f"a kernel must draw its random numbers from a stream that is passed to it, but "
+                         f"{full_name(function)} calls {drawn}, which no seed of a run determines: call "
+                         "neorl.core.stream.uniform or randint with the stream of the world's state or of the policy")
     return function if jit_is_off() else Kernel(function, options)
 
 

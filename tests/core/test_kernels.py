@@ -1,9 +1,12 @@
 """The rules that every kernel follows, so that a run is the same everywhere."""
 
+import random
 import re
+from random import randrange
 
 import numpy as np
 import pytest
+from numba import njit
 
 from neorl import Agent, Arena, Node, Policy, Run, WaterWorld, network_d, place_cells, softmax
 from neorl.agents.compile import constants_of
@@ -102,3 +105,37 @@ def test_a_kernel_called_from_python_refuses_instead_of_ending_the_interpreter(n
 def test_a_kernel_that_is_inlined_cannot_even_be_executed(name):
     with pytest.raises(TypeError, match=f"{re.escape(name)} is only inlined into other kernels"):
         execute(KERNELS[name], 1, 2, 3)
+
+
+@njit
+def noise():
+    return np.random.normal()
+
+
+def noisy_helper():
+    return random.random()
+
+
+def draws_within():
+    def inner():
+        return np.random.rand()
+
+    return inner()
+
+
+drawn = np.random.default_rng(0).random
+
+
+@pytest.mark.parametrize("function, name", [
+    (lambda value, stream: np.random.randint(4), "np.random.randint"),
+    (lambda value, stream: random.randrange(4), "random.randrange"), (lambda value, stream: randrange(4), "randrange"),
+    (lambda scene, point: noise(), "np.random.normal"), (lambda scene, point: noisy_helper(), "random.random"),
+    (lambda: np.random.seed(0), "np.random.seed"), (draws_within, "np.random.rand"), (lambda: drawn(), "drawn")])
+def test_a_kernel_that_draws_from_a_global_stream_is_refused_by_name(function, name):
+    with pytest.raises(ValueError, match=rf"must draw its random numbers from a stream .*calls {re.escape(name)}, "):
+        kernel(function)
+
+
+def test_a_kernel_may_draw_from_its_stream_and_have_fields_called_random():
+    kernel(lambda value, its_stream: stream.randint(its_stream, 4))
+    kernel(lambda state: np.floor(state.random))
