@@ -36,7 +36,7 @@ FOR_AUTHORS = {f"neorl.{name}" for name in (
     *(f"evidence.multiverse.{name}" for name in ("held", "importance", "outcome", "shares", "support")),  # of claims
     "evidence.reading.additions", "evidence.reading.judge", "gym.environment.checked_seed", "gym.environment.seed_row",
     "agents.papers.paper_agent", "core.kernel.jit_is_off", "core.scene.checked_scene", "worlds.world.check_arrays",
-    "worlds.world.check_outcome")}
+    "worlds.world.check_outcome", "worlds.world.check_rules")}
 NOTHING_TO_REPLACE = {"neorl.agents.papers.brownian", "neorl.drawing.style.use_style"}  # they take no arguments
 
 

@@ -31,8 +31,21 @@ class Dynamics(NamedTuple):
     step: Kernel  # (state, rules, action) → (reward, done)
 
 
-class World(Described):
-    """A world of kernels; see the module for what a subclass defines."""
+class _Checking(type):
+    """The type of worlds, which checks the rules of each that is made, whatever its fields and their checks."""
+
+    def __call__(cls, *given, **by_name):
+        world = super().__call__(*given, **by_name)
+        if world.dynamics is not None:
+            check_rules(world.rules, fields(world.dynamics.reset)["rules"], dict(world.sizes))
+        return world
+
+
+class World(Described, metaclass=_Checking):
+    """A world of kernels; see the module for what a subclass defines.
+
+    Raises ValueError for rules whose arrays do not match their annotations.
+    """
 
     dynamics: Any = None  # a `Dynamics`
     kinds: Any = ()
@@ -93,6 +106,32 @@ class World(Described):
         if met.size and not (0 <= met.min() and met.max() <= len(self.kinds)):
             raise ValueError(f"state.scene.met is {checks.shown(met)}, allowed are 0, and for a thing that was met 1 + "
                              f"the number of its kind among {self.kinds}")
+
+
+def check_rules(rules, kind, sizes, path="rules"):
+    """Raise ValueError unless rules are of their annotated type, with arrays of the annotated types and shapes.
+
+    sizes: of dimensions, by name; a name that is not among them stands for the length where it first occurs.
+    """
+    for name, field in fields(type(checks.instance(path, rules, kind))).items():
+        value = getattr(rules, name)
+        if is_tuple(field):
+            check_rules(value, field, sizes, f"{path}.{name}")
+        elif isinstance(field, tuple) and not _is_as_annotated(value, *field, sizes):
+            found = f"{value.dtype} {value.shape}" if isinstance(value, np.ndarray) else checks.shown(value)
+            dtype, shape = field[0], tuple(sizes.get(each, each) for each in field[1])
+            raise ValueError(f"{path}.{name} must be an array of {dtype} {shape}, as it is annotated, since kernels read "
+                             f"it without a check, but is {found}: change the array, or its annotation")
+
+
+def _is_as_annotated(value, dtype, shape, sizes):
+    if not isinstance(value, np.ndarray) or (value.dtype, value.ndim) != (np.dtype(dtype), len(shape)):
+        return False
+    for each, actual in zip(shape, value.shape):
+        if isinstance(each, str):
+            size, _, more = each.partition(" + ")
+            sizes.setdefault(size, actual - int(more or 0))
+    return value.shape == tuple(length(each, sizes) for each in shape)
 
 
 def check_outcome(world, kernel, state, reward=0.0):

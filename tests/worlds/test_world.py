@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from neorl import (Actions, Agent, Axis, Desire, Learner, Learning, Modality, Node, Place, Policy, Run, Scene,
+from neorl import (CARDINAL, Actions, Agent, Axis, Desire, Learner, Learning, Modality, Node, Place, Policy, Run, Scene,
                    World, brownian, kernel, simulate)
 from neorl.core.kernel import array, arrays, execute
 from neorl.core.modality import HEAD_DIRECTION_CELL, LANDMARK_VECTOR_CELL, PLACE_CELL, cartesian
@@ -232,6 +232,51 @@ def test_a_state_that_does_not_fit_is_refused():
         state = world.reset(0)
         with pytest.raises(ValueError, match=message):
             world.step(state._replace(scene=state.scene._replace(**change)), 0)
+
+
+class Stones(NamedTuple):
+    place: array("float64", "stones", 2)
+    weight: array("float64", "stones")
+
+
+class GardenRules(NamedTuple):
+    stones: Stones
+    push: array("float64", 5, 2)
+    cost: array("int64", "axes")
+
+
+@kernel
+def open_garden(state: RoundaboutState, rules: GardenRules) -> None:
+    state.scene.position[0] = rules.stones.place[0, 0]
+
+
+@dataclass(frozen=True)
+class Garden(World):
+    rules: GardenRules
+
+    dynamics, actions = Dynamics(open_garden, drive), CARDINAL
+    things, size, fps = 0, 1.0, 1
+
+
+def garden(place=(3, 2), weight=(3,), push=CARDINAL.table, cost=np.zeros(2, int)):
+    return Garden(GardenRules(Stones(np.zeros(place), np.zeros(weight)), push, cost))
+
+
+@pytest.mark.parametrize("change, message", [
+    ({"push": CARDINAL.table[:4]}, r"rules.push must be an array of float64 \(5, 2\), as it is annotated, .* but is "
+                                   r"float64 \(4, 2\): change the array, or its annotation"),
+    ({"push": CARDINAL.table.astype(np.float32)}, r"rules.push must be an array of float64 .* but is float32 \(5, 2\)"),
+    ({"push": CARDINAL.pushes}, r"rules.push must be an array of .* but is \(\(0.0, -1.0\), "),
+    ({"cost": np.zeros(3, int)}, r"rules.cost must be an array of int64 \(2,\), .* but is int64 \(3,\)"),
+    ({"cost": np.zeros((2, 1), int)}, r"rules.cost must be an array of int64 \(2,\), .* but is int64 \(2, 1\)"),
+    ({"weight": 2}, r"rules.stones.weight must be an array of float64 \(3,\), .* but is float64 \(2,\)")])
+def test_rules_that_are_not_as_annotated_are_refused_when_a_world_is_made(change, message):
+    with pytest.raises(ValueError, match=message):
+        garden(**change)
+
+
+def test_a_dimension_of_rules_that_the_world_has_no_size_for_may_have_any_length():
+    assert garden().rules.stones.weight.shape == (3,) and garden((7, 2), 7).rules.stones.weight.shape == (7,)
 
 
 def test_a_world_draws_from_its_stream_alone():
