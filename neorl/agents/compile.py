@@ -33,10 +33,14 @@ def compiled(agent, world):
 
 def constants_of(agent, world):
     """The `Constants` of an agent in a world."""
-    own = tuple(function for node in agent.nodes for function in node.modality.functions)
     credit = agent.learning.credit if callable(agent.learning.credit) else no_credit
-    return Constants(features(*own), credit, agent.policy.choose,
+    return Constants(features(*own_axes(agent)), credit, agent.policy.choose,
                      tuple(range(len(world.actions.names))), tuple(range(world.actions.axes)))
+
+
+def own_axes(agent):
+    """The user-defined kernels among the axes of an agent, in the order of their numbers."""
+    return tuple(function for node in agent.nodes for function in node.modality.functions)
 
 
 def n_values(agent, world):

@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 
 from neorl import checks
 from neorl.agents.agent import LEARNED, Agent
-from neorl.agents.compile import compiled, constants_of, n_values
+from neorl.agents.compile import compiled, constants_of, n_values, own_axes
 from neorl.agents.memory import fitting_runs, kept_apart, read_only
 from neorl.core.description import described, restored
 from neorl.core.horde import as_vectors
 from neorl.core.kernel import arrays, execute, mapped
+from neorl.core.modality import check_faults
 from neorl.core.parameters import ENTRIES, Parameters
 from neorl.core.state import State, new_state
 from neorl.core.steps import steps_with
@@ -96,6 +97,12 @@ class Individual:
         q, valence = self._state.desires.q[inputs], self._state.desires.valence[inputs]
         vectors = as_vectors(q, self.world.actions)
         return Output(q.sum(axis=0), np.sign(valence) @ vectors, float(valence.sum()))
+
+    def _check_faults(self):
+        """Raise ValueError for a kernel of the user's that has returned NaN to the agent."""
+        faults = self._state.faults
+        if faults[0] or faults[1]:
+            check_faults(faults, own_axes(self.agent), self.agent.learning.credit)
 
     def change(self, agent: Agent) -> None:
         """Continue as another agent, which keeps what this one has learned.

@@ -88,6 +88,7 @@ class Learner(Individual):
         self._take(scene)
         self._calls[0]()
         self._progress = "to act"
+        self._check_faults()
 
     def act(self) -> int:
         """Choose an action, and return its number, 0 … actions − 1, or the number of actions for being idle.
@@ -111,7 +112,8 @@ class Learner(Individual):
             that was met may have moved, changed its kind or vanished: its slot then holds a new thing.
         reward: of the action, a finite number, from which desires with learned valence learn.
 
-        Raises ValueError for a scene that does not fit or is not finite, RuntimeError unless the agent has acted.
+        Raises ValueError for a scene that does not fit or is not finite, and for a kernel of an axis or of the credit
+        that has returned NaN; RuntimeError unless the agent has acted.
         """
         if self._progress != "twice":
             raise RuntimeError("observe(scene) came before act(), allowed is observe(scene) after it")
@@ -120,6 +122,7 @@ class Learner(Individual):
         self._state.reward[0] = reward
         self._calls[2]()
         self._progress = "to act"
+        self._check_faults()
 
     def _take(self, scene):
         """Check a scene, and copy it."""

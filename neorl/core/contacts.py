@@ -120,7 +120,7 @@ def follow(parameters, state, n, point, frame, absent):
 @kernel
 def begin_contacts(parameters, constants, state, scene, n, point):
     """Start the tracks of a point at its present place, without a history."""
-    locate(parameters, constants, scene, n, point, False, state.offset, state.coordinates)
+    locate(parameters, constants, scene, n, point, False, state.offset, state.coordinates, state.faults)
     follow(parameters, state, n, point, seen_cells(parameters, constants, state, n), scene.kinds[point] < 0)
     for m in maps_of(parameters.nodes, n):
         state.contacts.count[np.uint64(parameters.maps.first_track[m] + point)] = 0
@@ -132,7 +132,7 @@ def observe_contacts(parameters, constants, state, scene, n, point):
     maps, contacts, event = parameters.maps, parameters.contacts, state.last_event[0]
     first_track = np.uint64(maps.first_track[parameters.nodes.first_map[n]] + point)
     met, absent = scene.met[point] != 0, scene.kinds[point] < 0
-    locate(parameters, constants, scene, n, point, False, state.offset, state.coordinates)
+    locate(parameters, constants, scene, n, point, False, state.offset, state.coordinates, state.faults)
     frame = seen_cells(parameters, constants, state, n)
     if event < len(constants.actions) and state.tracks.cell[first_track] >= 0 and (met or not absent):
         approach, fear = 1.0, 1.0
@@ -215,7 +215,7 @@ def evaluate_contacts(parameters, constants, state, scene, n):
                 for axis in range(len(constants.axes)):
                     state.offset[axis] = (desires.target[e, axis] if chosen.source[e] == Source.node else
                                           chosen.at[e, axis] - state.here[axis])
-                locate(parameters, constants, scene, n, 0, True, state.offset, state.coordinates)
+                locate(parameters, constants, scene, n, 0, True, state.offset, state.coordinates, state.faults)
                 frame = seen_cells(parameters, constants, state, n)
             if frame < 0:
                 continue

@@ -19,6 +19,7 @@ from neorl.core.choices import Cut, Feature, Vector
 from neorl.core.kernel import array, inlined_kernel, kernel
 from neorl.core.scene import ABSENT
 
+OF_AXIS, OF_CREDIT = range(2)  # faults
 TAU = 2.0 * math.pi
 SQRT_3 = math.sqrt(3.0)
 TAN_15_DEGREES = 2.0 - SQRT_3
@@ -95,11 +96,11 @@ def component(parameters, constants, scene, n, vector, point, axis):
 
 
 @inlined_kernel
-def locate(parameters, constants, scene, n, point, given, offset, coordinates):
+def locate(parameters, constants, scene, n, point, given, offset, coordinates, faults):
     """Write the coordinates of a point of a node into `coordinates`, NaN where there is no direction.
 
-    given: whether `offset` takes the place of the perceived vector that the node follows. Returns whether that vector,
-    and whether every vector, has a direction where one is needed.
+    given: whether `offset` takes the place of the perceived vector that the node follows. faults: see `state.State`.
+    Returns whether that vector, and whether every vector, has a direction where one is needed.
     """
     axes, nodes = parameters.axes, parameters.nodes
     followed_has, all_have, follows, first = True, True, nodes.follows[n], nodes.first_axis[n]
@@ -113,7 +114,8 @@ def locate(parameters, constants, scene, n, point, given, offset, coordinates):
         replaced = given and vector == follows
         if vector == Vector.own:
             coordinate = constants.feature(along, scene, point)
-            all_have = all_have and coordinate == coordinate
+            if coordinate != coordinate:
+                faults[OF_AXIS] = along + 1
         elif feature <= Feature.margin:
             coordinate = offset[along] if replaced else component(parameters, constants, scene, n, vector, point, along)
             if feature == Feature.foveated:

@@ -22,6 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl.core.choices import Credit
+from neorl.core.geometry import OF_CREDIT
 from neorl.core.kernel import array, inlined_kernel, kernel
 from neorl.core.parameters import FORGOTTEN
 
@@ -125,6 +126,8 @@ def rate_events(learning, constants, state, track, rates):
             credit = state.activity[event] if state.activity[event] >= INACTIVE else ZERO
         elif learning.credit == Credit.own:
             credit = np.float32(constants.credit(count, steps, event == state.last_event[0], state.activity[event]))
+            if credit != credit:
+                state.faults[OF_CREDIT] = 1
             credit = credit if credit > ZERO else ZERO
         rates[event] = min(learning.learning_rate * credit, UNIT)
 

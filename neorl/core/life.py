@@ -62,7 +62,8 @@ def perceive(parameters, constants, state, scene, n, point):
     learning, tracks = parameters.learning, state.tracks
     things = parameters.nodes.follows[n] == Vector.objects
     met = things and scene.met[point] != 0
-    _, all_have_directions = locate(parameters, constants, scene, n, point, False, state.offset, state.coordinates)
+    _, all_have_directions = locate(parameters, constants, scene, n, point, False, state.offset, state.coordinates,
+                                    state.faults)
     for m in maps_of(parameters.nodes, n):
         track = np.uint64(parameters.maps.first_track[m] + point)
         cell_tm1, cell = tracks.cell[track], cell_within(parameters, state.coordinates, n, m)
@@ -141,7 +142,7 @@ def begin_point(parameters, constants, state, scene, n, point):
         for m in maps_of(parameters.nodes, n):
             start_self(parameters, constants, state, m, point, centre_cell(parameters, scene, n, m, point))
         return
-    locate(parameters, constants, scene, n, point, False, state.offset, state.coordinates)
+    locate(parameters, constants, scene, n, point, False, state.offset, state.coordinates, state.faults)
     absent = parameters.nodes.follows[n] == Vector.objects and scene.kinds[point] < 0
     for m in maps_of(parameters.nodes, n):
         cell = cell_within(parameters, state.coordinates, n, m)

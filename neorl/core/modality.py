@@ -30,7 +30,7 @@ from neorl import checks
 from neorl.core.choices import Cut, Feature, MapState, Vector
 from neorl.core.geometry import TAU, locate
 from neorl.core.constants import Constants, features, no_credit
-from neorl.core.kernel import array, check_kernel, execute, kernel, new_tuple
+from neorl.core.kernel import array, check_kernel, execute, full_name, kernel, new_tuple
 from neorl.core.parameters import SpaceParameters, cut_axes
 from neorl.core.scene import MOST_AXES, Scene, checked_scene
 
@@ -48,7 +48,7 @@ class Axis(checks.Final):
     """One axis of a space.
 
     of: "position", "velocity", "objects", "boundaries" (the nearest point of each wall) or "landmarks"; or a
-        `neorl.kernel` ``(scene, point) → number`` that returns the coordinate, given the
+        `neorl.kernel` ``(scene, point) → number`` that returns the coordinate, never NaN, given the
         `neorl.core.scene.Scene` and the number of the thing, wall or landmark.
     feature: of that vector: "component", "foveated", "margin" (of a position), "length" or "direction" (in the plane of
         the first two axes of the world).
@@ -257,7 +257,9 @@ class Modality(checks.Final):
         uncut = replace(self, axes=[replace(axis, boundaries=()) for axis in self.axes])
         axes = tuple(range(len(scene.position)))
         constants = Constants(features(*self.functions), no_credit, no_credit, (0,), axes)
-        execute(_locate_with(constants), space_of(uncut, 1, len(axes), size), scene, given, vectors, found)
+        faults = np.zeros(2, np.int64)
+        execute(_locate_with(constants), space_of(uncut, 1, len(axes), size), scene, given, vectors, found, faults)
+        check_faults(faults, self.functions)
 
     def check_axes(self, n_axes: int) -> None:
         """Raise ValueError unless these cells are defined in a world of `n_axes` axes."""
@@ -274,6 +276,14 @@ class Modality(checks.Final):
         """The least number of axes of a world in which these cells are defined."""
         least = [2 if axis.feature == "direction" else axis.along + 1 for axis in self.axes if not callable(axis.of)]
         return max([1, *least, *(len(each) for each in self.landmarks)])
+
+
+def check_faults(faults, axes, credit=None):
+    """Raise ValueError, which names the kernel, for a user-defined axis or credit rule that has returned NaN."""
+    for fault, kind, kernels in zip(faults, ("an axis", "the credit"), (axes, (credit,))):
+        if fault:
+            raise ValueError(f"the kernel {full_name(kernels[fault - 1])} of {kind} must return numbers, but has "
+                             "returned NaN: return a number in every case, also where there is nothing to measure")
 
 
 def as_radians(modality, coordinates):
@@ -349,9 +359,9 @@ def firsts(counts):
 def _locate_with(constants):
     @kernel
     def locate_all(space: SpaceParameters, scene: Scene, given: bool, vectors: array("float64", "points", "axes"),
-                   found: array("float64", "points", "coordinates")) -> None:
+                   found: array("float64", "points", "coordinates"), faults: array("int64", 2)) -> None:
         for point in range(found.shape[0]):
-            locate(space, constants, scene, 0, point, given, vectors[point], found[point])
+            locate(space, constants, scene, 0, point, given, vectors[point], found[point], faults)
 
     return locate_all
 

@@ -135,7 +135,8 @@ def add_element(parameters, constants, state, scene, n, valence, q):
     maps, nodes = parameters.maps, parameters.nodes
     has_direction, coordinates = True, state.offset
     if not nodes.is_cartesian[n]:
-        has_direction, _ = locate(parameters, constants, scene, n, 0, True, state.offset, state.coordinates)
+        has_direction, _ = locate(parameters, constants, scene, n, 0, True, state.offset, state.coordinates,
+                                  state.faults)
         coordinates = state.coordinates
     of_agent = nodes.follows[n] == Vector.position or nodes.follows[n] == Vector.velocity
     if of_agent and not has_direction:

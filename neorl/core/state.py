@@ -62,6 +62,7 @@ class State(NamedTuple):
     activity: array("float32", "actions")  # of each event
     rates: array("float32", "actions")  # working memory: of the events in the cell that a track leaves
     reward: array("float64", 1)  # of the last step
+    faults: array("int64", 2)  # 1 + the number of a user-defined axis, and 1 for the credit rule, that has returned NaN
     action_value: array("float64", "actions")  # at the last choice that was not random
     stream: array("uint64", 4)  # the random numbers of the policy
     here: array("float64", "axes")  # working memory: where the agent is, in units of the world's size

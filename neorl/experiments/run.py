@@ -87,7 +87,8 @@ class Run(Individual):
         hits: int16 (bins, kinds), likewise the number of things of each kind that were met, at most 32,767.
 
         After an interruption the run can continue from its `step`.
-        Raises ValueError if they do not fit, or if the world's state does not or is not finite, before or after a step.
+        Raises ValueError if they do not fit, if the world's state does not or is not finite, before or after a step, and
+        for a kernel of the user's that has returned a reward, a credit or a coordinate which is not a number.
         """
         self.world.check_state(self._world_state)
         last = self.step + checks.integer("steps", steps, at_least=0)
@@ -102,7 +103,8 @@ class Run(Individual):
             while clock[0] < last:
                 paid = execute(self._rollout, self._parameters, self._state, self._world_state, self.world.rules, clock,
                                min(last, clock[0] + SLICE), paid, bin_length, rewards, hits)
-                check_outcome(self.world, self.world.dynamics.step, self._world_state)
+                check_outcome(self.world, self.world.dynamics.step, self._world_state, paid)
+                self._check_faults()
         finally:
             self._progress = int(clock[0])  # also if interrupted: Python handles that once the kernel returns
         return paid

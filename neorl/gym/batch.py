@@ -95,7 +95,7 @@ class Batch:
             slots, dynamics = self.slots, self.world.dynamics
             has_begun = slots.clock[row] == 0 and (slots.terminated[row] or slots.truncated[row])
             check_outcome(self.world, dynamics.reset if has_begun or slots.restarted[row] else dynamics.step,
-                          mapped(lambda each: each[row].copy(), self.states), slots.reward[row])
+                          mapped(lambda each: each[row].copy(), self.states), float(slots.reward[row]))
 
     def state_of(self, row):
         """The state of one environment, as read-only views."""

@@ -65,7 +65,7 @@ def probes_with(constants):
                 offset[axis] -= scene.position[axis] / parameters.size
                 if nodes.follows[n] == Vector.velocity:
                     offset[axis] /= HALF_SECOND
-        locate(parameters, constants, scene, n, 0, True, offset, elsewhere.coordinates)
+        locate(parameters, constants, scene, n, 0, True, offset, elsewhere.coordinates, elsewhere.faults)
         return cell_within(parameters, elsewhere.coordinates, n, m)
 
     @kernel

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from golden import plain_rule
 
-from neorl import CALIBRATED, Agent, Axis, Desire, Modality, Node, Policy, Run, WaterWorld, kernel, multimodal
+from neorl import (CALIBRATED, Agent, Axis, Desire, Learner, Learning, Modality, Node, Policy, Run, Scene, WaterWorld,
+                   kernel, multimodal)
 from neorl.core.kernel import arrays
 from neorl.core.stream import randint
 
@@ -163,8 +164,58 @@ def test_a_users_kernels_are_called_and_distinguished(interpreted):
     assert interpreted["called and distinguished"]
 
 
+@kernel
+def undefined(count, steps, last, activity):
+    return np.nan if count > 1 else 1.0
+
+
+@kernel
+def undefined_in_the_east(scene, point):
+    return np.nan if scene.position[0] > 125.0 else scene.position[0] / 250.0
+
+
+SIDE = Agent((Node("side", Modality("side", (Axis(in_the_east), Axis(undefined_in_the_east))), [3]),), policy=Policy(1.0))
+CALLS = {"credit": (crediting(undefined), "test_own_kernels.undefined of the credit"),
+         "axis": (SIDE, "test_own_kernels.undefined_in_the_east of an axis")}
+
+
+def errors_after_nan():
+    """The errors after kernels that return NaN, from a run and from a learner: {kernel: [text, text]}."""
+    found = {}
+    for name, (agent, _) in CALLS.items():
+        run, learner = Run(agent, WORLD), Learner(agent, 1, ("green", "red"), size=250.0)
+        found[name] = [error_of(lambda: run.advance(2_000)), error_of(lambda: walk_east(learner))]
+    found["coordinates"] = error_of(lambda: SIDE.nodes[0].modality.coordinates(Scene((200.0, 0.0)), 250.0))
+    return found
+
+
+def walk_east(learner):
+    learner.begin(seen_at(0))
+    for east in range(0, 250, 5):
+        learner.act()
+        learner.observe(seen_at(east))
+
+
+def seen_at(east):
+    return Scene((east, 9.0), things=[(50.0, 50.0)], kinds=["green"])
+
+
+def error_of(call):
+    try:
+        return f"none, but {call()}"
+    except ValueError as error:
+        return str(error)
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_a_kernel_that_returns_nan_is_named_after_the_slice(name, interpreted):
+    said = f"the kernel {CALLS[name][1]} must return numbers, but has returned NaN: return a number in every case"
+    assert all(said.replace("test_own_kernels", "__main__") in text for text in interpreted["after NaN"][name])
+    assert name == "credit" or said.replace("test_own_kernels", "__main__") in interpreted["after NaN"]["coordinates"]
+
+
 if __name__ == "__main__":
     check_that_own_kernels_are_heard()
     check_that_kernels_of_one_modality_are_distinguished_from_those_of_another()
-    print(json.dumps({"called and distinguished": True, **{
+    print(json.dumps({"called and distinguished": True, "after NaN": errors_after_nan(), **{
         name: [digest(each, int(sys.argv[1])) for each in pair] for name, pair in PAIRS.items()}}))

@@ -29,6 +29,7 @@ class PerchRules(NamedTuple):
     begins_at: float
     met: int
     kind: int
+    pays: float
 
 
 @kernel
@@ -42,7 +43,7 @@ def peck(state: PerchState, rules: PerchRules, action: int):
     scene.velocity[0] += 1.0  # so that it counts the steps, of which only the third breaks a rule
     third = scene.velocity[0] == 3.0
     scene.met[0], scene.kinds[0] = rules.met if third else 0, rules.kind
-    return 1.0, False
+    return rules.pays if third else 1.0, False
 
 
 @dataclass(frozen=True)
@@ -52,13 +53,14 @@ class Perch(World):
     begins_at: float = 0.5
     met: int = 0
     kind: int = 0
+    pays: float = 1.0
 
     dynamics = Dynamics(settle, peck)
     kinds, actions, things, size, fps = ("seed",), CARDINAL, 1, 1.0, 5
 
     @property
     def rules(self):
-        return PerchRules(self.begins_at, self.met, self.kind)
+        return PerchRules(self.begins_at, self.met, self.kind, self.pays)
 
 
 def advance(world):
@@ -85,7 +87,8 @@ def step(world):
 WALKER = Agent((Node("PC", PLACE_CELL, [3]),), policy=Policy(1.0))
 CALLS = {each.__name__: each for each in (advance, count, play, step)}
 MET = {f"met {met}": Perch(met=met) for met in (2, 400, 4_000_000, 99_999_999, -1, -(2**62))}
-BROKEN = {**MET, "kind 7": Perch(kind=7), "no place": Perch(begins_at=np.nan)}
+PAYS = {"a reward of nan": Perch(pays=np.nan), "a reward of -inf": Perch(pays=-np.inf)}
+BROKEN = {**MET, **PAYS, "kind 7": Perch(kind=7), "no place": Perch(begins_at=np.nan)}
 
 
 def errors():
@@ -125,6 +128,12 @@ def test_a_step_that_makes_a_thing_of_no_kind_is_named(told, call):
 @pytest.mark.parametrize("call", CALLS)
 def test_a_reset_that_leaves_no_place_is_named(told, call):
     assert "settle broke a rule of worlds: after it, state.scene.position is array([nan" in told[f"{call}, no place"]
+
+
+@pytest.mark.parametrize("call", CALLS)
+@pytest.mark.parametrize("way", PAYS)
+def test_a_reward_that_is_not_finite_is_named(told, call, way):
+    assert f"peck broke a rule of worlds: after it, reward is {way.split()[-1]}" in told[f"{call}, {way}"]
 
 
 def test_a_kernel_that_keeps_the_rules_is_counted():
