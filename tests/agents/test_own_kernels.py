@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from golden import plain_rule
 
-from neorl import (CALIBRATED, Agent, Axis, Desire, Learner, Learning, Modality, Node, Policy, Run, Scene, WaterWorld,
-                   kernel, multimodal)
+from neorl import (CALIBRATED, Agent, Axis, Desire, Learner, Learning, Modality, Node, Place, Policy, Run, Scene,
+                   WaterWorld, kernel, multimodal, place_cells)
 from neorl.core.kernel import arrays
 from neorl.core.stream import randint
 
@@ -162,6 +162,15 @@ def check_that_kernels_of_one_modality_are_distinguished_from_those_of_another()
 
 def test_a_users_kernels_are_called_and_distinguished(interpreted):
     assert interpreted["called and distinguished"]
+
+
+@pytest.mark.parametrize("source", ["green", Place(0.2, 0.9), "PC", "own"])
+def test_a_desire_that_axes_of_ones_own_cannot_locate_is_refused(source):
+    nodes = Node("own", Modality("own cell", (Axis(x_share), Axis(in_the_east))), [4]), place_cells([3]).nodes[0]
+    with pytest.raises(ValueError, match=r"must be for a point .* of own cells: their only axes are kernels of your own"
+                                         r".* as its source, \(x_share, in_the_east\), or"):
+        Agent(nodes, (Desire("green", "PC", 1.0), Desire(source, "own", 1.0)))
+    assert Agent(nodes, (Desire((0.2, 1.0), "own", 1.0),)) and perceiving(x_share)
 
 
 @kernel
