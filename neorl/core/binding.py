@@ -19,10 +19,9 @@ def bound(called, *arguments):
     for each in arguments:
         _enter(each, table, numbers)
     entry, table, numbers = _entry(called), np.array(table, np.int64), np.array(numbers, np.float64)
-    run = functools.partial(entry.for_python, table, numbers)
 
     def call(kept_alive=arguments):
-        return run()
+        return entry.for_python(table, numbers)
 
     return call
 

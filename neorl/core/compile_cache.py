@@ -1,7 +1,7 @@
 """Compiled kernels on disk, so that a process need not recompile the kernels of another.
 
 A kernel called from Python is cached with everything inlined into it, under a key of all that its code depends on: the
-source of the rooms `core` and `worlds`, the source and constants of every user-defined kernel, the types of its
+source of the rooms `core` and `worlds`, the code and constants of every user-defined kernel, the types of its
 arguments, numba, LLVM and the processor. So the cache need not be cleared after a change, and deleted files are
 compiled again. A file is complete or absent; one that is damaged, or cannot be read or written, counts as absent.
 """
@@ -18,17 +18,17 @@ from numba.core.compiler import CompileResult
 from numba.core.sigutils import normalize_signature
 
 from neorl import files
-from neorl.core.identity import digest_of_source, identity, name_of
+from neorl.core.identity import digest_of_source, name_of
 
 
 SETTINGS = ("BOUNDSCHECK", "LOOP_VECTORIZE", "OPT", "SLP_VECTORIZE")  # of numba that affect compiled code
 
 
 class CompileCache(NullCache):
-    """The cache that numba asks for the compiled code of one kernel."""
+    """The cache that numba asks for the compiled code of one kernel, as it stood at a `neorl.core.identity.Reading`."""
 
-    def __init__(self, kernel):
-        self._kernel = kernel
+    def __init__(self, kernel, reading):
+        self._kernel, self._reading = kernel, reading
 
     @property
     def cache_path(self):
@@ -58,13 +58,12 @@ class CompileCache(NullCache):
             return
 
     def _path(self, sig, codegen):
-        try:
-            code = identity(self._kernel)
-        except ValueError:
+        if self._reading.unknown is not None or not self._reading.stands():
             return None
-        made_of = (code, digest_of_source("core", "worlds"), [_name_of(each) for each in normalize_signature(sig)[0]],
-                   self._kernel.options, numba.__version__, llvmlite.__version__, sys.version,
-                   codegen.magic_tuple(), [getattr(numba.config, name) for name in SETTINGS])
+        made_of = (self._reading.text, digest_of_source("core", "worlds"),
+                   [_name_of(each) for each in normalize_signature(sig)[0]], self._kernel.options, numba.__version__,
+                   llvmlite.__version__, sys.version, codegen.magic_tuple(),
+                   [getattr(numba.config, name) for name in SETTINGS])
         return files.cache_folder() / "compiled" / hashlib.sha256(repr(made_of).encode()).hexdigest()
 
 

@@ -1,92 +1,219 @@
-"""The identity of values that a result depends on: their content, and the source of their code.
+"""The identity of values that a result depends on: their content, and everything that their code looks up.
 
 A cached file is found by a text of everything that determined it (`neorl.experiments.cache`,
-`neorl.core.compile_cache`). The source of the rooms `core` and `worlds` is left out of the text, since the key of
-such a file also contains its digest (`digest_of_source`).
+`neorl.core.compile_cache`). A function counts by its bytecode, since its file may have changed after it was read, and
+by the present values of its globals, closures, defaults and attributes of modules, down to the functions among them.
+The code of the rooms `core` and `worlds` counts by name, since the key of such a file also contains the digest of
+their source (`digest_of_source`); that of Python, numba and NumPy counts by name, too.
+
+numba takes all these values for constants when it compiles, so a `Reading` can tell whether any has changed since.
 """
 
+import builtins
+import copyreg
+import dis
 import functools
 import hashlib
-import inspect
+import operator
+import sys
+import sysconfig
+from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
+from enum import Enum
 from pathlib import Path
-from types import CodeType, ModuleType
+from types import CellType, CodeType, FunctionType, MethodType, ModuleType, NoneType
 
 import numpy as np
 
 OURS = ("neorl.core.", "neorl.worlds.")
-WITHOUT_SOURCE = ("math", "neorl", "numba", "numpy")  # modules whose functions are identified by name
+WITHOUT_SOURCE = ("numba", "numpy")
+PLAIN = (NoneType, bool, int, float, complex, str, bytes)
+CONSTANTS = (*PLAIN, tuple, np.ndarray, np.generic, Enum)  # among the attributes of a class
+MISSING = object()
+STANDARD_LIBRARY = sysconfig.get_path("stdlib")
+
+
+class Reading:
+    """The identity of a value, `text`, and whether the value still has it.
+
+    unknown: a value within it whose content cannot be read, or None. Raises ValueError for functions of numba.njit.
+    """
+
+    def __init__(self, value):
+        self._value, self.unknown, self._met = value, None, {}
+        self._names, self._cells, self._functions, self._arrays, self._is_mutable = [], [], [], [], False
+        self.text = self._of(value)
+        self._values = self._found()
+
+    def stands(self):
+        """Whether the value is still the same, with all that it depends on."""
+        if (not self._is_mutable and all(map(operator.is_, self._found(), self._values))
+                and all(each.tobytes() == content for each, content in self._arrays)):
+            return True
+        now = Reading(self._value)
+        if now.text == self.text:
+            vars(self).update(vars(now))  # found faster the next time
+            return True
+        return False
+
+    def _found(self):
+        return [*[space.get(name, MISSING) for space, name in self._names],
+                *[each.cell_contents for each in self._cells],
+                *[part for each in self._functions for part in (each.__code__, each.__defaults__, each.__kwdefaults__)]]
+
+    def _of(self, value):
+        if type(value) in PLAIN or isinstance(value, np.generic):
+            return repr(value)
+        if isinstance(value, tuple):
+            return f"{_kind(value)}{getattr(value, '_fields', '')}({', '.join(map(self._of, value))})"
+        if isinstance(value, np.ndarray) and not value.dtype.hasobject:
+            self._arrays.append((value, value.tobytes()))
+            return f"{value.dtype}{value.shape}{self._arrays[-1][1].hex()}"
+        if isinstance(value, ModuleType):
+            return value.__name__
+        if isinstance(value, type):
+            return self._once(value, self._class)
+        if isinstance(value, MethodType):
+            return self._of((value.__func__, value.__self__))
+        if isinstance(getattr(value, "py_func", value), FunctionType):
+            return self._once(value, self._function)
+        if isinstance(value, Enum):
+            return f"{value!s}={self._of(value.value)}"
+        if isinstance(value, list | set | frozenset | dict):
+            self._is_mutable = True
+            content = list(map(self._of, value.items() if isinstance(value, dict) else value))
+            return f"{_kind(value)}[{', '.join(content if isinstance(value, list) else sorted(content))}]"
+        return self._object(value)
+
+    def _once(self, value, describe):
+        """The description of a function or class; its number where it appears again, perhaps within itself."""
+        key = getattr(value, "py_func", value)  # stays alive as long as `value`
+        if id(key) in self._met:
+            return f"#{self._met[id(key)][0]}"
+        self._met[id(key)] = len(self._met), key
+        return describe(value)
+
+    def _class(self, kind):
+        name = name_of(kind)
+        if _is_known(str(kind.__module__)):
+            return name
+        found = {}
+        for base in reversed(kind.__mro__):
+            found |= {each: (vars(base), value) for each, value in vars(base).items()
+                      if isinstance(value, CONSTANTS) and not each.startswith("__")}
+        self._names += [(space, each) for each, (space, _) in found.items()]
+        return f"{name}({', '.join(f'{each}={self._of(value)}' for each, (_, value) in found.items())})"
+
+    def _function(self, value):
+        function = getattr(value, "py_func", value)
+        module, name = str(function.__globals__.get("__name__")), function.__qualname__
+        cells = [(each, cell) for each, cell in zip(function.__code__.co_freevars, function.__closure__ or ())
+                 if cell != CellType()]  # an empty one
+        self._cells += [cell for _, cell in cells]
+        closure = [(each, cell.cell_contents) for each, cell in cells]
+        if _is_known(module):
+            arguments = self._of(getattr(value, "origin", (None, ()))[1])
+            return f"{module}:{name}{arguments}({self._named(closure) if module.startswith(OURS) else ''})"
+        if hasattr(value, "targetoptions"):
+            raise ValueError(f"{name} is compiled by numba.jit, which would keep the values that its globals had then; "
+                             "a function that kernels call must be decorated with neorl.kernel")
+        self._functions.append(function)
+        code, of_globals, attributes = _read(function.__code__)
+        found = closure + [(each, self._global(function, each)) for each in of_globals]
+        modules = [(each, module) for each, module in found if isinstance(module, ModuleType)]
+        for path, module in modules:  # which grows
+            if _is_known(module.__name__):
+                continue
+            for each in attributes:
+                self._names.append((vars(module), each))
+                if (attribute := getattr(module, each, MISSING)) is not MISSING:
+                    found.append((f"{path}.{each}", attribute))
+                    if isinstance(attribute, ModuleType) and all(attribute is not known for _, known in modules):
+                        modules.append((f"{path}.{each}", attribute))
+        defaults = self._of((function.__defaults__, *(function.__kwdefaults__ or {}).items()))
+        return f"{code}{defaults}({self._named(found)})"
+
+    def _global(self, function, name):
+        self._names.append((function.__globals__, name))
+        return function.__globals__.get(name, getattr(builtins, name, None))
+
+    def _named(self, found):
+        return ", ".join(f"{name}={self._of(each)}" for name, each in found)
+
+    def _object(self, value):
+        content = (self._named((each.name, getattr(value, each.name)) for each in fields(value))
+                   if is_dataclass(value) else self._pickled(value))
+        if not _is_known(str(type(value).__module__)):
+            content += self._of(getattr(value, "determinants", ()))
+            content += self._of(type(value).__call__) if callable(value) else ""
+        return f"{_kind(value)}({content})"
+
+    def _pickled(self, value):
+        """An object by what `pickle` would save of it."""
+        reduce = copyreg.dispatch_table.get(type(value), lambda value: value.__reduce_ex__(4))
+        try:
+            reduced = reduce(value)
+        except Exception:  # of any class
+            self.unknown = value
+            return str(id(value))
+        if isinstance(reduced, str):
+            return f"{getattr(value, '__module__', '')}:{reduced}"
+        self._is_mutable |= any(each is not None for each in reduced[2:])
+        return ", ".join(self._of(list(each) if isinstance(each, Iterator) else each) for each in reduced)
 
 
 def identity(value):
-    """A text that is equal for equal values, and for kernels and worlds with equal source and constants.
+    """A text that is equal for equal values, and for kernels and worlds with equal code and constants.
 
-    Raises ValueError for a kernel whose source cannot be read.
+    Raises ValueError for values that cannot be read, and for functions of numba.njit.
     """
-    if is_dataclass(value) and not isinstance(value, type):
-        content = [f"{each.name}={identity(getattr(value, each.name))}" for each in fields(value)]
-        if hasattr(value, "dynamics") and not type(value).__module__.startswith(OURS):
-            content += [_source(type(value)), *map(identity, value.dynamics)]
-        return f"{name_of(type(value))}({', '.join(content)})"
-    if isinstance(value, tuple | list):
-        return f"({', '.join(map(identity, value))})"
-    if isinstance(value, np.ndarray):
-        return f"{value.dtype}{value.shape}{value.tobytes().hex()}"
-    if isinstance(value, type):
-        return f"{name_of(value)}({_named(_constants(value))})"
-    if isinstance(value, ModuleType):
-        return value.__name__
-    return _of_function(value) if callable(value) else repr(value)
+    reading = Reading(value)
+    if reading.unknown is None:
+        return reading.text
+    raise ValueError(f"a result depends on {reading.unknown!r}, which cannot be read, and so cannot be cached; values "
+                     "that worlds and kernels look up must be numbers, texts, tuples, arrays, kernels or objects that "
+                     "pickle can save")
 
 
 def name_of(value):
-    """The name of a class or function, with that of its module."""
-    return f"{value.__module__}:{value.__qualname__}"
+    """The name of a class or function, with that of its module; workers import the main module by another name."""
+    return f"{value.__module__}:{value.__qualname__}".replace("__mp_main__", "__main__")
 
 
 @functools.cache
 def digest_of_source(*parts):
-    """A digest of the source of some rooms and modules of this package, such as "core"."""
+    """A digest of the source of some rooms and modules of this package, such as "core", when it was first called."""
     package = Path(__file__).parents[1]
     paths = [path for part in parts for path in sorted([*package.glob(f"{part}.py"), *(package / part).rglob("*.py")])]
     return hashlib.sha256(b"".join(path.read_bytes() for path in paths)).hexdigest()
 
 
-def _of_function(value):
-    function = getattr(value, "py_func", value)
-    arguments = identity(getattr(value, "origin", (None, ()))[1])
-    if not inspect.isfunction(function):
-        return f"{name_of(function)}{arguments}"
-    used = inspect.getclosurevars(function)
-    if (function.__module__ or "").startswith(OURS):
-        return f"{name_of(function)}{arguments}({_named(used.nonlocals)})"
-    found = {name: each for name, each in sorted({**used.nonlocals, **used.globals}.items(), key=lambda item: item[0])
-             if each is not value}  # in this order, since that of globals differs between processes of Python 3.14
-    for module in [each for each in found.values() if isinstance(each, ModuleType)]:
-        if module.__name__.split(".")[0] not in WITHOUT_SOURCE:
-            found |= {f"{module.__name__}.{name}": getattr(module, name) for name in sorted(used.unbound)
-                      if hasattr(module, name)}
-    return f"{_source(function)}{_code(function.__code__)}({_named(found)})"
+def _kind(value):
+    return name_of(type(value))
 
 
-def _named(values):
-    return ", ".join(f"{name}={identity(each)}" for name, each in values.items())
+def _is_known(module):
+    """Whether the code of a module, given its name, counts by name."""
+    if module.startswith(OURS) or module.partition(".")[0] in WITHOUT_SOURCE or module in sys.builtin_module_names:
+        return True
+    file = getattr(sys.modules.get(module), "__file__", None) or ""
+    return file.startswith(STANDARD_LIBRARY) and "-packages" not in file
 
 
-def _constants(kind):
-    return {name: value for name, value in vars(kind).items()
-            if not name.startswith("__") and isinstance(value, int | float | str | tuple)}
+@functools.cache
+def _read(code):
+    """The code of a function as a text, and the names of globals and of attributes that it looks up, each once."""
+    nested = [_read(each) for each in code.co_consts if isinstance(each, CodeType)]
+    constants = [identity(each) for each in code.co_consts if not isinstance(each, CodeType)]
+    found = {name: [each.argval for each in dis.get_instructions(code) if each.opname.startswith(name)]
+             for name in ("LOAD_GLOBAL", "LOAD_ATTR", "LOAD_METHOD")}
+    text = (code.co_code.hex(), code.co_exceptiontable.hex(), code.co_names, code.co_varnames, code.co_freevars,
+            code.co_cellvars, code.co_argcount, code.co_posonlyargcount, code.co_kwonlyargcount, code.co_flags,
+            constants, [each for each, _, _ in nested])
+    of_globals = dict.fromkeys([*found["LOAD_GLOBAL"], *(name for _, names, _ in nested for name in names)])
+    attributes = dict.fromkeys([*found["LOAD_ATTR"], *found["LOAD_METHOD"],
+                                *(name for _, _, names in nested for name in names)])
+    return repr(text), tuple(of_globals), tuple(attributes)
 
 
-def _code(code):
-    """The bytecode of a function, since its file may have changed after it was read."""
-    constants = [_code(each) if isinstance(each, CodeType) else repr(each) for each in code.co_consts]
-    return f"{code.co_code.hex()}({', '.join(constants)})"
-
-
-def _source(value):
-    try:
-        return inspect.getsource(value)
-    except (OSError, TypeError):
-        raise ValueError(f"{value!r} has no source that can be read, allowed are functions and classes of a file or "
-                         "of a notebook's cell") from None
+digest_of_source("core", "worlds")  # on import, since the files may change while this process goes on with their code

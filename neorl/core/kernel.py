@@ -16,7 +16,8 @@ cannot be called from Python directly; public functions check every argument and
 Annotations give the types of the arrays in a named tuple, and of the arguments of kernels that are called from outside
 Python (`neorl.browser.wasm`); numba does not read them.
 
-Code compiled for calls from Python is cached on disk (`neorl.core.compile_cache`).
+Code compiled for calls from Python is cached on disk (`neorl.core.compile_cache`). numba takes globals and closures for
+constants, so a kernel is compiled again once any that it reads, or that a kernel it calls reads, has another value.
 """
 
 import functools
@@ -31,6 +32,7 @@ import numpy as np
 
 from neorl import checks
 from neorl.core.global_random import global_random_in
+from neorl.core.identity import Reading
 
 # Without numba's memory runtime (_nrt) a kernel cannot allocate, and does not count references to its arrays.
 OPTIONS = {"error_model": "numpy", "nogil": True, "_nrt": False}
@@ -67,14 +69,14 @@ class Kernel:
     @property
     def dispatcher(self):
         """The numba dispatcher that compiles the kernel for other kernels, the same for all threads."""
-        with _making:
-            if "_dispatcher" not in vars(self):
-                import numba
+        return self._made("_dispatcher", self._new_dispatcher)
 
-                from neorl.core.linking import LinkedCompiler
+    def _new_dispatcher(self, reading):
+        import numba
 
-                self._dispatcher = numba.njit(**self.options, pipeline_class=LinkedCompiler)(self.py_func)
-            return self._dispatcher
+        from neorl.core.linking import LinkedCompiler
+
+        return numba.njit(**self.options, pipeline_class=LinkedCompiler)(self.py_func)
 
     @property
     def _numba_type_(self):
@@ -84,16 +86,27 @@ class Kernel:
     @property
     def for_python(self):
         """The dispatcher for calls from Python: only its code is cached, with everything that is linked into it."""
+        return self._made("_for_python", self._new_for_python)
+
+    def _new_for_python(self, reading):
+        import numba
+
+        from neorl.core.compile_cache import CompileCache
+
+        dispatcher = numba.njit(**self.options)(self.py_func)
+        dispatcher._cache = CompileCache(self, reading)
+        dispatcher._compile_for_args = self._compile
+        return dispatcher
+
+    def _made(self, name, make):
+        """What `make` returns, made again when anything that the kernel depends on has changed: numba freezes it."""
         with _making:
-            if "_for_python" not in vars(self):
-                import numba
-
-                from neorl.core.compile_cache import CompileCache
-
-                self._for_python = numba.njit(**self.options)(self.py_func)
-                self._for_python._cache = CompileCache(self)
-                self._for_python._compile_for_args = self._compile
-            return self._for_python
+            reading, made = vars(self).get(name, (None, None))
+            if reading is None or not reading.stands():
+                reading = Reading(self)
+                made = make(reading)
+                vars(self)[name] = reading, made
+            return made
 
     def _compile(self, *arguments, **by_name):
         from numba.core.errors import NumbaError
@@ -167,19 +180,14 @@ def check_kernel(name, value):
 def kernel_maker(function: Callable) -> Any:
     """Decorate a function that makes kernels, to return the same one for the same arguments: a rule with parameters.
 
-    NumPy scalars and zero-dimensional arrays count as Python numbers. Raises ValueError for anything but a Python
-    function. The decorated function raises TypeError for arguments that cannot be hashed, and ValueError if it does not
-    return a kernel.
+    The function is called every time, and its kernel replaced by an earlier one if that is the same in all that it
+    depends on. NumPy scalars and zero-dimensional arrays count as Python numbers. Raises ValueError for anything but a
+    Python function. The decorated function raises TypeError for arguments that cannot be hashed, and ValueError if it
+    does not return a kernel.
     """
     if not inspect.isfunction(function):
         raise ValueError(f"function is {checks.shown(function)}, allowed are Python functions that make kernels")
-    signature = inspect.signature(function)
-
-    @functools.lru_cache(maxsize=None, typed=True)  # an integer and an equal float may make different kernels
-    def made_of(*arguments):
-        made = check_kernel(f"what {function.__qualname__} returns", function(*arguments))
-        made.origin = make, arguments
-        return made
+    signature, known = inspect.signature(function), {}
 
     @functools.wraps(function)
     def make(*arguments, **by_name):
@@ -192,7 +200,9 @@ def kernel_maker(function: Callable) -> Any:
             function(*values)  # whose own error may say more
             raise TypeError(f"arguments of {function.__qualname__} are {checks.shown(values)}, allowed are values that "
                             "can be hashed") from None
-        return made_of(*values)
+        made = check_kernel(f"what {function.__qualname__} returns", function(*values))
+        made.origin = make, values
+        return known.setdefault((values, Reading((values, made)).text), made)
 
     make.makes_kernels = True  # type: ignore[attr-defined]
     return make

@@ -1,9 +1,10 @@
 """Cache of finished conditions on disk, so that nothing is computed twice.
 
-The key of a condition covers everything that determines it: agent, world, steps, runs, seed, and the source of every
-module that takes part in a run and of every kernel of the user's own. A file is complete or absent, even if the process
-is killed, and carries a digest of its content: a file that is damaged, or was not written by this version, counts as
-absent. Single runs of a long condition are also cached, until the whole condition is.
+The key of a condition covers everything that determines it: agent, steps, runs, seed, all that runs take from the
+world, the source of every module that takes part in a run, and every kernel of the user's own with all that it looks up
+(`neorl.core.identity`). A file is complete or absent, even if the process is killed, and carries a digest of its
+content: a file that is damaged, or was not written by this version, counts as absent. Single runs of a long condition
+are also cached, until the whole condition is.
 
 The files are in the folder that the environment variable ``NEORL_CACHE`` names, or in the user's cache folder; all of
 them may be deleted at any time (`neorl.files`).
@@ -68,6 +69,9 @@ class Condition(Described):
 def source_digest():
     """A digest of the source of every module that takes part in a run."""
     return digest_of_source(*PARTS)
+
+
+source_digest()  # on import, since the files may change while this process goes on with their code
 
 
 def load(condition):

@@ -70,9 +70,9 @@ def conditions():
         if each.kind == "conditions" and each.about and not each.is_older:
             try:
                 condition = Condition.from_dict({name: each.about[name] for name in OF_A_CONDITION})
+                found += [condition] if condition.path == each.path else []  # else a kernel or a constant has changed
             except (ValueError, KeyError):  # a kernel that is not defined in a module
                 continue
-            found += [condition] if condition.path == each.path else []
     return found
 
 

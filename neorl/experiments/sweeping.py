@@ -22,7 +22,7 @@ from typing import NamedTuple
 from neorl import checks
 from neorl.agents.agent import Agent
 from neorl.agents.compile import n_values
-from neorl.experiments.cache import Condition, source_digest
+from neorl.experiments.cache import Condition
 from neorl.experiments.keeping import Keeper
 from neorl.experiments.run import new_bins
 from neorl.experiments.simulation import Result, label, live, progress_bar, usable_threads
@@ -120,7 +120,7 @@ def _run(tasks, executor, workers, keeper, bar):
     """Compute tasks, and return the failed ones, [(task, exception), ...]."""
     if executor is None:
         return _run_here(tasks, workers, keeper, bar)
-    return _collect(tasks, lambda task: executor.submit(_live, *task, source_digest()), keeper,
+    return _collect(tasks, lambda task: executor.submit(_live, *task, task.condition.key), keeper,
                     lambda task: bar.update(task.steps))
 
 
@@ -138,7 +138,7 @@ def _run_here(tasks, workers, keeper, bar):
         bar.update(lived)
 
     try:
-        return _collect(tasks, lambda task: pool.submit(_live, *task, source_digest(), each_slice, room), keeper)
+        return _collect(tasks, lambda task: pool.submit(_live, *task, task.condition.key, each_slice, room), keeper)
     except BaseException:
         stop.set()
         raise
@@ -177,14 +177,14 @@ def _collect(tasks, submit, keeper, finished=lambda task: None):
     return errors
 
 
-def _live(condition, runs, source, each_slice=lambda lived: None, room=None):
+def _live(condition, runs, key, each_slice=lambda lived: None, room=None):
     """The work of one task: carry out runs of a condition, and return their rewards and hits.
 
-    A worker with another version of the code than the caller's is refused, since its results could differ.
-    room: holds the thread's last run, whose memory the next one reuses.
+    A worker with other code or constants than the caller's is refused, since its results could differ.
+    key: of the condition, where the caller computes it. room: holds the thread's last run, whose memory the next one
+    reuses.
     """
-    if source_digest() != source:
-        raise RuntimeError(f"worker {os.getpid()} has other sources of neorl than the sweep that it works for")
+    _check_key(condition, key)
     rewards, hits = new_bins(condition.world, len(runs), condition.steps)
     run = vars(room).pop("run", None) if room else None
     if run and n_values(run.agent, run.world) < n_values(condition.agent, condition.world):
@@ -194,4 +194,11 @@ def _live(condition, runs, source, each_slice=lambda lived: None, room=None):
                    each_slice, run)
     if room:
         room.run = run
+    _check_key(condition, key)
     return rewards, hits
+
+
+def _check_key(condition, key):
+    if condition.key != key:
+        raise RuntimeError(f"worker {os.getpid()} must have the sources of neorl and the kernels and constants of the "
+                           "sweep that it works for, and has others: restart it, and change nothing while it runs")

@@ -5,7 +5,6 @@ A single environment is a batch of one, so it runs bit-identically.
 """
 
 import functools
-import linecache
 from typing import NamedTuple
 
 import numpy as np
@@ -66,7 +65,7 @@ class Batch:
         last_step = 2**62 if last_step is None else checks.integer("max_episode_steps", last_step, at_least=1)
         self.task = Task(float(world.size), kinds, checks.flag("egocentric", egocentric),
                          checks.flag("continuing", continuing), same_step, last_step)
-        self.rules, self.step_kernel = world.rules, batch_step(world.dynamics, time_is_up_in(world))
+        self.step_kernel = batch_step(world.dynamics, time_is_up_in(world))
         self.states = mapped(lambda each: np.zeros((n, *each.shape), each.dtype),
                              new_tuple(world.State, world.sizes, {}))
         self.slots = Slots(np.zeros(n, np.int64), np.ones(n, bool), np.zeros(n, np.int64),
@@ -81,7 +80,8 @@ class Batch:
         self.states.stream[row] = new_stream(sequence)
 
     def begin(self, rows):
-        """Begin an episode in the environments that `rows` marks: bool (environments,)."""
+        """Begin an episode in the environments that `rows` marks, bool (environments,), by the present rules."""
+        self.rules = self.world.rules
         self.slots.begins[:] = rows
         self._run(False)
 
@@ -185,10 +185,7 @@ def batch_step(dynamics, time_is_up):
 def rows_of(kind):
     """The kernel (states, i) that returns the state of environment i, of a given type, from those of all."""
     scope = {"__name__": __name__}
-    source = f"def row_of(states, i):\n    return {_row(kind, 'states', scope)}\n"
-    name = f"<row of {kind.__module__}.{kind.__qualname__}>"
-    linecache.cache[name] = len(source), None, source.splitlines(True), name  # the cache of kernels reads their source
-    exec(compile(source, name, "exec"), scope)
+    exec(f"def row_of(states, i):\n    return {_row(kind, 'states', scope)}", scope)
     return inlined_kernel(scope["row_of"])
 
 

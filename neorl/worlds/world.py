@@ -55,6 +55,19 @@ class World(Described, metaclass=_Checking):
     fps: Any
     rules: Any
 
+    def __init_subclass__(cls, **keywords: Any) -> None:
+        super().__init_subclass__(**keywords)
+        for name in ("reset", "step"):
+            if getattr(cls, name) is not getattr(World, name):
+                raise TypeError(f"{cls.__name__} has a method {name}, which runs would not call: the {name} of a world "
+                                "must be a neorl.kernel in its dynamics, and have another name in the class")
+
+    @property
+    def determinants(self) -> tuple[Any, ...]:
+        """Everything that runs take from the world besides its fields, for the keys of their results."""
+        return (self.dynamics, self.rules, self.kinds, self.actions, self.things, self.size, self.fps,
+                new_tuple(self.State, self.sizes, {}))
+
     @property
     def State(self) -> type:
         """The type of its states."""

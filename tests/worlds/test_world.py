@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from neorl import (CARDINAL, Actions, Agent, Axis, Desire, Learner, Learning, Modality, Node, Place, Policy, Run, Scene,
-                   World, brownian, kernel, simulate)
+from neorl import (CARDINAL, Actions, Agent, Axis, Condition, Desire, Learner, Learning, Modality, Node, Place, Policy,
+                   Run, Scene, World, brownian, kernel, simulate)
 from neorl.core.kernel import array, arrays, execute
 from neorl.core.modality import HEAD_DIRECTION_CELL, LANDMARK_VECTOR_CELL, PLACE_CELL, cartesian
 from neorl.core.stream import uniform
@@ -109,6 +109,30 @@ def digest(name, steps):
     paid = run.advance(steps)
     content = [run.state.values.q, *arrays(run.world_state).values()]
     return f"{paid} {hashlib.sha256(b''.join(each.tobytes() for each in content)).hexdigest()}"
+
+
+def test_a_method_that_runs_would_not_call_is_refused():
+    with pytest.raises(TypeError, match="Shallow has a method reset, .* must be a neorl.kernel in its dynamics"):
+        type("Shallow", (Dive,), {"reset": lambda world, seed: None})
+
+
+def test_everything_that_runs_take_from_a_world_determines_its_key():
+    def dive(dtype="uint64", **attributes):
+        class State(NamedTuple):
+            scene: Scene
+            stream: array("uint64", 4)
+            more: array(dtype, 1)
+
+        @kernel
+        def begin(state: State, rules: DiveRules) -> None:
+            pass
+
+        return type("Diver", (Dive,), {"dynamics": Dynamics(begin, swim), **attributes})()
+
+    keys = [Condition(SEEKER, world, 1, 1).key for world in (
+        dive(), dive("int64"), dive(rules=DiveRules(0.2)), dive(kinds=("pearl", "stone")), dive(things=2), dive(fps=20),
+        dive(size=2.0), dive(sizes={"things": 3, "axes": 3}), dive(actions=CARDINAL), dive(dynamics=Dive.dynamics))]
+    assert len(set(keys)) == len(keys) and keys[0] == Condition(SEEKER, dive(), 1, 1).key
 
 
 def test_an_agent_learns_its_way_in_a_world_of_three_axes_and_six_actions():

@@ -1,0 +1,197 @@
+"""The identity of a kernel changes with everything that it looks up, and compiled code with its identity."""
+
+import os
+import subprocess
+import sys
+from dataclasses import dataclass
+from types import ModuleType
+
+import numpy as np
+import pytest
+
+from neorl import kernel, kernel_maker, softmax
+from neorl.core.identity import Reading, identity
+from neorl.core.kernel import execute, jit_is_off
+
+OUTER = """
+from enum import IntEnum
+from typing import NamedTuple
+import numpy as np
+from neorl import kernel
+import outer.inner
+
+P, TABLE, SHADOW = 1.0, np.array([1.0, 2.0]), 0.0
+
+class Kind(IntEnum):
+    A = 4
+    B = 5
+
+class Pair(NamedTuple):
+    one: float
+    other: float
+
+PAIR = Pair(1.0, 2.0)
+
+def adding(amount):
+    def add_to(more):
+        nonlocal amount
+        amount += more
+
+    @kernel
+    def add(x):
+        return x + amount
+    return add, add_to
+
+add, add_to = adding(1.0)
+
+@kernel
+def raised(x, by=P):
+    return x + by
+
+@kernel
+def answer(x):
+    x += outer.inner.Q + outer.inner.SHADOW + TABLE[0] + PAIR.one + (Kind.A + 0) + P
+    return max(add(raised(outer.inner.halved(x))), 0.0)
+"""
+INNER = """
+from neorl import kernel
+
+Q, SHADOW = 1.0, 2.0
+
+@kernel
+def halved(x):
+    return 0.5 * x + Q
+"""
+ANSWER = 0.5 * (2.0 + 1.0 + 2.0 + 1.0 + 1.0 + 4.0 + 1.0) + 1.0 + 1.0 + 1.0
+FILE_EDITS = {  # what an editor changes between two processes, and the answer then
+    "a constant, which is also a default": (("P, TABLE, SHADOW = 1.0", "P, TABLE, SHADOW = 3.0"), ANSWER + 3.0),
+    "a default": (("by=P", "by=3.0"), ANSWER + 2.0),
+    "an array": (("[1.0, 2.0]", "[3.0, 2.0]"), ANSWER + 1.0),
+    "the order of fields": (("    one: float\n    other: float", "    other: float\n    one: float"), ANSWER + 0.5),
+    "an enumeration": (("A = 4", "A = 6"), ANSWER + 1.0),
+    "a closure": (("adding(1.0)", "adding(3.0)"), ANSWER + 2.0),
+    "the constant of a module in a module": (("Q, SHADOW = 1.0", "Q, SHADOW = 3.0"), ANSWER + 1.0 + 2.0),
+    "a constant called as a global of another module": (("SHADOW = 1.0, 2.0", "SHADOW = 1.0, 4.0"), ANSWER + 1.0),
+    "the kernel of a module in a module": (("0.5 * x + Q", "0.5 * x - Q"), ANSWER - 2.0),
+    "a builtin": (("@kernel\ndef answer", "@kernel\ndef max(x, y):\n    return -x\n\n@kernel\ndef answer"), -ANSWER)}
+CELL_EDITS = {  # what a notebook's cell changes
+    "a constant": ("P = 3.0", ANSWER + 1.0),
+    "an array": ("TABLE = np.array([3.0, 0.0])", ANSWER + 1.0),
+    "an array in place": ("TABLE[0] = 3.0", ANSWER + 1.0),
+    "a named tuple": ("PAIR = PAIR._replace(one=3.0)", ANSWER + 1.0),
+    "a closure": ("add_to(2.0)", ANSWER + 2.0),
+    "a kernel with a closure": ("add, _ = adding(3.0)", ANSWER + 2.0),
+    "a default": ("getattr(raised, 'py_func', raised).__defaults__ = (3.0,)", ANSWER + 2.0),
+    "a kernel": ("@kernel\ndef raised(x, by=P):\n    return x - by", ANSWER - 2.0),
+    "the constant of a module": ("outer.inner.Q = 3.0", ANSWER + 1.0 + 2.0),
+    "the kernel of a module": ("outer.inner.halved = raised", ANSWER + 6.0),
+    "a builtin": ("@kernel\ndef max(x, y):\n    return -x", -ANSWER)}
+
+
+@pytest.fixture
+def program(tmp_path, monkeypatch):
+    """A function that executes the two modules as another process would, and returns the outer one."""
+    monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
+
+    def load(*edit):
+        for name, source in (("outer", OUTER), ("outer.inner", INNER)):
+            monkeypatch.setitem(sys.modules, name, ModuleType(name))
+        sys.modules["outer"].inner = sys.modules["outer.inner"]
+        for name, source in (("outer.inner", INNER), ("outer", OUTER)):
+            exec(source.replace(*edit) if edit else source, vars(sys.modules[name]))
+        return sys.modules["outer"]
+
+    return load
+
+
+@pytest.mark.parametrize("edit, answer", FILE_EDITS.values(), ids=FILE_EDITS)
+def test_what_an_editor_changes_between_processes_changes_the_identity_and_the_answer(program, edit, answer):
+    before, again = identity(program().answer), identity(program().answer)
+    assert before == again != identity(program(*edit).answer)
+    assert execute(program().answer, 2.0) == ANSWER  # which is then on disk
+    assert execute(program(*edit).answer, 2.0) == answer
+
+
+@pytest.mark.parametrize("cell, answer", CELL_EDITS.values(), ids=CELL_EDITS)
+def test_what_a_cell_changes_within_a_process_changes_the_compiled_code(program, cell, answer):
+    outer = program()
+    before = identity(outer.answer)
+    assert execute(outer.answer, 2.0) == ANSWER
+    exec(cell, vars(outer))
+    assert execute(outer.answer, 2.0) == answer and identity(outer.answer) != before
+    assert execute(program().answer, 2.0) == ANSWER  # another process reads nothing that was compiled otherwise
+
+
+@pytest.mark.skipif(jit_is_off(), reason="the compiler is off")
+def test_nothing_is_compiled_again_while_values_are_equal(program):
+    outer = program()
+    execute(outer.answer, 2.0)
+    compiled = outer.answer.for_python
+    outer.P, outer.TABLE = 2.0 / 2.0, outer.TABLE.copy()
+    assert outer.answer.for_python is compiled and Reading(outer.answer).stands()
+
+
+def test_a_maker_that_looks_up_a_changed_value_makes_another_kernel():
+    scale = 1.0
+
+    @kernel_maker
+    def scaled(factor):
+        by = factor * scale
+
+        @kernel
+        def multiply(x):
+            return by * x
+
+        return multiply
+
+    first = scaled(2.0)
+    assert scaled(2.0) is first is not scaled(3.0) and execute(first, 1.0) == 2.0
+    scale = 5.0
+    assert scaled(2.0) is not first and execute(scaled(2.0), 1.0) == 10.0
+
+
+def test_kernels_that_a_maker_made_of_other_arguments_are_not_the_same():
+    assert softmax(0.1) is softmax(0.1) is not softmax(0.2)
+    assert identity(softmax(0.1)) == identity(softmax(0.1)) != identity(softmax(0.2))
+
+
+@pytest.mark.skipif(jit_is_off(), reason="the compiler is off")
+def test_functions_that_numba_compiles_by_itself_are_refused():
+    import numba
+
+    @numba.njit
+    def doubled(x):
+        return 2.0 * x
+
+    @kernel
+    def answer(x):
+        return doubled(x)
+
+    for refused in (lambda: execute(answer, 1.0), lambda: identity(answer)):
+        with pytest.raises(ValueError, match="doubled is compiled by numba.jit, .* must be decorated with neorl"):
+            refused()
+
+
+@dataclass(frozen=True)
+class Holder:
+    held: object
+
+
+@pytest.mark.parametrize("one, other", [
+    ({"a": 1}, {"a": 2}), ({1, 2}, {1, 3}), ([1], (1,)), (1, 1.0), (0.0, -0.0), (np.float32(1), 1.0),
+    (np.array([1, "a"], object), np.array([1, "b"], object)), ({"a": np.zeros(9_999)}, {"a": np.eye(1, 9_999, 5)[0]}),
+    (Holder([1]), Holder([2])), (np.random.default_rng(1), np.random.default_rng(2))])
+def test_values_have_the_identity_of_their_content(one, other):
+    assert identity(Holder(one)) == identity(Holder(one)) != identity(Holder(other))
+
+
+def test_what_cannot_be_read_has_no_identity():
+    with pytest.raises(ValueError, match="a result depends on <generator.* which cannot be read"):
+        identity(Holder(each for each in ()))
+
+
+def test_source_that_changes_after_the_import_does_not_count():
+    work = ("import pathlib, neorl\npathlib.Path.read_bytes = None\nfrom neorl.core.identity import digest_of_source\n"
+            "from neorl.experiments.cache import source_digest\n"
+            "print(source_digest(), digest_of_source('core', 'worlds'))")
+    subprocess.run([sys.executable, "-c", work], check=True, env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)})

@@ -1,0 +1,91 @@
+"""No result is stale, whatever is edited in a user's program, between processes or within one."""
+
+import importlib
+import json
+import os
+import random
+import subprocess
+import sys
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+from pathlib import Path
+
+import edited
+import pytest
+
+from neorl import Condition, Policy, WaterWorld, kernel, place_cells, simulate_once, sweep
+from neorl.core.kernel import jit_is_off
+from neorl.experiments import sweeping
+
+EDITED = Path(edited.__file__)
+QUICK = ("Learner", "World", "environment", "Modality")  # to compile
+WAYS = ("simulate_once", "sweep", "simulate", "Run", *QUICK)
+FIRST = dict.fromkeys(edited.PARTS, 1)
+pytestmark = pytest.mark.usefixtures("cache_folder")
+
+
+def process(folder, numbers, *arguments, jit=False):
+    """What a process finds that runs the program, edits it, and runs it again: the wrong results, the last numbers."""
+    folder.mkdir(exist_ok=True)
+    edited.write(folder, numbers)
+    (folder / "numbers.json").write_text(json.dumps(numbers))
+    done = subprocess.run([sys.executable, EDITED, folder, *arguments], capture_output=True, text=True, env={
+        **os.environ, "NUMBA_DISABLE_JIT": str(int(not jit)), "PYTHONPATH": os.pathsep.join(sys.path)})
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def test_random_edits_between_processes_and_within_them_are_never_missed(tmp_path):
+    rng, numbers = random.Random(int(os.environ.get("SEED", 0))), FIRST
+    for seed in range(8):
+        found = process(tmp_path / "program", numbers, str(rng.random()), "25", "all", *WAYS)
+        assert found["wrong"] == []
+        _, numbers = edited.redrawn(rng, rng.choice([numbers, found["numbers"]]))
+
+
+@pytest.mark.skipif(jit_is_off(), reason="the compiler is off")
+def test_random_edits_of_compiled_kernels_are_never_missed(tmp_path):
+    assert process(tmp_path / "program", FIRST, "1", "8", "all", *QUICK[1:], jit=True)["wrong"] == []
+
+
+@pytest.mark.skipif(jit_is_off(), reason="the compiler is off")
+def test_a_constant_that_a_notebook_changes_changes_the_result_and_its_place_on_disk(tmp_path):
+    found = process(tmp_path / "program", FIRST, "1", "1", "action", "simulate_once", "Learner", jit=True)
+    again = process(tmp_path / "program", found["numbers"], "1", "0", "action", "simulate_once")
+    assert found["wrong"] == again["wrong"] == [] and found["numbers"]["action"] == 0
+
+
+@pytest.mark.skipif(jit_is_off(), reason="without the compiler, kernels with parameters cannot be sent to a process")
+def test_a_worker_process_with_the_same_program_is_accepted(tmp_path):
+    assert process(tmp_path / "program", FIRST, "1", "0", "all", "pool", jit=True)["wrong"] == []
+
+
+def test_a_worker_process_that_imports_an_edited_program_is_refused(tmp_path, monkeypatch):
+    edited.write(tmp_path, FIRST)
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setattr(sweeping, "ATTEMPTS", 1)
+    program = importlib.import_module("program")
+    try:
+        edited.write(tmp_path, FIRST | {"helper": 10})
+        with (ProcessPoolExecutor(1, get_context("spawn")) as pool,
+              pytest.raises(RuntimeError, match="must have the sources of neorl and the kernels and constants")):
+            sweep([Condition(program.agent(), program.Mine(), 2, 1)], pool, progress=False)
+    finally:
+        del sys.modules["program"], sys.modules["helpers"]
+
+
+def test_a_kernel_that_changes_while_it_runs_leaves_nothing_on_disk(cache_folder, monkeypatch):
+    agent = place_cells([2], policy=Policy(choose=biased))
+    monkeypatch.setattr(sweeping, "live", lambda *run: monkeypatch.setattr(sys.modules[__name__], "BIAS", 1))
+    monkeypatch.setattr(sweeping, "ATTEMPTS", 1)
+    with pytest.raises(RuntimeError, match="change nothing while it runs"):
+        simulate_once(agent, WaterWorld(), steps=1, runs=1, progress=False)
+    assert not list((cache_folder / "conditions").glob("*"))
+
+
+BIAS = 0
+
+
+@kernel
+def biased(value, stream):
+    return BIAS
