@@ -1,7 +1,8 @@
 """Recompute a random sample of the runs behind the figures, and compare bit by bit: ``make verify`` runs this.
 
 The sample is drawn from the conditions that earlier builds have cached, as far as they were computed with the present
-source. Each of its runs is recomputed alone, and its rewards and hits in every bin of 0.2 s must equal those cached.
+source, and a module defines their worlds and kernels, which have not changed since. Each of its runs is recomputed
+alone, and its rewards and hits in every bin of 0.2 s must equal those cached.
 """
 
 import argparse
@@ -24,9 +25,12 @@ def main():
     everything = [(condition, k) for condition in conditions for k in range(condition.runs)]
     if not everything:
         sys.exit(f"{cache_folder()} holds no condition that was computed with the present source: make book first")
+    others = sum(each.kind == "conditions" and not each.is_older for each in kept.kept()) - len(conditions)
     sample = random.Random(chosen.seed).sample(everything, min(chosen.sample, len(everything)))
     print(f"{len(sample)} of {len(everything)} runs of {len(conditions)} conditions in {cache_folder()}, "
           f"seed {chosen.seed}")
+    if others:
+        print(f"{others} more are left out: their kernels or worlds have changed since, or no module defines them")
     began, bins, differing = time.monotonic(), 0, []
     for condition, k in sample:
         difference, compared = compare(condition, k)

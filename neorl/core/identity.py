@@ -6,7 +6,7 @@ by the present values of its globals, closures, defaults and attributes of modul
 The code of the rooms `core` and `worlds` counts by name, since the key of such a file also contains the digest of
 their source (`digest_of_source`); that of Python, numba and NumPy counts by name, too.
 
-numba takes all these values for constants when it compiles, so a `Reading` can tell whether any has changed since.
+numba takes all these values for constants when it compiles; a `Reading` compares them with the present ones.
 """
 
 import builtins

@@ -187,7 +187,7 @@ def kernel_maker(function: Callable) -> Any:
     """
     if not inspect.isfunction(function):
         raise ValueError(f"function is {checks.shown(function)}, allowed are Python functions that make kernels")
-    signature, known = inspect.signature(function), {}
+    signature, known = inspect.signature(function), dict[tuple, Any]()
 
     @functools.wraps(function)
     def make(*arguments, **by_name):

@@ -6,6 +6,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
+import edited
 import pytest
 
 from neorl import Condition, Policy, WaterWorld, files, kernel, multimodal, place_cells, simulate, simulate_once
@@ -63,6 +64,23 @@ def test_files_without_a_condition_of_the_present_source_are_skipped(kept, cache
     assert sorted(conditions(), key=KEPT.index) == KEPT
     monkeypatch.setattr(kept_files, "source_digest", lambda: "another source")
     assert conditions() == []
+
+
+def test_conditions_of_a_world_that_has_changed_are_counted_and_skipped(tmp_path, monkeypatch):
+    first, work = dict.fromkeys(edited.PARTS, 1), "\n".join([
+        "import program", "from neorl import *",
+        "for life in ((program.agent(), program.Mine()), (place_cells([2]), WaterWorld())):",
+        "    simulate_once(*life, steps=2, runs=1, progress=False)"])
+    (folder := tmp_path / "program").mkdir()
+    edited.write(folder, first)
+    monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")
+    monkeypatch.syspath_prepend(folder)
+    subprocess.run([sys.executable, "-c", work], check=True, env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)})
+    assert verify("--seed", "4").stdout.splitlines()[0].startswith("2 of 2 runs of 2 conditions in ")
+    edited.write(folder, first | {"rule": 10})
+    done = verify("--seed", "4")
+    assert done.returncode == 0 and done.stdout.startswith("1 of 1 runs of 1 conditions in ")
+    assert "seed 4\n1 more are left out: their kernels or worlds have changed since" in done.stdout
 
 
 def test_an_empty_cache_and_an_empty_sample_are_refused():
