@@ -233,10 +233,10 @@ class Agent(Described, checks.Final):
                              "and nodes: it learns only of contacts")
         modality = nodes[desire.target].modality
         if not isinstance(desire.source, tuple) and len(modality.functions) == len(modality.axes):
-            raise ValueError(f"desire {desire} must be for a point in the space of {modality.name}s: their only axes are "
-                             "kernels of your own, which say where the agent is, not where something else is; use the "
-                             f"coordinates of the point as its source, ({', '.join(modality.names)}), or cells with an "
-                             "axis of a vector, such as Axis('position')")
+            raise ValueError(f"desire {desire} must be for a point in the space of {modality.name}s: their only axes "
+                             "are kernels of your own, which say where the agent is, not where something else is; "
+                             f"use the coordinates of the point as its source, ({', '.join(modality.names)}), or "
+                             "cells with an axis of a vector, such as Axis('position')")
         if isinstance(desire.source, str | Place) and desire.source not in nodes and not modality.takes_places:
             raise ValueError(f"desire {desire}: things and places have no coordinates for {modality.name}s, allowed "
                              f"are points of their own space")

@@ -87,8 +87,8 @@ class Run(Individual):
         hits: int16 (bins, kinds), likewise the number of things of each kind that were met, at most 32,767.
 
         After an interruption the run can continue from its `step`.
-        Raises ValueError if they do not fit, if the world's state does not or is not finite, before or after a step, and
-        for a kernel of the user's that has returned a reward, a credit or a coordinate which is not a number.
+        Raises ValueError if they do not fit, if the world's state does not or is not finite, before or after a step,
+        and for a kernel of the user's that has returned a reward, a credit or a coordinate which is not a number.
         """
         self.world.check_state(self._world_state)
         last = self.step + checks.integer("steps", steps, at_least=0)

@@ -133,8 +133,8 @@ def check_rules(rules, kind, sizes, path="rules"):
         elif isinstance(field, tuple) and not _is_as_annotated(value, *field, sizes):
             found = f"{value.dtype} {value.shape}" if isinstance(value, np.ndarray) else checks.shown(value)
             dtype, shape = field[0], tuple(sizes.get(each, each) for each in field[1])
-            raise ValueError(f"{path}.{name} must be an array of {dtype} {shape}, as it is annotated, since kernels read "
-                             f"it without a check, but is {found}: change the array, or its annotation")
+            raise ValueError(f"{path}.{name} must be an array of {dtype} {shape}, as it is annotated, since kernels "
+                             f"read it without a check, but is {found}: change the array, or its annotation")
 
 
 def _is_as_annotated(value, dtype, shape, sizes):

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from golden import plain_rule
 
-from neorl import (CALIBRATED, Agent, Axis, Desire, Learner, Learning, Modality, Node, Place, Policy, Run, Scene,
+from neorl import (CALIBRATED, Agent, Axis, Desire, Learner, Modality, Node, Place, Policy, Run, Scene,
                    WaterWorld, kernel, multimodal, place_cells)
 from neorl.core.kernel import arrays
 from neorl.core.stream import randint
@@ -183,7 +183,8 @@ def undefined_in_the_east(scene, point):
     return np.nan if scene.position[0] > 125.0 else scene.position[0] / 250.0
 
 
-SIDE = Agent((Node("side", Modality("side", (Axis(in_the_east), Axis(undefined_in_the_east))), [3]),), policy=Policy(1.0))
+SIDE = Agent((Node("side", Modality("side", (Axis(in_the_east), Axis(undefined_in_the_east))), [3]),),
+             policy=Policy(1.0))
 CALLS = {"credit": (crediting(undefined), "test_own_kernels.undefined of the credit"),
          "axis": (SIDE, "test_own_kernels.undefined_in_the_east of an axis")}
 
