@@ -95,7 +95,7 @@ def always(factor):
 AXIS = Modality("seen", (Axis(seen),))
 
 def agent():
-    return Agent((Node("PC", PLACE_CELL, [2]),), policy=Policy(choose=always(1)))
+    return Agent((Node("PC", PLACE_CELL, [2]),), policy=Policy(0.0, choose=always(1)))
 """
 CELLS = {"closure": "add = adding({closure})", "default": "@kernel\ndef raised(x, by={default}):\n    return x + by\n",
          "own": "Mine.own = {own}", "base": "Base.base = {base}", "table": "TABLE[1] = {table}",

@@ -30,7 +30,8 @@ FOR_AUTHORS = {f"neorl.{name}" for name in (
         "array", "arrays", "check_kernel", "execute", "fields", "full_name", "function_of", "inlined",
         "inlined_kernel", "is_tuple", "length", "mapped", "new_tuple")),
     *(f"core.modality.{name}" for name in (
-        "Modality.check_axes", "as_radians", "as_turns", "axis_parameters", "firsts", "integers", "space_of")),
+        "Modality.check_axes", "as_radians", "as_turns", "axis_parameters", "check_faults", "firsts", "integers",
+        "space_of")),
     *(f"evidence.statistics.{name}" for name in (  # called by `estimate`
         "difference", "lead_over_best", "lead_over_sum", "least_of_most", "quotient", "rank_correlation", "ratio")),
     *(f"evidence.multiverse.{name}" for name in ("held", "importance", "outcome", "shares", "support")),  # of claims

@@ -83,7 +83,7 @@ def test_single_precision_is_another_number():
 
 
 def test_equal_conditions_of_numpys_numbers_have_equal_keys():
-    plain = Condition(neorl.network_d([3]), WaterWorld(n_creeps=3), 100, 2, 5)
+    plain = Condition(neorl.network_d([3], scale=17.86), WaterWorld(n_creeps=3), 100, 2, 5)
     numpys = Condition(neorl.network_d(np.array([3]), recursion=np.array(-1), scale=np.float64(17.86)),
                        WaterWorld(n_creeps=np.int64(3)), np.uint64(100), np.array(2), np.int8(5))
     assert numpys == plain and numpys.key == plain.key and hash(numpys) == hash(plain)

@@ -13,6 +13,7 @@ A world is a frozen dataclass, whose fields users choose, with a `State`, rules,
    second; ``things`` is its number of things.
 """
 
+import inspect
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -39,6 +40,11 @@ class _Checking(type):
         if world.dynamics is not None:
             check_rules(world.rules, fields(world.dynamics.reset)["rules"], dict(world.sizes))
         return world
+
+    @property
+    def __signature__(cls):  # of `__init__`, which `inspect` would not look for behind a call of its own
+        _, *fields_of_world = inspect.signature(cls.__init__).parameters.values()
+        return inspect.Signature(fields_of_world)
 
 
 class World(Described, metaclass=_Checking):

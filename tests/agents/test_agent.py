@@ -58,7 +58,7 @@ PAPERS = (place_cells, brownian, object_vector_cells, multimodal, network_a, net
     (lambda: Learning(bootstrap=None), "bootstrap is None"),
     *((lambda choice=choice: Learning(update_on="step", **choice),
        f"{[*choice][0]} is .*, allowed with update_on 'step' is")
-      for choice in ({"memory": 7.5}, {"credit": "last"}, {"absent_decay": 0.15})),
+      for choice in ({"memory": 7.5}, {"credit": "happened"}, {"absent_decay": 0.15})),
     (lambda: Learning(memory=-1), "memory is -1"),
     (lambda: Learning(absent_form="up"), "absent_form is 'up'"),
     (lambda: Learning(activity=-0.1), "activity is -0.1"),

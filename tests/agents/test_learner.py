@@ -243,7 +243,7 @@ def test_kinds_go_by_name_or_by_number_and_what_is_absent_may_be_anywhere():
     cells = []
     for kinds, second in [(["red", None], 0.4), ([1, -1], 0.4), (np.array([1, -1], np.int8), np.nan),
                           (["red", None], 9.0)]:
-        learner = Learner(multimodal([3]), 2, ("green", "red"))
+        learner = Learner(multimodal([3], object_state="object"), 2, ("green", "red"))
         learner.begin(FINE._replace(kinds=kinds, things=[(0.1, 0.2), (0.3, second)]))
         cells.append(learner.state.tracks.cell.tolist())
     assert cells[0] == cells[1] == cells[2] == cells[3] and cells[0][-1] == -1

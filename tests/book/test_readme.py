@@ -52,7 +52,7 @@ def test_every_example_prints_what_stands_behind_its_arrow(tmp_path, monkeypatch
 def test_the_loop_of_a_learner_takes_an_agent_that_is_idle_while_it_knows_nothing(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (loop,) = [each for each in EXAMPLES.findall((ROOT / "README.md").read_text(encoding="utf-8")) if ".act()" in each]
-    names = {"Agent": lambda *parts: Agent(*parts, policy=Policy(when_indifferent="no-op")), "Desire": Desire,
+    names = {"Agent": lambda *parts: Agent(*parts, policy=Policy(0.0, "no-op")), "Desire": Desire,
              "Node": Node, "modality": modality}
-    exec(loop.replace("1_000", "3"), names)
+    exec(loop.replace("5_000", "3"), names)
     assert (names["x"], names["y"]) == (0.5, 0.5)

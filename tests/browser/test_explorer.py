@@ -10,8 +10,8 @@ import pytest
 from traitlets import TraitError
 
 import neorl
-from neorl import (Agent, Arena, Desire, Explorer, Learning, Node, Policy, WaterWorld, multimodal, network_d,
-                   object_vector_cells, place_cells, simulate)
+from neorl import (CALIBRATED, Agent, Arena, Desire, Explorer, Learning, Node, Policy, WaterWorld, multimodal,
+                   network_d, object_vector_cells, place_cells, simulate)
 from neorl.agents.papers import OF_OBJECTS
 from neorl.browser.explorer import AGENTS, CURVE_BINS, IN_THE_ARENA, OTHER_SPACES
 from neorl.core import modality
@@ -80,7 +80,7 @@ def test_each_trait_changes_its_field_of_the_agent():
     explorer = Explorer(preset="Network D", learning_rate=0.2, discount=0.5, recursion=0.5, valence_red=-2.0,
                         gains=[0.5, 2.0], exploration=0.1, n_creeps=4, resolutions=[3, 6], memory=20.0)
     agent = network_d([3, 6], recursion=0.5, place_gain=0.5, object_gain=2.0,
-                      learning=Learning(0.2, 0.5, memory=20.0))
+                      learning=replace(CALIBRATED, learning_rate=0.2, discount=0.5, memory=20.0))
     desires = [replace(each, valence=-2.0) if each.source == "red" else each for each in agent.desires]
     assert explorer.agent == replace(agent, desires=desires, policy=Policy(exploration=0.1))
     assert explorer.world == WaterWorld(n_creeps=4)

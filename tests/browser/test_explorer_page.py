@@ -7,14 +7,17 @@ import pytest
 from explorer_page import drop_by_keyboard, explorer_of, play_to_the_end, press, wait, write_page
 from playwright.sync_api import expect
 
-from neorl import Desire, Explorer, Learning, Place, Run, WaterWorld, multimodal, network_d, place_cells, simulate
+from neorl import (CALIBRATED, Desire, Explorer, Learning, Place, Run, WaterWorld, multimodal, network_d, place_cells,
+                   simulate)
 from neorl.core.modality import BORDER_CELL, CARTESIAN_OBJECT_VECTOR_CELL, OBJECT_VECTOR_CELL
 
 SIZE = {"steps": 30_000, "runs": 12, "seed": 3, "progress": False}
 TANK = WaterWorld()
-BOTH, PLACES = multimodal([2, 3, 5]), place_cells([5, 3])
-NETWORK = network_d([3, 4], learning=Learning(discount=0.8, memory=0.0, bootstrap=True))
-TURNED = network_d([3, 4], recursion=0.5, learning=NETWORK.learning)
+BOTH, PLACES = multimodal([2, 3, 5], object_state="per object"), place_cells([5, 3])
+RULE = {"learning": Learning(0.03, 0.8, credit="happened", absent_decay=0.06, terminal=False),
+        "object_state": "per object", "scale": 17.86}
+NETWORK = network_d([3, 4], **RULE)
+TURNED = network_d([3, 4], recursion=0.5, **RULE)
 
 
 @pytest.fixture(scope="module")
@@ -118,7 +121,7 @@ def test_no_memory_stands_at_the_left_end_of_its_slider(open_page, site, conditi
     ({"bootstrap": True, "memory": 0.0}, True), ({"bootstrap": False, "memory": 0.0}, False),
     ({"bootstrap": False, "memory": 2.0}, True)])
 def test_a_horizon_without_effect_is_not_offered(open_page, tmp_path, rule, counts):
-    learning, short = Learning(**rule), {"steps": 5_000, "runs": 1, "progress": False}
+    learning, short = replace(CALIBRATED, **rule), {"steps": 5_000, "runs": 1, "progress": False}
     result = simulate(place_cells([5], learning=learning), TANK, **short)
     other = simulate(place_cells([5], learning=replace(learning, discount=0.5)), TANK, **short)
     assert (result.rewards != other.rewards).any() == counts

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from neorl import Agent, Contacts, Desire, Learning, Node, Run, WaterWorld, multimodal
+from neorl import GREEDY, Agent, Contacts, Desire, Learning, Node, Run, WaterWorld, multimodal
 from neorl.agents.beyond import foveated_cells
 from neorl.chapters.alternatives.controllers import act_planner, planner
 from neorl.chapters.alternatives.living import BOARDS, live
@@ -67,7 +67,7 @@ def desiring_velocities(scale):
     return Agent([Node("OVC", foveated_cells(velocity=False), (5,), gain=0.0, goals="contacts"),
                   Node("V", velocities, (9,))],
                  [Desire("green", "OVC", 1.0), Desire("OVC", "V", 1.0, scale=scale)],
-                 Learning(0.1, 0.9, update_on="step"), own_cell="silent", contacts=Contacts(first_value=0.0))
+                 Learning(0.1, 0.9, update_on="step"), GREEDY, own_cell="silent", contacts=Contacts(first_value=0.0))
 
 
 def test_a_desire_vector_is_a_velocity_for_a_node_of_velocities():

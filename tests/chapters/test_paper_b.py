@@ -49,7 +49,7 @@ def test_object_vector_cells_join_place_cells_at_half_time():
 
 
 def test_points_are_taken_from_the_same_lives(cache_folder):
-    made = experiments.all_conditions(READING, 4_000, 1)
+    made = experiments.all_conditions(READING, 40_000, 1)
     chosen = {key: made[key] for key in ("both", ("points", "PC + OVC"))}
     results = side_by_side.live({"calibrated": chosen})["calibrated"]
     np.testing.assert_array_equal(results["both"].hits, results["points", "PC + OVC"].hits)

@@ -109,8 +109,13 @@ def test_the_table_has_a_row_for_each_network_and_reading(results):
     assert len(rows) == 8 and rows[-1].endswith("| 0.0 |")
 
 
+MOVING = Reading(0.03, 0.8, "share", absent_decay=0.0, memory=0.0, bootstrap=True, terminal=True,
+                 object_state="object", exploration=0.1)
+
+
 def test_desires_that_land_on_the_agent_are_distinguished_from_those_that_do_not():
-    near, far = (wiring.distances({"book": replace(Reading(), scale=scale)}, 20_000, runs=2) for scale in (1e-6, 1e6))
+    near, far = (wiring.distances({"book": replace(MOVING, scale=scale)},
+                                 60_000, runs=2) for scale in (1e-6, 1e6))
     assert list(near) == [("book", name) for name in NETWORKS]
     for name in NETWORKS:
         widths, share = near["book", name]

@@ -4,12 +4,13 @@ No test judges a measured time.
 """
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from neorl import Learning, Run, WaterWorld, place_cells
+from neorl import CALIBRATED, Run, WaterWorld, place_cells
 from neorl.chapters.performance import (bandwidth, bound, contest, growth, minutes, performance_figures, report, rivals,
                                         timing)
 from neorl.drawing.style import use_style
@@ -58,7 +59,7 @@ def test_what_is_not_installed_is_named():
 
 
 def lived(resolution, **rule):
-    indifferent = place_cells([resolution], 0.0, 0.0, learning=Learning(**rule))  # it moves about all the same
+    indifferent = place_cells([resolution], 0.0, 0.0, learning=replace(CALIBRATED, **rule))  # it moves all the same
     run = Run(indifferent, WaterWorld())
     run.advance(10_000)
     return run

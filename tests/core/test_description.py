@@ -36,7 +36,8 @@ class Cave(World):
     map: Modality | None = None
     names: list[str] = field(default_factory=list)
 
-    dynamics = WaterWorld().dynamics
+    dynamics, rules = WaterWorld().dynamics, WaterWorld().rules
+    actions, things = WaterWorld().actions, WaterWorld().things
 
 
 learnings = st.one_of(

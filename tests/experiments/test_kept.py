@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from neorl import Condition, Learning, Policy, Result, WaterWorld, files, kernel, network_d, place_cells, softmax
+from neorl import CALIBRATED, Condition, Policy, Result, WaterWorld, files, kernel, network_d, place_cells, softmax
 from neorl.evidence import report
 from neorl.experiments import cache, exchange, kept
 from neorl.experiments.run import new_bins
@@ -101,9 +101,10 @@ def of_a_module(count, steps, last, activity):
     ({}, "PC N3+N7 in WaterWorld, 500 steps, 2 runs, seed 0"),
     ({"steps": 1_500_000, "runs": 1, "seed": 2**70}, f"PC N3+N7 in WaterWorld, 1,500,000 steps, 1 run, seed {2**70}"),
     ({"agent": network_d([2])}, "PC N2 and OVC N2 in WaterWorld, "),
-    ({"agent": place_cells([2], learning=Learning(memory=10), policy=Policy(choose=softmax(0.5)), own_cell="silent")},
+    ({"agent": place_cells([2], learning=replace(CALIBRATED, memory=10), policy=Policy(0.0, choose=softmax(0.5)),
+                           own_cell="silent")},
      "PC N2 (memory 10.0, choose softmax(0.5), own_cell silent) in"),
-    ({"agent": place_cells([2], learning=Learning(credit=of_a_module))}, "PC N2 (credit of_a_module) in"),
+    ({"agent": place_cells([2], learning=replace(CALIBRATED, credit=of_a_module))}, "PC N2 (credit of_a_module) in"),
     ({"world": WaterWorld(n_creeps=8, win_reward=5)}, " in WaterWorld (n_creeps 8, win_reward 5.0), "),
     ({"world": Arena(radius=0.1)}, " in Arena (radius 0.1), "),
     ({"changes": [(100, place_cells([9]))]}, " in WaterWorld, from step 100 on PC N9, 500 steps"),

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from neorl import (Agent, Node, NresMap, Policy, Run, WaterWorld, multimodal, network_d, object_vector_cells,
+from neorl import (Agent, Node, NresMap, Run, WaterWorld, multimodal, network_d, object_vector_cells,
                    place_cells, superpose)
 from neorl.agents.compile import constants_of
 from neorl.core.kernel import arrays, execute, mapped
@@ -36,7 +36,7 @@ def test_a_survey_is_the_superposition_at_every_place():
 
 
 def test_a_survey_at_the_agents_own_place_is_what_it_chooses_by_next():
-    run = Run(network_d([4, 5], policy=Policy(exploration=0.0)), TANK, seed=2)
+    run = Run(network_d([4, 5], object_state="object"), TANK, seed=2)
     for _ in range(20):
         run.advance(500)
         run.world_state.scene.position[:] = TANK.width / 2
