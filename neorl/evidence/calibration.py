@@ -136,7 +136,7 @@ def rescale(table, n, scales, runs, executor=None, seed=0):
     Returns the table that includes the new rows, n for each scale, which have been run in that group alone.
     runs: of each condition. executor, seed: as in `calibrate`. Raises ValueError for a bad argument.
     """
-    most = max((row.runs for row in calibration_table.nearest(table)))
+    most = max(row.runs for row in calibration_table.nearest(table))
     first = [row for row in calibration_table.leading(table) if row.runs == most][: checks.integer("n", n, at_least=1)]
     begin, wave = len(table), 1 + max(row.wave for row in table)
     readings = [replace(row.reading, scale=float(scale)) for scale in scales for row in first]

@@ -234,6 +234,16 @@ def test_narrowing_draws_between_the_two_readings_for_which_most_claims_hold(sma
         calibration.narrow(table, 9, 5, 40)
 
 
+def test_other_scales_are_tried_in_paper_c_alone(small):
+    table = calibration.confirm(calibration.refine(0.1, [], OF_TRIALS, 6), 3, 20)
+    rescaled = calibration.rescale(table, 2, (5, 50), 8)
+    first = [row.reading for row in calibration_table.leading(table) if row.runs == 20][:2]
+    assert rescaled[: len(table)] == table
+    assert [row.reading for row in rescaled[len(table):]] == [
+        replace(reading, scale=scale) for scale in (5.0, 50.0) for reading in first]
+    assert {(row.groups, row.runs) for row in rescaled[len(table):]} == {(("networks",), 8)}
+
+
 def test_a_search_goes_on_from_a_table(small):
     short = calibration.calibrate(0.05)
     longer = calibration.calibrate(0.2, table=short)
