@@ -90,12 +90,11 @@ def refine(minutes, table, parents, runs, executor=None, seed=0, keep=None):
     checks.integer("runs", runs, at_least=2)
     table = list(table)
     while time.monotonic() < end:
-        wave, begin = 1 + max((row.wave for row in table), default=0), len(table)
-        rng = np.random.default_rng([seed, wave])
+        rng = np.random.default_rng([seed, _next_wave(table)])
         found = sorted((row for row in table if row.complete and row.runs > RUNS), key=lambda row: row.distance)
         best = [*parents, *(row.reading for row in found[:KEPT])]
         drawn = [_child(*(best[i] for i in rng.integers(len(best), size=2)), rng) for _ in range(max(ROUND.values()))]
-        rows = [Row(wave, 1_000 * seed + begin + i, runs, STEPS, reading) for i, reading in enumerate(drawn)]
+        rows = _new_rows(table, drawn, runs, seed)
         order = list(range(len(rows)))
         for group, n in ROUND.items():
             order = sorted(order, key=lambda i: rows[i].distance)[:n]
@@ -121,10 +120,9 @@ def narrow(table, refined_runs, n, runs, executor=None, seed=0):
         raise ValueError(f"table has {len(found)} complete rows of {refined_runs} runs, but two are needed: refine it "
                          "with as many runs first")
     nearest, other = (row.reading for row in found[:2])
-    begin, wave = len(table), 1 + max(row.wave for row in table)
-    rng = np.random.default_rng([seed, wave])
-    rows = [Row(wave, 1_000 * seed + begin + i, checks.integer("runs", runs, at_least=2), STEPS,
-                _between(nearest, other, rng)) for i in range(checks.integer("n", n, at_least=1))]
+    rng = np.random.default_rng([seed, _next_wave(table)])
+    rows = _new_rows(table, [_between(nearest, other, rng) for _ in range(checks.integer("n", n, at_least=1))], runs,
+                     seed)
     for group in GROUPS:
         rows = calibration_table.run(rows, group, executor)
     return [*table, *rows]
@@ -138,11 +136,8 @@ def rescale(table, n, scales, runs, executor=None, seed=0):
     """
     most = max(row.runs for row in calibration_table.nearest(table))
     first = [row for row in calibration_table.leading(table) if row.runs == most][: checks.integer("n", n, at_least=1)]
-    begin, wave = len(table), 1 + max(row.wave for row in table)
     readings = [replace(row.reading, scale=float(scale)) for scale in scales for row in first]
-    rows = [Row(wave, 1_000 * seed + begin + i, checks.integer("runs", runs, at_least=2), STEPS, reading)
-            for i, reading in enumerate(readings)]
-    return [*table, *calibration_table.run(rows, "networks", executor)]
+    return [*table, *calibration_table.run(_new_rows(table, readings, runs, seed), "networks", executor)]
 
 
 def confirm(table, n, runs, executor=None, seed=0):
@@ -151,13 +146,22 @@ def confirm(table, n, runs, executor=None, seed=0):
     See `calibration_table.leading`; readings that have been run only twice come last.
     runs: of each condition. seed: as in `calibrate`. Raises ValueError for a bad argument, and if no row is complete.
     """
-    begin, wave = len(table), 1 + max((row.wave for row in table), default=0)
     first = sorted(calibration_table.leading(table), key=lambda row: row.runs <= RUNS)[: checks.integer("n", n, 1)]
-    again = [Row(wave, 1_000 * seed + begin + i, checks.integer("runs", runs, at_least=2), row.steps, row.reading)
-             for i, row in enumerate(first)]
+    again = [replace(new, steps=row.steps)
+             for new, row in zip(_new_rows(table, [row.reading for row in first], runs, seed), first)]
     for group in GROUPS:
         again = calibration_table.run(again, group, executor)
     return [*table, *again]
+
+
+def _next_wave(table):
+    return 1 + max((row.wave for row in table), default=0)
+
+
+def _new_rows(table, readings, runs, seed):
+    """Rows of the next wave, which have not been run, with the seeds of the next places in the table."""
+    runs, begin = checks.integer("runs", runs, at_least=2), 1_000 * seed + len(table)
+    return [Row(_next_wave(table), begin + i, runs, STEPS, reading) for i, reading in enumerate(readings)]
 
 
 def _work(table, seed, runs, steps):
