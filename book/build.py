@@ -35,6 +35,7 @@ from papermill.exceptions import PapermillExecutionError, strip_color
 from traitlets.config import Config
 
 from neorl.evidence import ledger, report
+from neorl.evidence.opening import CLAIMS_PAGE
 from neorl.files import cache_folder, write_whole
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -210,6 +211,10 @@ def compute(notebook, parameters):
     executed = nbformat.read(work / notebook.name, nbformat.NO_CONVERT)
     for cell in executed.cells:  # links are written for notebooks/, but the page is in book/chapters/
         cell.source = link_terms(cell.source).replace("](../book/", "](../")
+        for output in cell.get("outputs", []):
+            shown = output.get("data", {})
+            if "text/markdown" in shown:
+                shown["text/markdown"] = shown["text/markdown"].replace(f'"{CLAIMS_PAGE}', '"../claims.html')
     executed.cells = results_first(executed.cells, notebook.stem, parameters, time.monotonic() - began)
     save_figures(executed, work)
     save_widgets(executed, work)
@@ -345,7 +350,7 @@ def make_pages():
 
 
 def sources():
-    return files(ROOT / "neorl")
+    return [*files(ROOT / "neorl"), *files(ROOT / "notebooks" / "lib")]
 
 
 def files(folder):

@@ -1,8 +1,10 @@
-"""The order of a built page: title, what was found, the page's text, and last its parameters.
+"""The order of a built page.
 
-A notebook runs from its parameters to its results, but a page begins with the results. So the cells tagged ``found``,
-a box and its figure, move up below the title, and the parameters, with the values used for the page, move to its end,
-folded below the heading *Run it yourself*. The cell that papermill injects is left out.
+A page that holds its experiment keeps its notebook's order: its parameters show the values used for the page, and the
+cell that papermill injects is left out.
+
+A notebook whose cells are tagged ``found``, a box and its figure, is turned round: these move up below the title, and
+the parameters move to the end, folded below the heading *Run it yourself*.
 """
 
 import re
@@ -17,6 +19,8 @@ def results_first(cells, name, values, seconds):
 
     name: of the notebook, without its extension. values: of its parameters, {name: value}. seconds: that it took.
     """
+    if not any(FOUND in tags(each) for each in cells):
+        return in_its_order(cells, values)
     title, *others = cells
     last = [each for each in others if PARAMETERS in tags(each)]
     for cell in last:
@@ -27,6 +31,15 @@ def results_first(cells, name, values, seconds):
     rest = [each for each in others if not {FOUND, PARAMETERS, INJECTED} & tags(each)]
     heading = new_markdown_cell(run_it_yourself(name, seconds), id="run-it-yourself")  # not an id at random
     return [title, *first, *rest, heading, *last]
+
+
+def in_its_order(cells, values):
+    """The cells of a computed notebook that holds its experiment, in their own order."""
+    kept = [each for each in cells if INJECTED not in tags(each)]
+    for cell in kept:
+        if PARAMETERS in tags(cell):
+            cell.source = with_values(cell.source, values)
+    return kept
 
 
 def tags(cell):

@@ -10,6 +10,7 @@ import random
 import secrets
 import sys
 import time
+from pathlib import Path
 
 import numpy as np
 
@@ -17,6 +18,8 @@ from neorl.experiments import cache, kept
 from neorl.experiments.run import new_bins
 from neorl.experiments.simulation import live
 from neorl.files import cache_folder
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "notebooks"))  # pages define worlds and kernels there
 
 
 def main():

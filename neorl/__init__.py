@@ -7,7 +7,6 @@ learn by `CALIBRATED` and choose by `GREEDY`; the defaults of `Learning` and `Po
 
 The package is organised in rooms; a module imports only from its own room and from the rooms below it:
 
-- `neorl.chapters`: the experiments and figures of the book's notebooks;
 - `neorl.browser`: the kernels compiled for web pages, and the Explorer that runs them there;
 - `neorl.drawing`: figures;
 - `neorl.gym`: worlds as Gymnasium environments, and agents in any Gymnasium environment;

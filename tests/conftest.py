@@ -2,10 +2,12 @@
 
 import functools
 import http.server
+import os
 import shutil
 import subprocess
 import sys
 import threading
+from pathlib import Path
 
 import matplotlib
 import pytest
@@ -19,6 +21,9 @@ from neorl import files
 settings.register_profile("neorl", deadline=None, derandomize=True)
 settings.load_profile("neorl")
 matplotlib.use("agg")
+# Interpreters that tests start find the pages' modules, as the kernels of notebooks do.
+os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [str(Path(__file__).parents[1] / "notebooks"),
+                                                          os.environ.get("PYTHONPATH")]))
 
 BROWSERS = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"]
 QUIET = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",

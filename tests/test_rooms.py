@@ -23,7 +23,7 @@ def test_every_module_lies_in_a_room():
 
 
 def test_no_modules_import_each_other_in_a_circle():
-    graph = grimp.build_graph("neorl", cache_dir=None)
+    graph = grimp.build_graph("neorl", "lib", cache_dir=None)
     for module in graph.modules:
         for imported in graph.find_modules_directly_imported_by(module):
             assert not graph.chain_exists(importer=imported, imported=module), (module, imported)

@@ -90,7 +90,7 @@ AT_EVERY_STEP = {"credit": "share", "absent_decay": 0.0, "memory": 0.0, "bootstr
 class Contacts(checks.Final):
     """How nodes with contacts as their only goals learn, see `neorl.core.contacts`: beyond the thesis.
 
-    The defaults are the best values found by `neorl.chapters.beyond_agents.search`.
+    The defaults are the best values found by `notebooks/lib/beyond_agents/search.py`.
 
     horizon: seconds > 0, the time constant of discounting.
     learning_rate: α in [0, 1], the minimum; after n visits the rate is (n + 2)^(−3/4) or this, whichever is greater.

@@ -11,7 +11,7 @@ from neorl.evidence.marks import html
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.verdict import RUNS_FOR_A_VERDICT, VERDICTS
 
-CLAIMS_PAGE = "../claims.html"  # relative to the built pages
+CLAIMS_PAGE = "../book/claims.md"  # from a notebook; the build makes it the built page
 REASONS = {"not testable": ", because the agents learned too little"}
 
 
@@ -31,6 +31,14 @@ def what_was_found(sentences, runs, verdicts=None):
         lines.append(f"**Quick look.** This page was computed with few runs of each condition, {runs} at most.")
     # A blank line ends the HTML, so that the text between the two tags is parsed as Markdown.
     return "\n\n".join(['<div class="found">', *lines, sentences, "</div>"])
+
+
+def found(judged, runs):
+    """The box of a page whose numbers stand in its tables: verdicts alone.
+
+    judged: {reading: [Claim, …]}. runs: of each condition, the parameter of the page.
+    """
+    return what_was_found("", runs, verdicts_of(judged))
 
 
 def verdicts_of(judged):

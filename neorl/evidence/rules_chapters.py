@@ -53,7 +53,7 @@ def judge_cost(together, alone, none):
 
 def judge_temporality(whole, short):
     """Claim T3, from the loss of agents that remember one step less than the process
-    (`neorl.chapters.chapter_3.temporality`).
+    (`notebooks/lib/chapter_3/temporality.py`).
 
     whole, short: {name of a process: reward above chance, (runs,)}, of agents that remember all L steps, and of agents
     that remember one step less.

@@ -16,7 +16,7 @@ joints of an `Arm`, the waters of a `Vessel` with a rudder, and the pool of a `W
    `size`, `fps`, `dynamics` and `rules`: see `neorl.worlds.world`.
 
 Nothing else in the package has to change: `neorl.Run`, `neorl.simulate`, `neorl.sweep` and the cache accept it as it
-is. `neorl.chapters.own_world.pond` is a small example, `neorl.worlds.arena` a larger one.
+is. `notebooks/lib/own_world/pond.py` is a small example, `neorl.worlds.arena` a larger one.
 
 Kernels keep to the rules in `neorl.core.kernel`. In particular they allocate nothing, and an index out of range crashes
 the interpreter; running a world with ``NUMBA_DISABLE_JIT=1`` finds such mistakes.

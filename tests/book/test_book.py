@@ -25,7 +25,7 @@ PUBLIC = sorted(".".join(path.relative_to(ROOT / "neorl").with_suffix("").parts)
 def make_book(tmp_path):
     """`make_book(url, modules)` builds a book of two pages with our settings and returns their HTML."""
 
-    def make(url="", modules=("neorl.chapters.shared.grid",)):
+    def make(url="", modules=("lib.shared.grid",)):
         shutil.rmtree(tmp_path / "book", ignore_errors=True)
         chapters = tmp_path / "book" / "chapters"
         chapters.mkdir(parents=True)
@@ -184,10 +184,10 @@ def test_what_a_function_raises_is_no_part_of_an_argument():
 def test_a_name_links_to_its_room_or_below_and_an_argument_to_nothing(make_book):
     _, reference = make_book(modules=[f"neorl.{name}" for name in (
         "core.kernel", "core.modality", "core.maps", "core.choices", "core.scene", "worlds", "worlds.world",
-        "worlds.arena", "agents.individual", "agents.learner", "experiments.run", "chapters.chapter_3.hybrid_reward",
-        "chapters.other_spaces.lives")])
+        "worlds.arena", "agents.individual", "agents.learner",
+        "experiments.run")] + ["lib.chapter_3.hybrid_reward", "lib.other_spaces.lives"])
     of_polar = reference.split('id="neorl.core.modality.polar"')[1].split("</dl>")[0]
-    assert ">reach<" in of_polar and "#neorl.chapters.other_spaces.lives.reach" not in of_polar
+    assert ">reach<" in of_polar and "#lib.other_spaces.lives.reach" not in of_polar
     of_axis = reference.split('id="neorl.core.modality.Axis"')[1].split("</dl>")[0]
     assert "#neorl.core.maps.NresMap.intervals" not in of_axis
     assert 'href="#neorl.core.kernel.kernel" title' in of_axis  # neorl.kernel
@@ -205,8 +205,9 @@ def test_a_name_links_to_its_room_or_below_and_an_argument_to_nothing(make_book)
 def test_the_reference_has_types_and_defaults_as_in_code(make_book):
     _, reference = make_book(modules=[f"neorl.{name}" for name in (
         "agents.agent", "agents.papers", "agents.rules", "browser.replay", "checks", "core.maps", "core.scene",
-        "drawing.curves", "chapters.assumptions",
-        "evidence.calibration_table\n\n.. autodata:: neorl.core.modality.MOST_CELLS\n   :no-value:")])
+        "drawing.curves",
+        "evidence.calibration_table\n\n.. autodata:: neorl.core.modality.MOST_CELLS\n   :no-value:")] + [
+            "lib.assumptions"])
     signatures = " ".join(re.findall(r'<dt class="sig[^>]*>(.*?)</dt>', reference, re.DOTALL))
     signatures = " ".join(html.unescape(re.sub(r"<[^>]+>", "", signatures)).split())
     for written in ("learning: Learning = Learning(), policy: Policy = Policy(),", "choose: Callable = greedy)",
@@ -218,7 +219,7 @@ def test_the_reference_has_types_and_defaults_as_in_code(make_book):
         assert written in signatures
     assert not re.search(r"[~<]|Path\(|_Buffer|ndarray", signatures)
     assert "−`" not in reference
-    of_page = " ".join(re.sub(r"<[^>]+>", "", reference.split('id="module-neorl.chapters.assumptions"')[1]).split())
+    of_page = " ".join(re.sub(r"<[^>]+>", "", reference.split('id="module-lib.assumptions"')[1]).split())
     assert "estimated from ENOUGH = 32 readings or more" in of_page  # a constant without an entry
     of_constant = reference.split('id="neorl.core.modality.MOST_CELLS"')[1].split("</dl>")[0]
     assert "2 ** 31 - 1 of a map" in " ".join(re.sub(r"<[^>]+>", "", of_constant).split())

@@ -13,7 +13,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 # The docstrings and strings of all these rooms are checked.
-ROOMS = ("core", "worlds", "agents", "experiments", "evidence", "drawing", "browser", "gym", "chapters")
+ROOMS = ("core", "worlds", "agents", "experiments", "evidence", "drawing", "browser", "gym")
 TELLTALE = re.compile(r"""
     \b(whoever|whom|nobody|somebody|someone|anybody|everybody|from\ nothing|tells?|told|hangs?\ on|wish(es|ed)?)\b
     | (^|[.:;(–]\ )who\b | \b(to|for|by|with|of|and|or|from|as|than|is|those)\ who\b  # without a noun before it
@@ -40,8 +40,8 @@ def prose():
                 yield path.name, source
             else:
                 yield from ((path.name, text) for text in strings(source))
-    for room in ROOMS:
-        for path in sorted((ROOT / "neorl" / room).rglob("*.py")):
+    for folder in (*(ROOT / "neorl" / room for room in ROOMS), ROOT / "notebooks" / "lib"):
+        for path in sorted(folder.rglob("*.py")):
             yield from ((str(path.relative_to(ROOT)), text) for text in strings(path.read_text(encoding="utf-8")))
 
 

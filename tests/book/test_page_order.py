@@ -29,6 +29,13 @@ def test_a_page_opens_with_its_title_and_what_was_found_and_ends_with_its_parame
     assert page_order.tags(parameters) == {"parameters", "hide-input"}
 
 
+def test_a_page_that_holds_its_experiment_keeps_its_order():
+    kept = [each.copy() for each in CELLS if "found" not in page_order.tags(each)]
+    ordered = page_order.results_first(kept, "page", {"runs": 4}, 30.0)
+    assert [each.source for each in ordered] == ["# Title", "runs: int = 4  # of each", "import neorl", "Text.",
+                                                 "other"]
+
+
 def test_only_the_parameters_that_were_given_change():
     source = "runs: int = 20\nruns_more: int = 3\nname: str = 'a'  # b"
     assert page_order.with_values(source, {"runs": 4, "name": "c"}) == (

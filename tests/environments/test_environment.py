@@ -14,7 +14,7 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 
 from neorl import Agent, Arena, Run, Scene, WaterWorld, World, brownian, kernel
-from neorl.chapters.own_world.pond import Pond
+from lib.own_world.pond import Pond
 from neorl.core.kernel import array, arrays, execute, mapped
 from neorl.core.scene import ABSENT, CARDINAL
 from neorl.gym import WorldEnv

@@ -16,7 +16,7 @@ from gymnasium.vector import AutoresetMode, SyncVectorEnv
 from gymnasium.wrappers import TimeLimit
 
 from neorl import Arena, WaterWorld
-from neorl.chapters.own_world.pond import Pond
+from lib.own_world.pond import Pond
 from neorl.gym import VectorWorldEnv, WorldEnv
 
 WORLDS = {"tank": WaterWorld(width=60, n_creeps=2, win_reward=5.0), "pond": Pond(),

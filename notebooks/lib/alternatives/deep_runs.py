@@ -1,0 +1,141 @@
+"""Deep reinforcement learning in WaterWorld with Stable-Baselines3: how the stored tables were made.
+
+1. Methods: DQN and PPO of Stable-Baselines3, and QR-DQN of its contributed package, with two layers of 64 units, on one
+   thread. Each is one agent that learns from one stream of experience without episodes.
+2. Observation: that of `neorl.gym`, with positions relative to the agent and the nearest creep first, followed by the
+   velocity of every creep in that order. The other learners of the page do not observe the creeps' velocities.
+   Positions of creeps are multiplied by a tuned factor.
+3. Search: the same number of settings is drawn for each method (`lib.alternatives.deep_settings`), and each
+   is tried once, for `SEARCH_STEPS` steps with 3 creeps on a seed of its own. The one that earned most in the last
+   third of these is used for all runs.
+4. Exploration ends after a number of steps, not after a share of a run, so a long run begins like a short one.
+5. Most runs of 600,000 steps in the package's table were computed by loops that do the libraries' arithmetic with fewer
+   calls, at two to five times their speed. Compared with eleven runs of this script, three or more of each method and
+   up to the full length, they earned the same reward in every minute. They have no time in the table.
+
+Both tables are made by ``python -m lib.alternatives.deep_runs search deep_search.csv`` and ``… run
+deep_search.csv deep_runs.csv``, which resume when rerun. They take hours, and need stable-baselines3 and sb3-contrib,
+which no extra includes. `lib.alternatives.stored` reads the tables.
+"""
+
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+from lib.alternatives.deep_settings import SEARCH_SEED, SEARCH_STEPS, SETTINGS, settings_of
+from lib.alternatives.stored import (METHODS, MINUTE, RUN_FIELDS, SEARCH_FIELDS, append, chosen, finished,
+                                                read_search, row_of_run)
+from neorl.extras import require
+
+gymnasium = require("gymnasium", extra="gym")
+
+LAYERS = (64, 64)
+FASTEST_CREEP = 0.25  # sizes of the world per second
+# (creeps, steps, runs) in the order of computation; the methods take turns.
+PLAN = ((3, 150_000, 10), (8, 150_000, 10), (3, 600_000, 10), (8, 600_000, 10))
+
+
+class Sight(gymnasium.Wrapper):
+    """The environment with creeps' velocities in its observations, and a record of the reward of each minute.
+
+    env: WaterWorld, egocentric. steps: of the run. seed, run: of its world, which is that of
+    ``neorl.Run(agent, world, seed, run)``. scale: factor on creeps' positions relative to the agent, in board widths.
+    """
+
+    def __init__(self, env, steps, seed, run, scale=1.0):
+        super().__init__(env)
+        self._scale = np.ones(env.observation_space.shape, np.float32)
+        for axis in range(2):
+            self._scale[4 + axis::4] = scale  # after the agent's place and velocity: place and kind of each creep
+        self._start = {"seed": seed, "options": {"run": run}}
+        self.rewards, self._now = np.zeros(-(-steps // MINUTE)), 0
+        creeps = env.unwrapped.world.n_creeps
+        low, high = (np.append(self._scale * end, np.full(2 * creeps, sign, np.float32)) for end, sign in
+                     ((env.observation_space.low, -1), (env.observation_space.high, 1)))
+        self.observation_space = gymnasium.spaces.Box(low, high)
+
+    def reset(self, **_):
+        """Reset to the run's own world, whatever seed the library draws."""
+        observation, info = self.env.reset(**self._start)
+        return self._with_velocities(observation), info
+
+    def step(self, action):
+        """Take a step of the world, and add its reward to that of the current minute."""
+        observation, reward, *others = self.env.step(int(action))
+        if self._now // MINUTE < len(self.rewards):
+            self.rewards[self._now // MINUTE] += reward
+        self._now += 1
+        return self._with_velocities(observation), reward, *others
+
+    def _with_velocities(self, observation):
+        state, size = self.env.unwrapped.world_state, self.env.unwrapped.world.size
+        nearest_first = np.argsort(((state.scene.things - state.scene.position) ** 2).sum(axis=1), kind="stable")
+        velocity = (state.direction * state.speed[:, None])[nearest_first] / size / FASTEST_CREEP
+        return np.concatenate([self._scale * observation, velocity.ravel()], dtype=np.float32)
+
+
+def live(method, settings, creeps, steps, seed, run):
+    """Train a deep learner for `steps` steps: (reward of each minute, float64; processor seconds; kB).
+
+    The kilobytes are those of its networks, of their optimiser's state, and of stored experience.
+    """
+    import torch
+    torch.set_num_threads(1)
+    env = gymnasium.make("neorl.gym:neorl/WaterWorld-v0", n_creeps=creeps, max_episode_steps=-1)
+    settings = dict(settings)
+    sight = Sight(env, steps, seed, run, settings.pop("position_scale"))
+    model = _model(method, settings, sight, steps, seed * 1_000 + run)
+    began = time.process_time()
+    model.learn(steps)
+    return sight.rewards, time.process_time() - began, _kilobytes(model)
+
+
+def _model(method, settings, env, steps, seed):
+    import sb3_contrib
+    import stable_baselines3
+    kind = {"DQN": stable_baselines3.DQN, "PPO": stable_baselines3.PPO, "QR-DQN": sb3_contrib.QRDQN}[method]
+    network = {"net_arch": list(LAYERS)}
+    if method != "PPO":
+        settings["exploration_fraction"] = settings.pop("exploration_steps") / steps  # above 1 if the run ends first
+        settings["learning_starts"] = 1_000
+    if method == "QR-DQN":
+        network["n_quantiles"] = 25
+    return kind("MlpPolicy", env, seed=seed, device="cpu", policy_kwargs=network, **settings)
+
+
+def _kilobytes(model):
+    import torch
+    tensors = list(model.policy.state_dict().values())
+    tensors += [value for of in model.policy.optimizer.state.values() for value in of.values()
+                if isinstance(value, torch.Tensor)]
+    buffer = getattr(model, "replay_buffer", None) or model.rollout_buffer
+    arrays = [value for value in vars(buffer).values() if isinstance(value, np.ndarray)]
+    return (sum(each.element_size() * each.nelement() for each in tensors) + sum(each.nbytes for each in arrays)) / 1e3
+
+
+def search(path, *methods):
+    """Try `SETTINGS` settings of each method, or of those named, and append their rewards to the table at `path`."""
+    done = {(row["method"], row["number"]) for row in read_search(path)} if Path(path).exists() else set()
+    for number in range(SETTINGS):
+        for method in methods or METHODS:
+            if (method, number) not in done:
+                rewards, _, _ = live(method, settings_of(method, number), 3, SEARCH_STEPS, SEARCH_SEED, number)
+                third = rewards[-len(rewards) // 3:]
+                append(path, SEARCH_FIELDS, (method, number, f"{third.sum() / (60 * len(third)):.4f}"))
+
+
+def run_all(searched, path):
+    """Compute the runs of `PLAN` that the table at `path` does not have yet, with the best settings of the search."""
+    best = chosen(read_search(searched))
+    for creeps, steps, runs in PLAN:
+        for run in range(runs):
+            for method in METHODS:
+                if (method, creeps, steps, run) not in finished(path):
+                    rewards, seconds, kilobytes = live(method, settings_of(method, best[method]), creeps, steps, 0, run)
+                    append(path, RUN_FIELDS, row_of_run(method, creeps, steps, run, seconds, kilobytes, rewards))
+
+
+if __name__ == "__main__":
+    {"search": search, "run": run_all}[sys.argv[1]](*sys.argv[2:])

@@ -1,0 +1,334 @@
+"""Finite Markov decision processes, solved by planning or by learning (thesis sections 3.1 and 3.3).
+
+Planning uses a known process: sweeps of the Bellman equation give values, values give a policy (Bellman 1957; eq. 3.7).
+Learning starts without a model and uses each step: to update action values by Q-learning (Watkins 1989; eq. 3.5), or to
+count transitions, which give a model to plan with.
+
+Whatever the action, a step has one of the same few *outcomes*, each with its chance; the outcome determines the next
+state and the reward. A state that ends an episode is followed by a start, and has value 0 itself.
+"""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from neorl import checks
+from lib.shared.tabular import Rates, exploring_action, learn_q
+from neorl.core.kernel import execute, kernel
+from neorl.core.stream import new_stream, randint, uniform
+from neorl.evidence.statistics import estimate
+
+
+@dataclass(frozen=True, eq=False)
+class Process:
+    """A Markov decision process.
+
+    successors: int64 (states, actions, outcomes), the next states. chances: (outcomes,), which add up to 1.
+    rewards: (states, actions, outcomes). ends: bool (states,), whether a state ends the episode. starts: the states in
+    which an episode may begin, each equally likely.
+
+    Raises ValueError if successors or starts are not states, or the chances do not add up to 1.
+    """
+
+    successors: np.ndarray
+    chances: np.ndarray
+    rewards: np.ndarray
+    ends: np.ndarray
+    starts: np.ndarray
+
+    def __post_init__(self):
+        for name in ("successors", "starts"):
+            states = getattr(self, name)
+            if states.min() < 0 or states.max() >= self.states:
+                raise ValueError(f"{name} lie from {states.min()} to {states.max()}, allowed are states from 0 to "
+                                 f"{self.states - 1}")
+        if not np.isclose(np.sum(self.chances), 1):
+            raise ValueError(f"chances add up to {np.sum(self.chances)}, allowed is 1")
+
+    @property
+    def states(self):
+        """The number of states."""
+        return self.successors.shape[0]
+
+    @property
+    def actions(self):
+        """The number of actions."""
+        return self.successors.shape[1]
+
+    def expected(self):
+        """The probability of each next state, (states, actions, states), and the expected reward, (states, actions).
+
+        Both are 0 in states that end an episode.
+        """
+        goes_on = ~self.ends[:, None]
+        probability = np.zeros((self.states, self.actions, self.states))
+        for outcome, chance in enumerate(self.chances):
+            np.add.at(probability, (*np.indices((self.states, self.actions)), self.successors[..., outcome]), chance)
+        return probability * goes_on[..., None], self.rewards @ self.chances * goes_on
+
+
+def reaching(next_state, worth, slip=0.0, starts=None):
+    """A `Process` that pays a reward at certain states and ends there.
+
+    next_state: int64 (states, actions), as `lib.shared.grid.Grid.next_state`. worth: {state: reward}.
+    slip: the probability that a step takes a random action instead, from 0 to 1. starts: list of states; by default all
+    that do not end an episode.
+    Raises ValueError for anything else.
+    """
+    states, actions = next_state.shape
+    checks.real("slip", slip, 0, 1)
+    value = np.zeros(states)
+    for state, reward in worth.items():
+        value[checks.integer("worth", state, at_least=0, at_most=states - 1)] = checks.real("worth", reward)
+    ends = np.isin(np.arange(states), list(worth))
+    slipped = np.broadcast_to(next_state[:, None], (states, actions, actions))
+    successors = np.concatenate([next_state[..., None], slipped], axis=2)
+    return Process(successors, np.array([1 - slip] + [slip / actions] * actions), value[successors], ends,
+                   np.flatnonzero(~ends) if starts is None else np.array(starts))
+
+
+def lattice(side, dimensions):
+    """The next state after each action on a grid of any dimension: int64 (side ** dimensions, 2 * dimensions).
+
+    The actions go up and down each axis in turn; a step over the border leaves the state unchanged. The first state is
+    one corner, the last the opposite one. Raises ValueError unless both are integers ≥ 1.
+    """
+    checks.integer("side", side, at_least=1)
+    checks.integer("dimensions", dimensions, at_least=1)
+    shape = (side,) * dimensions
+    places = np.indices(shape).reshape(dimensions, -1)
+    moves = [sign * axis for axis in np.eye(dimensions, dtype=int) for sign in (1, -1)]
+    return np.stack([np.ravel_multi_index(places + move[:, None], shape, mode="clip") for move in moves], axis=1)
+
+
+def action_values(probability, reward, values, discount):
+    """The value of each action if the next states have `values`, (…, states): float64 (…, states, actions).
+
+    It is the right side of eq. 3.7.
+
+    probability: (…, states, actions, states). reward: (…, states, actions). discount: γ.
+    """
+    states, actions = reward.shape[-2:]
+    flat = probability.reshape(*probability.shape[:-3], states * actions, states)
+    return reward + discount * (flat @ values[..., None]).reshape(reward.shape)
+
+
+def policy_values(process, policy, discount):
+    """The value of each state under a policy: the solution of eq. 3.7 to ten digits, float64 (…, states).
+
+    policy: the action in each state, integers (…, states); one policy, or several of the same process. discount: at
+    most 0.9999. Raises ValueError for any other discount.
+    """
+    checks.real("discount", discount, 0, 0.9999)
+    policies = policy.reshape(-1, process.states)
+    each, goes_on = np.arange(process.states), ~process.ends
+    following = process.successors[each, policies].reshape(len(policies), -1)
+    paid = process.rewards[each, policies] @ process.chances * goes_on
+    values, change = paid, np.inf
+    while change > 1e-10 * (1 - discount) * np.abs(values).max():
+        after = np.take_along_axis(values, following, axis=1).reshape(*values.shape, -1) @ process.chances
+        before, values = values, paid + discount * after * goes_on
+        change = np.abs(values - before).max()
+    return values.reshape(policy.shape)
+
+
+class Stage(NamedTuple):
+    """Values and policy after an evaluation or an improvement of policy iteration."""
+
+    values: np.ndarray  # (states,)
+    policy: np.ndarray  # (states,), actions
+
+
+def policy_iteration(probability, reward, discount, sweeps):
+    """Alternate evaluation and improvement until neither changes anything: a list of `Stage`, the start first.
+
+    It starts from values of 0 and the policy that always takes action 0. An evaluation is that many sweeps of eq. 3.7.
+    An improvement replaces an action only by one of higher value. Two stages make an iteration.
+    Raises ValueError unless sweeps is an integer ≥ 1 and discount from 0 to 0.9999.
+    """
+    checks.integer("sweeps", sweeps, at_least=1)
+    checks.real("discount", discount, 0, 0.9999)
+    each = np.arange(len(reward))
+    values, policy = np.zeros(len(reward)), np.zeros(len(reward), int)
+    stages = [Stage(values, policy)]
+    while True:
+        for _ in range(sweeps):
+            values = action_values(probability, reward, values, discount)[each, policy]
+        stages.append(Stage(values, policy))
+        q = action_values(probability, reward, values, discount)
+        better = q.max(axis=1) > q[each, policy] + 1e-12
+        policy = np.where(better, q.argmax(axis=1), policy)
+        stages.append(Stage(values, policy))
+        if np.abs(q[each, policy] - values).max() < 1e-9:
+            return stages
+
+
+def iterations_until(losses, limit):
+    """The number of iterations until a loss is first below a limit.
+
+    losses: of each `Stage` of `policy_iteration`, (stages,), of which one after an iteration is below the limit.
+    """
+    return next(iteration for iteration, loss in enumerate(losses[::2]) if loss < limit)
+
+
+def sweeps_until_stable(probability, reward, discount, sweeps):
+    """The number of sweeps of `policy_iteration` in all, with ``sweeps`` for each evaluation."""
+    return sweeps * (len(policy_iteration(probability, reward, discount, sweeps)) // 2)
+
+
+def plan(probability, reward, discount, sweeps=200):
+    """The best action values, by sweeps of the Bellman optimality equation: float64 (…, states, actions).
+
+    Value iteration (Sutton and Barto 2018, section 4.4). The error at the start shrinks to discount ** sweeps of its
+    size.
+
+    probability: (…, states, actions, states). reward: (…, states, actions). discount: γ. sweeps: their number.
+    """
+    q = np.zeros(reward.shape)
+    for _ in range(sweeps):
+        q = action_values(probability, reward, q.max(axis=-1), discount)
+    return q
+
+
+class Lives(NamedTuple):
+    """The steps and the action values of learners, with states as they see them (``seen`` of `live`).
+
+    A step leads from states_tm1 by actions to states_t, and pays rewards, each (runs, steps).
+    """
+
+    states_tm1: np.ndarray
+    actions: np.ndarray
+    rewards: np.ndarray
+    states_t: np.ndarray
+    q: np.ndarray  # float64 (runs, checkpoints, states seen, actions)
+
+
+class ProcessArrays(NamedTuple):
+    """A `Process` as the kernel takes it, and its states as a learner sees them."""
+
+    successors: np.ndarray
+    limits: np.ndarray  # float64 (outcomes − 1,), thresholds between outcomes of a draw from [0, 1)
+    rewards: np.ndarray
+    ends: np.ndarray
+    starts: np.ndarray
+    seen: np.ndarray
+
+
+class Path(NamedTuple):
+    """The part of `Lives` that a kernel fills in, each (steps,)."""
+
+    states_tm1: np.ndarray
+    actions: np.ndarray
+    rewards: np.ndarray
+    states_t: np.ndarray
+
+
+def live(process, checkpoints, runs, seed, seen=None, learning_rate=0.0, discount=0.9, exploration=1.0):
+    """Run Q-learners, each in its own copy of a process: `Lives` up to the last checkpoint.
+
+    checkpoints: the numbers of steps after which to keep a copy of q, rising. seen: what a learner sees of each state,
+    integers (states,) from 0; by default the state. learning_rate: an action taken for the n-th time in a state is
+    learned at the rate 1 / n, but never at less than this. exploration: the probability that an action is drawn at
+    random (ε); at 1, behaviour does not depend on what is learned.
+    Raises ValueError for anything else, and for more than 32,767 states or 127 actions.
+    """
+    steps = [0] + [checks.integer("checkpoints", step, at_least=0) for step in checkpoints]
+    checks.integer("runs", runs, at_least=1)
+    checks.integer("states", process.states, at_least=1, at_most=np.iinfo(np.int16).max)
+    checks.integer("actions", process.actions, at_least=1, at_most=np.iinfo(np.int8).max)
+    seen = np.arange(process.states) if seen is None else np.asarray(seen)
+    rates = Rates(checks.real("learning_rate", learning_rate, 0, 1), checks.real("discount", discount, 0, 1),
+                  checks.real("exploration", exploration, 0, 1))
+    lives = Lives(*(np.zeros((runs, steps[-1]), kind) for kind in (np.int16, np.int8, np.float32, np.int16)),
+                  np.zeros((runs, len(checkpoints), seen.max() + 1, process.actions)))
+    table = ProcessArrays(process.successors, np.cumsum(process.chances)[:-1], process.rewards, process.ends,
+                          process.starts,
+                  seen)
+    for run in range(runs):
+        stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run,)))
+        q, visits = np.zeros(lives.q.shape[2:]), np.zeros(lives.q.shape[2:])
+        state = process.starts[execute(randint, stream, len(process.starts))]
+        for checkpoint, (begin, end) in enumerate(zip(steps, steps[1:])):
+            path = Path(*(each[run, begin:end] for each in lives[:4]))
+            state = execute(_live_on, table, rates, state, q, visits, stream, path)
+            lives.q[run, checkpoint] = q
+    return lives
+
+
+@kernel
+def _live_on(table, rates, state, q, visits, stream, path):
+    """Take as many steps as the path has room for, and return the state after the last."""
+    seen, limits = table.seen, table.limits
+    for step in range(path.rewards.shape[0]):
+        action = exploring_action(q[seen[state]], rates.exploration, stream)
+        drawn, outcome = uniform(stream), 0
+        while outcome < limits.shape[0] and drawn >= limits[outcome]:
+            outcome += 1
+        next_state, reward = table.successors[state, action, outcome], table.rewards[state, action, outcome]
+        visits[seen[state], action] += 1
+        rate = max(rates.learning_rate, 1.0 / visits[seen[state], action])
+        learn_q(q, seen[state], action, reward, seen[next_state], table.ends[next_state], rate, rates.discount)
+        path.states_tm1[step], path.actions[step], path.rewards[step] = seen[state], action, reward
+        path.states_t[step] = seen[next_state]
+        state = table.starts[randint(stream, table.starts.shape[0])] if table.ends[next_state] else next_state
+    return state
+
+
+def count_transitions(lives, steps):
+    """The number of transitions from each state by each action to each state: int64 (runs, states, actions, states).
+
+    lives: of `live`. steps: how many are counted, from the first.
+    """
+    runs, _, states, actions = lives.q.shape
+    pairs, following = _pairs(lives, steps), lives.states_t[:, :steps].ravel()
+    counts = np.bincount(pairs * states + following, minlength=runs * states * actions * states)
+    return counts.reshape(runs, states, actions, states)
+
+
+def learned_model(lives, steps):
+    """The model of a process learned from its first `steps` steps, as `Process.expected` has it, for each run.
+
+    The shares of each next state, float64 (runs, states, actions, states), and the mean rewards, (runs, states,
+    actions). Both are 0 for actions never tried.
+    """
+    counts = count_transitions(lives, steps)
+    tried = np.maximum(counts.sum(axis=-1), 1)
+    paid = np.bincount(_pairs(lives, steps), weights=lives.rewards[:, :steps].ravel(), minlength=tried.size)
+    return counts / tried[..., None], paid.reshape(tried.shape) / tried
+
+
+def model_filling(filled, entries, pairs):
+    """The non-zero entries of models' tables: their mean percentage, and their number per pair of state and action.
+
+    filled, entries, pairs: (runs,), the numbers of entries of a table that differ from 0, of all its entries, and of
+    the pairs that they belong to. The number per pair is an `Estimate`.
+    """
+    return 100 * (filled / entries).mean(), estimate(np.mean, filled / pairs)
+
+
+def first_visits(lives):
+    """The step, from 1, at which each run first takes each action in each state: int64 (runs, states, actions).
+
+    It is 0 for actions never tried.
+    """
+    runs, steps = lives.actions.shape
+    first = np.zeros((runs, *lives.q.shape[2:]), int)
+    backwards = _pairs(lives, steps)[::-1]  # of several visits the last one written remains
+    first.ravel()[backwards] = np.tile(np.arange(steps, 0, -1), runs)
+    return first
+
+
+def _pairs(lives, steps):
+    """Run, state and action of each step as one number, (runs * steps,)."""
+    runs, _, states, actions = lives.q.shape
+    run = np.arange(runs)[:, None] * states
+    return ((run + lives.states_tm1[:, :steps]) * actions + lives.actions[:, :steps]).ravel()
+
+
+def time_to(good, checkpoints):
+    """The first checkpoint at which each run is good, the last if it never is: (runs,).
+
+    good: bool (runs, checkpoints).
+    """
+    return np.asarray(checkpoints)[np.where(good.any(axis=1), good.argmax(axis=1), -1)]

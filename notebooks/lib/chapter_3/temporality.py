@@ -1,0 +1,152 @@
+"""Processes with memory: what came steps ago determines what comes next (thesis section 3.4.2, observation 1).
+
+A *mechanism* of memory L shows one of Ψ symbols at each step, drawn uniformly, and pays 1 for naming its *outcome*, a
+symbol that its last L symbols determine by one of `RULES`. A *history* is the last L symbols, as a number in base Ψ
+whose last digit is the newest. The Ψ^L histories are the states of a Markov process; `states_needed` counts how many of
+them have to be distinguished, by what follows them.
+
+*Sticky actions* (Machado et al. 2018) are a memory of one step: with some probability the last action is repeated.
+"""
+
+import numpy as np
+
+from neorl import checks
+from lib.chapter_3.decision import Process, live, policy_values
+
+RULES = {
+    "sum": "the sum of the last L symbols modulo Ψ",
+    "delay": "the symbol that came L steps ago",
+    "table": "a random symbol, fixed for each history",
+    "pause": "1 after L symbols of 0 in a row, else 0",
+}
+
+
+def symbols(alphabet, memory):
+    """The symbols of each history, the newest last: int64 (alphabet ** memory, memory).
+
+    Raises ValueError unless alphabet is an integer ≥ 2 and memory an integer ≥ 1.
+    """
+    checks.integer("alphabet", alphabet, at_least=2)
+    checks.integer("memory", memory, at_least=1)
+    return np.indices((alphabet,) * memory).reshape(memory, -1).T
+
+
+def next_histories(alphabet, memory):
+    """The history that follows each history with each symbol: int64 (alphabet ** memory, alphabet)."""
+    histories = alphabet**memory
+    return (np.arange(histories)[:, None] * alphabet + np.arange(alphabet)) % histories
+
+
+def outcomes(alphabet, memory, rule, seed=0):
+    """The outcome of each history: int64 (alphabet ** memory,).
+
+    rule: one of `RULES`. seed: of the rule "table". Raises ValueError for anything else.
+    """
+    digits = symbols(alphabet, memory)
+    checks.one_of("rule", rule, tuple(RULES))
+    if rule == "sum":
+        return digits.sum(axis=1) % alphabet
+    if rule == "delay":
+        return digits[:, 0]
+    if rule == "table":
+        return np.random.default_rng(seed).integers(alphabet, size=len(digits))
+    return (digits == 0).all(axis=1).astype(int)
+
+
+def states_needed(following, outcome):
+    """The number of states needed to predict all outcomes: the size of the smallest equivalent machine.
+
+    following: int64 (histories, symbols), as `next_histories`. outcome: (histories,). Two histories are one state if
+    they have the same outcome now, and after every sequence of symbols. Histories are split until no symbol leads from
+    one class to two (Moore 1956).
+    """
+    label = np.unique(outcome, return_inverse=True)[1]
+    while True:
+        distinguished = np.column_stack([label, label[following]])
+        finer = np.unique(distinguished, axis=0, return_inverse=True)[1].ravel()
+        if finer.max() == label.max():
+            return int(label.max()) + 1
+        label = finer
+
+
+def unlumpable(memories, least):
+    """The rules by which no two histories of two symbols can be lumped, for any memory.
+
+    memories: int64 (points,). least: {rule: [`states_needed` for each of memories]}.
+    """
+    return [rule for rule, states in least.items() if np.array_equal(states, 2**memories)]
+
+
+def memory_for(power):
+    """The memory with which two symbols have 10 ** power histories."""
+    return power / np.log10(2)
+
+
+def mechanism(alphabet, memory, rule, seed=0):
+    """A `Process` whose states are histories; the action is the outcome that the agent names. It never ends.
+
+    alphabet: Ψ, an integer ≥ 2. memory: L, an integer ≥ 1. rule, seed: as in `outcomes`.
+    Raises ValueError for anything else.
+    """
+    outcome = outcomes(alphabet, memory, rule, seed)
+    histories, shape = len(outcome), (len(outcome), alphabet, alphabet)
+    right = outcome[:, None, None] == np.arange(alphabet)[:, None]
+    return Process(np.broadcast_to(next_histories(alphabet, memory)[:, None], shape).copy(),
+                   np.full(alphabet, 1 / alphabet), np.broadcast_to(right, shape).astype(float),
+                   np.zeros(histories, bool), np.arange(histories))
+
+
+def window(alphabet, memory, length):
+    """What an agent that remembers the last `length` symbols sees of each history: int64 (alphabet ** memory,).
+
+    Raises ValueError unless length is an integer from 0 to memory.
+    """
+    checks.integer("length", length, at_least=0, at_most=memory)
+    return np.arange(alphabet**memory) % alphabet**length
+
+
+def hits(lives, alphabet, memory, rule, length, seed=0):
+    """The share of histories whose outcome the greedy action names: float64 (runs, checkpoints), from 0 to 1.
+
+    lives: of learners that see a `window` of that length in the mechanism, from
+        `lib.chapter_3.decision.live`.
+    """
+    named = lives.q.argmax(axis=-1)[..., window(alphabet, memory, length)]
+    return (named == outcomes(alphabet, memory, rule, seed)).mean(axis=-1)
+
+
+def sticky(next_state, worth, stickiness, starts=None):
+    """`lib.chapter_3.decision.reaching`, but with probability `stickiness` the last action is repeated.
+
+    Its states are pairs: state · actions + the last action. An episode starts as after any action. An agent that does
+    not remember its last action sees ``numpy.arange(states * actions) // actions``.
+    Raises ValueError unless stickiness is a number from 0 to 1.
+    """
+    checks.real("stickiness", stickiness, 0, 1)
+    states, actions = next_state.shape
+    state, last = np.divmod(np.arange(states * actions), actions)
+    chosen = next_state[state] * actions + np.arange(actions)
+    again = np.broadcast_to((next_state[state, last] * actions + last)[:, None], chosen.shape)
+    successors = np.stack([chosen, again], axis=2)
+    value, ends = np.zeros(states), np.isin(np.arange(states), list(worth))
+    value[list(worth)] = list(worth.values())
+    starts = np.flatnonzero(~ends) if starts is None else np.array(starts)
+    return Process(successors, np.array([1 - stickiness, stickiness]), value[successors // actions], ends[state],
+                   (starts[:, None] * actions + np.arange(actions)).ravel())
+
+
+def shares_by_floor(process, best, floors, steps, runs, seed, discount):
+    """The share of the best return that Q-learners earn in a `sticky` process, without the last action and with it.
+
+    best: the best return, on average over starts. floors: the least learning rates.
+    steps, runs, seed, discount: as in `lib.chapter_3.decision.live`.
+    Returns {floor: [float64 (runs,), float64 (runs,)]}.
+    """
+    pairs = np.arange(process.states)
+
+    def share(floor, seen):
+        lived = live(process, [steps], runs, seed, seen, learning_rate=floor, discount=discount)
+        chosen = lived.q[:, -1].argmax(axis=-1)[:, seen]
+        return policy_values(process, chosen, discount)[:, process.starts].mean(axis=-1) / best
+
+    return {floor: [share(floor, seen) for seen in (pairs // process.actions, pairs)] for floor in floors}

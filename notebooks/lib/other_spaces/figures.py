@@ -1,0 +1,232 @@
+"""Figures of the page "Is it general?": what an agent does in each world, and learning curves.
+
+Functions that draw a world take `ax`, or make a new board; those that draw a pair of panels return both.
+"""
+
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.patches import Circle, Rectangle
+
+from lib.other_spaces import birds, hill, lives, minds, pool
+from neorl.core.geometry import TAU
+from neorl.drawing.boards import as_board, board_or_new
+from neorl.drawing.curves import draw_curves
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, TEXT, axes_or_new, letters, mark, width_of_figures
+from neorl.evidence.statistics import estimate, probability_of_improvement
+
+SEEN = 12  # postures drawn on an arm's way to a target
+MARGIN = 0.15  # around an arm and its targets, a little more than their radius
+BIRD = 0.05  # half the length of a bird's body, as a share of the square
+# Names of birds that do not fit above their body, where another bird or a path is: right, down, side.
+ASIDE = {"gingerbread": (-0.03, 0.07, "right"), "sleigh": (-0.03, 0.15, "left")}
+MULTIPLES = (1, 2, 5, 10, 20)  # ticks
+FIRST_STEPS, ASIDE_OF_PATH = 10, 0.05  # a path's number stands beside its first steps, diameters of the pool from it
+
+
+def pair(heights=(1, 0.8)):
+    """Two panels, the upper one a board; side by side, their text would be too small on a phone."""
+    width = width_of_figures()
+    _, (above, below) = plt.subplots(2, 1, figsize=(width, 0.7 * width * sum(heights)), height_ratios=heights,
+                                     layout="constrained")
+    return as_board(above), below
+
+
+def draw_arms(reached, seen):
+    """An arm of two links on its way to two targets, and the reward per second of both arms over their runs.
+
+    reached: from `lives.reach`. seen: from `lives.watch`, with an arm of two links.
+    """
+    above, below = pair((0.6, 0.8))  # an arm on its way moves within a low part of its circle
+    draw_reaching(seen, above)
+    minutes = lives.curve(reached[2, "agent"])[0]
+    curves = {f"{links} links{name}": lives.curve(reached[links, key])[1]
+              for links in (2, 3) for key, name in (("agent", ""), ("random", ", random"))}
+    draw_curves(minutes, curves, "simulated minutes", "reward per second", below)
+    return above, below
+
+
+def draw_reaching(seen, ax=None, targets=2):
+    """Postures of an arm until it has met `targets` targets, earlier ones fainter, with the targets and obstacles."""
+    axes = board_or_new(ax)
+    ends = [at for at, (_, met) in enumerate(seen) if met][: targets + 1]
+    begin, end = (ends[0] + 1, ends[-1]) if len(ends) > 1 else (0, len(seen))
+    shown = np.linspace(begin, end - 1, SEEN * targets).astype(int)
+    for rank, at in enumerate(shown):
+        joints = joints_of(seen[at][0].scene.position)
+        axes.plot(*joints.T, color=AGENT, alpha=0.15 + 0.6 * rank / len(shown), linewidth=1.8)
+        axes.plot(*joints[-1], marker="o", markersize=3, color=AGENT)
+    for last in ends[1:]:
+        axes.add_patch(Circle(seen[last - 1][0].point[0], lives.ARMS[2].radius, facecolor=GREEN, alpha=0.5))
+        axes.text(*seen[last - 1][0].point[0], "+", color=TEXT, ha="center", va="center", weight="bold")
+    for obstacle in {tuple(seen[at][0].point[1]) for at in shown}:
+        axes.add_patch(Circle(obstacle, lives.ARMS[2].radius, facecolor=RED, alpha=0.5))
+        axes.text(*obstacle, "−", color=TEXT, ha="center", va="center", weight="bold")
+    axes.plot(0, 0, marker="s", markersize=6, color=INK)
+    places = np.concatenate([place for state, _ in (seen[at] for at in shown)
+                             for place in (joints_of(state.scene.position), state.point)])
+    axes.set(xlim=(-1.15, 1.15), ylim=(places[:, 1].max() + MARGIN, places[:, 1].min() - MARGIN))
+    return axes
+
+
+def joints_of(posture):
+    """Positions of the base, joints and hand of an arm with links of equal length: float64 (links + 1, 2)."""
+    angles = TAU * np.cumsum(posture)
+    ways = np.column_stack([np.cos(angles), np.sin(angles)]) / len(posture)
+    return np.concatenate([np.zeros((1, 2)), np.cumsum(ways, axis=0)])
+
+
+def draw_vessel(sailed, seen):
+    """A vessel's track among others, and the reward per minute of pilots over their runs.
+
+    sailed: from `lives.sail`. seen: from `lives.watch`.
+    """
+    above, below = pair()
+    draw_track(seen, above)
+    minutes = lives.curve(sailed["radar"])[0]
+    draw_curves(minutes, {name: 60 * lives.curve(result)[1] for name, result in sailed.items()}, "simulated minutes",
+                "reward per minute", below)
+    return above, below
+
+
+def draw_track(seen, ax=None):
+    """The track of a vessel, the waypoints that it reaches, and the tracks of the others."""
+    axes = board_or_new(ax)
+    axes.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
+    things = np.array([state.scene.things for state, _ in seen])
+    for track in things[:, 1:].swapaxes(0, 1):
+        leaps = np.flatnonzero(np.abs(np.diff(track, axis=0)).max(axis=1) > 0.05) + 1
+        for part in np.split(track, leaps):
+            axes.plot(*part.T, color=RED, linewidth=0.8, linestyle="--")
+            axes.plot(*part[-1], marker="D", markersize=4, color=RED)
+    track = np.array([state.scene.position for state, _ in seen])
+    axes.plot(*track.T, color=AGENT, linewidth=1.6)
+    axes.annotate("", track[-1], track[-4], arrowprops={"arrowstyle": "-|>", "color": AGENT})
+    for number, at in enumerate([at for at, (_, met) in enumerate(seen) if met and at > 0], 1):
+        place = seen[at - 1][0].scene.things[0]
+        axes.add_patch(Circle(place, lives.WATERS.radius, facecolor=GREEN, alpha=0.5))
+        mark(axes, place, str(number), ha="center", va="center")
+    return axes
+
+
+def draw_pool(swum, paths):
+    """Paths of a swimmer's first and second trial of a day, and seconds to the platform over the days.
+
+    swum: from `pool.swim`. paths: (first, second), float64 (steps, 2) each.
+    """
+    above, below = pair()
+    draw_paths(paths, above)
+    trials = np.arange(pool.DAYS * pool.TRIALS_A_DAY) + 0.5
+    draw_curves(trials / pool.TRIALS_A_DAY, {
+        **{name: each.reshape(len(each), -1) for name, each in swum["moved"].items()},
+        "neoRL, fixed": swum["fixed"]["neoRL"].reshape(len(swum["fixed"]["neoRL"]), -1)}, "days",
+        "seconds to the platform", below)
+    below.set_ylim(0, None)
+    for day in range(1, pool.DAYS):
+        below.axvline(day, color=INK, linewidth=0.8)
+    return above, below
+
+
+def draw_paths(paths, ax=None):
+    """The pool with the paths of trials, from the rim to the platform where the last one ends."""
+    axes = board_or_new(ax)
+    axes.add_patch(Circle((0.5, 0.5), 0.5, fill=False, edgecolor=INK, linewidth=1.4))
+    for number, (path, colour) in enumerate(zip(paths, (INK, AGENT)), 1):
+        axes.plot(*path.T, color=colour, linewidth=1.0 if number == 1 else 2.0)
+        ahead = path[min(FIRST_STEPS, len(path) - 1)] - path[0]
+        aside = path[0] + ASIDE_OF_PATH * np.array([ahead[1], -ahead[0]]) / max(np.hypot(*ahead), 1e-9)
+        axes.text(*aside, str(number), color=letters(colour), weight="bold", ha="center", va="center")
+    axes.add_patch(Circle(pool.MOVED.places[-1], pool.MOVED.radius, facecolor=GREEN, alpha=0.6))
+    return axes
+
+
+def draw_birds(asked, paths):
+    """The space of birds with paths to some of them, and the steps of questions as multiples of the fewest.
+
+    asked: from `birds.ask`. paths: float64 (steps, 2) each, from `birds.path`.
+    """
+    above, below = pair((1, 0.5))
+    draw_space(paths, above)
+    draw_rows({name: estimate(np.mean, each.mean(axis=1)) for name, each in asked.items()},
+              "steps, as a multiple of the fewest", below)
+    below.set_xscale("log")
+    below.set_xticks(MULTIPLES, MULTIPLES)
+    below.minorticks_off()
+    below.axvline(1, color=INK, linewidth=0.7)
+    return above, below
+
+
+def draw_space(paths, ax=None):
+    """The space of birds: those with a name, some others, and paths between them."""
+    axes = board_or_new(ax)
+    axes.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
+    for path in paths:
+        axes.plot(*path.T, color=AGENT, linewidth=1.2)
+    for name, bird in birds.NAMED.items():
+        draw_bird(bird, axes, GREEN)
+        right, down, side = ASIDE.get(name, (0.02, -0.04, "right"))
+        axes.text(bird[0] + right, bird[1] + down, name, color=TEXT, ha=side, va="bottom", fontsize=9)
+    for bird in birds.NAMELESS:
+        draw_bird(bird, axes, INK)
+    axes.text(0.5, 1.03, "neck →", color=TEXT, ha="center", va="top")
+    axes.text(-0.03, 0.5, "legs →", color=TEXT, ha="right", va="center", rotation=270)
+    return axes
+
+
+def draw_bird(bird, axes, colour):
+    """A bird at its point in the space, with neck and legs of the lengths that the point stands for."""
+    (x, y), (neck, legs) = bird, 0.02 + 0.08 * np.array(bird)
+    axes.plot([x - BIRD / 2, x + BIRD / 2], [y, y], color=colour, linewidth=5, solid_capstyle="round")
+    axes.plot([x + BIRD / 2, x + BIRD / 2 + neck / 3], [y, y - neck], color=colour, linewidth=1.6)
+    axes.plot(x + BIRD / 2 + neck / 3, y - neck, marker="o", markersize=3, color=colour)
+    for foot in (-0.01, 0.01):
+        axes.plot([x + foot, x + foot], [y, y + legs], color=colour, linewidth=1.2)
+
+
+def draw_car(driven, learner):
+    """The pushes that a driver has learned, by place and velocity, and steps per episode as drivers learn.
+
+    driven: from `hill.drive`. learner: a driver that has learned, a `neorl.Learner`.
+    """
+    above, below = pair()
+    draw_pushes(learner, above)
+    decisions = (np.arange(hill.POINTS) + 1) * hill.DECISIONS / hill.POINTS
+    draw_curves(decisions, driven, "decisions", "steps per episode", below)
+    return above, below
+
+
+def draw_pushes(learner, ax=None):
+    """Whether a driver pushes left or right, by cell of place (rightward) and velocity (upward); empty if unknown."""
+    axes = axes_or_new(ax)
+    q = learner.q(0)
+    goals = [minds.COLUMNS - 1 + minds.COLUMNS * row for row in range(minds.ROWS)]
+    value = q[:, :, goals].sum(axis=2)
+    push = np.where(value.max(axis=1) > 0, value[:, 2] - value[:, 0], np.nan).reshape(minds.ROWS, minds.COLUMNS)
+    axes.axis("on")
+    axes.set(aspect="auto", xlim=minds.TRACK, ylim=minds.SPEEDS, xlabel="place", ylabel="velocity")
+    for row in range(minds.ROWS):
+        for column in range(minds.COLUMNS):
+            if np.isfinite(push[row, column]):
+                right = push[row, column] > 0
+                x = minds.TRACK[0] + (column + 0.5) * (minds.TRACK[1] - minds.TRACK[0]) / minds.COLUMNS
+                y = minds.SPEEDS[0] + (row + 0.5) * (minds.SPEEDS[1] - minds.SPEEDS[0]) / minds.ROWS
+                axes.plot(x, y, marker=">" if right else "<", markersize=5, color=CURVES[0] if right else CURVES[1])
+    return axes
+
+
+def draw_worlds(scores, ax=None):
+    """Probability that a run of the agent beats a random agent's, by world. scores: from `scores.of_each_world`."""
+    axes = draw_rows({world: probability_of_improvement(*each) for world, each in scores.items()},
+                     "probability of beating a random agent", ax)
+    axes.set_xlim(0, 1.04)
+    axes.axvline(0.5, color=INK, linewidth=0.7)
+    return axes
+
+
+def draw_rows(estimates, label, ax=None):
+    """Values with their intervals, a row for each. estimates: {name: `Estimate`}."""
+    axes = axes_or_new(ax, figsize=(width_of_figures(), 0.4 * len(estimates) + 0.8))
+    for row, (name, (value, low, high)) in enumerate(estimates.items()):
+        axes.plot(value, row, marker="o", color=CURVES[0])
+        axes.plot([low, high], [row, row], color=CURVES[0])
+    axes.set(yticks=range(len(estimates)), yticklabels=list(estimates), ylim=(len(estimates) - 0.5, -0.5), xlabel=label)
+    return axes

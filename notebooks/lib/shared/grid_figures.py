@@ -1,0 +1,43 @@
+"""Drawings of grid worlds."""
+
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.patches import Rectangle
+
+from lib.shared.grid import MOVES, WALL
+from neorl.drawing.style import AGENT, INK
+
+
+def new_grids(grid, columns=1, rows=1, size=None):
+    """Axes for rows × columns drawings of a grid: a list, row by row, with y downward and one unit per state.
+
+    size: the width of one drawing in inches; by default they fill the usual width of a figure.
+    """
+    wide, high = len(grid.rows[0]), len(grid.rows)
+    width = columns * size if size else plt.rcParams["figure.figsize"][0]
+    figure, axes = plt.subplots(rows, columns, figsize=(width, width / columns * high / wide * rows + 0.3 * rows),
+                                squeeze=False)
+    for each in axes.flat:
+        each.set(xlim=(-0.55, wide - 0.45), ylim=(high - 0.45, -0.55), aspect="equal")
+        each.axis("off")
+    return list(axes.flat)
+
+
+def draw_grid(axes, grid, fills=None):
+    """The walls and states of a grid, some of them filled: fills {state: (colour, opacity)}."""
+    for y, row in enumerate(grid.rows):
+        for x, mark in enumerate(row):
+            wall = mark == WALL
+            axes.add_patch(Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=INK if wall else "none",
+                                     alpha=0.55 if wall else 0.5, edgecolor=INK, linewidth=0.6))
+    for state, (colour, opacity) in (fills or {}).items():
+        axes.add_patch(Rectangle(grid.places[state] - 0.5, 1, 1, facecolor=colour, alpha=opacity, edgecolor="none"))
+
+
+def draw_policy(axes, grid, q, colour=AGENT):
+    """Arrows for the best actions of q (states, 4), ties included; none in states where all four are equal."""
+    best = np.isclose(q, q.max(axis=1, keepdims=True), rtol=1e-9, atol=1e-12)
+    state, action = np.nonzero(best & ~best.all(axis=1, keepdims=True))
+    start, step = grid.places[state], 0.38 * MOVES[action]
+    axes.quiver(*start.T, *step.T, color=colour, angles="xy", scale_units="xy", scale=1, units="xy", width=0.05,
+                headwidth=4.5)

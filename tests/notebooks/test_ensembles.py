@@ -1,0 +1,179 @@
+"""Ensembles of learners against a plain Python implementation, closed forms and reported results."""
+
+import numpy as np
+import pytest
+from matplotlib import pyplot as plt
+from scipy import stats
+
+from lib.chapter_3 import ensembles, hybrid_reward_figures
+from lib.chapter_3.ensembles import (CHOOSERS, DYNA, LEARNERS, ROOMS, GridMaze, best_reward,
+                                                      run_ensemble)
+from neorl.core.kernel import execute
+from neorl.drawing.style import CURVES, INK
+from neorl.evidence.statistics import estimate
+
+
+def softmax(values):
+    weight = np.exp(values - max(values))
+    return weight / sum(weight)
+
+
+class Plainly:
+    """One run, learner by learner as the paper defines them, with NumPy's random numbers."""
+
+    def __init__(self, maze, chooser, doublings, seed, run):
+        self.draw = np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=(run,)))).random
+        self.maze, self.chooser, self.power = maze, chooser, 2.0**doublings
+        n = maze.grid.states
+        self.p = {name: np.full((n, 4), 0.25 if name == "ACLA" else 0.0) for name in LEARNERS}
+        self.v = {name: np.zeros(n) for name in LEARNERS[2:]}
+
+    def drawn(self, probability):
+        return min(int(np.searchsorted(np.cumsum(probability), self.draw() * sum(probability), side="right")), 3)
+
+    def favourite(self, values):
+        best, ties = 0, 1
+        for action in range(1, 4):
+            if values[action] > values[best]:
+                best, ties = action, 1
+            elif values[action] == values[best]:
+                ties += 1
+                best = action if int(self.draw() * ties) == 0 else best
+        return best
+
+    def choice(self, state):
+        held = {name: (9 if name == "ACLA" else 1) * self.p[name][state] for name in LEARNERS}
+        if self.chooser in LEARNERS:
+            policy = softmax(held[self.chooser])
+        elif self.chooser == "majority voting":
+            votes = [self.drawn(softmax(values)) for values in held.values()]
+            policy = softmax(1.6 * np.bincount(votes, minlength=4))
+        elif self.chooser == "majority of favourites":
+            votes = [self.favourite(self.p[name][state]) for name in LEARNERS]
+            policy = softmax(1.6 * np.bincount(votes, minlength=4))
+        elif self.chooser == "rank voting":
+            policy = softmax(0.6 * sum(stats.rankdata(values) for values in held.values()))
+        elif self.chooser == "Boltzmann multiplication":
+            policy = np.prod([softmax(values) for values in held.values()], axis=0) ** 0.2
+        elif self.chooser == "Boltzmann addition":
+            policy = np.sum([softmax(values) for values in held.values()], axis=0)
+        else:
+            policy = np.full(4, 0.25)
+        return self.drawn(policy**self.power)
+
+    def learn(self, s, a, r, s2, a2, end):
+        p, v = self.p, self.v
+        p["Q-learning"][s, a] += 0.2 * (r + (not end) * 0.9 * max(p["Q-learning"][s2]) - p["Q-learning"][s, a])
+        p["Sarsa"][s, a] += 0.2 * (r + (not end) * 0.9 * p["Sarsa"][s2, a2] - p["Sarsa"][s, a])
+        target = {name: r + (not end) * gamma * v[name][s2] for name, gamma in zip(LEARNERS[2:], (0.95, 0.9, 0.99))}
+        delta = {name: target[name] - v[name][s] for name in LEARNERS[2:]}
+        for name, beta in zip(LEARNERS[2:], (0.2, 0.2, 0.1)):
+            v[name][s] += beta * delta[name]
+        p["actor–critic"][s, a] += 0.1 * delta["actor–critic"]
+        p["QV-learning"][s, a] += 0.2 * (target["QV-learning"] - p["QV-learning"][s, a])
+        was = p["ACLA"][s].copy()
+        if delta["ACLA"] >= 0:
+            p["ACLA"][s] += 0.005 * (np.eye(4)[a] - was)
+        else:
+            aim = was / (sum(was) - was[a])
+            aim[a] = 0
+            p["ACLA"][s] += 0.005 * (np.minimum(aim, 1) - was)
+
+    def rewards(self, steps):
+        made, state, age = [], self.maze.start, 0
+        action = self.choice(state)
+        for _ in range(steps):
+            moved = int(self.draw() * 4) if self.draw() < 0.2 else action
+            after, age = int(self.maze.grid.next_state[state, moved]), age + 1
+            end = after == self.maze.goal
+            made.append(100 if end else -2 if after == state else -0.1)
+            begins = end or age == 1_000
+            from_here = self.maze.start if begins else after
+            next_action = self.choice(from_here)
+            self.learn(state, action, made[-1], after, next_action, end)
+            state, action, age = from_here, next_action, 0 if begins else age
+        return np.array(made)
+
+
+@pytest.mark.parametrize("chooser", CHOOSERS)
+@pytest.mark.parametrize("doublings", [0, 2, -1])
+def test_learners_and_rules_are_what_the_paper_says(chooser, doublings):
+    made = Plainly(DYNA, chooser, doublings, seed=6, run=1).rewards(1_000)
+    walked = run_ensemble(DYNA, chooser, steps=1_000, runs=2, seed=6, doublings=doublings)
+    np.testing.assert_allclose(walked[1], made.reshape(20, -1).mean(axis=1))
+
+
+def test_a_walk_that_does_not_arrive_starts_over():
+    """The goal is so far that the walk mostly reaches the limit of steps first, and starts over."""
+    made = Plainly(far := GridMaze(("S" + 30 * "." + "G",)), "chance", 0, seed=1, run=0).rewards(3_000)
+    np.testing.assert_allclose(run_ensemble(far, "chance", steps=3_000, runs=1, seed=1)[0],
+                               made.reshape(20, -1).mean(axis=1))
+
+
+def test_a_life_is_the_same_alone_and_among_others():
+    alone, among = (run_ensemble(DYNA, "Sarsa", steps=1_000, runs=runs, seed=2) for runs in (1, 3))
+    np.testing.assert_array_equal(alone[0], among[0])
+    assert np.any(among[1] != among[0])
+
+
+def test_the_exponential_function_is_that_of_numpy():
+    xs = np.linspace(-49.9, 0, 500)
+    np.testing.assert_allclose([execute(ensembles._exponential, x) for x in xs], np.exp(xs), rtol=1e-7)
+    assert execute(ensembles._exponential, 0.0) == 1 and execute(ensembles._exponential, -1e9) == 0
+
+
+def test_finals_are_those_of_runs_with_greediness_halved_unchanged_and_doubled():
+    finals = ensembles.final_by_greediness(DYNA, steps=200, runs=2, seed=3)
+    assert tuple(finals) == ensembles.RULES
+    for final, doublings in zip(finals["rank voting"], (-1, 0, 1), strict=True):
+        lived = run_ensemble(DYNA, "rank voting", steps=200, runs=2, seed=3, doublings=doublings)
+        np.testing.assert_array_equal(final, lived[:, -1])
+
+
+def test_an_action_on_which_learners_agree_has_the_probability_that_greediness_gives_it():
+    assert ensembles.agreement("majority voting") == pytest.approx(softmax(1.6 * np.array([5, 0, 0, 0]))[0])
+    assert ensembles.agreement("rank voting") == pytest.approx(softmax(0.6 * 5 * np.array([4, 3, 2, 1]))[0])
+
+
+def test_the_best_reward_in_a_corridor_is_known():
+    """With one way to go, 85 % of steps lead ahead and 5 % back; 10 %, and any step out of the corridor, hit a wall."""
+    assert best_reward(GridMaze(("SG",))) == pytest.approx(0.85 * 100 - 0.15 * 2)
+    ahead, back = 0.85, 0.05  # S takes 1/p steps, the next cell 1/p + q/p²: a step back costs both
+    steps = 1 / ahead + (1 + back / ahead) / ahead
+    bumps = 0.15 * (1 + back / ahead) / ahead + 0.10 / ahead
+    assert best_reward(GridMaze(("S.G",))) == pytest.approx((100 - 2 * bumps - 0.1 * (steps - bumps - 1)) / steps)
+
+
+def test_single_learners_earn_the_reported_rewards():
+    """A student reimplementation reports 5.20, 5.20, 5.21, 5.21 and 5.18 with standard deviations of 0.14 to 0.20."""
+    best, chance = best_reward(DYNA), run_ensemble(DYNA, "chance", steps=50_000, runs=5)[:, -1]
+    for learner, reported in zip(LEARNERS, (5.20, 5.20, 5.21, 5.21, 5.18)):
+        value, low, high = estimate(np.mean, run_ensemble(DYNA, learner, steps=50_000, runs=20)[:, -1])
+        assert chance.max() < 0 < low and abs(value - reported) < 0.15 and value < best
+
+
+@pytest.mark.parametrize("make, message", [
+    (lambda: GridMaze(("S..",)), "rows is .* one S and one G"), (lambda: GridMaze(("SSG",)), "one S and one G"),
+    (lambda: run_ensemble("maze", "Sarsa", steps=100, runs=1), "maze is 'maze', allowed is a GridMaze"),
+    (lambda: run_ensemble(DYNA, "SARSA", steps=100, runs=1), "chooser is 'SARSA', allowed are 'Q-learning', 'Sarsa'"),
+    (lambda: run_ensemble(DYNA, "Sarsa", steps=19, runs=1), "steps is 19"),
+    (lambda: run_ensemble(DYNA, "Sarsa", steps=100, runs=0), "runs is 0"),
+    (lambda: run_ensemble(DYNA, "Sarsa", steps=100, runs=1, seed=-1), "seed is -1"),
+    (lambda: ensembles.agreement("Sarsa"), "rule is 'Sarsa', allowed are 'majority voting', 'rank voting'"),
+    (lambda: run_ensemble(DYNA, "Sarsa", steps=100, runs=1, doublings=6),
+     "doublings is 6, allowed are integers from -5 to 5"),
+])
+def test_a_bad_argument_is_refused(make, message):
+    with pytest.raises(ValueError, match=message):
+        make()
+
+
+def test_finals_are_drawn_as_dots():
+    made = {name: {each: run_ensemble(maze, each, steps=400, runs=3) for each in ("Sarsa", "rank voting")}
+            for name, maze in {"small": DYNA, "rooms": ROOMS}.items()}
+    hybrid_reward_figures.draw_finals(made, {"small": 5.0, "rooms": 4.0})
+    for axes, by_name in zip(plt.gcf().axes, made.values()):
+        dots = [line for line in axes.lines if line.get_marker() == "o"]
+        assert [dot.get_xdata()[0] for dot in dots] == pytest.approx([each[:, -1].mean() for each in by_name.values()])
+        assert [dot.get_color() for dot in dots] == [INK, CURVES[0]]
+    assert [label.get_text() for label in plt.gcf().axes[0].get_yticklabels()] == ["Sarsa", "rank voting"]

@@ -1,0 +1,201 @@
+"""Separation of concerns: the game and its learners against a plain Python implementation and closed forms."""
+
+from collections import defaultdict
+from itertools import combinations
+
+import numpy as np
+import pytest
+from matplotlib import pyplot as plt
+
+from lib.chapter_3 import hybrid_reward, hybrid_reward_figures
+from lib.chapter_3.hybrid_reward import KINDS, Game, Learner, play, settled_values
+from lib.shared.grid import Grid
+from neorl.core.kernel import execute
+from neorl.core.stream import new_stream
+from neorl.drawing.style import CURVES
+from neorl.evidence.statistics import probability_of_improvement
+
+JUNCTION = Grid(("o.....o", "###.###", "###.###", "###o###"))
+SMALL = Game(rows=("ao.", ".#.", "o.g"), fruits=1, chase=0.5, limit=9)
+
+
+def plainly(game, learner, steps, seed, run):
+    """Rewards by step, ends of games and number of known states, by dictionaries, sets and NumPy's random numbers."""
+    draw = np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=(run,)))).random
+    grid, toward, places = game.grid, hybrid_reward._board(game).toward, game.places
+    q = defaultdict(lambda: np.zeros(4))
+    rewards, ends, begins = [], [], True
+    for _ in range(steps):
+        if begins:
+            left, needed, age = set(), game.fruits, 0
+            for i, place in enumerate(places):
+                if int(draw() * (len(places) - i)) < needed:
+                    left.add(place)
+                    needed -= 1
+            (agent,), (ghost,) = grid.marked("a"), grid.marked("g")
+        before = agent, ghost, frozenset(left)
+        if learner.kind == "one learner":
+            value = q[before]
+        else:
+            value = q[before[:2]] + sum(q["fruit", place, agent] for place in places if place in left)
+        if draw() < learner.exploration:
+            action = int(draw() * 4)
+        else:
+            best = [0]
+            for other in range(1, 4):  # ties are broken at random, one by one
+                if value[other] > value[best[0]]:
+                    best = [other]
+                elif value[other] == value[best[0]]:
+                    best.append(other)
+                    if int(draw() * len(best)) == 0:
+                        best[0], best[-1] = best[-1], best[0]
+            action = best[0]
+        agent = int(grid.next_state[agent, action])
+        fruit = float(agent in left)
+        left.discard(agent)
+        if agent != ghost:
+            ghost = int(toward[ghost, agent] if draw() < game.chase else grid.next_state[ghost, int(draw() * 4)])
+        caught, age = agent == ghost, age + 1
+        penalty = -10.0 * caught
+
+        def learn(row_tm1, reward, row_t, terminal):
+            target = reward + (0 if terminal else learner.discount * max(q[row_t]))
+            q[row_tm1][action] += learner.learning_rate * (target - q[row_tm1][action])
+
+        if learner.kind == "one learner":
+            learn(before, fruit + penalty, (agent, ghost, frozenset(left)), caught or not left)
+        else:
+            learn(before[:2], penalty, (agent, ghost), caught)
+            for place in places:
+                if learner.kind == "latent heads" or place in before[2]:
+                    learn(("fruit", place, before[0]), float(agent == place), ("fruit", place, agent), agent == place)
+        rewards.append(fruit + penalty)
+        begins = caught or not left or age == game.limit
+        if begins:
+            ends.append("caught" if caught else "all eaten" if not left else "out of time")
+    return np.array(rewards), ends, sum(np.any(row != 0) for row in q.values())
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("game", [SMALL, Game(chase=0.1)])
+def test_the_game_and_its_learners_are_what_the_rules_say(game, kind):
+    learner = Learner(kind, learning_rate=0.3, discount=0.7, exploration=0.3)
+    rewards, ends, known = plainly(game, learner, 2_000, seed=4, run=1)
+    played = play(game, learner, steps=2_000, runs=2, seed=4)
+    sums = np.add.reduceat(rewards, played.edges[:-1])
+    np.testing.assert_allclose(played.rewards[1], 100 * sums / np.diff(played.edges))
+    assert [int(n) for n in played.ends[1].sum(axis=0)] == [ends.count(end) for end in hybrid_reward.ENDS]
+    assert played.known[1] == known > 0
+
+
+def test_a_run_is_the_same_alone_and_among_others():
+    learner = Learner("heads")
+    alone, among = (play(SMALL, learner, steps=1_000, runs=runs, seed=2) for runs in (1, 3))
+    np.testing.assert_array_equal(alone.rewards[0], among.rewards[0])
+    assert np.any(among.rewards[1] != among.rewards[0])
+
+
+def test_states_are_counted():
+    cells, sets = 8, [each for n in range(3) for each in combinations(SMALL.places, n)]
+    assert SMALL.states("one learner") == cells * cells * len(sets)
+    assert SMALL.states("heads") == SMALL.states("latent heads") == 2 * cells + cells * cells
+
+
+def test_each_further_concern_doubles_the_states_of_one_learner_but_not_of_heads():
+    game = Game()
+    fewer = hybrid_reward.times_fewer(game.grid.states, len(game.places))
+    assert fewer == game.states("one learner") / game.states("heads")
+    assert hybrid_reward.times_fewer(10, 2) == 400 / 120 and hybrid_reward.times_fewer(10, 3) == 800 / 130
+
+
+def test_the_last_bin_is_the_last_fifth():
+    edges = play(SMALL, Learner("heads"), steps=10_000, runs=1).edges
+    assert edges[0] == 0 and list(edges[-2:]) == [8_000, 10_000] and np.all(np.diff(edges) > 0)
+
+
+def test_every_set_of_places_is_equally_likely_to_hold_the_fruits():
+    game = Game(fruits=5)
+    board, stream = hybrid_reward._board(game), new_stream(np.random.SeedSequence(3))
+    drawn = np.array([execute(hybrid_reward._laid_out, board, stream) for _ in range(5_600)])
+    sets, counts = np.unique(drawn, return_counts=True)
+    assert len(sets) == 56 and all(int(each).bit_count() == 5 for each in sets)
+    assert np.sum((counts - 100) ** 2 / 100) < 93  # χ² with 55 degrees of freedom, 99.9 %
+
+
+def test_a_ghost_that_chases_comes_nearer_with_every_step():
+    game = Game()
+    toward, grid = hybrid_reward._board(game).toward, game.grid
+    for agent in range(grid.states):
+        steps, at = np.zeros(grid.states, int), np.arange(grid.states)
+        for _ in range(grid.states):
+            steps += at != agent
+            assert np.all((toward[at, agent] == grid.next_state[at].T).any(axis=0) | (at == agent))
+            at = toward[at, agent]
+        away = steps > 0
+        distance = settled_values(grid, agent, 0.5).max(axis=1)  # a half to the power of the steps after the first
+        np.testing.assert_allclose(0.5 ** (steps[away] - 1), distance[away])
+
+
+def test_settled_values_solve_the_bellman_equation():
+    grid, place, discount = Game().grid, 12, 0.8
+    q = settled_values(grid, place, discount)
+    there = grid.next_state == place
+    np.testing.assert_allclose(q, np.where(there, 1, discount * q.max(axis=1)[grid.next_state]))
+    with pytest.raises(ValueError, match="distance to place"):
+        settled_values(Grid(("o#.",)), 0, 0.5)
+
+
+@pytest.mark.parametrize("discount", [0.2, 0.45, 0.55, 0.9])
+def test_three_fruits_equally_far_hold_the_agent_above_a_discount_of_one_half(discount):
+    """Staying is worth 3 γ³ there, and going to one of them γ² + 2 γ⁴."""
+    values = sum(settled_values(JUNCTION, fruit, discount) for fruit in JUNCTION.marked("o"))
+    assert (values[3].argmax() == 0) == (discount > 0.5)
+    np.testing.assert_allclose(values[3], [3 * discount**3, *3 * [discount**2 + 2 * discount**4]])
+
+
+def test_heads_learn_faster_than_one_learner():
+    final = {kind: play(Game(), Learner(kind), steps=30_000, runs=10).final for kind in KINDS}
+    assert probability_of_improvement(final["heads"], final["one learner"]).low > 0.9
+    assert probability_of_improvement(final["latent heads"], final["one learner"]).low > 0.9
+
+
+@pytest.mark.parametrize("make, message", [
+    (lambda: Game(rows=("a.o",)), "rows is .* one a, one g and at least one o"),
+    (lambda: Game(rows=("aag", "ooo")), "one a, one g"), (lambda: Game(rows=("a.g",)), "at least one o"),
+    (lambda: Game(fruits=9), "fruits is 9, allowed are integers from 1 to 8"),
+    (lambda: Game(chase=1.5), "chase is 1.5"), (lambda: Game(limit=0), "limit is 0"),
+    (lambda: Learner("two"), "kind is 'two', allowed are 'one learner', 'heads', 'latent heads'"),
+    (lambda: Learner("one learner", discount=2), "discount is 2"),
+    (lambda: play("pacman", Learner("one learner"), steps=1_000, runs=1), "game is 'pacman', allowed is a Game"),
+    (lambda: play(Game(), "one", steps=1_000, runs=1), "learner is 'one', allowed is a Learner"),
+    (lambda: play(Game(), Learner("one learner"), steps=999, runs=1), "steps is 999"),
+    (lambda: play(Game(), Learner("one learner"), steps=1_000, runs=0), "runs is 0"),
+    (lambda: play(Game(), Learner("one learner"), steps=1_000, runs=1, seed=-1), "seed is -1"),
+    (lambda: settled_values(Game().grid, 37, 0.5), "place is 37, allowed are integers from 0 to 36"),
+    (lambda: settled_values(Game().grid, 0, 2), "discount is 2"),
+])
+def test_a_bad_argument_is_refused(make, message):
+    with pytest.raises(ValueError, match=message):
+        make()
+
+
+def test_the_board_fills_as_many_places_as_hold_a_fruit():
+    hybrid_reward_figures.draw_game(Game(fruits=3))
+    circles = [patch for patch in plt.gca().patches if isinstance(patch, hybrid_reward_figures.Circle)]
+    fruits = [patch for patch in circles if patch.radius == 0.24]
+    assert len(fruits) == 8 and sum(patch.get_facecolor()[3] == 1 for patch in fruits) == 3
+
+
+def test_scores_are_drawn_as_means_over_runs():
+    played = {kind: play(SMALL, Learner(kind), steps=1_000, runs=3) for kind in KINDS}
+    hybrid_reward_figures.draw_scores(played)
+    for line, kind, colour in zip(plt.gca().lines, KINDS, CURVES):
+        np.testing.assert_allclose(line.get_ydata(), played[kind].rewards.mean(axis=0))
+        assert line.get_color() == colour and line.get_xdata()[-1] == 1_000
+    assert {text.get_text() for text in plt.gca().texts} == set(KINDS)
+
+
+def test_the_junction_shows_where_the_sum_leads():
+    hybrid_reward_figures.draw_junction(JUNCTION, (0.4, 0.9))
+    free, held = (axes.collections[0] for axes in plt.gcf().axes)
+    assert (len(free.U), len(held.U)) == (9, 7)  # three best actions lead out of the junction, or a single one stays

@@ -1,0 +1,122 @@
+"""Trials of paper B's agents, against runs followed step by step."""
+
+import numpy as np
+import pytest
+
+import neorl
+from neorl.agents import papers
+from lib.paper_b import findings, trials
+from neorl.evidence.reading import Reading
+
+READING = Reading(0.03, 0.8, "share", absent_decay=0.0, memory=0.0, bootstrap=True, terminal=True,
+                  object_state="object", object_tiled_fraction=1.0, object_beyond="outermost", object_centred=False,
+                  place_gain=1.0, weighting="resolution")  # whatever the defaults
+PRIMES = (2, 3)
+
+
+@pytest.fixture(autouse=True)
+def small(monkeypatch):
+    """Use maps with few cells."""
+    monkeypatch.setattr(trials, "PRIMES", PRIMES)
+
+
+def test_a_stay_is_the_time_from_one_change_of_cell_to_the_next_but_for_resets():
+    (found,) = trials.mean_stays(READING, 8_000, 1)
+    agent = papers.place_cells(PRIMES, **READING.agents)
+    run, changes = neorl.Run(agent, neorl.WaterWorld(win_reward=100.0), 0), np.zeros(2)
+    run.advance(2_000)
+    run.advance(1)
+    resets = 0
+    for _ in range(1_999):
+        before = run.state.tracks.cell.copy()
+        reset = run.advance(1) > 50
+        resets += reset
+        changes += (run.state.tracks.cell != before) & (not reset)
+    assert resets > 0
+    np.testing.assert_allclose(found, 40 / changes)
+
+
+def test_the_desired_place_moves_and_experience_is_worth_something():
+    moved, seconds = trials.distances(READING, 40_000, 2)
+    assert moved["ignorant"].shape == moved["experienced"].shape == (2, 6, 150) and seconds[-1] == 30
+    run = neorl.Run(papers.place_cells(PRIMES, **READING.agents), neorl.WaterWorld(), 0, 1)
+    run.advance(10_000)
+    for place in trials.PLACES:
+        run.change(trials.desiring(READING, place))
+        run.advance(1_500)
+        at = run.world_state.scene.position / 250 - place.coordinates
+        assert np.hypot(*at) in moved["experienced"][1, :2, -1]
+    assert moved["experienced"].mean() < moved["ignorant"].mean()
+
+
+def test_values_are_those_of_goals_that_can_be_asked_for():
+    found = trials.mean_values(READING, 5_000, 1)
+    run = neorl.Run(papers.multimodal(PRIMES, **READING.agents), neorl.WaterWorld())
+    run.advance(5_000)
+    expected = {"PC": 0.0, "OVC": 0.0}
+    for m, (node, n) in enumerate([("PC", 2), ("PC", 3), ("OVC", 2), ("OVC", 3)]):
+        contact = int(run.agent.maps[m].encode([0, 0]))
+        goals = range(n * n) if node == "PC" else [contact]
+        best = [neorl.superpose(run.q(m), state, [goal], [1.0]).max() for state in range(n * n) for goal in goals
+                if state != goal]
+        expected[node] += np.mean(best) * n / 5
+    assert expected["OVC"] > 0
+    for node, value in expected.items():
+        np.testing.assert_allclose(found[node], [value], rtol=1e-5)
+
+
+def test_an_object_is_the_goal_or_the_state():
+    agents = {state: papers.object_vector_cells([2, 5], object_state=state) for state in ("self", "object")}
+    learned = trials.learn(agents, neorl.WaterWorld(), 4_000, 2, seed=3)
+    again = neorl.Run(agents["self"], neorl.WaterWorld(), 3, 1)
+    again.advance(4_000)
+    np.testing.assert_array_equal(learned["self"][1].q(1), again.q(1))
+    for state, (run, _) in learned.items():
+        centre = int(run.agent.maps[1].encode([0, 0]))
+        values = trials.values_for_objects(run, 1)
+        for cell in (0, 7, 24):
+            expected = run.q(1)[0, :, cell] if state == "self" else run.q(1)[cell, :, centre]
+            np.testing.assert_array_equal(values[cell], expected)
+        best = np.delete(values.max(axis=1), centre)
+        assert trials.best_values(run)[1] == pytest.approx(best.mean()) and best.any()
+    sizes = trials.size_and_cost(learned, 10, repetitions=1)
+    assert {name: values for name, (values, _) in sizes.items()} == {"self": 4 * (4 + 25), "object": 4 * (16 + 625)}
+    assert findings.sizes_table({"self": (1_500, 0.25)}).splitlines()[2:] == ["| self | 1,500 | 0.25 |"]
+
+
+def test_costs_are_those_of_agents_with_one_more_map_each_time():
+    both = papers.multimodal(PRIMES)
+    one = trials._with_maps(both, [("PC", 2), ("OVC", 3)])
+    assert [(node.name, node.resolutions) for node in one.nodes] == [("PC", (2,)), ("OVC", (3,))]
+    assert one.desires == both.desires and trials._with_maps(both, []).desires == ()
+    cost = trials.measure_costs(READING, 500, 3)
+    assert cost.labels == ["PC N2", "PC N3", "OVC N2", "OVC N3"]
+    assert cost.alone.shape == cost.first.shape == (4, 3) and (cost.first > 0).all()
+    assert cost.measured[0] == cost.predicted[0]
+
+
+def test_a_desire_that_moves_is_a_condition_that_can_be_rerun(cache_folder):
+    result = trials.live_with_moving_desire(READING, 4_001, 2, seed=3)
+    assert (result.steps, result.runs, result.seed) == (1_000 + 2 * 1_500, 2, 3)
+    assert result.agent == papers.place_cells(PRIMES, **READING.agents)
+    assert [step for step, _ in result.changes] == [1_000, 2_500]
+    assert [later.desires[0].source for _, later in result.changes] == [*trials.PLACES]
+
+
+def test_maps_that_stay_keep_what_they_know_and_new_ones_know_nothing():
+    places, both = papers.place_cells(PRIMES), papers.multimodal(PRIMES)
+    assert trials.maps_kept(places, both, neorl.WaterWorld(), 5_000) == 2
+    assert trials.maps_kept(places, papers.place_cells((2, 4)), neorl.WaterWorld(), 5_000) == 1
+
+
+def test_all_trials_are_held_under_each_reading(monkeypatch):
+    asked = {}
+    for name, found in {"distances": ("moved", "seconds"), "mean_stays": "stays", "mean_values": "values",
+                        "measure_costs": "costs"}.items():
+        monkeypatch.setattr(trials, name, lambda *args, name=name, found=found: (asked.update({name: args}), found)[1])
+    watched = trials.watch({"one": "a", "other": "b"}, 600_000, 10, 7)
+    assert watched == dict.fromkeys(("one", "other"), trials.Watched("moved", "seconds", "stays", "values", "costs"))
+    assert asked == {"distances": ("b", 600_000, 10, 7), "mean_stays": ("b", 600_000, 10, 7),
+                     "mean_values": ("b", 150_000, 10, 7), "measure_costs": ("b", 20_000, 10, 7)}
+    trials.watch({"one": "a"}, 1_000, 10)
+    assert asked["measure_costs"] == ("a", 1_000, 10, 0)
