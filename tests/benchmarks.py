@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from explorer_page import write_page
 
+from lib.performance.bound import drawn_steps
 from neorl import (Explorer, Run, WaterWorld, multimodal, network_a, network_b, network_c, network_d,
                    object_vector_cells, place_cells, simulate)
-from lib.performance.bound import drawn_steps
 from neorl.core.kernel import execute, kernel
 from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
 from neorl.core.stream import new_stream

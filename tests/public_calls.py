@@ -22,7 +22,7 @@ from neorl.core.identity import identity
 from neorl.core.kernel import arrays
 from neorl.core.modality import MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, cartesian, polar
 from neorl.core.stream import new_stream
-from neorl.evidence import curves, multiverse, reading, statistics
+from neorl.evidence import curves, reading, statistics
 from neorl.evidence.statistics import Estimate
 from neorl.experiments import recording
 from neorl.gym import environment, playing, vector
@@ -313,7 +313,6 @@ TABLE |= {
     "neorl.drawing.value_maps.draw_value_map": drawing_of(
         drawing.draw_value_map, run=RUNS, goals=[[(0.7, 0.7)], [(0.1, 0.2), (0.5, 0.5)][:1]], valences=[None, [1.0]],
         index=[0, 1], also="points"),
-    "neorl.evidence.multiverse.design": entry(multiverse.design, points=[2, 4], seed=seeds, long=("points",)),
     "neorl.evidence.reading.Reading": entry(
         reading.Reading, learning_rate=shares, discount=[0.9], credit=["happened", "step"], memory=st.floats(0, 99),
         exploration=shares, place_gain=reals, vectors=["signed", "by size"], recursion=reals,

@@ -14,8 +14,7 @@ is returned.
 - comparison with the thesis's numbers: `draw_against_thesis`, `mark_levels`;
 - style: `use_style`, `STYLE` and the colours.
 
-The figures of the multiverse and of the calibration are in modules of their own. The room uses `neorl.evidence` and
-the rooms below it.
+The room uses `neorl.evidence` and the rooms below it.
 """
 
 from neorl.extras import require

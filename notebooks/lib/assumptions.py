@@ -10,7 +10,8 @@
 import numpy as np
 
 from lib.shared.wording import listed, table
-from neorl.evidence import calibration_results, multiverse, pins
+from lib.study import calibration_results, multiverse
+from neorl.evidence import pins
 from neorl.evidence.priors import BEYOND, TO_THE_LETTER, WITHIN
 from neorl.evidence.reading import PAPER_FPS, conditions, judge
 from neorl.evidence.statements import STATEMENTS
@@ -206,7 +207,7 @@ def whether_enough(points):
 def clear_leads(supports):
     """Levels at which clearly more or fewer claims hold than at the letter's, and the number expected by chance.
 
-    supports: of `neorl.evidence.multiverse.Support`, for every level.
+    supports: of `lib.study.multiverse.Support`, for every level.
     """
     clear = [each for each in supports if each.lead.low > 0 or each.lead.high < 0]
     compared = sum(not each.is_to_the_letter for each in supports)

@@ -3,15 +3,15 @@
 1. The best reading of the table is rerun with new seeds, beside the reading to the letter and the nearest other
    readings.
 2. Single maps, the last group of conditions, are expensive: they have fewer runs, and the nearest readings omit them.
-3. Tables and sentences are Markdown. `neorl.evidence.calibration_results` draws the conclusions.
+3. Tables and sentences are Markdown. `lib.study.calibration_results` draws the conclusions.
 """
 
 from dataclasses import replace
 
 from lib.shared.wording import table
-from neorl.evidence.calibration_results import giving
-from neorl.evidence.calibration_table import Row, lives, measured, nearest
-from neorl.evidence.calibration_targets import GROUPS, TARGETS
+from lib.study.calibration_results import giving
+from lib.study.calibration_table import Row, lives, measured, nearest
+from lib.study.calibration_targets import GROUPS, TARGETS
 from neorl.evidence.priors import TO_THE_LETTER, WITHIN
 
 *CHEAP, SINGLE_MAPS = GROUPS
@@ -147,7 +147,7 @@ def _by_claim():
 
 
 def equal(pairs):
-    """How many rows equal those in the table when rerun. pairs: from `neorl.evidence.calibration_table.rerun`."""
+    """How many rows equal those in the table when rerun. pairs: from `lib.study.calibration_table.rerun`."""
     return sum(old == new for old, new in pairs)
 
 

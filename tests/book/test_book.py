@@ -205,9 +205,8 @@ def test_a_name_links_to_its_room_or_below_and_an_argument_to_nothing(make_book)
 def test_the_reference_has_types_and_defaults_as_in_code(make_book):
     _, reference = make_book(modules=[f"neorl.{name}" for name in (
         "agents.agent", "agents.papers", "agents.rules", "browser.replay", "checks", "core.maps", "core.scene",
-        "drawing.curves",
-        "evidence.calibration_table\n\n.. autodata:: neorl.core.modality.MOST_CELLS\n   :no-value:")] + [
-            "lib.assumptions"])
+        "drawing.curves\n\n.. autodata:: neorl.core.modality.MOST_CELLS\n   :no-value:")] + [
+            "lib.study.calibration_table", "lib.assumptions"])
     signatures = " ".join(re.findall(r'<dt class="sig[^>]*>(.*?)</dt>', reference, re.DOTALL))
     signatures = " ".join(html.unescape(re.sub(r"<[^>]+>", "", signatures)).split())
     for written in ("learning: Learning = Learning(), policy: Policy = Policy(),", "choose: Callable = greedy)",

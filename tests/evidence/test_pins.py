@@ -4,7 +4,8 @@ from dataclasses import fields, replace
 
 import pytest
 
-from neorl.evidence import multiverse, pins
+from lib.study import multiverse
+from neorl.evidence import pins
 from neorl.evidence.priors import BEYOND, TO_THE_LETTER, WITHIN
 from neorl.evidence.reading import Reading
 

@@ -6,7 +6,7 @@ import pytest
 from matplotlib import pyplot as plt
 from test_claims import brownian, made_up, paper_a, paper_c
 
-from neorl.drawing.multiverse_figures import draw_standing
+from lib.study.multiverse_figures import draw_standing
 from neorl.drawing.style import STYLE
 from neorl.evidence import claims, report
 from neorl.evidence.errata import ERRATA

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from neorl import Run, WaterWorld, place_cells
 from lib.alternatives import (alternatives_figures, contestants, controllers, deep_settings, living,
                                          long_runs, report, search, sight, stored, tabular_learners)
 from lib.alternatives.contestants import BEYOND, CHANCE, DEEP, PHYSICS, TABLES, THESIS, Earned
 from lib.alternatives.living import BOARDS
+from neorl import Run, WaterWorld, place_cells
 from neorl.core.kernel import arrays, execute
 from neorl.core.stream import new_stream
 from neorl.worlds.waterworld import GREEN, RED

@@ -5,11 +5,11 @@ from dataclasses import replace
 import pytest
 
 from lib import assumptions
-from neorl.evidence import multiverse
-from neorl.evidence.calibration import design
-from neorl.evidence.calibration_table import Row
-from neorl.evidence.calibration_targets import GROUPS, Measure
-from neorl.evidence.multiverse import Support
+from lib.study import multiverse
+from lib.study.calibration import design
+from lib.study.calibration_table import Row
+from lib.study.calibration_targets import GROUPS, Measure
+from lib.study.multiverse import Support
 from neorl.evidence.priors import BEYOND, TO_THE_LETTER, WITHIN
 from neorl.evidence.reading import Reading, conditions
 from neorl.evidence.statistics import Estimate

@@ -5,8 +5,8 @@ import re
 import numpy as np
 import pytest
 
-from neorl import WaterWorld, forager, simulate
 from lib.beyond_agents import experiments, figures, report, search
+from neorl import WaterWorld, forager, simulate
 from neorl.core.maps import NresMap
 from neorl.drawing.style import GREEN, RED, letters
 

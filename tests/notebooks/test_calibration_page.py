@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from lib import calibration
-from neorl.evidence.calibration import design
-from neorl.evidence.calibration_results import Together
-from neorl.evidence.calibration_table import Row
-from neorl.evidence.calibration_targets import CLAIMS, GROUPS, TARGETS, Measure
+from lib.study.calibration import design
+from lib.study.calibration_results import Together
+from lib.study.calibration_table import Row
+from lib.study.calibration_targets import CLAIMS, GROUPS, TARGETS, Measure
 from neorl.evidence.priors import TO_THE_LETTER, WITHIN
 from neorl.evidence.reading import Reading
 

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from neorl.agents.rules import CALIBRATED
 from lib.chapter_4 import credit
 from lib.chapter_4.credit import DEFAULT, DIFFERENCE, INVERSION, Chamber, by_role, learn_in
+from neorl.agents.rules import CALIBRATED
 from neorl.core.kernel import execute
 from neorl.core.stream import new_stream, randint, uniform
 

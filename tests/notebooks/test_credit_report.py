@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from neorl.agents.rules import Learning
 from lib.chapter_4 import credit_report
+from neorl.agents.rules import Learning
 from neorl.evidence.statistics import Estimate
 
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from neorl import superpose
 from lib.shared.fields import superposed_field
+from neorl import superpose
 
 
 def test_a_field_has_the_superposition_of_every_cell():

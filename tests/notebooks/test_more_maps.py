@@ -5,9 +5,9 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from neorl import WaterWorld
 from lib.chapter_5 import more_maps
 from lib.chapter_5.more_maps import COUNTS
+from neorl import WaterWorld
 from neorl.evidence.reading import Reading, conditions
 
 

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from neorl import GREEDY, Agent, Contacts, Desire, Learning, Node, Run, WaterWorld, multimodal
-from neorl.agents.beyond import foveated_cells
 from lib.alternatives.controllers import act_planner, planner
 from lib.alternatives.living import BOARDS, live
 from lib.alternatives.search import best_settings
 from lib.beyond_agents import adapting, control, figures, oracles, report
+from neorl import GREEDY, Agent, Contacts, Desire, Learning, Node, Run, WaterWorld, multimodal
+from neorl.agents.beyond import foveated_cells
 from neorl.core.choices import Action
 from neorl.core.kernel import execute, kernel
 from neorl.core.modality import Modality, cartesian

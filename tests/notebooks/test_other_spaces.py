@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from neorl import Learning, Policy, Run, Scene
 from lib.other_spaces import birds, figures, hill, lives, minds, pool, report, scores
+from neorl import Learning, Policy, Run, Scene
 from neorl.core.kernel import function_of
 
 STEPS, RUNS = 3_000, 2

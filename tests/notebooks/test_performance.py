@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from neorl import CALIBRATED, Run, WaterWorld, place_cells
 from lib.performance import (bandwidth, bound, contest, growth, minutes, performance_figures, report, rivals,
                                         timing)
+from neorl import CALIBRATED, Run, WaterWorld, place_cells
 from neorl.drawing.style import use_style
 
 STEPS, LIVED = 1_000, 3_000

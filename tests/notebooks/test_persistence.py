@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from neorl import Result, WaterWorld, brownian
 from lib.chapter_4 import persistence
 from lib.chapter_4.persistence import AGENTS, BROWNIAN, CHANGES, PLACES
+from neorl import Result, WaterWorld, brownian
 from neorl.evidence.priors import TO_THE_LETTER
 from neorl.evidence.reading import conditions
 

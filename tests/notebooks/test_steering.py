@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from neorl import Learning, Run, WaterWorld, multimodal, place_cells
 from lib.chapter_1 import navigation_figures
 from lib.chapter_1.before_and_after import first_minutes, leads, trials, veteran
 from lib.chapter_1.steering import CLOSE, HASTE, chase, follow_route, steer
+from neorl import Learning, Run, WaterWorld, multimodal, place_cells
 from neorl.core.kernel import arrays, execute
 from neorl.experiments.recording import Recording
 

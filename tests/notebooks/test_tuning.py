@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from neorl import NresMap
 from lib.chapter_2 import tuning_figures
 from lib.chapter_2.tuning import (Trajectory, TuningCurve, cartesian, egocentric, in_field, information,
                                           likeness, rate_maps, rates, roam, spikes, information_in_spikes, tuning_curve)
+from neorl import NresMap
 from neorl.core.geometry import TAU
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, HEAD_DIRECTION_CELL, LANDMARK_VECTOR_CELL,
                                  OBJECT_VECTOR_CELL, SPEED_CELL)

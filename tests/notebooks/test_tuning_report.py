@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from neorl import NresMap
 from lib.chapter_2.tuning import Information
 from lib.chapter_2.tuning_report import (describe_drift, describe_frames, describe_information,
                                                    describe_likeness, describe_modules, describe_sizes,
                                                    information_table)
+from neorl import NresMap
 
 CELLS = {"place cell": "position", "head-direction cell": "direction", "speed cell": "speed"}
 

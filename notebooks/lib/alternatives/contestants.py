@@ -10,15 +10,15 @@ from time import thread_time
 
 import numpy as np
 
-from neorl import checks
-from neorl.agents import papers
-from neorl.agents.beyond import forager
-from neorl.agents.compile import n_bytes
 from lib.alternatives import controllers
 from lib.alternatives.living import BOARDS, live
 from lib.alternatives.search import best_settings
 from lib.alternatives.stored import FOLDER, METHODS, MINUTE, read_runs
 from lib.alternatives.tabular_learners import TABULAR
+from neorl import checks
+from neorl.agents import papers
+from neorl.agents.beyond import forager
+from neorl.agents.compile import n_bytes
 from neorl.evidence.priors import TO_THE_LETTER
 from neorl.evidence.reading import PRIMES, Reading, networks
 from neorl.evidence.report import CALIBRATED, LETTER

@@ -5,9 +5,9 @@ settings of each method for 51,000 steps found 0.28, 0.34 and 0.14 per second in
 runs of DQN by hand, with other scales, discounts and more updates, showed which ranges to widen.
 """
 
-from neorl import checks
 from lib.alternatives.search import LEARNING, drawn
 from lib.alternatives.stored import METHODS
+from neorl import checks
 
 ANY = {"position_scale": [1.0, 2.0, 3.0, 5.0], "learning_rate": (1e-4, 2e-3), "gamma": LEARNING["discount"]}
 REPLAY = ANY | {"batch_size": [32, 64, 128], "train_freq": [2, 4], "target_update_interval": [250, 500, 1_000, 2_500],

@@ -5,12 +5,12 @@
 
 import sys
 
-from neorl.agents.compile import n_bytes
 from lib.alternatives.contestants import TIMED_STEPS, neorl_agents, seconds_of_a_step
 from lib.alternatives.living import BOARDS, live
 from lib.alternatives.search import best_settings
 from lib.alternatives.stored import MINUTE, RUN_FIELDS, append, finished, row_of_run
 from lib.alternatives.tabular_learners import TABULAR
+from neorl.agents.compile import n_bytes
 from neorl.experiments.run import bin_steps
 from neorl.experiments.simulation import simulate
 

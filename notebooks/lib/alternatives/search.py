@@ -9,12 +9,12 @@ import sys
 
 import numpy as np
 
-from neorl import checks
 from lib.alternatives.controllers import Gains, pd
 from lib.alternatives.living import BOARDS, live
 from lib.alternatives.sight import Setting
 from lib.alternatives.stored import FOLDER, SEARCH_FIELDS, append, chosen, read_search
 from lib.alternatives.tabular_learners import TABULAR
+from neorl import checks
 
 SETTINGS, STEPS, RUNS, SEED = 256, 150_000, 4, 1_000
 # A pair has the ends of a range from which a number is drawn log-uniformly; a list has the choices.

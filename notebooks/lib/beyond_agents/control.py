@@ -15,11 +15,11 @@ from pathlib import Path
 
 import numpy as np
 
+from lib.alternatives.search import drawn
 from neorl import checks
 from neorl.agents.agent import Agent, Desire, Node
 from neorl.agents.beyond import forager, foveated_cells
 from neorl.agents.rules import GREEDY, Contacts, Learning
-from lib.alternatives.search import drawn
 from neorl.core.modality import PLACE_CELL, Modality, cartesian
 from neorl.experiments.cache import Condition
 from neorl.experiments.simulation import simulate

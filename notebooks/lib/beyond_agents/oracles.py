@@ -10,12 +10,12 @@
 
 import numpy as np
 
-from neorl import checks
-from neorl.agents.beyond import forager
 from lib.alternatives.contestants import PLANNED
 from lib.alternatives.controllers import planner
 from lib.alternatives.living import BOARDS, live
 from lib.alternatives.search import best_settings
+from neorl import checks
+from neorl.agents.beyond import forager
 from neorl.experiments.cache import Condition
 from neorl.experiments.sweeping import sweep
 

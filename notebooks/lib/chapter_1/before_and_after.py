@@ -8,8 +8,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from neorl import checks
 from lib.chapter_1.steering import chase
+from neorl import checks
 from neorl.evidence.statistics import difference, estimate
 from neorl.experiments.run import Run
 

@@ -10,8 +10,8 @@
 
 import numpy as np
 
-from neorl import checks
 from lib.chapter_2.tuning import egocentric, roam, spikes, tuning_curve
+from neorl import checks
 from neorl.core.geometry import TAU
 
 # Two of the three axes of a lattice without rotation, which determine the third.

@@ -19,13 +19,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from lib.chapter_2.maze import Maze
+from lib.shared.tabular import Rates, exploring_action, greedy_action, learn_q
 from neorl import checks
 from neorl.agents.agent import Agent, Desire, Node
 from neorl.agents.compile import compiled, constants_of
 from neorl.agents.learner import Surroundings
 from neorl.agents.rules import Learning, Policy
-from lib.chapter_2.maze import Maze
-from lib.shared.tabular import Rates, exploring_action, greedy_action, learn_q
 from neorl.core.kernel import array, execute, kernel, new_tuple
 from neorl.core.modality import Axis, Modality
 from neorl.core.scene import ABSENT, Actions, Scene

@@ -10,8 +10,8 @@ from functools import cached_property
 
 import numpy as np
 
-from neorl import checks
 from lib.shared.grid import MOVES
+from neorl import checks
 
 TURNS = "RLRRLRLLRLRRLL"
 

@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl import checks
 from lib.shared.tabular import Rates, exploring_action, learn_q
+from neorl import checks
 from neorl.core.kernel import execute, kernel
 from neorl.core.stream import new_stream, randint, uniform
 from neorl.evidence.statistics import estimate

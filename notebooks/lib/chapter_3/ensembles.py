@@ -25,9 +25,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl import checks
 from lib.shared.grid import Grid
 from lib.shared.tabular import greedy_action, learn_q
+from neorl import checks
 from neorl.core.kernel import execute, kernel
 from neorl.core.stream import randint, new_stream, uniform
 

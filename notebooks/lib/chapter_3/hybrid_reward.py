@@ -22,9 +22,9 @@ from typing import NamedTuple
 import numpy as np
 from scipy.sparse import csgraph
 
-from neorl import checks
 from lib.shared.grid import Grid
 from lib.shared.tabular import Rates, exploring_action, learn_q
+from neorl import checks
 from neorl.core.kernel import execute, kernel
 from neorl.core.stream import randint, new_stream, uniform
 

@@ -10,8 +10,8 @@ them have to be distinguished, by what follows them.
 
 import numpy as np
 
-from neorl import checks
 from lib.chapter_3.decision import Process, live, policy_values
+from neorl import checks
 
 RULES = {
     "sum": "the sum of the last L symbols modulo Ψ",

@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl import checks
 from lib.chapter_3 import decision
+from neorl import checks
 
 CONVERGED = 1e-12  # remaining share of the initial error
 

@@ -16,8 +16,8 @@ import math
 
 import numpy as np
 
-from neorl import Arena, Run
 from lib.other_spaces import minds
+from neorl import Arena, Run
 
 NAMED = {"bell": (0.15, 0.25), "candle": (0.8, 0.15), "star": (0.5, 0.55),
          "sleigh": (0.85, 0.75), "wreath": (0.2, 0.9),

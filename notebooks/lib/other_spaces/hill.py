@@ -9,9 +9,9 @@
 import gymnasium
 import numpy as np
 
-from neorl import Scene
 from lib.other_spaces import minds
 from lib.shared.tabular import Rates, exploring_action, learn_q
+from neorl import Scene
 from neorl.core.kernel import execute
 from neorl.core.stream import new_stream
 from neorl.gym import play

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from neorl import Arm, Run, Vessel
 from lib.other_spaces import minds
+from neorl import Arm, Run, Vessel
 from neorl.core.kernel import mapped
 from neorl.experiments.sweeping import simulate_once
 

@@ -8,9 +8,9 @@ import functools
 
 import numpy as np
 
-from neorl import Run, WaterMaze
 from lib.other_spaces import minds
 from lib.shared.tabular import Rates, exploring_action, learn_q
+from neorl import Run, WaterMaze
 from neorl.core.geometry import TAU
 from neorl.core.kernel import array, execute, fields, kernel
 from neorl.core.stream import new_stream

@@ -24,10 +24,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl.agents.papers import multimodal, place_cells
-from neorl.agents.rules import CALIBRATED
 from lib.performance.bandwidth import LINE
 from lib.performance.timing import again, always, in_turns
+from neorl.agents.papers import multimodal, place_cells
+from neorl.agents.rules import CALIBRATED
 from neorl.core.kernel import array, execute, kernel
 from neorl.core.stream import new_stream, randint
 from neorl.evidence.statistics import estimate

@@ -17,10 +17,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl.agents.papers import place_cells
-from neorl.agents.rules import CALIBRATED
 from lib.performance.bound import ALL_GOALS, LIVED, STRETCH
 from lib.performance.timing import again, always, exponent, in_turns
+from neorl.agents.papers import place_cells
+from neorl.agents.rules import CALIBRATED
 from neorl.core.kernel import array, execute, kernel
 from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
 from neorl.experiments.run import Run

@@ -11,10 +11,10 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
+from lib.study.calibration import IN_FULL, Emulator, reading_at
+from lib.study.calibration_table import leading, nearest
+from lib.study.calibration_targets import CLAIMS, TARGETS, distance
 from neorl import checks
-from neorl.evidence.calibration import IN_FULL, Emulator, reading_at
-from neorl.evidence.calibration_table import leading, nearest
-from neorl.evidence.calibration_targets import CLAIMS, TARGETS, distance
 from neorl.evidence.priors import WITHIN
 
 NEAREST = 25  # rows that stand for the posterior where none agrees with all targets

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
+from lib.study import calibration_figures
+from lib.study import calibration_results, calibration_table
+from lib.study.calibration import design
+from lib.study.calibration_results import Posterior, Together
+from lib.study.calibration_table import Row, read_table, write_table
+from lib.study.calibration_targets import CLAIMS, GROUPS, TARGETS, Measure
 from neorl import CALIBRATED
-from neorl.drawing import calibration_figures
-from neorl.evidence import calibration_results, calibration_table
-from neorl.evidence.calibration import design
-from neorl.evidence.calibration_results import Posterior, Together
-from neorl.evidence.calibration_table import Row, read_table, write_table
-from neorl.evidence.calibration_targets import CLAIMS, GROUPS, TARGETS, Measure
 from neorl.evidence.priors import WITHIN
 from neorl.evidence.reading import Reading
 

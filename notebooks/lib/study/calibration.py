@@ -33,10 +33,10 @@ from dataclasses import replace
 import numpy as np
 import scipy
 
+from lib.study import calibration_table
+from lib.study.calibration_table import Row
+from lib.study.calibration_targets import GROUPS, TARGETS
 from neorl import checks
-from neorl.evidence import calibration_table
-from neorl.evidence.calibration_table import Row
-from neorl.evidence.calibration_targets import GROUPS, TARGETS
 from neorl.evidence.priors import TO_THE_LETTER, WITHIN
 from neorl.extras import require
 

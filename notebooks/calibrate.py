@@ -1,4 +1,4 @@
-"""Make the table of calibrated readings, or add to it: ``python book/calibrate.py --minutes 45``, from the root.
+"""Make the table of calibrated readings, or add to it: ``python notebooks/calibrate.py --minutes 45``, from the root.
 
 It continues the existing table; ``--anew`` starts a new one. ``--refine 20`` searches near the readings of the trials
 for 20 minutes instead, ``--narrow 14`` then runs readings between the two best of these, and
@@ -10,14 +10,11 @@ import argparse
 import time
 from pathlib import Path
 
-from neorl.evidence import calibration
-from neorl.evidence.calibration_results import progress
-from neorl.evidence.calibration_table import read_table, write_table
-from neorl.evidence.calibration_targets import GROUPS
+from lib.study import calibration
+from lib.study.calibration_results import progress
+from lib.study.calibration_table import SHIPPED, read_table, write_table
+from lib.study.calibration_targets import GROUPS
 from neorl.evidence.priors import OF_TRIALS
-
-ROOT = Path(__file__).resolve().parent.parent
-TABLE = ROOT / "neorl" / "evidence" / "calibration.csv"
 
 
 def main():
@@ -59,7 +56,7 @@ def parse_arguments():
     parser.add_argument("--confirm", type=int, default=12, help="nearest readings to run again at the end (12)")
     parser.add_argument("--fresh-runs", type=int, default=20, help="runs per condition of these (20)")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--table", type=Path, default=TABLE, help="the file (by default that of the package)")
+    parser.add_argument("--table", type=Path, default=SHIPPED, help="the file (by default the study's)")
     parser.add_argument("--anew", action="store_true", help="start a new table in place of the existing one")
     return parser.parse_args()
 

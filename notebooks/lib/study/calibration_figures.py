@@ -11,12 +11,12 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
-from neorl.drawing.multiverse_figures import SHADES
+from lib.study.multiverse_figures import SHADES
+from lib.study.calibration_results import binned, marginal, progress
+from lib.study.calibration_targets import TARGETS
 from neorl.drawing.style import (AGENT, CURVES, INK, RED, SMALL, TEXT, axes_or_new, figure_or_new, letters,
                                  name_ends, width_of_figures)
 from neorl.drawing.thesis_figures import name_level
-from neorl.evidence.calibration_results import binned, marginal, progress
-from neorl.evidence.calibration_targets import TARGETS
 from neorl.evidence.claims import FINAL
 from neorl.evidence.curves import binned_rate, low_passed
 from neorl.evidence.priors import WITHIN

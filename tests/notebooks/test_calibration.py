@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from lib.study import calibration, calibration_table, calibration_targets
+from lib.study.calibration import Emulator, candidates, design, features, prospects
+from lib.study.calibration_table import Row
+from lib.study.calibration_targets import CLAIMS, GROUPS, TARGETS, Measure, Target
 from neorl import WaterWorld, place_cells
-from neorl.evidence import calibration, calibration_table, calibration_targets
-from neorl.evidence.calibration import Emulator, candidates, design, features, prospects
-from neorl.evidence.calibration_table import Row
-from neorl.evidence.calibration_targets import CLAIMS, GROUPS, TARGETS, Measure, Target
 from neorl.evidence.priors import OF_TRIALS, TO_THE_LETTER, WITHIN
 from neorl.evidence.statements import STATEMENTS
 from neorl.experiments.simulation import Result

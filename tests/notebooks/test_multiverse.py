@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
+from lib.study.multiverse_figures import OUTCOMES, draw_importance, draw_specification, draw_specifications
+from lib.study import multiverse
 import neorl
 from neorl import (CALIBRATED, Learning, Policy, multimodal, network_a, network_b, network_c, network_d, place_cells,
                    simulate)
 from neorl.agents.rules import AT_EVERY_STEP
-from neorl.drawing.multiverse_figures import OUTCOMES, draw_importance, draw_specification, draw_specifications
-from neorl.evidence import multiverse
 from neorl.evidence.claims import Claim
 from neorl.evidence.priors import BEYOND, PINNED, TO_THE_LETTER, WITHIN, Choice, LogUniform
 from neorl.evidence.reading import GROUPS, Reading, conditions, judge

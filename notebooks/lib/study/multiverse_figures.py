@@ -9,8 +9,8 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
+from lib.study.multiverse import outcome
 from neorl.drawing.style import AGENT, FILL, INK, RED, SMALL, TEXT, axes_or_new, figure_or_new, mark, width_of_figures
-from neorl.evidence.multiverse import outcome
 from neorl.evidence.priors import WITHIN
 from neorl.evidence.statements import STATEMENTS
 
@@ -58,7 +58,7 @@ def draw_specification(readings, judged, name, choices=WITHIN, figure=None):
     lower edge.
 
     readings: [Reading, …]. judged: {name: `Claim`} for each of them. name: of the claim. choices: those shown, in the
-    form that `neorl.evidence.multiverse.design` takes.
+    form that `lib.study.multiverse.design` takes.
     figure: a figure or a part of one to fill, by default a new one. Returns the axes of the curve and of the choices.
     """
     claims = [each[name] for each in judged]
@@ -169,7 +169,7 @@ def draw_importance(importance, choices=WITHIN, ax=None):
     """Which choices matter for which claim, as areas of discs.
 
     importance: {name of the claim: {name of the choice: importance}}. choices: those varied, in the form that
-    `neorl.evidence.multiverse.design` takes. Returns the axes, `ax` or those of a new figure.
+    `lib.study.multiverse.design` takes. Returns the axes, `ax` or those of a new figure.
     """
     axes = axes_or_new(ax, figsize=(width_of_figures(), ROW * 1.25 * len(choices) + 0.5))
     keys = list(choices)

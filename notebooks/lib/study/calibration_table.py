@@ -9,16 +9,16 @@ import csv
 import io
 from ast import literal_eval
 from dataclasses import dataclass, field, fields, replace
-from importlib import resources
+from pathlib import Path
 
 import numpy as np
 
+from lib.study.calibration_targets import GROUPS, TARGETS, Measure, distance, held, measure, tested
 from neorl import checks
-from neorl.evidence.calibration_targets import GROUPS, TARGETS, Measure, distance, held, measure, tested
 from neorl.evidence.reading import Reading, conditions as all_conditions
 from neorl.experiments.sweeping import sweep
 
-SHIPPED = resources.files("neorl.evidence") / "calibration.csv"
+SHIPPED = Path(__file__).with_name("calibration.csv")
 OWN = ("wave", "seed", "runs", "steps")
 
 
