@@ -33,6 +33,7 @@ from neorl.experiments.cache import Condition
 from neorl.experiments.run import Run
 from neorl.experiments.simulation import Result, simulate
 from neorl.experiments.sweeping import simulate_once, sweep
+from neorl.experiments.trajectory import Trajectory
 from neorl.worlds.arena import Arena
 from neorl.worlds.arm import Arm
 from neorl.worlds.vessel import Vessel
@@ -43,8 +44,8 @@ from neorl.worlds.world import World
 __version__ = "0.1.0"
 __all__ = ["Actions", "Agent", "Arena", "Arm", "Axis", "CALIBRATED", "CARDINAL", "Condition", "Contacts", "Desire",
            "GREEDY", "Learner", "Learning", "Modality", "Node", "NresMap", "Place", "Policy", "Result", "Run", "Scene",
-           "TO_THE_LETTER", "Vessel", "WaterMaze", "WaterWorld", "World", "greedy", "kernel", "kernel_maker", "learn",
-           "simulate", "simulate_once", "softmax", "superpose", "sweep",
+           "TO_THE_LETTER", "Trajectory", "Vessel", "WaterMaze", "WaterWorld", "World", "greedy",
+           "kernel", "kernel_maker", "learn", "simulate", "simulate_once", "softmax", "superpose", "sweep",
            "brownian", "forager", "multimodal", "network_a", "network_b", "network_c", "network_d",
            "object_vector_cells", "place_cells"]
 

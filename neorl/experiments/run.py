@@ -6,6 +6,7 @@ that sequence, so it is the same run alone or among others, on one core or on se
 The state of the world is writable, and is validated at every `Run.advance`.
 """
 
+from collections.abc import Callable
 from typing import Any, Self
 
 import numpy as np
@@ -19,7 +20,8 @@ from neorl.agents.memory import kept_apart, on_lines_of_its_own
 from neorl.core.kernel import arrays, execute
 from neorl.core.steps import steps_with
 from neorl.core.stream import new_stream
-from neorl.worlds.rollout import rollout_in
+from neorl.experiments.trajectory import Trajectory
+from neorl.worlds.rollout import recorded_in, rollout_in
 from neorl.worlds.world import World, check_outcome
 
 BIN_SECONDS = 0.2
@@ -80,34 +82,87 @@ class Run(Individual):
         return self._progress
 
     def advance(self, steps: int, rewards: NDArray[np.float32] | None = None,
-                hits: NDArray[np.int16] | None = None) -> float:
+                hits: NDArray[np.int16] | None = None, *, each: Callable[[Self], object] | None = None,
+                every: int = SLICE) -> float:
         """Take `steps` more steps; returns their total reward.
 
         rewards: float32 (bins,); if given, receives the reward in each 0.2 s since the run began.
         hits: int16 (bins, kinds), likewise the number of things of each kind that were met, at most 32,767.
+        each: called with the run after every `every` steps and after the last one, to report progress, to save a
+            checkpoint, or to measure. every: an integer ≥ 1. Neither changes what the run does.
 
-        After an interruption the run can continue from its `step`.
+        After an interruption the run can continue from its `step`; so can a process that was killed, from a checkpoint
+        with `Run.load`, and both bit for bit.
         Raises ValueError if they do not fit, if the world's state does not or is not finite, before or after a step,
         and for a kernel of the user's that has returned a reward, a credit or a coordinate which is not a number.
+
+        >>> run = neorl.Run(neorl.place_cells([3]), neorl.WaterWorld())
+        >>> paid = run.advance(3_000, each=lambda run: run.save("run.npz"), every=1_000)
+        >>> paid += neorl.Run.load("run.npz").advance(1_000)
         """
         self.world.check_state(self._world_state)
         last = self.step + checks.integer("steps", steps, at_least=0)
+        every = checks.integer("every", every, at_least=1)
+        if each is not None and not callable(each):
+            raise ValueError(f"each must be a function that takes the run, or None, but is {checks.shown(each)}")
         bin_length = bin_steps(self.world)
         if rewards is None and hits is None:
             bin_length = last + 1  # a single bin, which is discarded
         bins = -(-last // bin_length)
         rewards = _bins("rewards", rewards, np.float32, bins)
         hits = _bins("hits", hits, np.int16, bins, len(self.world.kinds))
-        paid, clock = 0.0, on_lines_of_its_own(np.array([self.step]))
+        paid, due = 0.0, self.step + every
+        while self.step < last:
+            paid = self._take(self._rollout, min(last, due, self.step + SLICE), paid, bin_length, rewards, hits)
+            self._check(paid)
+            if self.step == due or self.step == last:
+                due += every
+                if each is not None:
+                    each(self)
+        return paid
+
+    def record(self, steps: int, every: int = 1) -> Trajectory:
+        """Take `steps` more steps, the same as `advance` takes, and return their `Trajectory`.
+
+        every: the steps in a frame of the recording, an integer ≥ 1; the last frame may have fewer. steps: an
+        integer ≥ 0. Raises what `advance` raises. After an interruption the run can continue from its `step`, but the
+        recording is lost.
+
+        >>> path = neorl.Run(neorl.place_cells([3]), neorl.Arena()).record(3_000, every=10)
+        >>> x, y = path.positions.T
+        >>> trials, earned = len(path.returns), path.rewards.sum()
+        """
+        self.world.check_state(self._world_state)
+        first, every = self.step, checks.integer("every", every, at_least=1)
+        last = first + checks.integer("steps", steps, at_least=0)
+        at = np.append(np.arange(first, last, every), last)
+        frames, kinds = len(at) - 1, len(self.world.kinds)
+        positions = np.zeros((frames + 1, self.world.actions.axes))
+        positions[0] = self._scene.position
+        actions, rewards, hits = np.zeros(frames, np.int64), np.zeros(frames), np.zeros((frames, kinds), np.int64)
+        paid, episodes = np.zeros(2), [(np.zeros(0, np.int64), np.zeros(0))]
+        kernel = recorded_in(self.world.dynamics, constants_of(self.agent, self.world))
+        while self.step < last:
+            until = min(last, self.step + SLICE)
+            ends, returns = np.zeros(until - self.step, np.int64), np.zeros(until - self.step)
+            ended = self._take(kernel, until, first, every, paid, positions[1:], actions, rewards, hits, ends, returns)
+            self._check(paid[0])
+            episodes.append((ends[:ended], returns[:ended]))
+        return Trajectory(at, positions, actions, rewards, hits, *map(np.concatenate, zip(*episodes)))
+
+    def _take(self, kernel, last, *into):
+        """Take the steps up to `last` by a kernel; returns what it returns."""
+        clock = on_lines_of_its_own(np.array([self.step]))
         try:
-            while clock[0] < last:
-                paid = execute(self._rollout, self._parameters, self._state, self._world_state, self.world.rules, clock,
-                               min(last, clock[0] + SLICE), paid, bin_length, rewards, hits)
-                check_outcome(self.world, self.world.dynamics.step, self._world_state, paid)
-                self._check_faults()
+            return execute(kernel, self._parameters, self._state, self._world_state, self.world.rules, clock, last,
+                           *into)
         finally:
             self._progress = int(clock[0])  # also if interrupted: Python handles that once the kernel returns
-        return paid
+
+    def _check(self, paid):
+        """Raise ValueError for a kernel of the user's that has broken a rule in the last steps."""
+        check_outcome(self.world, self.world.dynamics.step, self._world_state, paid)
+        self._check_faults()
 
 
 def _bins(name, given, dtype, bins, *beside):

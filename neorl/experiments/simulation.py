@@ -2,6 +2,7 @@
 
 import os
 import threading
+from collections.abc import Callable
 from concurrent.futures import CancelledError, ThreadPoolExecutor
 from dataclasses import dataclass
 from os import PathLike
@@ -124,7 +125,8 @@ class Result:
 
 
 def simulate(agent: Agent, world: World, *, steps: int, runs: int, seed: int = 0,
-             changes: tuple[tuple[int, Agent], ...] = (), threads: int | None = None, progress: bool = True) -> Result:
+             changes: tuple[tuple[int, Agent], ...] = (), threads: int | None = None,
+             progress: bool | Callable[[int, int], object] = True) -> Result:
     """Run `runs` independent learners for `steps` steps each, one core per run, and return their `Result`.
 
     agent: an `Agent`. world: a `neorl.World`. steps, runs: integers ≥ 1.
@@ -133,7 +135,8 @@ def simulate(agent: Agent, world: World, *, steps: int, runs: int, seed: int = 0
         `neorl.Run.change`.
     threads: the number of runs in parallel, an integer ≥ 1; by default one per core, as far as they fit into the free
         memory.
-    progress: show a progress bar.
+    progress: show a progress bar; or a function (done, total), which is called now and then with the number of steps
+        that all runs together have taken, and will take. It is called from threads, but never twice at once.
     Raises ValueError for a bad argument, MemoryError if a single run does not fit into the free memory.
     """
     checks.instance("agent", agent, Agent)
@@ -184,14 +187,39 @@ def live(agent, world, steps, seed, k, changes, rewards, hits, each_slice, after
 
 
 def progress_bar(steps, name, shown):
-    """A progress bar over steps, with the time left at the pace so far.
+    """A progress bar over steps, with the time left at the pace so far, or a `Report` to a function.
 
-    Raises ValueError unless `shown`, the caller's argument `progress`, is True or False.
+    Raises ValueError unless `shown`, the caller's argument `progress`, is True, False or a function.
     """
     from tqdm import tqdm
 
-    disable = not checks.flag("progress", shown)
+    if callable(shown):
+        return Report(shown, steps)
+    try:
+        disable = not checks.flag("progress", shown)
+    except ValueError:
+        raise ValueError("progress must be True, False or a function that takes the steps done and their total, but is "
+                         f"{checks.shown(shown)}") from None
     return tqdm(total=steps, desc=name, unit="step", unit_scale=True, leave=False, disable=disable)
+
+
+class Report:
+    """A progress bar whose display is a function (done, total) of the user's."""
+
+    def __init__(self, function, total):
+        self.function, self.total, self.done, self.lock = function, total, 0, threading.Lock()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *error):
+        pass
+
+    def update(self, steps):
+        """Count more steps, and call the function."""
+        with self.lock:
+            self.done += steps
+            self.function(self.done, self.total)
 
 
 def label(agent):

@@ -16,7 +16,7 @@ import os
 import threading
 import warnings
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, ThreadPoolExecutor, as_completed
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 from neorl import checks
@@ -33,7 +33,8 @@ TASK_STEPS = 100_000  # they take a typical agent a tenth of a second, and a tas
 
 
 def simulate_once(agent: Agent, world: World, *, steps: int, runs: int, seed: int = 0,
-                  changes: tuple[tuple[int, Agent], ...] = (), progress: bool = True) -> Result:
+                  changes: tuple[tuple[int, Agent], ...] = (),
+                  progress: bool | Callable[[int, int], object] = True) -> Result:
     """`neorl.simulate` with a cache: a condition that is on disk already is read instead of computed.
 
     The arguments are those of `simulate`. Returns a `Result`. If it is interrupted, finished runs are kept, and the
@@ -46,15 +47,16 @@ def simulate_once(agent: Agent, world: World, *, steps: int, runs: int, seed: in
         raise failure.__cause__ or failure
 
 
-def sweep(conditions: Sequence[Condition], executor: Executor | None = None, progress: bool = True, *,
-          workers: int | None = None) -> Iterator[Result]:
+def sweep(conditions: Sequence[Condition], executor: Executor | None = None,
+          progress: bool | Callable[[int, int], object] = True, *, workers: int | None = None) -> Iterator[Result]:
     """Compute independent conditions, and return an iterator of their `Result`s, in order.
 
     conditions: `Condition`s. All are computed before this returns; each result is read from disk when its turn comes.
     executor: any `concurrent.futures.Executor` whose workers can import this version of neorl, such as a process
         pool, `dask.distributed.Client.get_executor()`, or an executor over MPI; by default this machine's cores. It is
         not shut down.
-    progress: show a progress bar, with the time left at the pace so far.
+    progress: show a progress bar, with the time left at the pace so far; or a function (done, total) as in `simulate`,
+        of the steps of those conditions that are not on disk already.
     workers: the greatest number of this machine's cores to use, an integer ≥ 1; by default all, as far as the runs fit
         into memory. Not with an executor, which has workers of its own.
 

@@ -1,5 +1,7 @@
 """The rollout of an agent in a world: choose, act, advance the world, perceive and learn, step after step.
 
+There are two: `rollout` only adds up rewards and contacts, and `recorded` writes down where the agent was as well.
+
 The kernels of the world and the agent's user-defined functions are constants of the compiled code, so a user-defined
 world or policy runs as fast as those of the package. Each combination is compiled once (`neorl.core.compile_cache`).
 """
@@ -56,3 +58,51 @@ def rollout_in(dynamics, constants):
         return total
 
     return rollout
+
+
+@functools.cache
+def recorded_in(dynamics, constants):
+    """The kernel `recorded`, which takes the same steps as that of `rollout_in`, and records them."""
+    reset, step = dynamics.reset, inlined(dynamics.step)
+    world_type, rules_type = fields(reset)["state"], fields(reset)["rules"]
+
+    @kernel
+    def recorded(parameters: Parameters, state: State, world_state: world_type, rules: rules_type,
+                 clock: array("int64", 1), last_step: int, first_step: int, every: int,
+                 paid: array("float64", 2), positions: array("float64", "frames", "axes"),
+                 actions: array("int64", "frames"), rewards: array("float64", "frames"),
+                 hits: array("int64", "frames", "kinds"), ends: array("int64", "episodes"),
+                 returns: array("float64", "episodes")) -> int:
+        """Take the steps clock[0] … last_step − 1; frames have `every` steps each, from first_step on.
+
+        paid: the reward so far, in all and in this episode. Returns the number of episodes that have ended.
+        Stops early, after a step that met a thing of no kind.
+        """
+        scene, episodes = world_state.scene, 0
+        for now in range(clock[0], last_step):
+            frame = (now - first_step) // every
+            actions[frame] = life.act(parameters, constants, state, scene)
+            reward, done = step(world_state, rules, actions[frame])
+            state.reward[0] = reward
+            life.observe(parameters, constants, state, scene)
+            rewards[frame] += reward
+            paid[0] += reward
+            paid[1] += reward
+            for axis in range(positions.shape[1]):
+                positions[frame, axis] = scene.position[axis]
+            for thing in range(scene.met.shape[0]):
+                met = scene.met[thing]
+                if met != 0:
+                    if met < 0 or met > hits.shape[1]:
+                        clock[0] = now + 1
+                        return episodes
+                    hits[frame, met - 1] += 1
+            if done:
+                ends[episodes], returns[episodes], paid[1] = now + 1, paid[1], 0.0
+                episodes += 1
+                reset(world_state, rules)
+                life.begin(parameters, constants, state, scene)
+        clock[0] = last_step
+        return episodes
+
+    return recorded

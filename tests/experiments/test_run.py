@@ -1,17 +1,21 @@
 """A run refuses what would crash the interpreter or corrupt its values, and can be interrupted."""
 
 import _thread
+import os
 import signal
+import subprocess
+import sys
 import threading
 import time
 
 import numpy as np
 import pytest
 
-from neorl import (Condition, Desire, Learning, NresMap, Policy, Run, WaterWorld, learn, multimodal, network_d,
-                   place_cells, superpose)
+from neorl import (Agent, Arena, Condition, Desire, Learning, Node, NresMap, Policy, Run, WaterWorld, learn, multimodal,
+                   network_d, place_cells, superpose)
 from neorl.agents.compile import constants_of
 from neorl.core.kernel import arrays
+from neorl.core.modality import PLACE_CELL
 from neorl.worlds.rollout import rollout_in
 
 TANK = WaterWorld(n_creeps=4)
@@ -172,3 +176,101 @@ def test_a_number_of_another_type_compiles_nothing_again():
 def test_what_is_nearly_a_flag_or_a_number_is_refused(make):
     with pytest.raises(ValueError, match="allowed are"):
         make()
+
+
+def assert_same(one, other):
+    for part in ("state", "world_state"):
+        mine, its = arrays(getattr(one, part)), arrays(getattr(other, part))
+        assert all(np.array_equal(mine[name], its[name]) for name in mine)
+    assert one.step == other.step
+
+
+POOL = Arena(trial_seconds=4.0, pay=(0.1,), radius=0.2)
+SWIMMER = Agent((Node("PC", PLACE_CELL, [5]),), (Desire("platform", "PC", 1.0),), Learning(0.3), Policy(0.3))
+
+
+@pytest.mark.parametrize("every", [1, 7, 400])
+def test_a_recording_changes_nothing_and_holds_what_the_run_did(every):
+    recorded, plain = (Run(SWIMMER, POOL, seed=4) for _ in range(2))
+    recorded.advance(1_003)
+    path = recorded.record(11_000, every)
+    plain.advance(1_003)
+    hits = np.zeros((1_201, 1), np.int16)
+    positions, rewards = [plain.world_state.scene.position.copy()], []
+    for end in range(every, 11_000 + every, every):
+        rewards.append(plain.advance(min(every, 11_000 + every - end), hits=hits))
+        positions.append(plain.world_state.scene.position.copy())
+    assert_same(recorded, plain)
+    np.testing.assert_array_equal(path.steps, [*range(1_003, 12_003, every), 12_003])
+    np.testing.assert_allclose(path.rewards, rewards, rtol=1e-12)
+    assert path.hits.sum() == hits.sum() > 5 and path.actions.shape == path.rewards.shape
+    ended = np.isin(path.steps, path.ends)  # where a trial ended, the recording has its last place, not the next start
+    np.testing.assert_array_equal(path.positions[~ended], np.array(positions)[~ended])
+    assert path.returns.sum() == pytest.approx(path.rewards.sum()) and len(path.returns) == len(path.ends) > 50
+
+
+def test_a_trial_without_success_returns_0_and_ends_when_its_time_is_up():
+    path = Run(Agent(SWIMMER.nodes), POOL, seed=1).record(2_000)
+    lengths = np.diff([0, *path.ends])
+    assert np.all(lengths[path.returns == 0] == 200) and np.all(lengths <= 200)
+    np.testing.assert_allclose(path.returns[lengths < 200], 0.1)
+    for action, push in enumerate(POOL.actions.pushes):  # an action pushes the agent the way it says
+        taken = np.flatnonzero(path.actions[1:] == action) + 1
+        taken = taken[~np.isin(path.steps[taken], path.ends) & ~np.isin(path.steps[taken + 1], path.ends)]
+        bends = np.diff(path.positions, axis=0)[taken] - np.diff(path.positions, axis=0)[taken - 1]
+        assert (bends @ push).mean() > 0 and len(taken) > 50
+
+
+def test_a_recording_of_nothing_is_empty_and_a_bad_one_is_refused():
+    run = Run(SWIMMER, POOL, seed=4)
+    path = run.record(0)
+    assert (path.positions.shape, path.rewards.shape, path.returns.shape) == ((1, 2), (0,), (0,))
+    assert path == run.record(0) != run.record(10)
+    for arguments, message in [((-1,), "steps is -1"), ((5, 0), "every is 0"), ((5, 1.5), "every is 1.5")]:
+        with pytest.raises(ValueError, match=message):
+            run.record(*arguments)
+
+
+def test_a_function_is_called_with_the_run_every_so_often_and_changes_nothing():
+    watched, plain, seen = Run(SWIMMER, POOL, seed=4), Run(SWIMMER, POOL, seed=4), []
+    paid = watched.advance(25_001, each=lambda run: seen.append((run is watched, run.step)), every=12_000)
+    assert seen == [(True, 12_000), (True, 24_000), (True, 25_001)]
+    assert paid == plain.advance(25_001)
+    assert_same(watched, plain)
+    watched.advance(3, each=lambda run: seen.append(run.step), every=2)
+    assert seen[3:] == [25_003, 25_004]
+
+
+def test_an_error_in_that_function_ends_the_call_at_its_step_and_a_bad_one_is_refused():
+    run = Run(SWIMMER, POOL, seed=4)
+    with pytest.raises(ZeroDivisionError):
+        run.advance(1_000, each=lambda run: 1 / 0, every=300)
+    assert run.step == 300
+    for arguments, message in [({"each": 5}, "each must be a function that takes the run, or None, but is 5"),
+                               ({"every": 0}, "every is 0")]:
+        with pytest.raises(ValueError, match=message):
+            run.advance(10, **arguments)
+
+
+KILLED = """
+import os, signal, sys
+from neorl import Run
+def checkpoint(run):
+    run.save("run.npz")
+    if run.step == 6_000:
+        os.kill(os.getpid(), getattr(signal, "SIGKILL", signal.SIGTERM))
+Run.load("start.npz").advance(1_000_000, each=checkpoint, every=2_000)
+"""
+
+
+def test_a_run_that_was_killed_goes_on_from_its_checkpoint(tmp_path):
+    whole = Run(SWIMMER, POOL, seed=4)
+    whole.save(tmp_path / "start.npz")
+    done = subprocess.run([sys.executable, "-c", KILLED], cwd=tmp_path, capture_output=True, text=True, env={
+        **os.environ, "PYTHONPATH": os.pathsep.join([os.getcwd(), *sys.path])})
+    assert done.returncode < 0, done.stderr
+    resumed = Run.load(tmp_path / "run.npz")
+    assert resumed.step == 6_000
+    resumed.advance(3_333)
+    whole.advance(9_333)
+    assert_same(resumed, whole)

@@ -2,6 +2,7 @@
 
 import itertools
 import pickle
+import threading
 from dataclasses import replace
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 from golden import learning, plain_rule
 
 import neorl
-from neorl import Agent, Desire, Node, Policy, Run, WaterWorld, multimodal, network_c, place_cells, simulate
+from neorl import Agent, Desire, Node, Policy, Run, WaterWorld, multimodal, network_c, place_cells, simulate, simulate_once
 from neorl.core.kernel import arrays
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
                                  LANDMARK_VECTOR_CELL, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL)
@@ -249,3 +250,29 @@ def test_a_run_after_that_of_a_smaller_agent_has_memory_of_its_own():
     assert not np.shares_memory(Run(place_cells([14]), WaterWorld(), after=before).state.values.q,
                                 before.state.values.q)
     np.testing.assert_array_equal(before.state.values.q, knew)
+
+
+@pytest.mark.parametrize("function", [simulate, simulate_once])
+def test_a_function_follows_the_progress_of_all_runs_together_and_changes_nothing(cache_folder, function):
+    reports, lock = [], threading.Lock()
+
+    def report(done, total):
+        assert lock.acquire(blocking=False)  # never called twice at once
+        reports.append((done, total))
+        lock.release()
+
+    followed = function(place_cells([3]), TANK, steps=25_000, runs=3, progress=report)
+    assert [total for _, total in reports] == [75_000] * 9
+    assert [done for done, _ in reports] == sorted(done for done, _ in reports) and reports[-1][0] == 75_000
+    assert followed == simulate(place_cells([3]), TANK, steps=25_000, runs=3, progress=False)
+
+
+def test_an_error_in_that_function_ends_the_simulation():
+    with pytest.raises(ZeroDivisionError):
+        simulate(place_cells([3]), TANK, steps=10**9, runs=2, progress=lambda done, total: 1 / 0)
+
+
+@pytest.mark.parametrize("progress", [1, None, "bar"])
+def test_progress_is_a_flag_or_a_function(progress):
+    with pytest.raises(ValueError, match="progress must be True, False or a function that takes the steps done and"):
+        simulate(place_cells([3]), TANK, steps=10, runs=1, progress=progress)
