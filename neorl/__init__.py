@@ -23,29 +23,34 @@ from neorl.agents.learner import Learner
 from neorl.agents.papers import (brownian, multimodal, network_a, network_b, network_c, network_d, object_vector_cells,
                                  place_cells)
 from neorl.agents.rules import CALIBRATED, GREEDY, TO_THE_LETTER, Contacts, Learning, Policy
+from neorl.core import modality
+from neorl.core.geometry import heading, turn
 from neorl.core.horde import learn, superpose
-from neorl.core.kernel import kernel, kernel_maker
+from neorl.core.kernel import array, execute, kernel, kernel_maker
 from neorl.core.maps import NresMap
-from neorl.core.modality import Axis, Modality
+from neorl.core.modality import Axis, Modality, cartesian, polar
 from neorl.core.policy import greedy, softmax
-from neorl.core.scene import CARDINAL, Actions, Scene
+from neorl.core.scene import ABSENT, CARDINAL, Actions, Scene
+from neorl.core.stream import randint, uniform
 from neorl.experiments.cache import Condition
 from neorl.experiments.run import Run
 from neorl.experiments.simulation import Result, simulate
 from neorl.experiments.sweeping import simulate_once, sweep
 from neorl.experiments.trajectory import Trajectory
+from neorl.worlds import walls
 from neorl.worlds.arena import Arena
 from neorl.worlds.arm import Arm
 from neorl.worlds.vessel import Vessel
 from neorl.worlds.water_maze import WaterMaze
 from neorl.worlds.waterworld import WaterWorld
-from neorl.worlds.world import World
+from neorl.worlds.world import Dynamics, World
 
 __version__ = "0.1.0"
-__all__ = ["Actions", "Agent", "Arena", "Arm", "Axis", "CALIBRATED", "CARDINAL", "Condition", "Contacts", "Desire",
-           "GREEDY", "Learner", "Learning", "Modality", "Node", "NresMap", "Place", "Policy", "Result", "Run", "Scene",
-           "TO_THE_LETTER", "Trajectory", "Vessel", "WaterMaze", "WaterWorld", "World", "greedy",
-           "kernel", "kernel_maker", "learn", "simulate", "simulate_once", "softmax", "superpose", "sweep",
+__all__ = ["ABSENT", "Actions", "Agent", "Arena", "Arm", "Axis", "CALIBRATED", "CARDINAL", "Condition", "Contacts",
+           "Desire", "Dynamics", "GREEDY", "Learner", "Learning", "Modality", "Node", "NresMap", "Place", "Policy",
+           "Result", "Run", "Scene", "TO_THE_LETTER", "Trajectory", "Vessel", "WaterMaze", "WaterWorld", "World",
+           "array", "cartesian", "execute", "greedy", "heading", "kernel", "kernel_maker", "learn", "modality", "polar",
+           "randint", "simulate", "simulate_once", "softmax", "superpose", "sweep", "turn", "uniform", "walls",
            "brownian", "forager", "multimodal", "network_a", "network_b", "network_c", "network_d",
            "object_vector_cells", "place_cells"]
 

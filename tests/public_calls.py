@@ -1,5 +1,7 @@
 """The public callables with valid arguments, of which `test_fuzzing` replaces one at a time by a hostile value."""
 
+from functools import partial
+
 import numpy as np
 from fuzzing import entry
 from hypothesis import strategies as st
@@ -7,8 +9,8 @@ from matplotlib.figure import Figure
 from public_uses import (BOARD, CONDITION, CURVES, POOL, RESULT, SAMPLE, SCENE, SCENES, SPACES, acted, agents, begun,
                          described_paths, drawing_of, drawn, fields_of, in_a_loop, live, live_in, live_in_state,
                          make_with, method, new_env, new_learner, new_run, paper, paths, q, reals, resolutions,
-                         result_of, saved, saved_as, scene_of, scene_then, seeds, shares, states, step_with, tile,
-                         use_modality, want_it)
+                         result_of, saved, saved_as, scene_of, scene_then, seeds, sense, shares, states, step_with,
+                         tile, use_modality, want_it)
 
 import neorl
 from neorl import (CARDINAL, Actions, Agent, Arena, Arm, Axis, Condition, Contacts, Desire, Learner, Learning, Modality,
@@ -26,7 +28,7 @@ from neorl.evidence import curves, reading, statistics
 from neorl.evidence.statistics import Estimate
 from neorl.experiments import recording
 from neorl.gym import environment, playing, vector
-from neorl.worlds import world
+from neorl.worlds import walls, world
 
 TABLE = {
     "neorl.core.modality.Axis": entry(
@@ -104,6 +106,10 @@ TABLE = {
     "neorl.worlds.water_maze.WaterMaze": entry(
         WaterMaze, places=[((0.3, 0.4),), [(0.5, 0.5), (0.6, 0.4)]], trials_a_day=st.integers(1, 5),
         radius=st.floats(0.01, 0.25), trial_seconds=st.floats(0.1, 99), fps=st.integers(1, 100), then=live_in),
+    "neorl.worlds.walls.table": entry(walls.table, walls=[[(0, 0.5, 0.25, 1)], ()]),
+    "neorl.worlds.walls.distance": entry(walls.distance, walls=[[(0, 0.5, 0.25, 1)]], then=sense),
+    "neorl.worlds.walls.distance_along": entry(
+        walls.distance_along, walls=[[(0, 0.5, 0.25, 1)]], x=st.floats(0.1, 2), y=reals, also="length", then=sense),
     "neorl.worlds.world.World.reset": entry(BOARD.reset, seed=seeds, then=lambda state: list(arrays(state).values())),
     "neorl.worlds.world.World.step": entry(
         BOARD.step, state=states, action=["N", 0, "no-op", np.int8(4)]),
@@ -203,22 +209,24 @@ TABLE = {
         method(Run.advance, lambda: Run(neorl.place_cells([3]), BOARD)), steps=st.integers(0, 50), long=("steps",),
         also="rewards",
         rewards=st.just(0).map(lambda _: np.zeros(5, np.float32)),
-        hits=st.just(0).map(lambda _: np.zeros((5, 2), np.int16))),
+        hits=st.just(0).map(lambda _: np.zeros((5, 2), np.int16)), every=st.integers(1, 60)),
+    "neorl.experiments.run.Run.record": entry(
+        method(Run.record, lambda: Run(neorl.place_cells([3]), BOARD)), steps=st.integers(0, 50), long=("steps",),
+        every=st.integers(1, 60), then=lambda path: [path.positions, path.rewards, path.returns]),
     "neorl.experiments.run.Run.world_state": entry(live_in_state, **fields_of(BOARD.reset(0)), also="state"),
     "neorl.experiments.simulation.simulate": entry(
-        neorl.simulate, long=("steps", "runs", "threads"), agent=agents, world=[BOARD],
+        partial(neorl.simulate, progress=False), long=("steps", "runs", "threads"), agent=agents, world=[BOARD],
         steps=st.integers(1, 60), runs=st.integers(1, 2), seed=seeds,
-        changes=[(), [(20, neorl.place_cells([2]))]], threads=[None, 1],
-        progress=[False], also=("change",)),
+        changes=[(), [(20, neorl.place_cells([2]))]], threads=[None, 1], also=("change",)),
     "neorl.experiments.sweeping.simulate_once": entry(
-        neorl.simulate_once, long=("steps", "runs"), agent=agents, world=[BOARD], steps=[60], runs=[1],
-        seed=[0], changes=[()], progress=[False]),
+        partial(neorl.simulate_once, progress=False), long=("steps", "runs"), agent=agents, world=[BOARD], steps=[60], runs=[1],
+        seed=[0], changes=[()]),
     "neorl.experiments.cache.Condition": entry(
         Condition, agent=agents, world=[BOARD], steps=st.integers(1, 60), runs=st.integers(1, 2), seed=seeds,
         changes=[(), [(20, neorl.place_cells([2]))]], also=("change",),
         then=lambda condition: (condition.key, repr(condition))),
     "neorl.experiments.sweeping.sweep": entry(
-        lambda **each: list(neorl.sweep(**each)), executor=[None], progress=[False],
+        lambda **each: list(neorl.sweep(**each, progress=False)), executor=[None],
         conditions=[[Condition(neorl.place_cells([2]), BOARD, 40, 1)]], also="condition"),
     "neorl.experiments.simulation.Result.rate": entry(RESULT.rate, begin=[0.0, 0.2], end=[0.5, 1.0]),
     "neorl.experiments.simulation.Result.hit_rate": entry(RESULT.hit_rate, begin=[0.0, 0.2], end=[0.5, 1.0]),

@@ -9,17 +9,17 @@ from neorl.core import horde, kernel, maps, modality, policy, scene, stream
 from neorl.evidence import curves, reading, statistics
 from neorl.experiments import recording
 from neorl.gym import environment, playing, vector
-from neorl.worlds import arena, arm, vessel, water_maze, waterworld, world
+from neorl.worlds import arena, arm, vessel, walls, water_maze, waterworld, world
 
 EXPORTED = (neorl, drawing)  # packages that re-export names of their modules
 MODULES = (*EXPORTED, agent, beyond, learner, papers, horde, kernel, maps, modality, policy, scene, stream, arena, arm,
-           vessel, water_maze, waterworld, world, recording, curves, reading, statistics, environment,
-           playing, vector)
+           vessel, walls, water_maze, waterworld, world, recording, curves, reading, statistics, environment, playing,
+           vector)
 # Classes that only kernels or the package itself instantiate; kernels refuse to be called.
 MADE_INSIDE = {f"neorl.{name}" for name in (
     "agents.learner.Offer", "core.kernel.Kernel", "core.scene.Scene", "evidence.statistics.Estimate",
-    "drawing.rate_maps.Track", "experiments.recording.Recording", "gym.playing.Played",
-    "experiments.simulation.Result", "worlds.arena.ArenaRules", "worlds.arena.ArenaState", "worlds.waterworld.Rules",
+    "drawing.rate_maps.Track", "experiments.recording.Recording", "gym.playing.Played", "experiments.simulation.Result",
+    "experiments.trajectory.Trajectory", "worlds.arena.ArenaRules", "worlds.arena.ArenaState", "worlds.waterworld.Rules",
     *(f"worlds.{name}{part}" for name in ("arm.Arm", "vessel.Vessel", "water_maze.WaterMaze")
       for part in ("Rules", "State")),
     "worlds.waterworld.WaterWorldState", "worlds.world.Dynamics", "worlds.world.World")}
@@ -36,7 +36,7 @@ FOR_AUTHORS = {f"neorl.{name}" for name in (
         "difference", "lead_over_best", "lead_over_sum", "least_of_most", "quotient", "rank_correlation", "ratio")),
     "evidence.reading.additions", "evidence.reading.judge", "gym.environment.checked_seed", "gym.environment.seed_row",
     "agents.papers.paper_agent", "core.kernel.jit_is_off", "core.scene.checked_scene", "worlds.world.check_arrays",
-    "worlds.world.check_outcome", "worlds.world.check_rules")}
+    "worlds.walls.checked", "worlds.world.check_outcome", "worlds.world.check_rules")}
 NOTHING_TO_REPLACE = {"neorl.agents.papers.brownian", "neorl.drawing.style.use_style"}  # they take no arguments
 
 

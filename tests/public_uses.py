@@ -10,7 +10,7 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
 import neorl
-from neorl import (Agent, Arena, Arm, Condition, Desire, Learner, Learning, Modality, Node, NresMap, Policy, Result,
+from neorl import (Agent, Arena, Arm, Axis, Condition, Desire, Learner, Learning, Modality, Node, NresMap, Policy, Result,
                    Run, Scene, Vessel, WaterMaze, WaterWorld)
 from neorl.core import kernel
 from neorl.core.description import described, restored
@@ -37,6 +37,10 @@ def live_in(world):
 
 def tile(axis):
     return use_modality(Modality("cell", [axis], [(0.1, 0.2)] if axis.of == "landmarks" else ()))
+
+
+def sense(kernel):
+    return tile(Axis(kernel))
 
 
 def use_modality(cells):

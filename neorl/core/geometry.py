@@ -24,6 +24,7 @@ TAU = 2.0 * math.pi
 SQRT_3 = math.sqrt(3.0)
 TAN_15_DEGREES = 2.0 - SQRT_3
 TERMS = 14  # of the series of the arctangent, exact to the last few bits
+CIRCLE_TERMS = 9  # of the series of sine and cosine up to an eighth of a turn, likewise
 
 
 # What defines an axis: `choices.Vector`; `choices.Feature`; the axis of the world that it runs along, or the number of
@@ -76,6 +77,28 @@ def turn(x, y):
     if y < 0.0:
         turned = 1.0 - turned
     return turned if turned < 1.0 else 0.0
+
+
+@kernel
+def heading(turns):
+    """The vector of length 1 in a direction given in turns, (x, y): the inverse of `turn`, for any finite number.
+
+    It stands in for cosine and sine, whose last bits differ between platforms.
+    """
+    quarters = np.floor(4.0 * (turns - np.floor(turns)) + 0.5)
+    angle = TAU * (turns - np.floor(turns) - 0.25 * quarters)  # within an eighth of a turn from the nearest axis
+    square, cosine, sine = angle * angle, 1.0, 1.0
+    for n in range(CIRCLE_TERMS - 1, -1, -1):
+        cosine = 1.0 - square / ((2 * n + 1) * (2 * n + 2)) * cosine
+        sine = 1.0 - square / ((2 * n + 2) * (2 * n + 3)) * sine
+    sine *= angle
+    if quarters == 1.0:
+        return 0.0 - sine, cosine
+    if quarters == 2.0:
+        return -cosine, 0.0 - sine
+    if quarters == 3.0:
+        return sine, -cosine
+    return cosine, sine
 
 
 @inlined_kernel

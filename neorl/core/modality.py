@@ -47,16 +47,18 @@ FRAMES = {"position": "allocentric", "velocity": "allocentric direction"}
 class Axis(checks.Final):
     """One axis of a space.
 
-    of: "position", "velocity", "objects", "boundaries" (the nearest point of each wall) or "landmarks"; or a
-        `neorl.kernel` ``(scene, point) → number`` that returns the coordinate, never NaN, given the
-        `neorl.core.scene.Scene` and the number of the thing, wall or landmark.
+    of: "position", "velocity", "objects", "boundaries" (the nearest point of each side of the board) or "landmarks"; or
+        a `neorl.kernel` ``(scene, point) → number`` that returns the coordinate, never NaN, given the
+        `neorl.core.scene.Scene` and the number of the thing, side or landmark; `neorl.walls` makes such kernels for
+        walls anywhere.
     feature: of that vector: "component", "foveated", "margin" (of a position), "length" or "direction" (in the plane of
         the first two axes of the world).
     along: for a component, foveated or not, or a margin, the axis of the world: 0 for x, 1 for y, and so on.
     low, high: the range, in units of the world's size (per second, for velocity); points beyond it are in the
         interval at its end. For a margin, `high` is its width; for a foveated component, both are square roots. A
         direction has none.
-    closed: whether the range closes on itself, as for an angle; a direction always does.
+    closed: whether the range closes on itself, as for an angle; a direction always does. A goal on it is a
+        `neorl.Place`, or coordinates of the map, anywhere on the circle.
     centred: whether an interval is centred on the middle of the range also if their number is even; there is then one
         more, of which half lies beyond either end.
     intervals: their number, whatever the resolution of the map; None stands for that resolution.

@@ -2,7 +2,8 @@
 
 1. The agent moves with inertia, as in WaterWorld: an action adds a quarter of the size to its velocity along an axis,
    and each step retains 97.5 % of the velocity; or it moves in plain steps of one length. Along an axis on which it
-   would enter a wall or an obstacle, it stays in place and stops.
+   would leave the arena, or enter or cross an obstacle, however thin, it stays in place and stops
+   (`neorl.worlds.walls`).
 2. The places are the things of the scene, and do not move. A place is met when the agent comes within `radius` of it.
    That pays the reward of its kind and, if `ends`, ends the trial; otherwise the place can be met again once the agent
    has left it.
@@ -22,6 +23,7 @@ from neorl import checks
 from neorl.core.kernel import array, function_of, inlined_kernel, kernel
 from neorl.core.scene import CARDINAL, Scene
 from neorl.core.stream import randint
+from neorl.worlds import walls
 from neorl.worlds.waterworld import DRAG
 from neorl.worlds.world import Dynamics, World
 
@@ -56,7 +58,7 @@ class ArenaRules(NamedTuple):
     place: array("float64", "things", 2)
     kind: array("int64", "things")
     pay: array("float64", "things")
-    obstacle: array("float64", "obstacles", 4)  # left, top, right, bottom
+    obstacle: array("float64", "obstacles", 4)  # see `neorl.worlds.walls`
 
 
 @dataclass(frozen=True)
@@ -65,7 +67,8 @@ class Arena(World, checks.Final):
 
     places: (kind, x, y) each, the kind a name, x and y in 0 … 1. pay: the reward for meeting a place of each kind, in
         the order in which kinds first appear in `places`; 1 for those left out.
-    obstacles: (left, top, right, bottom) each, in 0 … 1.
+    obstacles: (left, top, right, bottom) each, in 0 … 1. Those that meet must overlap, or an agent can pass along the
+        seam between them.
     shape: of the walls, "round" or "square". motion: "inertia", or plain "steps" of `step_length`, 10⁻⁹ … 1.
     radius: the distance within which a place is met, > 0. ends: whether a meeting ends the trial.
     start: where trials start, (x, y) in 0 … 1; () stands for one of four points of the rim.
@@ -97,8 +100,7 @@ class Arena(World, checks.Final):
             self, places=tuple((str(kind), checks.real("places", x, 0, 1), checks.real("places", y, 0, 1))
                                for kind, x, y in places),
             pay=tuple(checks.real("pay", each) for each in checks.several("pay", self.pay)),
-            obstacles=tuple(tuple(checks.real("obstacles", value, 0, 1) for value in checks.several("obstacles", each))
-                            for each in checks.several("obstacles", self.obstacles)),
+            obstacles=walls.checked("obstacles", self.obstacles, 0, 1),
             shape=checks.one_of("shape", self.shape, SHAPES), motion=checks.one_of("motion", self.motion, MOTIONS),
             step_length=checks.real("step_length", self.step_length, 1e-9, 1),
             radius=checks.real("radius", self.radius, 1e-9), ends=checks.flag("ends", self.ends),
@@ -107,14 +109,11 @@ class Arena(World, checks.Final):
             fps=checks.integer("fps", self.fps, at_least=1, at_most=2**31))
         if len(self.pay) > len(self.kinds):
             raise ValueError(f"pay is {self.pay!r}, allowed are {len(self.kinds)} numbers, one for each kind")
-        for left, top, right, bottom, *more in (each + (0,) * (4 - len(each)) for each in self.obstacles):
-            if more or not (left < right and top < bottom):
-                raise ValueError(f"obstacles is {checks.shown(self.obstacles)}, allowed are (left, top, right, "
-                                 "bottom) each")
         if len(self.start) not in (0, 2):
             raise ValueError(f"start is {self.start!r}, allowed are () and a place (x, y)")
         rules = self.rules
-        if any(function_of(is_blocked)(rules, x, y) for x, y in rules.start):
+        if any(function_of(is_outside)(rules, x, y) or function_of(walls.contain)(rules.obstacle, x, y)
+               for x, y in rules.start):
             raise ValueError(f"start is {self.start!r}, allowed are places outside of walls and obstacles")
 
     @property
@@ -143,6 +142,9 @@ class Arena(World, checks.Final):
         kinds = {kind: number for number, kind in enumerate(self.kinds)}
         pay = dict(zip(kinds, (*self.pay, *[1.0] * len(kinds))))
         near, far = RIM, 1.0 - RIM
+        obstacles = walls.table(self.obstacles)
+        obstacles[:, :2] -= obstacles[:, :2] == 0.0  # those at a side reach beyond it, or an agent at
+        obstacles[:, 2:] += obstacles[:, 2:] == 1.0  # the side could pass along their edge
         starts = [self.start] * 4 if self.start else [(0.5, near), (0.5, far), (far, 0.5), (near, 0.5)]
         return ArenaRules(
             self.size, 1.0 / self.fps, self.shape == "round", self.step_length if self.motion == "steps" else 0.0,
@@ -150,7 +152,7 @@ class Arena(World, checks.Final):
             np.array(starts, float), self.actions.table,
             np.array([at for _, *at in self.places], float).reshape(-1, 2),
             np.array([kinds[kind] for kind, *_ in self.places], np.int64),
-            np.array([pay[kind] for kind, *_ in self.places], float), np.array(self.obstacles, float).reshape(-1, 4))
+            np.array([pay[kind] for kind, *_ in self.places], float), obstacles)
 
 
 @kernel
@@ -192,8 +194,10 @@ def move(scene, rules, action):
         else:
             scene.velocity[axis] += PUSH * rules.push[action, axis]
         before = scene.position[axis]
-        scene.position[axis] += scene.velocity[axis] * rules.dt
-        if is_blocked(rules, scene.position[0], scene.position[1]):
+        after = before + scene.velocity[axis] * rules.dt
+        blocked = walls.block(rules.obstacle, scene.position, axis, after)
+        scene.position[axis] = after
+        if blocked or is_outside(rules, scene.position[0], scene.position[1]):
             scene.position[axis], scene.velocity[axis] = before, 0.0
         elif rules.stride == 0.0:
             scene.velocity[axis] *= DRAG
@@ -207,14 +211,8 @@ def is_near(scene, rules, place):
 
 
 @kernel
-def is_blocked(rules, x, y):
-    """Whether there is a wall or an obstacle at (x, y)."""
+def is_outside(rules, x, y):
+    """Whether (x, y) is beyond the walls of the arena."""
     if rules.round:
-        blocked = (x - 0.5) * (x - 0.5) + (y - 0.5) * (y - 0.5) > 0.25
-    else:
-        blocked = x < 0.0 or y < 0.0 or x > 1.0 or y > 1.0
-    for each in range(rules.obstacle.shape[0]):
-        left, top, right, bottom = (rules.obstacle[each, 0], rules.obstacle[each, 1], rules.obstacle[each, 2],
-                                    rules.obstacle[each, 3])
-        blocked = blocked or left < x < right and top < y < bottom
-    return blocked
+        return (x - 0.5) * (x - 0.5) + (y - 0.5) * (y - 0.5) > 0.25
+    return x < 0.0 or y < 0.0 or x > 1.0 or y > 1.0

@@ -11,6 +11,9 @@ A world is a frozen dataclass, whose fields users choose, with a `State`, rules,
 4. ``kinds`` names the kinds of its things, the one that agents want by default first; ``actions`` are its `Actions`,
    whose numbers ``step`` takes. ``size`` is its unit of length, such as its width; ``fps`` is its number of steps per
    second; ``things`` is its number of things.
+
+With ``NUMBA_DISABLE_JIT=1`` in the environment, the kernels are the Python functions that they were written as, with
+the same bits: `breakpoint` and `print` work in them, and an index out of range raises IndexError instead of crashing.
 """
 
 import inspect
@@ -48,7 +51,7 @@ class _Checking(type):
 
 
 class World(Described, metaclass=_Checking):
-    """A world of kernels; see the module for what a subclass defines.
+    """A world of kernels; see the module for what a subclass defines, and how to debug it.
 
     Raises ValueError for rules whose arrays do not match their annotations.
     """

@@ -1,5 +1,6 @@
 """The coordinates that modalities compute from vectors and states, against NumPy and numbers worked out by hand."""
 
+import hashlib
 import math
 
 import numpy as np
@@ -8,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from neorl import Axis, Modality, NresMap, Scene, WaterWorld, kernel
-from neorl.core.geometry import TAU, into_margin, turn
-from neorl.core.kernel import execute
+from neorl.core.geometry import TAU, heading, into_margin, turn
+from neorl.core.kernel import execute, function_of
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
                                  LANDMARK_VECTOR_CELL, MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL, VECTORS,
                                  cartesian, polar)
@@ -52,6 +53,36 @@ def test_the_axes_are_exact_quarters_of_a_turn(length, zero):
 def test_a_turn_just_north_of_east_does_not_reach_1():
     assert execute(turn, 1.0, -1e-300) == 0
     assert execute(turn, 1.0, -1e-15) == pytest.approx(1.0)
+
+
+def headings(turns):
+    return np.array([execute(heading, each) for each in turns])
+
+
+def test_a_heading_equals_cosine_and_sine_of_numpy_and_has_the_length_1():
+    turns = np.random.default_rng(0).uniform(-2, 2, 20_000)
+    x, y = headings(turns).T
+    np.testing.assert_allclose([x, y], [np.cos(TAU * turns), np.sin(TAU * turns)], rtol=0, atol=2e-15)
+    np.testing.assert_allclose(x * x + y * y, 1, rtol=0, atol=1e-15)
+
+
+@given(finite)
+def test_any_number_has_a_heading_whose_turn_it_is(turns):
+    x, y = execute(heading, turns)
+    assert turns_apart(execute(turn, x, y), np.float64(turns) % 1.0) < 1e-15
+
+
+def test_the_headings_of_quarters_are_the_axes():
+    axes = [(1, 0), (0, 1), (-1, 0), (0, -1)]
+    assert [execute(heading, quarter / 4) for quarter in range(-8, 8)] == axes * 4
+
+
+def test_a_heading_has_the_same_bits_everywhere():
+    """Compiled, as Python, and as printed when it was written: no function of a library takes part."""
+    turns = np.random.default_rng(1).uniform(-1, 2, 2_000)
+    bits = headings(turns).tobytes()
+    assert bits == np.array([function_of(heading)(each) for each in turns]).tobytes()
+    assert hashlib.sha256(bits).hexdigest()[:16] == "4c82b3f8093d2731"
 
 
 @given(components, components, reaches, reaches)
