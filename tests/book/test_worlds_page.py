@@ -1,0 +1,66 @@
+"""The page on writing worlds: its examples take one import, print what they say, and can be debugged."""
+
+import doctest
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from neorl import Run, walls
+
+ROOT = Path(__file__).parents[2]
+EXAMPLES = re.findall(r"```python\n(.*?)```", (ROOT / "book" / "api_worlds.md").read_text(encoding="utf-8"), re.DOTALL)
+MAZE, *CIRCLE = EXAMPLES
+WITHOUT_COMPILER = {"NUMBA_DISABLE_JIT": "1"}
+
+
+def run(folder, code, typed="", **environment):
+    """What a file with this code prints, and the process."""
+    (folder / "example.py").write_text(code, encoding="utf-8")
+    return subprocess.run([sys.executable, "example.py"], cwd=folder, input=typed, capture_output=True, text=True, env={
+        **os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path]), **environment})
+
+
+def promised(code):
+    return re.findall(r"print\(.*# → (.*)", code)
+
+
+@pytest.mark.parametrize("environment", [{}, WITHOUT_COMPILER], ids=["compiled", "not compiled"])
+def test_the_world_prints_what_stands_behind_its_arrow(tmp_path, environment):
+    done = run(tmp_path, MAZE, **environment)
+    assert done.stdout.splitlines() == promised(MAZE) != [], done.stderr
+
+
+def test_the_circle_prints_what_stands_behind_its_arrows(tmp_path):
+    code = "\n".join(CIRCLE)
+    done = run(tmp_path, code, **WITHOUT_COMPILER)
+    assert done.stdout.splitlines() == promised(code) and len(promised(code)) == code.count("print("), done.stderr
+
+
+@pytest.mark.parametrize("code", [MAZE, "\n".join(CIRCLE)])
+def test_everything_comes_from_neorl_by_one_import(code):
+    modules = re.findall(r"^(?:from|import) (\S+)", code, re.MULTILINE)
+    assert modules.count("neorl") == 1 and not any(each.startswith("neorl.") for each in modules)
+
+
+def test_without_the_compiler_a_breakpoint_stops_in_a_kernel(tmp_path):
+    stopping = MAZE.replace("    dx, dy =", "    breakpoint()\n    dx, dy =", 1)
+    assert stopping != MAZE
+    done = run(tmp_path, stopping, "print('action', action, 'at', scene.position.shape)\nquit\n", **WITHOUT_COMPILER)
+    assert re.search(r"\(Pdb\) action [0-4] at \(2,\)", done.stdout), done.stdout + done.stderr
+
+
+def test_without_the_compiler_an_index_out_of_range_is_an_error_in_its_line(tmp_path):
+    wrong = MAZE.replace("rules.push[action, axis]", "rules.push[action + 5, axis]")
+    done = run(tmp_path, wrong, **WITHOUT_COMPILER)
+    assert "IndexError" in done.stderr and "after = scene.position[axis] + 0.1 * rules.push[action + 5" in done.stderr
+
+
+@pytest.mark.parametrize("function", [walls.distance, walls.distance_along, Run.record, Run.advance])
+def test_the_example_of_a_docstring_runs(tmp_path, function):
+    lines = [each.source for each in doctest.DocTestParser().get_examples(function.__doc__)]
+    done = run(tmp_path, "".join(["import neorl\n", *lines]), **WITHOUT_COMPILER)
+    assert lines and done.returncode == 0, done.stderr
