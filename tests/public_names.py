@@ -19,7 +19,8 @@ MODULES = (*EXPORTED, agent, beyond, learner, papers, horde, kernel, maps, modal
 MADE_INSIDE = {f"neorl.{name}" for name in (
     "agents.learner.Offer", "core.kernel.Kernel", "core.scene.Scene", "evidence.statistics.Estimate",
     "drawing.rate_maps.Track", "experiments.recording.Recording", "gym.playing.Played", "experiments.simulation.Result",
-    "experiments.trajectory.Trajectory", "worlds.arena.ArenaRules", "worlds.arena.ArenaState", "worlds.waterworld.Rules",
+    "experiments.trajectory.Trajectory", "worlds.arena.ArenaRules", "worlds.arena.ArenaState",
+    "worlds.waterworld.Rules",
     *(f"worlds.{name}{part}" for name in ("arm.Arm", "vessel.Vessel", "water_maze.WaterMaze")
       for part in ("Rules", "State")),
     "worlds.waterworld.WaterWorldState", "worlds.world.Dynamics", "worlds.world.World")}

@@ -16,6 +16,7 @@ from neorl.evidence.errata import ERRATA
 from neorl.evidence.marks import NOT_COMPUTED, leads, symbol
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 from neorl.evidence.statistics import Estimate
+from neorl.evidence.verdict import VERDICTS
 from neorl.experiments.cache import source_digest
 from neorl.files import cache_folder, write_whole
 
@@ -130,9 +131,13 @@ def extract(record, names):
 
 
 def in_short(record):
-    """The tables of all claims and demonstrations, in plain Markdown and without the evidence."""
-    claims, demonstrations = (_lines(COLUMNS, [_cells(record, name) for name in some])
-                              for some in (CLAIMS, DEMONSTRATIONS))
+    """All claims and demonstrations by verdict, in plain Markdown; our number stands where the thesis prints one."""
+    claims, demonstrations = (
+        _lines(["Verdict", "Claims"], [
+            [f"{symbol(kind)}\u00a0{kind}", "; ".join(_beside_thesis(record, name) for name in some
+                                                       if verdict(record, name) == kind)]
+            for kind in (*VERDICTS, NOT_COMPUTED) if any(verdict(record, name) == kind for name in some)])
+        for some in (CLAIMS, DEMONSTRATIONS))
     return "\n".join([*claims, "", BESIDE, "", *demonstrations]) + "\n"
 
 
@@ -186,6 +191,13 @@ def _cells(record, name):
     return [f"**{name}** {statement.text}", statement.thesis, *(_marked(record[part].get(name))
                                                                 for part in ("letter", "claims")),
             verdict(record, name), _share(record["shares"].get(name))]
+
+
+def _beside_thesis(record, name):
+    """A claim as it is stated, with the number that the thesis prints and ours, if it prints one."""
+    statement, found = STATEMENTS[name], record["claims"].get(name)
+    numbers = f" ({statement.thesis}; here {number(found)})" if found and statement.bounds.number is not None else ""
+    return f"**{name}** {statement.text}{numbers}"
 
 
 def _lines(head, rows):
