@@ -5,6 +5,7 @@
 # make lab    open the notebooks in JupyterLab
 # make readme write the claims of the last build into the README
 # make bench  measure the speed of the kernels
+# make wheel build the wheel to publish, dist/*.whl, which carries the kernels as WebAssembly modules
 # make clean  remove all that these made, and nothing else
 PYTHON ?= python3
 PYTHONS ?=
@@ -17,7 +18,7 @@ export NEORL_CACHE := $(CURDIR)/.cache
 export PYTHONUNBUFFERED := 1
 
 .DEFAULT_GOAL := book
-.PHONY: book test exact verify lab readme bench clean
+.PHONY: book test exact verify lab readme bench wheel clean
 
 book: .venv/ready
 	$(BIN)/python book/build.py --runs $(RUNS) $(if $(STEPS),--steps $(STEPS))
@@ -40,6 +41,13 @@ readme: .venv/ready
 bench: .venv/ready
 	$(BIN)/python -m pytest --benchmark-only --benchmark-disable-gc tests/benchmarks.py
 
+# What is compiled is kept in .cache and put into the wheel alone: an installation from a clone compiles on first use.
+wheel: .venv/ready
+	rm -rf build dist
+	$(BIN)/python -c "from neorl.browser import wasm; wasm.ship('neorl')"
+	$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation --wheel-dir dist . ; \
+	    status=$$?; rm -f neorl/browser/*.wasm; exit $$status
+
 # Pins are complete, so pip need not resolve anything; modules are compiled when first used, which is far fewer.
 .venv/ready: environment.txt pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed; name it with make PYTHON=...")'
@@ -49,4 +57,4 @@ bench: .venv/ready
 	touch $@
 
 clean:
-	rm -rf .venv .cache _build book/chapters .pytest_cache .benchmarks .hypothesis *.egg-info
+	rm -rf .venv .cache _build build dist book/chapters .pytest_cache .benchmarks .hypothesis *.egg-info

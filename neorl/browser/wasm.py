@@ -12,9 +12,10 @@ its kernel. After a pointer to the result, and 0, they are, in order,
 The function itself returns 0. Memory is the only import; the caller's part of it begins at the exported global
 __heap_base.
 
-A module ships with a wheel, together with a digest of all its sources; elsewhere it is built once and kept on disk. It
-is built in a separate process, for a generic processor, so that it does not depend on the machine that built it. There
-numba leaves optimisation to this module: rarely called functions are not inlined, and are optimised for size.
+A module ships with the wheel that `make wheel` builds, together with a digest of all its sources; elsewhere it is built
+on first use and kept on disk. It is built in a separate process, for a generic processor, so that it does not depend on
+the machine that built it. There numba leaves optimisation to this module: rarely called functions are not inlined, and
+are optimised for size.
 """
 
 import contextlib
@@ -145,8 +146,8 @@ def _kept(contents):
 
 
 def ship(package):
-    """Build the modules into `package`, the folder of a wheel's package."""
-    for name, content in _built(SHIPPED).items():
+    """Put the modules into `package`, the folder of the package that a wheel is made of."""
+    for name, content in modules().items():
         target = Path(package) / SHIPPED[name].relative_to(Path(__file__).parents[1])
         files.write_checked(target, _digest(name) + content)
 
