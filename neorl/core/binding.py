@@ -9,6 +9,7 @@ import functools
 import numpy as np
 
 from neorl.core.kernel import Kernel, execute, fields, is_tuple, kernel_maker
+from neorl.core.kernel_errors import raise_named
 
 
 def bound(called, *arguments):
@@ -21,7 +22,10 @@ def bound(called, *arguments):
     entry, table, numbers = _entry(called), np.array(table, np.int64), np.array(numbers, np.float64)
 
     def call(kept_alive=arguments):
-        return entry.for_python(table, numbers)
+        try:
+            return entry.for_python(table, numbers)
+        except Exception as error:
+            raise_named(entry, error)
 
     return call
 

@@ -41,7 +41,7 @@ class Reading:
 
     def __init__(self, value):
         self._value, self.unknown, self._met = value, None, {}
-        self._names, self._cells, self._functions, self._arrays, self._is_mutable = [], [], [], [], False
+        self._names, self._cells, self.functions, self._arrays, self._is_mutable = [], [], [], [], False
         self.text = self._of(value)
         self._values = self._found()
 
@@ -59,7 +59,7 @@ class Reading:
     def _found(self):
         return [*[space.get(name, MISSING) for space, name in self._names],
                 *[each.cell_contents for each in self._cells],
-                *[part for each in self._functions for part in (each.__code__, each.__defaults__, each.__kwdefaults__)]]
+                *[part for each in self.functions for part in (each.__code__, each.__defaults__, each.__kwdefaults__)]]
 
     def _of(self, value):
         if type(value) in PLAIN or isinstance(value, np.generic):
@@ -115,9 +115,9 @@ class Reading:
             arguments = self._of(getattr(value, "origin", (None, ()))[1])
             return f"{module}:{name}{arguments}({self._named(closure) if module.startswith(OURS) else ''})"
         if hasattr(value, "targetoptions"):
-            raise ValueError(f"{name} is compiled by numba.jit, which would keep the values that its globals had then; "
-                             "a function that kernels call must be decorated with neorl.kernel")
-        self._functions.append(function)
+            raise ValueError(f"{name} must be decorated with neorl.kernel, since kernels call it, but is compiled by "
+                             "numba.jit, which would keep the values that its globals had then")
+        self.functions.append(function)
         code, of_globals, attributes = _read(function.__code__)
         found = closure + [(each, self._global(function, each)) for each in of_globals]
         modules = [(each, module) for each, module in found if isinstance(module, ModuleType)]
@@ -170,9 +170,9 @@ def identity(value):
     reading = Reading(value)
     if reading.unknown is None:
         return reading.text
-    raise ValueError(f"a result depends on {reading.unknown!r}, which cannot be read, and so cannot be cached; values "
-                     "that worlds and kernels look up must be numbers, texts, tuples, arrays, kernels or objects that "
-                     "pickle can save")
+    raise ValueError("what a result depends on must be numbers, texts, tuples, arrays, kernels or objects that pickle "
+                     f"can save, so that it can be cached, but worlds or kernels look up {reading.unknown!r}, which "
+                     "cannot be read")
 
 
 def name_of(value):

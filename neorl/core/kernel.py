@@ -33,11 +33,11 @@ import numpy as np
 from neorl import checks
 from neorl.core.global_random import global_random_in
 from neorl.core.identity import Reading
+from neorl.core.kernel_errors import not_compiled, raise_named
 
 # Without numba's memory runtime (_nrt) a kernel cannot allocate, and does not count references to its arrays.
 OPTIONS = {"error_model": "numpy", "nogil": True, "_nrt": False}
 INLINED = {"forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-MOST_CHARACTERS = 2_000  # of numba's message
 _making = threading.RLock()
 
 
@@ -109,13 +109,12 @@ class Kernel:
             return made
 
     def _compile(self, *arguments, **by_name):
-        from numba.core.errors import NumbaError
+        from numba.core.errors import NumbaError, UnsupportedBytecodeError
 
         try:
             return type(self.for_python)._compile_for_args(self.for_python, *arguments, **by_name)
-        except NumbaError as error:
-            raise TypeError(f"{self!r} cannot be compiled, with all kernels that it calls: "
-                            f"{str(error)[:MOST_CHARACTERS]}") from error
+        except (NumbaError, UnsupportedBytecodeError) as error:
+            raise not_compiled(self, error) from error
 
 
 def kernel(function: Callable) -> Any:
@@ -154,7 +153,7 @@ def function_of(kernel):
 
 def _compiled(function, options):
     if not inspect.isfunction(function):
-        raise ValueError(f"function is {checks.shown(function)}, allowed are Python functions to make kernels of")
+        raise checks.error("function", "a Python function to make a kernel of", function)
     drawn = global_random_in(function)
     if drawn:
         raise ValueError(f"a kernel must draw its random numbers from a stream that is passed to it, but "
@@ -174,7 +173,7 @@ def check_kernel(name, value):
     """`value`, if it is a kernel. Raises ValueError for anything else, such as an undecorated function."""
     if isinstance(value, Kernel) or jit_is_off() and callable(value):
         return value
-    raise ValueError(f"{name} is {checks.shown(value)}, allowed is a function that is decorated by neorl.kernel")
+    raise checks.error(name, "a function that is decorated by neorl.kernel", value)
 
 
 def kernel_maker(function: Callable) -> Any:
@@ -186,7 +185,7 @@ def kernel_maker(function: Callable) -> Any:
     does not return a kernel.
     """
     if not inspect.isfunction(function):
-        raise ValueError(f"function is {checks.shown(function)}, allowed are Python functions that make kernels")
+        raise checks.error("function", "a Python function that makes kernels", function)
     signature, known = inspect.signature(function), dict[tuple, Any]()
 
     @functools.wraps(function)
@@ -198,8 +197,8 @@ def kernel_maker(function: Callable) -> Any:
             hash(values)
         except TypeError:
             function(*values)  # whose own error may say more
-            raise TypeError(f"arguments of {function.__qualname__} are {checks.shown(values)}, allowed are values that "
-                            "can be hashed") from None
+            raise TypeError(f"arguments of {function.__qualname__} must be hashable, but are "
+                            f"{checks.shown(values)}") from None
         made = check_kernel(f"what {function.__qualname__} returns", function(*values))
         made.origin = make, values
         return known.setdefault((values, Reading((values, made)).text), made)
@@ -209,13 +208,21 @@ def kernel_maker(function: Callable) -> Any:
 
 
 def execute(kernel, *arguments):
-    """Call a kernel from Python. Raises TypeError for one that is only inlined into others."""
-    if not isinstance(kernel, Kernel):
+    """Call a kernel from Python.
+
+    Raises TypeError for one that is only inlined into others, or that numba cannot compile, ValueError for one of the
+    user's that raises. Both name the kernel that is to blame.
+    """
+    if "no_cpython_wrapper" in getattr(kernel, "options", ()):
+        raise TypeError(f"{kernel.__module__}.{kernel.__name__} must be called by kernels, into which it is inlined, "
+                        "not by execute")
+    try:
+        if isinstance(kernel, Kernel):
+            return kernel.for_python(*arguments)
         with np.errstate(all="ignore"):  # as in compiled code, where random streams overflow
             return kernel(*arguments)
-    if "no_cpython_wrapper" in kernel.options:
-        raise TypeError(f"{kernel.__module__}.{kernel.__name__} is only inlined into other kernels")
-    return kernel.for_python(*arguments)
+    except Exception as error:
+        raise_named(kernel, error)
 
 
 def array(dtype, *shape):
