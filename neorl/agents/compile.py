@@ -8,6 +8,7 @@ import itertools
 
 import numpy as np
 
+from neorl import checks
 from neorl.agents.agent import FIRST_WORTH, LEARNED, Place
 from neorl.core.choices import Credit, MapState, Source, UpdateOn, Weighting
 from neorl.core.constants import Constants, features, no_credit
@@ -35,7 +36,8 @@ def constants_of(agent, world):
     """The `Constants` of an agent in a world."""
     credit = agent.learning.credit if callable(agent.learning.credit) else no_credit
     return Constants(features(*own_axes(agent)), credit, agent.policy.choose,
-                     tuple(range(len(world.actions.names))), tuple(range(world.actions.axes)))
+                     tuple(range(len(world.actions.names))), tuple(range(world.actions.axes)),
+                     len(world.actions.all_names) - 1)
 
 
 def own_axes(agent):
@@ -105,24 +107,26 @@ def _check_meeting(agent, world):
     n_axes, kinds = world.actions.axes, tuple(world.kinds)
     for node in agent.nodes:
         if node.name in kinds:
-            raise ValueError(f"a node is called {node.name!r}, allowed are names other than the kinds of this world's "
-                             f"things: {', '.join(map(repr, kinds))}")
+            raise checks.error("name of a node", f"other than the kinds of this world's things, {checks.either(kinds)}",
+                               node.name)
         node.modality.check_axes(n_axes)
         if (node.state != "object" or node.reach > 0) and len(node.modality.axes) != n_axes:
-            raise ValueError(f"node {node.name!r} has {len(node.modality.axes)} components, allowed in this world with "
-                             f"the state {node.state!r} and a reach of {node.reach} are {n_axes}")
+            raise ValueError(f"node {node.name!r} must have {n_axes} components in this world, with the state "
+                             f"{node.state!r} and a reach of {node.reach}, but has {len(node.modality.axes)}")
     for desire in agent.desires:
         if isinstance(desire.source, str) and not agent.comes_from_node(desire) and desire.source not in kinds:
-            raise ValueError(f"desire {desire}: {desire.source!r} is neither a node of the agent nor a kind of this "
-                             f"world's things, allowed are {', '.join(map(repr, kinds)) or 'none'}")
+            raise checks.error(f"source of the desire {desire}", "a node of the agent or a kind of this world's "
+                               f"things, {checks.either(kinds)}", desire.source)
         if isinstance(desire.source, Place) and len(desire.source.coordinates) != n_axes:
-            raise ValueError(f"desire {desire}: allowed in this world are places of {n_axes} coordinates")
+            raise checks.error(f"source of the desire {desire}", f"a place of {n_axes} coordinates in this world",
+                               desire.source)
         if isinstance(desire.source, Place) and isinstance(world, WaterWorld | Arena):
             if not all(0 <= coordinate <= 1 for coordinate in desire.source.coordinates):
-                raise ValueError(f"desire {desire}: the place is not on the board, allowed are coordinates from 0 to "
-                                 "1, in units of its width")
+                raise checks.error(f"source of the desire {desire}", "a place on the board", desire.source,
+                                   "give coordinates from 0 to 1, in units of its width")
     if agent.policy.when_indifferent == "no-op" and world.actions.idle is None:
-        raise ValueError("when_indifferent is 'no-op', allowed in a world without an idle action is 'random'")
+        raise checks.error("when_indifferent", "'random' in a world without an idle action",
+                           agent.policy.when_indifferent)
 
 
 def _desires(agent, world, coordinates):
@@ -194,8 +198,8 @@ def _action_of(actions, push, name):
     for action, its_push in enumerate(actions.pushes):
         if tuple(push) == its_push:
             return action
-    raise ValueError(f"{name}s are mirrored, allowed in this world are cells that are not: none of its actions pushes "
-                     f"by {tuple(map(float, push))}, the mirror image of one that does")
+    raise ValueError(f"{name}s must not be mirrored in this world: none of its actions pushes by "
+                     f"{tuple(map(float, push))}, the mirror image of one that does")
 
 
 def _retained(constant):

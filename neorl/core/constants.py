@@ -18,6 +18,7 @@ class Constants(NamedTuple):
     choose: Kernel  # (value, stream) → the action
     actions: tuple  # their numbers; a tuple's length is part of its type, so it is known when loops are compiled
     axes: tuple  # the numbers of the world's axes
+    last: int  # the highest number that may be chosen: that of idleness, if the agent can be idle
 
 
 @kernel

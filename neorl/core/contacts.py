@@ -101,12 +101,15 @@ def blended(parameters, constants, state, n, event, which):
 
 @inlined_kernel
 def see_track(parameters, state, n, point):
-    """Copy the cells that a point of a node is in to state.seen; return the frame."""
+    """Copy the cells that a point of a node is in to state.seen; return the frame, or -1 if it is in none.
+
+    A user may make an absent thing present between two steps.
+    """
     maps, track = parameters.maps, np.uint64(0)
     for m in maps_of(parameters.nodes, n):
         track = np.uint64(maps.first_track[m] + point)
         state.seen[m] = state.tracks.cell[track]
-    return state.contacts.frame[track]
+    return state.contacts.frame[track] if state.tracks.cell[track] >= 0 else -1
 
 
 @inlined_kernel

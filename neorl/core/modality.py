@@ -87,21 +87,22 @@ class Axis(checks.Final):
                                       for each in checks.several("boundaries", self.boundaries)))
         if self.boundaries:
             if len(self.boundaries) < 2 or any(np.diff(self.boundaries) <= 0):
-                raise ValueError(f"boundaries is {self.boundaries!r}, allowed are two numbers or more that increase")
+                raise checks.error("boundaries", "two numbers or more that increase", self.boundaries)
             checks.assign(self, low=self.boundaries[0], high=self.boundaries[-1], intervals=len(self.boundaries) - 1)
         checks.assign(self, low=checks.real("low", self.low), high=checks.real("high", self.high),
                      closed=checks.flag("closed", self.closed) or self.is_direction,
                      centred=checks.flag("centred", self.centred))
         if self.centred and (self.closed or self.boundaries):
-            raise ValueError("centred is True, allowed for an axis that is closed or has boundaries is False")
+            raise checks.error("centred", "False for an axis that is closed or has boundaries", self.centred)
         if self.intervals is not None:
             checks.assign(self, intervals=checks.integer("intervals", self.intervals, 1, MOST_CELLS))
         if self.low >= self.high or not np.isfinite(MOST_CELLS / (self.high - self.low)):
-            raise ValueError(f"low is {self.low!r}, allowed are numbers below high, here {self.high!r}")
+            raise checks.error("low", f"below high, {self.high!r}", self.low)
         if self.feature == "margin" and (self.of != "position" or not 0 < self.high <= 0.5):
-            raise ValueError(f"a margin of {self.high!r} of {self.of!r}: allowed are margins of a position, up to 0.5")
+            raise ValueError(f"a margin must be one of 'position', of at most 0.5, but is of {self.of!r}, "
+                             f"{self.high!r}")
         if self.boundaries and self.closed:
-            raise ValueError(f"boundaries is {self.boundaries!r}, allowed for an axis that is closed is ()")
+            raise checks.error("boundaries", "() for an axis that is closed", self.boundaries)
         checks.assign(self, name=str(checks.instance("name", self.name, str)) or self._name)
 
     @property
@@ -126,7 +127,7 @@ def cartesian(of: str, *ranges: Sequence[float], intervals: int | None = None) -
     """
     pairs = [checks.several("ranges", each) for each in ranges]
     if any(len(pair) != 2 for pair in pairs):
-        raise ValueError(f"ranges is {checks.shown(ranges)}, allowed are (low, high) each")
+        raise checks.error("ranges", "pairs (low, high)", ranges)
     return tuple(Axis(of, "component", along, low, high, intervals=intervals)
                  for along, (low, high) in enumerate(pairs))
 
@@ -163,23 +164,23 @@ class Modality(checks.Final):
         checks.assign(self, name=str(checks.instance("name", self.name, str)))
         axes = tuple(checks.instance("axes", each, Axis) for each in checks.several("axes", self.axes))
         if not axes or len({axis.of for axis in axes if axis.of in SEVERAL}) > 1:
-            raise ValueError(f"axes is {axes!r}, allowed are one or more, of {', '.join(SEVERAL)} one kind at most")
+            raise checks.error("axes", f"one or more, and of {', '.join(SEVERAL)} of one kind at most", axes)
         landmarks = tuple(tuple(checks.real("landmarks", value) for value in checks.several("landmarks", each))
                           for each in checks.several("landmarks", self.landmarks))
         checks.assign(self, axes=axes, landmarks=landmarks, mirrored=checks.flag("mirrored", self.mirrored))
         order = [0.0 if axis.of == self.follows and not axis.is_direction else 1.0 if axis.of == self.follows else 2.0
                  for axis in axes]
         if order != sorted(order):
-            raise ValueError(f"axes is {axes!r}, allowed are first those of {self.follows}, a direction last, and then "
-                             "those of other vectors")
+            raise checks.error("axes", f"first those of {self.follows}, a direction last, then those of other vectors",
+                               axes)
         if bool(landmarks) != (self.follows == "landmarks") or len({len(each) for each in landmarks}) > 1:
-            raise ValueError(f"landmarks is {self.landmarks!r}, allowed are places where an axis is of landmarks, and "
-                             "() elsewhere")
+            raise checks.error("landmarks", "places of equally many coordinates where an axis is of landmarks, and () "
+                               "elsewhere", self.landmarks)
         if self.mirrored and not self._is_symmetric:
-            raise ValueError(f"mirrored is True, allowed for these axes is False: {axes!r} are not, for each vector, a "
-                             "component along every axis of the world in turn, of the same range and intervals")
+            raise checks.error("axes", "for each vector a component along every axis of the world in turn, of the same "
+                               "range and intervals, since mirrored is True", axes)
         if landmarks and len(landmarks[0]) < self.least_axes:
-            raise ValueError(f"landmarks is {landmarks!r}, allowed are places of {self.least_axes} coordinates or more")
+            raise checks.error("landmarks", f"places of {self.least_axes} coordinates or more", landmarks)
 
     @property
     def _is_symmetric(self):
@@ -243,10 +244,10 @@ class Modality(checks.Final):
         """
         vectors = checks.doubles("vectors", vectors)
         if any(axis.of != self.follows for axis in self.axes):
-            raise ValueError(f"{self.name}s have axes of several vectors, allowed are modalities with one")
+            raise ValueError(f"vectors must be of one kind, but {self.name}s have axes of several")
         if vectors.ndim == 0 or not self.least_axes <= vectors.shape[-1] <= MOST_AXES:
-            raise ValueError(f"vectors has the shape {vectors.shape}, allowed are (…, {self.least_axes}) or more, "
-                             f"{MOST_AXES} axes at most")
+            raise ValueError(f"vectors must have the shape (…, {self.least_axes}) or more, of {MOST_AXES} axes at "
+                             f"most, but has {vectors.shape}")
         self.check_axes(vectors.shape[-1])
         n_axes = vectors.shape[-1]
         found = np.zeros((*vectors.shape[:-1], len(self.axes)))
@@ -258,7 +259,7 @@ class Modality(checks.Final):
         """Write the coordinates of all points into `found`; given: from their vectors instead of the scene."""
         uncut = replace(self, axes=[replace(axis, boundaries=()) for axis in self.axes])
         axes = tuple(range(len(scene.position)))
-        constants = Constants(features(*self.functions), no_credit, no_credit, (0,), axes)
+        constants = Constants(features(*self.functions), no_credit, no_credit, (0,), axes, 0)
         faults = np.zeros(2, np.int64)
         execute(_locate_with(constants), space_of(uncut, 1, len(axes), size), scene, given, vectors, found, faults)
         check_faults(faults, self.functions)
@@ -266,12 +267,12 @@ class Modality(checks.Final):
     def check_axes(self, n_axes: int) -> None:
         """Raise ValueError unless these cells are defined in a world of `n_axes` axes."""
         if self.least_axes > n_axes:
-            raise ValueError(f"{self.name}s need a world of {self.least_axes} axes or more, this one has {n_axes}")
+            raise ValueError(f"the world of {self.name}s must have {self.least_axes} axes or more, but has {n_axes}")
         if self.mirrored and not self.least_axes == n_axes <= MOST_MIRRORED:
-            raise ValueError(f"mirrored {self.name}s have components along {self.least_axes} axes, allowed in a world "
-                             f"of {n_axes} are {n_axes}, {MOST_MIRRORED} at most")
+            raise ValueError(f"mirrored {self.name}s must have components along all axes of a world, which has "
+                             f"{n_axes}, and along {MOST_MIRRORED} at most, but have {self.least_axes}")
         if self.landmarks and len(self.landmarks[0]) != n_axes:
-            raise ValueError(f"landmarks is {self.landmarks!r}, allowed are places of {n_axes} coordinates")
+            raise checks.error("landmarks", f"places of {n_axes} coordinates in this world", self.landmarks)
 
     @property
     def least_axes(self) -> int:

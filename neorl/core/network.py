@@ -39,7 +39,7 @@ def choose(parameters, constants, state, scene):
         if wanted == 0:
             return len(constants.actions)
     action = constants.choose(value, state.stream)
-    return min(max(action, 0), len(constants.actions))  # a user-defined policy may return any number
+    return min(max(action, 0), constants.last)  # a user-defined policy may return any number
 
 
 @inlined_kernel

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl import checks
+from neorl.checks import LARGEST
 from neorl.core.kernel import (arrays, execute, fields, inlined, inlined_kernel, is_tuple, kernel, kernel_maker,
                                mapped, new_tuple)
 from neorl.core.stream import new_stream
@@ -61,7 +62,7 @@ class Batch:
         axes, kinds = world.actions.axes, len(world.kinds)
         numbers = 2 * axes + world.things * (axes + kinds)
         if n * numbers > MOST_NUMBERS:
-            raise ValueError(f"num_envs is {n}, allowed are up to {MOST_NUMBERS // numbers} of {numbers} numbers each")
+            raise checks.error("num_envs", f"at most {MOST_NUMBERS // numbers}, of {numbers} numbers each", n)
         last_step = 2**62 if last_step is None else checks.integer("max_episode_steps", last_step, at_least=1)
         self.task = Task(float(world.size), kinds, checks.flag("egocentric", egocentric),
                          checks.flag("continuing", continuing), same_step, last_step)
@@ -150,7 +151,7 @@ def batch_step(dynamics, time_is_up):
                     slots.clock[i] = 0
                 else:
                     slots.reward[i], done = step(state, rules, slots.action[i])
-                    if not abs(slots.reward[i]) < np.inf:
+                    if not abs(slots.reward[i]) <= LARGEST:
                         return i
                     for thing in range(scene.met.shape[0]):
                         met = scene.met[thing]

@@ -78,7 +78,7 @@ def sort_by_distance(scene, distance, order):
     things = order.shape[0]
     for thing in range(things):
         distance[thing] = 0.0 if scene.kinds[thing] >= 0 else np.inf
-        for axis in range(scene.position.shape[0]):
+        for axis in range(scene.position.shape[0] if scene.kinds[thing] >= 0 else 0):
             way = scene.things[thing, axis] - scene.position[axis]
             distance[thing] += way * way
     gap = things // 2

@@ -10,9 +10,11 @@ import functools
 
 import numpy as np
 
+from neorl.checks import LARGEST
 from neorl.core import life
 from neorl.core.kernel import array, fields, inlined, kernel
 from neorl.core.parameters import Parameters
+from neorl.core.scene import ABSENT
 from neorl.core.state import State
 
 
@@ -32,12 +34,15 @@ def rollout_in(dynamics, constants):
         """Take the steps clock[0] … last_step − 1, adding rewards and contacts to the bins of `rewards` and `hits`.
 
         total: the reward so far; the new total is returned. hits: things met of each kind, up to `MOST_HITS`.
-        Stops early, after a step that met a thing of no kind.
+        Stops early after a step that broke a rule of worlds; a reward that did is returned in place of the total.
         """
         scene = world_state.scene
         for now in range(clock[0], last_step):
             action = life.act(parameters, constants, state, scene)
             reward, done = step(world_state, rules, action)
+            if not abs(reward) <= LARGEST:
+                clock[0] = now + 1
+                return reward
             state.reward[0] = reward
             life.observe(parameters, constants, state, scene)
             total += reward
@@ -45,10 +50,10 @@ def rollout_in(dynamics, constants):
             rewards[interval] += np.float32(reward)
             for thing in range(scene.met.shape[0]):
                 met = scene.met[thing]
+                if not (0 <= met <= hits.shape[1] and ABSENT <= scene.kinds[thing] < hits.shape[1]):
+                    clock[0] = now + 1
+                    return total
                 if met != 0:
-                    if met < 0 or met > hits.shape[1]:
-                        clock[0] = now + 1
-                        return total
                     if hits[interval, met - 1] < MOST_HITS:
                         hits[interval, met - 1] += 1
             if done:
