@@ -78,7 +78,7 @@ class Learning(checks.Final):
         if self.update_on == "step":
             for name, value in AT_EVERY_STEP.items():
                 if getattr(self, name) not in (value, getattr(Learning, name)):
-                    raise ValueError(f"{name} is {getattr(self, name)!r}, allowed with update_on 'step' is {value!r}")
+                    raise checks.error(name, f"{value!r} with update_on 'step'", getattr(self, name))
                 checks.assign(self, **{name: value})
 
 
@@ -131,7 +131,8 @@ class Contacts(checks.Final):
 class Policy(checks.Final):
     """How the agent chooses: the action of highest value, ties broken at random (paper A, The Control Problem).
 
-    exploration: ε in [0, 1], the probability that the action of a step is drawn at random instead.
+    exploration: ε in [0, 1], the probability that the action of a step is drawn at random instead, whatever `choose`
+        is: give 0 beside a policy that explores by itself, as in ``Policy(0.0, choose=softmax(0.2))``.
     when_indifferent: what to do while every action has a value of exactly 0: "random", that is to choose as usual, or
         "no-op", to be idle.
     choose: a `neorl.kernel` (value, stream) → action: `neorl.greedy`, `neorl.softmax` of a temperature, or the user's

@@ -45,7 +45,8 @@ def greedy(value, stream):
 def softmax(temperature: float) -> Callable:
     """The policy that draws an action a with probability proportional to exp(value[a] / temperature).
 
-    temperature: > 0, in units of value. Raises ValueError for anything else.
+    temperature: > 0, in units of value. Raises ValueError for anything else. It explores by itself; the exploration of
+    a `neorl.Policy`, a tenth by default, comes in addition.
     """
     temperature = checks.positive("temperature", temperature)
 

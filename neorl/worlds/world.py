@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from neorl import checks
 from neorl.core.description import Described
 from neorl.core.kernel import Kernel, execute, fields, full_name, is_tuple, length, new_tuple
+from neorl.core.scene import Actions
 from neorl.core.stream import new_stream
 
 
@@ -41,6 +42,11 @@ class _Checking(type):
     def __call__(cls, *given, **by_name):
         world = super().__call__(*given, **by_name)
         if world.dynamics is not None:
+            for name in ("kinds", "actions", "things", "size", "fps", "rules"):
+                if getattr(cls, name, None) is None and getattr(world, name, None) is None:
+                    raise TypeError(f"{cls.__name__} must have {name}, as a World with dynamics, but has none; see "
+                                    "neorl.worlds.world for what a subclass defines")
+            checks.instance(f"actions of {cls.__name__}", world.actions, Actions)
             check_rules(world.rules, fields(world.dynamics.reset)["rules"], dict(world.sizes))
         return world
 
@@ -53,7 +59,8 @@ class _Checking(type):
 class World(Described, metaclass=_Checking):
     """A world of kernels; see the module for what a subclass defines, and how to debug it.
 
-    Raises ValueError for rules whose arrays do not match their annotations.
+    Raises TypeError for a subclass with dynamics that lacks what else a world has, ValueError for rules whose arrays do
+    not match their annotations.
     """
 
     dynamics: Any = None  # a `Dynamics`
@@ -68,8 +75,8 @@ class World(Described, metaclass=_Checking):
         super().__init_subclass__(**keywords)
         for name in ("reset", "step"):
             if getattr(cls, name) is not getattr(World, name):
-                raise TypeError(f"{cls.__name__} has a method {name}, which runs would not call: the {name} of a world "
-                                "must be a neorl.kernel in its dynamics, and have another name in the class")
+                raise TypeError(f"{cls.__name__} must not have a method {name}, which runs would not call: the {name} "
+                                "of a world is a neorl.kernel in its dynamics; give the method another name")
 
     @property
     def determinants(self) -> tuple[Any, ...]:
@@ -91,7 +98,7 @@ class World(Described, metaclass=_Checking):
         """A state at the beginning of an episode.
 
         seed: an integer ≥ 0 or a `numpy.random.SeedSequence`. Raises ValueError for anything else, and for a kernel
-        `reset` that leaves a state which is not allowed.
+        `reset` that leaves a state that breaks a rule.
         """
         if not isinstance(seed, np.random.SeedSequence):
             seed = np.random.SeedSequence(checks.integer("seed", seed, at_least=0))
@@ -113,7 +120,10 @@ class World(Described, metaclass=_Checking):
         action = names.index(checks.one_of("action", action, names)) if isinstance(action, str) else action
         action = checks.integer("action", action, at_least=0, at_most=len(names) - 1)
         self.check_state(state)
-        reward, done = execute(self.dynamics.step, state, self.rules, action)
+        returned = execute(self.dynamics.step, state, self.rules, action)
+        if not isinstance(returned, tuple) or len(returned) != 2:
+            raise checks.error(f"what the kernel {full_name(self.dynamics.step)} returns", "(reward, done)", returned)
+        reward, done = returned
         check_outcome(self, self.dynamics.step, state, reward)
         return float(reward), state.scene.met != 0, bool(done)
 
@@ -123,11 +133,10 @@ class World(Described, metaclass=_Checking):
         check_arrays("state", state, self.sizes)
         kinds, met = state.scene.kinds, state.scene.met
         if kinds.size and not (-1 <= kinds.min() and kinds.max() < len(self.kinds)):
-            raise ValueError(f"state.scene.kinds is {checks.shown(kinds)}, allowed are −1 and the numbers of "
-                             f"{self.kinds}")
+            raise checks.error("state.scene.kinds", f"−1 or the numbers of {self.kinds}", kinds)
         if met.size and not (0 <= met.min() and met.max() <= len(self.kinds)):
-            raise ValueError(f"state.scene.met is {checks.shown(met)}, allowed are 0, and for a thing that was met 1 + "
-                             f"the number of its kind among {self.kinds}")
+            raise checks.error("state.scene.met", "0, or for a thing that was met 1 + the number of its kind among "
+                               f"{self.kinds}", met)
 
 
 def check_rules(rules, kind, sizes, path="rules"):
@@ -157,7 +166,7 @@ def _is_as_annotated(value, dtype, shape, sizes):
 
 
 def check_outcome(world, kernel, state, reward=0.0):
-    """Raise ValueError, which names the kernel, unless the state that it left and the reward are allowed."""
+    """Raise ValueError, which names the kernel, unless the state that it left and the reward keep the rules."""
     try:
         world.check_state(state)
         checks.real("reward", reward)
@@ -177,6 +186,6 @@ def check_arrays(name, values, sizes):
         if (type(value) is not np.ndarray or (value.dtype, value.shape) != (np.dtype(dtype), expected)
                 or not value.flags.c_contiguous or not value.flags.writeable):
             found = f"{value.dtype} {value.shape}" if isinstance(value, np.ndarray) else checks.shown(value)
-            raise ValueError(f"{path} is {found}, allowed is {dtype} {expected}, contiguous and writeable")
+            raise ValueError(f"{path} must be {dtype} {expected}, contiguous and writeable, but is {found}")
         if value.dtype.kind == "f":
             checks.finite(path, value)

@@ -112,8 +112,25 @@ def digest(name, steps):
 
 
 def test_a_method_that_runs_would_not_call_is_refused():
-    with pytest.raises(TypeError, match="Shallow has a method reset, .* must be a neorl.kernel in its dynamics"):
+    with pytest.raises(TypeError, match="Shallow must not have a method reset, which runs would not call: the reset "):
         type("Shallow", (Dive,), {"reset": lambda world, seed: None})
+
+
+@pytest.mark.parametrize("name", ["actions", "things", "size", "fps", "rules"])
+def test_an_unfinished_world_is_told_what_it_lacks(name):
+    class Unfinished(World):
+        dynamics = Dynamics(enter, drive)
+
+    for each, value in {"actions": CARDINAL, "things": 0, "size": 1.0, "fps": 5, "rules": NoRules()}.items():
+        if each != name:
+            setattr(Unfinished, each, value)
+    with pytest.raises(TypeError, match=f"^Unfinished must have {name}, as a World with dynamics, but has none; see"):
+        Unfinished()
+    setattr(Unfinished, "actions", ("N", "S"))
+    if name != "actions":
+        setattr(Unfinished, name, 1)
+        with pytest.raises(ValueError, match="actions of Unfinished must be an Actions, but is "):
+            Unfinished()
 
 
 def test_everything_that_runs_take_from_a_world_determines_its_key():
@@ -198,16 +215,16 @@ def test_worlds_of_ones_own_are_the_same_with_the_compiler_switched_off():
 
 
 @pytest.mark.parametrize("agent, world, message", [
-    (Agent((Node("PC", PLACE_CELL, [3]),)), Roundabout(), "place cells need a world of 2 axes or more, this one has 1"),
-    (Agent((Node("HD", HEAD_DIRECTION_CELL, [3]),)), Roundabout(), "head-direction cells need a world of 2 axes"),
+    (Agent((Node("PC", PLACE_CELL, [3]),)), Roundabout(), "the world of place cells must have 2 axes or more, but ha"),
+    (Agent((Node("HD", HEAD_DIRECTION_CELL, [3]),)), Roundabout(), "the world of head-direction cells must have 2 ax"),
     (Agent((Node("LVC", LANDMARK_VECTOR_CELL, [3]),)), Dive(),
-     r"landmarks is \(\(0.5, 0.5\),\), allowed are places of 3 coordinates"),
-    (Agent((Node("PC", DEPTHS, [3]),), (Desire("green", "PC", 1.0),)), Dive(), "'green' is neither .* are 'pearl'"),
-    (Agent((Node("PC", DEPTHS, [3]),), (Desire(Place(0.1, 0.2), "PC", 1.0),)), Dive(), "places of 3 coordinates"),
-    (Agent((Node("pearl", DEPTHS, [3]),)), Dive(), "a node is called 'pearl'"),
-    (Agent(DRIVER.nodes, (Desire("pearl", "PC", 1.0),)), Roundabout(), "'pearl' is neither .*, allowed are none"),
+     r"landmarks must be places of 3 coordinates in this world, but is \(\(0.5, 0.5\),\)"),
+    (Agent((Node("PC", DEPTHS, [3]),), (Desire("green", "PC", 1.0),)), Dive(), "source of the desire 'green' → 'PC' "),
+    (Agent((Node("PC", DEPTHS, [3]),), (Desire(Place(0.1, 0.2), "PC", 1.0),)), Dive(), r"source of the desire Place\("),
+    (Agent((Node("pearl", DEPTHS, [3]),)), Dive(), "name of a node must be other than the kinds of this world's thin"),
+    (Agent(DRIVER.nodes, (Desire("pearl", "PC", 1.0),)), Roundabout(), "source of the desire 'pearl' → 'PC' must be "),
     (Agent(SEEKER.nodes, policy=Policy(when_indifferent="no-op")), Dive(),
-     "when_indifferent is 'no-op', allowed in a world without an idle action is 'random'"),
+     "when_indifferent must be 'random' in a world without an idle action, but is 'no-op'"),
 ])
 def test_an_agent_that_does_not_go_with_a_world_is_refused(agent, world, message):
     with pytest.raises(ValueError, match=message):
@@ -218,21 +235,23 @@ def test_only_the_actions_of_a_world_can_be_taken():
     world = Dive()
     state = world.reset(0)
     for action in (6, -1, "no-op", 0.5, None):
-        with pytest.raises(ValueError, match="action is .*, allowed are"):
+        with pytest.raises(ValueError, match="action must be .*, but is .*"):
             world.step(state, action)
     reward, met, done = world.step(state, "up")
     assert state.scene.position.tolist() == [0.5, 0.5, 0.4] and (reward, met.tolist(), done) == (0.0, [False], False)
 
 
 @pytest.mark.parametrize("arguments, message", [
-    (((), ()), r"names is \(\), allowed are one or more"),
-    ((("a", "a"), ((1,), (2,))), "names is .*, allowed are one or more, each once"),
-    ((("a", "b"), ((1,), (2,)), "b"), "names is .*, and others than idle, 'b'"),
-    ((("a", 5), ((1,), (2,))), "names is 5, allowed is a str"), (("ab", ((1,), (2,))), "names is 'ab'"),
-    ((("a", "b"), ((1,),)), "pushes is .*, allowed are as many as names"),
-    ((("a", "b"), ((1,), (2, 3))), "pushes is .*, all of as many axes"),
-    ((("a",), ((),)), "pushes is .*"), ((("a",), ((np.nan,),)), "pushes is nan"), ((("a",), (1,)), "pushes is 1"),
-    ((("a",), ((1,),), 5), "idle is 5, allowed is a str"),
+    (((), ()), r"names must be one or more, all different, and other than idle, None, but is \(\)"),
+    ((("a", "a"), ((1,), (2,))), r"names must be one or more, all different, and other than idle, None, but is \('a',"),
+    ((("a", "b"), ((1,), (2,)), "b"), r"names must be one or more, all different, and other than idle, 'b', but is \("),
+    ((("a", 5), ((1,), (2,))), "names must be a str, but is 5"), (("ab", ((1,),
+    (2,))), "names must be .*, but is 'ab'"),
+    ((("a", "b"), ((1,),)), r"pushes must be as many as names, all of as many axes, but is \(\(1,\),\)"),
+    ((("a", "b"), ((1,), (2, 3))), r"pushes must be as many as names, all of as many axes, but is \(\(1,\), \(2, 3\)"),
+    ((("a",), ((),)), "pushes must be .*, but is .*"), ((("a",), ((np.nan,),)), "pushes must be .*, but is nan"),
+    ((("a",), (1,)), "pushes must be .*, but is 1"),
+    ((("a",), ((1,),), 5), "idle must be a str, but is 5"),
 ])
 def test_bad_actions_are_refused(arguments, message):
     with pytest.raises(ValueError, match=message):
@@ -248,11 +267,11 @@ def test_idleness_is_the_last_of_all_actions():
 
 def test_a_state_that_does_not_fit_is_refused():
     world = Dive()
-    for change, message in [({"position": np.zeros(2)}, r"state.scene.position is float64 \(2,\), allowed is float64"),
-                            ({"kinds": np.zeros(1, np.int8)}, r"state.scene.kinds is int8 \(1,\), allowed is int64"),
-                            ({"things": [[0.5] * 3]}, r"state.scene.things is \[\[0.5, 0.5, 0.5\]\], allowed is"),
-                            ({"kinds": np.ones(1, np.int64)}, "state.scene.kinds is .*, allowed are −1 and"),
-                            ({"things": np.full((1, 3), np.inf)}, "state.scene.things is .*inf")]:
+    for change, message in [({"position": np.zeros(2)}, r"state.scene.position must be float64 \(3,\), contiguous and"),
+                            ({"kinds": np.zeros(1, np.int8)}, r"state.scene.kinds must be int64 \(1,\), contiguous an"),
+                            ({"things": [[0.5] * 3]}, r"state.scene.things must be float64 \(1, 3\), contiguous and w"),
+                            ({"kinds": np.ones(1, np.int64)}, r"state.scene.kinds must be −1 or the numbers of \('pea"),
+                            ({"things": np.full((1, 3), np.inf)}, "state.scene.things must be .*, but is .*inf")]:
         state = world.reset(0)
         with pytest.raises(ValueError, match=message):
             world.step(state._replace(scene=state.scene._replace(**change)), 0)
