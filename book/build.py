@@ -153,7 +153,7 @@ def parse_arguments():
 
 def whole_number(text):
     if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"is {text!r}, allowed are integers ≥ 1")
+        raise argparse.ArgumentTypeError(f"must be an integer of at least 1, but is {text!r}")
     return int(text)
 
 
@@ -291,7 +291,7 @@ def check_parameters(notebook, parameters):
     known = papermill.inspect_notebook(str(notebook))
     for name, value in parameters.items():
         if name not in known:
-            raise ValueError(f"parameter {name} is {value!r}, allowed for {notebook.name} are {', '.join(known)}")
+            raise ValueError(f"a parameter of {notebook.name} must be {', '.join(known)}, but is {name}, {value!r}")
 
 
 def link_terms(text):

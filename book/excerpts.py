@@ -25,7 +25,7 @@ def save_widgets(notebook, folder):
         name, outputs = cell.metadata.get("widget", {}).get("name"), cell.get("outputs", [])
         views = [each.data[WIDGET_VIEW] for each in outputs if WIDGET_VIEW in each.get("data", {})]
         if name and len(views) != 1:
-            raise ValueError(f"cell of widget {name} shows {len(views)} widgets, allowed is 1")
+            raise ValueError(f"cell of widget {name} must show one widget, but shows {len(views)}")
         for view in views:
             records = reachable(stored["state"], view["model_id"])
             kept.update(records)

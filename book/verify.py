@@ -55,7 +55,7 @@ def parse_arguments():
     parser.add_argument("--seed", type=int, default=secrets.randbelow(10**6), help="of the sample (by default random)")
     chosen = parser.parse_args()
     if chosen.sample < 1:
-        parser.error(f"--sample is {chosen.sample}, allowed are integers ≥ 1")
+        parser.error(f"--sample must be an integer of at least 1, but is {chosen.sample}")
     return chosen
 
 

@@ -1,11 +1,13 @@
-"""Checks of user input: each returns the value, or raises a ValueError that names the argument, its value and the rule.
+"""Checks of user input: each returns the value, or raises a ValueError.
+
+Its message is a sentence, `error`: what the argument must be, what it is, and what to do where that is known.
 
 NumPy scalars and zero-dimensional arrays count as numbers. Numbers are finite and at most 1e30 (`LARGEST`) in
 magnitude, so that sums and products of several do not overflow; divisors are at least 1e-30 (`SMALLEST`).
 """
 
+import contextlib
 import dataclasses
-import math
 import numbers
 import operator
 import os
@@ -38,31 +40,33 @@ def shown(value: object) -> str:
         return f"a value of type {type(value).__name__}"
 
 
+def error(name: str, must_be: str, value: object, remedy: str = "") -> ValueError:
+    """The error for an argument that is not what it must be, and what to do about it."""
+    return ValueError(f"{name} must be {must_be}, but is {shown(value)}{remedy and f'; {remedy}'}")
+
+
+def either(options: Iterable[object]) -> str:
+    """Options in words: "'a', 'b' or 'c'"; "nothing" if there are none."""
+    return " or ".join(", ".join(map(repr, options)).rsplit(", ", 1)) or "nothing"
+
+
 def integer(name: str, value: Any, at_least: int, at_most: int | None = None) -> int:
     """`value` as an int, if it is an integer in the range (True and False are not integers here)."""
-    try:
+    with contextlib.suppress(TypeError):
         number = operator.index(value)
-    except TypeError:
-        number = None
-    if number is not None and not isinstance(value, bool):
-        if number >= at_least and (at_most is None or number <= at_most):
+        if not isinstance(value, bool) and at_least <= number and (at_most is None or number <= at_most):
             return number
-    allowed = f"integers ≥ {at_least}" if at_most is None else f"integers from {at_least} to {at_most}"
-    raise ValueError(f"{name} is {shown(value)}, allowed are {allowed}")
+    raise error(name, f"an integer {f'of at least {at_least}' if at_most is None else f'from {at_least} to {at_most}'}",
+                value)
 
 
 def real(name: str, value: Any, at_least: float = -LARGEST, at_most: float = LARGEST) -> float:
     """`value` as a float, if it is a number in the range; −0.0 becomes 0.0, so that equal values are identical."""
     number = plain(value)
-    if isinstance(number, numbers.Real) and not isinstance(number, bool):
-        try:
-            number = float(number)
-        except OverflowError:
-            number = math.inf
-        if at_least <= number <= at_most:
-            return number + 0.0
-    kind = "finite numbers" if at_most == LARGEST else "numbers"
-    raise ValueError(f"{name} is {shown(value)}, allowed are {kind} from {at_least:g} to {at_most:g}")
+    is_real = isinstance(number, numbers.Real) and not isinstance(number, bool)
+    if is_real and at_least <= number <= at_most:
+        return float(number) + 0.0
+    raise error(name, f"a {'finite ' * (at_most == LARGEST)}number from {at_least:g} to {at_most:g}", value)
 
 
 def positive(name: str, value: Any) -> float:
@@ -70,22 +74,23 @@ def positive(name: str, value: Any) -> float:
     return real(name, value, SMALLEST)
 
 
-def one_of(name: str, value: Any, allowed: Iterable[Kind]) -> Kind:
-    """The member of `allowed` that equals `value`."""
-    for each in allowed:
+def one_of(name: str, value: Any, options: Iterable[Kind]) -> Kind:
+    """The member of `options` that equals `value`."""
+    for each in options:
         if isinstance(value, type(each)) and type(each).__eq__(each, value) is True:  # not that of a subclass
             return each
-    raise ValueError(f"{name} is {shown(value)}, allowed are {', '.join(map(repr, allowed))}")
+    raise error(name, either(options), value)
 
 
 def several(name: str, values: Any) -> tuple[Any, ...]:
     """`values` as a tuple, if they are a list, a tuple, a range or an array of at most 2²⁰ values."""
     if isinstance(values, list | tuple | range) or isinstance(values, np.ndarray) and values.ndim:
         unmasked(name, values)
-        if _is_short(values):
-            return tuple(values)
-        raise ValueError(f"{name} is {shown(values)}, allowed are {MOST} values or fewer")
-    raise ValueError(f"{name} is {shown(values)}, allowed are lists and tuples")
+        with contextlib.suppress(OverflowError):  # a range may be too long for its length
+            if len(values) <= MOST:
+                return tuple(values)
+        raise error(name, f"{MOST} values or fewer", values)
+    raise error(name, "a list or a tuple", values)
 
 
 def flag(name: str, value: Any) -> bool:
@@ -97,22 +102,20 @@ def finite(name: str, array: NDArray, at_most: float = LARGEST) -> NDArray:
     """`array`, if all its numbers lie between −`at_most` and `at_most`."""
     if np.all(np.abs(array) <= at_most):
         return array
-    raise ValueError(f"{name} is {shown(array)}, allowed are finite numbers from {-at_most:g} to {at_most:g}")
+    raise error(name, f"finite numbers from {-at_most:g} to {at_most:g}", array)
 
 
 def doubles(name: str, values: Any, at_most: float = LARGEST) -> NDArray[np.float64]:
     """`values` as a new array of doubles, if they are finite numbers, in lists of equal lengths."""
     unmasked(name, values)
     try:
-        if isinstance(values, range) and not _is_short(values):
-            raise ValueError
-        array = np.asarray(values)
+        array = np.asarray(several(name, values) if isinstance(values, range) else values)
         if array.dtype.kind == "O" and all(isinstance(each, numbers.Real) for each in array.flat):
             array = array.astype(float)
     except (TypeError, ValueError, OverflowError):
         array = np.array(None)
     if array.dtype.kind not in "fiub":
-        raise ValueError(f"{name} is {shown(values)}, allowed are numbers, in lists of equal lengths")
+        raise error(name, "numbers, in lists of equal lengths", values)
     with np.errstate(over="ignore"):  # wider floats than doubles, which may become infinite
         return finite(name, np.array(array, float, order="C"), at_most)
 
@@ -120,7 +123,7 @@ def doubles(name: str, values: Any, at_most: float = LARGEST) -> NDArray[np.floa
 def unmasked(name: str, values: Kind) -> Kind:
     """`values`, unless they are a masked array with a value that is masked."""
     if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
-        raise ValueError(f"{name} must have no masked values, but is {shown(values)}; fill them in, or leave them out")
+        raise error(name, "free of masked values", values, "fill them in, or leave them out")
     return values
 
 
@@ -128,7 +131,7 @@ def points(name: str, values: Any, axes: Sequence[str]) -> NDArray[np.float64]:
     """`values` as an array (…, axes) of doubles, if they are finite and have one coordinate per axis."""
     array = doubles(name, values, sys.float_info.max)  # points beyond a map's range are in the cell at its end
     if array.ndim == 0 or array.shape[-1] != len(axes):
-        raise ValueError(f"{name} has the shape {array.shape}, allowed are (…, {len(axes)}): {', '.join(axes)}")
+        raise ValueError(f"{name} must have the shape (…, {len(axes)}), for {', '.join(axes)}, but has {array.shape}")
     return array
 
 
@@ -136,8 +139,12 @@ def instance(name: str, value: Any, kind: type[Kind]) -> Kind:
     """`value`, if it is an instance of `kind`."""
     if isinstance(value, kind):
         return value
-    article = "an" if kind.__name__[0] in "AEIOU" or kind is np.ndarray else "a"
-    raise ValueError(f"{name} is {shown(value)}, allowed is {article} {kind.__name__}")
+    raise error(name, with_article(kind.__name__), value)
+
+
+def with_article(noun: str) -> str:
+    """A noun with its article: "an Agent"."""
+    return f"{'an' if noun[0] in 'AEIOUaeio' or noun == 'ndarray' else 'a'} {noun}"
 
 
 def plain(value):
@@ -150,21 +157,12 @@ def plain(value):
         return value
 
 
-def _is_short(values):
-    try:
-        return len(values) <= MOST
-    except OverflowError:
-        return False
-
-
 def path(name: str, value: Any) -> Path:
     """`value` as a `pathlib.Path`, if it is one, or a string that can name a file."""
-    try:
+    with contextlib.suppress(TypeError, ValueError):
         if b"\0" not in os.fsencode(Path(value)):
             return Path(value)
-    except (TypeError, ValueError):
-        pass
-    raise ValueError(f"{name} is {shown(value)}, allowed are paths of files")
+    raise error(name, "the path of a file", value)
 
 
 class Final:

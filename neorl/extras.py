@@ -10,4 +10,5 @@ def require(module, extra):
     except ModuleNotFoundError as error:
         if error.name is None or module.split(".")[0] != error.name.split(".")[0]:
             raise
-        raise ImportError(f"this needs {error.name}: pip install 'neorl-companion[{extra}]'") from error
+        raise ImportError(f"{error.name} must be installed for this, but is not; pip install "
+                          f"'neorl-companion[{extra}]'") from error

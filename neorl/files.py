@@ -93,12 +93,13 @@ def read_arrays(path, kind):
             about = json.loads(str(arrays.pop("about")))
             digest, known, holds = about["digest"], about.get("format"), about.get("is")
         except Exception as error:  # zip, NumPy and JSON may raise anything for a foreign file
-            raise ValueError(f"{path} is damaged, or was not written by neorl: {error!r}") from error
+            raise ValueError(f"{path} must be a file of neorl's, but is damaged, or another's: {error!r}") from error
     if isinstance(known, int) and known > FORMAT:
-        raise ValueError(f"{path} is of format {known}, which a newer neorl has written, allowed is {FORMAT}")
+        raise ValueError(f"{path} must be of format {FORMAT}, but is of {known}; a newer neorl has "
+                         "written it: update yours")
     if (known, holds) != (FORMAT, kind) or digest != _digest(arrays):
-        raise ValueError(f"{path} holds a {holds} of format {known}, or is damaged; allowed is a {kind} of format "
-                         f"{FORMAT}")
+        raise ValueError(f"{path} must hold a {kind} of format {FORMAT}, but holds a {holds} of format {known}, or is "
+                         "damaged")
     return about, arrays
 
 

@@ -65,7 +65,7 @@ def has_inexact(given, make):
                                          and not (getattr(value, "boundaries", ()) and name in OF_BOUNDARIES)])
 def test_true_is_no_number(value, name):
     for true in (True, np.True_, np.array(True)):
-        with pytest.raises(ValueError, match=f"^{name} is "):
+        with pytest.raises(ValueError, match=f"^{name} must be .*, but is "):
             replace(value, **{name: true})
 
 
@@ -74,7 +74,7 @@ def test_numpys_booleans_are_booleans_and_numbers_are_not(value, name):
     given = getattr(value, name)
     assert identity(replace(value, **{name: np.bool(given)})) == identity(value)
     for number in (int(given), np.int64(given), float(given)):
-        with pytest.raises(ValueError, match=f"^{name} is "):
+        with pytest.raises(ValueError, match=f"^{name} must be .*, but is "):
             replace(value, **{name: number})
 
 
@@ -93,7 +93,7 @@ def test_equal_conditions_of_numpys_numbers_have_equal_keys():
 def test_a_kernel_maker_takes_numpys_numbers_for_the_same(first):
     numpys, plain = (Policy(choose=neorl.softmax(each)) for each in (first, 0.123))
     assert numpys == plain and identity(numpys) == identity(plain)
-    with pytest.raises(ValueError, match="temperature is True"):
+    with pytest.raises(ValueError, match="temperature must be .*, but is True"):
         neorl.softmax(True)
 
 

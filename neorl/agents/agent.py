@@ -66,32 +66,31 @@ class Node(checks.Final):
         checks.assign(self, name=str(checks.instance("name", self.name, str)),
                      resolutions=checks.several("resolutions", self.resolutions))
         if not self.resolutions:
-            raise ValueError("resolutions is (), allowed are one integer or more")
+            raise checks.error("resolutions", "one integer or more", ())
         checks.assign(self, resolutions=tuple(each.resolution for each in self.maps),
                      weighting=checks.one_of("weighting", self.weighting, WEIGHTINGS),
                      gain=checks.real("gain", self.gain), goals=checks.one_of("goals", self.goals, GOALS),
                      state=checks.one_of("state", self.state, STATES), reach=checks.real("reach", self.reach, 0),
                      beyond=checks.one_of("beyond", self.beyond, BEYOND_RANGE))
         if self.goals == "contacts" and self.modality.follows != "objects":
-            raise ValueError(f"goals is 'contacts', allowed for {self.modality.name}s is 'cells': they follow no "
-                             "objects")
+            raise checks.error(f"goals of {self.modality.name}s", "'cells'", self.goals, "they follow no objects")
         if self.goals == "contacts" and any(fine <= coarse for coarse, fine in zip(self.resolutions,
                                                                                    self.resolutions[1:])):
-            raise ValueError(f"resolutions is {self.resolutions}, allowed for contacts are integers that grow")
+            raise checks.error("resolutions", "integers that grow, with contacts as goals", self.resolutions)
         if self.goals == "cells" and self.modality.mirrored:
-            raise ValueError(f"goals is 'cells', allowed for {self.modality.name}s, which are mirrored, is 'contacts'")
+            raise checks.error(f"goals of {self.modality.name}s", "'contacts', since they are mirrored", self.goals)
 
         if self.state != "object" or self.reach > 0:
             given = f"state is {self.state!r}" if self.state != "object" else f"reach is {self.reach}"
             if not self.modality.is_cartesian or self.modality.follows != "objects" or self.goals == "contacts":
-                raise ValueError(f"{given}, allowed for {self.modality.name}s is the state 'object' with a reach of 0: "
-                                 "others take one component of objects along every axis of the world, with cells as "
-                                 "goals")
+                raise ValueError(f"state must be 'object' and reach 0 for {self.modality.name}s, but {given}; other "
+                                 "states and reaches take one component of objects along every axis of the world, with "
+                                 "cells as goals")
         if self.state != "object" and self.reach > 0:
-            raise ValueError(f"reach is {self.reach}, allowed with the state {self.state!r} is 0: its goals are the "
-                             "cells of the things")
+            raise checks.error(f"reach with the state {self.state!r}", "0, since its goals are the cells of the things",
+                               self.reach)
         if self.beyond == "none" and self.goals == "contacts":
-            raise ValueError("beyond is 'none', allowed with contacts as goals is 'outermost'")
+            raise checks.error("beyond", "'outermost', with contacts as goals", self.beyond)
 
     @property
     def maps(self) -> tuple[NresMap, ...]:
@@ -113,7 +112,7 @@ class Place(checks.Final):
 
     def __init__(self, *coordinates: float) -> None:
         if not coordinates:
-            raise ValueError("coordinates is (), allowed are a number for each axis of the world")
+            raise checks.error("coordinates", "a number for each axis of the world", ())
         checks.assign(self, coordinates=tuple(checks.real("coordinates", each) for each in coordinates))
 
     @classmethod
@@ -160,8 +159,8 @@ class Desire(checks.Final):
         checks.assign(self, target=str(checks.instance("target", self.target, str)))
         if isinstance(self.valence, str) and self.valence == LEARNED:
             if not isinstance(self.source, str):
-                raise ValueError(f"valence is 'learned', allowed for the source {self.source!r} are numbers: it is "
-                                 "learned for kinds of things")
+                raise checks.error("valence", f"a number for the source {self.source!r}", LEARNED, "it is learned for "
+                                   "kinds of things")
             checks.assign(self, valence=LEARNED)
         elif self.valence is not None:
             checks.assign(self, valence=checks.real("valence", self.valence))
@@ -198,19 +197,19 @@ class Agent(Described, checks.Final):
             for each in getattr(self, name):
                 checks.instance(name, each, kind)
             if not fewest <= len(getattr(self, name)) <= MOST_PARTS:
-                raise ValueError(f"{name} are {len(getattr(self, name))}, allowed are {fewest} to {MOST_PARTS}, each a "
-                                 f"{kind.__name__}")
+                raise ValueError(f"{name} must be {fewest} to {MOST_PARTS}, each a {kind.__name__}, but are "
+                                 f"{len(getattr(self, name))}")
         names = [node.name for node in self.nodes]
         if len(set(names)) < len(names):
-            raise ValueError(f"nodes are {', '.join(map(repr, names))}, allowed is each name once")
+            raise ValueError(f"nodes must have different names, but have {', '.join(map(repr, names))}")
         checks.instance("learning", self.learning, Learning)
         checks.instance("policy", self.policy, Policy)
         checks.instance("contacts", self.contacts, Contacts)
         checks.assign(self, own_cell=checks.one_of("own_cell", self.own_cell, OWN_CELL))
         for node in self.nodes:
             if node.state != "object" and self.learning.update_on == "step":
-                raise ValueError(f"update_on is 'step', allowed for the node {node.name!r} with the state "
-                                 f"{node.state!r} is 'cell': within a step, the self stays in the centre")
+                raise checks.error("update_on", f"'cell' for the node {node.name!r} with the state {node.state!r}",
+                                   "step", "within a step, the self stays in the centre")
         for desire in self.desires:
             self._check_desire(desire)
         self.evaluation_order  # raises ValueError for a cycle
@@ -218,19 +217,18 @@ class Agent(Described, checks.Final):
     def _check_desire(self, desire):
         nodes = {node.name: node for node in self.nodes}
         if desire.target not in nodes:
-            raise ValueError(f"desire {desire}: there is no node {desire.target!r}, allowed are "
-                             f"{', '.join(map(repr, nodes))}")
+            raise checks.error(f"target of the desire {desire}", f"a node, {checks.either(nodes)}", desire.target)
         if desire.valence is None and (desire.source not in nodes or desire.source == desire.target):
-            raise ValueError(f"valence of the desire {desire} is None, allowed are finite numbers unless it comes from "
-                             f"another node, {', '.join(map(repr, nodes))}")
+            raise checks.error(f"valence of the desire {desire}", "a finite number, since it does not come from "
+                               "another node", None)
         if desire.of and desire.source not in nodes:
-            raise ValueError(f"of is {desire.of!r}, allowed for the desire {desire} is (): its source is not a node")
+            raise checks.error(f"of in the desire {desire}", "(), since its source is not a node", desire.of)
         if desire.valence == LEARNED and desire.source in nodes:
-            raise ValueError(f"valence of the desire {desire} is 'learned', allowed for that of a node are numbers and "
-                             "None")
+            raise checks.error(f"valence of the desire {desire}", "a number or None, since its source is a node",
+                               LEARNED)
         if isinstance(desire.source, tuple) and nodes[desire.target].goals == "contacts":
-            raise ValueError(f"desire {desire}: a point is not a goal of the node, allowed are kinds of things, places "
-                             "and nodes: it learns only of contacts")
+            raise checks.error(f"source of the desire {desire}", "a kind of thing, a place or a node", desire.source,
+                               f"{desire.target!r} learns only of contacts, of which a point has none")
         modality = nodes[desire.target].modality
         if not isinstance(desire.source, tuple) and len(modality.functions) == len(modality.axes):
             raise ValueError(f"desire {desire} must be for a point in the space of {modality.name}s: their only axes "
@@ -238,16 +236,16 @@ class Agent(Described, checks.Final):
                              f"use the coordinates of the point as its source, ({', '.join(modality.names)}), or "
                              "cells with an axis of a vector, such as Axis('position')")
         if isinstance(desire.source, str | Place) and desire.source not in nodes and not modality.takes_places:
-            raise ValueError(f"desire {desire}: things and places have no coordinates for {modality.name}s, allowed "
-                             f"are points of their own space")
+            raise checks.error(f"source of the desire {desire}", f"a point in the space of {modality.name}s",
+                               desire.source, "things and places have no coordinates there")
         if isinstance(desire.source, tuple) and len(desire.source) != len(modality.axes):
-            raise ValueError(f"desire {desire}: allowed for {modality.name}s are points of {len(modality.axes)} "
-                             f"coordinates: {', '.join(modality.names)}")
+            raise checks.error(f"source of the desire {desire}", f"a point of {len(modality.axes)} coordinates, for "
+                               f"{', '.join(modality.names)}", desire.source)
         inputs = {other.source for other in self.desires if other.target == desire.source}
         for source in desire.of:
             if source not in inputs:
-                raise ValueError(f"desire {desire}: {source!r} is no element of the node {desire.source!r}, allowed "
-                                 f"are {', '.join(map(repr, inputs)) or 'none'}")
+                raise checks.error(f"of in the desire {desire}", f"sources of desires of {desire.source!r}, "
+                                   f"{checks.either(inputs)}", source)
 
     def comes_from_node(self, desire: Desire) -> bool:
         """Whether the source of a `Desire` is a node rather than something in the world.
@@ -268,8 +266,8 @@ class Agent(Described, checks.Final):
             return tuple(TopologicalSorter(before).static_order())
         except CycleError as error:
             source, target = error.args[1][:2]
-            raise ValueError(f"desire {source!r} → {target!r}: it closes the cycle {' → '.join(error.args[1])}; "
-                             "allowed is only recursion of a node to itself") from None
+            raise ValueError(f"desires between nodes must not form a cycle, but {source!r} → {target!r} closes "
+                             f"{' → '.join(error.args[1])}; only a node may desire from itself") from None
 
     @property
     def maps(self) -> tuple[NresMap, ...]:

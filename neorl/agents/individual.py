@@ -148,8 +148,8 @@ class Individual:
         """
         maps = checks.instance("other", other, Individual).agent.maps
         if maps != self.agent.maps or len(other.world.actions.names) != len(self.world.actions.names):
-            raise ValueError(f"other has the maps {maps} and {len(other.world.actions.names)} actions, allowed are "
-                             f"{self.agent.maps} and {len(self.world.actions.names)}")
+            raise ValueError(f"other must have the maps {self.agent.maps} and {len(self.world.actions.names)} actions, "
+                             f"but has {maps} and {len(other.world.actions.names)}")
         for m in range(len(maps)):
             _values_of(self.agent, self._parameters, self._state, m)[...] = other.q(m)
         self._state.values.goal_range[:] = other._state.values.goal_range
@@ -198,13 +198,14 @@ class Individual:
             loaded = cls._of(restored(about["agent"], Agent), restored(about["world"]))
             loaded._progress = about["progress"]
         except (ValueError, KeyError, TypeError, AttributeError) as error:
-            raise ValueError(f"{path} describes no agent in a world of this version of neorl: {error!r}") from error
+            raise ValueError(f"{path} must describe an agent in a world of this version of neorl, but "
+                             f"{error!r}") from error
         for name in cls._kept:
             for each, mine in arrays(getattr(loaded, name)).items():
                 saved = kept.get(f"{name}.{each}", np.empty(0))
                 if (saved.dtype, saved.shape) != (mine.dtype, mine.shape):
-                    raise ValueError(f"{path} has {saved.dtype} {saved.shape} for {name}.{each}, allowed is "
-                                     f"{mine.dtype} {mine.shape}: it is of another version of neorl")
+                    raise ValueError(f"{path}: {name}.{each} must be {mine.dtype} {mine.shape}, but is {saved.dtype} "
+                                     f"{saved.shape}; the file is of another version of neorl")
                 mine[...] = saved
         return loaded
 

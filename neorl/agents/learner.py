@@ -36,7 +36,7 @@ class Surroundings(checks.Final):
     def __post_init__(self):
         kinds = tuple(str(checks.instance("kinds", each, str)) for each in checks.several("kinds", self.kinds))
         if len(set(kinds)) < len(kinds):
-            raise ValueError(f"kinds is {kinds!r}, allowed is each name once")
+            raise checks.error("kinds", "different names", kinds)
         checks.instance("actions", self.actions, Actions)
         checks.assign(self, things=checks.integer("things", self.things, at_least=0, at_most=2**20), kinds=kinds,
                      size=checks.positive("size", self.size),
@@ -98,7 +98,7 @@ class Learner(Individual):
         Raises RuntimeError before the first scene, or if the outcome of the last action was not observed.
         """
         if self._progress != "to act":
-            raise RuntimeError(f"act() came {self._progress}, allowed is act() after begin(scene) or observe(scene)")
+            raise RuntimeError(f"act() must follow begin(scene) or observe(scene), but came {self._progress}")
         action = self._calls[1]()
         self._progress = "twice"
         return action
@@ -116,7 +116,7 @@ class Learner(Individual):
         that has returned NaN; RuntimeError unless the agent has acted.
         """
         if self._progress != "twice":
-            raise RuntimeError("observe(scene) came before act(), allowed is observe(scene) after it")
+            raise RuntimeError("observe(scene) must follow act(), but came before it")
         reward = checks.real("reward", reward)
         self._take(scene)
         self._state.reward[0] = reward
@@ -130,7 +130,7 @@ class Learner(Individual):
             position, velocity, things, kinds, met = (scene.position, scene.velocity, scene.things, scene.kinds,
                                                       scene.met)
         except AttributeError:
-            raise ValueError(f"scene is {checks.shown(scene)}, allowed is a neorl.Scene") from None
+            raise checks.error("scene", "a neorl.Scene, or have its fields", scene) from None
         offered = self._offered
         _put("position", offered.position, position)
         if velocity is None:
@@ -144,15 +144,14 @@ class Learner(Individual):
                     raise TypeError
                 offered.kinds[:] = [self._numbers[each] for each in kinds]
             except (KeyError, TypeError, OverflowError):
-                raise ValueError(f"scene.kinds is {checks.shown(kinds)}, allowed are {len(offered.kinds)} of "
-                                 f"{', '.join(map(repr, self._numbers))}") from None
+                raise checks.error("scene.kinds", f"a list of {len(offered.kinds)}, each "
+                                   f"{checks.either(self._numbers)}", kinds) from None
             if _is_empty(met):
                 offered.met[:] = 0
             else:
                 _put("met", offered.met, met)
         if not self._accept():
-            raise ValueError(f"scene is {checks.shown(scene)}, allowed are finite numbers from {-checks.LARGEST:g} to "
-                             f"{checks.LARGEST:g}")
+            raise checks.error("scene", f"of finite numbers from {-checks.LARGEST:g} to {checks.LARGEST:g}", scene)
 
 
 class Offer(NamedTuple):
@@ -197,7 +196,7 @@ def _put(name, mine, given):
     except ValueError:  # lists of unequal lengths
         values = np.array(None)
     if values.shape != mine.shape or values.dtype.kind not in "fiub":
-        raise ValueError(f"scene.{name} is {checks.shown(given)}, allowed are numbers of the shape {mine.shape}")
+        raise checks.error(f"scene.{name}", f"numbers of the shape {mine.shape}", given)
     if values.dtype.itemsize > 8:
         values = checks.doubles(f"scene.{name}", values)  # so that no number is truncated
     if mine.dtype.kind == "i" and values.dtype.kind in "fu":

@@ -16,7 +16,8 @@ def fitting_runs(agent, world):
     free = psutil.virtual_memory().available
     needed = n_bytes(agent, world)
     if needed > 0.9 * free:
-        raise MemoryError(f"a run of this agent needs {needed / 2**30:.1f} GiB of memory, {free / 2**30:.1f} are free")
+        raise MemoryError(f"a run of this agent needs {needed / 2**30:.1f} GiB of memory, but {free / 2**30:.1f} are "
+                          "free; choose fewer or coarser maps")
     return int(0.9 * free // needed)
 
 

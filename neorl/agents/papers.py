@@ -144,7 +144,7 @@ def _network(nodes, resolutions, desires, choices):
         of = next((f", it is a field of {kind.__name__}: {field}={kind.__name__}({name}=…)"
                    for field, kind in (("learning", Learning), ("policy", Policy))
                    if name in (each.name for each in fields(kind))), "")
-        raise TypeError(f"{name} is no choice of this agent{of}")
+        raise TypeError(f"{name} must be a choice of this agent, {checks.either(CHOICES)}, but is not{of}")
     weighting = choices.pop("weighting", Node.weighting)
     tiled_fraction = checks.positive("tiled_fraction", choices.pop("tiled_fraction", TILED_FRACTION))
     own = {name.removeprefix("object_"): choices.pop(name, value) for name, value in OF_OBJECTS.items()}

@@ -185,12 +185,12 @@ class Explorer(AnyWidget):
                 return checks.one_of(name, value, self._presets[self.preset]["states"])
             agent, world = self._lives[self.preset]
             if name == "n_creeps" and value is not None and not isinstance(world, WaterWorld):
-                raise ValueError(f"n_creeps is {value!r}, allowed outside WaterWorld is None")
+                raise checks.error("n_creeps", "None outside WaterWorld", value)
             nodes = len(agent.nodes)
             if name == "gains" and len(value) != nodes:
-                raise ValueError(f"gains is {value!r}, allowed is one for each of the {nodes} nodes")
+                raise checks.error("gains", f"a number for each of the {nodes} nodes", value)
             if name == "memory" and value and not self._presets[self.preset]["can_remember"]:
-                raise ValueError(f"memory is {value!r}, allowed is 0 for an agent that learns at every step")
+                raise checks.error("memory", "0 for an agent that learns at every step", value)
             for number in value if name == "gains" else () if value is None else (value,):
                 checks.real(name, number)
             return value
@@ -213,16 +213,17 @@ def _check_condition(name, result):
                          ("states of object vectors", {agent.nodes[n].state for n in _stated(
                              agent.nodes, agent.learning, result.world)})):
         if len(values) > 1:
-            raise ValueError(f"condition {name} has different {what}, {values}, allowed are the same throughout")
+            raise ValueError(f"{what} in condition {name} must be the same throughout, but are {values}")
     if any(each.valence == LEARNED for each in agent.desires):
-        raise ValueError(f"condition {name} has valences that are learned, allowed in the Explorer are numbers")
+        raise ValueError(f"valences in condition {name} must be numbers to be shown in the Explorer, but are learned")
     checks.integer(f"seed of condition {name}", result.seed, at_least=0, at_most=2**32 - 1)
     if not isinstance(result.world, (*IN_THE_PLANE, Vessel)):
-        raise ValueError(f"condition {name} is in {result.world!r}, allowed in the Explorer are the package's worlds")
+        raise checks.error(f"world of condition {name}", "one of the package's, to be shown in the Explorer",
+                           result.world)
     for each in (agent, *(later for _, later in result.changes)):
         if constants_of(each, result.world) != wasm.MODULES[_module_of(result.world)].constants:
-            raise ValueError(f"condition {name} has kernels of its own, for an axis, the credit or the choice of an "
-                             "action, allowed in the Explorer are those compiled for the page, with the greedy choice")
+            raise ValueError(f"condition {name} must have the kernels that are compiled for the page, with the greedy "
+                             "choice, but has its own, for an axis, the credit or the choice of an action")
 
 
 def _settings(preset):

@@ -32,8 +32,8 @@ class Replay(AnyWidget):
         recordings = [checks.instance("recordings", each, Recording)
                       for each in checks.several("recordings", recordings)]
         if len({(len(each.agent), each.fps) for each in recordings}) != 1:
-            raise ValueError(f"recordings are of {[len(each.agent) - 1 for each in recordings]} steps, allowed are one "
-                             "or more of the same length and steps per second")
+            raise ValueError("recordings must be one or more, of the same length and steps per second, but are of "
+                             f"{[len(each.agent) - 1 for each in recordings]} steps")
         super().__init__(_recordings=[_thinned(each) for each in recordings], playing=playing)
 
 

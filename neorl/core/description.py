@@ -56,7 +56,7 @@ class Described:
         try:
             return checked(restored(data, cls), cls)
         except RecursionError:
-            raise ValueError("the data are nested too deeply") from None
+            raise ValueError("data must be nested less deeply than these to be described") from None
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the value to a file.
@@ -89,10 +89,10 @@ def read_data(path):
         text = Path(path).read_text(encoding="utf-8")
         data = tomllib.loads(text) if suffix == ".toml" else json.loads(text)
     except (ValueError, RecursionError) as error:
-        raise ValueError(f"{path} is not written in {suffix[1:].upper()}: {error}") from error
+        raise ValueError(f"{path} must be written in {suffix[1:].upper()}, but is not: {error}") from error
     if isinstance(data, dict):
         return data
-    raise ValueError(f"{path} holds {checks.shown(data)}, allowed is a table of fields")
+    raise checks.error(str(path), "a table of fields", data)
 
 
 def write_data(path, data):
@@ -103,7 +103,7 @@ def write_data(path, data):
         try:
             text = require("tomli_w", extra="data").dumps(data)
         except TypeError as error:  # None
-            raise ValueError(f"{path} cannot be written: {error}; allowed is a name that ends in .json") from error
+            raise ValueError(f"{path} cannot be written: {error}; choose a name that ends in .json") from error
     write_whole(path, text.encode())
 
 
@@ -111,7 +111,7 @@ def _suffix(path):
     suffix = checks.path("path", path).suffix
     if suffix in SUFFIXES:
         return suffix
-    raise ValueError(f"path is {checks.shown(path)}, allowed are names that end in {' or '.join(SUFFIXES)}")
+    raise checks.error("path", f"a name that ends in {' or '.join(SUFFIXES)}", path)
 
 
 def described(value, expected=object, path=""):
@@ -132,8 +132,7 @@ def described(value, expected=object, path=""):
         return {"kernel": _name(origin, path)} | ({} if arguments is None else {"of": described(arguments)})
     if type(value) in PLAIN:
         return value
-    raise ValueError(f"{path or 'the value'} is {checks.shown(value)}, which cannot be saved, allowed are Python's own "
-                     "numbers, texts, tuples, dataclasses and kernels")
+    raise checks.error(path or "the value", "a number, a text, a tuple, a dataclass or a kernel to be saved", value)
 
 
 def restored(data, expected=object, path=""):
@@ -159,11 +158,11 @@ def _instance(data, expected, path):
     taken = kind.takes if hasattr(kind, "takes") else _taken(kind)
     for name in data:
         if name != "is" and name not in taken:
-            raise ValueError(f"{_at(path, name)} is unknown, {_nearest(name, taken)}allowed are {', '.join(taken)}")
+            raise checks.error(f"a field of {path or 'the data'}", checks.either(taken), name, _nearest(name, taken))
     values = {name: restored(data[name], taken[name][0], _at(path, name)) for name in taken if name in data}
     for name, (hint, default) in taken.items():
         if default is MISSING and name not in data:
-            raise ValueError(f"{_at(path, name)} is missing, allowed is {_words(hint)}")
+            raise ValueError(f"{_at(path, name)} must be {_words(hint)}, but is missing")
     try:
         made = getattr(kind, "of_fields", kind)(**values)
     except (ValueError, TypeError) as error:
@@ -178,31 +177,30 @@ def _instance(data, expected, path):
 def _kind(data, expected, path):
     """The type described by a table: a dataclass, or a function that makes one."""
     options = [each for each in _options(expected) if isinstance(each, type) and each not in PLAIN]
-    allowed = " or ".join(each.__name__ for each in options) or _words(expected)
+    options_in_words = " or ".join(each.__name__ for each in options) or _words(expected)
     if "is" not in data:
         dataclasses = [each for each in options if is_dataclass(each)]
         if len(dataclasses) == 1:
             return dataclasses[0]
         if not options:
-            raise ValueError(f"{path} is {checks.shown(data)}, allowed is {allowed}")
-        raise ValueError(f"{_at(path, 'is')} is missing, allowed is the name of a kind of {allowed}")
+            raise checks.error(path, options_in_words, data)
+        raise ValueError(f"{_at(path, 'is')} must be the name of a kind of {options_in_words}, but is missing")
     kind = _found(data["is"], _at(path, "is"))
     made = getattr(kind, "makes", kind)
     if isinstance(made, type) and is_dataclass(made) and issubclass(made, tuple(options)):
         return kind
-    raise ValueError(f"{_at(path, 'is')} is {checks.shown(data['is'])}, allowed is the name of a kind of {allowed}")
+    raise checks.error(_at(path, "is"), f"the name of a kind of {options_in_words}", data["is"])
 
 
 def _kernel(data, path):
     """The kernel described by a table."""
     found = _found(data["kernel"], _at(path, "kernel"))
     for name in data.keys() - {"kernel", "of"}:
-        raise ValueError(f"{_at(path, name)} is unknown, allowed are kernel, of")
+        raise ValueError(f"the fields of {path or 'a kernel'} must be 'kernel' and 'of', but {name!r} is among them")
     if "of" not in data:
         return found
     if not getattr(found, "makes_kernels", False):  # a file may name any function
-        raise ValueError(f"{_at(path, 'kernel')} is {checks.shown(data['kernel'])}, allowed with of is a "
-                         "neorl.kernel_maker")
+        raise checks.error(_at(path, "kernel"), "a neorl.kernel_maker, since of is given", data["kernel"])
     try:
         return found(*restored(data["of"], object, _at(path, "of")))
     except (ValueError, TypeError) as error:
@@ -218,7 +216,7 @@ def _constant(name, options, path):
     if type(found) in options:
         return found
     known = "".join(f", {each!r}" for each in modalities)
-    raise ValueError(f"{path} is {name!r}, {_nearest(name, modalities)}allowed are a table, 'module:NAME'{known}")
+    raise checks.error(path, f"a table, 'module:NAME'{known}", name, _nearest(name, modalities))
 
 
 def checked(value, hint, path=""):
@@ -228,7 +226,7 @@ def checked(value, hint, path=""):
         for i, (each, inner) in enumerate(_members(value, hint) if isinstance(value, tuple | list) else ()):
             checked(each, inner, f"{path}[{i}]")
         return value
-    raise ValueError(f"{path or 'data'} is {checks.shown(value)}, allowed is {_words(hint)}")
+    raise checks.error(path or "data", _words(hint), value)
 
 
 def _is_of(value, option):
@@ -243,7 +241,7 @@ def _is_of(value, option):
 
 
 def _words(hint):
-    return " or ".join(PLAIN.get(each) or getattr(get_origin(each) or each, "__name__", str(each))
+    return " or ".join(PLAIN.get(each) or checks.with_article(getattr(get_origin(each) or each, "__name__", str(each)))
                        for each in _options(hint))
 
 
@@ -277,7 +275,7 @@ def _taken(kind):
 
 def _nearest(name, names):
     near = difflib.get_close_matches(str(name), names, 1)
-    return f"did you mean {near[0]!r}? " if near else ""
+    return f"did you mean {near[0]!r}?" if near else ""
 
 
 def _at(path, name):
@@ -292,8 +290,8 @@ def _name(value, path):
                 return name
         except ValueError:
             continue
-    raise ValueError(f"{path or 'the value'} is {checks.shown(value)}, which cannot be saved, allowed are kernels that "
-                     "a module defines or that a neorl.kernel_maker has made, and classes that a module defines")
+    raise checks.error(path or "the value", "a kernel that a module defines or that a neorl.kernel_maker has made, or "
+                       "a class that a module defines, to be saved", value)
 
 
 def _found(name, path):
@@ -303,5 +301,5 @@ def _found(name, path):
         return getattr(importlib.import_module(module or "neorl"), inner)
     except Exception as error:  # importing a module may raise anything
         hint = "" if module else _nearest(name, importlib.import_module("neorl").__all__)
-        raise ValueError(f"{path} is {name!r}, {hint}allowed are names of neorl, and 'module:name' of what can be "
-                         f"imported: {error}") from error
+        raise checks.error(path, "a name of neorl, or 'module:name' of what can be imported", name,
+                           hint or str(error)) from error

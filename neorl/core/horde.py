@@ -30,14 +30,14 @@ def learn(q: NDArray[np.float32], cell_tm1: int, cell_t: int, credit: Sequence[f
     """
     cells, actions = _check_q(q)
     if not q.flags.c_contiguous:
-        raise ValueError("q is not C-contiguous, allowed are arrays that are, such as a copy")
+        raise ValueError("q must be C-contiguous, but is not; pass a copy")
     if not q.flags.writeable:
-        raise ValueError("q is read-only, allowed are arrays that can be written to")
+        raise ValueError("q must be writeable, but is read-only; pass a copy")
     cell_tm1 = checks.integer("cell_tm1", cell_tm1, at_least=0, at_most=cells - 1)
     cell_t = checks.integer("cell_t", cell_t, at_least=0, at_most=cells - 1)
     psi = np.array([checks.real("credit", value, 0, 1) for value in checks.several("credit", credit)], np.float32)
     if len(psi) != actions:
-        raise ValueError(f"credit has {len(psi)} values, allowed are {actions}")
+        raise ValueError(f"credit must have {actions} values, one for each action, but has {len(psi)}")
     checks.finite("q", q[[cell_tm1, cell_t]])
     rates = np.float32(checks.real("learning_rate", learning_rate, 0, 1)) * psi
     rule = Rule(np.float32(checks.real("discount", discount, 0, 1)), checks.flag("terminal", terminal), ZERO, False)
@@ -59,7 +59,7 @@ def superpose(q: NDArray[np.float32], cell: int, goals: Sequence[int], valences:
     goals = [checks.integer("goals", goal, at_least=0, at_most=cells - 1) for goal in checks.several("goals", goals)]
     valences = [checks.real("valences", valence) for valence in checks.several("valences", valences)]
     if len(goals) != len(valences):
-        raise ValueError(f"valences has {len(valences)} values, allowed is one for each of the {len(goals)} goals")
+        raise ValueError(f"valences must have a value for each of the {len(goals)} goals, but has {len(valences)}")
     checks.one_of("own_cell", own_cell, OWN_CELL)
     checks.finite("q", q[cell][:, goals])
     value = np.zeros(actions)
@@ -82,5 +82,5 @@ def _check_q(q):
     checks.instance("q", q, np.ndarray)
     cells, actions = q.shape[:2] if q.ndim == 3 else (0, 0)
     if q.dtype != np.float32 or not q.dtype.isnative or q.shape != (cells, actions, cells) or not q.size:
-        raise ValueError(f"q is {q.dtype} {q.shape}, allowed are float32 arrays (cells, actions, cells)")
+        raise ValueError(f"q must be float32 (cells, actions, cells), but is {q.dtype} {q.shape}")
     return cells, actions

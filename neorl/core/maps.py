@@ -37,7 +37,7 @@ class NresMap(checks.Final):
         checks.assign(self, resolution=checks.integer("resolution", self.resolution, 1, MOST_CELLS))
         checks.instance("modality", self.modality, Modality)
         if self.cells > MOST_CELLS:
-            raise ValueError(f"resolution is {self.resolution}, allowed are maps of at most {MOST_CELLS} cells")
+            raise checks.error("resolution", f"that of a map of at most {MOST_CELLS} cells", self.resolution)
 
     @property
     def intervals(self) -> tuple[int, ...]:

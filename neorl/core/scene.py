@@ -34,18 +34,17 @@ def checked_scene(scene):
     position = checks.doubles("scene.position", scene.position)
     things, kinds, met = (checks.doubles(f"scene.{name}", getattr(scene, name)) for name in ("things", "kinds", "met"))
     if position.ndim != 1 or not 1 <= len(position) <= MOST_AXES:
-        raise ValueError(f"scene.position is {checks.shown(scene.position)}, allowed is a number for each of 1 to "
-                         f"{MOST_AXES} axes")
+        raise checks.error("scene.position", f"a number for each of 1 to {MOST_AXES} axes", scene.position)
     velocity = np.zeros(len(position)) if scene.velocity is None else checks.doubles("scene.velocity", scene.velocity)
     things = np.zeros((0, len(position))) if things.size == 0 else things
     if things.ndim != 2:
-        raise ValueError(f"scene.things is {checks.shown(scene.things)}, allowed are places, one a row")
+        raise checks.error("scene.things", "places, one in each row", scene.things)
     kinds = np.full(len(things), ABSENT) if kinds.size == 0 else np.clip(kinds, ABSENT, 2**31)
     met = np.zeros(len(things)) if met.size == 0 else met != 0
     for name, values, shape in (("velocity", velocity, position.shape), ("kinds", kinds, (len(things),)),
                                 ("met", met, (len(things),)), ("things", things, (len(things), len(position)))):
         if values.shape != shape:
-            raise ValueError(f"scene.{name} has the shape {values.shape}, allowed is {shape}")
+            raise ValueError(f"scene.{name} must have the shape {shape}, but has {values.shape}")
     return Scene(*map(np.ascontiguousarray, (position, velocity, things)), kinds.astype(np.int64), met.astype(np.int64))
 
 
@@ -73,14 +72,11 @@ class Actions(checks.Final):
         if self.idle is not None:
             checks.assign(self, idle=str(checks.instance("idle", self.idle, str)))
         if not names or len({*names, self.idle}) <= len(names):
-            raise ValueError(f"names is {checks.shown(self.names)}, allowed are one or more, each once, and "
-                             f"others than idle, {self.idle!r}")
+            raise checks.error("names", f"one or more, all different, and other than idle, {self.idle!r}", self.names)
         if len(pushes) != len(names) or len({len(each) for each in pushes}) != 1 or not pushes[0]:
-            raise ValueError(f"pushes is {checks.shown(self.pushes)}, allowed are as many as names, all of as "
-                             "many axes")
+            raise checks.error("pushes", "as many as names, all of as many axes", self.pushes)
         if len(pushes[0]) > MOST_AXES or len(names) > MOST_ACTIONS:
-            raise ValueError(f"pushes is {checks.shown(self.pushes)}, allowed are {MOST_AXES} axes and {MOST_ACTIONS} "
-                             "actions or fewer")
+            raise checks.error("pushes", f"of {MOST_AXES} axes and {MOST_ACTIONS} actions or fewer", self.pushes)
         checks.assign(self, names=names, pushes=pushes)
 
     @property

@@ -29,7 +29,7 @@ def new_stream(seed_sequence: np.random.SeedSequence) -> NDArray[np.uint64]:
     """
     checks.instance("seed_sequence", seed_sequence, np.random.SeedSequence)
     if seed_sequence.pool_size != POOL:
-        raise ValueError(f"pool_size of seed_sequence is {seed_sequence.pool_size}, allowed is {POOL}")
+        raise checks.error("pool_size of seed_sequence", str(POOL), seed_sequence.pool_size)
     stream = np.zeros(4, np.uint64)
     execute(start_stream, np.array(_entropy(seed_sequence), np.uint64), stream)
     return stream

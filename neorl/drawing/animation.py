@@ -37,13 +37,13 @@ def animate(run: Run, path: str | PathLike[str], seconds: float = 10.0, fps: int
     check_run_in_plane(run)
     path = checks.path("path", path)
     if path.suffix.lower() != ".gif":
-        raise ValueError(f"path is {str(path)!r}, allowed are files that end in '.gif'")
+        raise checks.error("path", "a file that ends in '.gif'", str(path))
     fps = checks.integer("fps", fps, at_least=1, at_most=50)
     size = checks.integer("size", size, at_least=64, at_most=2000)
     frames = max(1, round(checks.positive("seconds", seconds) * fps))
     if frames > MOST_FRAMES:
-        raise ValueError(f"seconds is {seconds!r}, allowed are {MOST_FRAMES} frames or fewer, at {fps} per second "
-                         f"{MOST_FRAMES / fps:g} s")
+        raise checks.error("seconds", f"at most {MOST_FRAMES / fps:g} at {fps} frames per second, {MOST_FRAMES} in all",
+                           seconds)
     colour_like("background", background)
     content, pictures = io.BytesIO(), _pictures(run, frames, fps, size, background)
     first = next(pictures)

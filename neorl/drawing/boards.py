@@ -76,7 +76,7 @@ def draw_world(world: World, state: Any, ax: Axes | None = None) -> Axes:
     >>> axes = drawing.draw_world(arena, arena.reset(seed=0))
     """
     if checks.instance("world", world, World).actions.axes != 2:
-        raise ValueError(f"world has {world.actions.axes} axes, allowed are worlds of two")
+        raise ValueError(f"world must have two axes to be drawn, but has {world.actions.axes}")
     world.check_state(state)
     axes = draw_walls(world, ax)
     if isinstance(world, WaterWorld):
@@ -165,7 +165,7 @@ def draw_desires(run: Run, ax: Axes | None = None) -> Axes:
 def check_run_in_plane(run):
     """Raise ValueError unless it is a `neorl.Run` in a world of two axes."""
     if checks.instance("run", run, Run).world.actions.axes != 2:
-        raise ValueError(f"run is in a world of {run.world.actions.axes} axes, allowed are worlds of two")
+        raise ValueError(f"world of run must have two axes to be drawn, but has {run.world.actions.axes}")
 
 
 def desire_colour(desire):

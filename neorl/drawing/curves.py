@@ -62,8 +62,8 @@ def draw_proficiency(results: Mapping[str, Result], total: tuple[str, Sequence[R
     if total is not None:
         name, parts = _checked_sum(total)
         if len({(part.seconds, part.rewards.shape) for part in parts}) != 1:
-            raise ValueError(f"total has results of {', '.join(f'{part.runs} × {part.seconds:g} s' for part in parts)}"
-                             ", allowed are one or more, all of as many runs and seconds")
+            raise ValueError("results of total must be one or more, all of as many runs and seconds, but are of "
+                             f"{', '.join(f'{part.runs} × {part.seconds:g} s' for part in parts)}")
         rates = [_rates(part, points) for part in parts]
         curves[name] = rates[0][0], sum(rate for _, rate in rates)
     longest = max([*results.values(), *(parts if total is not None else ())], key=lambda result: result.seconds)
@@ -83,8 +83,8 @@ def draw_smoothed(results: Mapping[str, Result], ax: Axes | None = None) -> Axes
     """
     for name, result in _checked(results).items():
         if result.rewards.shape[1] <= 2 * CUTOFF_PERIODS:
-            raise ValueError(f"results[{name!r}] has {result.rewards.shape[1]} bins, allowed are more than "
-                             f"{2 * CUTOFF_PERIODS}")
+            raise ValueError(f"results[{name!r}] must have more than {2 * CUTOFF_PERIODS} bins, but has "
+                             f"{result.rewards.shape[1]}; smoothing takes longer runs")
     curves = {name: _rates(result, POINTS) for name, result in results.items()}
     styles = looks(len(curves))
     longest = max(result.seconds for result in results.values())
@@ -104,7 +104,7 @@ def _checked(results, what="results"):
 
 def _checked_sum(total):
     if not isinstance(total, tuple | list) or len(total) != 2 or not isinstance(total[0], str):
-        raise ValueError(f"total is {checks.shown(total)}, allowed is a pair of a name and a list of results")
+        raise checks.error("total", "a pair of a name and a list of results", total)
     return total[0], [checks.instance("total", part, Result) for part in checks.several("total", total[1])]
 
 
@@ -142,8 +142,8 @@ def draw_curves(xs: ArrayLike, curves: Mapping[str, ArrayLike], xlabel: str = ""
         curve = numbers(f"curves[{name!r}]", curve)
         checked[name] = xs, curve
         if xs.ndim != 1 or curve.ndim != 2 or not curve.size or curve.shape[1] != len(xs):
-            raise ValueError(f"curves[{name!r}] has the shape {curve.shape}, allowed are (runs, points) over xs, which "
-                             f"has the shape {xs.shape}")
+            raise ValueError(f"curves[{name!r}] must have the shape (runs, points), over xs of the shape {xs.shape}, "
+                             f"but has {curve.shape}")
     return _draw_means(checked, xlabel, ylabel, looks(len(checked)), ax)
 
 
@@ -154,7 +154,7 @@ def _draw_means(curves, xlabel, ylabel, styles, ax):
         mean = curve.mean(axis=0)
         numbers = mean[np.isfinite(mean)]
         if not len(numbers):
-            raise ValueError(f"curves[{name!r}] is nowhere finite, allowed are curves with a number or more")
+            raise ValueError(f"curves[{name!r}] must have a finite number or more, but has none")
         axes.plot(xs, mean, color=colour, linestyle=dashes)
         if len(curve) > 1:
             axes.fill_between(xs, *mean_band(curve), color=colour, alpha=0.2, linewidth=0)
@@ -179,8 +179,8 @@ def draw_sweep(xs: ArrayLike, estimates_by_name: Mapping[str, Sequence[Estimate]
     for name, estimates in by_name("estimates_by_name", estimates_by_name).items():
         shape = numbers(f"estimates_by_name[{name!r}]", estimates).shape
         if xs.ndim != 1 or shape != (len(xs), 3):
-            raise ValueError(f"estimates_by_name[{name!r}] has the shape {shape}, allowed is an Estimate "
-                             f"for each of xs, which has the shape {xs.shape}")
+            raise ValueError(f"estimates_by_name[{name!r}] must have an Estimate for each of xs, of the shape "
+                             f"{xs.shape}, but has the shape {shape}")
     axes = axes_or_new(ax)
     axes.axhline(0, color=INK, linewidth=0.7)
     axes.set(xlabel=xlabel, ylabel=ylabel)
@@ -218,8 +218,8 @@ def draw_costs(labels: Sequence[str], measured: ArrayLike, predicted: ArrayLike,
     labels = [str(label) for label in checks.several("labels", labels)]
     costs, sums = checks.doubles("measured", measured), checks.doubles("predicted", predicted)
     if not labels or not (len(labels),) == costs.shape == sums.shape:
-        raise ValueError(f"labels are {len(labels)}, measured has the shape {costs.shape} and predicted {sums.shape}, "
-                         "allowed is one of each for every map")
+        raise ValueError("labels, measured and predicted must have a value for every map, but have "
+                         f"{len(labels)}, {costs.shape} and {sums.shape}")
     axes = axes_or_new(ax)
     axes.plot(labels, sums, color=INK, linewidth=1.2)
     axes.plot(labels, costs, color=CURVES[0], linestyle="none", marker="o", markersize=5)

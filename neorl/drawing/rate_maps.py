@@ -44,7 +44,7 @@ def track(run: Run, seconds: float, index: int = 0) -> Track:
     every = max(1, round(run.world.fps / LOOKS))
     looks = max(1, round(checks.positive("seconds", seconds) * run.world.fps / every))
     if looks > MOST_LOOKS:
-        raise ValueError(f"seconds is {seconds!r}, allowed are at most {MOST_LOOKS} looks at the run, here {looks}")
+        raise checks.error("seconds", f"so long that the run has at most {MOST_LOOKS} looks, here {looks}", seconds)
     first, end = run.parameters.maps.first_track[index : index + 2]
     active, position = run.state.tracks.cell[first:end], run.world_state.scene.position
     places, cells = np.empty((looks, 2)), np.empty((looks, end - first), np.int64)
@@ -85,8 +85,8 @@ def _checked(track):
     cells, step = np.asarray(track.cells), checks.positive("step of track", track.step)
     if position.ndim != 2 or position.shape[1] != 2 or cells.dtype.kind not in "iu" or cells.ndim != 2 or (
             len(cells) != len(position)) or not len(cells):
-        raise ValueError(f"track has positions {position.shape} and {cells.dtype} cells {cells.shape} every {step} s, "
-                         "allowed are (looks, 2) and integers (looks, points)")
+        raise ValueError("track must have positions (looks, 2) and integer cells (looks, points), but has "
+                         f"{position.shape} and {cells.dtype} {cells.shape}, every {step} s")
     return Track(position, cells, step)
 
 

@@ -34,7 +34,7 @@ def draw_receptive_fields(nres_map: NresMap, world: World, state: Any, ax: Axes 
     """
     modality = checks.instance("nres_map", nres_map, NresMap).modality
     if checks.instance("world", world, World).actions.axes != 2:
-        raise ValueError(f"world has {world.actions.axes} axes, allowed are worlds of two")
+        raise ValueError(f"world must have two axes to be drawn, but has {world.actions.axes}")
     world.check_state(state)
     agent = state.scene.position / world.size
     side = np.linspace(0, 1, RASTER)

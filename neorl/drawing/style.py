@@ -66,7 +66,7 @@ def by_name(name, values):
     if isinstance(values, dict) and values:
         return values
     found = repr(values) if isinstance(values, dict) else f"of type {type(values).__name__}"
-    raise ValueError(f"{name} is {found}, allowed is a dict with one entry or more, by name")
+    raise ValueError(f"{name} must be a dict of one entry or more, by name, but is {found}")
 
 
 def numbers(name, values):
@@ -77,8 +77,7 @@ def numbers(name, values):
     except (TypeError, ValueError, OverflowError):
         array = np.array(None)
     if array.dtype.kind not in "fiub" or not np.all(np.isnan(array) | (np.abs(array) <= checks.LARGEST)):
-        raise ValueError(f"{name} is {checks.shown(values)}, allowed are numbers up to {checks.LARGEST:g}, in lists of "
-                         "equal lengths")
+        raise checks.error(name, f"numbers up to {checks.LARGEST:g}, in lists of equal lengths", values)
     return array.astype(float)
 
 
@@ -86,7 +85,7 @@ def colour_like(name, value):
     """`value`, if it is a matplotlib colour. Raises ValueError for anything else."""
     if isinstance(value, str | tuple) and is_color_like(value):
         return value
-    raise ValueError(f"{name} is {checks.shown(value)}, allowed are colours of matplotlib's")
+    raise checks.error(name, "a colour of matplotlib's", value)
 
 
 def letters(colour):

@@ -36,13 +36,13 @@ def draw_against_thesis(thesis: Mapping[str, float], readings: Mapping[str, Mapp
     for label, number in by_name("thesis", thesis).items():
         checks.real(f"thesis[{label!r}]", number)
     if len(checks.instance("readings", readings, dict)) > len(CURVES):
-        raise ValueError(f"readings has {len(readings)}, allowed are at most {len(CURVES)}")
+        raise ValueError(f"readings must be at most {len(CURVES)}, but are {len(readings)}")
     for name, found in readings.items():
         if set(checks.instance(f"readings[{name!r}]", found, dict)) != set(thesis):
-            raise ValueError(f"readings[{name!r}] has {', '.join(found)}, allowed are the labels of thesis: "
-                             f"{', '.join(thesis)}")
+            raise ValueError(f"readings[{name!r}] must have the labels of thesis, {', '.join(thesis)}, but has "
+                             f"{', '.join(found)}")
         if numbers(f"readings[{name!r}]", list(found.values())).shape != (len(thesis), 3):
-            raise ValueError(f"readings[{name!r}] is {checks.shown(found)}, allowed is an Estimate for each label")
+            raise checks.error(f"readings[{name!r}]", "an Estimate for each label", found)
     rows = np.arange(len(thesis))
     axes = axes_or_new(ax, figsize=(width_of_figures(), 1.1 + ROW * len(rows)))
     printed = [*thesis.values()]

@@ -51,7 +51,7 @@ def draw_cells(nres_map: NresMap, colour: Any = INK, fills: Mapping[int, tuple[A
     for cell, fill in fills.items():
         checks.integer("cell of fills", cell, at_least=0, at_most=nres_map.cells - 1)
         if len(checks.several("fills", fill)) != 2:
-            raise ValueError(f"fills has {checks.shown(fill)}, allowed are pairs of a colour and an opacity")
+            raise checks.error("fills", "pairs of a colour and an opacity", fill)
         colour_like("colour of fills", fill[0]), checks.real("opacity of fills", fill[1], 0, 1)
     axes = board_or_new(ax, fields.low)
     for cell, patch in enumerate(fields.patches):
@@ -78,8 +78,8 @@ def draw_values(nres_map: NresMap, values: ArrayLike, actions: Actions = CARDINA
     fields, values = _fields(nres_map), checks.doubles("values", values)
     checks.instance("actions", actions, Actions)
     if values.shape != (nres_map.cells, len(actions.names)) or actions.axes != 2:
-        raise ValueError(f"values has the shape {values.shape}, allowed is {(nres_map.cells, len(actions.names))} with "
-                         f"actions along two axes, here {actions.axes}")
+        raise ValueError(f"values must have the shape {(nres_map.cells, len(actions.names))}, with actions along two "
+                         f"axes, but has {values.shape}, with {actions.axes}")
     axes = board_or_new(ax, fields.low)
     vector = as_vectors(values, actions)
     length = np.linalg.norm(vector, axis=1, keepdims=True)
@@ -108,15 +108,15 @@ def draw_value_map(run: Individual, goals: ArrayLike, valences: Sequence[float] 
     >>> axes = drawing.draw_value_map(run, goals=[(0.7, 0.7)])
     """
     if checks.instance("run", run, Individual).world.actions.axes != 2:
-        raise ValueError(f"run is in a world of {run.world.actions.axes} axes, allowed are worlds of two")
+        raise ValueError(f"world of run must have two axes to be drawn, but has {run.world.actions.axes}")
     q = run.q(index)
     nres_map = run.agent.maps[index]
     cells = np.atleast_1d(nres_map.encode(goals))
     valences = [1.0] * len(cells) if valences is None else [
         checks.real("valences", each) for each in checks.several("valences", valences)]
     if cells.ndim != 1 or not len(cells) or len(valences) != len(cells):
-        raise ValueError(f"valences has {len(valences)} values, allowed is one for each of {cells.size} goals, of one "
-                         "or more")
+        raise ValueError(f"valences must have a value for each of the goals, one or more, but has {len(valences)} for "
+                         f"{cells.size}")
     values = q[:, :, cells].astype(float) @ np.array(valences)
     best = values.max(axis=1)
     most = max(np.abs(best).max(), 1e-30)
@@ -132,15 +132,15 @@ def draw_value_map(run: Individual, goals: ArrayLike, valences: Sequence[float] 
 def _fields(nres_map):
     axes = checks.instance("nres_map", nres_map, NresMap).modality.axes
     if nres_map.cells > MOST_CELLS:
-        raise ValueError(f"nres_map has {nres_map.cells} cells, allowed to be drawn are {MOST_CELLS} or fewer")
+        raise ValueError(f"nres_map must have {MOST_CELLS} cells or fewer to be drawn, but has {nres_map.cells}")
     vectors, features = {axis.of for axis in axes}, [axis.feature for axis in axes]
     if len(vectors) == 1 and not callable(axes[0].of):
         if features == ["component"] * 2 and (axes[0].along, axes[1].along) == (0, 1):
             return _rectangles(nres_map)
         if features in (["length", "direction"], ["direction"]):
             return _sectors(nres_map)
-    raise ValueError(f"nres_map is of {nres_map.modality.name}s, allowed are maps of the components x and y of one "
-                     "vector, of its length and direction, or of its direction")
+    raise ValueError("nres_map must be of the components x and y of one vector, of its length and direction, or of its "
+                     f"direction, but is of {nres_map.modality.name}s")
 
 
 def _borders(axis, n, nearest, furthest):

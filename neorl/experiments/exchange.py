@@ -83,7 +83,7 @@ def load(path):
         checks.integer("seed", fields["seed"], at_least=0)
         times = [0, *(step for step, _ in fields["changes"]), steps]
         if times != sorted(times):
-            raise ValueError(f"changes is {fields['changes']}, allowed are pairs in order of time, within the run")
+            raise checks.error("changes", "pairs in order of time, within the run", fields["changes"])
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from error
     bins = -(-steps // bin_steps(fields["world"]))
@@ -91,5 +91,5 @@ def load(path):
                                ("hits", np.int16, (runs, bins, len(fields["world"].kinds)))):
         found = arrays.get(name, np.empty(0))
         if (found.dtype, found.shape) != (dtype, shape):
-            raise ValueError(f"{path} has {found.dtype} {found.shape} for {name}, allowed is {dtype.__name__} {shape}")
+            raise ValueError(f"{path}: {name} must be {dtype.__name__} {shape}, but is {found.dtype} {found.shape}")
     return fields | {name: arrays[name] for name in ("rewards", "hits")}

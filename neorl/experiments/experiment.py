@@ -23,6 +23,7 @@ file has the same structure.
 
 import re
 
+from neorl import checks
 from neorl.core.description import read_data
 from neorl.experiments.cache import Condition
 
@@ -35,12 +36,12 @@ def read_experiment(path):
     data = read_data(path)
     variations = data.pop("variations", {"": {}})
     if not isinstance(variations, dict) or not variations:
-        raise ValueError(f"{path}: variations is {variations!r}, allowed are tables, each with a name")
+        raise checks.error(f"{path}: variations", "tables, each with a name", variations)
     conditions = {}
     for name, changes in variations.items():
         if not (isinstance(changes, dict) and re.fullmatch(r"[\w .+=-]*", name)):
-            raise ValueError(f"{path}: variations.{name!r} is {changes!r}, allowed are tables whose names are letters, "
-                             "digits, spaces and _.+=-")
+            raise checks.error(f"{path}: variations.{name!r}", "a table whose name has letters, digits, spaces and "
+                               "_.+=-", changes)
         try:
             conditions[name] = Condition.from_dict(_merged(data, changes))
         except ValueError as error:

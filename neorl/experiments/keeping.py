@@ -94,4 +94,5 @@ def _check_memory(size):
     import psutil
 
     if psutil.virtual_memory().available < size:
-        raise MemoryError(f"{files.cache_folder()} takes no results, and no more of them fit into the free memory")
+        raise MemoryError(f"{files.cache_folder()} takes no results, and no more of them fit into the free memory; "
+                          "name another folder in NEORL_CACHE")

@@ -172,8 +172,8 @@ def _bins(name, given, dtype, bins, *beside):
     if (not isinstance(given, np.ndarray) or given.dtype != dtype or len(given) < bins or given.shape[1:] != beside
             or not given.flags.c_contiguous or not given.flags.writeable):
         found = f"{given.dtype} {given.shape}" if isinstance(given, np.ndarray) else checks.shown(given)
-        raise ValueError(f"{name} is {found}, allowed is {dtype.__name__} from {(bins, *beside)} on, contiguous and "
-                         "writeable")
+        raise ValueError(f"{name} must be {dtype.__name__} from {(bins, *beside)} on, contiguous and writeable, but is "
+                         f"{found}")
     return given
 
 

@@ -120,7 +120,7 @@ class Result:
         checks.real("end", end, 0, 1)
         first, last = (round(share * self.rewards.shape[1]) for share in (begin, end))
         if first >= last:
-            raise ValueError(f"end is {end!r}, allowed are shares at least a bin after begin, {begin!r}")
+            raise checks.error("end", f"a share at least a bin after begin, {begin!r}", end)
         return slice(first, last), self.edges[last] - self.edges[first]
 
 
@@ -232,7 +232,7 @@ def checked_changes(changes, steps):
     pairs, least = [], 0
     for pair in checks.several("changes", changes):
         if len(checks.several("changes", pair)) != 2:
-            raise ValueError(f"changes has {pair!r}, allowed are pairs (step, agent)")
+            raise checks.error("changes", "pairs (step, agent)", pair)
         least = checks.integer("step of a change", pair[0], at_least=least, at_most=steps)
         pairs.append((least, checks.instance("agent of a change", pair[1], Agent)))
     return tuple(pairs)

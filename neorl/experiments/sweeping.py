@@ -70,11 +70,11 @@ def sweep(conditions: Sequence[Condition], executor: Executor | None = None,
     for condition in conditions:
         checks.instance("condition", condition, Condition)
     if not hasattr(executor, "submit") and executor is not None:
-        raise ValueError(f"executor is {checks.shown(executor)}, allowed are executors of concurrent.futures and None")
+        raise checks.error("executor", "an executor of concurrent.futures or None", executor)
     if workers is not None:
         checks.integer("workers", workers, at_least=1)
         if executor is not None:
-            raise ValueError(f"workers is {workers!r} beside an executor, allowed is one of the two")
+            raise checks.error("workers", "None beside an executor", workers)
     keeper = Keeper()
     missing = {condition: runs for condition in dict.fromkeys(conditions) if (runs := keeper.missing(condition))}
     # The largest come first, so that later runs can reuse their memory.
@@ -203,4 +203,4 @@ def _live(condition, runs, key, each_slice=lambda lived: None, room=None):
 def _check_key(condition, key):
     if condition.key != key:
         raise RuntimeError(f"worker {os.getpid()} must have the sources of neorl and the kernels and constants of the "
-                           "sweep that it works for, and has others: restart it, and change nothing while it runs")
+                           "sweep that it works for, but has others; restart it, and change nothing while it runs")

@@ -94,7 +94,8 @@ class WorldEnv(gymnasium.Env):
         Raises ValueError for any other action, `gymnasium.error.ResetNeeded` before `reset` and after the end.
         """
         if not self._begun or self._over:
-            raise gymnasium.error.ResetNeeded("step() came before reset(), allowed is step() in an episode")
+            raise gymnasium.error.ResetNeeded("step() must follow reset(), but came before it, or after the end of an "
+                                              "episode")
         slots = self._batch.slots
         slots.action[0] = checks.integer("action", action, at_least=0, at_most=int(self.action_space.n) - 1)
         slots.begins[0] = False
@@ -116,7 +117,7 @@ class WorldEnv(gymnasium.Env):
         Raises `gymnasium.error.ResetNeeded` before `reset`.
         """
         if not self._begun:
-            raise gymnasium.error.ResetNeeded("render() came before reset(), allowed is render() in an episode")
+            raise gymnasium.error.ResetNeeded("render() must follow reset(), but came before it")
         if self.render_mode is None:
             gymnasium.logger.warn("render() was called without a render_mode, such as render_mode='rgb_array'")
             return None
@@ -163,7 +164,7 @@ def checked_seed(seed, options):
     """The seed, and the run number in the options, of a reset."""
     options = checks.instance("options", {} if options is None else options, Mapping)
     if set(options) - {"run"} or options and seed is None:
-        raise ValueError(f"options is {checks.shown(options)}, allowed are None, and with a seed {{'run': k}}")
+        raise checks.error("options", "None, or with a seed {'run': k}", options)
     seed = None if seed is None else checks.integer("seed", seed, at_least=0)
     return seed, checks.integer("run", options.get("run", 0), at_least=0)
 

@@ -73,11 +73,10 @@ def play(agent: Agent | Learner, env: Any, scene: Callable[[Any, dict[str, Any]]
     checks.instance("env", env, gymnasium.Env)
     steps, seed = checks.integer("steps", steps, at_least=0), checks.integer("seed", seed, at_least=0)
     if not callable(scene):
-        raise ValueError(f"scene is {checks.shown(scene)}, allowed are functions of (observation, info) that "
-                         "return a Scene")
+        raise checks.error("scene", "a function of (observation, info) that returns a Scene", scene)
     if commands is None and not isinstance(env.action_space, gymnasium.spaces.Discrete):
-        raise ValueError(f"commands is None, allowed with the action space {env.action_space} are the values that "
-                         "env.step takes, one for each action")
+        raise checks.error("commands", "the values that env.step takes, one for each action, since the action space is "
+                           f"{env.action_space}", commands)
     first = _seen(scene, *env.reset(seed=seed))
     if commands is None:
         commands = range(env.action_space.start, env.action_space.start + env.action_space.n)
@@ -85,7 +84,7 @@ def play(agent: Agent | Learner, env: Any, scene: Callable[[Any, dict[str, Any]]
     learner = _learner(agent, actions, len(commands), len(first.position), seed, surroundings)
     names = learner.world.actions.all_names
     if len(commands) != len(names):
-        raise ValueError(f"commands is {checks.shown(commands)}, allowed are {len(names)}, one for each of {names}")
+        raise checks.error("commands", f"{len(names)} values, one for each of {names}", commands)
     rewards, terminated, truncated = np.zeros(steps), np.zeros(steps, bool), np.zeros(steps, bool)
     learner.begin(first)
     for now in range(steps):
@@ -100,10 +99,11 @@ def _learner(agent, actions, n_actions, axes, seed, surroundings):
     """The `Learner` that `play` is given, or a new one."""
     if isinstance(agent, Learner):
         if actions is not None or surroundings:
-            raise ValueError("actions and surroundings are those of the Learner, allowed are none beside it")
+            raise ValueError("actions and surroundings must be left out beside a Learner, which has its own, but are "
+                             "given")
         return agent
     if not isinstance(agent, Agent):
-        raise ValueError(f"agent is {checks.shown(agent)}, allowed is an Agent or a Learner")
+        raise checks.error("agent", "an Agent or a Learner", agent)
     if actions is None:
         actions = Actions([str(number) for number in range(n_actions)], [(0.0,) * axes] * n_actions)
     return Learner(agent, actions=actions, seed=seed, **surroundings)

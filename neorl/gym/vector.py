@@ -45,8 +45,7 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
         try:
             self._mode = Mode(autoreset_mode)
         except ValueError:
-            raise ValueError(f"autoreset_mode is {checks.shown(autoreset_mode)}, allowed are "
-                             f"{', '.join(mode.value for mode in Mode)}") from None
+            raise checks.error("autoreset_mode", checks.either(mode.value for mode in Mode), autoreset_mode) from None
         self._batch = Batch(world, num_envs, egocentric, continuing, self._mode is Mode.SAME_STEP, max_episode_steps)
         self.render_mode = checks.one_of("render_mode", render_mode, (None, *self.metadata["render_modes"]))
         self.metadata = {**self.metadata, "render_fps": world.fps, "autoreset_mode": self._mode}
@@ -77,7 +76,7 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
         Returns (observations: float32 (num_envs, numbers), infos). Raises ValueError for anything else.
         """
         if not isinstance(options, Mapping | None):
-            raise ValueError(f"options is {checks.shown(options)}, allowed are None and dicts")
+            raise checks.error("options", "None or a dict", options)
         options = dict(options or {})
         chosen = self._mask(options.pop("reset_mask", np.ones(self.num_envs, bool)))
         if isinstance(seed, list | tuple):
@@ -87,8 +86,7 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
             seeds = [None if seed is None else first + i for i in range(self.num_envs)]
             super().reset(seed=first)
         if len(seeds) != self.num_envs:
-            raise ValueError(f"seed is {checks.shown(seed)}, allowed are an integer ≥ 0, None, or {self.num_envs} of "
-                             "them")
+            raise checks.error("seed", f"an integer of at least 0, None, or a list of {self.num_envs} of them", seed)
         checked = [checked_seed(each, options) for each in seeds]
         for i in np.flatnonzero(chosen):
             its_seed, run = checked[i]
@@ -99,8 +97,7 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
 
     def _mask(self, mask):
         if not isinstance(mask, np.ndarray) or mask.dtype != bool or mask.shape != (self.num_envs,) or not mask.any():
-            raise ValueError(f"reset_mask is {checks.shown(mask)}, allowed is an array of bool ({self.num_envs},), "
-                             "not all False")
+            raise checks.error("reset_mask", f"an array of bool ({self.num_envs},), not all False", mask)
         return mask
 
     def step(self, actions: ArrayLike) -> tuple[NDArray[np.float32], NDArray[np.float64], NDArray[np.bool],
@@ -116,7 +113,7 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
         slots, mode = self._batch.slots, self._mode
         over = slots.terminated | slots.truncated
         if not self._begun.all() or mode is Mode.DISABLED and over.any():
-            raise gymnasium.error.ResetNeeded("step() came before reset(), allowed is step() in an episode")
+            raise gymnasium.error.ResetNeeded("step() must follow reset(), but came before it")
         checks.unmasked("actions", actions)
         try:
             given = np.asarray(actions)
@@ -124,8 +121,8 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
             given = np.array(None)
         if (given.shape != (self.num_envs,) or given.dtype.kind not in "iu"
                 or not 0 <= given.min() <= given.max() < self.single_action_space.n):
-            raise ValueError(f"actions is {checks.shown(actions)}, allowed are integers ({self.num_envs},) from 0 to "
-                             f"{self.single_action_space.n - 1}")
+            raise checks.error("actions", f"integers ({self.num_envs},) from 0 to {self.single_action_space.n - 1}",
+                               actions)
         slots.action[:] = given
         slots.begins[:] = over if mode is Mode.NEXT_STEP else False
         self._batch.step()
@@ -158,7 +155,7 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
         Raises `gymnasium.error.ResetNeeded` before `reset`.
         """
         if not self._begun.all():
-            raise gymnasium.error.ResetNeeded("render() came before reset(), allowed is render() in an episode")
+            raise gymnasium.error.ResetNeeded("render() must follow reset(), but came before it")
         if self.render_mode is None:
             gymnasium.logger.warn("render() was called without a render_mode, such as render_mode='rgb_array'")
             return None

@@ -95,7 +95,7 @@ class Arena(World, checks.Final):
     def __post_init__(self):
         places = tuple(checks.several("places", each) for each in checks.several("places", self.places))
         if any(len(each) != 3 or not isinstance(each[0], str) for each in places):
-            raise ValueError(f"places is {checks.shown(self.places)}, allowed are (kind, x, y) each")
+            raise checks.error("places", "tuples (kind, x, y)", self.places)
         checks.assign(
             self, places=tuple((str(kind), checks.real("places", x, 0, 1), checks.real("places", y, 0, 1))
                                for kind, x, y in places),
@@ -108,13 +108,13 @@ class Arena(World, checks.Final):
             trial_seconds=checks.real("trial_seconds", self.trial_seconds, 1e-9, 1e9),
             fps=checks.integer("fps", self.fps, at_least=1, at_most=2**31))
         if len(self.pay) > len(self.kinds):
-            raise ValueError(f"pay is {self.pay!r}, allowed are {len(self.kinds)} numbers, one for each kind")
+            raise checks.error("pay", f"{len(self.kinds)} numbers, one for each kind", self.pay)
         if len(self.start) not in (0, 2):
-            raise ValueError(f"start is {self.start!r}, allowed are () and a place (x, y)")
+            raise checks.error("start", "() or a place (x, y)", self.start)
         rules = self.rules
         if any(function_of(is_outside)(rules, x, y) or function_of(walls.contain)(rules.obstacle, x, y)
                for x, y in rules.start):
-            raise ValueError(f"start is {self.start!r}, allowed are places outside of walls and obstacles")
+            raise checks.error("start", "outside of walls and obstacles", self.start)
 
     @property
     def dynamics(self) -> Dynamics:

@@ -79,9 +79,9 @@ class Arm(World, checks.Final):
             radius=checks.real("radius", self.radius, 1e-3, 0.2),
             fps=checks.integer("fps", self.fps, at_least=1, at_most=2**31))
         if not 2 <= len(self.lengths) <= 3:
-            raise ValueError(f"lengths is {self.lengths!r}, allowed are two or three, one for each link")
+            raise checks.error("lengths", "two or three numbers, one for each link", self.lengths)
         if self.things == 0:
-            raise ValueError("targets and obstacles are 0, allowed are one or more together")
+            raise ValueError("targets and obstacles must be one or more together, but are 0")
 
     @property
     def actions(self):

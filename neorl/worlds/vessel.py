@@ -94,7 +94,7 @@ class Vessel(World, checks.Final):
                       current=tuple(checks.real("current", each, -self.speed, self.speed)
                                     for each in checks.several("current", self.current)))
         if len(self.current) != 2:
-            raise ValueError(f"current is {self.current!r}, allowed are (x, y)")
+            raise checks.error("current", "(x, y)", self.current)
 
     @property
     def dynamics(self) -> Dynamics:
@@ -115,7 +115,7 @@ class Vessel(World, checks.Final):
         """Raise ValueError unless a state fits this world, is finite, and has a heading of length 1."""
         super().check_state(state)
         if not abs(np.linalg.norm(state.heading) - 1.0) < 1e-6:
-            raise ValueError(f"state.heading is {checks.shown(state.heading)}, allowed are vectors of length 1")
+            raise checks.error("state.heading", "a vector of length 1", state.heading)
 
 
 @kernel

@@ -89,7 +89,7 @@ class WaterMaze(World, checks.Final):
             fps=checks.integer("fps", self.fps, at_least=1, at_most=2**31))
         if not 1 <= len(self.places) <= 1_024 or any(
                 len(each) != 2 or (each[0] - 0.5)**2 + (each[1] - 0.5)**2 > 0.25 for each in self.places):
-            raise ValueError(f"places is {checks.shown(self.places)}, allowed are one to 1024, each (x, y) in the pool")
+            raise checks.error("places", "one to 1024 places (x, y) in the pool", self.places)
 
     @property
     def dynamics(self) -> Dynamics:
@@ -118,7 +118,7 @@ class WaterMaze(World, checks.Final):
         """Raise ValueError unless a state fits this world, is finite, and its trial has begun."""
         super().check_state(state)
         if not state.trial[0] >= 1:
-            raise ValueError(f"state.trial is {checks.shown(state.trial)}, allowed are integers ≥ 1")
+            raise checks.error("state.trial", "an integer of at least 1", state.trial)
 
 
 @kernel

@@ -80,7 +80,7 @@ class WaterWorld(World, checks.Final):
     def __post_init__(self):
         checks.assign(self, width=checks.integer("width", self.width, at_least=1, at_most=2**31))
         if self.radius < 1:
-            raise ValueError(f"width is {self.width}, allowed are 11 pixels or more: a creep's radius is 4.7 % of it")
+            raise checks.error("width", "11 pixels or more, since a creep's radius is 4.7 % of it", self.width)
         checks.assign(self, n_creeps=checks.integer("n_creeps", self.n_creeps, at_least=1, at_most=2**20),
                      fps=checks.integer("fps", self.fps, at_least=1, at_most=2**31),
                      win_reward=checks.real("win_reward", self.win_reward, -1e30, 1e30),
@@ -116,9 +116,9 @@ class WaterWorld(World, checks.Final):
         """Raise ValueError unless a state fits this world and is finite."""
         super().check_state(state)
         if not np.all(np.abs(np.linalg.norm(state.direction, axis=1) - 1.0) < 1e-6):
-            raise ValueError(f"state.direction is {checks.shown(state.direction)}, allowed are vectors of length 1")
+            raise checks.error("state.direction", "vectors of length 1", state.direction)
         if not np.all((0.0 <= state.jitter) & (state.jitter <= 1.0)):
-            raise ValueError(f"state.jitter is {checks.shown(state.jitter)}, allowed are numbers from 0 to 1")
+            raise checks.error("state.jitter", "numbers from 0 to 1", state.jitter)
 
 
 @kernel

@@ -66,7 +66,7 @@ def test_the_state_of_widgets_that_a_page_does_not_show_is_dropped(tmp_path):
 
 @pytest.mark.parametrize("models", [[], ["one", "four"]])
 def test_a_named_cell_shows_one_widget(tmp_path, models):
-    message = f"cell of widget first shows {len(models)} widgets, allowed is 1"
+    message = f"cell of widget first must show one widget, but shows {len(models)}"
     with pytest.raises(ValueError, match=message):
         excerpts.save_widgets(page_of_widgets(("first", models)), tmp_path)
 

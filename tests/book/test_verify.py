@@ -85,4 +85,4 @@ def test_conditions_of_a_world_that_has_changed_are_counted_and_skipped(tmp_path
 
 def test_an_empty_cache_and_an_empty_sample_are_refused():
     assert "holds no condition that was computed with the present source: make book first" in verify().stderr
-    assert "--sample is 0, allowed are integers ≥ 1" in verify("--sample", "0").stderr
+    assert "--sample must be an integer of at least 1, but is 0" in verify("--sample", "0").stderr

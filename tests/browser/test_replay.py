@@ -42,16 +42,16 @@ def test_a_recording_starts_at_the_current_step_of_the_run():
 
 @pytest.mark.parametrize("steps", [0, -1, 2.5])
 def test_a_recording_of_no_steps_is_refused(steps):
-    with pytest.raises(ValueError, match=f"steps is {steps}, allowed are integers ≥ 1"):
+    with pytest.raises(ValueError, match=f"steps must be an integer of at least 1, but is {steps}"):
         record("none", Run(AGENT, TANK), steps)
 
 
 def test_recordings_that_do_not_go_together_are_refused(recordings):
     longer = record("longer", Run(AGENT, TANK), 101)
     for wrong in ([], [recordings[0], longer]):
-        with pytest.raises(ValueError, match="recordings are of .* steps, allowed are one or more of the same length"):
+        with pytest.raises(ValueError, match="recordings must be one or more, of the same length and steps per secon"):
             Replay(wrong)
-    with pytest.raises(ValueError, match="recordings is 'first', allowed is a Recording"):
+    with pytest.raises(ValueError, match="recordings must be a Recording, but is 'first'"):
         Replay(["first"])
 
 

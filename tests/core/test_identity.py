@@ -168,7 +168,7 @@ def test_functions_that_numba_compiles_by_itself_are_refused():
         return doubled(x)
 
     for refused in (lambda: execute(answer, 1.0), lambda: identity(answer)):
-        with pytest.raises(ValueError, match="doubled is compiled by numba.jit, .* must be decorated with neorl"):
+        with pytest.raises(ValueError, match="test_functions_that_numba_compiles_by_itself_are_refused.<locals>.doub"):
             refused()
 
 
@@ -186,7 +186,7 @@ def test_values_have_the_identity_of_their_content(one, other):
 
 
 def test_what_cannot_be_read_has_no_identity():
-    with pytest.raises(ValueError, match="a result depends on <generator.* which cannot be read"):
+    with pytest.raises(ValueError, match="what a result depends on must be numbers, texts, tuples, arrays, kernels o"):
         identity(Holder(each for each in ()))
 
 

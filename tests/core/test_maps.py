@@ -263,9 +263,9 @@ def test_the_cells_of_a_run_are_those_of_the_public_encoding(modality):
 
 
 @pytest.mark.parametrize("arguments, message", [
-    ((0,), "resolution is 0, allowed are integers from 1 to 2147483647"),
-    ((2.5,), "resolution is 2.5"), ((True,), "resolution is True"),
-    ((3, (0.0, 1.0)), r"modality is \(0.0, 1.0\), allowed is a Modality"),
+    ((0,), "resolution must be an integer from 1 to 2147483647, but is 0"),
+    ((2.5,), "resolution must be .*, but is 2.5"), ((True,), "resolution must be .*, but is True"),
+    ((3, (0.0, 1.0)), r"modality must be a Modality, but is \(0.0, 1.0\)"),
 ])
 def test_a_bad_map_is_refused(arguments, message):
     with pytest.raises(ValueError, match=message):
@@ -273,13 +273,13 @@ def test_a_bad_map_is_refused(arguments, message):
 
 
 @pytest.mark.parametrize("modality, points, message", [
-    (PLACE_CELL, [np.nan, 0.5], "points is .*nan.*, allowed are finite numbers"),
-    (BOUNDARY_VECTOR_CELL, [0.5, np.inf], "points is .*inf.*, allowed are finite numbers"),
-    (HEAD_DIRECTION_CELL, [[-np.inf]], "points is .*, allowed are finite numbers"),
-    (PLACE_CELL, [0.1, 0.2, 0.3], r"points has the shape \(3,\), allowed are \(…, 2\): x, y"),
-    (CARTESIAN_OBJECT_VECTOR_CELL, [[0.1], [0.2]], r"points has the shape \(2, 1\)"),
-    (SPEED_CELL, 0.5, r"points has the shape \(\), allowed are \(…, 1\): speed"),
-    (HEAD_DIRECTION_CELL, [0.5, 0.5], r"points has the shape \(2,\)"),
+    (PLACE_CELL, [np.nan, 0.5], r"points must be finite numbers from -1.79769e\+308 to 1.79769e\+308, but is array\("),
+    (BOUNDARY_VECTOR_CELL, [0.5, np.inf], r"points must be finite numbers from -1.79769e\+308 to 1.79769e\+308, but i"),
+    (HEAD_DIRECTION_CELL, [[-np.inf]], r"points must be finite numbers from -1.79769e\+308 to 1.79769e\+308, but is a"),
+    (PLACE_CELL, [0.1, 0.2, 0.3], r"points must have the shape \(…, 2\), for x, y, but has \(3,\)"),
+    (CARTESIAN_OBJECT_VECTOR_CELL, [[0.1], [0.2]], r"points must have the shape \(…, 2\), for x, y, but has \(2, 1\)"),
+    (SPEED_CELL, 0.5, r"points must have the shape \(…, 1\), for speed, but has \(\)"),
+    (HEAD_DIRECTION_CELL, [0.5, 0.5], r"points must have the shape \(…, 1\), for direction, but has \(2,\)"),
 ])
 def test_points_of_another_space_are_refused(modality, points, message):
     with pytest.raises(ValueError, match=message):

@@ -65,7 +65,7 @@ def test_a_cold_softmax_is_greedy_and_a_hot_one_is_random():
 
 @pytest.mark.parametrize("temperature", [0, 0.0, -1.0, math.nan, math.inf, "hot"])
 def test_a_bad_temperature_is_refused(temperature):
-    with pytest.raises(ValueError, match="temperature is .*, allowed are"):
+    with pytest.raises(ValueError, match="temperature must be .*, but is .*"):
         softmax(temperature)
 
 

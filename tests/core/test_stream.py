@@ -18,7 +18,7 @@ def test_every_draw_equals_that_of_numpy(seed, spawn_key):
 
 
 def test_a_seed_sequence_with_another_pool_is_refused():
-    with pytest.raises(ValueError, match="pool_size of seed_sequence is 8, allowed is 4"):
+    with pytest.raises(ValueError, match="pool_size of seed_sequence must be 4, but is 8"):
         new_stream(np.random.SeedSequence(5, pool_size=8))
 
 

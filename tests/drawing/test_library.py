@@ -113,7 +113,7 @@ def test_runs_of_different_lengths_are_drawn_to_scale(draw):
 
 
 def test_a_sum_of_runs_of_different_lengths_is_refused():
-    with pytest.raises(ValueError, match="total has results of 3 × 1200 s, 3 × 120 s, allowed are .* all of as many"):
+    with pytest.raises(ValueError, match="results of total must be one or more, all of as many runs and seconds, but"):
         drawing.draw_proficiency({"a": made_up(1)}, total=("sum", [made_up(20), made_up(2)]))
 
 
@@ -145,26 +145,27 @@ def test_a_curve_with_gaps_is_named_where_it_ends():
 
 
 @pytest.mark.parametrize("draw, message", [
-    (lambda: drawing.draw_curves([0, 1], {}), r"curves is \{\}, allowed is a dict with one entry or more, by name"),
-    (lambda: drawing.draw_proficiency({}), r"results is \{\}, allowed is a dict"),
-    (lambda: drawing.draw_accumulated({}), r"results is \{\}"), (lambda: drawing.draw_smoothed({}), r"results is \{\}"),
-    (lambda: drawing.draw_sweep([1], {}), r"estimates_by_name is \{\}"),
-    (lambda: drawing.draw_networks({}), r"agents is \{\}"),
-    (lambda: drawing.draw_proficiency(made_up(1)), "results is of type Result, allowed is a dict"),
-    (lambda: drawing.draw_proficiency({"N2": 5}), r"results\['N2'\] is 5, allowed is a Result"),
-    (lambda: drawing.draw_proficiency({"N2": made_up(1)}, points=0), "points is 0, allowed are integers ≥ 1"),
-    (lambda: drawing.draw_smoothed({"N2": made_up(0.1)}), r"results\['N2'\] has 30 bins, allowed are more than 40"),
+    (lambda: drawing.draw_curves([0, 1], {}), r"curves must be a dict of one entry or more, by name, but is \{\}"),
+    (lambda: drawing.draw_proficiency({}), r"results must be a dict of one entry or more, by name, but is \{\}"),
+    (lambda: drawing.draw_accumulated({}), r"results must be .*, but is \{\}"),
+    (lambda: drawing.draw_smoothed({}), r"results must be .*, but is \{\}"),
+    (lambda: drawing.draw_sweep([1], {}), r"estimates_by_name must be .*, but is \{\}"),
+    (lambda: drawing.draw_networks({}), r"agents must be .*, but is \{\}"),
+    (lambda: drawing.draw_proficiency(made_up(1)), "results must be a dict of one entry or more, by name, but is of "),
+    (lambda: drawing.draw_proficiency({"N2": 5}), r"results\['N2'\] must be a Result, but is 5"),
+    (lambda: drawing.draw_proficiency({"N2": made_up(1)}, points=0), "points must be an integer of at least 1, but i"),
+    (lambda: drawing.draw_smoothed({"N2": made_up(0.1)}), r"results\['N2'\] must have more than 40 bins, but has 30; "),
     (lambda: drawing.draw_curves(np.arange(4), {"a": np.ones((3, 5))}),
-     r"curves\['a'\] has the shape \(3, 5\), allowed are \(runs, points\) over xs, which has the shape \(4,\)"),
-    (lambda: drawing.draw_curves(np.arange(4), {"a": np.ones(4)}), r"curves\['a'\] has the shape \(4,\)"),
-    (lambda: drawing.draw_curves(np.arange(2), {"a": np.full((1, 2), np.nan)}), r"curves\['a'\] is nowhere finite"),
-    (lambda: drawing.draw_sweep([1, 2, 3], ESTIMATES), r"estimates_by_name\['D'\] has the shape \(2, 3\)"),
-    (lambda: drawing.draw_curves([0, 1], {"a": np.ones((1, 2))}, ax=5), "ax is 5, allowed is an Axes"),
-    (lambda: drawing.draw_networks({"D": network_d()}, figure="1"), "figure is '1', allowed is a Figure"),
-    (lambda: drawing.draw_network("D"), "agent.* is 'D', allowed is an Agent"),
-    (lambda: drawing.draw_tank(Arena(), Arena().reset(0)), "world is Arena.*, allowed is a WaterWorld"),
-    (lambda: drawing.draw_world(TANK, Arena().reset(0)), "(?s)state is .*, allowed is a WaterWorldState"),
-    (lambda: drawing.draw_receptive_fields(5, TANK, TANK.reset(0)), "nres_map is 5, allowed is a NresMap"),
+     r"curves\['a'\] must have the shape \(runs, points\), over xs of the shape \(4,\), but has \(3, 5\)"),
+    (lambda: drawing.draw_curves(np.arange(4), {"a": np.ones(4)}), r"curves\['a'\] must have the shape \(runs, points"),
+    (lambda: drawing.draw_curves(np.arange(2), {"a": np.full((1, 2), np.nan)}), r"curves\['a'\] must have a finite nu"),
+    (lambda: drawing.draw_sweep([1, 2, 3], ESTIMATES), r"estimates_by_name\['D'\] must have an Estimate for each of x"),
+    (lambda: drawing.draw_curves([0, 1], {"a": np.ones((1, 2))}, ax=5), "ax must be an Axes, but is 5"),
+    (lambda: drawing.draw_networks({"D": network_d()}, figure="1"), "figure must be a Figure, but is '1'"),
+    (lambda: drawing.draw_network("D"), r"agents\[''\] must be an Agent, but is 'D'"),
+    (lambda: drawing.draw_tank(Arena(), Arena().reset(0)), r"world must be a WaterWorld, but is Arena\(places=\(\('pl"),
+    (lambda: drawing.draw_world(TANK, Arena().reset(0)), r"state must be a WaterWorldState, but is ArenaState\(scene="),
+    (lambda: drawing.draw_receptive_fields(5, TANK, TANK.reset(0)), "nres_map must be a NresMap, but is 5"),
 ])
 def test_what_cannot_be_drawn_is_refused(draw, message):
     with pytest.raises(ValueError, match=message):

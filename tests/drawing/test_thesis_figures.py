@@ -54,9 +54,9 @@ def test_the_name_of_a_number_does_not_cross_the_vertical_axis():
 
 
 @pytest.mark.parametrize("thesis, readings, message", [
-    ({}, {}, "thesis is {}"),
-    (THESIS, {"calibrated": {"both": Estimate(1, 1, 1)}}, r"readings\['calibrated'\] has both, allowed are the labels"),
-    (THESIS, {str(n): FOUND["calibrated"] for n in range(8)}, "readings has 8, allowed are at most 7"),
+    ({}, {}, "thesis must be .*, but is {}"),
+    (THESIS, {"calibrated": {"both": Estimate(1, 1, 1)}}, r"readings\['calibrated'\] must have the labels of thesis, "),
+    (THESIS, {str(n): FOUND["calibrated"] for n in range(8)}, "readings must be at most 7, but are 8"),
 ])
 def test_what_cannot_be_compared_is_refused(thesis, readings, message):
     with pytest.raises(ValueError, match=message):
@@ -99,5 +99,5 @@ def test_the_name_of_a_level_covers_no_curve_where_there_is_room(curve):
 
 
 def test_a_level_that_is_no_number_is_refused():
-    with pytest.raises(ValueError, match=r"levels\['thesis'\] is nan"):
+    with pytest.raises(ValueError, match=r"levels\['thesis'\] must be .*, but is nan"):
         mark_levels(plt.figure().add_subplot(), {"thesis": np.nan})

@@ -51,12 +51,12 @@ def test_arrows_of_a_polar_map_lie_in_its_sectors_and_point_where_values_pull():
 @pytest.mark.parametrize("modality", [BORDER_CELL, SPEED_CELL, Modality("", (*PLACE_CELL.axes,
                                                                             *HEAD_DIRECTION_CELL.axes))])
 def test_maps_of_other_spaces_are_refused(modality):
-    with pytest.raises(ValueError, match="nres_map is of .*s, allowed are maps of the components x and y"):
+    with pytest.raises(ValueError, match="nres_map must be of the components x and y of one vector, of its length an"):
         drawing.draw_cells(NresMap(2, modality))
 
 
 def test_a_map_of_more_cells_than_can_be_seen_is_refused():
-    with pytest.raises(ValueError, match="nres_map has 1000000 cells, allowed to be drawn are 20000 or fewer"):
+    with pytest.raises(ValueError, match="nres_map must have 20000 cells or fewer to be drawn, but has 1000000"):
         drawing.draw_cells(NresMap(1_000))
 
 
@@ -80,10 +80,11 @@ def test_a_value_map_is_the_more_opaque_the_more_the_best_action_is_worth(modali
 
 
 @pytest.mark.parametrize("change, message", [
-    ({"run": 5}, "run is 5, allowed is an Individual"), ({"goals": [(0.5,)]}, "points has the shape"),
-    ({"valences": [1.0, 2.0]}, "valences has 2 values, allowed is one for each of 1 goals"),
-    ({"goals": np.empty((0, 2))}, "of 0 goals, of one or more"), ({"index": 3}, "index is 3"),
-    ({"valences": [np.nan]}, "valences is nan"),
+    ({"run": 5}, "run must be an Individual, but is 5"), ({"goals": [(0.5,)]}, r"points must have the shape \(…, 2\),"),
+    ({"valences": [1.0, 2.0]}, "valences must have a value for each of the goals, one or more, but has 2 for 1"),
+    ({"goals": np.empty((0, 2))}, "valences must have a value for each of the goals, o"),
+    ({"index": 3}, "index must be .*, but is 3"),
+    ({"valences": [np.nan]}, "valences must be .*, but is nan"),
 ])
 def test_a_value_map_with_bad_arguments_is_refused(change, message):
     given = {"run": Run(place_cells([3]), TANK), "goals": [(0.5, 0.5)]} | change
@@ -156,13 +157,15 @@ def test_a_rate_map_is_drawn_as_it_is_with_a_scale():
 
 
 @pytest.mark.parametrize("look, message", [
-    (lambda: drawing.track(5, 1), "run is 5, allowed is a Run"),
-    (lambda: drawing.track(Run(place_cells([2]), TANK), 0), "seconds is 0, allowed are finite numbers from 1e-30"),
-    (lambda: drawing.track(Run(place_cells([2]), TANK), 1e9), r"seconds is 1000000000.0, allowed are at most .* looks"),
-    (lambda: drawing.track(Run(place_cells([2]), TANK), 1, index=1), "index is 1"),
-    (lambda: drawing.rate_map(np.ones(3)), "track is .*, allowed is a Track"),
-    (lambda: drawing.rate_map(drawing.Track(np.ones((1, 2)), np.ones((1, 1), int), 1.0), bins=0), "bins is 0"),
-    (lambda: drawing.rate_map(drawing.Track(np.ones((1, 2)), np.ones((1, 1), int), 1.0), cell=-1), "cell is -1"),
+    (lambda: drawing.track(5, 1), "run must be a Run, but is 5"),
+    (lambda: drawing.track(Run(place_cells([2]), TANK), 0), r"seconds must be a finite number from 1e-30 to 1e\+30, b"),
+    (lambda: drawing.track(Run(place_cells([2]), TANK), 1e9), "seconds must be so long that the run has at most 1000"),
+    (lambda: drawing.track(Run(place_cells([2]), TANK), 1, index=1), "index must be .*, but is 1"),
+    (lambda: drawing.rate_map(np.ones(3)), r"track must be a Track, but is array\(\[1., 1., 1.\]\)"),
+    (lambda: drawing.rate_map(drawing.Track(np.ones((1, 2)), np.ones((1, 1), int), 1.0), bins=0),
+     "bins must be .*, but is 0"),
+    (lambda: drawing.rate_map(drawing.Track(np.ones((1, 2)), np.ones((1, 1), int), 1.0), cell=-1),
+     "cell must be .*, but is -1"),
 ])
 def test_tracks_and_rate_maps_with_bad_arguments_are_refused(look, message):
     with pytest.raises(ValueError, match=message):

@@ -25,7 +25,7 @@ def test_no_dash_stands_before_a_number_that_has_no_verdict():
 
 @pytest.mark.parametrize("function", [marks.symbol, marks.leads, marks.html])
 def test_anything_else_is_refused(function):
-    with pytest.raises(ValueError, match="verdict is 'perhaps', allowed are"):
+    with pytest.raises(ValueError, match="verdict must be 'reproduced', 'partly', 'not reproduced', 'not testable', "):
         function("perhaps")
 
 

@@ -101,8 +101,10 @@ def test_without_the_variable_the_cache_is_the_users(monkeypatch):
 
 
 @pytest.mark.parametrize("change, message", [
-    ({"agent": "PC"}, "agent is 'PC'"), ({"world": 3}, "world is 3"), ({"steps": 0}, "steps is 0"),
-    ({"runs": -1}, "runs is -1"), ({"seed": 0.5}, "seed is 0.5"), ({"changes": [(600, AGENT)]}, "step of a change"),
+    ({"agent": "PC"}, "agent must be .*, but is 'PC'"), ({"world": 3}, "world must be .*, but is 3"),
+    ({"steps": 0}, "steps must be .*, but is 0"),
+    ({"runs": -1}, "runs must be .*, but is -1"), ({"seed": 0.5}, "seed must be .*, but is 0.5"),
+    ({"changes": [(600, AGENT)]}, "step of a change"),
 ])
 def test_a_condition_that_could_not_run_is_refused(change, message):
     with pytest.raises(ValueError, match=message):

@@ -96,21 +96,22 @@ def as_zip(content):
 ])
 def test_a_truncated_or_foreign_file_is_refused_by_name(saved, damage):
     saved.write_bytes(damage(saved.read_bytes()))
-    with pytest.raises(ValueError, match=f"{saved} is damaged, or was not written by neorl"):
+    with pytest.raises(ValueError, match=f"{saved} must be a file of neorl's, but is damaged"):
         Result.load(saved)
 
 
 @pytest.mark.parametrize("forge, message", [
-    (lambda about, kept: about.update(format=2), "is of format 2, which a newer neorl has written"),
-    (lambda about, kept: about.update({"is": "Run"}), "holds a Run of format 1.*allowed is a Result"),
-    (lambda about, kept: about.pop("agent"), ": agent is None"),
-    (lambda about, kept: about.update(steps=-5), ": steps is -5"),
-    (lambda about, kept: about.update(changes=[[600, about["agent"]]]), ": changes is .* allowed are pairs in order"),
-    (lambda about, kept: about.update(changes=[[5]]), r": changes\[0\] is \(5,\)"),
-    (lambda about, kept: about.update(runs=10**12), r"float32 \(3, 51\) for rewards, allowed is .* \(10{12}, 51\)"),
-    (lambda about, kept: about["agent"].update(colour="red"), ": agent.colour is unknown"),
-    (lambda about, kept: about["world"].update({"is": "no_such_module:Cave"}), ": world.is is 'no_such_module:Cave'"),
-    (lambda about, kept: about.update(steps=600), r"has float32 \(3, 51\) for rewards, allowed is float32 \(3, 60\)"),
+    (lambda about, kept: about.update(format=2), "must be of format 1, but is of 2; a newer neorl"),
+    (lambda about, kept: about.update({"is": "Run"}), "must hold a Result of format 1, but holds a Run"),
+    (lambda about, kept: about.pop("agent"), ": agent must be an Agent, but is None"),
+    (lambda about, kept: about.update(steps=-5), ": steps must be .*, but is -5"),
+    (lambda about, kept: about.update(changes=[[600, about["agent"]]]), ": changes must be pairs in order"),
+    (lambda about, kept: about.update(changes=[[5]]), r": changes\[0\] must be a tuple, but is \(5,\)"),
+    (lambda about, kept: about.update(runs=10**12), r"must be float32 \(10{12}, 51\), but is float32 \(3, 51\)"),
+    (lambda about, kept: about["agent"].update(colour="red"), ": a field of agent must be .*, but is 'colour'"),
+    (lambda about, kept: about["world"].update({"is": "no_such_module:Cave"}),
+     ": world.is must be .*, but is 'no_such_module:Cave'"),
+    (lambda about, kept: about.update(steps=600), r": rewards must be float32 \(3, 60\), but is float32 \(3, 51\)"),
     (lambda about, kept: kept["hits"].fill(1), "is damaged"), (lambda about, kept: kept.pop("rewards"), "is damaged"),
 ])
 def test_a_forged_file_is_refused_by_name(saved, forge, message):
@@ -122,7 +123,7 @@ def test_a_forged_file_is_refused_by_name(saved, forge, message):
 def test_other_files_are_refused(saved, tmp_path):
     with pytest.raises(OSError, match="nowhere"):
         Result.load(tmp_path / "nowhere.npz")
-    with pytest.raises(ValueError, match="holds a Result of format 1.*allowed is a Run"):
+    with pytest.raises(ValueError, match="must hold a Run of format 1, but holds a Result"):
         Run.load(saved)
 
 
@@ -134,6 +135,6 @@ def test_an_agent_with_a_local_kernel_is_not_saved_but_makes_a_frame(tmp_path):
     result = made_up(place_cells([2], policy=Policy(choose=of_no_module)), WaterWorld())
     assert len(result.to_frame())
     for write in (result.to_xarray, lambda: result.save(tmp_path / "result.npz")):
-        with pytest.raises(ValueError, match="^agent.policy.choose is .* cannot be saved"):
+        with pytest.raises(ValueError, match="^agent.policy.choose must be a kernel that a module defines or that a n"):
             write()
     assert not list(tmp_path.iterdir())

@@ -46,10 +46,13 @@ def test_a_table_that_names_what_it_is_takes_the_place_of_the_other(tmp_path):
 
 
 @pytest.mark.parametrize("data, message", [
-    ({"variations": {}}, "variations is {}"), ({"variations": [3]}, r"variations is \[3\]"),
-    ({"variations": {"a": 3}}, "variations.'a' is 3"), ({"variations": {"../a": {}}}, "variations.'../a' is {}"),
-    ({"variations": {"a": {"agent": {"learning": {"memory": -1}}}}}, "variations.a: agent.learning.memory is -1"),
-    ({"stepps": 3}, "stepps is unknown, did you mean 'steps'"),
+    ({"variations": {}}, "variations must be .*, but is {}"),
+    ({"variations": [3]}, r"variations must be .*, but is \[3\]"),
+    ({"variations": {"a": 3}}, "variations.'a' must be .*, but is 3"),
+    ({"variations": {"../a": {}}}, "variations.'../a' must be .*, but is {}"),
+    ({"variations": {"a": {"agent": {"learning": {"memory": -1}}}}},
+     "variations.a: agent.learning.memory must be .*, but is -1"),
+    ({"stepps": 3}, "a field of the data must be .*, but is 'stepps'; did you mean 'steps'"),
 ])
 def test_what_is_wrong_is_named_with_the_file(tmp_path, data, message):
     path = written(tmp_path, BASE | data)

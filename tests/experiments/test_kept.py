@@ -137,6 +137,6 @@ def test_an_invalid_note_is_ignored(folder, about):
 
 
 def test_another_choice_is_refused():
-    with pytest.raises(ValueError, match="which is 'some', allowed are 'all', 'compiled', 'older'"):
+    with pytest.raises(ValueError, match="which must be 'all', 'compiled' or 'older', but is 'some'"):
         kept.clear("some")
     assert kept.kept() == []

@@ -35,9 +35,9 @@ def test_the_parts_of_a_run_cannot_be_replaced_by_those_of_another(run, name):
 
 
 def test_a_tank_with_other_creeps_is_refused_and_one_with_as_many_is_copied(run):
-    with pytest.raises(ValueError, match=r"state.scene.things is float64 \(9, 2\), allowed is float64 \(4, 2\)"):
+    with pytest.raises(ValueError, match=r"state.scene.things must be float64 \(4, 2\), contiguous and writeable, but"):
         run.world_state = WaterWorld(n_creeps=9).reset(0)
-    with pytest.raises(ValueError, match="state is 5, allowed is a WaterWorldState"):
+    with pytest.raises(ValueError, match="state must be a WaterWorldState, but is 5"):
         run.world_state = 5
     tank = TANK.reset(7)
     run.world_state = tank
@@ -48,7 +48,7 @@ def test_a_tank_with_other_creeps_is_refused_and_one_with_as_many_is_copied(run)
 
 def test_a_creep_without_a_direction_is_refused(run):
     run.world_state.direction[2] = 0
-    with pytest.raises(ValueError, match="(?s)state.direction is .* allowed are vectors of length 1"):
+    with pytest.raises(ValueError, match=r"state.direction must be vectors of length 1, but is array\(\[\[-0.70710678"):
         run.advance(1)
 
 
@@ -69,13 +69,13 @@ def test_the_values_of_a_run_are_read_only(run):
 
 @pytest.mark.parametrize("index", [-1, -2, 4, 0.0, "PC"])
 def test_there_is_no_map_before_the_first_or_after_the_last(run, index):
-    with pytest.raises(ValueError, match=f"index is {index!r}, allowed are integers from 0 to 3"):
+    with pytest.raises(ValueError, match=f"index must be an integer from 0 to 3, but is {index!r}"):
         run.q(index)
 
 
 @pytest.mark.parametrize("make", [lambda: NresMap(4 * 10**9), lambda: place_cells([65_536]), lambda: NresMap(46_341)])
 def test_a_map_of_more_cells_than_can_be_counted_is_refused(make):
-    with pytest.raises(ValueError, match="resolution is .*, allowed are .* 2147483647"):
+    with pytest.raises(ValueError, match="resolution must be .*, but is .*"):
         make()
 
 
@@ -101,7 +101,7 @@ def test_learn_and_superpose_take_the_cells_of_a_map():
     lambda q: learn(q, 0, 1.0, [0] * 4), lambda q: superpose(q, 0, 1, [1.0]), lambda q: superpose(q, 0, [1], 1.0),
 ])
 def test_what_is_no_table_of_values_or_no_cell_is_refused(bad):
-    with pytest.raises(ValueError, match="allowed (is|are)"):
+    with pytest.raises(ValueError, match="must be "):
         bad(np.zeros((4, 4, 4), np.float32))
 
 
@@ -120,7 +120,7 @@ def test_hits_are_counted_as_far_as_there_is_room_for_their_number(run):
 
 @pytest.mark.parametrize("rewards", [np.zeros(200, np.float32)[::2], [0.0] * 100, np.zeros((100, 1), np.float32)])
 def test_bins_that_the_kernel_cannot_take_are_refused(run, rewards):
-    with pytest.raises(ValueError, match="rewards is .* allowed is float32 from"):
+    with pytest.raises(ValueError, match=r"rewards must be float32 from \(100,\) on, contiguous and writeable, but is"):
         run.advance(1_000, rewards)
 
 
@@ -174,7 +174,7 @@ def test_a_number_of_another_type_compiles_nothing_again():
 @pytest.mark.parametrize("make", [lambda: Learning(terminal=1), lambda: Learning(bootstrap=0.0),
                                   lambda: Desire("green", "PC", 1.0, signed=1), lambda: Learning(memory=np.array([1]))])
 def test_what_is_nearly_a_flag_or_a_number_is_refused(make):
-    with pytest.raises(ValueError, match="allowed are"):
+    with pytest.raises(ValueError, match="must be "):
         make()
 
 

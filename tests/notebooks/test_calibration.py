@@ -80,7 +80,7 @@ def test_the_error_is_that_of_the_mean_over_runs():
     assert found["B3 both"].value == pytest.approx(0.25, rel=1e-4)
     assert found["B3 both"].error == pytest.approx(rates.std(ddof=1) / 2, rel=1e-3)
     assert found["B1 level"] == pytest.approx((1, 0), abs=1e-4)  # runs with the same seed are paired
-    with pytest.raises(ValueError, match="runs is 1, allowed are integers ≥ 2"):
+    with pytest.raises(ValueError, match="runs must be an integer of at least 2, but is 1"):
         calibration_targets.measure("both", {key: replace(each, runs=1, rewards=each.rewards[:1])
                                              for key, each in results.items()})
 
@@ -254,7 +254,8 @@ def test_a_search_goes_on_from_a_table(small):
 
 def test_no_time_runs_nothing_and_bad_arguments_are_refused(small):
     assert calibration.calibrate(0) == []
-    for arguments, words in [((-1,), "minutes is -1"), ((1, (), None, -1), "seed is -1"),
-                             ((1, (), None, 0, 1), "runs is 1")]:
+    for arguments, words in [((-1,), "minutes must be .*, but is -1"),
+    ((1, (), None, -1), "seed must be .*, but is -1"),
+                             ((1, (), None, 0, 1), "runs must be .*, but is 1")]:
         with pytest.raises(ValueError, match=words):
             calibration.calibrate(*arguments)

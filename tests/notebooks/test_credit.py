@@ -117,8 +117,9 @@ def test_roles_are_means_over_both_exits():
 
 
 @pytest.mark.parametrize("change, message", [
-    ({"effort": 0}, "effort is 0"), ({"delay": -1}, "delay is -1"), ({"hold": 0.5}, "hold is 0.5"),
-    ({"light": 1.5}, "light is 1.5"), ({"bell": -0.1}, "bell is -0.1"),
+    ({"effort": 0}, "effort must be .*, but is 0"), ({"delay": -1}, "delay must be .*, but is -1"),
+    ({"hold": 0.5}, "hold must be .*, but is 0.5"),
+    ({"light": 1.5}, "light must be .*, but is 1.5"), ({"bell": -0.1}, "bell must be .*, but is -0.1"),
 ])
 def test_a_bad_chamber_is_refused(change, message):
     with pytest.raises(ValueError, match=message):
@@ -126,10 +127,11 @@ def test_a_bad_chamber_is_refused(change, message):
 
 
 @pytest.mark.parametrize("change, message", [
-    ({"chamber": None}, "chamber is None"),
+    ({"chamber": None}, "chamber must be .*, but is None"),
     ({"learning": replace(INVERSION, credit="activity")},
-     "credit is 'activity', allowed are 'share', 'happened', 'count', 'last'"),
-    ({"visits": 0}, "visits is 0"), ({"runs": 0}, "runs is 0"), ({"seed": -1}, "seed is -1"),
+     "credit must be 'share', 'happened', 'count' or 'last', but is 'activity'"),
+    ({"visits": 0}, "visits must be .*, but is 0"), ({"runs": 0}, "runs must be .*, but is 0"),
+    ({"seed": -1}, "seed must be .*, but is -1"),
 ])
 def test_learning_in_a_chamber_refuses_what_it_cannot_do(change, message):
     with pytest.raises(ValueError, match=message):

@@ -154,14 +154,14 @@ def test_single_learners_earn_the_reported_rewards():
 
 @pytest.mark.parametrize("make, message", [
     (lambda: GridMaze(("S..",)), "rows is .* one S and one G"), (lambda: GridMaze(("SSG",)), "one S and one G"),
-    (lambda: run_ensemble("maze", "Sarsa", steps=100, runs=1), "maze is 'maze', allowed is a GridMaze"),
-    (lambda: run_ensemble(DYNA, "SARSA", steps=100, runs=1), "chooser is 'SARSA', allowed are 'Q-learning', 'Sarsa'"),
-    (lambda: run_ensemble(DYNA, "Sarsa", steps=19, runs=1), "steps is 19"),
-    (lambda: run_ensemble(DYNA, "Sarsa", steps=100, runs=0), "runs is 0"),
-    (lambda: run_ensemble(DYNA, "Sarsa", steps=100, runs=1, seed=-1), "seed is -1"),
-    (lambda: ensembles.agreement("Sarsa"), "rule is 'Sarsa', allowed are 'majority voting', 'rank voting'"),
+    (lambda: run_ensemble("maze", "Sarsa", steps=100, runs=1), "maze must be a GridMaze, but is 'maze'"),
+    (lambda: run_ensemble(DYNA, "SARSA", steps=100, runs=1), "chooser must be 'Q-learning', 'Sarsa', 'actor–critic',"),
+    (lambda: run_ensemble(DYNA, "Sarsa", steps=19, runs=1), "steps must be .*, but is 19"),
+    (lambda: run_ensemble(DYNA, "Sarsa", steps=100, runs=0), "runs must be .*, but is 0"),
+    (lambda: run_ensemble(DYNA, "Sarsa", steps=100, runs=1, seed=-1), "seed must be .*, but is -1"),
+    (lambda: ensembles.agreement("Sarsa"), "rule must be 'majority voting' or 'rank voting', but is 'Sarsa'"),
     (lambda: run_ensemble(DYNA, "Sarsa", steps=100, runs=1, doublings=6),
-     "doublings is 6, allowed are integers from -5 to 5"),
+     "doublings must be an integer from -5 to 5, but is 6"),
 ])
 def test_a_bad_argument_is_refused(make, message):
     with pytest.raises(ValueError, match=message):

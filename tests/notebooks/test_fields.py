@@ -13,5 +13,5 @@ def test_a_field_has_the_superposition_of_every_cell():
     assert field.shape == (9, 4)
     np.testing.assert_allclose(field, q[:, :, 2] - 0.5 * q[:, :, 7], rtol=1e-5, atol=1e-7)
     np.testing.assert_array_equal(field[4], superpose(q, 4, [2, 7], [1.0, -0.5]))
-    with pytest.raises(ValueError, match="valences has 1 values"):
+    with pytest.raises(ValueError, match="valences must have a value for each of the 2 goals, but has 1"):
         superposed_field(q, [2, 7], [1.0])

@@ -31,7 +31,7 @@ def test_one_module_mistakes_places_for_others_and_two_do_not():
 
 
 def test_a_scale_is_positive():
-    with pytest.raises(ValueError, match="scale is 0"):
+    with pytest.raises(ValueError, match="scale must be .*, but is 0"):
         phases((0.5, 0.5), 0)
 
 

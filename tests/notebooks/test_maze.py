@@ -71,8 +71,10 @@ def test_random_mazes_have_as_many_units_and_differ():
 
 
 @pytest.mark.parametrize("change, message", [
-    ({"learner": "rat"}, "learner is 'rat'"), ({"exploration": 2}, "exploration is 2"), ({"trace": -1}, "trace is -1"),
-    ({"learning_rate": "a"}, "learning_rate is 'a'"), ({"discount": 1.1}, "discount is 1.1"),
+    ({"learner": "rat"}, "learner must be .*, but is 'rat'"), ({"exploration": 2}, "exploration must be .*, but is 2"),
+    ({"trace": -1}, "trace must be .*, but is -1"),
+    ({"learning_rate": "a"}, "learning_rate must be .*, but is 'a'"),
+    ({"discount": 1.1}, "discount must be .*, but is 1.1"),
 ])
 def test_a_bad_animal_is_refused(change, message):
     with pytest.raises(ValueError, match=message):
@@ -80,8 +82,9 @@ def test_a_bad_animal_is_refused(change, message):
 
 
 @pytest.mark.parametrize("change, message", [
-    ({"animal": "neoRL"}, "animal is"), ({"maze": "RL"}, "maze is"), ({"runs": 0}, "runs is 0"),
-    ({"seed": -1}, "seed is -1"), ({"first_reward": 0}, "first_reward is 0"),
+    ({"animal": "neoRL"}, "animal must be an Animal, but is"), ({"maze": "RL"}, "maze must be a Maze,"),
+    ({"runs": 0}, "runs must be .*, but is 0"),
+    ({"seed": -1}, "seed must be .*, but is -1"), ({"first_reward": 0}, "first_reward must be .*, but is 0"),
 ])
 def test_a_bad_experiment_is_refused(change, message):
     with pytest.raises(ValueError, match=message):
@@ -226,7 +229,7 @@ def test_every_kind_of_animal_is_compared_and_neorl_is_judged():
 
 @pytest.mark.parametrize("day", [0, DAYS])
 def test_findings_need_a_day_after_the_first_meal(day):
-    with pytest.raises(ValueError, match=f"first_reward is {day}, allowed are integers from 1 to 16"):
+    with pytest.raises(ValueError, match=f"first_reward must be an integer from 1 to 16, but is {day}"):
         findings(dict.fromkeys(GROUPS, flat(1)), day)
 
 

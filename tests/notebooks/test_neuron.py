@@ -145,10 +145,10 @@ def test_a_desire_is_drawn_everywhere_but_in_the_marked_places():
 
 @pytest.mark.parametrize("call, message", [
     (lambda: Neuron(threshold=-70.0), "threshold is -70.0, allowed are potentials above rest and reset"),
-    (lambda: Neuron(time_constant=0.0), "time_constant is 0.0"),
+    (lambda: Neuron(time_constant=0.0), "time_constant must be .*, but is 0.0"),
     (lambda: action_potential(1.0, start=3.0, stop=2.0), "rising times"),
-    (lambda: integrate([np.inf]), "current is .* allowed are finite numbers"),
-    (lambda: synaptic_current([1], np.nan), "weight is nan"),
+    (lambda: integrate([np.inf]), r"current must be finite numbers from -1e\+30 to 1e\+30, but is array\(\[inf\]\)"),
+    (lambda: synaptic_current([1], np.nan), "weight must be .*, but is nan"),
     (lambda: efficacy([1.0], [3.0, 2.0]), "shocks is .* allowed are rising times"),
 ])
 def test_a_bad_argument_is_refused(call, message):

@@ -90,7 +90,7 @@ def test_networks_down_to_control_are_those_of_the_record():
     best = next(row for row in record if row["layers"] == 2)
     assert control.best_networks()["two layers"] == control.control_network(2, control.setting_of(2, best["number"]))
     assert control.earned_by(2, best["number"]) == pytest.approx(best["earned"], abs=2e-3)
-    with pytest.raises(ValueError, match="layers is 4, allowed are 2, 3"):
+    with pytest.raises(ValueError, match="layers must be 2 or 3, but is 4"):
         control.control_network(4, {})
 
 

@@ -39,7 +39,7 @@ def driven():
 
 
 def test_an_arm_of_other_than_two_or_three_links_is_refused():
-    with pytest.raises(ValueError, match="links is 4, allowed are 2, 3"):
+    with pytest.raises(ValueError, match="links must be 2 or 3, but is 4"):
         minds.reacher(4)
 
 

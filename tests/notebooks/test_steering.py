@@ -83,8 +83,10 @@ def test_leads_are_differences_per_second_by_how_long_veterans_have_lived(monkey
     assert found == {0: (0.0, 0.0, 0.0), 6: (2.0, 2.0, 2.0)}
 
 
-@pytest.mark.parametrize("change, message", [({"steps": -1}, "steps is -1"), ({"runs": 0}, "runs is 0"),
-                                             ({"lessons": 0.5}, "steps is 0.5"), ({"seed": -1}, "seed is")])
+@pytest.mark.parametrize("change, message", [({"steps": -1}, "steps must be .*, but is -1"),
+({"runs": 0}, "runs must be .*, but is 0"),
+                                             ({"lessons": 0.5}, "steps must be .*, but is 0.5"),
+                                             ({"seed": -1}, "seed must be an inte")])
 def test_a_bad_argument_of_trials_is_refused(change, message):
     with pytest.raises(ValueError, match=message):
         trials(place_cells([2]), TANK, **{"lessons": 10, "steps": 10, "runs": 1, "seed": 0, **change})

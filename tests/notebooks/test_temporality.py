@@ -56,10 +56,11 @@ def test_the_states_that_are_needed_are_those_that_futures_tell_apart(rule, seed
 
 
 @pytest.mark.parametrize("call, message", [
-    (lambda: temporality.symbols(1, 2), "alphabet is 1"), (lambda: temporality.symbols(2, 0), "memory is 0"),
-    (lambda: temporality.outcomes(2, 2, "product"), "rule is 'product', allowed are 'sum'"),
-    (lambda: temporality.window(2, 3, 4), "length is 4, allowed are integers from 0 to 3"),
-    (lambda: temporality.sticky(CLIFF.next_state, WORTH, 1.5), "stickiness is 1.5"),
+    (lambda: temporality.symbols(1, 2), "alphabet must be .*, but is 1"),
+    (lambda: temporality.symbols(2, 0), "memory must be .*, but is 0"),
+    (lambda: temporality.outcomes(2, 2, "product"), "rule must be 'sum', 'delay', 'table' or 'pause', but is 'produc"),
+    (lambda: temporality.window(2, 3, 4), "length must be an integer from 0 to 3, but is 4"),
+    (lambda: temporality.sticky(CLIFF.next_state, WORTH, 1.5), "stickiness must be .*, but is 1.5"),
 ])
 def test_a_bad_process_is_refused(call, message):
     with pytest.raises(ValueError, match=message):

@@ -247,14 +247,14 @@ def test_both_frames_meet_in_the_point():
 
 
 @pytest.mark.parametrize("call, message", [
-    (lambda: roam(0), "steps is 0"), (lambda: roam(10, step=0.0), "step is 0.0"),
-    (lambda: roam(10, speed=-1.0), "speed is -1.0"),
-    (lambda: in_field(NresMap(2), 4, roam(5)), "cell is 4, allowed are integers from 0 to 3"),
-    (lambda: in_field("map", 0, roam(5)), "allowed is a NresMap"),
-    (lambda: spikes([True], 0.02, inside=-1.0), "inside is -1.0"),
-    (lambda: tuning_curve([1], [0.5], 1.0, 1.0, bins=0), "bins is 0"),
-    (lambda: tuning_curve([1], [0.5], 1.0, 0.0, bins=1), "high is 0.0"),
-    (lambda: egocentric([1.0, 2.0, 3.0], 0.0), "vectors has the shape"),
+    (lambda: roam(0), "steps must be .*, but is 0"), (lambda: roam(10, step=0.0), "step must be .*, but is 0.0"),
+    (lambda: roam(10, speed=-1.0), "speed must be .*, but is -1.0"),
+    (lambda: in_field(NresMap(2), 4, roam(5)), "cell must be an integer from 0 to 3, but is 4"),
+    (lambda: in_field("map", 0, roam(5)), "nres_map must be a NresMap, but is 'map'"),
+    (lambda: spikes([True], 0.02, inside=-1.0), "inside must be .*, but is -1.0"),
+    (lambda: tuning_curve([1], [0.5], 1.0, 1.0, bins=0), "bins must be .*, but is 0"),
+    (lambda: tuning_curve([1], [0.5], 1.0, 0.0, bins=1), "high must be .*, but is 0.0"),
+    (lambda: egocentric([1.0, 2.0, 3.0], 0.0), r"vectors must have the shape \(…, 2\), for north, east, but has \(3,"),
 ])
 def test_a_bad_argument_is_refused(call, message):
     with pytest.raises(ValueError, match=message):

@@ -120,12 +120,15 @@ def test_unit_vectors_are_cosine_and_sine_to_the_last_bits():
 
 
 @pytest.mark.parametrize("arguments, message", [
-    ({"lengths": (1.0,)}, r"lengths is \(1.0,\), allowed are two or three, one for each link"),
-    ({"lengths": (1, 1, 1, 1)}, r"lengths is \(1.0, 1.0, 1.0, 1.0\)"), ({"lengths": 2}, "lengths is 2"),
-    ({"lengths": (1, 0)}, "lengths is 0"), ({"lengths": (1, np.nan)}, "lengths is nan"),
-    ({"targets": -1}, "targets is -1"), ({"targets": 1.5}, "targets is 1.5"), ({"obstacles": 65}, "obstacles is 65"),
-    ({"targets": 0, "obstacles": 0}, "targets and obstacles are 0, allowed are one or more together"),
-    ({"radius": 0}, "radius is 0"), ({"radius": 0.3}, "radius is 0.3"), ({"fps": 0}, "fps is 0"),
+    ({"lengths": (1.0,)}, r"lengths must be two or three numbers, one for each link, but is \(1.0,\)"),
+    ({"lengths": (1, 1, 1, 1)}, r"lengths must be .*, but is \(1.0, 1.0, 1.0, 1.0\)"),
+    ({"lengths": 2}, "lengths must be .*, but is 2"),
+    ({"lengths": (1, 0)}, "lengths must be .*, but is 0"), ({"lengths": (1, np.nan)}, "lengths must be .*, but is nan"),
+    ({"targets": -1}, "targets must be .*, but is -1"), ({"targets": 1.5}, "targets must be .*, but is 1.5"),
+    ({"obstacles": 65}, "obstacles must be .*, but is 65"),
+    ({"targets": 0, "obstacles": 0}, "targets and obstacles must be one or more together, but are 0"),
+    ({"radius": 0}, "radius must be .*, but is 0"), ({"radius": 0.3}, "radius must be .*, but is 0.3"),
+    ({"fps": 0}, "fps must be .*, but is 0"),
 ])
 def test_a_bad_arm_is_refused(arguments, message):
     with pytest.raises(ValueError, match=message):
