@@ -46,8 +46,8 @@ def error(name: str, must_be: str, value: object, remedy: str = "") -> ValueErro
 
 
 def either(options: Iterable[object]) -> str:
-    """Options in words: "'a', 'b' or 'c'"; "nothing" if there are none."""
-    return " or ".join(", ".join(map(repr, options)).rsplit(", ", 1)) or "nothing"
+    """Options in words: "'a', 'b' or 'c'"."""
+    return " or ".join(", ".join(map(repr, options)).rsplit(", ", 1)) or "of which there are none"
 
 
 def integer(name: str, value: Any, at_least: int, at_most: int | None = None) -> int:

@@ -244,7 +244,7 @@ class Agent(Described, checks.Final):
         inputs = {other.source for other in self.desires if other.target == desire.source}
         for source in desire.of:
             if source not in inputs:
-                raise checks.error(f"of in the desire {desire}", f"sources of desires of {desire.source!r}, "
+                raise checks.error(f"of in the desire {desire}", f"among the sources of {desire.source!r}, "
                                    f"{checks.either(inputs)}", source)
 
     def comes_from_node(self, desire: Desire) -> bool:

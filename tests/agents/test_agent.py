@@ -107,8 +107,8 @@ def test_resolutions_may_be_numbers_of_numpy_but_not_a_single_one():
     ([Desire((0.5, 0.5), "HD", 1.0)], r"source of the desire \(0.5, 0.5\) → 'HD' must be a point of 1 coordinates, fo"),
     ([Desire((), "OVC", 1.0)], r"source of the desire \(\) → 'OVC' must be a point of 2 coordinates, for x, y, but is"),
     ([Desire("green", "PC", 1.0), Desire("PC", "OVC", of=("green", "red"))],
-     "of in the desire 'PC' → 'OVC' must be sources of desires of 'PC', 'green', but is 'red'"),
-    ([Desire("red", "OVC", 1.0), Desire("PC", "OVC", of=("red",))], "of in the desire 'PC' → 'OVC' must be sources o"),
+     "of in the desire 'PC' → 'OVC' must be among the sources of 'PC', 'green', but is 'red'"),
+    ([Desire("red", "OVC", 1.0), Desire("PC", "OVC", of=("red",))], "of in the desire 'PC' → 'OVC' must be among the"),
 ])
 def test_a_network_that_cannot_be_evaluated_is_refused(desires, message):
     with pytest.raises(ValueError, match=message):
