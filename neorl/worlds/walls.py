@@ -32,7 +32,7 @@ def checked(name: str, walls: Sequence[Sequence[float]], low: float = -checks.LA
     found = tuple(tuple(checks.real(name, value, low, high) for value in checks.several(name, each))
                   for each in checks.several(name, walls))
     if any(len(each) != 4 or not (each[0] < each[2] and each[1] < each[3]) for each in found):
-        raise ValueError(f"{name} is {checks.shown(walls)}, allowed are (left, top, right, bottom) each")
+        raise checks.error(name, "rectangles (left, top, right, bottom)", walls)
     return found
 
 
