@@ -219,8 +219,8 @@ TABLE = {
         steps=st.integers(1, 60), runs=st.integers(1, 2), seed=seeds,
         changes=[(), [(20, neorl.place_cells([2]))]], threads=[None, 1], also=("change",)),
     "neorl.experiments.sweeping.simulate_once": entry(
-        partial(neorl.simulate_once, progress=False), long=("steps", "runs"), agent=agents, world=[BOARD], steps=[60], runs=[1],
-        seed=[0], changes=[()]),
+        partial(neorl.simulate_once, progress=False), long=("steps", "runs"), agent=agents, world=[BOARD], steps=[60],
+        runs=[1], seed=[0], changes=[()]),
     "neorl.experiments.cache.Condition": entry(
         Condition, agent=agents, world=[BOARD], steps=st.integers(1, 60), runs=st.integers(1, 2), seed=seeds,
         changes=[(), [(20, neorl.place_cells([2]))]], also=("change",),

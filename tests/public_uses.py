@@ -10,8 +10,8 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
 import neorl
-from neorl import (Agent, Arena, Arm, Axis, Condition, Desire, Learner, Learning, Modality, Node, NresMap, Policy, Result,
-                   Run, Scene, Vessel, WaterMaze, WaterWorld)
+from neorl import (Agent, Arena, Arm, Axis, Condition, Desire, Learner, Learning, Modality, Node, NresMap, Policy,
+                   Result, Run, Scene, Vessel, WaterMaze, WaterWorld)
 from neorl.core import kernel
 from neorl.core.description import described, restored
 from neorl.core.identity import identity

@@ -48,8 +48,8 @@ def test_a_notebook_is_computed_when_something_has_changed_and_kept_when_not(not
     target = build.CHAPTERS / "page.ipynb"
     build.compute(notebook, {"runs": 3})
     executed = nbformat.read(target, 4)
-    assert executed.cells[2].outputs[0].text == "3\n"
-    assert executed.cells[1].source == "[Sources](../sources.md) of {term}`maps <NRES map>`"
+    assert executed.cells[3].outputs[0].text == "3\n"
+    assert executed.cells[2].source == "[Sources](../sources.md) of {term}`maps <NRES map>`"
     assert json.loads((build.CHAPTERS / "page.inputs.json").read_text())["parameters"] == {"runs": 3}
 
     before = target.stat().st_mtime_ns

@@ -109,7 +109,7 @@ def test_some_claims_of_a_record_make_a_table(record):
     header, _, *rows, _, legend = report.extract(record, ["A6", "C2", "C5"]).splitlines()
     assert legend.startswith("● reproduced, ◐ partly")
     assert header.startswith("| Claim | Thesis | To the letter |") and len(rows) == 3
-    assert "| ●\u00a00.10 [0.09, 0.11] | reproduced | 5\u00a0% of 40; short runs: 25\u00a0% of 256, 10\u00a0% " in rows[1]
+    assert "| ●\u00a00.10 [0.09, 0.11] | reproduced | 5\u00a0% of 40; short runs: 25\u00a0% of 256, " in rows[1]
 
 
 def test_errata_are_a_table_and_their_arithmetic_is_right():

@@ -10,7 +10,8 @@ import pytest
 from golden import learning, plain_rule
 
 import neorl
-from neorl import Agent, Desire, Node, Policy, Run, WaterWorld, multimodal, network_c, place_cells, simulate, simulate_once
+from neorl import (Agent, Desire, Node, Policy, Run, WaterWorld, multimodal, network_c, place_cells, simulate,
+                   simulate_once)
 from neorl.core.kernel import arrays
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
                                  LANDMARK_VECTOR_CELL, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL)
