@@ -2,12 +2,15 @@
 
 const [POINT, HULL] = [0.03, 0.035]; // the sizes at which agents are drawn that are points in their world
 
+const onBoard = (side) => Math.min(1, Math.max(0, side)); // an obstacle at a side reaches beyond it
+
 const VIEWS = {
   waterworld({ rules: { waterworld }, choices: { size } }) {
     return { radius: waterworld.radius / size, body: waterworld.radius / size };
   },
   arena({ rules: { arena } }) {
-    return { radius: arena.radius, body: POINT, round: Boolean(arena.round), obstacles: Array.from(arena.obstacle) };
+    const obstacles = Array.from(arena.obstacle, onBoard);
+    return { radius: arena.radius, body: POINT, round: Boolean(arena.round), obstacles };
   },
   /** The tank shows joint space; `arm` has the links in the plane, with the base at the origin. */
   arm({ rules: { arm }, scene, world, world_state: { point } }) {

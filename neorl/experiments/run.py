@@ -128,9 +128,9 @@ class Run(Individual):
         integer ≥ 0. Raises what `advance` raises. After an interruption the run can continue from its `step`, but the
         recording is lost.
 
-        >>> path = neorl.Run(neorl.place_cells([3]), neorl.Arena()).record(3_000, every=10)
+        >>> path = neorl.Run(neorl.place_cells([3]), neorl.WaterWorld(win_reward=5.0)).record(3_000, every=10)
         >>> x, y = path.positions.T
-        >>> trials, earned = len(path.returns), path.rewards.sum()
+        >>> episodes, earned = len(path.returns), path.rewards.sum()
         """
         self.world.check_state(self._world_state)
         first, every = self.step, checks.integer("every", every, at_least=1)

@@ -60,10 +60,10 @@ def test_a_notebook_is_computed_when_something_has_changed_and_kept_when_not(not
     assert build.attempt(notebook, {"runs": 13}) == 1
     said = capsys.readouterr().out
     assert "page.ipynb, In [3]: AssertionError: " in said and "runs != 13" in said
-    assert nbformat.read(target, 4).cells[2].outputs[0].text == "3\n"  # a failure leaves the page as it was
+    assert nbformat.read(target, 4).cells[3].outputs[0].text == "3\n"  # a failure leaves the page as it was
     assert (build.CHAPTERS / ".page" / "page.ipynb").exists()  # and shows how far the notebook got
     build.compute(notebook, {"runs": 4})
-    assert nbformat.read(target, 4).cells[2].outputs[0].text == "4\n"
+    assert nbformat.read(target, 4).cells[3].outputs[0].text == "4\n"
     assert sorted(path.name for path in build.CHAPTERS.iterdir()) == ["page.inputs.json", "page.ipynb"]
 
 
