@@ -226,7 +226,8 @@ def test_a_recording_of_nothing_is_empty_and_a_bad_one_is_refused():
     path = run.record(0)
     assert (path.positions.shape, path.rewards.shape, path.returns.shape) == ((1, 2), (0,), (0,))
     assert path == run.record(0) != run.record(10)
-    for arguments, message in [((-1,), "steps must be .* but is -1"), ((5, 0), "every must be .* but is 0"), ((5, 1.5), "every must be .* but is 1.5")]:
+    for arguments, message in [((-1,), "steps must be .* but is -1"), ((5, 0), "every must be .* but is 0"),
+                               ((5, 1.5), "every must be .* but is 1.5")]:
         with pytest.raises(ValueError, match=message):
             run.record(*arguments)
 
