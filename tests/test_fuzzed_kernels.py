@@ -69,6 +69,8 @@ def order_beside_an_absent_thing():
 
 OUTCOMES = {
     "rewards that cancel": lambda: Run(network_d(), CANCELLING).advance(20),
+    "rewards that cancel, recorded": lambda: Run(network_d(), CANCELLING).record(20).rewards.tolist(),
+    "a kind of one step, recorded": lambda: Run(network_d(), BRIEFLY).record(9).rewards.tolist(),
     "rewards in bins": lambda: simulate(network_d(), CANCELLING, steps=20, runs=1, progress=False).rewards.tolist(),
     "rewards of an environment": paid_in_an_episode, "a kind of one step": lambda: Run(network_d(), BRIEFLY).advance(9),
     "an appearance": step_out_of_an_appearance, "no idleness": actions_without_idleness,
@@ -88,8 +90,9 @@ def test_rewards_too_large_that_cancel_are_refused(outcomes, name):
     assert "reward must be a finite number from -1e+30 to 1e+30, but is" in outcomes[name] and "e+300" in outcomes[name]
 
 
-def test_a_kind_that_is_wrong_for_a_single_step_is_refused(outcomes):
-    assert "state.scene.kinds must be −1 or the numbers of" in outcomes["a kind of one step"]
+@pytest.mark.parametrize("name", [name for name in OUTCOMES if name.startswith("a kind of one step")])
+def test_a_kind_that_is_wrong_for_a_single_step_is_refused(outcomes, name):
+    assert "state.scene.kinds must be −1 or the numbers of" in outcomes[name]
 
 
 def test_a_thing_that_the_user_makes_appear_is_in_no_cell_until_it_is_seen(outcomes):

@@ -1,6 +1,7 @@
 """The rollout of an agent in a world: choose, act, advance the world, perceive and learn, step after step.
 
-There are two: `rollout` only adds up rewards and contacts, and `recorded` writes down where the agent was as well.
+There are two: `rollout` only adds up rewards and contacts, and `recorded` writes down where the agent was as well. Both
+end early after a step that broke a rule of worlds.
 
 The kernels of the world and the agent's user-defined functions are constants of the compiled code, so a user-defined
 world or policy runs as fast as those of the package. Each combination is compiled once (`neorl.core.compile_cache`).
@@ -12,13 +13,31 @@ import numpy as np
 
 from neorl.checks import LARGEST
 from neorl.core import life
-from neorl.core.kernel import array, fields, inlined, kernel
+from neorl.core.kernel import array, fields, inlined, inlined_kernel, kernel
 from neorl.core.parameters import Parameters
 from neorl.core.scene import ABSENT
 from neorl.core.state import State
 
 
 MOST_HITS = 32_767  # in a bin, the maximum of its type
+MOST_RECORDED = 2**63 - 1  # in a frame, likewise
+
+
+@inlined_kernel
+def observed(parameters, constants, state, scene, reward, hits, interval, most):
+    """Perceive the outcome of an action, learn from it, and add the things met to hits[interval], up to `most` each.
+
+    Returns whether the numbers of all kinds keep the rules of worlds; counting ends at the first that does not.
+    """
+    state.reward[0] = reward
+    life.observe(parameters, constants, state, scene)
+    for thing in range(scene.met.shape[0]):
+        met = scene.met[thing]
+        if not (0 <= met <= hits.shape[1] and ABSENT <= scene.kinds[thing] < hits.shape[1]):
+            return False
+        if met != 0 and hits[interval, met - 1] < most:
+            hits[interval, met - 1] += 1
+    return True
 
 
 @functools.cache
@@ -43,19 +62,12 @@ def rollout_in(dynamics, constants):
             if not abs(reward) <= LARGEST:
                 clock[0] = now + 1
                 return reward
-            state.reward[0] = reward
-            life.observe(parameters, constants, state, scene)
             total += reward
             interval = now // bin_steps
             rewards[interval] += np.float32(reward)
-            for thing in range(scene.met.shape[0]):
-                met = scene.met[thing]
-                if not (0 <= met <= hits.shape[1] and ABSENT <= scene.kinds[thing] < hits.shape[1]):
-                    clock[0] = now + 1
-                    return total
-                if met != 0:
-                    if hits[interval, met - 1] < MOST_HITS:
-                        hits[interval, met - 1] += 1
+            if not observed(parameters, constants, state, scene, reward, hits, interval, MOST_HITS):
+                clock[0] = now + 1
+                return total
             if done:
                 reset(world_state, rules)
                 life.begin(parameters, constants, state, scene)
@@ -81,27 +93,24 @@ def recorded_in(dynamics, constants):
         """Take the steps clock[0] … last_step − 1; frames have `every` steps each, from first_step on.
 
         paid: the reward so far, in all and in this episode. Returns the number of episodes that have ended.
-        Stops early, after a step that met a thing of no kind.
+        Stops early as `rollout` does, with a reward that broke a rule in paid[0].
         """
         scene, episodes = world_state.scene, 0
         for now in range(clock[0], last_step):
             frame = (now - first_step) // every
             actions[frame] = life.act(parameters, constants, state, scene)
             reward, done = step(world_state, rules, actions[frame])
-            state.reward[0] = reward
-            life.observe(parameters, constants, state, scene)
+            if not abs(reward) <= LARGEST:
+                clock[0], paid[0] = now + 1, reward
+                return episodes
             rewards[frame] += reward
             paid[0] += reward
             paid[1] += reward
             for axis in range(positions.shape[1]):
                 positions[frame, axis] = scene.position[axis]
-            for thing in range(scene.met.shape[0]):
-                met = scene.met[thing]
-                if met != 0:
-                    if met < 0 or met > hits.shape[1]:
-                        clock[0] = now + 1
-                        return episodes
-                    hits[frame, met - 1] += 1
+            if not observed(parameters, constants, state, scene, reward, hits, frame, MOST_RECORDED):
+                clock[0] = now + 1
+                return episodes
             if done:
                 ends[episodes], returns[episodes], paid[1] = now + 1, paid[1], 0.0
                 episodes += 1
