@@ -208,7 +208,8 @@ drawing.draw_network(neorl.network_d()).figure.savefig("network.svg")
 
 def test_without_matplotlib_the_extra_is_named(tmp_path):
     done = python("import neorl; neorl.simulate; from neorl.drawing import draw_curves", ("matplotlib",), tmp_path)
-    assert "ImportError: this needs matplotlib: pip install 'neorl-companion[plot]'" in done.stderr
+    assert ("ImportError: matplotlib must be installed for this, but is not; pip install "
+            "'neorl-companion[plot]'") in done.stderr
 
 
 def test_an_agent_at_the_wall_is_drawn_inside_its_board():

@@ -52,7 +52,8 @@ def test_the_cache_is_listed_and_cleared(tmp_path, capsys, monkeypatch):
 
 
 @pytest.mark.parametrize("content, message", [
-    (None, "nowhere.toml"), ("steps = ", "is not written in TOML"), ("steps = 3", "experiment.toml: agent is missing")])
+    (None, "nowhere.toml"), ("steps = ", "experiment.toml must be written in TOML, but is not: "),
+    ("steps = 3", "experiment.toml: agent must be an Agent, but is missing")])
 def test_an_error_is_printed_in_one_line(tmp_path, capsys, content, message):
     path = tmp_path / ("experiment.toml" if content else "nowhere.toml")
     if content:

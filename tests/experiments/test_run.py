@@ -226,8 +226,9 @@ def test_a_recording_of_nothing_is_empty_and_a_bad_one_is_refused():
     path = run.record(0)
     assert (path.positions.shape, path.rewards.shape, path.returns.shape) == ((1, 2), (0,), (0,))
     assert path == run.record(0) != run.record(10)
-    for arguments, message in [((-1,), "steps must be .* but is -1"), ((5, 0), "every must be .* but is 0"),
-                               ((5, 1.5), "every must be .* but is 1.5")]:
+    for arguments, message in [((-1,), "steps must be an integer of at least 0, but is -1"),
+                               ((5, 0), "every must be an integer of at least 1, but is 0"),
+                               ((5, 1.5), "every must be an integer of at least 1, but is 1.5")]:
         with pytest.raises(ValueError, match=message):
             run.record(*arguments)
 
@@ -248,7 +249,7 @@ def test_an_error_in_that_function_ends_the_call_at_its_step_and_a_bad_one_is_re
         run.advance(1_000, each=lambda run: 1 / 0, every=300)
     assert run.step == 300
     for arguments, message in [({"each": 5}, "each must be a function that takes the run, or None, but is 5"),
-                               ({"every": 0}, "every must be .* but is 0")]:
+                               ({"every": 0}, "every must be an integer of at least 1, but is 0")]:
         with pytest.raises(ValueError, match=message):
             run.advance(10, **arguments)
 
