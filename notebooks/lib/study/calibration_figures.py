@@ -159,7 +159,8 @@ def draw_conflicts(found, row, columns=2, figure=None):
         across, up = (fill(f"{TARGETS[name].claim}: {TARGETS[name].label}", 2 * NARROW) for name in names)
         axes.set_xlabel(across, fontsize=SMALL)
         axes.set_ylabel(up, fontsize=SMALL)
-        axes.set_title(f"{conflict.both:,} meet both, by chance {conflict.expected:,.0f}", size=SMALL, color=TEXT)
+        axes.set_title(f"{conflict.both:,} meet both, by chance {conflict.expected:,.0f}", size=SMALL, color=TEXT,
+                       loc="right")  # a heading is wider than its panel, and there is room on the left
         axes.tick_params(labelsize=SMALL)
     for axes in grid.flat[len(found):]:
         axes.set_visible(False)
