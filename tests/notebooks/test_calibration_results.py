@@ -193,7 +193,7 @@ def test_what_a_missed_target_goes_together_with_least():
     assert missed["C2"].met.startswith("A6") and missed["C2"].both == 0
     assert missed["C2"].expected == pytest.approx(2 * 4 / 6) and missed["C2"].found.shape == (6, 2)
     shown = calibration_figures.draw_conflicts([missed["C2"]], table[-1])
-    assert shown[0, 0].get_title() == "0 meet both, by chance 1"
+    assert shown[0, 0].get_title(loc="right") == "0 meet both, by chance 1"
     assert shown[0, 0].lines[0].get_xydata() == pytest.approx(missed["C2"].found)
 
 
