@@ -12,9 +12,9 @@ import gymnasium
 import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
+from pond import Pond
 
 from neorl import Agent, Arena, Run, Scene, WaterWorld, World, brownian, kernel
-from lib.own_world.pond import Pond
 from neorl.core.kernel import array, arrays, execute, mapped
 from neorl.core.scene import ABSENT, CARDINAL
 from neorl.gym import WorldEnv

@@ -14,9 +14,9 @@ import pytest
 from gymnasium.utils.env_checker import data_equivalence
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 from gymnasium.wrappers import TimeLimit
+from pond import Pond
 
 from neorl import Arena, WaterWorld
-from lib.own_world.pond import Pond
 from neorl.gym import VectorWorldEnv, WorldEnv
 
 WORLDS = {"tank": WaterWorld(width=60, n_creeps=2, win_reward=5.0), "pond": Pond(),
