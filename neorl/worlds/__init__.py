@@ -17,7 +17,7 @@ Scene, World, array, kernel, randint, uniform, walls``. It defines
    `size`, `fps`, `dynamics` and `rules`: see `neorl.worlds.world`.
 
 Nothing else in the package has to change: `neorl.Run`, `neorl.simulate`, `neorl.sweep` and the cache accept it as it
-is. `notebooks/lib/own_world/pond.py` is a small example, `neorl.worlds.arena` a larger one.
+is. `notebooks/own_world.ipynb` has a small example, `neorl.worlds.arena` is a larger one.
 
 Kernels keep to the rules in `neorl.core.kernel`. In particular they allocate nothing, and an index out of range crashes
 the interpreter; running a world with ``NUMBA_DISABLE_JIT=1`` finds such mistakes, and lets `breakpoint` stop a kernel.

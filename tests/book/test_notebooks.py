@@ -201,7 +201,7 @@ def test_what_a_notebook_begins_with_is_hidden_and_says_how_long_it_takes(cells)
     assert ast.unparse(begun).startswith("notebook.begin(")
 
 
-@pytest.mark.parametrize("name", sorted({*TURNED} - {"own_world", "your_research"}))  # their code is for copying
+@pytest.mark.parametrize("name", TURNED)
 def test_code_that_draws_is_folded(name):
     drawn = [cell for cell in NOTEBOOKS[name].cells if "figure" in cell.metadata.get("mystnb", {})]
     assert all(HIDDEN & set(cell.metadata.get("tags", [])) for cell in drawn)

@@ -1,0 +1,130 @@
+"""The page "Bring your own world": what its cells define, by itself and in a notebook, whose module is `__main__`."""
+
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from page_cells import defined, source
+
+from neorl import CARDINAL, execute
+from neorl.core.stream import new_stream
+
+RULES = defined("own_world", "cell-21")
+SHELL = """
+import json, sys
+from IPython.core.interactiveshell import InteractiveShell
+
+for cell in json.loads(sys.argv[1]):
+    InteractiveShell.instance().run_cell(cell).raise_error()
+"""
+SETUP = """
+import json, sys
+from neorl import *
+from neorl.core.modality import PLACE_CELL
+
+def agent():
+    cells = Modality("walls", [*PLACE_CELL.axes, Axis(wall_distance, boundaries=(0, 0.1, 0.5))])
+    return Agent([Node("PWC", cells, [6])], [Desire("pad", "PWC", 1.0)], Learning(0.3, credit=recent_credit),
+                 Policy(choose=second_best(0.1)))
+
+def look():
+    condition = Condition(agent(), Pond(), 2_000, 2)
+    known = condition.path.exists()
+    reward = simulate_once(**condition.choices, progress=False).rewards.sum()
+    print(json.dumps([condition.key, float(reward), known]))
+"""
+SAVED = """
+learner = Learner(agent(), things=1, kinds=["pad"])
+learner.begin(Scene([0.1, 0.2], things=[[0.8, 0.3]], kinds=["pad"]))
+for x in (0.2, 0.1, 0.2):
+    learner.act()
+    learner.observe(Scene([x, 0.2], things=[[0.8, 0.3]], kinds=["pad"]))
+run = Run(agent(), Pond())
+run.advance(2_000)
+learner.save("learner.npz"), run.save("run.npz")
+"""
+LOADED = """
+print(json.dumps([[Learner.load("learner.npz").act() for _ in range(3)], Run.load("run.npz").advance(1_000),
+                  str(Run.load("run.npz").world)]))
+"""
+
+
+@pytest.fixture
+def session(tmp_path, cache_folder):
+    """Run cells as a notebook does, in a process of their own, and return what they print, each line read as JSON."""
+    def session(*cells):
+        done = subprocess.run([sys.executable, "-c", SHELL, json.dumps(cells)], cwd=tmp_path, capture_output=True,
+                              text=True, env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path),
+                                              "IPYTHONDIR": str(tmp_path / "ipython")})
+        assert done.returncode == 0, done.stdout + done.stderr
+        return [json.loads(line) for line in done.stdout.splitlines() if line.startswith("[")]
+
+    return session
+
+
+def test_what_cells_define_is_cached_and_saved_like_what_modules_define(session):
+    pond, rules = source("own_world", "cell-09"), source("own_world", "cell-21")
+    longer = pond.replace("0.1, 0.04", "0.1, 0.06")
+    assert longer != pond
+    first, again, changed, back, here = session(pond, rules, SETUP, "look()", pond, rules, "look()", longer, "look()",
+                                                "STRIDE = 0.04", "look()", SAVED, LOADED)
+    assert again == back == [*first[:2], True] and first[2] is False
+    assert changed[0] != first[0] and changed[1] != first[1] and not changed[2]
+    later, there = session(pond, rules, SETUP, "look()", LOADED)
+    assert later == again and there == here and here[2] == "Pond()"
+
+
+def test_a_file_with_rules_of_a_notebook_names_them_where_they_are_not_defined(session):
+    pond, rules = source("own_world", "cell-09"), source("own_world", "cell-21")
+    refused = """
+try:
+    Run.load("run.npz")
+except ValueError as error:
+    print(json.dumps([str(error)]))
+"""
+    assert session(pond, rules, SETUP, SAVED) == []
+    ((message,),) = session(SETUP, refused)
+    assert "what can be imported, but is '__main__:wall_distance'" in message
+
+
+def test_the_pond_of_kernels_is_that_of_the_loop():
+    world = defined("own_world", "cell-09").Pond()
+    state, rng, finds, pad = world.reset(0), np.random.default_rng(0), 0, np.array([0.8, 0.3])
+    for _ in range(300):
+        state.scene.position[:], action = rng.random(2), rng.integers(4)
+        expected = (state.scene.position + 0.04 * CARDINAL.table[action]).clip(0, 1)
+        met = ((expected - pad) ** 2).sum() < 0.1**2
+        assert world.step(state, action) == (float(met), [met], met)
+        np.testing.assert_array_equal(state.scene.position, expected)
+        finds += met
+    assert finds
+
+
+def test_credit_is_highest_for_the_last_event():
+    credit = RULES.recent_credit
+    assert [execute(credit, *each, 0.0) for each in [(3, 9, True), (3, 9, False), (0, 9, False)]] == [1, 0.5, 0]
+
+
+@pytest.mark.parametrize("value, best, second", [([0.1, 0.4, 0.3, 0.2], 1, 2), ([0.9, 0.1, 0.2, 0.4], 0, 3)])
+def test_the_policy_takes_the_second_best_action_in_its_share_of_steps(value, best, second):
+    stream, value = new_stream(np.random.SeedSequence(0)), np.array(value)
+    for share, allowed in [(0.0, {best}), (1.0, {second}), (0.5, {best, second})]:
+        assert {int(execute(RULES.second_best(share), value, stream)) for _ in range(40)} == allowed
+    equal = np.zeros(4)
+    assert {int(execute(RULES.second_best(0.0), equal, stream)) for _ in range(80)} == {0, 1, 2, 3}
+
+
+def test_the_turtle_goes_ahead_and_turns_by_an_eighth():
+    page = defined("own_world", "cell-15")
+    turtle = page.Turtle()
+    observation, _ = turtle.reset(0)
+    turtle.position, turtle.heading = np.array([0.5, 0.25]), 0
+    observation, reward, done, truncated, _ = turtle.step(0)
+    assert observation["position"] == pytest.approx([0.56, 0.25]) and (reward, done, truncated) == (0.0, False, False)
+    assert turtle.step(2)[0]["heading"] == pytest.approx(np.pi / 4) and turtle.step(1)[0]["heading"] == 0
+    assert [turtle.step(0)[2] for _ in range(2)] == [False, True]
+    scene = page.scene_of({"position": np.array([0.1, 0.2]), "heading": np.pi / 2})
+    assert np.allclose(scene.velocity, [0, 1]) and np.allclose(scene.position, [0.1, 0.2])
