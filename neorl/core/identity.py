@@ -194,6 +194,8 @@ def _kind(value):
 
 def _is_known(module):
     """Whether the code of a module, given its name, counts by name."""
+    if module == "__main__":  # the user's, even where `python -m cProfile` has its own module by that name
+        return False
     if module.startswith(OURS) or module.partition(".")[0] in WITHOUT_SOURCE or module in sys.builtin_module_names:
         return True
     file = getattr(sys.modules.get(module), "__file__", None) or ""

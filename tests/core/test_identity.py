@@ -195,3 +195,15 @@ def test_source_that_changes_after_the_import_does_not_count():
             "from neorl.experiments.cache import source_digest\n"
             "print(source_digest(), digest_of_source('core', 'worlds'))")
     subprocess.run([sys.executable, "-c", work], check=True, env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)})
+
+
+def test_a_kernel_of_the_main_program_counts_by_its_content_under_a_profiler_too(tmp_path):
+    program = "from neorl import kernel\nfrom neorl.core.identity import identity\nA = {}\n\n@kernel\ndef f(x):\n" \
+              "    return x + A\n\nprint(identity(f))\n"
+    read = []
+    for constant, how in [(1.0, []), (1.0, ["-m", "cProfile"]), (2.0, ["-m", "cProfile"])]:
+        (tmp_path / "program.py").write_text(program.format(constant))
+        done = subprocess.run([sys.executable, *how, "program.py"], cwd=tmp_path, check=True, capture_output=True,
+                              text=True, env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)})
+        read.append(done.stdout.splitlines()[0])
+    assert read[0] == read[1] != read[2]
