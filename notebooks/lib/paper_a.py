@@ -1,0 +1,157 @@
+"""What the page on paper A needs beside its experiment: its lists of maps, squares of the board, tables and figures.
+
+1. The results under one reading are {key: `Result`}, with the keys ("single", N), ("layer", N), "layers" (all layers in
+   one agent), "control" and "brownian" (Brownian motion, as long as the agents' runs and as long as the paper's).
+2. The layers are those of the paper's second experiment unless the page has been given others. The thesis's numbers,
+   and the names of its figures, go only with its own maps and 8 creeps.
+"""
+
+import ast
+
+import numpy as np
+
+from lib.shared import side_by_side
+from lib.shared.wording import table
+from neorl import checks
+from neorl.core.horde import as_vectors
+from neorl.core.maps import NresMap
+from neorl.core.scene import CARDINAL
+from neorl.drawing.boards import new_board
+from neorl.drawing.curves import draw_proficiency
+from neorl.drawing.style import AGENT, FILL, GREEN, INK, RED, mark
+from neorl.drawing.thesis_figures import mark_levels
+from neorl.drawing.value_maps import draw_cells, draw_values
+from neorl.evidence.priors import BEYOND
+from neorl.evidence.reading import LAYERS, SINGLE
+from neorl.evidence.report import CALIBRATED, LETTER
+from neorl.evidence.statements import STATEMENTS
+from neorl.evidence.statistics import estimate
+from neorl.evidence.verdict import FINAL
+from neorl.experiments.run import Run
+
+N_CREEPS, FINEST = 8, 90  # of the paper; the finest map that the Explorer shows
+LINES = (RED, 3.2), (AGENT, 1.8), (INK, 0.7)  # of the first map, the second, and any others
+
+
+def maps(name, given):
+    """The resolutions in a parameter of the page, a tuple of integers.
+
+    name: of the parameter. given: one integer or more from 1 to 90, all different, in a list or, as the option -p of
+    papermill passes it, in text.
+    Raises ValueError for anything else.
+    """
+    try:
+        listed = ast.literal_eval(given) if isinstance(given, str) else given
+    except (ValueError, SyntaxError):
+        raise checks.error(name, "a list of resolutions", given, "write it as [5, 11]") from None
+    found = tuple(checks.integer(name, each, 1, FINEST) for each in checks.several(name, listed))
+    if len(set(found)) < max(1, len(found)):
+        raise checks.error(name, "one resolution or more, all different", given)
+    return found
+
+
+def all_of(layers):
+    """The agent with all layers, by name: "all three" for three."""
+    return {2: "both", 3: "all three"}.get(len(layers), "all")
+
+
+def squares_entered(agent, world, steps, runs, seed=0):
+    """The squares of the board in which runs of an agent have been so far, every 0.1 s: (runs, moments).
+
+    The squares are the cells of N90, which divides the board at least as finely as any map of the agents.
+    """
+    squares, found, interval = NresMap(FINEST), [], max(1, round(world.fps / 10))
+    for k in range(runs):
+        run, path = Run(agent, world, seed, k), np.empty((max(1, steps // interval), 2))
+        for moment in range(len(path)):
+            run.advance(interval)
+            path[moment] = run.world_state.scene.position / world.size
+        new = np.zeros(len(path), int)
+        new[np.unique(squares.encode(path), return_index=True)[1]] = 1
+        found.append(new.cumsum())
+    return np.array(found)
+
+
+def rates(results, names, share=(0.0, 1.0)):
+    """Mean reward per second with its interval, as a Markdown table: a row for each reading, a column for each agent.
+
+    results: {reading: {key: `Result`}}. names: {key: name of the agent}. share: the part of the run, as in
+    `Result.rate`.
+    """
+    return table(["Reading", *names.values()], [
+        [reading, *(estimate(np.mean, each[key].rate(*share)) for key in names)] for reading, each in results.items()])
+
+
+def choices(readings):
+    """What readings choose for agents of place cells, and whether they are within the text, as a Markdown table.
+
+    readings: {name: Reading}.
+    """
+    listed = side_by_side.choices(readings, [field for field, choice in BEYOND.items() if "A" in choice.papers])
+    broken = ([pin.choice for pin in reading.within_the_text.broken] for reading in readings.values())
+    agreements = (f"breaks: {', '.join(dict.fromkeys(pins))}" if pins else "within the text" for pins in broken)
+    return f"{listed}\n| *all in all* | | {' | '.join(agreements)} |"
+
+
+def explorer_conditions(results):
+    """The conditions that the page's Explorer offers: {name: `Result`}. results: {reading: {key: `Result`}}."""
+    offered = {}
+    for reading, suffix in ((CALIBRATED, ""), (LETTER, ", to the letter")):
+        found, layers = results[reading], _resolutions(results[reading], "layer")
+        seven = _as_in(7, found["layers"], set(layers) == set(LAYERS))
+        offered[f"{seven}: {all_of(layers)} maps{suffix}"] = found["layers"]
+        offered |= {f"{seven}: N{n} alone{suffix}": found["layer", n] for n in layers}
+        offered |= {f"{_as_in(6, found['single', n], n in SINGLE)}: N{n}{suffix}": found["single", n]
+                    for n in _resolutions(found, "single")}
+    control = results[CALIBRATED]["control"]
+    return offered | {f"{_as_in(6, control)}: Brownian motion": control}
+
+
+def _resolutions(results, group):
+    return [key[1] for key in results if key[0] == group]
+
+
+def _as_in(figure, result, of_paper=True):
+    """The figure of the paper that has a condition, or that it is modelled on."""
+    paper = "Paper A" if of_paper and result.world.n_creeps == N_CREEPS else "After paper A"
+    return f"{paper}, figure {figure}"
+
+
+def draw_together(results):
+    """Draw reward per second of each layer alone, of all together, and summed. results: of one reading.
+
+    With the paper's layers and creeps, a dashed line marks the thesis's level for all three together, a multiple of
+    what N7 finally earns here.
+    """
+    layers = _resolutions(results, "layer")
+    alone, together = {f"N{n}": results["layer", n] for n in layers}, results["layers"]
+    total = {2: "sum of both", 3: "sum of the three"}.get(len(layers), "sum of all")
+    axes = draw_proficiency(alone | {all_of(layers): together}, (total, [*alone.values()]))
+    if set(layers) == set(LAYERS) and together.world.n_creeps == N_CREEPS:
+        factor = STATEMENTS["A7"].bounds.number
+        mark_levels(axes, {f"thesis: {factor} × N7": factor * results["layer", 7].rate(*FINAL).mean()})
+
+
+def draw_elements(nres_map, places, valences, values):
+    """Draw elements of interest in a map, their valences in corners that no arrow crosses, and the action values.
+
+    places: (elements, 2), in board widths. valences: (elements,). values: (cells, 4), of the map for these elements.
+    """
+    fills = {goal: (GREEN if valence > 0 else RED, FILL * abs(valence))
+             for goal, valence in zip(nres_map.encode(places), valences)}
+    axes = draw_cells(nres_map, fills=fills)
+    draw_values(nres_map, values, ax=axes)
+    cells, side = nres_map.encode(places), 1 / nres_map.resolution
+    for cell, (east, south), valence in zip(cells, as_vectors(np.asarray(values), CARDINAL)[cells], valences):
+        left, top = side * (cell % nres_map.resolution), side * (cell // nres_map.resolution)
+        falling = east * south > 0  # an arrow that leaves the upper right corner free
+        mark(axes, (left + side * (0.92 if falling else 0.08), top + 0.08 * side), f"{valence:+g}".replace("-", "−"),
+             ha="right" if falling else "left", va="top")
+
+
+def draw_maps(several):
+    """Draw the receptive fields of several maps over one board, in the lines of `LINES`."""
+    axes = new_board()
+    for place, nres_map in enumerate(several):
+        colour, width = LINES[min(place, len(LINES) - 1)]
+        draw_cells(nres_map, colour, width=width, ax=axes)

@@ -1,1 +1,0 @@
-"""Experiments, figures and sentences of paper A: agents with one map, and with three."""
