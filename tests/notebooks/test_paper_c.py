@@ -1,19 +1,74 @@
-"""The page of paper C: networks under readings, and the weight of recursion in the last one."""
+"""The page of paper C: the experiment in its cells, its parameters, and where desires land."""
 
+import ast
 from dataclasses import replace
+from pathlib import Path
 
+import nbformat
 import numpy as np
 import pytest
+from matplotlib import pyplot as plt
 
-from neorl import Result, WaterWorld, brownian
-from lib.paper_c import wiring
-from lib.paper_c.experiments import NETWORKS, explorer_conditions, live, neighbours, networks, recur
-from lib.paper_c.findings import drastic_level, final_rates, finals, in_short, in_words, recursion_in_words
+from neorl import Result, Run, WaterWorld, brownian, network_b
+from lib import paper_c
 from neorl.evidence.priors import TO_THE_LETTER
-from neorl.evidence.reading import GROUPS, Reading, networks as agents
-from neorl.evidence.statistics import Estimate
+from neorl.evidence.reading import Reading, conditions, networks
+from neorl.evidence.report import CALIBRATED, LETTER
+from neorl.experiments.cache import Condition
 
+CELLS = nbformat.read(Path(__file__).parents[2] / "notebooks" / "paper_c.ipynb", 4).cells
+READINGS = {LETTER: TO_THE_LETTER, CALIBRATED: Reading()}
 LIKE_THE_THESIS = {"A": 0.12, "B": 0.2, "C": 0.3, "D": 0.6}
+
+
+def experiment(**parameters):
+    """The names that the page's cells define down to its experiment, with an iterator of conditions for results."""
+    names = {}
+    for cell in [cell for cell in CELLS if cell.cell_type == "code"]:
+        code = ast.parse(cell.source)
+        code.body = [each for each in code.body if not ast.unparse(each).startswith("notebook.begin(")]
+        exec(compile(code, "paper_c.ipynb", "exec"), names)
+        if "parameters" in cell.metadata.tags:
+            names |= parameters
+        names["sweep"] = iter
+        if "experiment" in cell.metadata.tags:
+            return names
+
+
+@pytest.mark.parametrize("steps", [4_000, 300_000, 600_000])
+def test_the_page_runs_the_networks_of_each_reading(steps):
+    found = experiment(runs=3, steps=steps, seed=2)
+    for name, reading in READINGS.items():
+        expected = conditions(reading, steps, 3, 2, groups=["networks"])
+        assert found["results"][name] == {key[1] if key[0] == "network" else "Brownian": each
+                                          for key, each in expected.items()}
+    assert found["of_paper"]
+
+
+def test_weights_and_creeps_and_maps_are_those_of_the_parameters():
+    other = experiment(recursion=-0.5, n_creeps=5, resolutions="[7, 2]")
+    assert not other["of_paper"]
+    for name, reading in READINGS.items():
+        agents = networks(replace(reading, recursion=-0.5, network_resolutions=(2, 7)))
+        assert {key: each.agent for key, each in other["results"][name].items() if key != "Brownian"} == agents
+        assert {each.world for each in other["results"][name].values()} == {WaterWorld(n_creeps=5)}
+
+
+@pytest.mark.parametrize("parameter", [{"recursion": -0.5}, {"n_creeps": 4}, {"resolutions": [3, 7]}])
+def test_claims_are_judged_only_if_what_the_paper_ran_is_what_was_run(parameter):
+    assert not experiment(**parameter)["of_paper"]
+
+
+@pytest.mark.parametrize("given, maps", [([], ()), ("[]", ()), ([7, 2], (2, 7)), ("[3, 5, 23]", (3, 5, 23))])
+def test_maps_are_given_in_a_list_or_in_text(given, maps):
+    assert paper_c.maps(given) == maps
+
+
+@pytest.mark.parametrize("given", [7, "7", "3 7", [0], [2.5], [3, 3], "x", None])
+def test_other_maps_are_refused(given):
+    with pytest.raises(ValueError, match=r"^resolutions must be a list of different integers of at least 1, but is .*; "
+                                         r"write it as \[2, 5\], or as \[\] for each reading's own$"):
+        paper_c.maps(given)
 
 
 def made_up(agent, rate, runs=12, bins=3_000):
@@ -25,88 +80,63 @@ def made_up(agent, rate, runs=12, bins=3_000):
 
 @pytest.fixture
 def results():
-    made = {("network", name): made_up(agent, LIKE_THE_THESIS[name]) for name, agent in agents(Reading()).items()}
-    return made | {("brownian", 3): made_up(brownian(), 0.05)}
+    return {name: made_up(agent, LIKE_THE_THESIS[name]) for name, agent in networks(Reading()).items()}
 
 
-def test_the_networks_are_run_under_each_reading(cache_folder):
-    found = live({"to the letter": TO_THE_LETTER, "book": Reading()}, steps=300, runs=3)
-    assert [set(each) for each in found.values()] == [set(GROUPS["networks"])] * 2
-    assert networks(found["to the letter"])["D"].agent == agents(TO_THE_LETTER)["D"]
-    assert networks(found["book"])["A"].runs == 3
-
-
-def test_recursion_is_varied_and_none_is_network_c(cache_folder):
-    (results,) = recur({"book": Reading()}, [-2.0, 0.0, 1.0], steps=300, runs=2).values()
-    expected = [agents(replace(Reading(), recursion=-2.0))["D"], agents(Reading())["C"],
-                agents(replace(Reading(), recursion=1.0))["D"]]
-    assert [result.agent for result in results] == expected
-
-
-def test_weights_that_the_networks_do_not_run_have_few_runs(monkeypatch):
-    monkeypatch.setattr("lib.shared.side_by_side.sweep", lambda conditions: conditions)
-    (made,) = recur({"book": Reading()}, [-3.0, -1.0, 0.0], steps=300, runs=30).values()
-    assert [condition.runs for condition in made] == [10, 30, 30]
-
-
-def test_what_was_found_is_put_in_words(results):
-    words = in_words({"book": results})
-    assert words.startswith("- **Book.** By reward")
-    numbers = [f"{result.rate(0.8, 1.0).mean():.2f}" for result in networks(results).values()]
-    assert " < ".join(f"{name} ({number})" for name, number in zip(NETWORKS, numbers)) in words
-    backwards = results | {("network", "A"): results["network", "D"], ("network", "D"): results["network", "A"]}
-    assert "order is D (" in in_words({"book": backwards})
-    short = in_short({"to the letter": backwards, "calibrated": results})
-    assert f"the order is A ({numbers[0]}) <" in short and short.index("D (") < short.index("to the letter")
-    assert "≈" not in short
-    alike = results | {("network", "B"): results["network", "A"]}
-    short = in_short({"to the letter": alike, "calibrated": results})
-    assert f"A ({numbers[0]}) ≈ B ({numbers[0]}) <" in short and "lead marked ≈ includes 0. Calibrated" in short
-
-
-def test_neighbours_differ_in_one_choice_and_are_more_with_many_runs():
-    reading = Reading(network_resolutions=(3, 7, 23), memory=5.0, scale=0.5, bootstrap=True)
-    made = neighbours(reading, runs=99)
-    assert list(made) == ["maps of primes", "no memory", "places × 5", "valence in vectors"]
-    assert made["places × 5"] == replace(reading, network_gain=5.0)
-    more = neighbours(reading, runs=100)
-    assert list(more)[:4] == list(made) and "no bootstrapping" in more and "bootstrapping" not in more
-    assert more["ten times as far"].scale == 5.0 and more["valence in vectors"].vectors == "signed"
-
-
-def test_the_explorer_offers_the_networks_of_both_readings(results):
-    letter = dict.fromkeys(results, "letter")
-    offered = explorer_conditions({"to the letter": letter, "calibrated": results})
-    name = "Paper C, figure 4e: network"
-    assert [*offered][:5] == [*(f"{name} {each}" for each in NETWORKS), f"{name} A, to the letter"]
-    assert offered[f"{name} D"] is results["network", "D"] and offered[f"{name} D, to the letter"] == "letter"
+def dashed():
+    """The heights and names of the dashed lines in the last figure."""
+    axes = plt.gca()
+    heights = [line.get_ydata()[0] for line in axes.lines if not isinstance(line.get_linestyle(), str)
+               or line.get_linestyle() == "--"]
+    return heights, [text.get_text() for text in axes.texts if text.get_text().startswith("thesis")]
 
 
 def test_recursion_has_to_lift_a_network_that_earns_something(results):
-    (level,) = drastic_level(results).values()
-    assert level == pytest.approx(1.5 * results["network", "C"].rate(0.8, 1.0).mean())
-    assert list(drastic_level(results)) == ["thesis: D beyond 1.5 × C"]
-    assert [*drastic_level(results | {("network", "C"): made_up(brownian(), -0.1)}).values()] == [0.0]
+    paper_c.draw_rates(results, of_paper=True)
+    (level,), names = dashed()
+    assert level == pytest.approx(1.5 * results["C"].rate(0.8, 1.0).mean())
+    assert names == ["thesis: D beyond 1.5 × C"]
+    paper_c.draw_rates(results | {"C": made_up(brownian(), -0.1)}, of_paper=True)
+    assert dashed()[0] == [0.0]
 
 
-def test_final_rates_over_weights_are_those_of_the_last_fifth(results):
-    ((low, high),) = finals({"book": [results["network", "A"], results["network", "D"]]}).values()
-    assert high.value == pytest.approx(results["network", "D"].rate(0.8, 1.0).mean()) and low.high < high.low
-
-
-def test_the_best_weight_of_recursion_is_reported_with_the_reward_without_recursion():
-    found = {"to the letter": [Estimate(0.3, 0.2, 0.4), Estimate(0.1, 0.0, 0.2), Estimate(-0.2, -0.3, -0.1)],
-             "calibrated": [Estimate(0.0, -0.1, 0.1), Estimate(0.2, 0.1, 0.3), Estimate(0.5, 0.4, 0.6)]}
-    assert recursion_in_words([-0.5, 0.0, 1.0], found) == (
-        "Under the reading *to the letter* the best weight is r\u00a0=\u00a0−0.5, which earns 0.30 [0.20, 0.40]; "
-        "without recursion it is 0.10 [0.00, 0.20]. Under the reading *calibrated* the best weight is "
-        "r\u00a0=\u00a01, which earns 0.50 [0.40, 0.60]; without recursion it is 0.20 [0.10, 0.30].")
+def test_without_the_papers_setting_no_level_is_the_thesiss(results):
+    paper_c.draw_rates(results, of_paper=False)
+    assert dashed() == ([], [])
 
 
 def test_the_table_has_a_row_for_each_network_and_reading(results):
-    rows = final_rates({"one": results, "other": results}).splitlines()[2:]
+    rows = paper_c.final_rates({"one": results, "other": results}).splitlines()[2:]
     assert [row.split(" | ")[:2] for row in rows[:3]] == [["| A", "one"], ["| A", "other"], ["| B", "one"]]
     assert len(rows) == 8 and rows[-1].endswith("| 0.0 |")
+
+
+def test_the_moment_is_the_first_at_which_the_agent_is_well_inside_and_desires_something_far(monkeypatch):
+    monkeypatch.setattr(paper_c, "FAR", 0.001)
+    network, world = network_b([2, 3]), WaterWorld()
+    run, other = paper_c.moment_of_desire(network, world, 300, seed=1), Run(network, world, 1)
+    assert 300 <= run.step < 300 + paper_c.PATIENCE
+    other.advance(300)
+    fits = []
+    for _ in range(run.step - 300 + 1):
+        at = other.world_state.scene.position / world.size
+        lands = np.hypot(*other.state.desires.target[2:, :2].T)  # after the desires for creeps
+        fits.append(np.abs(at - 0.5).max() < 0.2 and lands.max() > 0.001)
+        other.advance(1)
+    assert fits[-1] and not any(fits[:-1])
+
+
+def test_the_moment_is_not_waited_for_in_vain(monkeypatch):
+    monkeypatch.setattr(paper_c, "PATIENCE", 7)
+    monkeypatch.setattr(paper_c, "WELL_INSIDE", 0.0)
+    assert paper_c.moment_of_desire(network_b([2]), WaterWorld(), 10).step == 17
+
+
+def test_the_table_has_where_each_desire_between_nodes_lands():
+    run = Run(network_b([2, 3]), WaterWorld())
+    run._state.desires.target[2:] = [[0.25, -0.1, 1.0], [-0.0001, 0.5, -1.5]]
+    assert paper_c.landings(run).splitlines()[2:] == ["| PC to OVC, green creeps | (0.250, −0.100) | +1 |",
+                                                      "| PC to OVC, red creeps | (0.000, 0.500) | −1.5 |"]
 
 
 MOVING = Reading(0.03, 0.8, "share", absent_decay=0.0, memory=0.0, bootstrap=True, terminal=True,
@@ -114,12 +144,9 @@ MOVING = Reading(0.03, 0.8, "share", absent_decay=0.0, memory=0.0, bootstrap=Tru
 
 
 def test_desires_that_land_on_the_agent_are_distinguished_from_those_that_do_not():
-    near, far = (wiring.distances({"book": replace(MOVING, scale=scale)},
-                                 60_000, runs=2) for scale in (1e-6, 1e6))
-    assert list(near) == [("book", name) for name in NETWORKS]
-    for name in NETWORKS:
-        widths, share = near["book", name]
+    near, far = ({name: paper_c.distances(Condition(agent, WaterWorld(), 60_000, 2), runs=2)
+                  for name, agent in networks(replace(MOVING, scale=scale)).items()} for scale in (1e-6, 1e6))
+    for widths, share in near.values():
         assert widths.shape == (2,) and np.all(widths < 0.01) and np.all(share == 1)
-    widths, share = far["book", "D"]
+    widths, share = far["D"]
     assert np.all(widths > 1) and np.all(share < 1)
-    assert wiring.distance_table(near).count("\n") == 1 + len(NETWORKS)

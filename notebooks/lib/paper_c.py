@@ -1,0 +1,119 @@
+"""What the page on paper C needs beside its experiment: its maps, a table and a figure, and where desires land.
+
+The results under one reading are {name: `Result`}, of networks "A" to "D" and of "Brownian" motion on the same board.
+"""
+
+from ast import literal_eval
+
+import numpy as np
+
+from lib.shared.wording import table
+from neorl import checks
+from neorl.drawing.curves import draw_proficiency
+from neorl.drawing.thesis_figures import mark_levels
+from neorl.evidence.statements import STATEMENTS
+from neorl.evidence.statistics import estimate
+from neorl.evidence.verdict import FINAL
+from neorl.experiments.run import Run
+
+DRASTIC = STATEMENTS["C4"].bounds.low  # times as much as C
+LOOKS = 500  # samples of each run, in its second half
+WELL_INSIDE = 0.2  # board widths from the middle
+FAR = 0.1  # board widths from the agent
+PATIENCE = 5_000  # steps
+
+
+def maps(given):
+    """The resolutions in the page's parameter, in ascending order: a tuple of integers, empty for each reading's own.
+
+    given: integers ≥ 1, all different, in a list or, as the option -p of papermill passes it, in text.
+    Raises ValueError for anything else.
+    """
+    try:
+        listed = literal_eval(given) if isinstance(given, str) else given
+        found = tuple(sorted(checks.integer("resolutions", each, at_least=1)
+                             for each in checks.several("resolutions", listed)))
+    except (ValueError, SyntaxError):
+        found = None
+    if found is None or len(set(found)) < len(found):
+        raise checks.error("resolutions", "a list of different integers of at least 1", given,
+                           "write it as [2, 5], or as [] for each reading's own")
+    return found
+
+
+def draw_rates(results, of_paper):
+    """Draw reward per second of networks and of Brownian motion. results: under one reading.
+
+    of_paper: whether the claims of the thesis are about these networks; then a dashed line marks what D has to exceed.
+    """
+    axes = draw_proficiency(results)
+    if of_paper:
+        level = max(0.0, DRASTIC * results["C"].rate(*FINAL).mean())
+        mark_levels(axes, {f"thesis: D beyond {DRASTIC} × C": level})
+
+
+def final_rates(results):
+    """Reward and hits in the last fifth of a run, as a Markdown table. results: {reading: {name: `Result`}}."""
+    rows = []
+    for name in next(iter(results.values())):
+        for reading, each in results.items():
+            green, red = 60 * each[name].hit_rate(*FINAL).mean(axis=0)
+            rows.append([name, reading, estimate(np.mean, each[name].rate(*FINAL)), f"{green:.1f}", f"{red:.1f}"])
+    return table(["Agent", "Reading", "Reward per second", "Green per minute", "Red per minute"], rows)
+
+
+def moment_of_desire(network, world, steps, seed=0):
+    """A `Run` at a moment when the agent is well inside the board and a node's desire lands far from it.
+
+    It takes ``steps`` steps, and then at most `PATIENCE` more until such a moment.
+    """
+    run = Run(network, world, seed)
+    run.advance(steps)
+    while run.step < steps + PATIENCE and not (_is_inside(run) and _reach(run) > FAR):
+        run.advance(1)
+    return run
+
+
+def _is_inside(run):
+    return np.abs(run.world_state.scene.position / run.world.size - 0.5).max() < WELL_INSIDE
+
+
+def _reach(run):
+    """How far from the agent the desires between its nodes land, in board widths: the farthest one."""
+    return np.hypot(*_landed(run).T).max(initial=0.0)
+
+
+def _landed(run):
+    """Where desires that one node has of another land, from the agent, in board widths: float64 (desires, 2)."""
+    passed = [run.agent.comes_from_node(desire) and desire.source != desire.target for desire in run.agent.desires]
+    return run.state.desires.target[passed, :2]
+
+
+def landings(run):
+    """Where the desires between the nodes of a run's agent land, and their valences, as a Markdown table."""
+    rows = [[f"{desire.source} to {desire.target}, {' and '.join(desire.of)} creeps",
+             f"({east:z.3f}, {south:z.3f})".replace("-", "−"), f"{valence:+g}".replace("-", "−")]
+            for desire, (east, south, valence) in zip(run.agent.desires, run.state.desires.target)
+            if run.agent.comes_from_node(desire)]
+    return table(["Desire", "Lands at, from the agent, in board widths", "Valence"], rows)
+
+
+def distances(condition, runs):
+    """How far from the agent desires between nodes land in the second half of runs, and how often in its own cell.
+
+    condition: a `Condition` of a network. runs: how many of its runs, integer ≥ 1. Returns (board widths, share),
+    float64 (runs,) each: the median of the farthest desire, and the share of `LOOKS` moments at which all are in the
+    cell of distance 0 of the finest map.
+    """
+    return np.array([_distances(Run(condition.agent, condition.world, condition.seed, k), condition.steps)
+                     for k in range(runs)]).T
+
+
+def _distances(run, steps):
+    finest, landed = run.agent.nodes[-1].maps[-1], []
+    run.advance(steps // 2)
+    for _ in range(LOOKS):
+        run.advance(max(1, steps // 2 // LOOKS))
+        landed.append(_landed(run))
+    at_agent = finest.encode(landed) == finest.encode([0.0, 0.0])
+    return np.median(np.hypot(*np.moveaxis(landed, -1, 0)).max(axis=1)), at_agent.all(axis=1).mean()

@@ -1,1 +1,0 @@
-"""Experiments and sentences of paper C: networks of desires."""
