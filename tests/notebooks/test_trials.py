@@ -5,25 +5,20 @@ import pytest
 
 import neorl
 from neorl.agents import papers
-from lib.paper_b import findings, trials
+from lib.paper_b import trials
 from neorl.evidence.reading import Reading
 
 READING = Reading(0.03, 0.8, "share", absent_decay=0.0, memory=0.0, bootstrap=True, terminal=True,
                   object_state="object", object_tiled_fraction=1.0, object_beyond="outermost", object_centred=False,
                   place_gain=1.0, weighting="resolution")  # whatever the defaults
 PRIMES = (2, 3)
-
-
-@pytest.fixture(autouse=True)
-def small(monkeypatch):
-    """Use maps with few cells."""
-    monkeypatch.setattr(trials, "PRIMES", PRIMES)
+PLACE, BOTH = papers.place_cells(PRIMES, **READING.agents), papers.multimodal(PRIMES, **READING.agents)
+TANK = neorl.WaterWorld()
 
 
 def test_a_stay_is_the_time_from_one_change_of_cell_to_the_next_but_for_resets():
-    (found,) = trials.mean_stays(READING, 8_000, 1)
-    agent = papers.place_cells(PRIMES, **READING.agents)
-    run, changes = neorl.Run(agent, neorl.WaterWorld(win_reward=100.0), 0), np.zeros(2)
+    (found,) = trials.mean_stays(PLACE, TANK, 8_000, 1)
+    run, changes = neorl.Run(PLACE, neorl.WaterWorld(win_reward=100.0), 0), np.zeros(2)
     run.advance(2_000)
     run.advance(1)
     resets = 0
@@ -37,12 +32,12 @@ def test_a_stay_is_the_time_from_one_change_of_cell_to_the_next_but_for_resets()
 
 
 def test_the_desired_place_moves_and_experience_is_worth_something():
-    moved, seconds = trials.distances(READING, 40_000, 2)
+    moved, seconds = trials.distances(PLACE, TANK, 40_000, 2)
     assert moved["ignorant"].shape == moved["experienced"].shape == (2, 6, 150) and seconds[-1] == 30
-    run = neorl.Run(papers.place_cells(PRIMES, **READING.agents), neorl.WaterWorld(), 0, 1)
+    run = neorl.Run(PLACE, TANK, 0, 1)
     run.advance(10_000)
     for place in trials.PLACES:
-        run.change(trials.desiring(READING, place))
+        run.change(trials.desiring(PLACE, place))
         run.advance(1_500)
         at = run.world_state.scene.position / 250 - place.coordinates
         assert np.hypot(*at) in moved["experienced"][1, :2, -1]
@@ -50,8 +45,8 @@ def test_the_desired_place_moves_and_experience_is_worth_something():
 
 
 def test_values_are_those_of_goals_that_can_be_asked_for():
-    found = trials.mean_values(READING, 5_000, 1)
-    run = neorl.Run(papers.multimodal(PRIMES, **READING.agents), neorl.WaterWorld())
+    found = trials.mean_values(BOTH, TANK, 5_000, 1)
+    run = neorl.Run(BOTH, TANK)
     run.advance(5_000)
     expected = {"PC": 0.0, "OVC": 0.0}
     for m, (node, n) in enumerate([("PC", 2), ("PC", 3), ("OVC", 2), ("OVC", 3)]):
@@ -81,7 +76,6 @@ def test_an_object_is_the_goal_or_the_state():
         assert trials.best_values(run)[1] == pytest.approx(best.mean()) and best.any()
     sizes = trials.size_and_cost(learned, 10, repetitions=1)
     assert {name: values for name, (values, _) in sizes.items()} == {"self": 4 * (4 + 25), "object": 4 * (16 + 625)}
-    assert findings.sizes_table({"self": (1_500, 0.25)}).splitlines()[2:] == ["| self | 1,500 | 0.25 |"]
 
 
 def test_costs_are_those_of_agents_with_one_more_map_each_time():
@@ -89,16 +83,16 @@ def test_costs_are_those_of_agents_with_one_more_map_each_time():
     one = trials._with_maps(both, [("PC", 2), ("OVC", 3)])
     assert [(node.name, node.resolutions) for node in one.nodes] == [("PC", (2,)), ("OVC", (3,))]
     assert one.desires == both.desires and trials._with_maps(both, []).desires == ()
-    cost = trials.measure_costs(READING, 500, 3)
+    cost = trials.measure_costs(BOTH, TANK, 500, 3)
     assert cost.labels == ["PC N2", "PC N3", "OVC N2", "OVC N3"]
     assert cost.alone.shape == cost.first.shape == (4, 3) and (cost.first > 0).all()
     assert cost.measured[0] == cost.predicted[0]
 
 
 def test_a_desire_that_moves_is_a_condition_that_can_be_rerun(cache_folder):
-    result = trials.live_with_moving_desire(READING, 4_001, 2, seed=3)
+    result = trials.live_with_moving_desire(PLACE, TANK, 4_001, 2, seed=3)
     assert (result.steps, result.runs, result.seed) == (1_000 + 2 * 1_500, 2, 3)
-    assert result.agent == papers.place_cells(PRIMES, **READING.agents)
+    assert result.agent == PLACE
     assert [step for step, _ in result.changes] == [1_000, 2_500]
     assert [later.desires[0].source for _, later in result.changes] == [*trials.PLACES]
 
@@ -107,16 +101,3 @@ def test_maps_that_stay_keep_what_they_know_and_new_ones_know_nothing():
     places, both = papers.place_cells(PRIMES), papers.multimodal(PRIMES)
     assert trials.maps_kept(places, both, neorl.WaterWorld(), 5_000) == 2
     assert trials.maps_kept(places, papers.place_cells((2, 4)), neorl.WaterWorld(), 5_000) == 1
-
-
-def test_all_trials_are_held_under_each_reading(monkeypatch):
-    asked = {}
-    for name, found in {"distances": ("moved", "seconds"), "mean_stays": "stays", "mean_values": "values",
-                        "measure_costs": "costs"}.items():
-        monkeypatch.setattr(trials, name, lambda *args, name=name, found=found: (asked.update({name: args}), found)[1])
-    watched = trials.watch({"one": "a", "other": "b"}, 600_000, 10, 7)
-    assert watched == dict.fromkeys(("one", "other"), trials.Watched("moved", "seconds", "stays", "values", "costs"))
-    assert asked == {"distances": ("b", 600_000, 10, 7), "mean_stays": ("b", 600_000, 10, 7),
-                     "mean_values": ("b", 150_000, 10, 7), "measure_costs": ("b", 20_000, 10, 7)}
-    trials.watch({"one": "a"}, 1_000, 10)
-    assert asked["measure_costs"] == ("a", 1_000, 10, 0)

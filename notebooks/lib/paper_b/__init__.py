@@ -1,1 +1,1 @@
-"""Experiments, figures and sentences of paper B: agents with place cells, with object-vector cells, and with both."""
+"""Figures and trials of paper B: agents with place cells, with object-vector cells, and with both."""

@@ -2,7 +2,7 @@
 
 They measure the distance to a desired place that moves, the time spent in a cell of a map, how far agents roam, the
 size of values, what a map of object vectors has learned, the computing time of a step, and whether maps keep their
-values when others join.
+values when others join. Agents and worlds are those of the page.
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -12,20 +12,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl.agents import papers
 from neorl.agents.agent import Desire, Node, Place
 from neorl.agents.rules import Policy
 from neorl.core.modality import PLACE_CELL
-from neorl.evidence.reading import PRIMES
 from neorl.experiments.sweeping import simulate_once
 from neorl.experiments.run import Run, bin_steps
 from neorl.experiments.simulation import usable_threads
-from neorl.worlds.waterworld import WaterWorld
 
 PLACES = (Place(0.3, 0.3), Place(0.65, 0.65))  # desired in turn, for the agent's position
 MOVES, SECONDS_A_MOVE = 6, 30
 LIVED = 0.25  # share of a run that agents live before they are measured
-TIMED_STEPS = 20_000
 
 
 class Costs(NamedTuple):
@@ -48,40 +44,19 @@ class Costs(NamedTuple):
         return base + np.cumsum(np.median(self.alone, axis=1) - base)
 
 
-class Watched(NamedTuple):
-    """Results of the trials under one reading."""
-
-    moved: dict  # distances from a desired place that moves, (runs, moves, samples) by name, see `distances`
-    seconds: np.ndarray  # from the move to each sample, (samples,)
-    stays: np.ndarray  # (runs, maps), see `mean_stays`
-    values: dict  # (runs,) by name of the node, see `mean_values`
-    costs: Costs
+def desiring(agent, place):
+    """An agent of place cells, with a place as its only desire."""
+    return replace(agent, desires=[Desire(place, "PC", valence=1.0)])
 
 
-def watch(readings, steps, runs, seed=0):
-    """Run all trials under each reading, {name: Reading}: {name: `Watched`}.
-
-    steps: of a run of the page's conditions. runs: of each trial, and repetitions of the measured cost of a step.
-    """
-    return {name: Watched(*distances(reading, steps, runs, seed), mean_stays(reading, steps, runs, seed),
-                          mean_values(reading, steps // 4, runs, seed),
-                          measure_costs(reading, min(steps, TIMED_STEPS), runs, seed))
-            for name, reading in readings.items()}
-
-
-def desiring(reading, place):
-    """An agent of place cells whose only desire is a place."""
-    return replace(papers.place_cells(PRIMES, **reading.agents), desires=[Desire(place, "PC", valence=1.0)])
-
-
-def distances(reading, steps, runs, seed=0):
+def distances(agent, world, steps, runs, seed=0):
     """Distance of agents from a desired place that moves to and fro, in board widths: (moved, seconds).
 
-    moved: {"experienced": (runs, moves, samples), "ignorant": the same}, of agents of place cells that have lived a
-    quarter of `steps` among creeps before, and of untrained ones. seconds: from the move to each sample, (samples,).
+    agent: of place cells. moved: {"experienced": (runs, moves, samples), "ignorant": the same}, of agents that have
+    lived a quarter of `steps` among creeps before, and of untrained ones. seconds: from the move to each sample,
+    (samples,).
     """
-    world = _tank(reading)
-    agent, desires = papers.place_cells(PRIMES, **reading.agents), [desiring(reading, at) for at in PLACES]
+    desires = [desiring(agent, at) for at in PLACES]
     interval = bin_steps(world)
     samples = SECONDS_A_MOVE * world.fps // interval
 
@@ -101,23 +76,20 @@ def distances(reading, steps, runs, seed=0):
     return moved, (np.arange(samples) + 1) * interval / world.fps
 
 
-def live_with_moving_desire(reading, steps, runs, seed=0):
+def live_with_moving_desire(agent, world, steps, runs, seed=0):
     """The first two moves of experienced agents, as the `Result` of a condition that can be replayed."""
-    tank = _tank(reading)
-    agent, desires = papers.place_cells(PRIMES, **reading.agents), [desiring(reading, at) for at in PLACES]
-    lived, move = steps // 4, SECONDS_A_MOVE * tank.fps
-    return simulate_once(agent, tank, steps=lived + 2 * move, runs=runs, seed=seed,
+    desires = [desiring(agent, at) for at in PLACES]
+    lived, move = steps // 4, SECONDS_A_MOVE * world.fps
+    return simulate_once(agent, world, steps=lived + 2 * move, runs=runs, seed=seed,
                          changes=[(lived, desires[0]), (lived + move, desires[1])])
 
 
-def mean_stays(reading, steps, runs, seed=0, watched=15_000):
+def mean_stays(agent, world, steps, runs, seed=0, watched=15_000):
     """Mean time that agents stay in a cell, in seconds, for each map of place cells: (runs, maps).
 
     They live a quarter of `steps` first and are then measured for as long, at most `watched` steps. A board's reset,
     which puts an agent elsewhere, does not count as a change of cell; without any change, a stay is the time measured.
     """
-    world = _tank(reading)
-    agent = papers.place_cells(PRIMES, **reading.agents)
     lived = round(LIVED * steps)
     path_steps = max(2, min(lived, watched))
 
@@ -150,16 +122,13 @@ def roaming(revalued, seconds=100):
     return _of_runs(of_run, revalued.agent, world, revalued.runs).T
 
 
-def mean_values(reading, steps, runs, seed=0):
+def mean_values(agent, world, steps, runs, seed=0):
     """Mean values of agents with both modalities after `steps` steps: {node: (runs,)}.
 
     For a map it is the value of the best action, averaged over states and over the goals that the node can be asked
     for: any other cell of a map of places; of a map of object vectors the contact, from any other cell, or any other
     cell if the state is the self. Maps count by their weights; gains are left out.
     """
-    world = _tank(reading)
-    agent = papers.multimodal(PRIMES, **reading.agents)
-
     def of_nodes(k):
         run = Run(agent, world, seed, k)
         run.advance(steps)
@@ -219,14 +188,12 @@ def size_and_cost(learned, steps, repetitions=5):
             for name, run in runs.items()}
 
 
-def measure_costs(reading, steps, repetitions, seed=0):
-    """Measure the cost of agents as maps are added one by one: a `Costs`.
+def measure_costs(agent, world, steps, repetitions, seed=0):
+    """Measure the cost of an agent as its maps are added one by one: a `Costs`.
 
-    Their nodes have a gain of 0 and do not explore, so they evaluate and learn everything but draw every action.
+    Its nodes get a gain of 0 and do not explore, so it evaluates and learns everything but draws every action.
     """
-    agents = {**reading.agents, "policy": Policy(0.0, "random")}
-    both = papers.multimodal(PRIMES, place_gain=0.0, object_gain=0.0, **agents)
-    world = _tank(reading)
+    both = replace(agent, nodes=[replace(node, gain=0.0) for node in agent.nodes], policy=Policy(0.0, "random"))
     maps = [(node.name, n) for node in both.nodes for n in node.resolutions]
     sets = [(), *((each,) for each in maps), *(maps[:k] for k in range(2, len(maps) + 1))]
     alive = [Run(_with_maps(both, chosen), world, seed) for chosen in sets]
@@ -265,10 +232,6 @@ def _path(run, world, steps):
         path[step] = scene.position / world.size
         moved[step] = scene.velocity.any() or (path[step] != 0.5).any()
     return path, moved
-
-
-def _tank(reading):
-    return WaterWorld(fps=reading.fps, contact=reading.contact)
 
 
 def _with_maps(agent, chosen):

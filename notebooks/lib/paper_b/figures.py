@@ -1,0 +1,197 @@
+"""The figures and tables of the page on paper B, and the conditions that its Explorer offers.
+
+The results under one reading are {key: `Result`}, with the keys ("place", N), ("objects", N), "both" and "brownian";
+N is a resolution, or "all" for the agent with all of them. `AGENTS` names those of the paper's figure 5.
+"""
+
+import numpy as np
+from matplotlib.patches import Circle
+
+from lib.paper_b.trials import SECONDS_A_MOVE, best_values, values_for_objects
+from lib.shared.wording import table
+from neorl.core.maps import NresMap
+from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, MODALITIES
+from neorl.drawing.boards import as_board, draw_tank, new_boards
+from neorl.drawing.curves import draw_curves, draw_sweep
+from neorl.drawing.receptive_fields import draw_receptive_fields
+from neorl.drawing.style import AGENT, FILL, GREEN, INK, mark
+from neorl.drawing.thesis_figures import draw_against_thesis
+from neorl.drawing.value_maps import draw_cells, draw_values
+from neorl.evidence.report import CALIBRATED, LETTER
+from neorl.evidence.statements import STATEMENTS
+from neorl.evidence.statistics import estimate, quotient
+
+OBJECT = (0.8, -0.4)  # where the object is as seen from the self, in board widths
+DISC = 0.09  # radius of either, larger than in the tank
+AGENTS = {"PC": ("place", "all"), "OVC": ("objects", "all"), "PC + OVC": "both"}  # of figure 5, and their keys
+CELLS = {"PC": "place", "OVC": "object-vector", "PC + OVC": "place + object-vector"}  # these in words
+LABELS = {"PC": "place cells", "OVC": "object-vector\ncells", "PC + OVC": "both"}
+B3, B4 = STATEMENTS["B3"], STATEMENTS["B4"]
+PC = B3.also["place cells"].number  # per second, and of object-vector cells too: "no loss", section 3.1
+THESIS_LEVELS = {"PC": PC, "OVC": PC, "PC + OVC": B3.bounds.number}
+THESIS_MINUTES = {"PC": B4.also["place cells"].number, "PC + OVC": B4.bounds.number}
+TUNINGS = {("component", "component"): "cartesian", ("margin", "margin"): "proximal", ("length", "direction"): "polar",
+           ("direction",): "angle", ("length",): "length"}
+STRETCHES = 100  # intervals of a run in which red creeps are counted
+
+
+def of_figure_4(results, modality):
+    """Results of figure 4's agents under one reading, "place" (4A) or "objects" (4B): {"N2": Result, …, "all": …}."""
+    found = {key[1]: result for key, result in results.items() if key[0] == modality}
+    return {f"N{n}": found[n] for n in found if n != "all"} | {"all": found["all"]}
+
+
+def of_figure_5(results):
+    """Results of figure 5's agents under one reading: {"PC": Result, …}."""
+    return {name: results[key] for name, key in AGENTS.items()}
+
+
+def draw_agents(thesis, found, xlabel):
+    """Draw results of figure 5's agents beside the thesis's numbers, a row for each agent with such a number.
+
+    thesis: {agent: number}. found: {reading: {agent: Estimate}}.
+    """
+    draw_against_thesis({LABELS[agent]: number for agent, number in thesis.items()},
+                        {name: {LABELS[agent]: of_agents[agent] for agent in thesis}
+                         for name, of_agents in found.items()}, xlabel)
+
+
+def draw_states():
+    """Draw the state and the goal of an N5 of object vectors under both readings, with an example of a transition."""
+    n5, (x, y) = NresMap(5, CARTESIAN_OBJECT_VECTOR_CELL), OBJECT
+    centre, of_object = (int(cell) for cell in n5.encode([(0, 0), OBJECT]))
+    side = 2 / n5.resolution
+    readings = {"the self": ("state", "goal", (0, 0), (side / 2, 0)),
+                "the object's cell": ("goal", "state", OBJECT, (x - side, y))}
+    for axes, (title, (of_centre, of_cell, start, end)) in zip(new_boards(2, 1), readings.items()):
+        draw_cells(n5, fills={centre: (AGENT, FILL), of_object: (GREEN, FILL)}, ax=as_board(axes, -1))
+        for place, colour, name in (((0, 0), AGENT, of_centre), (OBJECT, GREEN, of_cell)):
+            axes.add_patch(Circle(place, DISC, facecolor=colour, edgecolor="none"))
+            mark(axes, (place[0], place[1] + 0.31), name, ha="center", va="center")
+        axes.annotate("", end, start, arrowprops={"arrowstyle": "->", "color": INK, "linewidth": 1.8, "shrinkA": 0,
+                                                  "shrinkB": 0})
+        axes.set_title(title)
+
+
+def draw_object_values(learned):
+    """Draw which way the values for an object would take the agent, in the middle and the finest map of first runs.
+
+    learned: of agents of object-vector cells alone with the same maps, {name: [`Run`, …]}.
+    """
+    maps = _resolutions(learned)
+    drawn = dict.fromkeys((maps[len(maps) // 2], maps[-1]))
+    boards = iter(new_boards(len(learned), len(drawn)))
+    for n in drawn:
+        for name, (run, *_) in learned.items():
+            axes, m = as_board(next(boards), -1), [each.resolution for each in run.agent.maps].index(n)
+            nres_map = run.agent.maps[m]
+            draw_cells(nres_map, fills={int(nres_map.encode([0, 0])): (GREEN, FILL)}, width=0.6, ax=axes)
+            draw_values(nres_map, values_for_objects(run, m), ax=axes)
+            axes.set_title(f"{name}, N{n}")
+
+
+def draw_best_values(learned):
+    """Draw the mean best value of each map, see `trials.best_values`. learned: as in `draw_object_values`."""
+    values = {name: np.array([best_values(run) for run in runs]).T for name, runs in learned.items()}
+    maps = _resolutions(learned)
+    axes = draw_sweep(maps, {name: [estimate(np.mean, of_map) for of_map in each] for name, each in values.items()},
+                      "N of the map", "mean best value")
+    axes.set_xticks(maps)
+
+
+def draw_modalities(world, state):
+    """Draw the receptive fields of a map of each modality over a tank, those of its active cells filled."""
+    for axes, modality in zip(new_boards(2, 4), MODALITIES):
+        draw_receptive_fields(NresMap(7, modality), world, state, axes)
+        draw_tank(world, state, axes)
+        axes.set_title(modality.name)
+
+
+def draw_revaluing(revalued):
+    """Draw red creeps taken per minute over the run, and a line where they are revalued. revalued: {name: `Result`}."""
+    minutes, curves = red_a_minute(revalued)
+    axes = draw_curves(minutes, curves, "simulated minutes", "red creeps per minute")
+    axes.axvline((minutes[0] + minutes[-1]) / 2, color=INK, linewidth=0.7)
+
+
+def red_a_minute(revalued):
+    """The midpoints of equal stretches of a run, in minutes, and red creeps taken per minute in each.
+
+    revalued: {name: `Result`}, of the same length. Returns (stretches,) and {name: (runs, stretches)}.
+    """
+    edges = np.linspace(0, 1, STRETCHES + 1)
+    curves = {name: np.stack([60 * result.hit_rate(*pair)[:, 1] for pair in zip(edges[:-1], edges[1:])], axis=1)
+              for name, result in revalued.items()}
+    return (edges[:-1] + edges[1:]) / 2 * next(iter(revalued.values())).seconds / 60, curves
+
+
+def draw_distances(moved, seconds):
+    """Draw the distance of agents from a desired place over all its moves, as `trials.distances` returns it."""
+    starts = SECONDS_A_MOVE * np.arange(moved["experienced"].shape[1])
+    draw_curves((starts[:, None] + seconds).ravel(), {name: each.reshape(len(each), -1) for name, each in moved.items()},
+                "seconds", "distance, board widths")
+
+
+def draw_time_scale(resolutions, stays):
+    """Draw seconds in a cell over the width of its receptive field, on logarithmic axes.
+
+    resolutions: of the maps, in ascending order. stays: {reading: (runs, maps)}, see `trials.mean_stays`.
+    """
+    widths = [1 / n for n in resolutions[::-1]]
+    means = {name: [estimate(np.mean, stay) for stay in each.T[::-1]] for name, each in stays.items()}
+    axes = draw_sweep(widths, means, "width of a receptive field, share of the range", "seconds in a cell")
+    axes.set(xscale="log", yscale="log", ylim=(None, None))
+    axes.set_xticks(widths, ["" if n == 11 else f"1/{n}" for n in resolutions[::-1]])
+    axes.minorticks_off()
+
+
+def modalities_table():
+    """The modalities that the thesis names, as a Markdown table."""
+    return table(["Cell", "Reference frame", "Tuned to", "Map"], [
+        [each.name, each.frame, f"{' × '.join(each.names)} ({TUNINGS[tuple(axis.feature for axis in each.axes)]})",
+         f"{len(each.axes)}-D"] for each in MODALITIES])
+
+
+def values_table(values):
+    """Mean values of either modality, and their ratio, as a Markdown table. values: {reading: {node: (runs,)}}."""
+    return table(["Reading", "PC", "OVC", "OVC / PC (author's remark: 3)"], [
+        [name, *(estimate(np.mean, each) for each in (of["PC"], of["OVC"], quotient(of["OVC"], of["PC"])))]
+        for name, of in values.items()])
+
+
+def sizes_table(sizes):
+    """The values and microseconds per step of each kind of agent, as a Markdown table. sizes: `trials.size_and_cost`."""
+    return table(["State", "Values", "Time per step, µs"], [
+        [name, f"{values:,}", f"{cost:.2f}"] for name, (values, cost) in sizes.items()])
+
+
+def change_table(revalued, roamed):
+    """Green creeps per minute, and distances roamed, before red ones are revalued and at the end, as a Markdown table.
+
+    revalued: {name: `Result`}. roamed: {name: (2, runs)}, of some of them, see `trials.roaming`.
+    """
+    rows = []
+    for name, result in revalued.items():
+        green = (60 * result.hit_rate(*part)[:, 0] for part in ((0.3, 0.5), (0.8, 1)))
+        ways = [estimate(np.mean, each) for each in roamed[name]] if name in roamed else ["", ""]
+        rows.append([name, *(estimate(np.mean, each) for each in green), *ways])
+    return table(["Agents", "Green before", "Green finally", "Roaming before", "Roaming finally"], rows)
+
+
+def explorer_conditions(results, paper, others):
+    """The conditions that the page's Explorer offers: {name: `Result`}, the first with both modalities.
+
+    results: {reading: {key: `Result`}}. paper: begins their names, such as "Paper B". others: more, {what: `Result`}.
+    """
+    calibrated, letter = results[CALIBRATED], results[LETTER]
+    offered = {f"{paper}, figure 5: place + object-vector cells": calibrated["both"]}
+    for figure, modality in (("4A: place", "place"), ("4B: object-vector", "objects")):
+        offered |= {f"{paper}, figure {figure} cells, {n}": result
+                    for n, result in of_figure_4(calibrated, modality).items()}
+    offered |= {f"{paper}, figure 5, to the letter: {CELLS[name]} cells": result
+                for name, result in of_figure_5(letter).items()}
+    return offered | {f"{paper}: {what}": result for what, result in others.items()}
+
+
+def _resolutions(learned):
+    return [each.resolution for each in next(iter(learned.values()))[0].agent.maps]
