@@ -1,11 +1,11 @@
-"""Runs equal a slow second implementation of the rules (`restated`), under every option of learning and of desires."""
+"""Runs equal the agent in one file of plain Python (`lib.one_file`), under every option of learning and of desires."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from golden import plain_rule
-from restated import restated
+from lib.one_file import simulate
 
 from neorl import (Agent, Desire, Node, Place, Policy, Run, WaterWorld, multimodal, network_a, network_b, network_c,
                    network_d, object_vector_cells, place_cells)
@@ -75,7 +75,7 @@ def test_a_run_equals_the_rules_in_plain_python(name):
     agent, world, steps = READINGS[name], WaterWorld(width=100, n_creeps=2, win_reward=5.0), 1_500
     run = Run(agent, world, seed=3, run=2)
     brought = run.advance(steps)
-    rewards, q = restated(agent, world, steps, seed=3, run=2)
+    rewards, q = simulate(agent, world, steps, seed=3, run=2)
     assert brought == sum(rewards) != 0
     for m, table in enumerate(q):
         np.testing.assert_array_equal(run.q(m), table)
