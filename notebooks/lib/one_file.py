@@ -148,24 +148,6 @@ def values(agent, scene, maps, pulls):
     return value
 
 
-def elements(agent, desire, scene, pulls):
-    """The elements of a desire, [(vector from the agent, or point in the node's own space, valence), …]."""
-    if isinstance(desire.source, tuple):
-        return [(desire.source, desire.valence)]
-    if isinstance(desire.source, Place):
-        return [(np.array(desire.source.coordinates) - scene.position, desire.valence)]
-    if not agent.comes_from_node(desire):
-        wanted = [thing for thing, kind in zip(scene.things, scene.kinds) if kind == desire.source]
-        return [(thing - scene.position, desire.valence) for thing in wanted]
-    vector, valence = np.zeros(2), 0.0
-    for other, (q, w) in zip(agent.desires, pulls):
-        if other.target == desire.source and (not desire.of or other.source in desire.of):
-            towards = np.array([q[E] - q[W], q[S] - q[N]])  # y points down
-            vector += towards if desire.signed or w > 0 else -towards
-            valence += w
-    return [(desire.scale * vector, valence if desire.valence is None else desire.valence)]
-
-
 def selected(nres, element, scene):
     """The pairs (s, i) of cells by which an element selects Q_i(s, ·) (eq. 4.4)."""
     follows, tracks = nres.node.modality.follows, [track for track in nres.tracks if track.cell is not None]
@@ -187,6 +169,24 @@ def selected(nres, element, scene):
     return [(cell, row * nres.cuts[0][2] + column) for row in rows for column in columns]
 
 
+def elements(agent, desire, scene, pulls):
+    """The elements of a desire, [(vector from the agent, or point in the node's own space, valence), …]."""
+    if isinstance(desire.source, tuple):
+        return [(desire.source, desire.valence)]
+    if isinstance(desire.source, Place):
+        return [(np.array(desire.source.coordinates) - scene.position, desire.valence)]
+    if not agent.comes_from_node(desire):
+        wanted = [thing for thing, kind in zip(scene.things, scene.kinds) if kind == desire.source]
+        return [(thing - scene.position, desire.valence) for thing in wanted]
+    vector, valence = np.zeros(2), 0.0
+    for other, (q, w) in zip(agent.desires, pulls):
+        if other.target == desire.source and (not desire.of or other.source in desire.of):
+            towards = np.array([q[E] - q[W], q[S] - q[N]])  # y points down
+            vector += towards if desire.signed or w > 0 else -towards
+            valence += w
+    return [(desire.scale * vector, valence if desire.valence is None else desire.valence)]
+
+
 # 3. From values to an action
 
 def choose(agent, scene, maps, pulls, rng):
@@ -203,7 +203,7 @@ def choose(agent, scene, maps, pulls, rng):
 # 4. From an action to a change of cell
 
 class Track:
-    """A point that a map follows: its cell s⁻, the events since it is there, and the cells that it remembers."""
+    """A point that a map follows: its cell s⁻, the events since it entered, and the cells that it remembers."""
 
     def __init__(self, nres, vector):
         self.cell, self.events = nres.active(vector) if nres.node.state == "object" else nres.contact(), []
