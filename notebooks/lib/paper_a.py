@@ -1,4 +1,4 @@
-"""What the page on paper A needs beside its experiment: its lists of maps, squares of the board, tables and figures.
+"""What the page on paper A needs beside its experiment: squares of the board, tables and figures.
 
 1. The results under one reading are {key: `Result`}, with the keys ("single", N), ("layer", N), "layers" (all layers in
    one agent), "control" and "brownian" (Brownian motion, as long as the agents' runs and as long as the paper's).
@@ -6,13 +6,11 @@
    and the names of its figures, go only with its own maps and 8 creeps.
 """
 
-import ast
-
 import numpy as np
 
 from lib.shared import side_by_side
+from lib.shared.notebook import FINEST
 from lib.shared.wording import table
-from neorl import checks
 from neorl.core.horde import as_vectors
 from neorl.core.maps import NresMap
 from neorl.core.scene import CARDINAL
@@ -29,25 +27,8 @@ from neorl.evidence.statistics import estimate
 from neorl.evidence.verdict import FINAL
 from neorl.experiments.run import Run
 
-N_CREEPS, FINEST = 8, 90  # of the paper; the finest map that the Explorer shows
+N_CREEPS = 8  # of the paper
 LINES = (RED, 3.2), (AGENT, 1.8), (INK, 0.7)  # of the first map, the second, and any others
-
-
-def maps(name, given):
-    """The resolutions in a parameter of the page, a tuple of integers.
-
-    name: of the parameter. given: one integer or more from 1 to 90, all different, in a list or, as the option -p of
-    papermill passes it, in text.
-    Raises ValueError for anything else.
-    """
-    try:
-        listed = ast.literal_eval(given) if isinstance(given, str) else given
-    except (ValueError, SyntaxError):
-        raise checks.error(name, "a list of resolutions", given, "write it as [5, 11]") from None
-    found = tuple(checks.integer(name, each, 1, FINEST) for each in checks.several(name, listed))
-    if len(set(found)) < max(1, len(found)):
-        raise checks.error(name, "one resolution or more, all different", given)
-    return found
 
 
 def all_of(layers):

@@ -3,12 +3,9 @@
 The results under one reading are {name: `Result`}, of networks "A" to "D" and of "Brownian" motion on the same board.
 """
 
-from ast import literal_eval
-
 import numpy as np
 
 from lib.shared.wording import table
-from neorl import checks
 from neorl.drawing.curves import draw_proficiency
 from neorl.drawing.thesis_figures import mark_levels
 from neorl.evidence.statements import STATEMENTS
@@ -21,24 +18,6 @@ LOOKS = 500  # samples of each run, in its second half
 WELL_INSIDE = 0.2  # board widths from the middle
 FAR = 0.1  # board widths from the agent
 PATIENCE = 5_000  # steps
-
-
-def maps(given):
-    """The resolutions in the page's parameter, in ascending order: a tuple of integers, empty for each reading's own.
-
-    given: integers ≥ 1, all different, in a list or, as the option -p of papermill passes it, in text.
-    Raises ValueError for anything else.
-    """
-    try:
-        listed = literal_eval(given) if isinstance(given, str) else given
-        found = tuple(sorted(checks.integer("resolutions", each, at_least=1)
-                             for each in checks.several("resolutions", listed)))
-    except (ValueError, SyntaxError):
-        found = None
-    if found is None or len(set(found)) < len(found):
-        raise checks.error("resolutions", "a list of different integers of at least 1", given,
-                           "write it as [2, 5], or as [] for each reading's own")
-    return found
 
 
 def draw_rates(results, of_paper):

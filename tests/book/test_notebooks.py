@@ -171,6 +171,22 @@ def test_too_short_a_run_is_refused_where_there_would_be_nothing_to_draw():
         notebook.begin(runs=20, steps=999, seed=0, fewest_steps=1_000)
 
 
+@pytest.mark.parametrize("given, fewest, wanted", [
+    ([5, 11], 1, (5, 11)), ("[11, 5]", 1, (11, 5)), ("5, 11", 1, (5, 11)), ([], 0, ()), ("[]", 0, ())])
+def test_resolutions_are_a_list_or_its_text(given, fewest, wanted):
+    assert notebook.resolutions("layers", given, fewest) == wanted
+
+
+@pytest.mark.parametrize("given, message", [
+    ("five", r"layers must be a list of resolutions, but is 'five'; write it as \[5, 11\]"),
+    ([3, 91], "layers must be an integer from 1 to 90, but is 91"),
+    ([], "layers must be a list of 1 or more resolutions, all different, but is"), ([3, 3], "but is .3, 3."),
+    (7, "layers must be a list or a tuple, but is 7")])
+def test_other_resolutions_are_refused(given, message):
+    with pytest.raises(ValueError, match=message):
+        notebook.resolutions("layers", given)
+
+
 def test_a_parameter_that_the_notebook_does_not_have_is_refused(monkeypatch):
     class Shell:
         user_ns = {"In": ["", "runs: int = 20", "# Parameters\nruns = 4\nrunz = 3\n", "notebook.begin(runs, 1, 0)"]}

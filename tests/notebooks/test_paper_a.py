@@ -111,21 +111,6 @@ def test_a_claim_is_judged_only_where_its_own_conditions_are_run(parameters, nam
     assert [claim.name for claim in judged(**parameters)[0]] == names
 
 
-@pytest.mark.parametrize("given", [[5, 11], (5, 11), "[5, 11]", "5, 11"])
-def test_maps_are_a_list_or_its_text(given):
-    assert paper_a.maps("layers", given) == (5, 11)
-
-
-@pytest.mark.parametrize("given, message", [
-    ("five", "layers must be a list of resolutions, but is 'five'; write it as"),
-    ([3, 91], "layers must be an integer from 1 to 90, but is 91"),
-    ([], "layers must be one resolution or more, all different, but is"), ([3, 3], "all different, but is .3, 3."),
-    (7, "layers must be a list or a tuple, but is 7")])
-def test_what_is_no_list_of_maps_is_refused(given, message):
-    with pytest.raises(ValueError, match=message):
-        paper_a.maps("layers", given)
-
-
 def test_the_explorer_offers_both_readings_and_one_control():
     calibrated, letter = results_of(), results_of()
     offered = paper_a.explorer_conditions({LETTER: letter, CALIBRATED: calibrated})

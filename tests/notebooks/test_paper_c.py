@@ -59,18 +59,6 @@ def test_claims_are_judged_only_if_what_the_paper_ran_is_what_was_run(parameter)
     assert not experiment(**parameter)["of_paper"]
 
 
-@pytest.mark.parametrize("given, maps", [([], ()), ("[]", ()), ([7, 2], (2, 7)), ("[3, 5, 23]", (3, 5, 23))])
-def test_maps_are_given_in_a_list_or_in_text(given, maps):
-    assert paper_c.maps(given) == maps
-
-
-@pytest.mark.parametrize("given", [7, "7", "3 7", [0], [2.5], [3, 3], "x", None])
-def test_other_maps_are_refused(given):
-    with pytest.raises(ValueError, match=r"^resolutions must be a list of different integers of at least 1, but is .*; "
-                                         r"write it as \[2, 5\], or as \[\] for each reading's own$"):
-        paper_c.maps(given)
-
-
 def made_up(agent, rate, runs=12, bins=3_000):
     """A result in which every run earns about `rate` per second in its second half, and nothing before."""
     hits = np.zeros((runs, bins, 2), np.int16)

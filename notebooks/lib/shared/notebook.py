@@ -12,6 +12,8 @@ from neorl import checks
 from neorl.core.kernel import function_of
 from neorl.drawing.style import use_style
 
+FINEST = 90  # intervals per axis, of the finest map in the thesis
+
 
 def begin(runs, steps, seed, fewest_steps=1, **others):
     """Check the parameters of a notebook, and set the style of its figures.
@@ -38,6 +40,23 @@ def injected_names():
     cells = shell.user_ns["In"] if shell else []
     injected = [ast.parse(cell) for cell in cells if cell.startswith("# Parameters\n")]
     return [target.id for tree in injected for statement in tree.body for target in statement.targets]
+
+
+def resolutions(name, given, fewest=1):
+    """The resolutions in a parameter of a page: a tuple of integers.
+
+    name: of the parameter. given: `fewest` integers or more from 1 to 90, all different, in a list or, as the option
+    -p of papermill passes it, in text.
+    Raises ValueError for anything else.
+    """
+    try:
+        listed = ast.literal_eval(given) if isinstance(given, str) else given
+    except (ValueError, SyntaxError):
+        raise checks.error(name, "a list of resolutions", given, "write it as [5, 11]") from None
+    found = tuple(checks.integer(name, each, 1, FINEST) for each in checks.several(name, listed))
+    if len(set(found)) < max(fewest, len(found)):
+        raise checks.error(name, f"a list of {fewest} or more resolutions, all different", given)
+    return found
 
 
 def source(*values):
