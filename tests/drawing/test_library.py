@@ -2,7 +2,6 @@
 
 import doctest
 import importlib
-import inspect
 import pkgutil
 import subprocess
 import sys
@@ -63,13 +62,6 @@ def test_a_figure_of_one_panel_is_drawn_into_the_axes_that_are_given_and_into_no
         plt.close("all")
 
 
-@pytest.mark.parametrize("module", MODULES, ids=lambda module: module.__name__)
-def test_every_figure_can_be_placed(module):
-    for name, function in inspect.getmembers(module, inspect.isfunction):
-        if name.startswith("draw_") and function.__module__ == module.__name__:
-            assert {"ax", "figure"} & set(inspect.signature(function).parameters), name
-
-
 @pytest.mark.parametrize("module", [drawing, *MODULES], ids=lambda module: module.__name__)
 def test_the_examples_in_docstrings_run(module, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
@@ -78,29 +70,6 @@ def test_the_examples_in_docstrings_run(module, tmp_path, monkeypatch):
         if example.name.startswith(module.__name__):
             assert doctest.DocTestRunner().run(example).failed == 0, example.name
             plt.close("all")
-
-
-def test_every_public_function_has_an_example():
-    for name in drawing.__all__:
-        if inspect.isfunction(getattr(drawing, name)) and name not in ("draw_costs", "use_style"):
-            assert ">>> " in getattr(drawing, name).__doc__, name
-
-
-def test_axes_become_a_board_unless_their_limits_are_set(run):
-    fresh, own = plt.figure().subplots(1, 2)
-    own.set(xlim=(0.2, 0.4), ylim=(0.4, 0.2))
-    for axes in (fresh, own):
-        drawing.draw_tank(TANK, run.world_state, axes)
-    assert fresh.get_ylim()[0] > fresh.get_ylim()[1] and not fresh.axison
-    assert own.get_xlim() == (0.2, 0.4) and own.axison
-
-
-def test_networks_fill_a_part_of_a_figure():
-    left, right = plt.figure(figsize=(8, 3)).subfigures(1, 2)
-    panels = drawing.draw_networks({"C": neorl.network_c(), "D": network_d()}, right)
-    assert [axes.figure for axes in panels] == [right, right] and not left.axes
-    letters = {text.get_fontsize() for axes in panels for text in axes.texts}
-    assert max(letters) < 8  # smaller than in a figure of their own, so that they fit
 
 
 @pytest.mark.parametrize("draw", [drawing.draw_accumulated, drawing.draw_proficiency, drawing.draw_smoothed])
@@ -117,12 +86,6 @@ def test_a_sum_of_runs_of_different_lengths_is_refused():
         drawing.draw_proficiency({"a": made_up(1)}, total=("sum", [made_up(20), made_up(2)]))
 
 
-def test_a_run_shorter_than_the_points_of_a_curve_has_a_point_a_bin():
-    line, _ = drawing.draw_proficiency({"short": made_up(1 / 60)}).lines
-    np.testing.assert_allclose(line.get_ydata(), [0.5] * 5)
-    np.testing.assert_allclose(line.get_xdata(), (np.arange(5) + 0.5) / 5 / 60)
-
-
 @pytest.mark.parametrize("count", [8, 20, 28])
 def test_any_number_of_curves_is_drawn_and_distinguished(count):
     axes = drawing.draw_curves(np.arange(9), {f"agent {i}": np.full((1, 9), float(i)) for i in range(count)})
@@ -131,11 +94,6 @@ def test_any_number_of_curves_is_drawn_and_distinguished(count):
     extents = sorted((text.get_window_extent().y0, text.get_window_extent().y1) for text in axes.texts)
     assert len(extents) == count
     assert all(above > below - 1 for (_, below), (above, _) in zip(extents, extents[1:]))  # to within a pixel
-
-
-def test_the_grey_of_a_control_comes_after_any_number_of_curves():
-    axes = drawing.draw_accumulated({f"N{n}": made_up(1) for n in range(9)}, {"control": made_up(1)})
-    assert [line.get_color() for line in axes.lines] == [*drawing.CURVES, *drawing.CURVES[:2], drawing.INK]
 
 
 def test_a_curve_with_gaps_is_named_where_it_ends():

@@ -8,10 +8,9 @@ from matplotlib import pyplot as plt
 from matplotlib.patches import Circle, FancyArrowPatch, FancyBboxPatch
 from matplotlib.path import Path
 
-from neorl import (Agent, Desire, Node, Place, multimodal, network_a, network_b, network_c, network_d,
+from neorl import (Agent, Desire, Node, multimodal, network_a, network_b, network_c, network_d,
                    object_vector_cells, place_cells)
-from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL, OBJECT_VECTOR_CELL, PLACE_CELL
-from neorl.drawing.style import GREEN, RED, TEXT
+from neorl.core.modality import HEAD_DIRECTION_CELL, OBJECT_VECTOR_CELL, PLACE_CELL
 from neorl.drawing.network_figures import draw_network, draw_networks
 
 CREEPS = (Desire("green", "PC", 1.0), Desire("red", "PC", -1.0))
@@ -108,54 +107,6 @@ def test_a_node_shows_its_name_modality_and_resolutions():
     assert {"PC", "place cell", "N5", "N3, N7", "head-direction"} <= set(texts())
 
 
-def test_elements_carry_sign_and_valence():
-    draw_network(place_cells(valence_red=-2.5))
-    assert [circle.get_facecolor() for circle in drawn(Circle)] == [matplotlib.colors.to_rgba(colour)
-                                                                    for colour in (GREEN, RED)]
-    assert {"+", "−", "+1", "−2.5", "× 1", "Q"} <= set(texts())
-
-
-def test_fixed_points_and_elements_of_nodes_are_named():
-    draw_network(entangled())
-    assert {"×", "(0.5, 0.25): +2", "PC: r = 0.5"} <= set(texts())
-
-
-def test_a_place_is_named():
-    draw_network(Agent([Node("OVC", CARTESIAN_OBJECT_VECTOR_CELL, [3])], [Desire(Place(0.1, 0.9), "OVC", 1.0)]))
-    assert "(0.1, 0.9): +1" in texts()
-
-
-def test_desires_of_some_elements_are_distinguished():
-    draw_network(network_b())
-    labels = {text.get_text(): text.get_color() for text in plt.gca().texts}
-    assert labels["green: Σ w"] == GREEN and labels["red: Σ w"] == RED
-    heights = {text.get_text(): text.get_position()[1] for text in plt.gca().texts}
-    assert heights["+1"] < heights["−1"] and heights["green: Σ w"] < heights["red: Σ w"]  # y points downward
-    draw_network(network_a())
-    labels = {text.get_text(): text.get_color() for text in plt.gca().texts}
-    assert labels["Σ w"] == TEXT and "× 0" not in labels
-
-
-def test_recursion_is_a_loop():
-    draw_network(network_d(recursion=-1.0))
-    (name,) = [text for text in plt.gca().texts if text.get_text() == "OVC"]
-    (top,) = [box.get_y() for box in drawn(FancyBboxPatch) if box.get_bbox().contains(*name.get_position())]
-    loops = [path for path in lines() if path[0][1] == path[-1][1] == top and path[:, 1].min() < top - 1]
-    assert len(loops) == 1 and "r = −1" in texts()
-    draw_network(network_c())
-    assert not any("r =" in text for text in texts())
-
-
-def test_columns_go_by_depth():
-    draw_network(chain())
-    names = {text.get_text(): text.get_position() for text in plt.gca().texts}
-    assert names["PC"][0] < names["OVC"][0] < names["HD"][0] < names["Q"][0]
-    first, second, third, q = (box.get_bbox() for box in drawn(FancyBboxPatch))
-    assert first.x1 < second.x0 < second.x1 < third.x0 < third.x1 < q.x0
-    draw_network(multimodal())
-    assert len({box.get_x() for box in drawn(FancyBboxPatch)}) == 2
-
-
 def test_networks_below_one_another_share_a_size():
     draw_networks({"A": network_a(), "B": network_b(), "C": network_c(), "D": network_d(), "E": place_cells()})
     panels = plt.gcf().axes
@@ -164,8 +115,3 @@ def test_networks_below_one_another_share_a_size():
     assert len({text.get_fontsize() for panel in panels for text in panel.texts}) == 2
     ems = [panel.transData.transform([[0, 0], [1, -1]]) for panel in panels]
     assert len({tuple((end - start).round(6)) for start, end in ems}) == 1
-
-
-def test_an_agent_without_gains_still_has_a_value():
-    draw_network(Agent((Node("PC", PLACE_CELL, (5,), gain=0.0),)))
-    assert "Q" in texts() and not drawn(FancyArrowPatch)
