@@ -9,14 +9,11 @@ from pathlib import Path
 
 import nbformat
 import pytest
-from docutils.core import publish_doctree
 
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "book"))
 import api_links  # noqa: E402
-import describe  # noqa: E402
 import launch  # noqa: E402
-import weight  # noqa: E402
 PUBLIC = sorted(".".join(path.relative_to(ROOT / "neorl").with_suffix("").parts).removesuffix(".__init__")
                 for path in (ROOT / "neorl").rglob("*.py"))
 
@@ -87,72 +84,12 @@ def test_without_a_repository_there_are_no_buttons_and_docstrings_become_lists_w
     assert "var Scorer" in search  # book/vendor/search_order.js
 
 
-def test_a_page_is_described_by_its_first_paragraph_cut_at_a_word():
-    long = publish_doctree("Title\n=====\n\nSay *one* thing " + "and another " * 30 + "\n\nNot this.")
-    text = describe.description(long)
-    assert text.startswith("Say one thing and another") and text.endswith(" …") and len(text) <= describe.LONGEST
-    assert describe.description(publish_doctree("")) == "" and "description" not in describe.tags("A", "", "card.png")
-    assert 'content="a &lt; &quot;b&quot;"' in describe.tags("A", 'a < "b"', "card.png")
-
-
-def test_a_summary_of_the_sidebar_has_a_name_and_others_stay():
-    assert describe.named('<summary><span class="toctree-toggle">') == (
-        '<summary aria-label="Pages of this part"><span class="toctree-toggle">')
-    assert describe.named("<summary>Solution</summary>") == "<summary>Solution</summary>"
-
-
-def test_names_and_roles_of_a_body_are_put_right():
-    wrong = ('<summary aria-label="Toggle hidden content"><p>Show</p></summary><div role="doc-biblioentry">A</div>'
-             '<tr><th class="head"><p></p></th><th></th><th>A</th></tr><span class="pre">neorl.core.new_x</span>')
-    assert describe.mended(wrong, describe.IN_BODIES) == (
-        '<summary><p>Show</p></summary><div role="listitem">A</div>'
-        '<tr><td class="head"></td><td></td><th>A</th></tr><span class="pre">neorl.<wbr>core.<wbr>new_<wbr>x</span>')
-
-
-def test_names_in_the_indices_break_between_their_parts_and_addresses_stay():
-    entry, module = '<a href="a.html#neorl.b_c">d() (in module {})</a>', '<code class="xref">{}</code></a></td>'
-    for text in (entry, entry.replace("in module ", "").replace(")<", " property)<"), module):
-        assert describe.mended(text.format("neorl.b_c"), describe.IN_PAGES) == text.format("neorl.<wbr>b_<wbr>c")
-
-
-def test_the_index_leaves_modules_to_their_own():
-    step = ("step() (in module a.b)", ([("", "a.html#a.b.step")], [], None))
-    modules = [("a.b", ([], [("module", [("", "a.html#a.b")])], None)),
-               ("module", ([], [("a.b", [("", "a.html#a.b")])], None))]
-    assert describe.without_modules([("A", modules[:1]), ("M", modules[1:]), ("S", [step])]) == [("S", [step])]
-
-
-def test_a_per_cent_sign_stays_on_the_line_of_its_number_but_code_is_left_as_it_is():
-    assert describe.mended("<p>a 95 % interval of 2.5 %, in %</p><pre># 5 %\n6 %</pre> 7 %", describe.IN_BODIES) == (
-        "<p>a 95\u00a0% interval of 2.5\u00a0%, in %</p><pre># 5 %\n6 %</pre> 7\u00a0%")
-
-
-def test_a_mark_of_punctuation_stays_on_the_line_of_the_formula_before_it():
-    formula = r'<span class="math notranslate nohighlight">\(N^2\)</span>'
-    assert describe.mended(f"<p>{formula}). {formula} cells</p>", describe.IN_BODIES) == (
-        f'<p><span class="unbroken">{formula}).</span> {formula} cells</p>')
-
-
 def test_a_command_names_the_repository_that_is_set(tmp_path, monkeypatch):
     text = (ROOT / "book" / "running.md").read_text(encoding="utf-8")
     for address, wanted in (("https://example.org/n", 'git+https://example.org/n"`.'), (None, 'git+URL"`, with the')):
         monkeypatch.setattr(launch, "repository", lambda app: address)
         launch.name_repository(None, "running", source := [text])
         assert wanted in source[0] and launch.ASKED not in source[0]
-
-
-def test_an_image_has_its_size_and_waits_until_it_is_near(tmp_path):
-    drawing = tmp_path / "a.svg"
-    drawing.write_text('<svg xmlns="http://www.w3.org/2000/svg" width="75pt" height="30.0pt" viewBox="0 0 75 30">')
-
-    def sized(tag):
-        return weight.IMAGE.sub(lambda found: weight.sized(found, {"a.svg": drawing}), tag)
-
-    assert sized('<img alt="A" src="../_images/a.svg" />') == (
-        '<img loading="lazy" width="100" height="40" alt="A" src="../_images/a.svg" />')
-    assert sized('<img src="_images/b.png"/>') == '<img loading="lazy" src="_images/b.png"/>'
-    assert sized('<img width="3" src="_images/a.svg"/>') == '<img loading="lazy" width="3" src="_images/a.svg"/>'
-    assert sized('<img src="https://example.org/a.svg"/>') == '<img src="https://example.org/a.svg"/>'
 
 
 def test_a_docstring_opens_with_a_sentence_and_lists_what_follows():

@@ -1,7 +1,6 @@
 """The build of the book: what it refuses, what it recomputes, and what it keeps."""
 
 import base64
-import contextlib
 import json
 import shutil
 import subprocess
@@ -113,11 +112,6 @@ def test_bad_runs_are_refused_before_anything_runs(runs):
     assert "--runs" in refused.stderr and "must be an integer of at least 1" in refused.stderr
 
 
-@pytest.mark.parametrize("runs, points", [(1, 4), (4, 4), (10, 16), (20, 32), (79, 64), (80, 128), (100, 128)])
-def test_the_assumptions_are_varied_in_a_power_of_two_of_readings(runs, points):
-    assert build.points(runs) == points
-
-
 @pytest.mark.filterwarnings("ignore")
 def test_what_a_notebook_has_found_stands_beside_its_page_and_in_the_table_of_all_claims(notebook, tmp_path,
                                                                                           monkeypatch):
@@ -189,39 +183,6 @@ def test_what_is_damaged_or_of_another_version_is_made_again(notebook, cache_fol
     assert "nothing has changed" not in capsys.readouterr().out
 
 
-@pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize("writes", [0, 1, 2])
-def test_a_disk_that_becomes_full_leaves_the_last_page_and_its_record(notebook, cache_folder, monkeypatch, writes):
-    def execute(source, target, parameters):
-        target.write_text(json.dumps(json.loads(source.read_text()) | {"metadata": parameters}))
-        build.report.save("page")
-
-    def write_whole(path, content):
-        if not left:
-            raise OSError(28, "No space left on device")
-        left.pop()
-        original(path, content)
-
-    original, left = build.write_whole, [None] * 9
-    monkeypatch.setattr(build, "execute", execute)
-    monkeypatch.setattr(build, "write_whole", write_whole)
-    monkeypatch.setattr(build.report, "write_whole", write_whole)
-    build.compute(notebook, {"runs": 3})
-    whole = {path.name: path.read_bytes() for path in build.CHAPTERS.iterdir()}
-    left[writes:] = []
-    if writes < 2:  # the claims, and the record
-        with pytest.raises(OSError, match="No space"):
-            build.compute(notebook, {"runs": 4})
-        assert {path.name: path.read_bytes() for path in build.CHAPTERS.iterdir() if path.is_file()} == whole
-    else:
-        build.compute(notebook, {"runs": 4})
-    assert build.is_whole(notebook)
-
-
-class Killed(BaseException):
-    """Stands for a signal that kills the build."""
-
-
 PAGES = ("index.html", "page.html")
 
 
@@ -242,34 +203,6 @@ def made_pages(chapters, monkeypatch):
         monkeypatch.setattr(build, name, value)
     monkeypatch.setattr(build.workers, "run", make_pages)
     return made
-
-
-@pytest.mark.parametrize("kill_at", range(4))
-def test_a_build_that_is_killed_while_it_replaces_the_book_leaves_a_whole_one_or_none(chapters, monkeypatch, kill_at,
-                                                                                      made_pages):
-    def remove(folder, ignore_errors=False):
-        for path in sorted(Path(folder).rglob("*.html"), reverse=True):
-            count_down()
-            path.unlink()
-        original(folder, ignore_errors)
-
-    def count_down():
-        left.append(None)
-        if len(left) > kill_at:
-            raise Killed
-
-    left, original = [], shutil.rmtree
-    (chapters / "html").mkdir()
-    for page in PAGES:
-        (chapters / "html" / page).write_text("old")
-    with monkeypatch.context() as patch, contextlib.suppress(Killed):
-        patch.setattr(shutil, "rmtree", remove)
-        build.build()
-    found = [path.read_text() for path in (chapters / "html").glob("*")]
-    assert found in ([], ["old"] * 2, ["new"] * 2)
-    build.build()
-    assert [(chapters / "html" / page).read_text() for page in PAGES] == ["new"] * 2
-    assert sorted(path.name for path in chapters.iterdir()) == ["html", "inputs.txt"]
 
 
 @pytest.mark.parametrize("damage", [Path.unlink, lambda page: page.write_text("ne"), lambda page: page.write_text("")])
@@ -322,19 +255,3 @@ def test_a_kernel_that_dies_or_hangs_is_noticed(notebook, source, message, monke
     cell_of(notebook, source)
     assert build.attempt(notebook, {"runs": 3}) == 1
     assert f"page.ipynb: RuntimeError: {message}" in capsys.readouterr().out
-
-
-def test_one_build_at_a_time_works_in_a_tree(chapters, cache_folder, monkeypatch):
-    monkeypatch.setattr(build, "BUILT", chapters / "built")
-    lock = build.the_only_build()
-    with pytest.raises(SystemExit, match=r"another make book is at work in this tree, process \d+ since .*: wait"):
-        build.the_only_build()
-    lock.close()
-    build.the_only_build().close()
-
-
-def test_a_folder_that_cannot_be_written_to_is_named_before_anything_runs(chapters, cache_folder, monkeypatch):
-    (chapters / "built").write_text("a file")
-    monkeypatch.setattr(build, "BUILT", chapters / "built")
-    with pytest.raises(SystemExit, match="built cannot be written to: "):
-        build.the_only_build()
