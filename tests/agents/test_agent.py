@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from neorl import (CALIBRATED, GREEDY, Agent, Desire, Learning, Node, NresMap, Place, Policy, Run, WaterWorld, brownian,
+from neorl import (CALIBRATED, GREEDY, Agent, Desire, Node, NresMap, Place, Policy, Run, WaterWorld, brownian,
                    multimodal, network_a, network_b, network_c, network_d, object_vector_cells, place_cells)
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
                                  LANDMARK_VECTOR_CELL, MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL)
@@ -16,60 +16,6 @@ from neorl.core.modality import cartesian
 PC, OVC = Node("PC", PLACE_CELL, (2, 3)), Node("OVC", CARTESIAN_OBJECT_VECTOR_CELL, (3,))
 HD, SPEED = Node("HD", HEAD_DIRECTION_CELL, (4,)), Node("speed", SPEED_CELL, (3,))
 PAPERS = (place_cells, brownian, object_vector_cells, multimodal, network_a, network_b, network_c, network_d)
-
-
-@pytest.mark.parametrize("make, message", [
-    (lambda: Node(5, PLACE_CELL, (3,)), "name must be a str, but is 5"),
-    (lambda: Node("PC", "place cell", (3,)), "modality must be a Modality, but is 'place cell'"),
-    (lambda: Node("PC", PLACE_CELL, 5), "resolutions must be a list or a tuple, but is 5"),
-    (lambda: Node("PC", PLACE_CELL, ()), r"resolutions must be one integer or more, but is \(\)"),
-    (lambda: Node("PC", PLACE_CELL, (3, 0)), "resolution must be an integer from 1 to 2147483647, but is 0"),
-    (lambda: Node("PC", PLACE_CELL, (3,), "heavy"), "weighting must be 'equal', 'resolution' or 'cells', but is 'hea"),
-    (lambda: Node("PC", PLACE_CELL, (3,), gain=np.inf), r"gain must be a finite number from -1e\+30 to 1e\+30, but is"),
-    (lambda: Desire("red", "PC", np.nan), "valence must be .*, but is nan"),
-    (lambda: Desire("PC", "OVC", "much"), "valence must be .*, but is 'much'"),
-    (lambda: Place(0.5, float("nan")), r"coordinates must be a finite number from -1e\+30 to 1e\+30, but is nan"),
-    (lambda: Place(), r"coordinates must be a number for each axis of the world, but is \(\)"),
-    (lambda: Desire(0.5, "PC", 1.0), "source must be a list or a tuple, but is 0.5"),
-    (lambda: Desire((0.5, np.nan), "PC", 1.0), r"source must be a finite number from -1e\+30 to 1e\+30, but is nan"),
-    (lambda: Desire("PC", "OVC", of="green"), "of must be a list or a tuple, but is 'green'"),
-    (lambda: Desire("PC", "OVC", scale=-1), "scale must be .*, but is -1"),
-    (lambda: Desire("PC", "OVC", signed=2), "signed must be True or False, but is 2"),
-    (lambda: Agent(()), "nodes must be 1 to 4096, each a Node, but are 0"),
-    (lambda: Agent(PC), r"nodes must be a list or a tuple, but is Node\(name='PC', modality=Modality\(name='place cel"),
-    (lambda: Agent((NresMap(5),)), r"nodes must be a Node, but is NresMap\(resolution=5, modality=Modality\(name='pla"),
-    (lambda: Agent((PC,), ("green",)), "desires must be a Desire, but is 'green'"),
-    (lambda: Agent((PC,), Desire("green", "PC", 1.0)), r"desires must be a list or a tuple, but is Desire\(source='gr"),
-    (lambda: Agent((PC, OVC, PC)), "nodes must have different names, but have 'PC', 'OVC', 'PC'"),
-    (lambda: Agent((PC,), learning=Policy()), r"learning must be a Learning, but is Policy\(exploration=0.1, when_ind"),
-    (lambda: Agent((PC,), policy=Learning()), r"policy must be a Policy, but is Learning\(learning_rate=0.1, discount"),
-    (lambda: Agent((PC,), own_cell="loud"), "own_cell must be .*, but is 'loud'"),
-    (lambda: place_cells([3], valence_red=np.nan), "valence_red must be .*, but is nan"),
-    (lambda: multimodal([3], place_gain=None), "place_gain must be .*, but is None"),
-    (lambda: network_d([3], recursion="-1"), "recursion must be .*, but is '-1'"),
-    (lambda: Learning(learning_rate=1.01), "learning_rate must be a number from 0 to 1, but is 1.01"),
-    (lambda: Learning(learning_rate=-0.01), "learning_rate must be .*, but is -0.01"),
-    (lambda: Learning(discount=2), "discount must be .*, but is 2"),
-    (lambda: Learning(discount=np.nan), "discount must be .*, but is nan"),
-    (lambda: Learning(update_on="clock"), "update_on must be 'cell' or 'step', but is 'clock'"),
-    (lambda: Learning(credit="all"), "credit must be .*, but is 'all'"),
-    (lambda: Learning(absent_decay=-1), "absent_decay must be .*, but is -1"),
-    (lambda: Learning(terminal=1.5), "terminal must be .*, but is 1.5"),
-    (lambda: Learning(bootstrap=None), "bootstrap must be .*, but is None"),
-    *((lambda choice=choice: Learning(update_on="step", **choice),
-       f"{[*choice][0]} must be .* with update_on 'step', but is ")
-      for choice in ({"memory": 7.5}, {"credit": "happened"}, {"absent_decay": 0.15})),
-    (lambda: Learning(memory=-1), "memory must be .*, but is -1"),
-    (lambda: Learning(absent_form="up"), "absent_form must be .*, but is 'up'"),
-    (lambda: Learning(activity=-0.1), "activity must be .*, but is -0.1"),
-    (lambda: Policy(exploration=1.1), "exploration must be .*, but is 1.1"),
-    (lambda: Policy(when_indifferent="sleep"), "when_indifferent must be .*, but is 'sleep'"),
-    (lambda: Policy(choose="greedy"), "choose must be a function that is decorated by neorl.kernel, but is 'greedy'"),
-    (lambda: Policy(choose=lambda value, stream: 0), "choose must be a function that is decorated by neorl.kernel, b"),
-])
-def test_a_bad_choice_is_refused(make, message):
-    with pytest.raises(ValueError, match=message):
-        make()
 
 
 @pytest.mark.parametrize("name, message", [

@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from neorl import Agent, Axis, Contacts, Desire, Learner, Modality, Node, Place, Scene, WaterWorld, forager
+from neorl import Agent, Contacts, Desire, Learner, Node, Place, Scene, WaterWorld, forager
 from neorl.agents.beyond import foveated_cells
 from neorl.agents.compile import compiled
 from neorl.core.contacts import APPROACH, FEAR, VISITS, mirror
@@ -213,24 +213,3 @@ def test_a_world_without_the_mirror_images_of_its_actions_is_refused():
         Learner(forager(), things=1, kinds=("green", "red"),
                 actions=Actions(tuple("abcdef"), [(*each, 0) for each in ((1, 0), (-1, 0), (0, 1), (0, -1), (1, 1),
                                                                           (-1, -1))]))
-
-
-@pytest.mark.parametrize("make, message", [
-    (lambda: Node("PC", Modality("place cell", [Axis("position")]), [3], goals="contacts"), "follow no objects"),
-    (lambda: Node(NODE, foveated_cells(), [9, 5], goals="contacts"), "integers that grow"),
-    (lambda: Node(NODE, foveated_cells(), [5]), "goals of foveated object-vector cells must be 'contacts', since the"),
-    (lambda: Node(NODE, foveated_cells(), [5], goals="both"), "goals must be .*, but is 'both'"),
-    (lambda: Contacts(horizon=0), "horizon must be .*, but is 0"),
-    (lambda: Contacts(fear="flight"), "fear must be .*, but is 'flight'"),
-    (lambda: Modality("x", [Axis("objects", "component", 0)] * 2, mirrored=True), "mirrored is True"),
-    (lambda: Desire(Place(0.1, 0.2), NODE, "learned"), "valence must be .*, but is 'learned'"),
-    (lambda: Desire("green", NODE, "taught"), "valence must be .*, but is 'taught'"),
-    (lambda: Agent([Node(NODE, foveated_cells(), [5], goals="contacts")], [Desire((0, 0, 0, 0), NODE, 1.0)]),
-     "learns only of contacts"),
-    (lambda: Agent([Node("A", foveated_cells(), [5], goals="contacts"), Node("B", foveated_cells(), [5],
-                                                                             goals="contacts")],
-                   [Desire("A", "B", "learned")]), "is 'learned'"),
-])
-def test_what_has_no_meaning_is_refused(make, message):
-    with pytest.raises(ValueError, match=message):
-        make()

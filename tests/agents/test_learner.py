@@ -271,27 +271,6 @@ def test_steps_out_of_order_are_refused(calls, message):
         np.testing.assert_array_equal(mine, array)
 
 
-@pytest.mark.parametrize("arguments, message", [
-    (("PC",), "agent must be an Agent, but is 'PC'"), ((multimodal([3]), -1), "things must be .*, but is -1"),
-    ((multimodal([3]), 2, "green"), "kinds must be a list or a tuple, but is 'green'"),
-    ((multimodal([3]), 2, ("green", "green")), r"kinds must be different names, but is \('green', 'green'\)"),
-    ((multimodal([3]), 2, ("green",)), "source of the desire 'red' → 'PC' must be a node of the agent or a kind of t"),
-    ((multimodal([3]), 2, ("green", "red"), ("N", "S")), r"actions must be an Actions, but is \('N', 'S'\)"),
-    ((multimodal([3]), 2, ("green", "red"), Actions(("on",), ((1.0,),))), "the world of place cells must have 2 axes"),
-])
-def test_a_bad_learner_is_refused(arguments, message):
-    with pytest.raises(ValueError, match=message):
-        Learner(*arguments)
-
-
-@pytest.mark.parametrize("choice, message", [
-    ({"seed": -1}, "seed must be .*, but is -1"), ({"size": 0}, r"size must be a finite number from 1e-30 to 1e\+30, "),
-    ({"size": np.nan}, "size must be .*, but is nan"), ({"fps": -50}, "fps must be a finite number from 1e-30 to 1e")])
-def test_a_bad_choice_of_a_learner_is_refused(choice, message):
-    with pytest.raises(ValueError, match=message):
-        Learner(multimodal([3]), 2, ("green", "red"), **choice)
-
-
 SEES_FOOD = Node("OVC", CARTESIAN_OBJECT_VECTOR_CELL, [5])
 
 

@@ -80,30 +80,3 @@ def test_an_element_in_the_own_cell_counts_unless_it_is_silent():
     assert superpose(np.asfortranarray(q), 1, [1, 2], [1.0, 1.0]).tolist() == [2.0] * 4  # a view, as Run.q returns
     with pytest.raises(ValueError, match="q must be C-contiguous, but is not; pass a copy"):
         learn(np.asfortranarray(q), 0, 1, [1, 0, 0, 0])
-
-
-@pytest.mark.parametrize("change, message", [
-    ({"q": np.zeros((4, 4, 5), np.float32)}, r"q must be float32 \(cells, actions, cells\), but is float32 \(4, 4, 5"),
-    ({"q": np.zeros((4, 4, 4))}, "q must be .*, but is float64"), ({"q": [[1]]}, r"q must be an ndarray, but is \[\[1"),
-    ({"cell_tm1": 4}, "cell_tm1 must be an integer from 0 to 3, but is 4"),
-    ({"cell_t": -1}, "cell_t must be .*, but is -1"),
-    ({"credit": [1, 0, 0]}, "credit must have 4 values, one for each action, but has 3"),
-    ({"credit": [1, 0, 0, np.nan]}, "credit must be .*, but is nan"),
-    ({"learning_rate": 1.5}, "learning_rate must be a number from 0 to 1, but is 1.5"),
-    ({"discount": -0.1}, "discount must be .*, but is -0.1"),
-    ({"terminal": "yes"}, "terminal must be .*, but is 'yes'"),
-])
-def test_a_bad_update_is_refused(change, message):
-    arguments = {"q": np.zeros((4, 4, 4), np.float32), "cell_tm1": 0, "cell_t": 1, "credit": [1, 0, 0, 0]}
-    with pytest.raises(ValueError, match=message):
-        learn(**{**arguments, **change})
-
-
-@pytest.mark.parametrize("cell, goals, valences, message", [
-    (9, [0], [1.0], "cell must be .*, but is 9"), (0, [4], [1.0], "goals must be .*, but is 4"),
-    (0, [1], [np.inf], "valences must be .*, but is inf"),
-    (0, [1, 2], [1.0], "valences must have a value for each of the 2 goals, but has 1"),
-])
-def test_a_bad_superposition_is_refused(cell, goals, valences, message):
-    with pytest.raises(ValueError, match=message):
-        superpose(np.zeros((4, 4, 4), np.float32), cell, goals, valences)

@@ -262,16 +262,6 @@ def test_the_cells_of_a_run_are_those_of_the_public_encoding(modality):
     assert_cells_are_encoded(run, modality)
 
 
-@pytest.mark.parametrize("arguments, message", [
-    ((0,), "resolution must be an integer from 1 to 2147483647, but is 0"),
-    ((2.5,), "resolution must be .*, but is 2.5"), ((True,), "resolution must be .*, but is True"),
-    ((3, (0.0, 1.0)), r"modality must be a Modality, but is \(0.0, 1.0\)"),
-])
-def test_a_bad_map_is_refused(arguments, message):
-    with pytest.raises(ValueError, match=message):
-        NresMap(*arguments)
-
-
 @pytest.mark.parametrize("modality, points, message", [
     (PLACE_CELL, [np.nan, 0.5], r"points must be finite numbers from -1.79769e\+308 to 1.79769e\+308, but is array\("),
     (BOUNDARY_VECTOR_CELL, [0.5, np.inf], r"points must be finite numbers from -1.79769e\+308 to 1.79769e\+308, but i"),

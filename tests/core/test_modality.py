@@ -12,7 +12,7 @@ from neorl import Axis, Modality, NresMap, Scene, WaterWorld, kernel
 from neorl.core.geometry import TAU, heading, into_margin, turn
 from neorl.core.kernel import execute, function_of
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
-                                 LANDMARK_VECTOR_CELL, MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL, VECTORS,
+                                 LANDMARK_VECTOR_CELL, MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL,
                                  cartesian, polar)
 
 EAST, SOUTH, WEST, NORTH = 0.0, 0.5 * math.pi, math.pi, 1.5 * math.pi
@@ -20,7 +20,6 @@ WORLD = WaterWorld(width=200, n_creeps=2)
 components = st.floats(-10, 10)
 finite = st.floats(allow_nan=False, allow_infinity=False)
 shares = st.floats(0, 1)
-UNIT = (0, 1)
 reaches = st.floats(0, 0.5, exclude_min=True)
 
 
@@ -191,49 +190,6 @@ def test_a_modality_is_a_value():
 @kernel
 def of_my_own(scene, point):
     return scene.position[0]
-
-
-@pytest.mark.parametrize("make, message", [
-    (lambda: Axis("smell"), "of must be 'position', 'velocity', 'objects', 'boundaries' or 'landmarks', but is 'smel"),
-    (lambda: Axis("position", "colour"), "feature must be 'component', 'foveated', 'margin', 'length' or 'direction'"),
-    *((lambda of=of: Axis(of, "margin", high=0.25), f"'position', .* is of '{of}'") for of in VECTORS[1:]),
-    (lambda: Axis("position", "margin", low=-1, high=0.6), "a margin must be one of 'position', of at most 0.5, but "),
-    (lambda: Axis("position", "margin", low=-1, high=0.0), "a margin must be one of 'position', of at most 0.5, but "),
-    (lambda: Axis("position", along=-1), "along must be an integer from 0 to 7, but is -1"),
-    (lambda: Axis("position", along=0.5), "along must be .*, but is 0.5"),
-    (lambda: Axis("velocity", "length", low=1), "low must be below high, 1.0, but is 1.0"),
-    (lambda: Axis("velocity", low=1, high=0), "low must be below high, 0.0, but is 1.0"),
-    (lambda: Axis("velocity", high=np.nan), r"high must be a finite number from -1e\+30 to 1e\+30, but is nan"),
-    (lambda: Axis("velocity", low=-np.inf), r"low must be a finite number from -1e\+30 to 1e\+30, but is -inf"),
-    (lambda: Axis("velocity", low="0"), r"low must be a finite number from -1e\+30 to 1e\+30, but is '0'"),
-    (lambda: Axis("position", closed=1), "closed must be True or False, but is 1"),
-    (lambda: Axis("position", intervals=0), "intervals must be an integer from 1 to 2147483647, but is 0"),
-    (lambda: Axis("position", intervals=2.5), "intervals must be .*, but is 2.5"),
-    (lambda: Axis("position", boundaries=(1,)), r"boundaries must be two numbers or more that increase, but is \(1.0,"),
-    (lambda: Axis("position", boundaries=(0, 0.5, 0.5)), "boundaries must be two numbers or more that increase, but "),
-    (lambda: Axis("position", boundaries=(0, np.inf)), r"boundaries must be a finite number from -1e\+30 to 1e\+30, b"),
-    (lambda: Axis("position", boundaries=0.5), "boundaries must be a list or a tuple, but is 0.5"),
-    (lambda: Axis("position", boundaries=(0, 1), closed=True), r"boundaries must be \(\) for an axis that is closed, "),
-    (lambda: Axis("velocity", "direction", boundaries=(0, 1)), r"boundaries must be \(\) for an axis that is closed, "),
-    (lambda: Axis("position", name=5), "name must be a str, but is 5"),
-    (lambda: Axis(of_my_own, low=2), "low must be below high, 1.0, but is 2.0"),
-    (lambda: Modality(5, HEAD_DIRECTION_CELL.axes), "name must be a str, but is 5"),
-    (lambda: Modality("X", ()), "axes must be one or more, and of objects, boundaries, landmarks of one kind at most"),
-    (lambda: Modality("X", Axis("position")), r"axes must be a list or a tuple, but is Axis\(of='position', feature='"),
-    (lambda: Modality("X", ["position"]), "axes must be an Axis, but is 'position'"),
-    (lambda: Modality("X", polar("objects", 1) + polar("boundaries", 1)), "axes must be one or more, and of objects,"),
-    (lambda: Modality("X", polar("objects", 1)[::-1]), "axes must be first those of objects, a direction last, then "),
-    (lambda: Modality("X", HEAD_DIRECTION_CELL.axes + PLACE_CELL.axes), "axes must be first those of position, a dir"),
-    (lambda: Modality("X", PLACE_CELL.axes + polar("objects", 1)), "axes must be first those of objects, a direction"),
-    (lambda: Modality("X", polar("landmarks", 1)), "landmarks must be places of equally many coordinates where an ax"),
-    (lambda: Modality("X", polar("landmarks", 1), ((0.5, np.nan),)), r"landmarks must be a finite number from -1e\+30"),
-    (lambda: Modality("X", polar("landmarks", 1), (0.5, 0.5)), "landmarks must be a list or a tuple, but is 0.5"),
-    (lambda: Modality("X", polar("landmarks", 1), ((0.5, 0.5), (0.5,))), "landmarks must be places of equally many c"),
-    (lambda: Modality("X", polar("objects", 1), ((0.5, 0.5),)), "landmarks must be places of equally many coordinate"),
-])
-def test_a_bad_choice_is_refused(make, message):
-    with pytest.raises(ValueError, match=message):
-        make()
 
 
 def test_a_subclass_of_axis_which_would_have_no_effect_is_refused():

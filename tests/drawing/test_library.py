@@ -12,7 +12,7 @@ from matplotlib import pyplot as plt
 from matplotlib.patches import Circle
 
 import neorl
-from neorl import Arena, NresMap, Result, Run, WaterWorld, drawing, network_d, place_cells
+from neorl import NresMap, Result, Run, WaterWorld, drawing, network_d, place_cells
 from neorl.evidence.statistics import Estimate
 
 MODULES = [importlib.import_module(f"neorl.drawing.{each.name}") for each in pkgutil.iter_modules(drawing.__path__)]
@@ -100,34 +100,6 @@ def test_a_curve_with_gaps_is_named_where_it_ends():
     curve = np.array([[1.0, 2.0, np.nan, np.nan]])
     axes = drawing.draw_curves(np.arange(4), {"gone": curve})
     assert [text.xy[1] for text in axes.texts] == [2.0]
-
-
-@pytest.mark.parametrize("draw, message", [
-    (lambda: drawing.draw_curves([0, 1], {}), r"curves must be a dict of one entry or more, by name, but is \{\}"),
-    (lambda: drawing.draw_proficiency({}), r"results must be a dict of one entry or more, by name, but is \{\}"),
-    (lambda: drawing.draw_accumulated({}), r"results must be .*, but is \{\}"),
-    (lambda: drawing.draw_smoothed({}), r"results must be .*, but is \{\}"),
-    (lambda: drawing.draw_sweep([1], {}), r"estimates_by_name must be .*, but is \{\}"),
-    (lambda: drawing.draw_networks({}), r"agents must be .*, but is \{\}"),
-    (lambda: drawing.draw_proficiency(made_up(1)), "results must be a dict of one entry or more, by name, but is of "),
-    (lambda: drawing.draw_proficiency({"N2": 5}), r"results\['N2'\] must be a Result, but is 5"),
-    (lambda: drawing.draw_proficiency({"N2": made_up(1)}, points=0), "points must be an integer of at least 1, but i"),
-    (lambda: drawing.draw_smoothed({"N2": made_up(0.1)}), r"results\['N2'\] must have more than 40 bins, but has 30; "),
-    (lambda: drawing.draw_curves(np.arange(4), {"a": np.ones((3, 5))}),
-     r"curves\['a'\] must have the shape \(runs, points\), over xs of the shape \(4,\), but has \(3, 5\)"),
-    (lambda: drawing.draw_curves(np.arange(4), {"a": np.ones(4)}), r"curves\['a'\] must have the shape \(runs, points"),
-    (lambda: drawing.draw_curves(np.arange(2), {"a": np.full((1, 2), np.nan)}), r"curves\['a'\] must have a finite nu"),
-    (lambda: drawing.draw_sweep([1, 2, 3], ESTIMATES), r"estimates_by_name\['D'\] must have an Estimate for each of x"),
-    (lambda: drawing.draw_curves([0, 1], {"a": np.ones((1, 2))}, ax=5), "ax must be an Axes, but is 5"),
-    (lambda: drawing.draw_networks({"D": network_d()}, figure="1"), "figure must be a Figure, but is '1'"),
-    (lambda: drawing.draw_network("D"), r"agents\[''\] must be an Agent, but is 'D'"),
-    (lambda: drawing.draw_tank(Arena(), Arena().reset(0)), r"world must be a WaterWorld, but is Arena\(places=\(\('pl"),
-    (lambda: drawing.draw_world(TANK, Arena().reset(0)), r"state must be a WaterWorldState, but is ArenaState\(scene="),
-    (lambda: drawing.draw_receptive_fields(5, TANK, TANK.reset(0)), "nres_map must be a NresMap, but is 5"),
-])
-def test_what_cannot_be_drawn_is_refused(draw, message):
-    with pytest.raises(ValueError, match=message):
-        draw()
 
 
 # Simulates an environment with only the core's packages, matplotlib and its dependencies.

@@ -55,11 +55,6 @@ def test_maps_of_other_spaces_are_refused(modality):
         drawing.draw_cells(NresMap(2, modality))
 
 
-def test_a_map_of_more_cells_than_can_be_seen_is_refused():
-    with pytest.raises(ValueError, match="nres_map must have 20000 cells or fewer to be drawn, but has 1000000"):
-        drawing.draw_cells(NresMap(1_000))
-
-
 def learned(modality, resolution):
     run = Run(Agent([Node("node", modality, [resolution])], [Desire("green", "node", 1.0)]), TANK)
     run.advance(20_000)
@@ -77,19 +72,6 @@ def test_a_value_map_is_the_more_opaque_the_more_the_best_action_is_worth(modali
     shunned = drawing.draw_value_map(run, [goal, goal], valences=[-0.5, -0.5])
     assert {patch.get_facecolor()[:3] for patch in shunned.patches[9:18] if patch.get_alpha()} <= {
         tuple(int(drawing.RED[i : i + 2], 16) / 255 for i in (1, 3, 5))}
-
-
-@pytest.mark.parametrize("change, message", [
-    ({"run": 5}, "run must be an Individual, but is 5"), ({"goals": [(0.5,)]}, r"points must have the shape \(…, 2\),"),
-    ({"valences": [1.0, 2.0]}, "valences must have a value for each of the goals, one or more, but has 2 for 1"),
-    ({"goals": np.empty((0, 2))}, "valences must have a value for each of the goals, o"),
-    ({"index": 3}, "index must be .*, but is 3"),
-    ({"valences": [np.nan]}, "valences must be .*, but is nan"),
-])
-def test_a_value_map_with_bad_arguments_is_refused(change, message):
-    given = {"run": Run(place_cells([3]), TANK), "goals": [(0.5, 0.5)]} | change
-    with pytest.raises(ValueError, match=message):
-        drawing.draw_value_map(**given)
 
 
 @pytest.mark.parametrize("modality", [UNEQUAL_PLACES, UNEQUAL_POLAR, Modality("", [
@@ -154,22 +136,6 @@ def test_a_rate_map_is_drawn_as_it_is_with_a_scale():
     np.testing.assert_array_equal(axes.images[0].get_array().filled(-1), [[1, -1], [-1, 0]])
     assert axes.images[0].get_extent() == [0, 1, 1, 0]
     assert [each.get_ylabel() for each in axes.figure.axes] == ["", "share of time with cell 2 active"]
-
-
-@pytest.mark.parametrize("look, message", [
-    (lambda: drawing.track(5, 1), "run must be a Run, but is 5"),
-    (lambda: drawing.track(Run(place_cells([2]), TANK), 0), r"seconds must be a finite number from 1e-30 to 1e\+30, b"),
-    (lambda: drawing.track(Run(place_cells([2]), TANK), 1e9), "seconds must be so long that the run has at most 1000"),
-    (lambda: drawing.track(Run(place_cells([2]), TANK), 1, index=1), "index must be .*, but is 1"),
-    (lambda: drawing.rate_map(np.ones(3)), r"track must be a Track, but is array\(\[1., 1., 1.\]\)"),
-    (lambda: drawing.rate_map(drawing.Track(np.ones((1, 2)), np.ones((1, 1), int), 1.0), bins=0),
-     "bins must be .*, but is 0"),
-    (lambda: drawing.rate_map(drawing.Track(np.ones((1, 2)), np.ones((1, 1), int), 1.0), cell=-1),
-     "cell must be .*, but is -1"),
-])
-def test_tracks_and_rate_maps_with_bad_arguments_are_refused(look, message):
-    with pytest.raises(ValueError, match=message):
-        look()
 
 
 def test_an_arena_is_drawn_with_its_walls_places_and_agent():

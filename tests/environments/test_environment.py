@@ -181,24 +181,6 @@ def test_a_copy_continues_independently_to_the_same_bits(world, again):
     np.testing.assert_array_equal(*ways)
 
 
-@pytest.mark.parametrize("call, message", [
-    (lambda: WorldEnv(None), "world must be a World, but is None"),
-    (lambda: WorldEnv(TANK, "ansi"), "render_mode must be None, 'human' or 'rgb_array', but is 'ansi'"),
-    (lambda: WorldEnv(TANK, egocentric=2), "egocentric must be .*, but is 2"),
-    (lambda: WorldEnv(TANK, continuing="no"), "continuing"),
-    (lambda: WorldEnv(TANK).reset(seed=-1), "seed must be an integer of at least 0, but is -1"),
-    (lambda: WorldEnv(TANK).reset(seed=0.5), "seed must be .*, but is 0.5"),
-    (lambda: WorldEnv(TANK).reset(seed=0, options={"runs": 1}), r"options must be None, or with a seed \{'run': k\}, "),
-    (lambda: WorldEnv(TANK).reset(options={"run": 1}), r"options must be None, or with a seed \{'run': k\}, but is \{"),
-    (lambda: WorldEnv(TANK).reset(seed=0, options={"run": -1}), "run must be .*, but is -1"),
-    (lambda: WorldEnv(TANK).reset(options=3), "options must be .*, but is 3"),
-    (lambda: gymnasium.make("neorl/WaterWorld-v0", n_creeps=0), "n_creeps must be an integer from 1 to 1048576, but "),
-])
-def test_bad_arguments_are_refused(call, message):
-    with pytest.raises(ValueError, match=message):
-        call()
-
-
 def test_bad_actions_are_refused_and_steps_before_the_first_reset():
     env = WorldEnv(TANK, "rgb_array")
     for call in (lambda: env.step(0), env.render):

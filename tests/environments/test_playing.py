@@ -122,27 +122,3 @@ def tank_scene(observation, info):
     """The scene that neorl's agents perceive, recovered from the observation."""
     things = observation[4:].reshape(3, 4)
     return Scene(observation[:2], observation[2:4], observation[:2] + things[:, :2], things[:, 3].astype(int))
-
-
-@pytest.mark.parametrize("changes, message", [
-    ({"agent": None}, "agent must be an Agent or a Learner, but is None"), ({"env": 3}, "env must be an Env, but is "),
-    ({"scene": None}, r"scene must be a function of \(observation, info\) that return"),
-    ({"steps": -1}, "steps must be .*, but is -1"),
-    ({"seed": -1}, "seed must be .*, but is -1"),
-    ({"scene": lambda observation, info: observation}, r"scene\(observation, "),
-    ({"scene": lambda observation, info: Scene((np.nan, 0.0))}, r"scene must be of finite numbers from -1e\+30 to 1e"),
-    ({"scene": lambda observation, info: Scene((0.0,))}, "the world of place cells must have 2 axes or more, but has"),
-    ({"actions": 4}, "actions must be an Actions, but is 4"),
-    ({"actions": Actions(("a", "b"), ((0, 0), (0, 0)))}, r"commands must be 2 values, one for each of \('a', 'b'\), b"),
-    ({"commands": 3}, "commands must be a list or a tuple, but is 3"), ({"commands": []}, "names must be .*, but is "),
-    ({"env": Cart()}, "commands must be the values that env.step takes, one for each action, since the action space "),
-    ({"agent": Learner(place_cells([3]), 1, ("green", "red")), "things": 2}, "actions and surroundings must be left "),
-    ({"agent": Learner(place_cells([3]), 1, ("green", "red")), "actions": MOVES}, "actions and surroundings must be "),
-    ({"kinds": ("a", "a")}, r"kinds must be different names, but is \('a', 'a'\)"),
-    ({"fps": 0}, "fps must be .*, but is 0"),
-])
-def test_bad_arguments_are_refused(changes, message):
-    arguments = {"agent": Agent([Node("PC", GRID, [12])]), "env": gymnasium.make("CliffWalking-v1"), "scene": square,
-                 "steps": 1} | changes
-    with pytest.raises(ValueError, match=message):
-        play(**arguments)

@@ -105,26 +105,6 @@ def test_what_was_returned_is_not_written_to():
         envs.world_states[0].scene.position[0] = 3.0
 
 
-@pytest.mark.parametrize("call, message", [
-    (lambda: VectorWorldEnv(None), "world must be a World, but is None"),
-    (lambda: VectorWorldEnv(WaterWorld(), 0), "num_envs must be an integer of at least 1, but is 0"),
-    (lambda: VectorWorldEnv(WaterWorld(), 2**40), "num_envs must be at most 16777216, of 16 numbers each, but is 109"),
-    (lambda: VectorWorldEnv(WaterWorld(), 2, 0), "max_episode_steps must be .*, but is 0"),
-    (lambda: VectorWorldEnv(WaterWorld(), autoreset_mode="never"), "autoreset_mode must be 'NextStep', 'SameStep' or"),
-    (lambda: VectorWorldEnv(WaterWorld(), render_mode="human"), "render_mode must be None or 'rgb_array', but is 'hu"),
-    (lambda: VectorWorldEnv(Pond(), 2).reset(seed=[1]), "seed must be an integer of at least 0, None, or a list of 2"),
-    (lambda: VectorWorldEnv(Pond(), 2).reset(seed=[1, -1]), "seed must be .*, but is -1"),
-    (lambda: VectorWorldEnv(Pond(), 2).reset(seed="a"), "seed must be .*, but is 'a'"),
-    (lambda: VectorWorldEnv(Pond(), 2).reset(options=5), "options must be None or a dict, but is 5"),
-    (lambda: VectorWorldEnv(Pond(), 2).reset(options={"run": 2}), r"options must be None, or with a seed \{'run': k\}"),
-    (lambda: VectorWorldEnv(Pond(), 2).reset(options={"reset_mask": [True, True]}), "reset_mask must be an array of "),
-    (lambda: VectorWorldEnv(Pond(), 2).reset(options={"reset_mask": np.zeros(2, bool)}), "not all False"),
-])
-def test_bad_arguments_are_refused(call, message):
-    with pytest.raises(ValueError, match=message):
-        call()
-
-
 def test_bad_actions_are_refused_and_steps_outside_of_episodes():
     envs = VectorWorldEnv(Pond(), 2, 1, "Disabled", "rgb_array")
     for call in (lambda: envs.step([0, 0]), envs.render):

@@ -150,35 +150,6 @@ def test_a_trial_begins_anew_after_its_end():
     assert starts == RIM
 
 
-@pytest.mark.parametrize("arguments, message", [
-    ({"places": ("platform", 0.5, 0.5)}, "places must be a list or a tuple, but is 'platform'"),
-    ({"places": (("platform", 0.5),)}, "places must be .*, but is .*"),
-    ({"places": ((0.5, 0.5, "platform"),)}, "places must be .*, but is .*"),
-    ({"places": (("platform", 0.5, 1.1),)}, "places must be a number from 0 to 1, but is 1.1"),
-    ({"pay": (1.0, 2.0)}, r"pay must be 1 numbers, one for each kind, but is \(1.0, 2.0\)"),
-    ({"pay": (np.nan,)}, "pay must be .*, but is nan"), ({"pay": 1.0}, "pay must be a list or a tuple, but is 1.0"),
-    ({"obstacles": ((0.1, 0.1, 0.2),)}, r"obstacles must be rectangles \(left, top, right, bottom\), but is \(\(0.1, "),
-    ({"obstacles": ((0.1, 0.1, 0.2, 0.2, 0.3),)}, r"obstacles must be rectangles \(left, top, right, bottom\), but is"),
-    ({"obstacles": ((0.2, 0.1, 0.1, 0.2),)}, r"obstacles must be rectangles \(left, top, right, bottom\), but is"),
-    ({"obstacles": ((0.1, 0.2, 0.2, 0.2),)}, r"obstacles must be rectangles \(left, top, right, bottom\), but is"),
-    ({"obstacles": ((0.1, 0.1, 0.2, 2.0),)}, "obstacles must be a number from 0 to 1, but is 2.0"),
-    ({"shape": "oval"}, "shape must be 'round' or 'square', but is 'oval'"),
-    ({"motion": "flight"}, "motion must be 'inertia' or 'steps', but is 'flight'"),
-    ({"step_length": 2}, "step_length must be .*, but is 2"),
-    ({"motion": "steps", "step_length": 0}, "step_length must be .*, but is 0"),
-    ({"radius": 0}, "radius must be .*, but is 0"), ({"radius": -1}, "radius must be .*, but is -1"),
-    ({"ends": 1}, "ends must be True or False, but is 1"), ({"trial_seconds": 0}, "trial_seconds must be .*, but is 0"),
-    ({"start": (0.5,)}, r"start must be \(\) or a place \(x, y\), but is \(0.5,\)"),
-    ({"start": (0.05, 0.05)}, r"start must be outside of walls and obstacles, but is \(0.05, 0.05\)"),
-    ({"start": (0.5, 0.5), "obstacles": ((0.4, 0.4, 0.6, 0.6),)}, "start must be outside of walls and obstacles, but"),
-    ({"obstacles": ((0.4, 0.0, 0.6, 0.2),)}, r"start must be outside of walls and obstacles, but is \(\)"),
-    ({"fps": 0}, "fps must be .*, but is 0"), ({"fps": 2.5}, "fps must be .*, but is 2.5"),
-])
-def test_a_bad_arena_is_refused(arguments, message):
-    with pytest.raises(ValueError, match=message):
-        Arena(**arguments)
-
-
 def test_tens_of_thousands_of_places_take_a_time_that_grows_with_their_number():
     started = time.process_time()
     assert Arena(places=[("a", 0.5, 0.5), ("b", 0.1, 0.5)] * 40_000).rules.kind[-2:].tolist() == [0, 1]

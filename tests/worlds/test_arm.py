@@ -117,19 +117,3 @@ def test_unit_vectors_are_cosine_and_sine_to_the_last_bits():
     for turns in [*np.random.default_rng(0).uniform(-2, 2, 2_000), 0.0, 0.125, 0.25, 0.5, 0.75, 1.0]:
         angle = 2 * math.pi * turns
         assert function_of(arm.unit_vector)(turns) == pytest.approx((math.cos(angle), math.sin(angle)), abs=4e-15)
-
-
-@pytest.mark.parametrize("arguments, message", [
-    ({"lengths": (1.0,)}, r"lengths must be two or three numbers, one for each link, but is \(1.0,\)"),
-    ({"lengths": (1, 1, 1, 1)}, r"lengths must be .*, but is \(1.0, 1.0, 1.0, 1.0\)"),
-    ({"lengths": 2}, "lengths must be .*, but is 2"),
-    ({"lengths": (1, 0)}, "lengths must be .*, but is 0"), ({"lengths": (1, np.nan)}, "lengths must be .*, but is nan"),
-    ({"targets": -1}, "targets must be .*, but is -1"), ({"targets": 1.5}, "targets must be .*, but is 1.5"),
-    ({"obstacles": 65}, "obstacles must be .*, but is 65"),
-    ({"targets": 0, "obstacles": 0}, "targets and obstacles must be one or more together, but are 0"),
-    ({"radius": 0}, "radius must be .*, but is 0"), ({"radius": 0.3}, "radius must be .*, but is 0.3"),
-    ({"fps": 0}, "fps must be .*, but is 0"),
-])
-def test_a_bad_arm_is_refused(arguments, message):
-    with pytest.raises(ValueError, match=message):
-        Arm(**arguments)

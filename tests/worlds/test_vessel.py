@@ -111,20 +111,6 @@ def test_a_collision_costs_and_brings_another_vessel():
     assert math.dist(state.scene.things[1], state.scene.position) > 0.24 and state.course[1].any()
 
 
-@pytest.mark.parametrize("arguments, message", [
-    ({"traffic": -1}, "traffic must be .*, but is -1"), ({"traffic": 65}, "traffic must be .*, but is 65"),
-    ({"current": (0.1,)}, r"current must be \(x, y\), but is \(0.1,\)"),
-    ({"current": (0.2, 0)}, "current must be .*, but is 0.2"),
-    ({"current": 0.1}, "current must be a list or a tuple, but is 0.1"), ({"speed": 0}, "speed must be .*, but is 0"),
-    ({"turning": 0}, "turning must be .*, but is 0"), ({"turning": np.inf}, "turning must be .*, but is inf"),
-    ({"lag": 0.05}, "lag must be .*, but is 0.05"),
-    ({"radius": 0.2}, "radius must be .*, but is 0.2"), ({"fps": 0}, "fps must be .*, but is 0"),
-])
-def test_a_bad_vessel_is_refused(arguments, message):
-    with pytest.raises(ValueError, match=message):
-        Vessel(**arguments)
-
-
 def test_a_heading_that_is_no_direction_is_refused():
     state = Vessel().reset(0)
     state.heading[:] = 1.0

@@ -180,19 +180,6 @@ def test_an_agent_with_axes_of_walls_is_saved_and_loaded(tmp_path):
     np.testing.assert_array_equal(loaded.record(500).positions, run.record(500).positions)
 
 
-@pytest.mark.parametrize("make, message", [
-    (lambda: walls.table([(0, 0, 1)]), r"walls must be rectangles \(left, top, right, bottom\), but is"),
-    (lambda: walls.table([(1, 0, 0, 1)]), "walls must be rectangles"),
-    (lambda: walls.table(5), "walls must be a list or a tuple, but is 5"),
-    (lambda: walls.table([(0, 0, np.nan, 1)]), "walls must be .*, but is nan"),
-    (lambda: walls.distance([]), "walls must hold a wall or more"),
-    (lambda: walls.distance_along(BOX, 0, 0), r"the length of \(x, y\) must be .*, but is 0.0"),
-    (lambda: walls.distance_along(BOX, "E", 0), "x must be .*, but is 'E'")])
-def test_bad_walls_are_refused(make, message):
-    with pytest.raises(ValueError, match=message):
-        make()
-
-
 def positions():
     return Run(seeker(0.1), Room(), seed=5).record(300).positions.tobytes().hex()
 

@@ -96,23 +96,6 @@ def test_the_animal_cannot_leave_the_pool():
     assert reached > 0.49
 
 
-@pytest.mark.parametrize("arguments, message", [
-    ({"places": ()}, r"places must be one to 1024 places \(x, y\) in the pool, but is \(\)"),
-    ({"places": ((0.1, 0.1),)}, r"places must be one to 1024 places \(x, y"),
-    ({"places": (0.5, 0.5)}, "places must be .*, but is 0.5"),
-    ({"places": ((0.5, 0.5, 0.5),)}, "places must be one to 1024 pl"),
-    ({"places": ((0.5, np.nan),)}, "places must be .*, but is nan"),
-    ({"places": ((0.5, 2),)}, "places must be .*, but is 2"),
-    ({"trials_a_day": 0}, "trials_a_day must be .*, but is 0"),
-    ({"radius": 0}, "radius must be .*, but is 0"), ({"radius": 0.3}, "radius must be .*, but is 0.3"),
-    ({"trial_seconds": 0}, "trial_seconds must be .*, but is 0"),
-    ({"fps": 0}, "fps must be .*, but is 0"), ({"fps": 2.5}, "fps must be .*, but is 2.5"),
-])
-def test_a_bad_maze_is_refused(arguments, message):
-    with pytest.raises(ValueError, match=message):
-        WaterMaze(**arguments)
-
-
 def test_a_trial_that_has_not_begun_is_refused():
     state = WaterMaze().reset(0)
     state.trial[0] = 0

@@ -241,23 +241,6 @@ def test_only_the_actions_of_a_world_can_be_taken():
     assert state.scene.position.tolist() == [0.5, 0.5, 0.4] and (reward, met.tolist(), done) == (0.0, [False], False)
 
 
-@pytest.mark.parametrize("arguments, message", [
-    (((), ()), r"names must be one or more, all different, and other than idle, None, but is \(\)"),
-    ((("a", "a"), ((1,), (2,))), r"names must be one or more, all different, and other than idle, None, but is \('a',"),
-    ((("a", "b"), ((1,), (2,)), "b"), r"names must be one or more, all different, and other than idle, 'b', but is \("),
-    ((("a", 5), ((1,), (2,))), "names must be a str, but is 5"), (("ab", ((1,),
-    (2,))), "names must be .*, but is 'ab'"),
-    ((("a", "b"), ((1,),)), r"pushes must be as many as names, all of as many axes, but is \(\(1,\),\)"),
-    ((("a", "b"), ((1,), (2, 3))), r"pushes must be as many as names, all of as many axes, but is \(\(1,\), \(2, 3\)"),
-    ((("a",), ((),)), "pushes must be .*, but is .*"), ((("a",), ((np.nan,),)), "pushes must be .*, but is nan"),
-    ((("a",), (1,)), "pushes must be .*, but is 1"),
-    ((("a",), ((1,),), 5), "idle must be a str, but is 5"),
-])
-def test_bad_actions_are_refused(arguments, message):
-    with pytest.raises(ValueError, match=message):
-        Actions(*arguments)
-
-
 def test_idleness_is_the_last_of_all_actions():
     actions = Actions(["go", "stay"], [np.array([1, 0]), (0, 1)], "rest")
     assert actions == Actions(("go", "stay"), ((1.0, 0.0), (0.0, 1.0)), "rest") and hash(actions)
