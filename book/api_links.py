@@ -37,6 +37,7 @@ ENDS = (".", ".)", ";", ":")  # of the line before an item: in the middle of a s
 DEFAULT = re.compile(r"(?<==)( ?-?)([A-Za-z_][\w.]*)(?=[,)])")
 ARRAY_LIKE = stringify_annotation(ArrayLike, "smart")
 ANNOTATED = re.compile(r"(?:~typing\.)?Annotated\[(?:~numpy\.)?ndarray, ([^]]+)\]")  # by `neorl.core.kernel.array`
+RANGED = re.compile(r"(?:~typing\.)?Annotated\[(int|float|str), [^]]+\]")  # by `neorl.checks`
 ARRAY = re.compile(r"~numpy\.ndarray\[tuple\[~typing\.Any, \.\.\.\], ~numpy\.dtype\[([^]]+)\]\]")
 SENTENCE = re.compile(r"(?<=\.) (?=[a-z_]\w*(?:, \w+)*:(?: |$))")
 OF_THE_WHOLE = re.compile(r"(?<=\.) (?=(?:Raises|Returns) )")  # in an item, which is of one argument
@@ -82,7 +83,7 @@ def read_signature(app, what, name, member, options, signature, returned):
                 signature = signature.replace("<factory>", f"{field.default_factory.__name__}()", 1)
             elif dataclasses.is_dataclass(field.default) and field.name in written:
                 signature = signature.replace(repr(field.default), written[field.name], 1)
-    signature = ANNOTATED.sub(r"array(\1)", signature)
+    signature = RANGED.sub(r"\1", ANNOTATED.sub(r"array(\1)", signature))
     signature = re.sub(r"<kernel [\w.]*?(\w+)>", r"\1", signature)
     module = sys.modules.get(getattr(member, "__module__", None))
     signature = DEFAULT.sub(lambda found: found[1] + value_of(found[2], module), signature)

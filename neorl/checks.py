@@ -8,14 +8,15 @@ magnitude, so that sums and products of several do not overflow; divisors are at
 
 import contextlib
 import dataclasses
+import functools
 import numbers
 import operator
 import os
 import reprlib
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Annotated, Any, NamedTuple, TypeVar, get_args, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
@@ -173,6 +174,56 @@ class Final:
         if Final not in cls.__bases__:
             raise TypeError(f"{cls.__name__} cannot be a subclass of {cls.__bases__[0].__name__}: kernels read its "
                             "fields and would never call what a subclass overrides; give a neorl.kernel as a field")
+
+
+class Within(NamedTuple):
+    """The range of a field, in its annotation: ``Annotated[float, Within(0, 1)]``."""
+
+    at_least: float
+    at_most: float
+
+
+class OneOf(NamedTuple):
+    """The options of a field, in its annotation: ``Annotated[str, OneOf(("a", "b"))]``."""
+
+    options: Sequence[object]
+
+
+Share = Annotated[float, Within(0, 1)]
+NotNegative = Annotated[float, Within(0, LARGEST)]
+Positive = Annotated[float, Within(SMALLEST, LARGEST)]
+AtLeastOne = Annotated[int, Within(1, 2**31)]
+
+
+def check_fields(instance: Any) -> None:
+    """Set the fields of a frozen dataclass to their checked values, as far as their annotations are rules.
+
+    Rules are ``bool``, ``float``, ``str``, and ``Annotated`` with `Within` or `OneOf`. Raises ValueError for a field
+    that breaks its rule.
+    """
+    kind: Any = type(instance)
+    assign(instance, **{name: check(name, getattr(instance, name)) for name, check in _rules(kind).items()})
+
+
+@functools.cache
+def _rules(kind: Any) -> dict[str, Callable[[str, Any], Any]]:
+    """The check of each field whose annotation is a rule, by the name of the field."""
+    found: dict[str, Callable[[str, Any], Any]] = {}
+    hints = get_type_hints(kind, include_extras=True)
+    simple: dict[Any, Callable[[str, Any], Any]] = {bool: flag, float: real, str: _text}
+    for name in (each.name for each in dataclasses.fields(kind)):
+        for rule in getattr(hints[name], "__metadata__", [hints[name]]):
+            if isinstance(rule, Within):
+                found[name] = functools.partial(integer if get_args(hints[name])[0] is int else real, **rule._asdict())
+            elif isinstance(rule, OneOf):
+                found[name] = functools.partial(one_of, options=rule.options)
+            elif rule in simple:
+                found[name] = simple[rule]
+    return found
+
+
+def _text(name: str, value: Any) -> str:
+    return str(instance(name, value, str))  # not a subclass, such as NumPy's
 
 
 def assign(instance: object, **values: Any) -> None:

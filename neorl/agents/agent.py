@@ -10,8 +10,10 @@ world; kinds are matched by name when it enters one. Everything the thesis leave
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from graphlib import CycleError, TopologicalSorter
+from typing import Annotated
 
 from neorl import checks
+from neorl.checks import NotNegative, OneOf
 from neorl.agents.rules import Contacts, Learning, Policy
 from neorl.core.choices import MapState, Weighting
 from neorl.core.description import Described
@@ -54,24 +56,20 @@ class Node(checks.Final):
     name: str
     modality: Modality
     resolutions: Sequence[int]
-    weighting: str = "cells"
+    weighting: Annotated[str, OneOf(WEIGHTINGS)] = "cells"
     gain: float = 1.0
-    goals: str = "cells"
-    state: str = "object"
-    reach: float = 0.0
-    beyond: str = "outermost"
+    goals: Annotated[str, OneOf(GOALS)] = "cells"
+    state: Annotated[str, OneOf(STATES)] = "object"
+    reach: NotNegative = 0.0
+    beyond: Annotated[str, OneOf(BEYOND_RANGE)] = "outermost"
 
     def __post_init__(self):
         checks.instance("modality", self.modality, Modality)
-        checks.assign(self, name=str(checks.instance("name", self.name, str)),
-                     resolutions=checks.several("resolutions", self.resolutions))
+        checks.check_fields(self)
+        checks.assign(self, resolutions=checks.several("resolutions", self.resolutions))
         if not self.resolutions:
             raise checks.error("resolutions", "one integer or more", ())
-        checks.assign(self, resolutions=tuple(each.resolution for each in self.maps),
-                     weighting=checks.one_of("weighting", self.weighting, WEIGHTINGS),
-                     gain=checks.real("gain", self.gain), goals=checks.one_of("goals", self.goals, GOALS),
-                     state=checks.one_of("state", self.state, STATES), reach=checks.real("reach", self.reach, 0),
-                     beyond=checks.one_of("beyond", self.beyond, BEYOND_RANGE))
+        checks.assign(self, resolutions=tuple(each.resolution for each in self.maps))
         if self.goals == "contacts" and self.modality.follows != "objects":
             raise checks.error(f"goals of {self.modality.name}s", "'cells'", self.goals, "they follow no objects")
         if self.goals == "contacts" and any(fine <= coarse for coarse, fine in zip(self.resolutions,
@@ -147,7 +145,7 @@ class Desire(checks.Final):
     target: str
     valence: float | str | None = None
     of: Sequence[str] = ()
-    scale: float = 1.0
+    scale: NotNegative = 1.0
     signed: bool = True
 
     def __post_init__(self):
@@ -156,7 +154,7 @@ class Desire(checks.Final):
         elif not isinstance(self.source, Place):
             point = checks.several("source", self.source)
             checks.assign(self, source=tuple(checks.real("source", value) for value in point))
-        checks.assign(self, target=str(checks.instance("target", self.target, str)))
+        checks.check_fields(self)
         if isinstance(self.valence, str) and self.valence == LEARNED:
             if not isinstance(self.source, str):
                 raise checks.error("valence", f"a number for the source {self.source!r}", LEARNED, "it is learned for "
@@ -164,8 +162,7 @@ class Desire(checks.Final):
             checks.assign(self, valence=LEARNED)
         elif self.valence is not None:
             checks.assign(self, valence=checks.real("valence", self.valence))
-        checks.assign(self, of=tuple(str(checks.instance("of", each, str)) for each in checks.several("of", self.of)),
-                     scale=checks.real("scale", self.scale, 0), signed=checks.flag("signed", self.signed))
+        checks.assign(self, of=tuple(str(checks.instance("of", each, str)) for each in checks.several("of", self.of)))
 
     def __str__(self):
         return f"{self.source!r} → {self.target!r}"
@@ -188,7 +185,7 @@ class Agent(Described, checks.Final):
     desires: Sequence[Desire] = ()
     learning: Learning = field(default_factory=Learning)
     policy: Policy = field(default_factory=Policy)
-    own_cell: str = "counts"
+    own_cell: Annotated[str, OneOf(OWN_CELL)] = "counts"
     contacts: Contacts = field(default_factory=Contacts)
 
     def __post_init__(self):
@@ -205,7 +202,7 @@ class Agent(Described, checks.Final):
         checks.instance("learning", self.learning, Learning)
         checks.instance("policy", self.policy, Policy)
         checks.instance("contacts", self.contacts, Contacts)
-        checks.assign(self, own_cell=checks.one_of("own_cell", self.own_cell, OWN_CELL))
+        checks.check_fields(self)
         for node in self.nodes:
             if node.state != "object" and self.learning.update_on == "step":
                 raise checks.error("update_on", f"'cell' for the node {node.name!r} with the state {node.state!r}",

@@ -7,8 +7,10 @@ of the thesis (see `neorl.evidence.reading`), and `GREEDY` is the policy of both
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Annotated
 
 from neorl import checks
+from neorl.checks import NotNegative, OneOf, Positive, Share
 from neorl.core.choices import Credit, UpdateOn
 from neorl.core.kernel import check_kernel
 from neorl.core.policy import greedy
@@ -50,31 +52,21 @@ class Learning(checks.Final):
     Raises ValueError for anything else.
     """
 
-    learning_rate: float = 0.1
-    discount: float = 0.9
-    update_on: str = "cell"
+    learning_rate: Share = 0.1
+    discount: Share = 0.9
+    update_on: Annotated[str, OneOf(UPDATES_ON)] = "cell"
     credit: str | Callable = "last"
-    activity: float = 0.5
-    absent_decay: float = 0.0
-    absent_form: str = "decay"
+    activity: NotNegative = 0.5
+    absent_decay: Share = 0.0
+    absent_form: Annotated[str, OneOf(ABSENT_FORMS)] = "decay"
     terminal: bool = True
-    memory: float = 0.0
+    memory: NotNegative = 0.0
     bootstrap: bool = True
 
     def __post_init__(self):
-        checks.assign(
-            self,
-            learning_rate=checks.real("learning_rate", self.learning_rate, 0, 1),
-            discount=checks.real("discount", self.discount, 0, 1),
-            update_on=checks.one_of("update_on", self.update_on, UPDATES_ON),
-            credit=(check_kernel("credit", self.credit) if callable(self.credit) else
-                    checks.one_of("credit", self.credit, CREDITS)),
-            activity=checks.real("activity", self.activity, 0),
-            absent_decay=checks.real("absent_decay", self.absent_decay, 0, 1),
-            absent_form=checks.one_of("absent_form", self.absent_form, ABSENT_FORMS),
-            terminal=checks.flag("terminal", self.terminal),
-            memory=checks.real("memory", self.memory, 0),
-            bootstrap=checks.flag("bootstrap", self.bootstrap))
+        checks.check_fields(self)
+        checks.assign(self, credit=(check_kernel("credit", self.credit) if callable(self.credit) else
+                                    checks.one_of("credit", self.credit, CREDITS)))
         if self.update_on == "step":
             for name, value in AT_EVERY_STEP.items():
                 if getattr(self, name) not in (value, getattr(Learning, name)):
@@ -105,26 +97,17 @@ class Contacts(checks.Final):
     Raises ValueError for anything else.
     """
 
-    horizon: float = 0.389
-    learning_rate: float = 0.0262
-    familiarity: float = 6.15
-    first_value: float = 0.31
-    trace_rate: float = 0.215
-    caution: float = 0.309
-    fear: str = "avoidance"
-    rivals: str = "highest"
+    horizon: Positive = 0.389
+    learning_rate: Share = 0.0262
+    familiarity: NotNegative = 6.15
+    first_value: Share = 0.31
+    trace_rate: Share = 0.215
+    caution: NotNegative = 0.309
+    fear: Annotated[str, OneOf(FEARS)] = "avoidance"
+    rivals: Annotated[str, OneOf(RIVALS)] = "highest"
 
     def __post_init__(self):
-        checks.assign(
-            self,
-            horizon=checks.positive("horizon", self.horizon),
-            learning_rate=checks.real("learning_rate", self.learning_rate, 0, 1),
-            familiarity=checks.real("familiarity", self.familiarity, 0),
-            first_value=checks.real("first_value", self.first_value, 0, 1),
-            trace_rate=checks.real("trace_rate", self.trace_rate, 0, 1),
-            caution=checks.real("caution", self.caution, 0),
-            fear=checks.one_of("fear", self.fear, FEARS),
-            rivals=checks.one_of("rivals", self.rivals, RIVALS))
+        checks.check_fields(self)
 
 
 @dataclass(frozen=True)
@@ -141,14 +124,13 @@ class Policy(checks.Final):
     Raises ValueError for anything else.
     """
 
-    exploration: float = 0.1
-    when_indifferent: str = "random"
+    exploration: Share = 0.1
+    when_indifferent: Annotated[str, OneOf(WHEN_INDIFFERENT)] = "random"
     choose: Callable = greedy
 
     def __post_init__(self):
-        checks.assign(self, exploration=checks.real("exploration", self.exploration, 0, 1),
-                     when_indifferent=checks.one_of("when_indifferent", self.when_indifferent, WHEN_INDIFFERENT),
-                     choose=check_kernel("choose", self.choose))
+        checks.check_fields(self)
+        check_kernel("choose", self.choose)
 
 
 # Of the confirmed readings within the text, the one for which most claims hold (`notebooks/lib/study`).

@@ -22,11 +22,13 @@ HEAD_DIRECTION_CELL.axes`.
 import functools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from neorl import checks
+from neorl.checks import OneOf, Within
 from neorl.core.choices import Cut, Feature, MapState, Vector
 from neorl.core.geometry import TAU, locate
 from neorl.core.constants import Constants, features, no_credit
@@ -69,8 +71,8 @@ class Axis(checks.Final):
     """
 
     of: str | Callable[..., float]
-    feature: str = "component"
-    along: int = 0
+    feature: Annotated[str, OneOf(FEATURES)] = "component"
+    along: Annotated[int, Within(0, MOST_AXES - 1)] = 0
     low: float = 0.0
     high: float = 1.0
     closed: bool = False
@@ -81,17 +83,14 @@ class Axis(checks.Final):
 
     def __post_init__(self):
         of = check_kernel("of", self.of) if callable(self.of) else checks.one_of("of", self.of, VECTORS)
-        checks.assign(self, of=of, feature=checks.one_of("feature", self.feature, FEATURES),
-                     along=checks.integer("along", self.along, at_least=0, at_most=MOST_AXES - 1),
-                     boundaries=tuple(checks.real("boundaries", each)
+        checks.check_fields(self)
+        checks.assign(self, of=of, boundaries=tuple(checks.real("boundaries", each)
                                       for each in checks.several("boundaries", self.boundaries)))
         if self.boundaries:
             if len(self.boundaries) < 2 or any(np.diff(self.boundaries) <= 0):
                 raise checks.error("boundaries", "two numbers or more that increase", self.boundaries)
             checks.assign(self, low=self.boundaries[0], high=self.boundaries[-1], intervals=len(self.boundaries) - 1)
-        checks.assign(self, low=checks.real("low", self.low), high=checks.real("high", self.high),
-                     closed=checks.flag("closed", self.closed) or self.is_direction,
-                     centred=checks.flag("centred", self.centred))
+        checks.assign(self, closed=self.closed or self.is_direction)
         if self.centred and (self.closed or self.boundaries):
             raise checks.error("centred", "False for an axis that is closed or has boundaries", self.centred)
         if self.intervals is not None:
@@ -103,7 +102,7 @@ class Axis(checks.Final):
                              f"{self.high!r}")
         if self.boundaries and self.closed:
             raise checks.error("boundaries", "() for an axis that is closed", self.boundaries)
-        checks.assign(self, name=str(checks.instance("name", self.name, str)) or self._name)
+        checks.assign(self, name=self.name or self._name)
 
     @property
     def is_direction(self) -> bool:
@@ -161,13 +160,13 @@ class Modality(checks.Final):
     mirrored: bool = False
 
     def __post_init__(self):
-        checks.assign(self, name=str(checks.instance("name", self.name, str)))
+        checks.check_fields(self)
         axes = tuple(checks.instance("axes", each, Axis) for each in checks.several("axes", self.axes))
         if not axes or len({axis.of for axis in axes if axis.of in SEVERAL}) > 1:
             raise checks.error("axes", f"one or more, and of {', '.join(SEVERAL)} of one kind at most", axes)
         landmarks = tuple(tuple(checks.real("landmarks", value) for value in checks.several("landmarks", each))
                           for each in checks.several("landmarks", self.landmarks))
-        checks.assign(self, axes=axes, landmarks=landmarks, mirrored=checks.flag("mirrored", self.mirrored))
+        checks.assign(self, axes=axes, landmarks=landmarks)
         order = [0.0 if axis.of == self.follows and not axis.is_direction else 1.0 if axis.of == self.follows else 2.0
                  for axis in axes]
         if order != sorted(order):

@@ -15,11 +15,12 @@ The origin is the upper left corner; the pool, if round, touches all four sides.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
 from neorl import checks
+from neorl.checks import LARGEST, AtLeastOne, OneOf, Within
 from neorl.core.kernel import array, function_of, inlined_kernel, kernel
 from neorl.core.scene import CARDINAL, Scene
 from neorl.core.stream import randint
@@ -80,19 +81,20 @@ class Arena(World, checks.Final):
     places: Sequence[tuple[str, float, float]] = (("platform", 0.65, 0.35),)
     pay: Sequence[float] = ()
     obstacles: Sequence[tuple[float, float, float, float]] = ()
-    shape: str = "round"
-    motion: str = "inertia"
-    step_length: float = 0.02
-    radius: float = 0.06
+    shape: Annotated[str, OneOf(SHAPES)] = "round"
+    motion: Annotated[str, OneOf(MOTIONS)] = "inertia"
+    step_length: Annotated[float, Within(1e-9, 1)] = 0.02
+    radius: Annotated[float, Within(1e-9, LARGEST)] = 0.06
     ends: bool = True
     start: Sequence[float] = ()
-    trial_seconds: float = 60.0
-    fps: int = 50
+    trial_seconds: Annotated[float, Within(1e-9, 1e9)] = 60.0
+    fps: AtLeastOne = 50
 
     actions = CARDINAL
     size = 1.0
 
     def __post_init__(self):
+        checks.check_fields(self)
         places = tuple(checks.several("places", each) for each in checks.several("places", self.places))
         if any(len(each) != 3 or not isinstance(each[0], str) for each in places):
             raise checks.error("places", "tuples (kind, x, y)", self.places)
@@ -101,12 +103,7 @@ class Arena(World, checks.Final):
                                for kind, x, y in places),
             pay=tuple(checks.real("pay", each) for each in checks.several("pay", self.pay)),
             obstacles=walls.checked("obstacles", self.obstacles, 0, 1),
-            shape=checks.one_of("shape", self.shape, SHAPES), motion=checks.one_of("motion", self.motion, MOTIONS),
-            step_length=checks.real("step_length", self.step_length, 1e-9, 1),
-            radius=checks.real("radius", self.radius, 1e-9), ends=checks.flag("ends", self.ends),
-            start=tuple(checks.real("start", value, 0, 1) for value in checks.several("start", self.start)),
-            trial_seconds=checks.real("trial_seconds", self.trial_seconds, 1e-9, 1e9),
-            fps=checks.integer("fps", self.fps, at_least=1, at_most=2**31))
+            start=tuple(checks.real("start", value, 0, 1) for value in checks.several("start", self.start)))
         if len(self.pay) > len(self.kinds):
             raise checks.error("pay", f"{len(self.kinds)} numbers, one for each kind", self.pay)
         if len(self.start) not in (0, 2):

@@ -15,11 +15,12 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
 from neorl import checks
+from neorl.checks import AtLeastOne, Within
 from neorl.core.geometry import TAU
 from neorl.core.kernel import array, kernel
 from neorl.core.scene import Actions, Scene
@@ -62,22 +63,18 @@ class Arm(World, checks.Final):
     """
 
     lengths: Sequence[float] = (0.5, 0.5)
-    targets: int = 1
-    obstacles: int = 1
-    radius: float = 0.1
-    fps: int = 20
+    targets: Annotated[int, Within(0, 64)] = 1
+    obstacles: Annotated[int, Within(0, 64)] = 1
+    radius: Annotated[float, Within(1e-3, 0.2)] = 0.1
+    fps: AtLeastOne = 20
 
     kinds = ("target", "obstacle")
     size = 1.0
 
     def __post_init__(self):
-        checks.assign(
-            self, lengths=tuple(checks.real("lengths", each, 1e-6, 1e6)
-                                for each in checks.several("lengths", self.lengths)),
-            targets=checks.integer("targets", self.targets, at_least=0, at_most=64),
-            obstacles=checks.integer("obstacles", self.obstacles, at_least=0, at_most=64),
-            radius=checks.real("radius", self.radius, 1e-3, 0.2),
-            fps=checks.integer("fps", self.fps, at_least=1, at_most=2**31))
+        checks.check_fields(self)
+        checks.assign(self, lengths=tuple(checks.real("lengths", each, 1e-6, 1e6)
+                                          for each in checks.several("lengths", self.lengths)))
         if not 2 <= len(self.lengths) <= 3:
             raise checks.error("lengths", "two or three numbers, one for each link", self.lengths)
         if self.things == 0:

@@ -20,11 +20,12 @@ The area is 1 wide and high; x points east and y points down, to the south.
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
 from neorl import checks
+from neorl.checks import AtLeastOne, Within
 from neorl.core.kernel import array, kernel
 from neorl.core.scene import Actions, Scene
 from neorl.core.stream import randint, uniform
@@ -71,25 +72,20 @@ class Vessel(World, checks.Final):
     Raises ValueError for anything else.
     """
 
-    traffic: int = 3
+    traffic: Annotated[int, Within(0, 64)] = 3
     current: Sequence[float] = (0.03, 0.0)
-    speed: float = 0.1
-    turning: float = 1.0
+    speed: Annotated[float, Within(1e-3, 1)] = 0.1
+    turning: Annotated[float, Within(1e-3, 10)] = 1.0
     lag: float = 0.5
-    radius: float = 0.05
-    fps: int = 10
+    radius: Annotated[float, Within(1e-3, 0.1)] = 0.05
+    fps: AtLeastOne = 10
 
     kinds = ("waypoint", "vessel")
     actions = HELM
     size = 1.0
 
     def __post_init__(self):
-        checks.assign(
-            self, traffic=checks.integer("traffic", self.traffic, at_least=0, at_most=64),
-            speed=checks.real("speed", self.speed, 1e-3, 1),
-            turning=checks.real("turning", self.turning, 1e-3, 10),
-            radius=checks.real("radius", self.radius, 1e-3, 0.1),
-            fps=checks.integer("fps", self.fps, at_least=1, at_most=2**31))
+        checks.check_fields(self)
         checks.assign(self, lag=checks.real("lag", self.lag, 1 / self.fps, 1e6),
                       current=tuple(checks.real("current", each, -self.speed, self.speed)
                                     for each in checks.several("current", self.current)))

@@ -18,11 +18,12 @@ The origin is the upper left corner.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
 from neorl import checks
+from neorl.checks import AtLeastOne, Within
 from neorl.core.kernel import array, kernel
 from neorl.core.scene import ABSENT, CARDINAL, Scene
 from neorl.core.stream import randint
@@ -69,10 +70,10 @@ class WaterMaze(World, checks.Final):
     """
 
     places: Sequence[Sequence[float]] = ((0.65, 0.35),)
-    trials_a_day: int = 4
-    radius: float = 0.06
-    trial_seconds: float = 120.0
-    fps: int = 10
+    trials_a_day: Annotated[int, Within(1, 1_024)] = 4
+    radius: Annotated[float, Within(1e-3, 0.25)] = 0.06
+    trial_seconds: Annotated[float, Within(1e-9, 1e9)] = 120.0
+    fps: AtLeastOne = 10
 
     kinds = ("platform",)
     actions = CARDINAL
@@ -81,12 +82,9 @@ class WaterMaze(World, checks.Final):
 
     def __post_init__(self):
         places = [checks.several("places", each) for each in checks.several("places", self.places)]
-        checks.assign(
-            self, places=tuple(tuple(checks.real("places", value, 0, 1) for value in each) for each in places),
-            trials_a_day=checks.integer("trials_a_day", self.trials_a_day, at_least=1, at_most=1_024),
-            radius=checks.real("radius", self.radius, 1e-3, 0.25),
-            trial_seconds=checks.real("trial_seconds", self.trial_seconds, 1e-9, 1e9),
-            fps=checks.integer("fps", self.fps, at_least=1, at_most=2**31))
+        checks.check_fields(self)
+        checks.assign(self, places=tuple(tuple(checks.real("places", value, 0, 1) for value in each)
+                                         for each in places))
         if not 1 <= len(self.places) <= 1_024 or any(
                 len(each) != 2 or (each[0] - 0.5)**2 + (each[1] - 0.5)**2 > 0.25 for each in self.places):
             raise checks.error("places", "one to 1024 places (x, y) in the pool", self.places)

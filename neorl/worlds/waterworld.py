@@ -16,11 +16,12 @@ The tank is 250 pixels wide with 50 steps per second by default; the origin is t
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
 from neorl import checks
+from neorl.checks import AtLeastOne, OneOf, Within
 from neorl.core.choices import Action
 from neorl.core.kernel import array, inlined_kernel, kernel
 from neorl.core.scene import CARDINAL, Scene
@@ -71,20 +72,16 @@ class WaterWorld(World, checks.Final):
     kinds = ("green", "red")
     actions = CARDINAL
 
-    width: int = 250
-    n_creeps: int = 3
-    fps: int = 50
+    width: AtLeastOne = 250
+    n_creeps: Annotated[int, Within(1, 2**20)] = 3
+    fps: AtLeastOne = 50
     win_reward: float = 0.0
-    contact: str = "rounded"
+    contact: Annotated[str, OneOf(CONTACTS)] = "rounded"
 
     def __post_init__(self):
-        checks.assign(self, width=checks.integer("width", self.width, at_least=1, at_most=2**31))
+        checks.check_fields(self)
         if self.radius < 1:
             raise checks.error("width", "11 pixels or more, since a creep's radius is 4.7 % of it", self.width)
-        checks.assign(self, n_creeps=checks.integer("n_creeps", self.n_creeps, at_least=1, at_most=2**20),
-                     fps=checks.integer("fps", self.fps, at_least=1, at_most=2**31),
-                     win_reward=checks.real("win_reward", self.win_reward, -1e30, 1e30),
-                     contact=checks.one_of("contact", self.contact, CONTACTS))
 
     @property
     def dynamics(self) -> Dynamics:
