@@ -1,4 +1,4 @@
-/* The Replay in the page: recorded runs side by side, in step, in real time.
+/* The Replay in the page: recorded runs side by side, in step, in real time or `speed` times as fast.
 
 It draws while it plays and is in view, and whenever the page changes its colours or its size. */
 
@@ -22,6 +22,7 @@ class Replay {
   constructor(model, place) {
     Object.assign(this, { model, recordings: model.get("_recordings"), at: 0, owed: 0, before: null, inSight: false });
     this.seconds = this.recordings[0].seconds;
+    this.speed = model.get("speed");
     this.root = Object.assign(document.createElement("div"), { className: "neorl-explorer neorl-replay",
       innerHTML: CONTROLS });
     const tanks = this.root.querySelector(".tanks");
@@ -70,6 +71,13 @@ class Replay {
     return this.at === this.seconds.length - 1;
   }
 
+  /** The time shown, as text: minutes and seconds if it passes faster than it was recorded. */
+  time() {
+    const seconds = this.seconds[this.at];
+    if (this.speed === 1) return `${seconds.toFixed(1)} s`;
+    return `${Math.floor(seconds / 60)}:${String(Math.floor(seconds % 60)).padStart(2, "0")} min, ${this.speed} ×`;
+  }
+
   play(playing) {
     this.playing = playing;
     this.before = null;
@@ -81,7 +89,7 @@ class Replay {
     this.asked = requestAnimationFrame((now) => {
       this.asked = null;
       if (!this.playing || !this.inSight) return;
-      this.owed = this.before === null ? 0 : this.owed + (now - this.before) / 1000;
+      this.owed = this.before === null ? 0 : this.owed + this.speed * (now - this.before) / 1000;
       this.before = now;
       while (!this.isOver() && this.owed >= this.seconds[this.at + 1] - this.seconds[this.at]) {
         this.owed -= this.seconds[this.at + 1] - this.seconds[this.at];
@@ -98,12 +106,13 @@ class Replay {
     const boards = this.root.querySelectorAll(".board");
     this.recordings.forEach((recording, index) => {
       const [green, red] = recording.hits[this.at];
+      const score = `Score ${green - red}`.replace("-", "−");
       drawArena(boards[index].querySelector("canvas"), colours, frameOf(recording, this.at));
-      boards[index].querySelector(".legend").textContent = `${green} green, ${red} red`;
+      boards[index].querySelector(".legend").textContent = `${score}: ${green} green, ${red} red`;
     });
     this.button.textContent = this.playing ? "Pause" : this.isOver() ? "Play again" : "Play";
     this.slider.value = this.at;
-    this.root.querySelector("output").textContent = `${this.seconds[this.at].toFixed(1)} s`;
+    this.root.querySelector("output").textContent = this.time();
     Object.assign(this.root.dataset, { state: this.playing ? "playing" : "paused", frame: this.at });
   }
 }

@@ -18,6 +18,7 @@ class Replay(AnyWidget):
 
     recordings: one or more `Recording`, all of the same length and steps per second.
     playing: whether it starts to play when it comes into view. With reduced motion, playback is started by a button.
+    speed: recorded seconds per second of playback, an integer ≥ 1.
 
     Raises ValueError for anything else.
     """
@@ -27,19 +28,21 @@ class Replay(AnyWidget):
     _recordings = traitlets.List().tag(sync=True)
 
     playing = traitlets.Bool(True).tag(sync=True)
+    speed = traitlets.Int(1).tag(sync=True)
 
-    def __init__(self, recordings, playing=True):
+    def __init__(self, recordings, playing=True, speed=1):
         recordings = [checks.instance("recordings", each, Recording)
                       for each in checks.several("recordings", recordings)]
         if len({(len(each.agent), each.fps) for each in recordings}) != 1:
             raise ValueError("recordings must be one or more, of the same length and steps per second, but are of "
                              f"{[len(each.agent) - 1 for each in recordings]} steps")
-        super().__init__(_recordings=[_thinned(each) for each in recordings], playing=playing)
+        speed = checks.integer("speed", speed, at_least=1)
+        super().__init__(_recordings=[_thinned(each, speed) for each in recordings], playing=playing, speed=speed)
 
 
-def _thinned(recording):
+def _thinned(recording, speed):
     """A recording in the page's format: a subset of its frames, with positions as integers."""
-    frames = np.arange(0, len(recording.agent), max(1, recording.fps // FRAMES_A_SECOND))
+    frames = np.arange(0, len(recording.agent), max(1, speed * recording.fps // FRAMES_A_SECOND))
     return {"name": recording.name, "radius": recording.radius, "fineness": FINENESS,
             "seconds": (frames / recording.fps).tolist(), "hits": recording.hits[frames].tolist(),
             "green": recording.green[frames].astype(int).tolist(),

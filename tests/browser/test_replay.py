@@ -55,6 +55,20 @@ def test_recordings_that_do_not_go_together_are_refused(recordings):
         Replay(["first"])
 
 
+def scored(green, red):
+    return f"Score {green - red}: {green} green, {red} red".replace("-", "−")
+
+
+def test_a_fast_replay_has_fewer_frames_and_ends_with_the_same_score(open_page, tmp_path, recordings):
+    write_page(tmp_path, [Replay(recordings, speed=10)])
+    replay = open_page(tmp_path, "page.html").locator(".neorl-replay")
+    expect(replay).to_have_attribute("data-state", "paused", timeout=60_000)
+    assert replay.get_attribute("data-frame") == "5"
+    for index, recording in enumerate(recordings):
+        expect(replay.locator(".legend").nth(index)).to_have_text(scored(*recording.hits[100]))
+    expect(replay.locator("output")).to_have_text("0:02 min, 10 ×")
+
+
 def test_a_replay_plays_to_its_end_in_real_time_and_can_be_moved(open_page, tmp_path, recordings):
     write_page(tmp_path, [Replay(recordings)])
     page = open_page(tmp_path, "page.html")
@@ -63,13 +77,13 @@ def test_a_replay_plays_to_its_end_in_real_time_and_can_be_moved(open_page, tmp_
     assert replay.get_attribute("data-frame") == "50"
     for index, recording in enumerate(recordings):
         green, red = recording.hits[-1]
-        expect(replay.locator(".legend").nth(index)).to_have_text(f"{green} green, {red} red")
+        expect(replay.locator(".legend").nth(index)).to_have_text(scored(green, red))
         expect(replay.locator(".title").nth(index)).to_have_text(recording.name)
     replay.get_by_text("Play again").click()
     expect(replay).to_have_attribute("data-state", "playing")
     replay.locator("[name=time]").fill("10")
     green, red = recordings[0].hits[20]
-    expect(replay.locator(".legend").first).to_have_text(f"{green} green, {red} red")
+    expect(replay.locator(".legend").first).to_have_text(scored(green, red))
     expect(replay.locator("output")).to_have_text("0.4 s")
     replay.locator("button").click()
     expect(replay).to_have_attribute("data-state", "playing")
