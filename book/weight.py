@@ -26,10 +26,10 @@ def setup(app):
 
 def lighten(app, page, template, context, doctree):
     """Remove from a page the scripts that it does not need, and give its images sizes."""
+    if page == "search":
+        app.add_js_file(None, body=TITLES_ALONE)  # to the list of the context, which the next lines replace
     if doctree is None or not any(doctree.findall(is_math)):
         context["script_files"] = [each for each in context["script_files"] if "mathjax" not in str(each).lower()]
-    if page == "search":
-        app.add_js_file(None, body=TITLES_ALONE)
     sources = {name: Path(app.srcdir, path) for path, name in app.builder.images.items()}
     if "body" in context:
         context["body"] = IMAGE.sub(lambda tag: sized(tag, sources), context["body"])

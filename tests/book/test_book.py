@@ -68,7 +68,8 @@ def test_a_notebook_opens_from_the_repository_that_is_set(make_book, tmp_path):
     assert "fontawesome.js" not in page + reference and "tex-chtml.js" not in page and "tex-chtml.js" in reference
 
 
-def test_without_a_repository_there_are_no_buttons_and_docstrings_become_lists_with_links(make_book, tmp_path):
+def test_without_a_repository_there_are_no_buttons_and_docstrings_become_lists_with_links(make_book, open_page,
+                                                                                          tmp_path):
     page, reference = make_book(modules=["neorl.agents.individual", "neorl.experiments.run",
                                          "neorl.experiments.simulation", "neorl.experiments.cache",
                                          "neorl.experiments.sweeping"])
@@ -82,6 +83,8 @@ def test_without_a_repository_there_are_no_buttons_and_docstrings_become_lists_w
     assert "Alias for field number" not in text
     search = (tmp_path / "_build" / "html" / "_static" / "language_data.js").read_text(encoding="utf-8")
     assert "var Scorer" in search  # book/vendor/search_order.js
+    found = open_page(tmp_path / "_build" / "html", "search.html?q=simulate", "file")
+    found.get_by_text("Search finished").wait_for()  # without a console error, as always
 
 
 def test_a_command_names_the_repository_that_is_set(tmp_path, monkeypatch):
