@@ -265,13 +265,7 @@ class Controls {
     }
     if (game) said.push(`You: ${shown(frame.player?.reward ?? 0)}. neoRL: ${shown(frame.reward - game.score)}.`,
       "Steer with the arrow keys; Escape leaves the game.");
-    if (seen.goal !== null && seen.ofSelf) {
-      said.push(`In each cell of ${seen.name}: how to get there, learned without being asked.`);
-    } else if (seen.goal !== null) {
-      const ways = { position: "how to get there", velocity: "how to reach that velocity" };
-      const what = ways[seen.vector] ?? "how to get a thing there";
-      said.push(`Cell ${seen.goal} of ${seen.name}: ${what}, learned without being asked.`);
-    }
+    if (seen.goal !== null) said.push(describeWay(frame));
     if (due?.news ?? news) said.push(due?.news ?? news);
     return said;
   }

@@ -194,7 +194,7 @@ function drawVectors(board, colour, width, alpha, vectors, middle, round) {
     for (let i = 0; i < vectors.length; i += 2) {
       const length = Math.hypot(vectors[i], vectors[i + 1]);
       const { x, y, size } = middle(i / 2);
-      if (!length || size <= 0 || !isInside(x, y, round)) continue;
+      if (!length || !isDrawn({ x, y, size }, round)) continue;
       const drawn = 0.8 * Math.min(size, 0.2) * (length / longest) ** 0.25;
       const [dx, dy] = [(drawn * vectors[i]) / length, (drawn * vectors[i + 1]) / length];
       addArrow(path, board.unit, x - dx / 2, y - dy / 2, dx, dy, Math.min(9, 0.35 * drawn * board.unit));
@@ -202,8 +202,8 @@ function drawVectors(board, colour, width, alpha, vectors, middle, round) {
   });
 }
 
-const isInside = (x, y, round) =>
-  (round ? Math.hypot(x - 0.5, y - 0.5) < 0.5 : x >= 0 && x <= 1 && y >= 0 && y <= 1);
+const isDrawn = ({ x, y, size }, round) =>
+  size > 0 && (round ? Math.hypot(x - 0.5, y - 0.5) < 0.5 : x >= 0 && x <= 1 && y >= 0 && y <= 1);
 
 /** The share of a vector from a place that fits on the canvas. */
 function roomFor(x, y, dx, dy) {

@@ -54,6 +54,28 @@ function keyOf({ things, nodes, landings, player, active, field, seen, arm, head
 
 const entryMarkup = ([kind, text]) => `<li>${PICTURES[kind]}<span>${text}</span></li>`;
 
+/** What is drawn of the way to the chosen cell. */
+function describeWay({ seen, agent, heading, round }) {
+  const { axes, goal, ofSelf, vector, ways } = seen;
+  const { middle } = cellsOf(seen, agent, heading);
+  const hasArrow = (cell) => ways[2 * cell] !== 0 || ways[2 * cell + 1] !== 0;
+  if (ofSelf) {
+    return hasArrow(goal) ? "The arrow in the chosen cell is the way there, learned without being asked."
+      : "The chosen cell has no arrow: the way there has not been learned.";
+  }
+  const others = [...Array(ways.length / 2).keys()].filter((cell) => cell !== goal && isDrawn(middle(cell), round));
+  const learned = others.filter(hasArrow);
+  if (!learned.length) return "No cell has an arrow: the way to the chosen one has not been learned.";
+  const said = `Arrows in ${learned.length} of the ${others.length} other cells, learned without being asked`;
+  if (vector !== "position") return `${said}.`;
+  const shortest = (way, along) => (axes.find((each) => each.along === along)?.closed ? way - Math.round(way) : way);
+  const towards = learned.filter((cell) => {
+    const [from, to] = [middle(cell), middle(goal)];
+    return shortest(to.x - from.x, 0) * ways[2 * cell] + shortest(to.y - from.y, 1) * ways[2 * cell + 1] > 0;
+  });
+  return `${said}; ${towards.length} point towards the chosen one.`;
+}
+
 /** A description of a frame, in a few sentences. */
 function describe({ agent, things, player, ended }) {
   const moving = Math.hypot(agent.vx, agent.vy) > 0.02;

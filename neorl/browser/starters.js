@@ -39,10 +39,7 @@ class Starters extends Hands {
       this.write({ playing: false });
       await this.look({ map: this.mapOfPlaces(), goal: null });
       await this.look({ at: CORNER });
-      const { goal, ofSelf } = this.life.frame.seen;
-      this.life.news = goal === null ? "This map does not reach as far as the corner." : ofSelf
-        ? "The arrow in the shaded corner is the way to it, though it has never been a goal."
-        : "The shaded corner has never been a goal, and the agent knows the way from everywhere.";
+      if (this.life.frame.seen.goal === null) this.life.news = "This map does not reach as far as the corner.";
       this.refresh();
     };
     if (frame.step >= Math.min(LEARNED, life.length.steps)) return act();

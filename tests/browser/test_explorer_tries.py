@@ -3,11 +3,13 @@
 import re
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from explorer_page import write_page
 from playwright.sync_api import expect
 
 from neorl import Explorer, Policy, Run, WaterWorld, object_vector_cells, place_cells, simulate
+from neorl.core.horde import as_vectors
 
 TANK = WaterWorld()
 PLACES = place_cells([5, 3])
@@ -64,8 +66,18 @@ def test_the_way_to_a_corner_is_shown_once_it_is_learned(visit):
     wait(page, "ended")
     assert shown(page, "step") == "20000"
     assert page.locator('[name="map"]').input_value() == "PC N5"
-    expect(page.locator(".key")).to_contain_text("The chosen cell, and the way to it")
-    expect(page.locator(".key")).not_to_contain_text("Grey:")
+    run = Run(PLACES, TANK, SIZE["seed"], 0)
+    run.advance(SIZE["steps"])
+    ways = as_vectors(run.q(0)[:, :, 0].astype(float))
+    learned = ways.any(axis=1) & (np.arange(25) > 0)
+    towards = learned & (np.sum(ways * [(-(cell % 5), -(cell // 5)) for cell in range(25)], axis=1) > 0)
+    expect(page.locator(".said")).to_contain_text(
+        f"Arrows in {learned.sum()} of the 24 other cells, learned without being asked; {towards.sum()} point towards")
+
+
+def test_where_no_way_was_learned_the_caption_says_so(visit):
+    page = visit("#explorer_minute-0_map-pc-n5_goal-0")
+    expect(page.locator(".said")).to_contain_text("No cell has an arrow: the way to the chosen one has not been learned")
 
 
 def test_playing_again_repeats_the_run_with_the_same_settings(visit):
@@ -90,7 +102,7 @@ def test_of_two_things_to_try_the_later_one_counts(visit):
     press(page, "red")
     page.wait_for_function("Number(document.querySelector('.neorl-explorer').dataset.step) > 60_000")
     press(page, "corner")
-    expect(page.locator(".said")).to_contain_text("The shaded corner has never been a goal")
+    expect(page.locator(".said")).to_contain_text("point towards the chosen one")
     expect(page.locator(".said")).not_to_contain_text("In the middle of the run")
 
 
@@ -250,8 +262,7 @@ def test_the_address_has_the_state_of_object_vectors(visit):
 def test_the_ways_to_all_cells_are_shown_where_the_state_is_the_self(visit):
     page = visit("#explorer_agent-things_minute-2_map-ovc-n4_goal-5")
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal === '5'")
-    expect(page.locator(".said")).to_contain_text("In each cell of OVC N4: how to get there")
-    expect(page.locator(".key")).to_contain_text("The chosen cell; in each cell, the way there")
+    expect(page.locator(".said")).to_contain_text("The arrow in the chosen cell is the way there")
 
 
 def test_a_link_within_the_page_is_followed(visit):
