@@ -38,7 +38,7 @@ class Controls {
     if (kind === "number" && !target.checkValidity()) return this.refuse(target, WHOLE(target));
     if (kind === "number") this.forgive();
     const act = { resolutions: () => this.writeResolutions(target), "open-preset": () => this.limitRun(),
-      preset: () => this.write(initialSettings(this.presets, value)),
+      preset: () => this.chooseAgent(value),
       modality: () => this.write({ modality: value }), object_state: () => this.write({ object_state: value }),
       speed: () => this.write({ speed: SPEEDS[value] }),
       learning_rate: () => this.write({ learning_rate: power(value) }), "open-run": () => null,
@@ -60,6 +60,13 @@ class Controls {
       game: () => (this.life.game ? this.leaveGame() : this.joinGame()) };
     this.touched ||= action in acts;
     return acts[action]?.();
+  }
+
+  /** Begin a run of an agent, also of the present one, since its run may have failed. */
+  chooseAgent(preset) {
+    this.write(initialSettings(this.presets, preset));
+    this.showControls(); // at once, so that no slider of the previous agent is left
+    this.note("preset");
   }
 
   togglePlay() {

@@ -271,6 +271,30 @@ def test_a_link_within_the_page_is_followed(visit):
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal === '0'")
 
 
+def test_a_slider_of_the_previous_agent_does_no_harm_and_the_same_agent_starts_again(visit):
+    page = visit("#explorer_agent-network-d_minute-0")
+    page.locator("summary").click()
+    page.locator('[name="preset"]').evaluate("""menu => {
+        const root = menu.closest(".neorl-explorer");
+        const gain = root.querySelector("[name=gain-1]");
+        const turn = (control, value) => {
+            control.value = value;
+            control.dispatchEvent(new Event("input", { bubbles: true }));
+        };
+        turn(menu, "places");
+        turn(gain, 3);
+    }""")
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.condition === 'places'")
+    expect(page.locator("[role=alert]")).to_be_hidden()
+    page.evaluate("() => { window.sound = CanvasRenderingContext2D.prototype.clearRect;"
+                  " CanvasRenderingContext2D.prototype.clearRect = () => undefined.there; }")
+    press(page, "step")
+    wait(page, "failed")
+    page.evaluate("() => { CanvasRenderingContext2D.prototype.clearRect = window.sound; }")
+    page.locator('[name="preset"]').dispatch_event("input")
+    wait(page, "paused")
+
+
 @pytest.mark.parametrize("address, reason", [
     ("#explorer_agent-nobody", "There is no agent “nobody”"), ("#explorer_run--1", "run = -1"),
     ("#explorer_resolutions-3-x", "resolutions"), ("#explorer_minute-soon", "Its minute must be"),
