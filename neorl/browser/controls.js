@@ -57,7 +57,7 @@ class Controls {
       "new-run": () => this.newRun(), open: () => this.openRun(), drop: () => this.beginDrop(detail === 0),
       delete: () => this.deleteElement(), link: () => this.copyLink(), watch: () => this.watch(),
       red: () => this.revalueRed(), corner: () => this.showCorner(),
-      game: () => (this.life.game ? this.leaveGame() : this.joinGame()) };
+      game: () => (this.life.game ? this.leaveGame() : this.joinGame()), clear: () => this.clearElements() };
     this.touched ||= action in acts;
     return acts[action]?.();
   }
@@ -153,6 +153,7 @@ class Controls {
     if (!running && before === "running" && frame) life.rate = 0, this.report();
     this.action("play").textContent = frame?.ended ? "Play again" : model.get("playing") ? "Pause" : "Play";
     this.action("drop").disabled = !frame || this.elements.length >= MOST_ELEMENTS;
+    this.action("clear").disabled = !frame || !this.elements.length;
     this.action("drop").ariaPressed = Boolean(this.dropping);
     this.action("step").disabled = !frame || frame.ended;
     this.action("link").disabled = !frame;

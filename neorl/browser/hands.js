@@ -125,6 +125,11 @@ class Hands extends Controls {
     this.note("elements");
   }
 
+  clearElements() {
+    this.dropElements();
+    this.note("elements");
+  }
+
   dropElements() {
     Object.assign(this, { elements: [], dropping: false });
     this.life.held = null;

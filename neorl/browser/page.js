@@ -42,7 +42,7 @@ const pageOf = (id) => `<p role="alert" hidden></p>
     <p class="unseen" id="${id}"></p><p class="said"></p>
     <div class="element" hidden>${slide("element-valence", "Its valence", -2, 2, 0.1)}
       ${press("delete", "Delete")}</div>
-    <div class="buttons">${press("drop", "Drop an element")}
+    <div class="buttons">${press("drop", "Drop an element")}${press("clear", "Clear all")}
       ${press("link", "Copy link")}</div>
     <div class="shown">${choice("map", "Map shown")}<label class="tick"><input type="checkbox" name="field" checked>Show
       field</label></div></div>

@@ -123,6 +123,7 @@ class Explorer extends Address {
       if (noted.has("preset") && presets[model.get("preset")] && !OF_PRESET.some((name) => noted.has(name))) {
         this.write(initialSettings(presets, model.get("preset"))); // as if chosen from the menu
       }
+      if (noted.has("preset")) this.dropElements();
       const problem = problemOf(presets, modalities, model);
       this.complain(problem);
       if (problem || !this.near) break;

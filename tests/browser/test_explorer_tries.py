@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from explorer_page import write_page
+from explorer_page import drop_by_keyboard, write_page
 from playwright.sync_api import expect
 
 from neorl import Explorer, Policy, Run, WaterWorld, object_vector_cells, place_cells, simulate
@@ -293,6 +293,21 @@ def test_a_slider_of_the_previous_agent_does_no_harm_and_the_same_agent_starts_a
     page.evaluate("() => { CanvasRenderingContext2D.prototype.clearRect = window.sound; }")
     page.locator('[name="preset"]').dispatch_event("input")
     wait(page, "paused")
+
+
+def test_elements_go_with_their_agent_or_all_at_once(visit):
+    page = visit()
+    for _ in range(2):
+        drop_by_keyboard(page)
+    expect(page.locator(".interest")).to_have_count(2)
+    page.locator('[name="preset"]').select_option("things")
+    expect(page.locator(".interest")).to_have_count(0)
+    wait(page, "paused")
+    for _ in range(2):
+        drop_by_keyboard(page)
+    press(page, "clear")
+    expect(page.locator(".interest")).to_have_count(0)
+    expect(page.locator('[data-action="clear"]')).to_be_disabled()
 
 
 @pytest.mark.parametrize("address, reason", [
