@@ -91,25 +91,25 @@ class Address extends Starters {
     return true;
   }
 
-  /** The address of the present state; for a run that was changed on the way, only of its settings. */
-  addressOfNow() {
+  /** The address of the settings and the view, and of the present moment, unless the run was changed on the way. */
+  addressOfNow(isMoment) {
     const { life: { frame, changed, world }, presets, model } = this;
     const settings = { ...this.settings(), seed: model.get("seed"), run: model.get("run") };
-    const minute = frame && !changed ? Number((frame.step / world.fps / 60).toFixed(5)) : 0;
+    const minute = isMoment && frame && !changed ? Number((frame.step / world.fps / 60).toFixed(5)) : 0;
     const { name: map = "", goal = null } = frame?.seen ?? {};
     return addressOf(presets, settings, { minute, map, goal });
   }
 
   /** Update the page's address, once the reader has used a control, without a new entry in the history. */
   writeAddress() {
-    if (!this.touched || this.running() || this.failed || !this.hasAddress()) return;
-    if (!this.life.frame || this.life.due) return;
+    if (!this.touched || this.failed || !this.hasAddress() || !this.life.frame || this.life.due) return;
     clearTimeout(this.writing);
-    this.writing = setTimeout(() => history.replaceState(history.state, "", this.addressOfNow()), 300);
+    const write = () => history.replaceState(history.state, "", this.addressOfNow(!this.running()));
+    this.writing = setTimeout(write, 300);
   }
 
   async copyLink() {
-    const link = new URL(this.addressOfNow(), location.href).href;
+    const link = new URL(this.addressOfNow(true), location.href).href;
     if (this.hasAddress()) history.replaceState(history.state, "", link);
     this.life.news = await navigator.clipboard?.writeText(link).then(() => "Link copied.", () => null)
       ?? "The address of the page is the link to this moment.";

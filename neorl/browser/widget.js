@@ -191,7 +191,9 @@ class Explorer extends Address {
 
   /** Show another map, goal or place, with or without the field. Has no effect while a run loads. */
   async look(choice) {
-    if (this.life.frame) this.take(await this.ask({ type: "look", ...choice }));
+    if (!this.life.frame) return;
+    this.take(await this.ask({ type: "look", ...choice }));
+    this.writeAddress();
   }
 
   fieldTiles() {

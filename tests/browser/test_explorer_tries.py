@@ -310,6 +310,18 @@ def test_elements_go_with_their_agent_or_all_at_once(visit):
     expect(page.locator('[data-action="clear"]')).to_be_disabled()
 
 
+def test_the_address_follows_a_run_that_goes_on(visit):
+    page = visit("#explorer_agent-network-d_minute-0")
+    page.locator('[name="speed"]').fill("0")  # so that no run ends
+    page.locator('[name="valence_red"]').fill("1")
+    press(page, "corner")
+    page.wait_for_function("location.hash.includes('_red-1') && location.hash.includes('_goal-0')")
+    press(page, "game")
+    press(page, "reset")
+    wait(page, "running")
+    page.wait_for_function("location.hash === '#explorer_agent-network-d_run-0'")
+
+
 @pytest.mark.parametrize("address, reason", [
     ("#explorer_agent-nobody", "There is no agent “nobody”"), ("#explorer_run--1", "run = -1"),
     ("#explorer_resolutions-3-x", "resolutions"), ("#explorer_minute-soon", "Its minute must be"),
