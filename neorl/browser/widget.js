@@ -262,7 +262,7 @@ class Explorer extends Address {
     if (this.running() && performance.now() - this.told < 5000) return;
     this.told = performance.now();
     this.part(".unseen").textContent = describe(frame);
-    this.part(".told").textContent = [this.livedText(), ...this.sentences()].join(". ");
+    this.part(".told").textContent = [`${this.livedText()}.`, ...this.sentences()].join(" ");
   }
 
   wake() {

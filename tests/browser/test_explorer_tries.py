@@ -322,6 +322,16 @@ def test_the_address_follows_a_run_that_goes_on(visit):
     page.wait_for_function("location.hash === '#explorer_agent-network-d_run-0'")
 
 
+def test_screen_readers_hear_whole_sentences(visit):
+    page = visit("#explorer_minute-2")
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step === '6000'")
+    press(page, "play")
+    wait(page, "ended")
+    told = page.locator(".told")
+    expect(told).to_contain_text("Run 0 is over: its score is")
+    expect(told).not_to_contain_text("..")
+
+
 @pytest.mark.parametrize("address, reason", [
     ("#explorer_agent-nobody", "There is no agent “nobody”"), ("#explorer_run--1", "run = -1"),
     ("#explorer_resolutions-3-x", "resolutions"), ("#explorer_minute-soon", "Its minute must be"),
