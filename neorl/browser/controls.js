@@ -256,8 +256,10 @@ class Controls {
   }
 
   livedText() {
-    const { frame, world } = this.life;
-    return frame ? `${(frame.step / world.fps / 60).toFixed(1)} simulated minutes · score ${shown(frame.reward)}` : "";
+    const { frame, game, world } = this.life;
+    if (!frame) return "";
+    if (game) return `You: ${shown(frame.player?.reward ?? 0)} · neoRL: ${shown(frame.reward - game.score)}`;
+    return `${(frame.step / world.fps / 60).toFixed(1)} simulated minutes · score ${shown(frame.reward)}`;
   }
 
   sentences() {
@@ -271,8 +273,7 @@ class Controls {
       const same = Math.abs(totals[run] - frame.reward) < 1e-6 ? "the same" : "not the same";
       said.push(`The notebook computed ${shown(totals[run])} for this run: ${same}.`);
     }
-    if (game) said.push(`You: ${shown(frame.player?.reward ?? 0)}. neoRL: ${shown(frame.reward - game.score)}.`,
-      "Steer with the arrow keys; Escape leaves the game.");
+    if (game) said.push("Steer with the arrow keys; Escape leaves the game.");
     if (seen.goal !== null) said.push(describeWay(frame));
     if (due?.news ?? news) said.push(due?.news ?? news);
     return said;

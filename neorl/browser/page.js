@@ -34,7 +34,7 @@ const pageOf = (id) => `<p role="alert" hidden></p>
   <div class="bar">${choice("preset", "Agent")}<div class="buttons">${press("play", "Play")}${press("step", "Step")}
     ${press("new-run", "New run")}${press("reset", "Reset")}</div>
     ${slide("speed", "Speed", 0, SPEEDS.length - 1, 1)}</div>
-  <div class="columns"><div class="board">
+  <div class="columns"><div class="board"><p class="lived"></p>
     <div class="arena"><canvas tabindex="0" role="application" aria-describedby="${id}" aria-label="The world. Arrow
       keys move a cursor, Enter chooses the cell under it, Escape deselects it."></canvas><div class="grips"></div>
       <div class="marks"></div>
@@ -51,7 +51,7 @@ const pageOf = (id) => `<p role="alert" hidden></p>
     <canvas role="img" aria-label="The arm in the plane, with the points that it seeks and avoids"></canvas></div>
     <p class="title">Reward per second</p>
     <canvas role="img" aria-label="Reward per simulated second over the run, in minutes"></canvas>
-    <p class="legend"></p><p class="lived"></p><p class="pace"></p>${choice("modality", "Modality")}
+    <p class="legend"></p><p class="pace"></p>${choice("modality", "Modality")}
     ${choice("object_state", "State of object vectors")}
     <label class="labelled"><span>Resolutions</span><input type="text" name="resolutions" autocomplete="off"></label>
     <div class="chips" role="group" aria-label="Resolutions">${[2, 3, 5, 7, 11, 13].map(chip).join("")}</div>

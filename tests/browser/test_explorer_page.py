@@ -282,7 +282,7 @@ def test_arrow_keys_play_against_the_agent_and_both_scores_are_shown(open_page, 
     page.keyboard.down("ArrowDown")
     page.wait_for_timeout(400)
     page.keyboard.up("ArrowDown")
-    expect(explorer).to_contain_text(re.compile(r"You: [−\d]+\. neoRL: [−\d]+\."))
+    expect(explorer).to_contain_text(re.compile(r"You: [−\d]+ · neoRL: [−\d]+"))
     assert page.evaluate("scrollY") == scrolled
     page.keyboard.press("Escape")
     expect(explorer).not_to_contain_text("You: ")

@@ -332,6 +332,15 @@ def test_screen_readers_hear_whole_sentences(visit):
     expect(told).not_to_contain_text("..")
 
 
+def test_the_score_of_a_game_stands_above_the_tank(visit):
+    page = visit()
+    press(page, "game")
+    score = page.get_by_text(re.compile("You: [−\\d]+"))
+    expect(score).to_contain_text("neoRL: ")
+    box = score.bounding_box()
+    assert box["y"] + box["height"] <= page.locator(".arena").bounding_box()["y"]
+
+
 @pytest.mark.parametrize("address, reason", [
     ("#explorer_agent-nobody", "There is no agent “nobody”"), ("#explorer_run--1", "run = -1"),
     ("#explorer_resolutions-3-x", "resolutions"), ("#explorer_minute-soon", "Its minute must be"),
