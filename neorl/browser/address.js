@@ -77,7 +77,7 @@ class Address extends Starters {
       this.refuse(this.control("preset"), `The address does not describe a run of this Explorer. ${problem}`);
       return false;
     }
-    this.root.scrollIntoView({ block: "nearest" });
+    this.part(".board canvas").scrollIntoView({ block: "nearest" });
     const { world, steps } = presets[settings.preset];
     const step = Math.min(steps, Math.round((minute ?? 0) * 60 * world.fps));
     const act = async () => {

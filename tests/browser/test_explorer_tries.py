@@ -265,12 +265,6 @@ def test_the_ways_to_all_cells_are_shown_where_the_state_is_the_self(visit):
     expect(page.locator(".said")).to_contain_text("The arrow in the chosen cell is the way there")
 
 
-def test_a_link_within_the_page_is_followed(visit):
-    page = visit()
-    page.evaluate("location.hash = '#explorer_start-corner'")
-    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal === '0'")
-
-
 def test_a_slider_of_the_previous_agent_does_no_harm_and_the_same_agent_starts_again(visit):
     page = visit("#explorer_agent-network-d_minute-0")
     page.locator("summary").click()
@@ -339,6 +333,21 @@ def test_the_score_of_a_game_stands_above_the_tank(visit):
     expect(score).to_contain_text("neoRL: ")
     box = score.bounding_box()
     assert box["y"] + box["height"] <= page.locator(".arena").bounding_box()["y"]
+
+
+def test_a_link_within_the_page_brings_the_tank_into_view(visit):
+    page = visit("", viewport={"width": 400, "height": 800})
+    page.evaluate("""() => {
+        document.body.style.width = "auto";
+        document.body.insertAdjacentHTML("beforeend", "<div style='height: 2000px'></div>");
+        scrollTo(0, 1e6);
+        location.hash = "#explorer_start-corner";
+    }""")
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal === '0'")
+    page.wait_for_function("""() => {
+        const { top, bottom } = document.querySelector(".arena").getBoundingClientRect();
+        return top > 0 && bottom < innerHeight;
+    }""")
 
 
 @pytest.mark.parametrize("address, reason", [
