@@ -31,7 +31,7 @@ def test_the_explorer_of_a_page_starts_and_reruns_the_runs_of_its_figures(open_p
         page.locator('[name="open-run"]').fill("1")
         page.locator('[data-action="open"]').click()
         page.wait_for_selector(f'.neorl-explorer[data-condition="{condition}"]')
-        page.wait_for_selector("[data-state=ended]", timeout=60_000)
+        page.wait_for_selector("[data-state=ended]")
         expect(explorer).to_contain_text(re.compile(r"The notebook computed .* for this run: the same\."))
 
 

@@ -13,7 +13,7 @@ import matplotlib
 import pytest
 from hypothesis import settings
 from matplotlib import pyplot as plt
-from playwright.sync_api import Error, sync_playwright
+from playwright.sync_api import Error, expect, sync_playwright
 
 from neorl import files
 
@@ -28,6 +28,8 @@ os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [str(Path(__file__).pare
 BROWSERS = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"]
 QUIET = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
          "--disable-component-update", "--disable-sync"]  # no requests of its own
+PATIENCE = 60_000  # milliseconds that a test waits for a page, since the machine may be busy
+expect.set_options(timeout=PATIENCE)
 
 
 @pytest.fixture(autouse=True)
@@ -102,7 +104,7 @@ def open_page(chromium):
                 complaints.append(f"request to {request.url}")
 
         context = chromium.new_context(**options)
-        context.set_default_timeout(10_000)
+        context.set_default_timeout(PATIENCE)
         contexts.append(context)
         context.on("request", check)
         context.on("weberror", lambda uncaught: complaints.append(f"uncaught {uncaught.error}"))

@@ -232,7 +232,7 @@ def test_the_address_of_a_moment_leads_back_to_it(visit):
     page.locator('[name="valence_red"]').fill("0.5")
     page.locator('[name="run"]').fill("4")
     page.locator('[name="run"]').press("Enter")
-    page.locator('[name="speed"]').fill("9")
+    page.locator('[name="speed"]').fill("5")
     press(page, "play")
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step > 500")
     press(page, "play")

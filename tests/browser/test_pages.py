@@ -19,7 +19,7 @@ BAD_PAGES = {
 def test_what_goes_wrong_in_a_page_is_seen(open_page, tmp_path, script, over):
     (tmp_path / "page.html").write_text(f'<!doctype html><link rel="icon" href="data:,"><script>{script}</script>')
     page = open_page(tmp_path, "page.html", over)
-    for _ in range(100):
+    for _ in range(3_000):
         if any(BAD_PAGES[script] in complaint for complaint in open_page.complaints):
             break
         page.wait_for_timeout(20)

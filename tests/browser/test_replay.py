@@ -73,7 +73,7 @@ def test_a_replay_plays_to_its_end_in_real_time_and_can_be_moved(open_page, tmp_
     write_page(tmp_path, [Replay(recordings)])
     page = open_page(tmp_path, "page.html")
     replay = page.locator(".neorl-replay")
-    expect(replay).to_have_attribute("data-state", "paused", timeout=15_000)  # two seconds after it began
+    expect(replay).to_have_attribute("data-state", "paused")  # two seconds after it began
     assert replay.get_attribute("data-frame") == "50"
     for index, recording in enumerate(recordings):
         green, red = recording.hits[-1]
@@ -87,7 +87,7 @@ def test_a_replay_plays_to_its_end_in_real_time_and_can_be_moved(open_page, tmp_
     expect(replay.locator("output")).to_have_text("0.4 s")
     replay.locator("button").click()
     expect(replay).to_have_attribute("data-state", "playing")
-    expect(replay).to_have_attribute("data-frame", "50", timeout=15_000)
+    expect(replay).to_have_attribute("data-frame", "50")
 
 
 @pytest.mark.parametrize("width", [1200, 400])
