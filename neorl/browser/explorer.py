@@ -41,10 +41,12 @@ from neorl.worlds.waterworld import WaterWorld
 AnyWidget = require("anywidget", extra="wasm").AnyWidget
 traitlets = require("traitlets", extra="wasm")
 
-CALIBRATED = {  # the defaults of the package
+START_HERE = {"Foveated cells, contacts alone": beyond.forager(valence_green=1.0, valence_red=-1.0),
+              "Place and object-vector cells": papers.multimodal()}
+OF_THE_PAPERS = {  # with the defaults of the package
     "Place cells": papers.place_cells(), "Object-vector cells": papers.object_vector_cells(),
-    "Place and object-vector cells": papers.multimodal(), "Network A": papers.network_a(),
-    "Network B": papers.network_b(), "Network C": papers.network_c(), "Network D": papers.network_d()}
+    "Network A": papers.network_a(), "Network B": papers.network_b(), "Network C": papers.network_c(),
+    "Network D": papers.network_d()}
 TO_THE_LETTER = {
     "Place cells, to the letter": papers.place_cells(**LETTER.agents),
     "Object-vector cells, to the letter": papers.object_vector_cells(**LETTER.agents),
@@ -54,12 +56,14 @@ IN_THE_ARENA = {  # since the platform never moves, only exploration gets an age
     "Place cells in the water maze": Agent(
         [Node("PC", PLACE_CELL, [5, 9, 13])], [Desire("platform", "PC", 1.0)],
         Learning(learning_rate=0.05, discount=0.8, memory=2.0), Policy(exploration=0.5))}
-BEYOND = {"Foveated cells, contacts alone": beyond.forager(valence_green=1.0, valence_red=-1.0)}
 OTHER_SPACES = {  # agents, and their worlds
     "Arm of two links": (spaces.reacher(2), Arm((0.5, 0.5), radius=0.15)),
     "Vessel with a radar": (spaces.pilot(), Vessel()),
     "Water maze, platform moved": (spaces.swimmer(), WaterMaze([(0.65, 0.35), (0.3, 0.3), (0.35, 0.7), (0.7, 0.6)]))}
-AGENTS = CALIBRATED | TO_THE_LETTER | BEYOND | IN_THE_ARENA | {name: agent for name, (agent, _) in OTHER_SPACES.items()}
+GROUPS = {"Start here": START_HERE, "The papers, calibrated": OF_THE_PAPERS, "The papers, to the letter": TO_THE_LETTER,
+          "Other worlds": IN_THE_ARENA | {name: agent for name, (agent, _) in OTHER_SPACES.items()}}
+AGENTS = {name: agent for agents in GROUPS.values() for name, agent in agents.items()}
+LABELS = {"Foveated cells, contacts alone": "Forager: foveated cells, contacts alone"}
 STEPS = 300_000  # of a run of an agent that is not a condition of the page
 AVOIDED = ("red", "obstacle", "vessel")  # the kinds whose valence has a control
 CURVE_BINS = 50
@@ -135,10 +139,11 @@ class Explorer(AnyWidget):
         agents = {name: (agent, as_printed if name in TO_THE_LETTER else Arena() if name in IN_THE_ARENA else tank)
                   for name, agent in AGENTS.items()} | OTHER_SPACES
         own = {name: (result.agent, result.world) for name, result in conditions.items()}
-        self._lives = own | agents | own  # conditions come first, and replace agents of the same name
+        start = {name: agents[name] for name in START_HERE}
+        self._lives = start | own | agents | own  # in the menu's order; conditions replace agents of the same name
         presets = {name: _preset(name, agent, world, conditions.get(name)) | {"place": place}
                    for place, (name, (agent, world)) in enumerate(self._lives.items())}
-        preset = checks.one_of("preset", preset or next(iter(presets)), tuple(presets))
+        preset = checks.one_of("preset", preset or next(iter(conditions or presets)), tuple(presets))
         for name in traits:
             checks.one_of("trait", name, tuple(each for each in self.traits(sync=True) if not each.startswith("_")))
         begin = {"preset": preset, "seed": first.seed if first else 0, **_settings(presets[preset]), **traits}
@@ -251,10 +256,8 @@ def _preset(name, agent, world, result):
     in_menu = _named(modality) if len(names) == 1 else ""
     could_be = in_menu and agent.nodes[0].goals == "cells" and learning.update_on == "cell"
     return {
-        "label": name, "nodes": names,
-        "group": ("On this page" if result else "To the letter" if name in TO_THE_LETTER else
-                  "In the arena" if name in IN_THE_ARENA else "Beyond the thesis" if name in BEYOND else
-                  "In other spaces" if name in OTHER_SPACES else "Calibrated"),
+        "label": LABELS.get(name, name), "nodes": names,
+        "group": "On this page" if result else next(group for group, agents in GROUPS.items() if name in agents),
         "resolutions": list(agent.nodes[0].resolutions),
         "modality": in_menu,
         "object_state": agent.nodes[stated[0]].state if stated else "", "stated": stated,

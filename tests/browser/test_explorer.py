@@ -53,10 +53,13 @@ def test_the_menu_has_the_agents_of_both_readings():
     calibrated, letter = network_d(), networks(LETTER)["D"]
     assert AGENTS["Network D"] == calibrated == networks(Reading())["D"]
     assert AGENTS["Network D, to the letter"] == letter != calibrated
-    groups = [(each["group"], name) for name, each in Explorer()._presets.items()]
-    assert [group for group, _ in groups] == 7 * ["Calibrated"] + 4 * ["To the letter"] + [
-        "Beyond the thesis", "In the arena"] + 3 * ["In other spaces"]
-    assert all(name.endswith(", to the letter") == (group == "To the letter") for group, name in groups)
+
+
+def test_the_menu_begins_with_the_forager_and_then_has_the_agents_of_the_page(conditions):
+    presets = Explorer(conditions)._presets
+    assert next(iter(presets.values()))["label"].startswith("Forager")
+    assert list(dict.fromkeys(each["group"] for each in presets.values())) == [
+        "Start here", "On this page", "The papers, calibrated", "The papers, to the letter", "Other worlds"]
 
 
 def test_presets_to_the_letter_run_at_their_frame_rate_in_the_tank_of_the_page():
@@ -72,7 +75,6 @@ def test_conditions_come_first_and_set_tank_seed_and_traits(conditions):
     assert (explorer.preset, explorer.seed, explorer.n_creeps) == ("N3", 5, 8)
     explorer.preset = "by N²"
     assert explorer.agent == conditions["by N²"].agent and explorer.world == TANK
-    assert list(explorer._presets)[:2] == ["N3", "by N²"]
     assert Explorer(conditions, preset="Network D", resolutions=[4]).agent == network_d([4])
 
 
@@ -165,7 +167,7 @@ def test_the_state_is_json_and_a_second_widget_brings_its_own(conditions):
 
 
 @pytest.mark.parametrize("trait, value, allowed", [
-    ("preset", "Network E", "preset must be 'Place cells', 'Object-vector cells', 'Place and object-vector cells', '"),
+    ("preset", "Network E", "preset must be 'Foveated cells, contacts alone', 'Place and object-vector cells', '"),
     ("object_state", "thing", "object_state must be '', 'object', 'self' or 'per object', but is 'thing'"),
     ("modality", "grid cell", "modality must be '', 'place cell', 'border cell', 'object-vector cell', 'object-vecto"),
     ("gains", [1.0, 1.0], r"gains must be a number for each of the 1 nodes, but is \[1.0, 1.0\]"),
@@ -178,7 +180,7 @@ def test_the_state_is_json_and_a_second_widget_brings_its_own(conditions):
     ("learning_rate", -0.1, "learning_rate"), ("speed", -1, "speed"),
 ])
 def test_a_bad_trait_is_refused_and_the_old_one_stays(trait, value, allowed):
-    explorer = Explorer()
+    explorer = Explorer(preset="Place cells")
     before = getattr(explorer, trait)
     with pytest.raises(TraitError, match=allowed):
         setattr(explorer, trait, value)
@@ -195,7 +197,7 @@ def test_a_bad_trait_is_refused_and_the_old_one_stays(trait, value, allowed):
 def test_a_condition_that_cannot_be_shown_is_refused(result, allowed):
     with pytest.raises(ValueError, match=allowed):
         Explorer({"X": result})
-    with pytest.raises(ValueError, match="preset must be 'Place cells', 'Object-vector cells', 'Place and object-vec"):
+    with pytest.raises(ValueError, match="preset must be 'Foveated cells, contacts alone', 'Place and object-vec"):
         Explorer(preset="X")
 
 
