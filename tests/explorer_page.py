@@ -34,6 +34,11 @@ def wait(page, state):
         document.querySelector(".neorl-explorer")?.dataset.state)""", arg=state)
 
 
+def wait_for_maps(page, names):
+    page.wait_for_function("""names => names.join() ===
+        Array.from(document.querySelector('[name="map"]').options, (option) => option.value).join()""", arg=names)
+
+
 def press(page, action):
     page.locator(f'.neorl-explorer [data-action="{action}"]').first.click()
 

@@ -171,7 +171,7 @@ class Controls {
     const { label, runs, band } = this.presets[this.condition] ?? {};
     const swatch = (kind) => Object.assign(document.createElement("span"), { className: `swatch ${kind}` });
     this.part(".legend").replaceChildren(swatch("own"), this.life.changed ? "this run, changed on the way" : "this run",
-      ...(band ? [swatch("band"), `tolerance band of ${label}, from ${runs} runs`] : []));
+      ...(band ? [swatch("band"), `where most of ${runs} runs of ${label} lie`] : []));
   }
 
   showControls() {

@@ -96,6 +96,13 @@ function mapNames({ names, maps, nodes }) {
   return maps.resolution.map((each, m) => `${names[nodeOf(nodes.first_map, m)]} N${each}`);
 }
 
+/** The numbers of intervals of a map along its axes, such as "5 × 5". */
+function shapeOf(m) {
+  const { grid, maps: { first_grid } } = run.parameters;
+  const rows = grid.subarray(5 * Number(first_grid[m]), 5 * Number(first_grid[m + 1]));
+  return Array.from({ length: rows.length / 5 }, (_, axis) => rows[5 * axis + 2] + 1).join(" × ");
+}
+
 /** The name of an enumeration's member, by number. */
 const nameOf = (enumeration, number) =>
   Object.entries(layout.enumerations[enumeration]).find(([, each]) => each === Number(number))[0];
@@ -280,7 +287,8 @@ function frame(steps = 0) {
   const [from, to] = [parameters.maps.first_track[m], parameters.maps.first_track[m + 1]].map(Number);
   return {
     type: "frame", step: run.step, ended: run.step >= run.steps, reward: run.reward, rewards: run.rewards.slice(),
-    maps, seen: seen(m), steps, agent, things: thingsOf(run), round: false, obstacles: [], ...VIEWS[world.name](run),
+    maps, shapes: maps.map((_, each) => shapeOf(each)), seen: seen(m), steps, agent, things: thingsOf(run),
+    round: false, obstacles: [], ...VIEWS[world.name](run),
     player: player && { ...body(second), reward: player.reward },
     active: learnsContacts(m) ? [] : Array.from(state.tracks.cell.subarray(from, to), Number),
     nodes: choices.names.map((name, n) => ({ name, ...desire(n) })),

@@ -1,7 +1,7 @@
 /* What the tank shows, in words: the key beside it, and a description for screen readers. */
 
 const SPELLED_OUT = { PC: "place cells", OVC: "object-vector cells", "OVC × V": "object vector and velocity",
-  joints: "the way to a posture, joint by joint", far: "radar, whole area", near: "radar, near range",
+  joints: "postures of the arm", far: "radar, whole area", near: "radar, near range",
   place: "place cells" };
 const [LINE, HEAD] = ["M2 8H21", "M16 4L21 8L16 12"];
 const picture = (content) => `<svg viewBox="0 0 24 16" aria-hidden="true">${content}</svg>`;
@@ -46,13 +46,19 @@ function keyOf({ things, nodes, landings, player, active, field, seen, arm, head
       field && seen.goal === null],
     ["desire", `Dashed: the desire vectors of nodes: ${names.join("; ")}`, names.length],
     ["landing", "Where the desire of one node places an element for another", landings.length],
-    ["way", seen.ofSelf ? "The chosen cell; in each cell, the way there" : "The chosen cell, and the way to it from "
-      + "every other", seen.goal !== null],
+    ["way", seen.ofSelf ? "The chosen cell; in each cell, the way there" : "The chosen cell, and the learned way to "
+      + "it from others", seen.goal !== null],
   ];
   return entries.filter((entry) => entry.length < 3 || entry[2]);
 }
 
 const entryMarkup = ([kind, text]) => `<li>${PICTURES[kind]}<span>${text}</span></li>`;
+
+/** The name of a map, such as "PC N5", with its numbers of intervals along the axes. */
+function inWords(map, shape) {
+  const node = map.slice(0, map.lastIndexOf(" N"));
+  return `${SPELLED_OUT[node] ?? node}, ${shape}`;
+}
 
 /** What is drawn of the way to the chosen cell. */
 function describeWay({ seen, agent, heading, round }) {

@@ -236,10 +236,10 @@ class Explorer extends Address {
   }
 
   /** Update the menu of maps, which change with the agent, in some conditions during a run. */
-  showMaps({ maps, seen }) {
+  showMaps({ maps, shapes, seen }) {
     const menu = this.control("map");
     const isSame = maps.join() === Array.from(menu.options, (option) => option.value).join();
-    if (!isSame) menu.replaceChildren(...maps.map((name) => new Option(name, name)));
+    if (!isSame) menu.replaceChildren(...maps.map((name, m) => new Option(inWords(name, shapes[m]), name)));
     if (menu.value !== seen.name) menu.value = seen.name;
   }
 

@@ -79,6 +79,7 @@ def test_a_frame_reports_the_state_of_the_run(ask):
     assert frame["step"] == STEPS and not frame["ended"]
     assert np.array_equal(frame["rewards"][: STEPS // 100], rewards[: STEPS // 10].reshape(-1, 10).sum(axis=1))
     assert begun["maps"] == ["PC N4", "PC N5", "OVC N4", "OVC N5"]
+    assert begun["shapes"] == ["4 × 4", "5 × 5", "4 × 4", "5 × 5"]
     assert (frame["seen"]["name"], frame["seen"]["goal"]) == ("OVC N5", goal)
 
     width, state, scene = TANK.width, run.world_state, run.world_state.scene

@@ -92,8 +92,7 @@ def test_requests_to_the_previous_run_are_not_answered(explorer):
         explorer.wait_for_timeout(100)
         root = explorer.locator(".neorl-explorer")
         assert [root.get_attribute(f"data-{name}") for name in ("step", "score", "goal")] == ["0", "0", ""]
-        expect(explorer.locator('[name="map"] option').first).to_have_text(
-            re.compile("^" + AGENTS[second].nodes[0].name))
+        expect(explorer.locator('[name="map"]')).to_have_value(re.compile("^" + AGENTS[second].nodes[0].name))
 
 
 def test_reset_recovers_from_maps_that_are_too_large(explorer):

@@ -4,7 +4,7 @@ import re
 from dataclasses import replace
 
 import pytest
-from explorer_page import drop_by_keyboard, explorer_of, play_to_the_end, press, wait, write_page
+from explorer_page import drop_by_keyboard, explorer_of, play_to_the_end, press, wait, wait_for_maps, write_page
 from playwright.sync_api import expect
 
 from neorl import (CALIBRATED, Desire, Explorer, Learning, Place, Run, WaterWorld, multimodal, network_d, place_cells,
@@ -84,8 +84,7 @@ def test_a_run_opened_by_its_number_ends_with_the_score_of_python(open_page, sit
     total = conditions[name].totals[run]
     assert float(explorer.get_attribute("data-score")) == total
     nodes = (conditions[name].changes or [(0, conditions[name].agent)])[-1][1].nodes
-    maps = [f"{node.name} N{n}" for node in nodes for n in node.resolutions]
-    expect(page.locator('[name="map"] option')).to_have_text(maps)
+    wait_for_maps(page, [f"{node.name} N{n}" for node in nodes for n in node.resolutions])
     expect(explorer).to_contain_text(re.compile(r"The notebook computed .* for this run: the same\."))
 
 
