@@ -25,8 +25,6 @@ class Controls {
     }
     this.control("modality").append(...Object.keys(this.modalities).map((name) => new Option(name, name)));
     this.control("object_state").append(...Object.entries(STATES).map(([state, label]) => new Option(label, state)));
-    const shown = this.model.get("preset");
-    if (this.presets[shown]?.totals.length) this.control("open-preset").value = shown;
     this.part(".open").hidden = !this.control("open-preset").length;
     this.limitRun();
   }
@@ -101,6 +99,12 @@ class Controls {
     if (!this.life.frame) this.abandon();
     this.write({ preset });
     return this.fresh({ run: run.valueAsNumber, speed: 0, playing: true });
+  }
+
+  /** Offer the runs of the condition that is watched. */
+  offerRuns(condition) {
+    this.control("open-preset").value = condition;
+    this.limitRun();
   }
 
   limitRun() {

@@ -130,7 +130,9 @@ class Explorer extends Address {
       const names = [...noted];
       noted.clear();
       if (names.some((name) => name !== "near")) this.forgive();
+      const before = this.condition;
       this.condition = conditionOf(model.get("_layout").plane, presets, modalities, this.settings());
+      if (this.condition && this.condition !== before) this.offerRuns(this.condition);
       this.showControls();
       if (!this.engine || names.some((name) => NEW_RUN.includes(name))) await this.begin();
       else if (names.some((name) => name === "elements" || GOES_ON.includes(name))) await this.change();

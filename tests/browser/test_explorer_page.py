@@ -65,10 +65,12 @@ def test_it_starts_by_itself_and_the_reward_curve_grows(open_page, site, over):
     assert float(explorer.get_attribute("data-score")) > 20
 
 
-def test_runs_of_the_agent_shown_are_offered_first(open_page, site):
+def test_runs_of_the_agent_that_is_watched_are_offered(open_page, site):
     page = open_page(*site("D"), "file")
-    explorer_of(page)
-    expect(page.locator('[name="open-preset"]')).to_have_value("D")
+    menu = page.locator('[name="open-preset"]')
+    expect(menu).to_have_value("D")
+    page.locator('[name="preset"]').select_option("places")
+    expect(menu).to_have_value("places")
 
 
 @pytest.mark.parametrize("over", ["http", "file"])
