@@ -239,7 +239,7 @@ class Controls {
     if (!this.arena.clientWidth || (isLoading && this.drawn)) return; // keep the last picture while loading
     Object.assign(this, { drawn: now, stale: false });
     drawArena(this.arena, colours, frame, cursor);
-    this.part(".limb").hidden = !frame?.arm;
+    this.arrange(Boolean(frame?.arm));
     if (frame?.arm) drawLimb(this.limb, colours, frame);
     drawCurve(this.curve, colours, { seconds: length.steps / world.fps, binSeconds: length.bin / world.fps,
       rewards: frame?.rewards ?? [], lived: (frame?.step ?? 0) / world.fps, band: this.presets[condition]?.band });
@@ -249,8 +249,18 @@ class Controls {
     this.part(".lived").textContent = this.livedText();
     this.part(".pace").textContent = this.running() && rate
       ? `${grouped(rate)} steps per second, ${grouped(rate / world.fps)} × real time` : "";
-    const hint = this.hasCreeps() ? `${HINT} Drag the creeps.` : HINT;
-    this.part(".said").textContent = this.sentences().join(" ") || hint;
+    const able = [frame?.seen.axes.length, true, this.hasCreeps()]; // the cells of contacts are not goals
+    this.part(".said").textContent = this.sentences().join(" ") || HINTS.filter((_, hint) => able[hint]).join(" ");
+  }
+
+  /** Show an arm large in its workspace, with joint space, where its cells are, beside it. */
+  arrange(hasArm) {
+    const [space, limb] = [this.part(".space"), this.part(".limb")];
+    if (limb.hidden === !hasArm) return;
+    const [main, inset] = hasArm ? [limb, space] : [space, limb];
+    this.part(".lived").after(main);
+    this.part(".side").prepend(inset);
+    limb.hidden = space.firstElementChild.hidden = !hasArm;
   }
 
   showKey() {

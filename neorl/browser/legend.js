@@ -29,7 +29,7 @@ function keyOf({ things, nodes, landings, player, active, field, seen, arm, head
     return long ? `<b>${name}</b>, ${long}` : `<b>${name}</b>`;
   });
   const entries = [
-    ["agent", arm ? "The posture of the arm: the angle of its first joint across, of its second down"
+    ["agent", arm ? "In joint space: the posture of the arm"
       : "The agent; the line ends where its velocity would take it in half a second", !heading],
     ["hull", "The vessel; the line ends where its velocity would take it in half a second", heading],
     ["green", "Target: pays +1 (one of its postures)", kinds.has("target")],

@@ -77,9 +77,9 @@ function drawLimb(canvas, colours, { arm: { links, points, radius } }) {
     const [colour, sign] = signOf(board, point.kind === "target" ? 1 : -1);
     fillPath(board, colour, 0.25, (path) => path.arc(point.x * unit, point.y * unit, radius * unit, 0, FULL_TURN));
     stroke(board, colour, 2, 1, (path) => path.arc(point.x * unit, point.y * unit, radius * unit, 0, FULL_TURN));
-    write(board, sign, point.x * unit, point.y * unit, "bold 14px", colour);
+    write(board, sign, point.x * unit, point.y * unit, `bold ${0.09 * unit}px`, colour);
   }
-  stroke(board, colours.agent, 7, 0.9, (path) =>
+  stroke(board, colours.agent, 0.03 * unit, 0.9, (path) =>
     addLine(path, [[0, 0], ...links.map(({ x, y }) => [x * unit, y * unit])]));
   for (const joint of [{ x: 0, y: 0 }, ...links]) drawDisc(board, joint, 0.05, colours.ink, "");
   drawDisc(board, links.at(-1), 0.065, colours.agent, "");

@@ -15,7 +15,8 @@ const STATES = { self: "the self (goal: the object's cell)", "per object": "the 
 const AVOIDED = { red: "red", obstacle: "obstacles", vessel: "vessels" };
 const WHOLE = ({ min, max }) => `Whole numbers from ${min} to ${max} are allowed here.`;
 const STOPPED = "The simulation has stopped. Reset restarts it.";
-const HINT = "Click a cell to see the way to it. Double-click to drop an element of interest.";
+const HINTS = ["Click a cell to see the way to it.", "Double-click to drop an element of interest.",
+  "Drag the creeps."];
 const WHERE = "Click where to drop the element of interest.";
 
 const slide = (name, label, least, most, step) => `<label class="slide"><span>${label}</span><input type="range"
@@ -35,10 +36,11 @@ const pageOf = (id) => `<p role="alert" hidden></p>
     ${press("new-run", "New run")}${press("reset", "Reset")}</div>
     ${slide("speed", "Speed", 0, SPEEDS.length - 1, 1)}</div>
   <div class="columns"><div class="board"><p class="lived"></p>
-    <div class="arena"><canvas tabindex="0" role="application" aria-describedby="${id}" aria-label="The world. Arrow
+    <div class="space"><p class="title" hidden>Joint space: first joint across, second down</p>
+      <div class="arena"><canvas tabindex="0" role="application" aria-describedby="${id}" aria-label="The world. Arrow
       keys move a cursor, Enter chooses the cell under it, Escape deselects it."></canvas><div class="grips"></div>
       <div class="marks"></div>
-      <div class="pad" hidden>${["Up ↑", "Left ←", "Down ↓", "Right →"].map(pad).join("")}</div></div>
+      <div class="pad" hidden>${["Up ↑", "Left ←", "Down ↓", "Right →"].map(pad).join("")}</div></div></div>
     <p class="unseen" id="${id}"></p><p class="said"></p>
     <div class="element" hidden>${slide("element-valence", "Its valence", -2, 2, 0.1)}
       ${press("delete", "Delete")}</div>
@@ -47,7 +49,7 @@ const pageOf = (id) => `<p role="alert" hidden></p>
     <div class="shown">${choice("map", "Map shown")}<label class="tick"><input type="checkbox" name="field" checked>Show
       field</label></div></div>
   <ul class="key" aria-label="What the tank shows"></ul>
-  <div class="side"><div class="limb" hidden><p class="title">The arm</p>
+  <div class="side"><div class="limb" hidden><p class="title">Workspace: the plane in which the arm moves</p>
     <canvas role="img" aria-label="The arm in the plane, with the points that it seeks and avoids"></canvas></div>
     <p class="title">Reward per second</p>
     <canvas role="img" aria-label="Reward per simulated second over the run, in minutes"></canvas>
