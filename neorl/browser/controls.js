@@ -42,7 +42,8 @@ class Controls {
       learning_rate: () => this.write({ learning_rate: power(value) }), "open-run": () => null,
       horizon: () => this.write({ discount: 1 - 1 / power(value) }),
       memory: () => this.write({ memory: Number(value) === NO_MEMORY ? 0 : power(value) }),
-      map: () => this.look({ map: value, goal: null }), field: () => this.look({ field: this.fieldTiles() }),
+      map: () => this.look({ map: value, goal: null }), field: () => this.look(this.layers()),
+      heat: () => this.look(this.layers()), trail: () => this.wake(),
       "element-valence": () => this.changeElement(this.selected, { valence: Number(value) }) }[name];
     if (act) return act();
     const [, node] = name.match(/^gain-(\d+)$/) ?? [];
@@ -162,7 +163,7 @@ class Controls {
     this.action("step").disabled = !frame || frame.ended;
     this.action("link").disabled = !frame;
     this.offerStarters();
-    for (const name of ["map", "field"]) this.control(name).disabled = !frame;
+    for (const name of ["map", "field", "heat"]) this.control(name).disabled = !frame;
     this.part(".pad").hidden = !game;
     this.showSpeed();
     this.part(".element").hidden = this.selected === null;
@@ -234,11 +235,11 @@ class Controls {
   }
 
   draw(now = performance.now()) {
-    const { life: { frame, cursor, length, world, rate }, colours, condition } = this;
+    const { life: { frame, cursor, trail, length, world, rate }, colours, condition } = this;
     const isLoading = !frame && !this.failed;
     if (!this.arena.clientWidth || (isLoading && this.drawn)) return; // keep the last picture while loading
     Object.assign(this, { drawn: now, stale: false });
-    drawArena(this.arena, colours, frame, cursor);
+    drawArena(this.arena, colours, frame, { cursor, trail: this.control("trail").checked ? trail : [] });
     this.arrange(Boolean(frame?.arm));
     if (frame?.arm) drawLimb(this.limb, colours, frame);
     drawCurve(this.curve, colours, { seconds: length.steps / world.fps, binSeconds: length.bin / world.fps,

@@ -34,8 +34,8 @@ function fittedContext(canvas) {
   return context;
 }
 
-/** Draw the arena. frame: from the engine, or null; cursor: a place, or none. */
-function drawArena(canvas, colours, frame, cursor) {
+/** Draw the arena. frame: from the engine, or null; cursor: a place, or none; trail: where the agent has been. */
+function drawArena(canvas, colours, frame, { cursor = null, trail = [] } = {}) {
   const context = fittedContext(canvas);
   const unit = canvas.clientWidth / (1 + 2 * BOARD_MARGIN);
   context.translate(BOARD_MARGIN * unit, BOARD_MARGIN * unit);
@@ -45,6 +45,7 @@ function drawArena(canvas, colours, frame, cursor) {
   else walls.rect(0, 0, unit, unit);
   context.save();
   context.clip(walls);
+  if (frame?.heat) drawHeat(board, frame.heat);
   const cells = frame?.seen && cellsOf(frame.seen, frame.agent, frame.heading);
   if (cells) drawMap(board, cells, frame);
   drawObstacles(board, frame?.obstacles ?? []);
@@ -53,6 +54,7 @@ function drawArena(canvas, colours, frame, cursor) {
   else if (frame?.field) drawField(board, frame);
   stroke(board, colours.ink, 1.4, 0.75, (path) => path.addPath(walls));
   if (frame?.current) drawCurrent(board, frame.current);
+  drawTrail(board, trail);
   if (frame) drawMovers(board, frame);
   if (cursor) drawCursor(board, cursor);
 }
@@ -177,6 +179,29 @@ function roundCells({ axes, ends }, { x, y }, scale, heading) {
       return { x: x + radius * Math.cos(angle), y: y + radius * Math.sin(angle), size };
     },
   };
+}
+
+/** Draw the value at each tile as the depth of a colour, from the least to the greatest. */
+function drawHeat({ context, unit, colours }, heat) {
+  const tiles = Object.assign(document.createElement("canvas"), { width: FIELD_TILES, height: FIELD_TILES });
+  const [paint, least, most] = [tiles.getContext("2d"), Math.min(...heat), Math.max(...heat)];
+  if (least === most) return;
+  heat.forEach((value, tile) => {
+    Object.assign(paint, { fillStyle: colours.green, globalAlpha: 0.65 * (value - least) / (most - least) });
+    paint.fillRect(tile % FIELD_TILES, Math.floor(tile / FIELD_TILES), 1, 1);
+  });
+  context.globalAlpha = 1;
+  context.drawImage(tiles, 0, 0, unit, unit);
+}
+
+/** Draw where the agent has been, fading; it has jumped where the way between two places is long. */
+function drawTrail(board, trail) {
+  trail.slice(1).forEach((to, at) => {
+    const from = trail[at];
+    if (Math.hypot(to.x - from.x, to.y - from.y) > 0.4) return;
+    stroke(board, board.colours.agent, 2.5, 0.6 * (at + 1) / trail.length, (path) =>
+      addLine(path, [from, to].map(({ x, y }) => [x * board.unit, y * board.unit])));
+  });
 }
 
 function drawField(board, { field, round }) {

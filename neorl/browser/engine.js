@@ -9,7 +9,8 @@ const SLICE_MS = 4; // between two readings of the clock
 
 const modules = {}; // by name, {layout, compiled}
 let run = null;
-let look = { map: "", goal: null, field: 0 }; // the name of a map, a cell of it, and the field's tiles along each side
+// The name of a map, a cell of it, and the tiles along each side of the superposed value as a field and as a heat map.
+let look = { map: "", goal: null, field: 0, heat: 0 };
 
 /** A run in a machine of its own, with its parameters derived and everything else at 0. */
 function newRun({ parameters: choices, world, steps, bin_steps }) {
@@ -76,7 +77,7 @@ function begin(request) {
   call("reset", { state: run.world_state });
   call("begin_values");
   call("begin");
-  lookAt({ map: request.map, goal: null, field: request.field });
+  lookAt({ map: request.map, goal: null, field: request.field, heat: request.heat });
   return frame();
 }
 
@@ -296,7 +297,7 @@ function frame(steps = 0) {
       source, target, recurs: source === target, valence: state.desires.valence[e],
       x: agent.x + state.desires.target[3 * e], y: agent.y + state.desires.target[3 * e + 1],
     }])),
-    field: look.field ? field(look.field) : null,
+    field: look.field ? field(look.field) : null, heat: look.heat ? heat(look.heat) : null,
   };
 }
 
@@ -322,11 +323,24 @@ function vectors(count, valueOf) {
   return found;
 }
 
-function field(side) {
+/** Survey the superposed value of each action in each of `tiles` tiles. */
+function survey(side) {
   const [tiles, { actions }] = [side * side, run.sizes];
   run.values = run.values?.length === actions * tiles ? run.values : run.machine.put("float64", [tiles, actions]);
   call("survey", { side, tiles });
-  return vectors(tiles, (tile, action) => run.values[actions * tile + action]);
+  return { tiles, valueOf: (tile, action) => run.values[actions * tile + action] };
+}
+
+function field(side) {
+  const { tiles, valueOf } = survey(side);
+  return vectors(tiles, valueOf);
+}
+
+/** The value of the best action in each tile. */
+function heat(side) {
+  const { tiles, valueOf } = survey(side);
+  return Float32Array.from({ length: tiles }, (_, tile) =>
+    Math.max(...Array.from({ length: run.sizes.actions }, (__, action) => valueOf(tile, action))));
 }
 
 /** The learned value function of a goal, as a vector in every cell of a map; of all goals, if its state is the self. */

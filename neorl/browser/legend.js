@@ -13,6 +13,7 @@ const PICTURES = {
   green: disc("green", 1), red: disc("red", -1), player: picture(`<circle class="player" cx="12" cy="8" r="6.5"/>
     <text x="12" y="12">Y</text>`),
   place: picture(`<circle class="place" cx="12" cy="8" r="6.5"/>`),
+  heat: picture(`<rect class="heat" x="4" y="0.5" width="16" height="15"/>`),
   active: picture(`<rect class="active" x="4" y="0.5" width="16" height="15"/>`),
   hidden: picture(`<circle class="hidden" cx="12" cy="8" r="6.5"/>`),
   hull: picture(`<path class="agent full" d="M22 8L12 13H3V3H12Z"/>`),
@@ -22,7 +23,7 @@ const PICTURES = {
 };
 
 /** The entries of the key for a frame: [picture, text]. */
-function keyOf({ things, nodes, landings, player, active, field, seen, arm, heading, hidden, current }) {
+function keyOf({ things, nodes, landings, player, active, field, heat, seen, arm, heading, hidden, current }) {
   const kinds = new Set(things.map(({ kind }) => kind));
   const names = nodes.filter(({ valence }) => valence).map(({ name }) => {
     const long = SPELLED_OUT[name];
@@ -42,6 +43,7 @@ function keyOf({ things, nodes, landings, player, active, field, seen, arm, head
     ["green", "Green creep: pays +1", kinds.has("green")], ["red", "Red creep: pays −1", kinds.has("red")],
     ["place", hidden ? "Where the animal remembers the platform" : "Platform", kinds.has("platform")],
     ["active", "Shaded: the active cell of the map shown", active.length],
+    ["heat", "Green ground: the value of the best action, deeper where it is greater", heat],
     ["field", `Grey: what the agent would do at each place${heading ? ", on this heading" : ""}, by all maps together`,
       field && seen.goal === null],
     ["desire", `Dashed: the desire vectors of nodes: ${names.join("; ")}`, names.length],

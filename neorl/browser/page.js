@@ -7,6 +7,7 @@ const [DOUBLE_TAP, NEARBY] = [350, 0.06]; // milliseconds and board widths betwe
 const NO_MEMORY = -1; // its position on the slider, which has logarithms to base ten
 const THRUST_EVERY = 90; // milliseconds; a held key pushes for single steps, since the player could not steer otherwise
 const [REACH, SLOW, REACHING] = [0.05, 0.2, 1500]; // near a creep: board widths, times real time, milliseconds
+const TRAIL = 3; // simulated seconds
 const KEYS = { ArrowUp: [0, 0, -1], ArrowDown: [1, 0, 1], ArrowRight: [2, 1, 0], ArrowLeft: [3, -1, 0] };
 const NEW_RUN = ["preset", "memory", "resolutions", "modality", "object_state", "n_creeps", "seed", "run"];
 const ALLOWED = "Resolutions are whole numbers from 1 to 90, such as 3, 5, 7.";
@@ -24,6 +25,8 @@ const slide = (name, label, least, most, step) => `<label class="slide"><span>${
 const choice = (name, label) => `<label class="labelled"><span>${label}</span><select name="${name}"></select></label>`;
 const number = (name, label) => `<label class="labelled"><span>${label}</span><input type="number" name="${name}"
   min="0" max="${MOST_SEED}" value="0" required></label>`;
+const tick = (name, label, state) => `<label class="tick"><input type="checkbox" name="${name}" ${state}>${label}
+  </label>`;
 const press = (action, label) => `<button type="button" data-action="${action}">${label}</button>`;
 const chip = (n) => `<button type="button" data-chip="${n}" aria-label="Resolution ${n}">${n}</button>`;
 const pad = (key) => `<button type="button" data-key="Arrow${key.slice(0, -2)}" aria-label="${key.slice(0, -2)}">
@@ -46,8 +49,9 @@ const pageOf = (id) => `<p role="alert" hidden></p>
       ${press("delete", "Delete")}</div>
     <div class="buttons">${press("drop", "Drop an element")}${press("clear", "Clear all")}
       ${press("link", "Copy link")}</div>
-    <div class="shown">${choice("map", "Map shown")}<label class="tick"><input type="checkbox" name="field" checked>Show
-      field</label></div></div>
+    <div class="shown">${choice("map", "Map shown")}</div>
+    <div class="shown">${tick("field", "Arrows", "checked")}${tick("heat", "Value", "")}
+      ${tick("trail", "Trail", "checked")}</div></div>
   <ul class="key" aria-label="What the tank shows"></ul>
   <div class="side"><div class="limb" hidden><p class="title">Workspace: the plane in which the arm moves</p>
     <canvas role="img" aria-label="The arm in the plane, with the points that it seeks and avoids"></canvas></div>
@@ -82,7 +86,7 @@ class Refusal extends Error {}
 /** Everything the page holds of one run; every run has its own, and they share nothing. */
 const newLife = (given = {}) => ({ frame: null, world: { fps: 1 }, length: { steps: 1, bin: 1 }, changed: false,
   advancing: false, owed: 0, counted: 0, rate: 0, cursor: null, game: null, held: null, slid: false, dragged: null,
-  tapped: null, pointer: null, due: null, news: "", ...given });
+  tapped: null, pointer: null, trail: [], due: null, news: "", ...given });
 
 /** Add or remove children until there are `count`. */
 function grow(parent, count, markupOf) {

@@ -161,7 +161,7 @@ class Explorer extends Address {
     if (!this.loaded.has(world.module)) await this.load(world.module);
     const changes = this.condition === model.get("preset") ? presets[this.condition].changes : [];
     this.take(await this.ask({ type: "begin", parameters: this.parameters(), world, seed, run, steps, bin_steps: bin,
-      changes, map: this.control("map").value, field: this.fieldTiles() }));
+      changes, map: this.control("map").value, ...this.layers() }));
     await this.meet();
   }
 
@@ -198,8 +198,10 @@ class Explorer extends Address {
     this.writeAddress();
   }
 
-  fieldTiles() {
-    return this.control("field").checked ? FIELD_TILES : 0;
+  /** What is drawn of the superposed value, with its tiles along each side. */
+  layers() {
+    const tilesOf = (name) => (this.control(name).checked ? FIELD_TILES : 0);
+    return { field: tilesOf("field"), heat: tilesOf("heat") };
   }
 
   // The run
@@ -229,7 +231,10 @@ class Explorer extends Address {
   }
 
   take(frame) {
-    this.life.frame = frame;
+    const { life, life: { trail, world } } = this;
+    life.frame = frame;
+    life.trail = [...trail, { ...frame.agent, step: frame.step }].filter(({ step }) =>
+      frame.step - step <= TRAIL * world.fps);
     this.showMaps(frame);
     Object.assign(this.root.dataset, { step: frame.step, score: frame.reward, goal: frame.seen.goal ?? "" });
     if (frame.ended && this.life.game) this.safely(() => this.leaveGame())();

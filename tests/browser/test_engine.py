@@ -72,7 +72,8 @@ def advance(steps):
 
 def test_a_frame_reports_the_state_of_the_run(ask):
     goal = 7
-    begun, _, frame = ask({"type": "look", "map": "OVC N5", "goal": goal, "field": 9}, advance(STEPS))
+    begun, _, frame = ask({"type": "look", "map": "OVC N5", "goal": goal, "field": 9, "heat": 9},
+                          advance(STEPS))
     run = Run(AGENT, TANK, SEED, K)
     rewards, hits = np.zeros(2 * STEPS, np.float32), np.zeros((2 * STEPS, 2), np.int16)
     assert frame["reward"] == run.advance(STEPS, rewards, hits)
@@ -106,6 +107,7 @@ def test_a_frame_reports_the_state_of_the_run(ask):
     execute(PROBES.survey, run._parameters, run._state, mapped(np.copy, run._state),
             scene._replace(position=np.zeros(2)), 9, values)
     assert np.array(frame["field"]).reshape(-1, 2) == pytest.approx(as_vectors(values), rel=1e-6)
+    assert frame["heat"] == pytest.approx(values.max(axis=1), rel=1e-6)
 
 
 MAZES = [Arena(), Arena(places=[("food", 0.8, 0.2), ("shock", 0.3, 0.7)], pay=[1.0, -2.0], ends=False, radius=0.2,
