@@ -1,84 +1,153 @@
-"""The page on the forager: its parts, its sentences and the record of the search."""
-
-import re
+"""The page on the forager: what its cells build and run, the planners that lack knowledge, the records of searches."""
 
 import numpy as np
 import pytest
+from page_cells import defined, source
 
-from lib.beyond_agents import experiments, figures, report, search
-from neorl import WaterWorld, forager, simulate
-from neorl.core.maps import NresMap
-from neorl.drawing.style import GREEN, RED, letters
+from lib.alternatives.controllers import act_planner, planner
+from lib.alternatives.living import BOARDS, live
+from lib.alternatives.search import best_settings
+from lib.beyond_agents import figures, search
+from neorl import (GREEDY, Agent, Contacts, Desire, Learning, Modality, Node, NresMap, Run, WaterWorld, cartesian,
+                   execute, forager, kernel, multimodal, simulate)
+from neorl.agents.beyond import foveated_cells
+from neorl.core.choices import Action
+
+PAGE, RESOLUTIONS = "beyond_agents", (5, 9, 15, 25)
+IMPORTS = {}
+exec(source(PAGE, "3f201254").partition("notebook.begin")[0], IMPORTS)
 
 
-@pytest.fixture(scope="module")
-def lived():
-    return experiments.live(2_000, 2, 5)
+def page(*cells, **given):
+    """What cells of the page define, with short runs unless given otherwise."""
+    return defined(PAGE, *cells, **IMPORTS | {"runs": 2, "steps": 2_000, "seed": 5, "resolutions": RESOLUTIONS,
+                                              "n_creeps": 3, "tank": WaterWorld()} | given)
 
 
 def test_all_parts_make_the_forager_and_none_the_bare_agent():
-    agents = experiments.way_agents()
-    assert list(agents) == [experiments.BARE, *(f"+ {part}" for part in experiments.PARTS)]
-    assert agents[f"+ {experiments.PARTS[-1]}"] == forager()
-    bare = agents[experiments.BARE]
+    cells = page("agent-with")
+    assert cells.agent_with(cells.PARTS) == forager() and len(cells.PARTS) == 8
+    bare = cells.agent_with(())
     assert (bare.contacts.fear, bare.contacts.rivals) == ("approach", "add")
     assert bare.contacts.first_value == bare.contacts.trace_rate == 0 and len(bare.nodes[0].modality.axes) == 2
-    assert len(set(map(repr, [*agents.values(), *experiments.without_agents().values()]))) == 2 * len(experiments.PARTS)
-    with pytest.raises(ValueError, match="parts has wings"):
-        experiments.forager_with(["wings"])
 
 
 def test_receptive_fields_are_as_large_without_mirror_images():
-    mirrored, plain = (experiments.forager_with(set(experiments.PARTS) - {*without}).nodes[0]
-                       for without in (("several resolutions",), ("several resolutions", "mirror images")))
-    point = np.array([0.3, 0.2, 0.1, -0.4])
-    widths = []
-    for node in (mirrored, plain):
-        a_map = NresMap(node.resolutions[0], node.modality)
+    cells = page("agent-with")
+    widths, point = [], np.array([0.3, 0.2, 0.1, -0.4])
+    for parts in (cells.PARTS[:-1], [each for each in cells.PARTS[:-1] if each != "mirror images"]):
+        (node,) = cells.agent_with(parts).nodes
         at = np.linspace(0, 1, 2_001)
-        cells = a_map.encode(np.column_stack([at, *(np.full(at.shape, each) for each in point[1:])]))
-        widths.append(len(set(cells.tolist())))
+        passed = np.column_stack([at, *(np.full(at.shape, each) for each in point[1:])])
+        widths.append(len(set(NresMap(node.resolutions[0], node.modality).encode(passed).tolist())))
     assert abs(widths[0] - widths[1]) <= 1
 
 
-def test_the_page_says_and_draws_what_was_found(lived):
-    assert "per second over the last third" in report.summary(lived) and "**" not in report.summary(lived)
-    assert re.search(r"most without “[^”]+” \(to [\d.−]+\), “", report.summary(lived))
-    assert report.target_table(lived).count("\n") == 1 + len(experiments.TARGETS)
-    assert report.part_table(lived).count("\n") == 1 + len(experiments.PARTS)
-    for draw in (figures.draw_learning, figures.draw_long, figures.draw_parts, figures.draw_revalued):
-        draw(lived)
-    names = {text.get_text(): text.get_color() for text in figures.draw_revalued(lived).texts}
-    assert names == {"green": letters(GREEN), "red": letters(RED)}
+def test_each_condition_has_another_agent_and_long_runs_are_four_times_as_long():
+    cells = defined(PAGE, "agent-with", **IMPORTS, resolutions=RESOLUTIONS)
+    experiment = source(PAGE, "6395b8c6").partition('results["forager"]')[0]
+    names = IMPORTS | vars(cells) | {"runs": 3, "steps": 2_000, "seed": 5, "n_creeps": 4, "sweep": iter}
+    exec(experiment, names)
+    made = names["made"]
+    assert len({repr(each.agent) for each in made.values()}) == 18  # two ways lead to all parts but the last
+    assert [made[f"{n} creeps"].world.n_creeps for n in (3, 8)] == [3, 8]
+    assert {each.world.n_creeps for name, each in made.items() if "creeps" not in name} == {4}
+    assert {each.steps for each in made.values()} == {2_000, 8_000}
+    assert made["revalued"].changes == ((1_000, forager(RESOLUTIONS, 1.0, 1.0)),)
 
 
-def test_hits_per_second_count_all_hits(lived):
-    minutes, rates = experiments.hits_per_second(lived.revalued, stretches=4)
-    seconds = lived.revalued.seconds / 4
-    assert np.allclose(sum(rates["green"].T) * seconds, lived.revalued.hits[:, :, 0].sum(axis=1))
-    assert np.allclose(minutes, (np.arange(4) + 0.5) * seconds / 60)
+def test_hits_per_second_count_all_hits():
+    result = simulate(forager(), WaterWorld(), steps=2_000, runs=2, progress=False)
+    minutes, rates = figures.hits_per_second(result, stretches=4)
+    assert np.allclose(sum(rates["green"].T) * result.seconds / 4, result.hits[:, :, 0].sum(axis=1))
+    assert np.allclose(minutes, (np.arange(4) + 0.5) * result.seconds / 240)
 
 
 def test_fear_stays_low_where_there_is_a_way_out():
-    middles, fears = experiments.fear_by_approach(20_000, 2, 3)
-    mean = report.mean_fear(fears)
-    assert np.nanmax(mean[middles < 0.6]) < 0.1 < np.nanmax(mean)
-    assert "half a contact" in report.fear_in_words(middles, fears)
+    cells = page("ac555cce", steps=20_000, seed=3)
+    known = np.isfinite(cells.fears).all(axis=0)
+    middles, mean = cells.edges[:-1][known] + 0.025, cells.fears[:, known].mean(axis=0)
+    assert mean[middles < 0.6].max() < 0.1 < mean.max()
 
 
-def test_what_was_used_is_less_than_what_is_held():
-    cost = experiments.cost(1_000)
-    assert 0 < cost.used < cost.held and cost.microseconds > 0
-    assert "KiB" in report.cost_in_words(cost)
+def test_gaps_add_up_to_the_distance():
+    rates = {name: np.random.default_rng(k).random(3) for k, name in enumerate("abcdefgh")}
+    cells = page("gaps-table", boards={3: rates})
+    *parts, whole = cells.gaps(rates).values()
+    assert np.allclose(sum(parts), whole) and np.allclose(whole, rates["h"] - rates["b"])
 
 
-def test_the_record_of_the_search_was_made_by_this_code():
-    record = search.read_record()
-    best = record[0]
+def test_a_planner_that_knows_of_red_creeps_meets_fewer():
+    gains = best_settings()["PD"]
+    earned = {avoiding: live(planner(gains, captures=1, avoiding=avoiding), BOARDS[8], steps=3_000, runs=4, bins=1)
+              for avoiding in (False, True)}
+    assert earned[True].rewards.sum() > 1.3 * earned[False].rewards.sum()
+
+
+@kernel
+def ask(setting, memory, state, rules, found):
+    found[0] = act_planner(setting, memory, state, rules)
+
+
+def test_a_plan_of_one_capture_does_not_look_beyond():
+    """Two green creeps east of the agent, one behind the other, and a nearer one to its west."""
+    world, gains = WaterWorld(n_creeps=3), best_settings()["PD"]
+    state = world.reset(0)
+    state.speed[:] = 0
+    state.scene.kinds[:] = 0
+    state.scene.things[:] = [[125 + 62, 125], [125 + 88, 125], [125 - 58, 125]]
+    chosen = {}
+    for captures in (1, 2):
+        contestant, found = planner(gains, captures=captures), np.zeros(1, int)
+        execute(ask, contestant.setting, contestant.new_memory(world, None), state, world.rules, found)
+        chosen[captures] = found[0]
+    assert chosen[1] != Action.E == chosen[2]
+
+
+def test_a_desire_vector_is_a_velocity_for_a_node_of_velocities():
+    velocities = Modality("velocity cell", cartesian("velocity", (-1, 1), (-1, 1)))
+    agent = Agent([Node("OVC", foveated_cells(velocity=False), (5,), gain=0.0, goals="contacts"),
+                   Node("V", velocities, (9,))],
+                  [Desire("green", "OVC", 1.0), Desire("OVC", "V", 1.0, scale=50.0)],
+                  Learning(0.1, 0.9, update_on="step"), GREEDY, own_cell="silent", contacts=Contacts(first_value=0.0))
+    run, elsewhere = Run(agent, WaterWorld(), 3), 0
+    run.advance(30_000)
+    velocities = run.agent.maps[1]
+    for _ in range(100):
+        here, known = velocities.encode(run.world_state.scene.velocity / run.world.size), run.q(1).copy()
+        run.advance(1)
+        goal = velocities.encode(50.0 * run.output("OVC").desire)
+        if goal != here and run.output("V").valence:  # otherwise the desire is met, or the board is new
+            elsewhere += 1
+            assert np.array_equal(run.output("V").q, known[here, :, goal])
+    assert elsewhere > 10
+
+
+def test_gains_move_to_where_reward_is(monkeypatch):
+    """Where the reward is the gain itself, the parameter rises; with a rate of 0 it stays."""
+    monkeypatch.setattr(Run, "advance", lambda run, steps: run.agent.nodes[0].gain * steps / run.world.fps)
+    cells = page("adapting-rule", steps=40_000)
+    gain = lambda octaves: multimodal(place_gain=octaves + 10)  # noqa: E731
+    path, rewards = cells.adapt(gain, (0.0,), 0.5, 0.5, 0)
+    assert path.shape == (21, 1) and rewards.shape == (40,)
+    assert path[-1, 0] == cells.HIGHEST and np.all(np.diff(path[:, 0]) >= 0)
+    path, shaken = cells.adapt(gain, (0.0,), 0.5, 0.0, 0)
+    assert not path.any() and {*shaken} == {9.5, 10.5}
+
+
+def test_the_network_of_the_page_is_the_best_of_its_record():
+    record = search.tried_networks()
+    assert len(record) == search.SETTINGS * len(search.LAYERS)
+    best = next(row for row in record if row["layers"] == 2)
+    network = page("control-network").control_network(2, search.best_setting(2))
+    assert search.earned_by(network) == pytest.approx(best["earned"], abs=2e-3)
+
+
+def test_the_forager_is_the_best_of_its_record():
+    best = search.tried_foragers()[0]
     assert search.agent_of(best) == forager()
-    found = simulate(search.agent_of(best), WaterWorld(), runs=4, steps=150_000, seed=search.SEED, progress=False)
+    found = simulate(forager(), WaterWorld(), runs=4, steps=150_000, seed=search.SEED, progress=False)
     assert np.isclose(found.rate(2 / 3).mean(), best["with_3"], atol=2e-3)
-    assert str(len(record)) in report.search_in_words() and "horizon 0.389 s, " in report.search_in_words()
 
 
 def test_settings_span_their_ranges():

@@ -1,1 +1,1 @@
-"""The page "Beyond the thesis: the agent": its experiments, figures and sentences."""
+"""What the page "Beyond the thesis: the agent" needs beside its experiments: the searches for settings, and figures."""
