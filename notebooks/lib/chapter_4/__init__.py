@@ -1,1 +1,1 @@
-"""Experiments, figures and sentences of chapter 4: credit, superposition, time scales, cost."""
+"""Toy systems and figures of chapter 4: walks and series, sums, two levers."""

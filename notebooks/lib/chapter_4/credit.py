@@ -113,35 +113,6 @@ def lead_of_cause(values):
     return roles[..., 0] - roles[..., 1:].max(axis=-1)
 
 
-def learn_by_each(chamber, rules, visits, runs, seed=0):
-    """Values by `learn_in` under each of several rules, on the same streams: {name: values}.
-
-    rules: {name: `Learning`}. Other arguments as in `learn_in`.
-    """
-    return {name: learn_in(chamber, rule, visits, runs, seed) for name, rule in rules.items()}
-
-
-def vary_hold(holds, rules, visits, runs, seed=0):
-    """Values by `learn_by_each` in chambers with shorter and longer bouts: {hold: {name: values}}.
-
-    holds: as `Chamber` takes them. Other arguments as in `learn_by_each`.
-    """
-    return {hold: learn_by_each(Chamber(hold=hold), rules, visits, runs, seed) for hold in holds}
-
-
-def variants(chamber):
-    """Rules beside the two that the thesis compares: {name: `Learning`}.
-
-    With the same horizon, temporal difference discounts ``effort`` steps in the chamber as much as inversion discounts
-    a visit. The others differ from inversion in how they assign credit.
-    """
-    a_step = DIFFERENCE.discount ** (1 / chamber.effort)
-    return {"temporal difference, same horizon": replace(DIFFERENCE, discount=a_step),
-            "inversion, ψ = 1 for all that happened": replace(INVERSION, credit="happened"),
-            "inversion, ψ = 1 for the last alone": replace(INVERSION, credit="last"),
-            "inversion, ψ(0) = −1": replace(INVERSION, absent_decay=1.0)}
-
-
 @kernel
 def _live_in(chamber, stream, by_step, bootstrap, credit, learning_rate, rule, learned, counts, occurs, rates, values):
     """Live a visit for each row of `values`, and store the chamber's values after it there."""

@@ -1,11 +1,17 @@
-"""Functions of two variables as sums of functions of one (thesis section 4.1.1, equation 4.2).
+"""Sums in place of a whole: functions as sums of ridges, and sums of value functions (thesis sections 4.1.1, 4.1.2).
 
-1. Kolmogorov and Arnold write every continuous function as Σ_q χ_q(Σ_p ψ_qp(x_p)), with 2n + 1 outer functions χ.
-2. Here the inner functions are the plainest possible, so each term is a *ridge*: χ(x cos θ + y sin θ).
-3. Ridges are added one at a time, each at the angle θ that explains most of the residual of the others (projection
+1. Kolmogorov and Arnold write every continuous function as Σ_q χ_q(Σ_p ψ_qp(x_p)), with 2n + 1 outer functions χ (eq.
+   4.2). Here the inner functions are the plainest possible, so each term is a *ridge*: χ(x cos θ + y sin θ).
+2. Ridges are added one at a time, each at the angle θ that explains most of the residual of the others (projection
    pursuit, Friedman and Stuetzle 1981). The outer functions are polynomials, fitted jointly by least squares.
+3. On a grid, a state pays its reward whenever it is entered. A step into a wall enters no state. The task is
+   continuing. With a reward of 1 in one state, the best values are the operant value function towards it.
+4. *Superposition* (eq. 4.3, 4.4) adds the value functions of all elements, each times its valence. The values of a
+   fixed policy are linear in the rewards, so for them the sum is exact. The best values are not linear: each term of
+   the sum assumes that the agent pursues its element alone.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +20,7 @@ from neorl import checks
 
 DEGREE = 10  # of the outer functions
 ANGLES = np.pi * np.arange(60) / 60
-AXES = np.array([0, np.pi / 2])  # the angles of functions of x alone and of y alone
+CONVERGED = 1e-12  # remaining share of the initial error of a plan
 
 
 class Ridges(NamedTuple):
@@ -24,14 +30,15 @@ class Ridges(NamedTuple):
     errors: np.ndarray  # root mean square residual of 0, 1, … ridges: float64 (terms + 1,), in standard deviations
 
 
-def exact_sums(x, y):
-    """Functions of two variables with an evident sum: {name: (function, formula of the sum, sum)}.
+class Comparison(NamedTuple):
+    """Superposition against the plan for all elements at once, in the states without an element, for each placement.
 
-    x, y: float64 (…). Function and sum have the same shape, and are equal up to rounding.
+    Losses are shares of the plan's return averaged over placements, since in some placements it earns nothing.
     """
-    return {"product of x and y": (x * y, "((x + y)² − (x − y)²) / 4", ((x + y) ** 2 - (x - y) ** 2) / 4),
-            "larger of x and y": (np.maximum(x, y), "(x + y + √((x − y)²)) / 2", (x + y + np.sqrt((x - y) ** 2)) / 2),
-            "distance from 0": (np.hypot(x, y), "√(x² + y²)", np.sqrt(x**2 + y**2))}
+
+    agreement: np.ndarray  # share of the actions of superposition that are best: float64 (placements,)
+    achieved: np.ndarray  # 1 less the loss from following them: float64 (placements,)
+    at_random: np.ndarray  # 1 less the loss from drawing actions: float64 (placements,)
 
 
 def fit_ridges(values, terms, angles=ANGLES):
@@ -60,3 +67,90 @@ def fit_ridges(values, terms, angles=ANGLES):
         chosen.append(angles[best])
         errors.append(left.std() / spread)
     return Ridges(np.array(chosen), np.array(errors))
+
+
+def plan(grid, rewards, discount=0.8):
+    """Best action values, by value iteration: float64 (…, states, 4).
+
+    grid: a `Grid`. rewards: (…, states), paid on entering. discount: γ per step, from 0 to 0.99.
+    Raises ValueError for anything else.
+    """
+    paid = _paid(grid, rewards)
+    sweeps = 1 if checks.real("discount", discount, 0, 0.99) == 0 else math.log(CONVERGED) / math.log(discount)
+    q = np.zeros_like(paid)
+    for _ in range(math.ceil(sweeps)):
+        q = paid + discount * q.max(axis=-1)[..., grid.next_state]
+    return q
+
+
+def evaluate(grid, policy, rewards, discount=0.8):
+    """Value of each state under a policy, by solving its linear equations: float64 (…, states).
+
+    policy: (…, states, 4), the probability of each action. Other arguments as in `plan`.
+    """
+    moves = np.zeros((*policy.shape[:-1], grid.states))
+    for action in range(4):
+        moves[..., np.arange(grid.states), grid.next_state[:, action]] += policy[..., action]
+    earned = (policy * _paid(grid, rewards)).sum(axis=-1)
+    return np.linalg.solve(np.eye(grid.states) - discount * moves, earned[..., None])[..., 0]
+
+
+def best_actions(q):
+    """Which actions are best, including ties: bool (…, states, 4)."""
+    return q > q.max(axis=-1, keepdims=True) - 1e-9
+
+
+def greedy(q):
+    """Greedy policy, in which tied actions are equally likely: float64 (…, states, 4)."""
+    best = best_actions(q)
+    return best / best.sum(axis=-1, keepdims=True)
+
+
+def misled(q, planned, elements):
+    """States without an element in which an action is best by q but not by the plan: a list of integers.
+
+    q, planned: (states, 4). elements: a collection of states.
+    """
+    wrong = (best_actions(q) & ~best_actions(planned)).any(axis=1)
+    return [state for state in np.flatnonzero(wrong) if state not in elements]
+
+
+def compare(grid, valences, placements, seed=0, discount=0.8):
+    """Compare superposition with the plan, for elements in states drawn for each placement: a `Comparison`.
+
+    valences: of the elements, fewer than the states, at least one of them positive. placements: integer ≥ 1.
+    seed: integer ≥ 0. Other arguments as in `plan`.
+    Raises ValueError for anything else.
+    """
+    valences = checks.finite("valences", np.asarray(valences, float))
+    if valences.ndim != 1 or not 0 < len(valences) < grid.states or valences.max() <= 0:
+        raise ValueError(f"valences is {valences}, allowed are fewer than {grid.states} numbers, at least one above 0")
+    rng = np.random.default_rng(checks.integer("seed", seed, at_least=0))
+    rewards = np.zeros((checks.integer("placements", placements, at_least=1), grid.states))
+    for reward in rewards:
+        reward[rng.choice(grid.states, len(valences), replace=False)] = valences
+    superposed = greedy(np.tensordot(rewards, plan(grid, np.eye(grid.states), discount), axes=1))
+    best = plan(grid, rewards, discount)
+    empty = rewards == 0
+    agreement = (superposed * (greedy(best) > 0)).sum(axis=-1)
+    worth = {"best": best.max(axis=-1), "superposed": evaluate(grid, superposed, rewards, discount),
+             "random": evaluate(grid, np.full_like(superposed, 0.25), rewards, discount)}
+    worth = {name: (value * empty).sum(axis=-1) for name, value in worth.items()}
+    usual = worth["best"].mean()
+    achieved, at_random = (1 - (worth["best"] - worth[name]) / usual for name in ("superposed", "random"))
+    return Comparison((agreement * empty).sum(axis=-1) / empty.sum(axis=-1), achieved, at_random)
+
+
+def cosines(vectors):
+    """Cosine of the angle between each two of several vectors (n, length): float64 (n, n), 0 for a zero vector."""
+    length = np.linalg.norm(vectors, axis=1, keepdims=True)
+    unit = vectors / np.where(length > 0, length, 1)
+    return unit @ unit.T
+
+
+def _paid(grid, rewards):
+    """The reward of each action in each state: float64 (…, states, 4)."""
+    rewards = checks.finite("rewards", np.asarray(rewards, float))
+    if rewards.shape[-1:] != (grid.states,):
+        raise ValueError(f"rewards has the shape {rewards.shape}, allowed are (…, {grid.states})")
+    return rewards[..., grid.next_state] * (grid.next_state != np.arange(grid.states)[:, None])

@@ -6,8 +6,8 @@ from matplotlib.colors import LinearSegmentedColormap, to_rgb
 from matplotlib.ticker import MaxNLocator, PercentFormatter
 
 from lib.chapter_4.credit import ROLES
-from lib.chapter_4.potentials import misled
-from lib.chapter_4.walks import expected_squared_displacement
+from lib.chapter_4.noise import expected_squared_displacement
+from lib.chapter_4.superposition import misled
 from lib.shared.grid_figures import draw_grid, draw_policy, new_grids
 from neorl.drawing.curves import add_estimates
 from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, UNDER_WHITE, letters, name_ends
@@ -144,12 +144,12 @@ def draw_estimates(xs, estimates_by_name, xlabel, ylabel, logarithmic=False):
     add_estimates(axes, xs, estimates_by_name, linewidth=1.2)
 
 
-def draw_load(pace, seconds):
-    """Draw the load of each window of a `Pace` on a logarithmic axis. seconds: length of a window."""
+def draw_load(load, seconds):
+    """Draw the load of each window, in cores (windows,), on a logarithmic axis. seconds: length of a window."""
     axes = plt.figure(figsize=(plt.rcParams["figure.figsize"][0], 2.6)).add_subplot()
-    axes.plot((np.arange(len(pace.load)) + 0.5) * seconds, pace.load, color=CURVES[0], marker="o", markersize=5)
+    axes.plot((np.arange(len(load)) + 0.5) * seconds, load, color=CURVES[0], marker="o", markersize=5)
     axes.set(xlabel="wall-clock seconds", ylabel="share of a core", yscale="log", ylim=(0.003, 1.5),
-             xlim=(0, len(pace.load) * seconds))
+             xlim=(0, len(load) * seconds))
     axes.yaxis.set_major_formatter(PercentFormatter(1.0, decimals=0, symbol=" %"))
     axes.axhline(1.0, color=INK, linewidth=1, linestyle="--")
     axes.annotate("one core", (1, 1), (0, -3), xycoords=("axes fraction", "data"), textcoords="offset points",

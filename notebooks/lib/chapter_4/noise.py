@@ -1,0 +1,193 @@
+"""Noise, and what is in it besides: walks with a bias, and series with a predictable part (thesis section 4.1.1).
+
+1. At each step of a *walk* in three dimensions a walker moves one unit in one of the six directions of the axes.
+2. With probability 1 − β it draws the direction. With probability β, the *strength* of its bias, it moves towards its
+   goal, along the axis on which the goal is furthest; at its goal it always draws.
+3. The walker is an ε-greedy agent with ε = 1 − β. β = 0 is a random walk, whose position after many steps is a Wiener
+   process. A goal may be infinitely far away: its direction then never changes, and the bias is a constant drift.
+4. A *series* is x_t = z_t + u_t (Wold; eq. 4.1). The noise y_t is white, and z_t = y_t + b_1 y_{t−1} + b_2 y_{t−2} + …
+   The deterministic part u_t is one oscillation, with a phase drawn for each run.
+5. `decompose` sees only the series. It takes the oscillation with the least squared error for u_t, predicts the rest
+   from its past by least squares, and takes the prediction errors, called *innovations*, for y_t. The coefficients b_k
+   are those of the regression of the rest on the innovations, as Wold defines them.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy import linalg, optimize, signal
+
+from neorl import checks
+
+NEAR = 5  # units within which a walk has reached a goal
+DIRECTIONS = np.concatenate([np.eye(3, dtype=np.int32), -np.eye(3, dtype=np.int32)])
+PAST = 20  # values of the past that predict the next one
+LENGTHS = (300, 1_000, 3_000, 10_000, 30_000)  # of the series that `errors` decomposes, in steps
+
+
+def walk(strength, goal, steps, runs, seed=0):
+    """Walks from the origin: int32 (runs, steps + 1, 3).
+
+    strength: β, from 0 to 1. goal: three numbers, infinite ones allowed, but not NaN. steps, runs: integers ≥ 1. seed:
+    integer ≥ 0; walk k is the same for any number of runs, and draws the same numbers for any strength and goal.
+    Raises ValueError for anything else.
+    """
+    checks.real("strength", strength, 0, 1)
+    goal = np.asarray(goal, float)
+    if goal.shape != (3,) or np.isnan(goal).any():
+        raise ValueError(f"goal is {goal}, allowed are three numbers")
+    checks.integer("steps", steps, at_least=1)
+    checks.integer("runs", runs, at_least=1)
+    sequences = [np.random.SeedSequence(checks.integer("seed", seed, at_least=0), spawn_key=(run,))
+                 for run in range(runs)]
+    biased, drawn = np.empty((steps, runs), bool), np.empty((steps, runs), np.int8)
+    for run, rng in enumerate(map(np.random.default_rng, sequences)):
+        biased[:, run], drawn[:, run] = rng.random(steps) < strength, rng.integers(6, size=steps)
+    if np.isinf(goal).any():
+        drawn[biased] = _towards(goal[None])[0]
+        biased[:] = False
+    paths = np.zeros((steps + 1, runs, 3), np.int32)
+    if biased.any():
+        for step in range(steps):
+            to_goal = goal - paths[step]
+            greedy = biased[step] & to_goal.any(axis=1)
+            paths[step + 1] = paths[step] + DIRECTIONS[np.where(greedy, _towards(to_goal), drawn[step])]
+    else:
+        np.cumsum(DIRECTIONS[drawn], axis=0, out=paths[1:])
+    return paths.transpose(1, 0, 2)
+
+
+def _towards(to_goal):
+    """Index of the direction towards a goal, along the axis on which it is furthest: int64 (walkers,).
+
+    Of several such axes, the first is taken.
+
+    to_goal: (walkers, 3), from the walker to its goal.
+    """
+    axis = np.abs(to_goal).argmax(axis=1)
+    behind = np.take_along_axis(to_goal, axis[:, None], axis=1)[:, 0] < 0
+    return axis + 3 * behind
+
+
+def first_arrivals(paths, goal):
+    """First step at which each walk is within `NEAR` units of a goal: float64 (runs,), infinite if it never is.
+
+    paths: (runs, steps + 1, 3). goal: three numbers.
+    """
+    near = np.linalg.norm(paths - np.array(goal), axis=2) < NEAR
+    return np.where(near.any(axis=1), near.argmax(axis=1), np.inf)
+
+
+def mean_squared_displacement(paths, lags):
+    """Mean squared displacement of walks over lags, averaged over all starting steps: float64 (runs, lags).
+
+    paths: (runs, steps + 1, 3). lags: integers from 1 to steps.
+    """
+    paths = paths.astype(float)  # squares of 32-bit integers would soon be too large
+    moved = (paths[:, lag:] - paths[:, :-lag] for lag in lags)
+    return np.stack([np.einsum("rtx,rtx->r", each, each) / each.shape[1] for each in moved], axis=1)
+
+
+def expected_squared_displacement(strength, lags):
+    """Expected squared displacement under a constant drift β: (1 − β²) lag + β² lag².
+
+    Up to about (1 − β²) / β² steps a walk diffuses, and its distance grows with the square root of time; then it
+    drifts.
+    """
+    return (1 - strength**2) * lags + (strength * lags) ** 2
+
+
+def powers_of_time(squared, lags):
+    """Power of time with which distance grows, at the shortest lags and at the longest: float64 (2, runs).
+
+    squared: as `mean_squared_displacement` returns it, for at least four lags.
+    """
+    return np.array([np.log(squared[:, j] / squared[:, i]) / np.log(lags[j] / lags[i]) / 2
+                     for i, j in ((0, 2), (-4, -1))])
+
+
+class Parts(NamedTuple):
+    """A decomposed series, without its first `PAST` values, whose past is too short to predict them."""
+
+    deterministic: np.ndarray  # u_t: float64 (steps − PAST,)
+    stochastic: np.ndarray  # z_t: float64 (steps − PAST,)
+    innovations: np.ndarray  # y_t: float64 (steps − PAST,)
+    coefficients: np.ndarray  # b_1, b_2, …: float64 (order,)
+
+
+def generate(coefficients, amplitude, period, steps, run=0, seed=0):
+    """A series and its parts, the parts without the first `PAST` values: (float64 (steps,), `Parts`).
+
+    coefficients: b_1, b_2, … of noise with a standard deviation of 1. amplitude: of the oscillation, ≥ 0. period: of
+    the oscillation, in steps, ≥ 2. steps: integer, more than twice `PAST`. run, seed: integers ≥ 0.
+    Raises ValueError for anything else.
+    """
+    coefficients = checks.finite("coefficients", np.asarray(coefficients, float))
+    checks.real("amplitude", amplitude, 0)
+    checks.real("period", period, 2)
+    checks.integer("steps", steps, at_least=2 * PAST + 1)
+    sequence = np.random.SeedSequence(checks.integer("seed", seed, at_least=0),
+                                      spawn_key=(checks.integer("run", run, at_least=0),))
+    rng = np.random.default_rng(sequence)
+    oscillation = amplitude * np.cos(2 * np.pi * (np.arange(steps) / period + rng.random()))
+    noise = rng.normal(size=steps + len(coefficients))
+    filtered = signal.lfilter([1, *coefficients], 1, noise)[len(coefficients):]
+    parts = (each[PAST:] for each in (oscillation, filtered, noise[len(coefficients):]))
+    return filtered + oscillation, Parts(*parts, coefficients)
+
+
+def decompose(series, order):
+    """Decompose a series into `Parts`, with b_1 … b_order. series: float64 (steps,), more than twice `PAST`.
+
+    Raises ValueError for anything else.
+    """
+    series = checks.finite("series", np.asarray(series, float))
+    if series.ndim != 1 or len(series) <= 2 * PAST:
+        raise ValueError(f"series has the shape {series.shape}, allowed are (steps,) with more than {2 * PAST} steps")
+    checks.integer("order", order, at_least=1, at_most=PAST)
+    spectrum = np.abs(np.fft.rfft(series))
+    peak = 1 + spectrum[1:-1].argmax()
+    frequency = optimize.minimize_scalar(_left_over, args=(series,), bounds=(peak - 1, peak + 1), method="bounded",
+                                         options={"xatol": 1e-6}).x
+    deterministic = _oscillation(frequency, series)
+    rest = series - deterministic
+    past = linalg.toeplitz(rest[PAST - 1 : -1], rest[PAST - 1 :: -1])
+    innovations = rest[PAST:] - past @ _least_squares(past, rest[PAST:])
+    earlier = np.stack([innovations[order - k : -k] for k in range(1, order + 1)], axis=1)
+    coefficients = _least_squares(earlier, rest[PAST + order :])
+    return Parts(deterministic[PAST:], rest[PAST:], innovations, coefficients)
+
+
+def errors(coefficients, period, longest, runs, seed=0):
+    """Errors of `decompose` on series of `generate`, by length: {steps: float64 (3, runs)}.
+
+    They are the root mean square errors of u_t and of y_t, and the largest error of b_1, b_2, …; the oscillation has an
+    amplitude of 1.
+    longest: steps of the longest series; greater `LENGTHS` are left out. runs: of each length. Other arguments as in
+    `generate`.
+    """
+    return {steps: np.transpose([_error(coefficients, period, steps, run, seed) for run in range(runs)])
+            for steps in LENGTHS if steps <= longest}
+
+
+def _error(coefficients, period, steps, run, seed):
+    series, true = generate(coefficients, 1.0, period, steps, run, seed)
+    found = decompose(series, order=len(coefficients))
+    return [np.sqrt(np.mean((found.deterministic - true.deterministic) ** 2)),
+            np.sqrt(np.mean((found.innovations - true.innovations) ** 2)),
+            np.abs(found.coefficients - true.coefficients).max()]
+
+
+def _left_over(frequency, series):
+    return np.square(series - _oscillation(frequency, series)).sum()
+
+
+def _oscillation(frequency, series):
+    """The best-fitting oscillation of a frequency, in periods per series."""
+    angle = 2 * np.pi * frequency * np.arange(len(series)) / len(series)
+    basis = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    return basis @ _least_squares(basis, series)
+
+
+def _least_squares(basis, series):
+    return np.linalg.solve(basis.T @ basis, basis.T @ series)  # many times faster than lstsq, and well conditioned here

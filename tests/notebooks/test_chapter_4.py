@@ -1,0 +1,400 @@
+"""The page of chapter 4: its experiment, and its toy systems against closed forms and second implementations."""
+
+import itertools
+import json
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from matplotlib import pyplot as plt
+
+from lib.chapter_4 import credit, figures, noise, superposition
+from lib.chapter_4.credit import DEFAULT, DIFFERENCE, INVERSION, Chamber, learn_in
+from lib.chapter_4.noise import expected_squared_displacement, mean_squared_displacement, walk
+from lib.chapter_4.superposition import fit_ridges, plan
+from lib.shared.grid import Grid
+from neorl.agents.rules import CALIBRATED
+from neorl.core.horde import learn
+from neorl.core.kernel import execute
+from neorl.core.stream import new_stream, randint, uniform
+from neorl.evidence.priors import TO_THE_LETTER
+from neorl.evidence.reading import Reading, conditions
+
+PAGE = json.loads((Path(__file__).parents[2] / "notebooks" / "chapter_4.ipynb").read_text(encoding="utf-8"))
+SOURCES = {cell["id"]: "".join(cell["source"]) for cell in PAGE["cells"]}
+AGENTS = {"place cells": ("layers", ("brownian", 8)), "object-vector cells": (("objects", "all"), ("brownian", 3)),
+          "both": ("both", ("brownian", 3))}  # the keys of their conditions
+FAR = (np.inf, 0, 0)
+SIDE = np.linspace(-1, 1, 31)
+X, Y = np.meshgrid(SIDE, SIDE)
+N5 = Grid((".....",) * 5)
+QUICK = replace(INVERSION, learning_rate=0.3)
+
+
+def run_cells(*names, **given):
+    """What some cells of the page define, with conditions in place of results: {name: value}."""
+    page = {"runs": 30, "steps": 600_000, "seed": 3, "resolutions": [3, 7, 23], "stays": [1, 10, 50], **given}
+    exec(SOURCES["cell-02"].partition("notebook.begin")[0], page)
+    page["sweep"] = iter
+    for name in ("lists", *names):
+        exec(SOURCES[name], page)
+    return page
+
+
+@pytest.mark.parametrize("steps", [1_000, 600_000])
+def test_agents_differ_in_their_temporal_driver_alone(steps):
+    page = run_cells("agents", "experiment", steps=steps)
+    assert page["readings"] == {"to the letter": TO_THE_LETTER, "calibrated": Reading()} and page["of_thesis"]
+    for name, reading in page["readings"].items():
+        made = conditions(reading, steps, 30, 3, ["layers", "modal"])
+        for which, (key, chance) in AGENTS.items():
+            cell, brownian, *every_step = page["results"][name, which].values()
+            assert cell == made[key] and brownian == made[chance]
+            for stay, label, each in zip((1, 10, 50), list(page["results"][name, which])[2:], every_step):
+                rule = replace(reading, credit="step", discount=reading.discount ** (1 / stay))
+                assert each == conditions(rule, steps, 10, 3, ["layers", "modal"])[key]
+                assert label == f"γ = {rule.discount:.4g}" and each.agent.learning.update_on == "step"
+
+
+def test_only_the_agents_and_stays_of_the_thesis_are_judged():
+    assert run_cells(resolutions="[23, 3, 7]")["of_thesis"]
+    other = run_cells("agents", "experiment", "judging", resolutions="[5]", stays="[20]", steps=1_000)
+    assert other["judged"] == {"to the letter": [], "calibrated": []}
+    assert other["results"]["calibrated", "place cells"]["changes of cell"].agent.nodes[0].resolutions == (5,)
+    with pytest.raises(ValueError, match="stays must be .*, but is 0"):
+        run_cells(stays=[0])
+
+
+class Clock:
+    """A clock that advances only by sleep and work; only work uses the processor."""
+
+    def __init__(self):
+        self.now, self.used, self.step = 100.0, 7.0, 0
+
+    def monotonic(self):
+        return self.now
+
+    def process_time(self):
+        return self.used
+
+    def perf_counter(self):
+        return self.now
+
+    def sleep(self, seconds):
+        assert seconds >= 0
+        self.now += seconds
+
+
+def keep_pace(seconds, runs):
+    """The page's run in real time: load and delay of a run whose k-th step takes `seconds[k]`, later ones the last."""
+    clock = Clock()
+
+    def advance(steps):
+        if steps == 1:
+            worked = seconds[min(clock.step, len(seconds) - 1)]
+            clock.now, clock.used, clock.step = clock.now + worked, clock.used + worked, clock.step + 1
+
+    page = run_cells(runs=runs) | {"time": clock, "run": SimpleNamespace(advance=advance),
+                                   "tank": SimpleNamespace(fps=50)}
+    exec(SOURCES["cell-45-work"], page)
+    assert clock.step == page["delay"].size == 35 * min(runs, 12)
+    return page["load"], page["delay"]
+
+
+def test_a_quick_run_idles_until_each_step_is_due():
+    load, delay = keep_pace([0.002], runs=20)
+    np.testing.assert_allclose(load, np.full(12, 0.1))
+    np.testing.assert_allclose(delay, 0.1)
+
+
+def test_a_slow_step_makes_those_after_it_late_until_they_have_caught_up():
+    load, delay = keep_pace([0.005, 0.05, 0.005], runs=1)
+    np.testing.assert_allclose(delay[0, :5], [0.25, 2.5, 1.75, 1.0, 0.25])
+    np.testing.assert_allclose(load, (34 * 0.005 + 0.05) / 0.7)
+    load, delay = keep_pace([0.04], runs=2)
+    np.testing.assert_allclose(load, 1.0)
+    np.testing.assert_allclose(np.diff(delay.ravel()), 1.0)
+
+
+def test_a_walk_goes_one_unit_a_step_in_six_equally_likely_directions():
+    paths = walk(0.0, (3, 3, 3), steps=20_000, runs=3)
+    steps = np.diff(paths, axis=1).reshape(-1, 3)
+    assert paths.shape == (3, 20_001, 3) and not paths[:, 0].any()
+    directions, counts = np.unique(steps, axis=0, return_counts=True)
+    assert len(directions) == 6 and np.all(np.abs(directions).sum(axis=1) == 1)
+    np.testing.assert_allclose(counts / len(steps), 1 / 6, atol=0.006)
+
+
+@pytest.mark.parametrize("strength", [0.0, 0.1, 1.0])
+def test_walks_spread_as_diffusion_and_drift_foretell(strength):
+    lags = np.array([1, 10, 100])
+    squared = mean_squared_displacement(walk(strength, FAR, steps=5_000, runs=60), lags)
+    np.testing.assert_allclose(squared.mean(axis=0), expected_squared_displacement(strength, lags), rtol=0.06)
+
+
+def test_displacements_and_arrivals_are_those_counted_by_hand():
+    path = np.array([[[0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 1, -1]]])
+    np.testing.assert_allclose(mean_squared_displacement(path, [1, 2, 3]), [[1, 2, 3]])
+    straight = np.arange(100_001, dtype=np.int32)[None, :, None] * np.array([1, 0, 0], np.int32)
+    assert mean_squared_displacement(straight, [100_000])[0, 0] == 1e10
+    np.testing.assert_array_equal(noise.first_arrivals(straight[:, :20], goal=(10, 0, 0)), [6])
+    np.testing.assert_array_equal(noise.first_arrivals(-straight[:, :20], goal=(10, 0, 0)), [np.inf])
+    lags = 10 ** np.arange(7)
+    squared = np.array([[1, 7, 100, 1e6, 7e8, 7e10, 1e12], [4, 7, 400, 4e6, 7e8, 7e10, 4e12]])
+    np.testing.assert_allclose(noise.powers_of_time(squared, lags), [[0.5, 0.5], [1, 1]])
+
+
+def test_a_walker_that_is_always_biased_goes_to_its_goal_and_wanders_about_it():
+    paths = walk(1.0, (3, -2, 0), steps=9, runs=2)
+    np.testing.assert_array_equal(paths[:, 2], [[2, 0, 0]] * 2)  # first along the axis on which it is furthest
+    np.testing.assert_array_equal(paths[:, 5], [[3, -2, 0]] * 2)
+    np.testing.assert_array_equal(np.abs(paths[:, 5:] - [3, -2, 0]).sum(axis=2), [[0, 1, 0, 1, 0]] * 2)
+    assert len(np.unique(walk(1.0, (0, 0, 0), steps=1, runs=60)[:, 1], axis=0)) == 6  # at its goal it draws
+    np.testing.assert_array_equal(walk(0.2, (40, 10, 0), 300, runs=3)[:2], walk(0.2, (40, 10, 0), 300, runs=2))
+
+
+def test_a_series_is_the_sum_of_its_parts_and_its_noise_is_filtered():
+    series, parts = noise.generate([0.6, 0.3], 2.0, 25.0, steps=500)
+    np.testing.assert_allclose(series[noise.PAST:], parts.deterministic + parts.stochastic)
+    drawn = parts.innovations
+    np.testing.assert_allclose(parts.stochastic[2:], drawn[2:] + 0.6 * drawn[1:-1] + 0.3 * drawn[:-2])
+    np.testing.assert_allclose(parts.deterministic[25:], parts.deterministic[:-25])
+    assert np.ptp(parts.deterministic) == pytest.approx(4.0, rel=0.01)
+    first = [noise.generate([0.5], 1.0, 20.0, 100, run)[1].deterministic[0] for run in range(200)]
+    assert abs(np.mean(first)) < 0.15 and np.std(first) == pytest.approx(0.5**0.5, abs=0.05)
+
+
+def test_the_parts_of_a_series_are_found_and_the_better_the_longer_it_is():
+    series, true = noise.generate([0.6, 0.3], 1.0, 37.3, 500)
+    found = noise.decompose(series, order=2)
+    np.testing.assert_allclose(found.deterministic + found.stochastic, series[noise.PAST:])
+    errors = noise.errors([0.6, 0.3], 37.3, longest=30_000, runs=5)
+    assert list(errors) == [300, 1_000, 3_000, 10_000, 30_000]
+    short, long = (errors[steps].mean(axis=1) for steps in (300, 30_000))
+    assert np.all(short < [0.4, 0.5, 0.2]) and np.all(long < 0.2 * short)  # a tenth is to be expected
+
+
+def test_the_coefficients_of_an_autoregression_are_the_powers_of_its_own():
+    """x_t = 0.5 x_t−1 + y_t is y_t + 0.5 y_t−1 + 0.25 y_t−2 + …; the oscillation found in it is nearly zero."""
+    drawn = np.random.default_rng(0).normal(size=40_000)
+    series = np.zeros_like(drawn)
+    for t in range(1, len(series)):
+        series[t] = 0.5 * series[t - 1] + drawn[t]
+    np.testing.assert_allclose(noise.decompose(series, 3).coefficients, [0.5, 0.25, 0.125], atol=0.02)
+
+
+def test_a_product_is_the_sum_of_two_ridges_at_right_angles_and_not_along_the_axes():
+    ridges = fit_ridges(X * Y, terms=2)
+    assert ridges.errors[0] == 1 and ridges.errors[1] > 0.3 and ridges.errors[2] < 1e-9
+    np.testing.assert_allclose(np.sort(ridges.angles), np.pi * np.array([1, 3]) / 4)
+    np.testing.assert_allclose(fit_ridges(X * Y, 2, np.array([0, np.pi / 2])).errors, 1)
+
+
+def test_the_error_is_the_residual_of_a_least_squares_fit_of_all_ridges_together():
+    values = np.exp(-3 * ((X - 0.4) ** 2 + (Y + 0.1) ** 2))
+    ridges = fit_ridges(values, terms=3)
+    basis = np.hstack([np.vander((X * np.cos(a) + Y * np.sin(a)).ravel(), 11) for a in ridges.angles])
+    fit = basis @ np.linalg.lstsq(basis, values.ravel())[0]
+    assert ridges.errors[3] == pytest.approx((values.ravel() - fit).std() / values.std(), rel=1e-5)
+
+
+def test_the_value_of_a_single_goal_falls_by_the_discount_with_each_step():
+    goal = 7
+    q = plan(N5, np.eye(25)[goal], discount=0.8)
+    distance = np.abs(N5.places - N5.places[goal]).sum(axis=1)
+    away = distance > 0
+    np.testing.assert_allclose(q.max(axis=1)[away], 0.8 ** (distance[away] - 1) / (1 - 0.8**2))
+    assert q[goal].max() == pytest.approx(0.8 / (1 - 0.8**2))  # out and in again
+    assert plan(N5, np.eye(25)[0], 0.5)[0, 0] == pytest.approx(0.5 * plan(N5, np.eye(25)[0], 0.5)[0].max())  # a wall
+
+
+def test_the_best_values_are_those_of_the_best_of_all_policies():
+    corridor = Grid(("...",))
+    rewards = np.array([1.0, -0.5, 0.3])
+    best = np.max([superposition.evaluate(corridor, np.eye(4)[list(policy)], rewards)
+                   for policy in itertools.product(range(4), repeat=3)], axis=0)
+    np.testing.assert_allclose(plan(corridor, rewards).max(axis=1), best)
+
+
+def test_values_of_a_policy_add_up_over_rewards_and_optimal_values_do_not():
+    policy = np.full((25, 4), 0.25)
+    rewards = np.eye(25)[[0, 4, 12]]
+    alone = superposition.evaluate(N5, np.stack([policy] * 3), rewards)
+    np.testing.assert_allclose(alone.sum(axis=0), superposition.evaluate(N5, policy, rewards.sum(axis=0)))
+    sums, together = plan(N5, rewards).sum(axis=0), plan(N5, rewards.sum(axis=0))
+    assert np.all(sums >= together - 1e-9) and (sums - together).max() > 0.5
+
+
+def test_a_sum_misleads_where_one_of_its_best_actions_is_not_best_by_the_plan():
+    planned = np.array([[1.0, 1, 0, 0]] * 4)
+    added = np.array([[1.0, 1 - 1e-12, 0, 0], [1, 0, 0, 0], [0, 1, 1, 0], [0, 0, 1, 0]])
+    assert superposition.best_actions(added).sum(axis=1).tolist() == [2, 1, 2, 1]
+    assert superposition.misled(added, planned, elements=[3]) == [2]
+    assert superposition.misled(added, planned, elements={}) == [2, 3]
+
+
+def test_the_horde_learns_towards_each_goal_what_planning_finds():
+    """On a random walk with one step per cell, equal up to the factor for entering the goal again and again."""
+    rng, q, state = np.random.default_rng(0), np.zeros((9, 4, 9), np.float32), 0
+    n3 = Grid(("...",) * 3)
+    for _ in range(4_000):
+        action = rng.integers(4)
+        following = n3.next_state[state, action]
+        if following != state:
+            learn(q, state, following, np.eye(4)[action], learning_rate=0.5)
+        state = following
+    exact = plan(n3, np.eye(9)).transpose(1, 2, 0) * (1 - 0.8**2)
+    moves = (n3.next_state != np.arange(9)[:, None])[:, :, None]
+    np.testing.assert_allclose(np.where(moves, q, 0), np.where(moves, exact, 0), atol=1e-3)
+
+
+def test_a_comparison_is_that_of_superposed_and_planned_actions():
+    comparison = superposition.compare(N5, [1, 1, 1, -1], placements=1, seed=5, discount=0.7)
+    states = np.random.default_rng(5).choice(25, 4, replace=False)
+    rewards = np.zeros(25)
+    rewards[states] = 1, 1, 1, -1
+    sums = sum(reward * plan(N5, goal, 0.7) for reward, goal in zip(rewards, np.eye(25)))
+    best = plan(N5, rewards, 0.7)
+    outside = [state for state in range(25) if state not in states]
+    agreed = [np.isclose(best[s], best[s].max())[np.isclose(sums[s], sums[s].max())].mean() for s in outside]
+    assert comparison.agreement[0] == pytest.approx(np.mean(agreed)) and np.mean(agreed) < 1
+    followed = superposition.evaluate(N5, superposition.greedy(sums), rewards, 0.7)[outside].sum()
+    assert comparison.achieved[0] == pytest.approx(followed / best.max(axis=1)[outside].sum())
+
+
+def test_the_loss_is_a_share_of_the_average_return_of_the_plan():
+    """In a corridor of three, a desired cell may lie behind a feared one; the plan then stays and earns nothing."""
+    corridor = Grid(("...",))
+    assert plan(corridor, [0, -1, 1])[0].max() == pytest.approx(0)
+    comparison = superposition.compare(corridor, [1.0, -1.0], placements=200)
+    assert np.isfinite(comparison).all() and comparison.achieved.max() == pytest.approx(1)
+    assert np.mean(comparison.at_random) < np.mean(comparison.achieved) < 1
+    two = superposition.compare(N5, [1.0, 1.0], placements=50)  # which are pursued as planned
+    np.testing.assert_allclose([two.agreement, two.achieved], 1)
+    assert np.all(two.at_random < 0.5)
+
+
+def test_cosines_are_those_of_the_angles():
+    half = 0.5**0.5
+    found = superposition.cosines(np.array([[1.0, 0], [0, 2], [3, 3], [0, 0]]))
+    np.testing.assert_allclose(found, [[1, 0, half, 0], [0, 1, half, 0], [half, half, 1, 0], [0] * 4], atol=1e-12)
+
+
+def restated(chamber, learning, visits, seed=0, run=0):
+    """The values of one run of `learn_in` in plain Python, bout by bout and visit by visit: (visits, 4, 2)."""
+    stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run,)))
+    q, over, values = np.zeros((4, 2)), True, []
+    for _ in range(visits):
+        seen, opened = [], None
+        while opened is None or len(seen) <= opened[1] + chamber.delay:
+            if over:
+                lever = execute(randint, stream, 2)
+                on = [lever == 0, lever == 1, execute(uniform, stream) < chamber.light,
+                      execute(uniform, stream) < chamber.bell]
+            seen.append(np.array(on, float))
+            over = execute(uniform, stream) < 1 / chamber.hold
+            if opened is None and sum(seen)[lever] >= chamber.effort:
+                opened = lever, len(seen) - 1
+        goal = np.eye(2)[opened[0]]
+        if learning.update_on == "step":
+            for events in seen[:-1]:
+                q += learning.learning_rate * events[:, None] * (learning.discount * q.max(axis=0) - q)
+            q += learning.learning_rate * seen[-1][:, None] * (goal - q)
+        else:
+            times = sum(seen)
+            psi = {"share": times / len(seen), "happened": times > 0, "last": seen[-1],
+                   "count": times}[learning.credit]
+            psi = psi[:, None].astype(float)
+            learns = 1.0 if learning.bootstrap else goal
+            rate = learning.learning_rate * np.where(psi > 0, psi, learning.absent_decay) * learns
+            away = -rate * (goal - q) if learning.absent_form == "away" else -rate * q
+            q = np.clip(q + np.where(psi > 0, np.minimum(rate, 1) * (goal - q), away), 0, 1)
+        values.append(q.copy())
+    return np.array(values)
+
+
+@pytest.mark.parametrize("chamber", [Chamber(), Chamber(effort=3, hold=2.0, light=0.9), Chamber(delay=7, hold=4.0)])
+@pytest.mark.parametrize("learning", [QUICK, replace(QUICK, credit="happened"), replace(QUICK, credit="last"),
+                                      replace(QUICK, absent_decay=0.5), replace(QUICK, credit="count"),
+                                      replace(QUICK, absent_decay=0.5, absent_form="away"),
+                                      replace(QUICK, absent_decay=0.5, bootstrap=False),
+                                      replace(DEFAULT, learning_rate=0.3),
+                                      replace(QUICK, discount=0.9, update_on="step")])
+@pytest.mark.filterwarnings("ignore:overflow encountered")
+def test_the_kernel_does_what_the_rules_say(chamber, learning):
+    values = learn_in(chamber, learning, visits=20, runs=2, seed=5)
+    np.testing.assert_allclose(values[1], restated(chamber, learning, 20, seed=5, run=1), atol=2e-5)
+
+
+def test_with_one_step_a_visit_both_rules_are_the_same():
+    chamber = Chamber(effort=1, hold=3.0)
+    np.testing.assert_array_equal(learn_in(chamber, INVERSION, 50, 3), learn_in(chamber, DIFFERENCE, 50, 3))
+
+
+def test_a_held_lever_has_the_closed_form_values_of_inversion_and_temporal_difference():
+    """A lever held throughout a visit of T steps is worth 1 to inversion, and to temporal difference the solution
+    of q = 1 / T + (1 − 1 / T) γ q."""
+    chamber, steps = Chamber(effort=8, hold=10_000.0, light=0.0, bell=0.0), 8
+    rules = replace(INVERSION, learning_rate=0.1), replace(DIFFERENCE, learning_rate=0.01)
+    (inverted,), (stepwise,) = (learn_in(chamber, rule, 600, 1) for rule in rules)
+    lever = int(inverted[-1, 1].sum() > inverted[-1, 0].sum())
+    assert inverted[-1, lever, lever] == pytest.approx(1.0, abs=1e-3)
+    expected = 1 / steps / (1 - 0.8 * (1 - 1 / steps))
+    assert stepwise[-1, lever, lever] == pytest.approx(expected, rel=0.05)
+
+
+def test_the_rule_of_the_agents_remembers_no_earlier_cell_when_put_back():
+    assert replace(DEFAULT, learning_rate=CALIBRATED.learning_rate, discount=CALIBRATED.discount) == CALIBRATED
+    learned = [learn_in(Chamber(), replace(DEFAULT, memory=memory), 30, runs) for memory, runs in ((0.0, 2), (5.0, 3))]
+    np.testing.assert_array_equal(learned[0], learned[1][:2])
+
+
+def test_roles_are_means_over_both_exits():
+    values = np.array([[1.0, 0.2], [0.4, 0.8], [0.5, 0.7], [0.0, 0.1]])
+    np.testing.assert_allclose(credit.by_role(values), [0.9, 0.3, 0.6, 0.05])
+    assert credit.lead_of_cause(values) == pytest.approx(0.3)
+
+
+@pytest.mark.parametrize("call, message", [
+    (lambda: walk(1.1, FAR, 5, 1), "strength must be .*, but is 1.1"), (lambda: walk(0.1, (1, 2), 5, 1), "goal is"),
+    (lambda: walk(0.1, (1, 2, np.nan), 5, 1), "goal is"), (lambda: walk(0.1, FAR, 0, 1), "steps must be .*, but is 0"),
+    (lambda: noise.generate([np.inf], 1.0, 20.0, 100), "coefficients must be"),
+    (lambda: noise.generate([0.5], 1.0, 1, 100), "period must be"),
+    (lambda: noise.generate([0.5], 1.0, 20.0, 40), "steps must be .*, but is 40"),
+    (lambda: noise.decompose(np.zeros(40), 2), "series has the shape"),
+    (lambda: noise.decompose(np.zeros(90), 0), "order must be .*, but is 0"),
+    (lambda: fit_ridges(np.ones((4, 4)), 1), "values has the shape"),
+    (lambda: fit_ridges(X, 0), "terms must be .*, but is 0"),
+    (lambda: plan(N5, np.ones(24)), r"rewards has the shape \(24,\), allowed are \(…, 25\)"),
+    (lambda: plan(N5, np.ones(25), 1.0), "discount must be .*, but is 1.0"),
+    (lambda: superposition.compare(N5, [-1], 3), "valences is"),
+    (lambda: superposition.compare(N5, [1], 0), "placements must be .*, but is 0"),
+    (lambda: Chamber(effort=0), "effort must be .*, but is 0"), (lambda: Chamber(bell=-0.1), "bell must be .*, but is"),
+    (lambda: learn_in(Chamber(), replace(INVERSION, credit="activity"), 1, 1),
+     "credit must be 'share', 'happened', 'count' or 'last', but is 'activity'"),
+    (lambda: learn_in(Chamber(), INVERSION, 0, 1), "visits must be .*, but is 0"),
+])
+def test_a_bad_argument_is_refused(call, message):
+    with pytest.raises(ValueError, match=message):
+        call()
+
+
+def test_displacements_are_drawn_where_they_are_expected():
+    lags = np.array([1, 10, 100])
+    squared = {beta: np.tile(expected_squared_displacement(beta, lags), (4, 1)) for beta in (0.0, 0.3)}
+    figures.draw_displacements(lags, squared)
+    line, points = plt.gca().lines[:2]
+    np.testing.assert_allclose(points.get_ydata(), [0, 0.5, 1])
+    np.testing.assert_allclose(line.get_ydata()[[0, -1]], [0, 1])
+
+
+def test_policies_are_drawn_where_there_is_no_element_and_ringed_where_they_differ():
+    grid = Grid(("....",))
+    left, right = (plan(grid, reward) for reward in np.eye(4)[[0, 3]])
+    figures.draw_policies(grid, {"left": left, "right": right}, {0: 1.0, 3: -1.0})
+    first, second = plt.gcf().axes
+    (arrows,) = first.collections
+    assert len(arrows.U) == 2 and np.all(arrows.U < 0) and np.all(second.collections[0].U > 0)
+    assert [float(ring.get_xdata()[0]) for ring in first.lines] == [1, 2] and not second.lines
