@@ -1,1 +1,1 @@
-"""Experiments, figures and sentences of chapter 3: decision processes, ensembles, hybrid reward."""
+"""The toy systems of chapter 3, and its figures."""

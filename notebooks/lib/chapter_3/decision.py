@@ -17,7 +17,6 @@ from lib.shared.tabular import Rates, exploring_action, learn_q
 from neorl import checks
 from neorl.core.kernel import execute, kernel
 from neorl.core.stream import new_stream, randint, uniform
-from neorl.evidence.statistics import estimate
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,10 +40,9 @@ class Process:
         for name in ("successors", "starts"):
             states = getattr(self, name)
             if states.min() < 0 or states.max() >= self.states:
-                raise ValueError(f"{name} lie from {states.min()} to {states.max()}, allowed are states from 0 to "
-                                 f"{self.states - 1}")
+                raise checks.error(name, f"states from 0 to {self.states - 1}", states)
         if not np.isclose(np.sum(self.chances), 1):
-            raise ValueError(f"chances add up to {np.sum(self.chances)}, allowed is 1")
+            raise checks.error("chances", "probabilities that add up to 1", self.chances)
 
     @property
     def states(self):
@@ -164,19 +162,6 @@ def policy_iteration(probability, reward, discount, sweeps):
             return stages
 
 
-def iterations_until(losses, limit):
-    """The number of iterations until a loss is first below a limit.
-
-    losses: of each `Stage` of `policy_iteration`, (stages,), of which one after an iteration is below the limit.
-    """
-    return next(iteration for iteration, loss in enumerate(losses[::2]) if loss < limit)
-
-
-def sweeps_until_stable(probability, reward, discount, sweeps):
-    """The number of sweeps of `policy_iteration` in all, with ``sweeps`` for each evaluation."""
-    return sweeps * (len(policy_iteration(probability, reward, discount, sweeps)) // 2)
-
-
 def plan(probability, reward, discount, sweeps=200):
     """The best action values, by sweeps of the Bellman optimality equation: float64 (…, states, actions).
 
@@ -191,8 +176,8 @@ def plan(probability, reward, discount, sweeps=200):
     return q
 
 
-class Lives(NamedTuple):
-    """The steps and the action values of learners, with states as they see them (``seen`` of `live`).
+class Experience(NamedTuple):
+    """The steps and the action values of learners, with states as they see them (``seen`` of `simulate`).
 
     A step leads from states_tm1 by actions to states_t, and pays rewards, each (runs, steps).
     """
@@ -216,7 +201,7 @@ class ProcessArrays(NamedTuple):
 
 
 class Path(NamedTuple):
-    """The part of `Lives` that a kernel fills in, each (steps,)."""
+    """The part of an `Experience` that a kernel fills in, each (steps,)."""
 
     states_tm1: np.ndarray
     actions: np.ndarray
@@ -224,8 +209,8 @@ class Path(NamedTuple):
     states_t: np.ndarray
 
 
-def live(process, checkpoints, runs, seed, seen=None, learning_rate=0.0, discount=0.9, exploration=1.0):
-    """Run Q-learners, each in its own copy of a process: `Lives` up to the last checkpoint.
+def simulate(process, checkpoints, runs, seed, seen=None, learning_rate=0.0, discount=0.9, exploration=1.0):
+    """Run Q-learners, each in its own copy of a process: their `Experience` up to the last checkpoint.
 
     checkpoints: the numbers of steps after which to keep a copy of q, rising. seen: what a learner sees of each state,
     integers (states,) from 0; by default the state. learning_rate: an action taken for the n-th time in a state is
@@ -240,24 +225,24 @@ def live(process, checkpoints, runs, seed, seen=None, learning_rate=0.0, discoun
     seen = np.arange(process.states) if seen is None else np.asarray(seen)
     rates = Rates(checks.real("learning_rate", learning_rate, 0, 1), checks.real("discount", discount, 0, 1),
                   checks.real("exploration", exploration, 0, 1))
-    lives = Lives(*(np.zeros((runs, steps[-1]), kind) for kind in (np.int16, np.int8, np.float32, np.int16)),
-                  np.zeros((runs, len(checkpoints), seen.max() + 1, process.actions)))
+    experience = Experience(
+        *(np.zeros((runs, steps[-1]), kind) for kind in (np.int16, np.int8, np.float32, np.int16)),
+        np.zeros((runs, len(checkpoints), seen.max() + 1, process.actions)))
     table = ProcessArrays(process.successors, np.cumsum(process.chances)[:-1], process.rewards, process.ends,
-                          process.starts,
-                  seen)
+                          process.starts, seen)
     for run in range(runs):
         stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run,)))
-        q, visits = np.zeros(lives.q.shape[2:]), np.zeros(lives.q.shape[2:])
+        q, visits = np.zeros(experience.q.shape[2:]), np.zeros(experience.q.shape[2:])
         state = process.starts[execute(randint, stream, len(process.starts))]
         for checkpoint, (begin, end) in enumerate(zip(steps, steps[1:])):
-            path = Path(*(each[run, begin:end] for each in lives[:4]))
-            state = execute(_live_on, table, rates, state, q, visits, stream, path)
-            lives.q[run, checkpoint] = q
-    return lives
+            path = Path(*(each[run, begin:end] for each in experience[:4]))
+            state = execute(_run_on, table, rates, state, q, visits, stream, path)
+            experience.q[run, checkpoint] = q
+    return experience
 
 
 @kernel
-def _live_on(table, rates, state, q, visits, stream, path):
+def _run_on(table, rates, state, q, visits, stream, path):
     """Take as many steps as the path has room for, and return the state after the last."""
     seen, limits = table.seen, table.limits
     for step in range(path.rewards.shape[0]):
@@ -275,55 +260,46 @@ def _live_on(table, rates, state, q, visits, stream, path):
     return state
 
 
-def count_transitions(lives, steps):
+def count_transitions(experience, steps):
     """The number of transitions from each state by each action to each state: int64 (runs, states, actions, states).
 
-    lives: of `live`. steps: how many are counted, from the first.
+    experience: of `simulate`. steps: how many are counted, from the first.
     """
-    runs, _, states, actions = lives.q.shape
-    pairs, following = _pairs(lives, steps), lives.states_t[:, :steps].ravel()
+    runs, _, states, actions = experience.q.shape
+    pairs, following = _pairs(experience, steps), experience.states_t[:, :steps].ravel()
     counts = np.bincount(pairs * states + following, minlength=runs * states * actions * states)
     return counts.reshape(runs, states, actions, states)
 
 
-def learned_model(lives, steps):
+def learned_model(experience, steps):
     """The model of a process learned from its first `steps` steps, as `Process.expected` has it, for each run.
 
     The shares of each next state, float64 (runs, states, actions, states), and the mean rewards, (runs, states,
     actions). Both are 0 for actions never tried.
     """
-    counts = count_transitions(lives, steps)
+    counts = count_transitions(experience, steps)
     tried = np.maximum(counts.sum(axis=-1), 1)
-    paid = np.bincount(_pairs(lives, steps), weights=lives.rewards[:, :steps].ravel(), minlength=tried.size)
+    paid = np.bincount(_pairs(experience, steps), weights=experience.rewards[:, :steps].ravel(), minlength=tried.size)
     return counts / tried[..., None], paid.reshape(tried.shape) / tried
 
 
-def model_filling(filled, entries, pairs):
-    """The non-zero entries of models' tables: their mean percentage, and their number per pair of state and action.
-
-    filled, entries, pairs: (runs,), the numbers of entries of a table that differ from 0, of all its entries, and of
-    the pairs that they belong to. The number per pair is an `Estimate`.
-    """
-    return 100 * (filled / entries).mean(), estimate(np.mean, filled / pairs)
-
-
-def first_visits(lives):
+def first_visits(experience):
     """The step, from 1, at which each run first takes each action in each state: int64 (runs, states, actions).
 
     It is 0 for actions never tried.
     """
-    runs, steps = lives.actions.shape
-    first = np.zeros((runs, *lives.q.shape[2:]), int)
-    backwards = _pairs(lives, steps)[::-1]  # of several visits the last one written remains
+    runs, steps = experience.actions.shape
+    first = np.zeros((runs, *experience.q.shape[2:]), int)
+    backwards = _pairs(experience, steps)[::-1]  # of several visits the last one written remains
     first.ravel()[backwards] = np.tile(np.arange(steps, 0, -1), runs)
     return first
 
 
-def _pairs(lives, steps):
+def _pairs(experience, steps):
     """Run, state and action of each step as one number, (runs * steps,)."""
-    runs, _, states, actions = lives.q.shape
+    runs, _, states, actions = experience.q.shape
     run = np.arange(runs)[:, None] * states
-    return ((run + lives.states_tm1[:, :steps]) * actions + lives.actions[:, :steps]).ravel()
+    return ((run + experience.states_tm1[:, :steps]) * actions + experience.actions[:, :steps]).ravel()
 
 
 def time_to(good, checkpoints):

@@ -10,7 +10,7 @@ them have to be distinguished, by what follows them.
 
 import numpy as np
 
-from lib.chapter_3.decision import Process, live, policy_values
+from lib.chapter_3.decision import Process
 from neorl import checks
 
 RULES = {
@@ -69,19 +69,6 @@ def states_needed(following, outcome):
         label = finer
 
 
-def unlumpable(memories, least):
-    """The rules by which no two histories of two symbols can be lumped, for any memory.
-
-    memories: int64 (points,). least: {rule: [`states_needed` for each of memories]}.
-    """
-    return [rule for rule, states in least.items() if np.array_equal(states, 2**memories)]
-
-
-def memory_for(power):
-    """The memory with which two symbols have 10 ** power histories."""
-    return power / np.log10(2)
-
-
 def mechanism(alphabet, memory, rule, seed=0):
     """A `Process` whose states are histories; the action is the outcome that the agent names. It never ends.
 
@@ -105,17 +92,7 @@ def window(alphabet, memory, length):
     return np.arange(alphabet**memory) % alphabet**length
 
 
-def hits(lives, alphabet, memory, rule, length, seed=0):
-    """The share of histories whose outcome the greedy action names: float64 (runs, checkpoints), from 0 to 1.
-
-    lives: of learners that see a `window` of that length in the mechanism, from
-        `lib.chapter_3.decision.live`.
-    """
-    named = lives.q.argmax(axis=-1)[..., window(alphabet, memory, length)]
-    return (named == outcomes(alphabet, memory, rule, seed)).mean(axis=-1)
-
-
-def sticky(next_state, worth, stickiness, starts=None):
+def sticky(next_state, worth, stickiness):
     """`lib.chapter_3.decision.reaching`, but with probability `stickiness` the last action is repeated.
 
     Its states are pairs: state · actions + the last action. An episode starts as after any action. An agent that does
@@ -130,23 +107,5 @@ def sticky(next_state, worth, stickiness, starts=None):
     successors = np.stack([chosen, again], axis=2)
     value, ends = np.zeros(states), np.isin(np.arange(states), list(worth))
     value[list(worth)] = list(worth.values())
-    starts = np.flatnonzero(~ends) if starts is None else np.array(starts)
     return Process(successors, np.array([1 - stickiness, stickiness]), value[successors // actions], ends[state],
-                   (starts[:, None] * actions + np.arange(actions)).ravel())
-
-
-def shares_by_floor(process, best, floors, steps, runs, seed, discount):
-    """The share of the best return that Q-learners earn in a `sticky` process, without the last action and with it.
-
-    best: the best return, on average over starts. floors: the least learning rates.
-    steps, runs, seed, discount: as in `lib.chapter_3.decision.live`.
-    Returns {floor: [float64 (runs,), float64 (runs,)]}.
-    """
-    pairs = np.arange(process.states)
-
-    def share(floor, seen):
-        lived = live(process, [steps], runs, seed, seen, learning_rate=floor, discount=discount)
-        chosen = lived.q[:, -1].argmax(axis=-1)[:, seen]
-        return policy_values(process, chosen, discount)[:, process.starts].mean(axis=-1) / best
-
-    return {floor: [share(floor, seen) for seen in (pairs // process.actions, pairs)] for floor in floors}
+                   np.flatnonzero(~ends[state]))
