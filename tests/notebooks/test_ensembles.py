@@ -2,14 +2,11 @@
 
 import numpy as np
 import pytest
-from matplotlib import pyplot as plt
 from scipy import stats
 
-from lib.chapter_3 import ensembles, hybrid_reward_figures
-from lib.chapter_3.ensembles import (CHOOSERS, DYNA, LEARNERS, ROOMS, GridMaze, best_reward,
-                                                      run_ensemble)
+from lib.chapter_3 import ensembles
+from lib.chapter_3.ensembles import CHOOSERS, DYNA, LEARNERS, GridMaze, best_reward, run_ensemble
 from neorl.core.kernel import execute
-from neorl.drawing.style import CURVES, INK
 from neorl.evidence.statistics import estimate
 
 
@@ -166,14 +163,3 @@ def test_single_learners_earn_the_reported_rewards():
 def test_a_bad_argument_is_refused(make, message):
     with pytest.raises(ValueError, match=message):
         make()
-
-
-def test_finals_are_drawn_as_dots():
-    made = {name: {each: run_ensemble(maze, each, steps=400, runs=3) for each in ("Sarsa", "rank voting")}
-            for name, maze in {"small": DYNA, "rooms": ROOMS}.items()}
-    hybrid_reward_figures.draw_finals(made, {"small": 5.0, "rooms": 4.0})
-    for axes, by_name in zip(plt.gcf().axes, made.values()):
-        dots = [line for line in axes.lines if line.get_marker() == "o"]
-        assert [dot.get_xdata()[0] for dot in dots] == pytest.approx([each[:, -1].mean() for each in by_name.values()])
-        assert [dot.get_color() for dot in dots] == [INK, CURVES[0]]
-    assert [label.get_text() for label in plt.gcf().axes[0].get_yticklabels()] == ["Sarsa", "rank voting"]

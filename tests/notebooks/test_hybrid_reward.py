@@ -5,14 +5,12 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from matplotlib import pyplot as plt
 
-from lib.chapter_3 import hybrid_reward, hybrid_reward_figures
+from lib.chapter_3 import hybrid_reward
 from lib.chapter_3.hybrid_reward import KINDS, Game, Learner, play, settled_values
 from lib.shared.grid import Grid
 from neorl.core.kernel import execute
 from neorl.core.stream import new_stream
-from neorl.drawing.style import CURVES
 from neorl.evidence.statistics import probability_of_improvement
 
 JUNCTION = Grid(("o.....o", "###.###", "###.###", "###o###"))
@@ -82,6 +80,7 @@ def test_the_game_and_its_learners_are_what_the_rules_say(game, kind):
     learner = Learner(kind, learning_rate=0.3, discount=0.7, exploration=0.3)
     rewards, ends, known = plainly(game, learner, 2_000, seed=4, run=1)
     played = play(game, learner, steps=2_000, runs=2, seed=4)
+    assert list(played.edges[-2:]) == [1_600, 2_000]  # the last bin is the last fifth
     sums = np.add.reduceat(rewards, played.edges[:-1])
     np.testing.assert_allclose(played.rewards[1], 100 * sums / np.diff(played.edges))
     assert [int(n) for n in played.ends[1].sum(axis=0)] == [ends.count(end) for end in hybrid_reward.ENDS]
@@ -99,18 +98,6 @@ def test_states_are_counted():
     cells, sets = 8, [each for n in range(3) for each in combinations(SMALL.places, n)]
     assert SMALL.states("one learner") == cells * cells * len(sets)
     assert SMALL.states("heads") == SMALL.states("latent heads") == 2 * cells + cells * cells
-
-
-def test_each_further_concern_doubles_the_states_of_one_learner_but_not_of_heads():
-    game = Game()
-    fewer = hybrid_reward.times_fewer(game.grid.states, len(game.places))
-    assert fewer == game.states("one learner") / game.states("heads")
-    assert hybrid_reward.times_fewer(10, 2) == 400 / 120 and hybrid_reward.times_fewer(10, 3) == 800 / 130
-
-
-def test_the_last_bin_is_the_last_fifth():
-    edges = play(SMALL, Learner("heads"), steps=10_000, runs=1).edges
-    assert edges[0] == 0 and list(edges[-2:]) == [8_000, 10_000] and np.all(np.diff(edges) > 0)
 
 
 def test_every_set_of_places_is_equally_likely_to_hold_the_fruits():
@@ -160,42 +147,14 @@ def test_heads_learn_faster_than_one_learner():
 
 
 @pytest.mark.parametrize("make, message", [
-    (lambda: Game(rows=("a.o",)), "rows is .* one a, one g and at least one o"),
-    (lambda: Game(rows=("aag", "ooo")), "one a, one g"), (lambda: Game(rows=("a.g",)), "at least one o"),
+    (lambda: Game(rows=("a.o",)), "rows must be a grid with one a, one g and at least one o"),
+    (lambda: Game(rows=("a.g",)), "at least one o"),
     (lambda: Game(fruits=9), "fruits must be an integer from 1 to 8, but is 9"),
-    (lambda: Game(chase=1.5), "chase must be .*, but is 1.5"), (lambda: Game(limit=0), "limit must be .*, but is 0"),
     (lambda: Learner("two"), "kind must be 'one learner', 'heads' or 'latent heads', but is 'two'"),
-    (lambda: Learner("one learner", discount=2), "discount must be .*, but is 2"),
-    (lambda: play("pacman", Learner("one learner"), steps=1_000, runs=1), "game must be a Game, but is 'pacman'"),
-    (lambda: play(Game(), "one", steps=1_000, runs=1), "learner must be a Learner, but is 'one'"),
-    (lambda: play(Game(), Learner("one learner"), steps=999, runs=1), "steps must be .*, but is 999"),
-    (lambda: play(Game(), Learner("one learner"), steps=1_000, runs=0), "runs must be .*, but is 0"),
-    (lambda: play(Game(), Learner("one learner"), steps=1_000, runs=1, seed=-1), "seed must be .*, but is -1"),
+    (lambda: play("pacman", Learner("heads"), steps=1_000, runs=1), "game must be a Game, but is 'pacman'"),
+    (lambda: play(Game(), Learner("heads"), steps=999, runs=1), "steps must be .*, but is 999"),
     (lambda: settled_values(Game().grid, 37, 0.5), "place must be an integer from 0 to 36, but is 37"),
-    (lambda: settled_values(Game().grid, 0, 2), "discount must be .*, but is 2"),
 ])
 def test_a_bad_argument_is_refused(make, message):
     with pytest.raises(ValueError, match=message):
         make()
-
-
-def test_the_board_fills_as_many_places_as_hold_a_fruit():
-    hybrid_reward_figures.draw_game(Game(fruits=3))
-    circles = [patch for patch in plt.gca().patches if isinstance(patch, hybrid_reward_figures.Circle)]
-    fruits = [patch for patch in circles if patch.radius == 0.24]
-    assert len(fruits) == 8 and sum(patch.get_facecolor()[3] == 1 for patch in fruits) == 3
-
-
-def test_scores_are_drawn_as_means_over_runs():
-    played = {kind: play(SMALL, Learner(kind), steps=1_000, runs=3) for kind in KINDS}
-    hybrid_reward_figures.draw_scores(played)
-    for line, kind, colour in zip(plt.gca().lines, KINDS, CURVES):
-        np.testing.assert_allclose(line.get_ydata(), played[kind].rewards.mean(axis=0))
-        assert line.get_color() == colour and line.get_xdata()[-1] == 1_000
-    assert {text.get_text() for text in plt.gca().texts} == set(KINDS)
-
-
-def test_the_junction_shows_where_the_sum_leads():
-    hybrid_reward_figures.draw_junction(JUNCTION, (0.4, 0.9))
-    free, held = (axes.collections[0] for axes in plt.gcf().axes)
-    assert (len(free.U), len(held.U)) == (9, 7)  # three best actions lead out of the junction, or a single one stays

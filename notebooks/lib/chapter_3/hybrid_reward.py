@@ -58,7 +58,7 @@ class Game:
 
     def __post_init__(self):
         if [len(self.grid.marked(mark)) for mark in "ag"] != [1, 1] or not self.places:
-            raise ValueError(f"rows is {self.rows!r}, allowed are grids with one a, one g and at least one o")
+            raise checks.error("rows", "a grid with one a, one g and at least one o", self.rows)
         checks.integer("fruits", self.fruits, at_least=1, at_most=len(self.places))
         checks.real("chase", self.chase, 0, 1)
         checks.integer("limit", self.limit, at_least=1)
@@ -75,12 +75,8 @@ class Game:
 
     def states(self, kind):
         """The number of states of a learner of a kind (one of `KINDS`), over all its heads."""
-        return _states(kind, self.grid.states, len(self.places))
-
-
-def times_fewer(cells, places):
-    """The factor by which heads have fewer states than one learner, in a game of so many cells and places."""
-    return _states("one learner", cells, places) / _states("heads", cells, places)
+        cells, places = self.grid.states, len(self.places)
+        return cells**2 * 2**places if kind == "one learner" else cells * places + cells**2
 
 
 @dataclass(frozen=True)
@@ -166,10 +162,6 @@ def settled_values(grid, place, discount):
     checks.real("discount", discount, 0, 1)
     distance, _ = _shortest_ways(grid)
     return discount ** checks.finite("distance to place", distance[place])[grid.next_state]
-
-
-def _states(kind, cells, places):
-    return cells**2 * 2**places if kind == "one learner" else cells * places + cells**2
 
 
 class _Board(NamedTuple):
