@@ -9,7 +9,6 @@ from page_cells import defined
 
 from lib.chapter_3 import decision
 from lib.shared.grid import Grid
-from lib.shared.wording import table
 from neorl.evidence.statistics import estimate
 
 MAZE = Grid(("....", ".#..", "...G"))
@@ -153,8 +152,7 @@ def test_the_time_to_something_is_its_first_checkpoint():
 
 
 def test_the_page_fits_the_factor_of_growth_from_the_second_point_on():
-    none = {"Markdown": str, "table": table, "covering": {}, "learning": {}}
-    growth = defined("chapter_3", "growth", np=np, estimate=estimate, **none).growth
+    growth = defined("chapter_3", "growth", np=np, estimate=estimate).growth
     xs, needed = np.arange(1, 5), np.array([7.0 * 3.0 ** np.arange(1, 5), 2.0 * 5.0 ** np.arange(1, 5)])
     needed[:, 0] = 1e6
     assert growth(xs, needed).value == pytest.approx(4)  # the mean of 3 and 5

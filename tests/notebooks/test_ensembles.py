@@ -5,9 +5,12 @@ import pytest
 from scipy import stats
 
 from lib.chapter_3 import ensembles
-from lib.chapter_3.ensembles import CHOOSERS, DYNA, LEARNERS, GridMaze, best_reward, run_ensemble
+from lib.chapter_3.ensembles import CHOOSERS, LEARNERS, best_reward, run_ensemble
+from lib.shared.grid import Grid
 from neorl.core.kernel import execute
 from neorl.evidence.statistics import estimate
+
+SMALL = Grid((".......#G", "..#....#.", "S.#....#.", "..#......", ".....#...", "........."))  # of the page
 
 
 def softmax(values):
@@ -21,7 +24,7 @@ class Plainly:
     def __init__(self, maze, chooser, doublings, seed, run):
         self.draw = np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=(run,)))).random
         self.maze, self.chooser, self.power = maze, chooser, 2.0**doublings
-        n = maze.grid.states
+        (self.start,), (self.goal,), n = maze.marked("S"), maze.marked("G"), maze.states
         self.p = {name: np.full((n, 4), 0.25 if name == "ACLA" else 0.0) for name in LEARNERS}
         self.v = {name: np.zeros(n) for name in LEARNERS[2:]}
 
@@ -77,15 +80,15 @@ class Plainly:
             p["ACLA"][s] += 0.005 * (np.minimum(aim, 1) - was)
 
     def rewards(self, steps):
-        made, state, age = [], self.maze.start, 0
+        made, state, age = [], self.start, 0
         action = self.choice(state)
         for _ in range(steps):
             moved = int(self.draw() * 4) if self.draw() < 0.2 else action
-            after, age = int(self.maze.grid.next_state[state, moved]), age + 1
-            end = after == self.maze.goal
+            after, age = int(self.maze.next_state[state, moved]), age + 1
+            end = after == self.goal
             made.append(100 if end else -2 if after == state else -0.1)
             begins = end or age == 1_000
-            from_here = self.maze.start if begins else after
+            from_here = self.start if begins else after
             next_action = self.choice(from_here)
             self.learn(state, action, made[-1], after, next_action, end)
             state, action, age = from_here, next_action, 0 if begins else age
@@ -95,20 +98,20 @@ class Plainly:
 @pytest.mark.parametrize("chooser", CHOOSERS)
 @pytest.mark.parametrize("doublings", [0, 2, -1])
 def test_learners_and_rules_are_what_the_paper_says(chooser, doublings):
-    made = Plainly(DYNA, chooser, doublings, seed=6, run=1).rewards(1_000)
-    walked = run_ensemble(DYNA, chooser, steps=1_000, runs=2, seed=6, doublings=doublings)
+    made = Plainly(SMALL, chooser, doublings, seed=6, run=1).rewards(1_000)
+    walked = run_ensemble(SMALL, chooser, steps=1_000, runs=2, seed=6, doublings=doublings)
     np.testing.assert_allclose(walked[1], made.reshape(20, -1).mean(axis=1))
 
 
 def test_a_walk_that_does_not_arrive_starts_over():
     """The goal is so far that the walk mostly reaches the limit of steps first, and starts over."""
-    made = Plainly(far := GridMaze(("S" + 30 * "." + "G",)), "chance", 0, seed=1, run=0).rewards(3_000)
+    made = Plainly(far := Grid(("S" + 30 * "." + "G",)), "chance", 0, seed=1, run=0).rewards(3_000)
     np.testing.assert_allclose(run_ensemble(far, "chance", steps=3_000, runs=1, seed=1)[0],
                                made.reshape(20, -1).mean(axis=1))
 
 
 def test_a_life_is_the_same_alone_and_among_others():
-    alone, among = (run_ensemble(DYNA, "Sarsa", steps=1_000, runs=runs, seed=2) for runs in (1, 3))
+    alone, among = (run_ensemble(SMALL, "Sarsa", steps=1_000, runs=runs, seed=2) for runs in (1, 3))
     np.testing.assert_array_equal(alone[0], among[0])
     assert np.any(among[1] != among[0])
 
@@ -119,45 +122,29 @@ def test_the_exponential_function_is_that_of_numpy():
     assert execute(ensembles._exponential, 0.0) == 1 and execute(ensembles._exponential, -1e9) == 0
 
 
-def test_finals_are_those_of_runs_with_greediness_halved_unchanged_and_doubled():
-    finals = ensembles.final_by_greediness(DYNA, steps=200, runs=2, seed=3)
-    assert tuple(finals) == ensembles.RULES
-    for final, doublings in zip(finals["rank voting"], (-1, 0, 1), strict=True):
-        lived = run_ensemble(DYNA, "rank voting", steps=200, runs=2, seed=3, doublings=doublings)
-        np.testing.assert_array_equal(final, lived[:, -1])
-
-
-def test_an_action_on_which_learners_agree_has_the_probability_that_greediness_gives_it():
-    assert ensembles.agreement("majority voting") == pytest.approx(softmax(1.6 * np.array([5, 0, 0, 0]))[0])
-    assert ensembles.agreement("rank voting") == pytest.approx(softmax(0.6 * 5 * np.array([4, 3, 2, 1]))[0])
-
-
 def test_the_best_reward_in_a_corridor_is_known():
     """With one way to go, 85 % of steps lead ahead and 5 % back; 10 %, and any step out of the corridor, hit a wall."""
-    assert best_reward(GridMaze(("SG",))) == pytest.approx(0.85 * 100 - 0.15 * 2)
+    assert best_reward(Grid(("SG",))) == pytest.approx(0.85 * 100 - 0.15 * 2)
     ahead, back = 0.85, 0.05  # S takes 1/p steps, the next cell 1/p + q/p²: a step back costs both
     steps = 1 / ahead + (1 + back / ahead) / ahead
     bumps = 0.15 * (1 + back / ahead) / ahead + 0.10 / ahead
-    assert best_reward(GridMaze(("S.G",))) == pytest.approx((100 - 2 * bumps - 0.1 * (steps - bumps - 1)) / steps)
+    assert best_reward(Grid(("S.G",))) == pytest.approx((100 - 2 * bumps - 0.1 * (steps - bumps - 1)) / steps)
 
 
 def test_single_learners_earn_the_reported_rewards():
     """A student reimplementation reports 5.20, 5.20, 5.21, 5.21 and 5.18 with standard deviations of 0.14 to 0.20."""
-    best, chance = best_reward(DYNA), run_ensemble(DYNA, "chance", steps=50_000, runs=5)[:, -1]
+    best, chance = best_reward(SMALL), run_ensemble(SMALL, "chance", steps=50_000, runs=5)[:, -1]
     for learner, reported in zip(LEARNERS, (5.20, 5.20, 5.21, 5.21, 5.18)):
-        value, low, high = estimate(np.mean, run_ensemble(DYNA, learner, steps=50_000, runs=20)[:, -1])
+        value, low, high = estimate(np.mean, run_ensemble(SMALL, learner, steps=50_000, runs=20)[:, -1])
         assert chance.max() < 0 < low and abs(value - reported) < 0.15 and value < best
 
 
 @pytest.mark.parametrize("make, message", [
-    (lambda: GridMaze(("S..",)), "rows is .* one S and one G"), (lambda: GridMaze(("SSG",)), "one S and one G"),
-    (lambda: run_ensemble("maze", "Sarsa", steps=100, runs=1), "maze must be a GridMaze, but is 'maze'"),
-    (lambda: run_ensemble(DYNA, "SARSA", steps=100, runs=1), "chooser must be 'Q-learning', 'Sarsa', 'actor–critic',"),
-    (lambda: run_ensemble(DYNA, "Sarsa", steps=19, runs=1), "steps must be .*, but is 19"),
-    (lambda: run_ensemble(DYNA, "Sarsa", steps=100, runs=0), "runs must be .*, but is 0"),
-    (lambda: run_ensemble(DYNA, "Sarsa", steps=100, runs=1, seed=-1), "seed must be .*, but is -1"),
-    (lambda: ensembles.agreement("Sarsa"), "rule must be 'majority voting' or 'rank voting', but is 'Sarsa'"),
-    (lambda: run_ensemble(DYNA, "Sarsa", steps=100, runs=1, doublings=6),
+    (lambda: best_reward(Grid(("SSG",))), "maze must be a grid with one S and one G"),
+    (lambda: run_ensemble("maze", "Sarsa", steps=100, runs=1), "maze must be a Grid, but is 'maze'"),
+    (lambda: run_ensemble(SMALL, "SARSA", steps=100, runs=1), "chooser must be 'Q-learning', 'Sarsa', 'actor–critic',"),
+    (lambda: run_ensemble(SMALL, "Sarsa", steps=19, runs=1), "steps must be .*, but is 19"),
+    (lambda: run_ensemble(SMALL, "Sarsa", steps=100, runs=1, doublings=6),
      "doublings must be an integer from -5 to 5, but is 6"),
 ])
 def test_a_bad_argument_is_refused(make, message):

@@ -19,8 +19,6 @@ exp(greediness × preference). The rules:
 """
 
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -45,77 +43,32 @@ LIMIT, BINS = 1_000, 20
 SQUARINGS = 10  # of exp(x / 1024)
 
 
-@dataclass(frozen=True)
-class GridMaze:
-    """A maze: rows of a grid that mark one start, "S", and one goal, "G".
-
-    Raises ValueError for anything else.
-    """
-
-    rows: tuple[str, ...]
-
-    def __post_init__(self):
-        if [len(self.grid.marked(mark)) for mark in "SG"] != [1, 1]:
-            raise ValueError(f"rows is {self.rows!r}, allowed are grids with one S and one G")
-
-    @cached_property
-    def grid(self):
-        """The `Grid` of the maze."""
-        return Grid(self.rows)
-
-    @property
-    def start(self):
-        """The start state."""
-        return self.grid.marked("S")[0]
-
-    @property
-    def goal(self):
-        """The goal state."""
-        return self.grid.marked("G")[0]
-
-
-DYNA = GridMaze((".......#G",  # Sutton's Dyna maze, the small one of the paper
-             "..#....#.",
-             "S.#....#.",
-             "..#......",
-             ".....#...",
-             "........."))
-ROOMS = GridMaze(("S....#.....",  # Sutton, Precup and Singh's (1999)
-              ".....#.....",
-              "...........",
-              ".....#.....",
-              ".....#.....",
-              "#.####.....",
-              ".....###.##",
-              ".....#.....",
-              ".....#.....",
-              "...........",
-              ".....#....G"))
-
-
 def best_reward(maze):
-    """The highest reward per step of any policy in the long run, by policy iteration (Howard 1960)."""
-    n = maze.grid.states
-    following = maze.grid.transitions(SLIP)
+    """The highest reward per step of any policy in the long run, by policy iteration (Howard 1960).
+
+    maze: as in `run_ensemble`. Raises ValueError for anything else.
+    """
+    (start, goal), n = _ends(maze), maze.states
+    following = maze.transitions(SLIP)
     bumps = np.einsum("sas->sa", following)  # the probability of staying
-    reward = STEP + (BUMP - STEP) * bumps + (GOAL - STEP) * following[:, :, maze.goal]
-    following[:, :, maze.start] += following[:, :, maze.goal]  # arrival leads back to the start
-    following[:, :, maze.goal] = 0
+    reward = STEP + (BUMP - STEP) * bumps + (GOAL - STEP) * following[:, :, goal]
+    following[:, :, start] += following[:, :, goal]  # arrival leads back to the start
+    following[:, :, goal] = 0
     each, policy, before = np.arange(n), np.zeros(n, int), None
     while before is None or np.any(policy != before):
         # The gain takes the place of the start's value, which is 0.
         equations = np.eye(n) - following[each, policy]
-        equations[:, maze.start] = 1
+        equations[:, start] = 1
         value = np.linalg.solve(equations, reward[each, policy])
-        gain, value[maze.start] = value[maze.start], 0
+        gain, value[start] = value[start], 0
         worth = reward + following @ value
         better = worth.max(axis=1) > worth[each, policy] + 1e-9
         before, policy = policy, np.where(better, worth.argmax(axis=1), policy)
     return float(gain)
 
 
-class GridMazeArrays(NamedTuple):
-    """A `GridMaze` as the kernel takes it."""
+class Maze(NamedTuple):
+    """A maze as the kernel takes it."""
 
     next_state: np.ndarray
     start: int
@@ -125,51 +78,39 @@ class GridMazeArrays(NamedTuple):
 def run_ensemble(maze, chooser, *, steps, runs, seed=0, doublings=0):
     """Reward per step in each twentieth of ``runs`` runs of ``steps`` steps: float64 (runs, 20).
 
-    maze: a `GridMaze`. chooser: of actions, one of `CHOOSERS`: a learner alone, a rule for all five, or chance.
-    steps: ≥ 20. doublings: how often the chooser's greediness is doubled, or halved if negative, from −5 to 5.
-    Run k is the same for any number of runs.
+    maze: a `Grid` that marks one start, "S", and one goal, "G". chooser: of actions, one of `CHOOSERS`: a learner
+    alone, a rule for all five, or chance. steps: ≥ 20. doublings: how often the chooser's greediness is doubled, or
+    halved if negative, from −5 to 5. Run k is the same for any number of runs.
     Raises ValueError for a bad argument.
     """
-    checks.instance("maze", maze, GridMaze)
+    start, goal = _ends(maze)
     checks.one_of("chooser", chooser, CHOOSERS)
     checks.integer("steps", steps, at_least=BINS)
     checks.integer("runs", runs, at_least=1)
     checks.integer("seed", seed, at_least=0)
     checks.integer("doublings", doublings, at_least=-5, at_most=5)
     edges = np.linspace(0, steps, BINS + 1).astype(int)
-    rewards, states = np.zeros((runs, BINS)), maze.grid.states
-    table = GridMazeArrays(maze.grid.next_state, maze.start, maze.goal)
+    table, rewards = Maze(maze.next_state, start, goal), np.zeros((runs, BINS))
 
     def run_one(run):
-        preferences = np.zeros((len(LEARNERS), states, 4))
+        preferences = np.zeros((len(LEARNERS), maze.states, 4))
         preferences[-1] = 1 / 4
         stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run,)))
         execute(_run, table, CHOOSERS.index(chooser), doublings, edges, stream, preferences,
-                np.zeros((len(LEARNERS), states)), np.zeros(4), np.zeros(4), rewards[run])
+                np.zeros((len(LEARNERS), maze.states)), np.zeros(4), np.zeros(4), rewards[run])
 
     with ThreadPoolExecutor(2) as pool:
         list(pool.map(run_one, range(runs)))
     return rewards / np.diff(edges)
 
 
-def final_by_greediness(maze, *, steps, runs, seed=0):
-    """Reward per step in the last twentieth of runs, with a rule's greediness halved, unchanged and doubled.
-
-    maze, steps, runs, seed: as in `run_ensemble`. Returns {rule: [float64 (runs,), …]}.
-    """
-    return {rule: [run_ensemble(maze, rule, steps=steps, runs=runs, seed=seed, doublings=doublings)[:, -1]
-                   for doublings in (-1, 0, 1)] for rule in RULES}
-
-
-def agreement(rule):
-    """The probability that a vote selects the action that all learners prefer, if they rank all actions alike.
-
-    rule: "majority voting" or "rank voting". Raises ValueError for any other.
-    """
-    ballots = {"majority voting": (1, 0, 0, 0), "rank voting": (4, 3, 2, 1)}  # of one learner
-    checks.one_of("rule", rule, tuple(ballots))
-    weight = np.exp(GREEDINESS[CHOOSERS.index(rule)] * len(LEARNERS) * np.array(ballots[rule]))
-    return float(weight[0] / weight.sum())
+def _ends(maze):
+    """The start and the goal of a maze."""
+    marked = [checks.instance("maze", maze, Grid).marked(mark) for mark in "SG"]
+    if [len(states) for states in marked] != [1, 1]:
+        raise checks.error("maze", "a grid with one S and one G", maze.rows)
+    (start,), (goal,) = marked
+    return start, goal
 
 
 @kernel
