@@ -146,7 +146,7 @@ def test_the_reference_has_types_and_defaults_as_in_code(make_book):
     _, reference = make_book(modules=[f"neorl.{name}" for name in (
         "agents.agent", "agents.papers", "agents.rules", "browser.replay", "checks", "core.maps", "core.scene",
         "drawing.curves\n\n.. autodata:: neorl.core.modality.MOST_CELLS\n   :no-value:")] + [
-            "lib.study.calibration_table", "lib.assumptions"])
+            "lib.study.calibration_table", "lib.study.multiverse"])
     signatures = " ".join(re.findall(r'<dt class="sig[^>]*>(.*?)</dt>', reference, re.DOTALL))
     signatures = " ".join(html.unescape(re.sub(r"<[^>]+>", "", signatures)).split())
     for written in ("learning: Learning = Learning(), policy: Policy = Policy(),", "choose: Callable = greedy)",
@@ -158,7 +158,7 @@ def test_the_reference_has_types_and_defaults_as_in_code(make_book):
         assert written in signatures
     assert not re.search(r"[~<]|Path\(|_Buffer|ndarray", signatures)
     assert "−`" not in reference
-    of_page = " ".join(re.sub(r"<[^>]+>", "", reference.split('id="module-lib.assumptions"')[1]).split())
+    of_page = " ".join(re.sub(r"<[^>]+>", "", reference.split('id="module-lib.study.multiverse"')[1]).split())
     assert "estimated from ENOUGH = 32 readings or more" in of_page  # a constant without an entry
     of_constant = reference.split('id="neorl.core.modality.MOST_CELLS"')[1].split("</dl>")[0]
     assert "2 ** 31 - 1 of a map" in " ".join(re.sub(r"<[^>]+>", "", of_constant).split())

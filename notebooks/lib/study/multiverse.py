@@ -1,12 +1,10 @@
 """The multiverse of readings: all choices that the thesis leaves open, varied jointly, and their effect on the claims.
 
-1. A *reading* fixes every open choice (`neorl.evidence.reading`). Plausible values are stated beforehand, as an
-   independent prior for each choice (`neorl.evidence.priors`). There are two multiverses: within the text of the
-   thesis, and beyond it.
+1. A *reading* fixes every open choice (`neorl.evidence.reading`); each choice has a prior (`neorl.evidence.priors`).
 2. A design is a scrambled Sobol sequence through the priors, so that any power of two of its readings fills the space.
-3. The conditions of all three papers are run under every reading, and judged by the rules of `neorl.evidence.claims`:
-   a claim *holds* if its verdict is "reproduced", is *undecided* if its intervals leave room for it, and *fails*
-   otherwise, also if agents have learned nothing to test it by.
+3. A claim *holds* under a reading if its verdict is "reproduced", is *undecided* if its intervals leave room for it, and
+   *fails* otherwise, also if agents have learned nothing to test it by.
+4. The importance of choices for a claim is estimated from `ENOUGH` readings or more.
 """
 
 from collections.abc import Mapping
@@ -19,10 +17,13 @@ import scipy
 from neorl import checks
 from neorl.evidence.priors import TO_THE_LETTER, WITHIN, Choice
 from neorl.evidence.reading import Reading
+from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.statistics import Estimate, difference, estimate
 from neorl.extras import require
 
 PARTS = 5  # into which a prior without levels is cut; the middle one contains the reading to the letter
+ENOUGH = 32  # readings
+PREDICTED = 0.1  # the least R² at which choices count as predicting the number of a claim
 
 
 def design(points: int, seed: int = 0, choices: Mapping[str, Choice] = WITHIN) -> list[Reading]:
@@ -35,7 +36,7 @@ def design(points: int, seed: int = 0, choices: Mapping[str, Choice] = WITHIN) -
     """
     checks.integer("points", points, at_least=2)
     if points & (points - 1):
-        raise ValueError(f"points is {points}, allowed are powers of two")
+        raise checks.error("points", "a power of two", points)
     seed = checks.integer("seed", seed, at_least=0)
     shares = scipy.stats.qmc.Sobol(len(choices), rng=np.random.default_rng(seed)).random(points)
     return [replace(TO_THE_LETTER, **{name: choice.at(share) for (name, choice), share in zip(choices.items(), row)})
@@ -47,18 +48,26 @@ def outcome(claim):
     return "holds" if claim.outcome == "reproduced" else "undecided" if claim.undecided else "fails"
 
 
-def shares(judged):
+def by_claim(*sweeps):
+    """Claims by name, each under all its readings: {name: [`Claim`, …]}, in the order of the claims.
+
+    sweeps: each a list of {name: `Claim`}, one for each reading.
+    """
+    found = {name: [claims[name] for claims in judged] for judged in sweeps for name in judged[0]}
+    return {name: found[name] for name in STATEMENTS if name in found}
+
+
+def shares(claims):
     """How often each claim holds: {name: {"holds", "undecided", "untestable", "readings"}}, counts of readings.
 
-    judged: {name: `Claim`} for each reading.
+    claims: as `by_claim` returns them.
     """
-    found = {}
-    for name in judged[0]:
-        outcomes = [outcome(claims[name]) for claims in judged]
-        found[name] = {"holds": outcomes.count("holds"), "undecided": outcomes.count("undecided"),
-                       "untestable": sum(claims[name].outcome == "not testable" for claims in judged),
-                       "readings": len(judged)}
-    return found
+    counts = {}
+    for name, found in claims.items():
+        outcomes = [outcome(claim) for claim in found]
+        counts[name] = {"holds": outcomes.count("holds"), "undecided": outcomes.count("undecided"),
+                        "untestable": sum(claim.outcome == "not testable" for claim in found), "readings": len(found)}
+    return counts
 
 
 def held(claims):
@@ -71,49 +80,57 @@ class Support(NamedTuple):
 
     choice: str
     level: str
-    value: object
     is_to_the_letter: bool
     held: float
     lead: Estimate
 
 
-def support(readings, judged, choices=WITHIN):
+def support(readings, judged):
     """A `Support` for each level of each choice, the mean over all readings that have it.
 
-    A choice without levels is cut into fifths of its prior, each with its median as its value. A level that no reading
-    has is left out.
+    A choice without levels is cut into fifths of its prior. A level that no reading has is left out.
     """
     counts = np.array([len(held(claims)) for claims in judged])
     found = []
-    for name, choice in choices.items():
+    for name, choice in WITHIN.items():
         if isinstance(choice.prior, tuple):
-            values = choice.prior
-            levels = list(map(choice.words, values))
-            letter, *at = [values.index(getattr(reading, name)) for reading in [TO_THE_LETTER, *readings]]
+            levels = list(map(choice.words, choice.prior))
+            letter, *at = [choice.prior.index(getattr(reading, name)) for reading in [TO_THE_LETTER, *readings]]
         else:
-            values = [choice.at((part + 0.5) / PARTS) for part in range(PARTS)]
             ends = [choice.words(choice.prior.ppf(part / PARTS)) for part in range(PARTS + 1)]
-            levels = [" … ".join(pair) for pair in zip(ends, ends[1:])]
+            levels = [" … ".join(dict.fromkeys(pair)) for pair in zip(ends, ends[1:])]
             letter, *at = [min(int(PARTS * choice.place(getattr(reading, name))), PARTS - 1)
                            for reading in [TO_THE_LETTER, *readings]]
         at = np.array(at)
-        for level, (value, words) in enumerate(zip(values, levels)):
+        for level, words in enumerate(levels):
             if np.any(at == level) and np.any(at == letter):
                 lead = estimate(difference, counts[at == level], counts[at == letter])
-                found.append(Support(name, words, value, level == letter, counts[at == level].mean(), lead))
+                found.append(Support(name, words, level == letter, counts[at == level].mean(), lead))
     return found
 
 
-def importance(readings, judged, name, choices=WITHIN, seed=0):
+def importances(readings, claims):
+    """The importance of each choice for the number of each claim: ({claim: {choice: importance}}, {claim: R²}).
+
+    readings: [`Reading`, …]. claims: as `by_claim` returns them, each under the first of these readings or all. A claim
+    judged under fewer than `ENOUGH` readings is left out.
+    """
+    found = {name: importance(readings[:len(each)], each) for name, each in claims.items() if len(each) >= ENOUGH}
+    return {name: shares for name, (shares, _) in found.items()}, {name: share for name, (_, share) in found.items()}
+
+
+def importance(readings, claims, seed=0):
     """The importance of each choice for the number of a claim: ({name of the choice: importance}, R²).
 
     A random forest predicts the rank of the number among all readings. The importance of a choice is the loss of R² on
     held-out readings when its values are shuffled (Breiman 2001), the mean over four folds of the readings (fewer if
     there are not two in each); the R² returned is that before shuffling.
+
+    readings: [`Reading`, …]. claims: one and the same under each of them, [`Claim`, …].
     """
-    chosen = [key for key, choice in choices.items() if name[0] in choice.papers]
-    places = np.array([[choices[key].place(getattr(reading, key)) for key in chosen] for reading in readings])
-    ranks = scipy.stats.rankdata([claims[name].here.value for claims in judged]) / len(judged)
+    chosen = {key: choice for key, choice in WITHIN.items() if claims[0].name[0] in choice.papers}
+    places = np.array([[choice.place(getattr(reading, key)) for key, choice in chosen.items()] for reading in readings])
+    ranks = scipy.stats.rankdata([claim.here.value for claim in claims]) / len(claims)
     lost, explained = [], []
     ensemble, inspection, selection = (require(f"sklearn.{each}", extra="book")
                                        for each in ("ensemble", "inspection", "model_selection"))

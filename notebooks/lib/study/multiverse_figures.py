@@ -1,5 +1,5 @@
-"""The figures of the multiverse: the effect of a claim under every reading, the share of readings under which each
-claim holds, and the choices that matter."""
+"""The figures of the multiverse: the outcomes of all claims, the number of one claim under every reading, and the
+choices that matter."""
 
 import re
 from textwrap import fill
@@ -16,60 +16,59 @@ from neorl.evidence.statements import STATEMENTS
 
 COLOURS = {"holds": AGENT, "undecided": RED, "fails": INK}
 UNDECIDED = {"facecolor": (RED, FILL), "edgecolor": RED, "linewidth": 1}  # of bars
+BARS = {"holds": {"color": AGENT}, "undecided": UNDECIDED, "fails": {"facecolor": "none", "edgecolor": INK}}
 DIAMOND = {"color": INK, "marker": "D", "markersize": 6, "linestyle": "none", "markeredgecolor": "white",
            "markeredgewidth": 0.8}  # the edge sets it off from bars
 OUTCOMES = {"holds": "o", "undecided": "D", "fails": "."}  # markers
 SHADES = LinearSegmentedColormap.from_list("shades", [AGENT + "10", AGENT + "ff"])
 ROW = 0.2  # inches
-ABREAST = 3  # small curves per row
 
 
-def draw_specifications(judged, figure=None):
-    """Specification curves of many claims, small and side by side: each claim's estimate under every reading, sorted.
+def draw_outcomes(claims, figure=None):
+    """How many readings give each outcome of each claim, as bars; claims judged under as many readings share a panel.
 
-    Numbers beyond an axis are drawn as in `draw_specification`.
-
-    judged: {name: [`Claim`, …]}, each claim under its readings.
-    figure: a figure or a part of one to fill, by default a new one. Returns an array of the claims' axes.
+    claims: {name: [`Claim`, …]}, each claim under its readings.
+    figure: a figure or a part of one to fill, by default a new one. Returns the axes of the panels.
     """
-    rows = -(-len(judged) // ABREAST)
-    figure = figure_or_new(figure, (width_of_figures(), 1.05 * rows + 0.3))
-    panels, spare = np.split(figure.subplots(rows, ABREAST, squeeze=False).ravel(), [len(judged)])
-    for axes in spare:
-        axes.remove()
-    for axes, (name, claims) in zip(panels, judged.items()):
-        order = _curve(axes, claims, name)
-        axes.set_title(f"{name}  {_share_of(claims, 'holds')}", size=SMALL, color=TEXT, loc="left", pad=3)
-        axes.set(xticks=[], xlim=(-1, len(order)))
-        axes.tick_params(labelsize=SMALL, length=2)
-        axes.locator_params(axis="y", nbins=3)
-    handles = [Line2D([], [], linestyle="none", marker=OUTCOMES[kind], markersize=5, color=COLOURS[kind], label=kind)
-               for kind in COLOURS]
-    handles += [Line2D([], [], linestyle="none", marker="^", markersize=5, color=INK, label="beyond the axis")]
-    figure.legend(handles=handles, loc="outside upper center", ncols=4, frameon=False, fontsize=SMALL, labelcolor=TEXT,
-                  handletextpad=0.2, columnspacing=1.0)
-    return panels
+    sizes = sorted({len(found) for found in claims.values()}, reverse=True)
+    panels = [[name for name, found in claims.items() if len(found) == size] for size in sizes]
+    figure = figure_or_new(figure, (width_of_figures(), 1.1 * ROW * len(claims) + 0.7 * len(sizes) + 0.3))
+    grid = figure.subplots(len(sizes), 1, height_ratios=[len(names) for names in panels], squeeze=False).ravel()
+    for axes, size, names in zip(grid, sizes, panels):
+        left = np.zeros(len(names))
+        for kind, look in BARS.items():
+            count = np.array([[outcome(claim) for claim in claims[name]].count(kind) for name in names])
+            axes.barh(range(len(names)), count, 0.6, left=left, label=kind, **look)
+            left += count
+        axes.set_yticks(range(len(names)), names, fontsize=10)
+        axes.set(xlim=(0, size), ylim=(len(names) - 0.4, -0.6), xlabel=f"of {size} readings")
+        axes.xaxis.get_major_locator().set_params(integer=True)
+        axes.tick_params(axis="y", length=0)
+        axes.spines["left"].set_visible(False)
+    figure.legend(*grid[0].get_legend_handles_labels(), loc="outside upper center", ncols=3, frameon=False,
+                  fontsize=SMALL, labelcolor=TEXT)
+    return grid
 
 
-def draw_specification(readings, judged, name, choices=WITHIN, figure=None):
+def draw_specification(readings, claims, name, figure=None):
     """The specification curve of a claim: its estimate under every reading, sorted, and the choices of each below.
 
     A number outside the middle 95 % is a triangle at the edge, pointing outward; a missing number is a cross at the
     lower edge.
 
-    readings: [Reading, …]. judged: {name: `Claim`} for each of them. name: of the claim. choices: those shown, in the
-    form that `lib.study.multiverse.design` takes.
+    readings: [`Reading`, …]. claims: {name: [`Claim`, …]}, each claim under the first of these readings or all. name:
+    of the claim.
     figure: a figure or a part of one to fill, by default a new one. Returns the axes of the curve and of the choices.
     """
-    claims = [each[name] for each in judged]
-    shown = {key: choice for key, choice in choices.items() if name[0] in choice.papers}
+    shown = {key: choice for key, choice in WITHIN.items() if name[0] in choice.papers}
     below = ROW * len(shown)
     figure = figure_or_new(figure, (width_of_figures(), 2.4 + below))
     curve, strips = panels = figure.subplots(2, 1, sharex=True, height_ratios=(1.9, below))
-    order = _curve(curve, claims, name)
+    order = _curve(curve, claims[name], name)
     figure.suptitle(fill(f"{name}: {STATEMENTS[name].text}", 58), size=11, color=TEXT)
+    outcomes = [outcome(claim) for claim in claims[name]]
     handles = [Line2D([], [], linestyle="none", marker=OUTCOMES[kind], markersize=5, color=COLOURS[kind],
-                      label=f"{kind} {_share_of(claims, kind)}") for kind in COLOURS]
+                      label=f"{kind} {outcomes.count(kind)}") for kind in COLOURS]
     curve.legend(handles=handles, frameon=False, labelcolor=TEXT, fontsize=SMALL, handlelength=0.6, ncols=3,
                  loc="lower center", bbox_to_anchor=(0.5, 1.0))
     places = [[choice.place(getattr(readings[i], key)) for i in order] for key, choice in shown.items()]
@@ -119,11 +118,6 @@ def _curve(axes, claims, name):
     return order
 
 
-def _share_of(claims, kind):
-    """The share of readings under which a claim has this outcome, as text."""
-    return f"{np.mean([outcome(claim) == kind for claim in claims]):.0%}".replace("%", " %")
-
-
 def _limits(values, borders):
     """The range of the middle 95 % of the finite values, and of the borders of the claim."""
     finite = values[np.isfinite(values)]
@@ -165,21 +159,20 @@ def draw_standing(record, names, ax=None):
     return axes
 
 
-def draw_importance(importance, choices=WITHIN, ax=None):
+def draw_importance(importance, ax=None):
     """Which choices matter for which claim, as areas of discs.
 
-    importance: {name of the claim: {name of the choice: importance}}. choices: those varied, in the form that
-    `lib.study.multiverse.design` takes. Returns the axes, `ax` or those of a new figure.
+    importance: {name of the claim: {name of the choice: importance}}. Returns the axes, `ax` or those of a new figure.
     """
-    axes = axes_or_new(ax, figsize=(width_of_figures(), ROW * 1.25 * len(choices) + 0.5))
-    keys = list(choices)
+    axes = axes_or_new(ax, figsize=(width_of_figures(), ROW * 1.25 * len(WITHIN) + 0.5))
+    keys = list(WITHIN)
     for column, shares in enumerate(importance.values()):
         for key, share in shares.items():
             axes.plot(column, keys.index(key), marker="o", color=AGENT, markersize=13 * np.sqrt(np.clip(share, 0, 1)))
     if not any(importance.values()):
         mark(axes, (0.5, 0.5), "no claim's number is predicted", xycoords="axes fraction", ha="center", va="center")
     axes.set_xticks(range(len(importance)), importance, fontsize=SMALL, rotation=90)  # horizontal labels would touch
-    axes.set_yticks(range(len(keys)), [choices[key].label for key in keys], fontsize=SMALL)
+    axes.set_yticks(range(len(keys)), [WITHIN[key].label for key in keys], fontsize=SMALL)
     axes.set(xlim=(-0.6, len(importance) - 0.4), ylim=(len(keys) - 0.4, -0.6))
     axes.xaxis.tick_top()
     axes.tick_params(length=0)
