@@ -1,4 +1,4 @@
-"""The search for a reading: its targets, emulator and waves, on made-up statistics with a known answer."""
+"""The search for a reading, its table, the conclusions drawn from it, and their figures."""
 
 import math
 import time
@@ -7,14 +7,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lib.study import calibration, calibration_table, calibration_targets
+from lib.study import calibration, calibration_figures, calibration_results, calibration_table, calibration_targets
 from lib.study.calibration import Emulator, candidates, design, features, prospects
-from lib.study.calibration_table import Row
+from lib.study.calibration_results import Posterior
+from lib.study.calibration_table import Row, read_table, write_table
 from lib.study.calibration_targets import CLAIMS, GROUPS, TARGETS, Measure, Target
-from neorl import WaterWorld, place_cells
+from neorl import CALIBRATED, WaterWorld, place_cells
 from neorl.evidence.priors import OF_TRIALS, TO_THE_LETTER, WITHIN
+from neorl.evidence.reading import Reading
 from neorl.evidence.statements import STATEMENTS
 from neorl.experiments.simulation import Result
+
+SAMPLE = 3  # rows of the table that are recomputed, in the cheapest group
 
 
 def lived(*rates, runs=4, steps=150_000, n_creeps=8):
@@ -38,7 +42,7 @@ def test_a_distance_is_zero_inside_and_counted_in_scale_and_error_outside():
 def test_targets_are_of_known_claims_and_each_belongs_to_one_group():
     assert set(CLAIMS) <= set(STATEMENTS)
     assert sorted(name for group in GROUPS.values() for name in group.targets) == sorted(TARGETS)
-    assert all(target.low < target.high and target.scale > 0 for target in TARGETS.values())
+    assert all(target.low < target.high and target.scale > 0 and target.reason for target in TARGETS.values())
 
 
 def test_what_the_layers_earn_is_measured():
@@ -48,12 +52,9 @@ def test_what_the_layers_earn_is_measured():
     assert found == pytest.approx({"A7 ratio": 3.5, "A7 pace": -0.05, "A6 surplus": 0.05, "A6 pace": 0.0}, abs=1e-4)
 
 
-def test_a_ratio_of_agents_that_have_not_learned_is_no_success():
+def test_agents_that_have_not_learned_are_in_no_order_and_their_ratio_is_no_success():
     poor = {("layer", n): lived(0.001) for n in (3, 7, 23)} | {"layers": lived(0.0035)}
     assert calibration_targets.measure("layers", poor)["A7 ratio"].value == pytest.approx(0.0035 / 0.03, abs=1e-3)
-
-
-def test_agents_that_stand_still_are_in_no_order():
     found = calibration_targets.measure("networks", {("network", name): lived(0.0) for name in "ABCD"})
     assert [name for name, each in found.items() if TARGETS[name].holds(each.value)] == ["C1 weak"]
 
@@ -103,7 +104,7 @@ def truth(reading, name):
     return Measure(wanted - 20 * upward * target.scale * off, 0.1 * target.scale)
 
 
-def made_up(rows, group, executor=None, progress=False):
+def made_up(rows, group, executor=None):
     return [replace(row, statistics=row.statistics | {name: truth(row.reading, name) for name in GROUPS[group].targets})
             for row in rows]
 
@@ -125,12 +126,8 @@ def test_a_design_keeps_to_the_text_and_spans_the_priors():
         places = [choice.place(getattr(reading, name)) for reading in readings]
         assert min(places) < 0.1 and max(places) > 0.9
     assert readings[0] == replace(TO_THE_LETTER, **{name: getattr(readings[0], name) for name in WITHIN})
-
-
-def test_features_are_numbers_from_0_to_1():
-    found = features(design(32))
-    assert found.shape[0] == 32 and found.min() >= 0 and found.max() <= 1
-    assert np.ptp(found, axis=0).min() > 0
+    found = features(readings)
+    assert found.min() >= 0 and found.max() <= 1 and np.ptp(found, axis=0).min() > 0
 
 
 def test_the_emulator_predicts_what_it_has_learned_and_is_unsure_elsewhere(table):
@@ -143,12 +140,9 @@ def test_the_emulator_predicts_what_it_has_learned_and_is_unsure_elsewhere(table
     assert np.corrcoef(mean, actual)[0, 1] > 0.8
     assert np.mean(np.abs(mean - actual) < 3 * spread) > 0.9
     assert np.all(spread >= 0.1 * 0.2)
-
-
-def test_a_group_that_few_have_been_run_in_is_not_predicted(table):
     few = [row if i < 10 else replace(row, statistics={name: row.statistics[name] for name in GROUPS["layers"].targets})
            for i, row in enumerate(table)]
-    assert set(Emulator(few).forests) == {"layers"}
+    assert set(Emulator(few).forests) == {"layers"}  # the other groups have too few rows
 
 
 def test_prospects_take_what_was_measured_before_what_is_predicted(table):
@@ -254,8 +248,175 @@ def test_a_search_goes_on_from_a_table(small):
 
 def test_no_time_runs_nothing_and_bad_arguments_are_refused(small):
     assert calibration.calibrate(0) == []
-    for arguments, words in [((-1,), "minutes must be .*, but is -1"),
-    ((1, (), None, -1), "seed must be .*, but is -1"),
-                             ((1, (), None, 0, 1), "runs must be .*, but is 1")]:
+    for bad, words in (({"minutes": -1}, "minutes must be .*, but is -1"), ({"seed": -1}, "seed must be .*, but is -1"),
+                       ({"runs": 1}, "runs must be .*, but is 1")):
         with pytest.raises(ValueError, match=words):
-            calibration.calibrate(*arguments)
+            calibration.calibrate(**{"minutes": 1, **bad})
+
+
+def statistics(holding, names=tuple(TARGETS)):
+    """Made-up statistics of targets under which only the given claims hold."""
+    found = {}
+    for name in names:
+        target = TARGETS[name]
+        if target.claim in holding:
+            value = max(target.low, -1e3) if target.high == math.inf else min(target.high, 1e3)
+        else:
+            value = target.low - 2 * target.scale if math.isfinite(target.low) else target.high + 2 * target.scale
+        found[name] = Measure(float(f"{value:.5g}"), 0.0)
+    return found
+
+
+def rows(*claims, points=64):
+    """A complete row for each set of claims that hold, with the readings of a design."""
+    return [Row(0, i, 2, 3_000, reading, statistics(holding))
+            for i, (reading, holding) in enumerate(zip(design(points), claims))]
+
+
+def test_a_table_reads_back_exactly(tmp_path):
+    table = rows(*[{"A6", "B1"}] * 20)
+    table[3] = replace(table[3], wave=2, statistics={name: table[3].statistics[name]
+                                                     for name in GROUPS["layers"].targets})
+    table[4] = replace(table[4], statistics=table[4].statistics | {"C4": Measure(1.2345e-05, 0.1)})
+    write_table(table, tmp_path / "table.csv")
+    assert read_table(tmp_path / "table.csv") == table
+    assert table[3].groups == ("layers",) and not table[3].complete
+    assert table[4].groups == tuple(GROUPS) and table[4].complete
+
+
+def test_a_table_of_another_version_is_refused(tmp_path):
+    path = tmp_path / "table.csv"
+    write_table(rows({"A6"}), path)
+    path.write_text(path.read_text().replace("discount", "horizon", 1))
+    with pytest.raises(ValueError, match="other columns than this version has: discount, horizon"):
+        read_table(path)
+
+
+def test_a_row_runs_again_as_it_was(cache_folder):
+    made = [Row(0, 5 + i, 2, 1_500, reading) for i, reading in enumerate(design(2))]
+    table = calibration_table.run(made, "networks")
+    table[0] = calibration_table.run(table[:1], "layers")[0]
+    assert table[0].groups == ("layers", "networks")
+    pairs = calibration_table.rerun(table, 2, seed=1)
+    assert [old for old, _ in pairs] == table and all(old == new for old, new in pairs)
+    table[1] = replace(table[1], statistics=table[1].statistics | {"C3": Measure(9.0, 0.0)})
+    assert [old == new for old, new in calibration_table.rerun(table, 2)] == [True, False]
+    alone = calibration_table.rerun(table, 2, groups=("layers",))
+    assert [set(new.statistics) for _, new in alone] == [set(GROUPS["layers"].targets), set()]
+    with pytest.raises(ValueError, match="n must be an integer from 1 to 2, but is 3"):
+        calibration_table.rerun(table, 3)
+
+
+def test_the_table_of_this_package_has_the_default_as_its_best_reading_and_runs_again_as_it_was(cache_folder):
+    table = read_table()
+    best = calibration_results.best(table)
+    assert best.reading == Reading() and best.reading.learning == CALIBRATED
+    assert len(table) >= 1_000 and sum(row.complete for row in table) >= 70
+    assert all(row.reading.within_the_text for row in table)
+    assert all(old == new for old, new in calibration_table.rerun(table, SAMPLE, groups=("layers",)))
+
+
+def test_the_accepted_rows_agree_with_all_targets_or_are_the_nearest():
+    table = rows(*[set(CLAIMS) - {claim} for claim in CLAIMS], set(), set())
+    found = calibration_results.accepted(table)
+    assert [row.distance for row in found] == sorted(row.distance for row in table)
+    table += [replace(table[0], runs=9, statistics=statistics(CLAIMS))]
+    assert calibration_results.accepted(table) == table[-1:]
+    assert calibration_results.best(table) == table[-1]
+    with pytest.raises(ValueError, match="none of them with all groups"):
+        calibration_results.best([replace(table[0], statistics={})])
+
+
+def test_the_best_is_a_confirmed_row_and_a_reading_counts_as_it_was_confirmed():
+    lucky, honest = rows(CLAIMS, {"A6"})
+    assert calibration_results.best([lucky, honest]) == lucky
+    confirmed = replace(lucky, seed=9, runs=20, statistics=statistics({"A7"}))
+    assert calibration_results.best([lucky, honest, confirmed]) == confirmed
+    assert calibration_table.leading([honest, lucky]) == [lucky, honest]
+    assert calibration_table.nearest([lucky, confirmed, honest]) == sorted([confirmed, honest],
+                                                                           key=lambda row: row.distance)
+
+
+def test_shares_at_the_papers_lengths_are_of_readings_that_nothing_has_chosen():
+    table = rows(*[{"A6"}] * 8, *[set()] * 8)
+    table += [replace(row, wave=1) for row in rows(*[{"A6"}] * 4)]
+    found = calibration_results.evenly(table)
+    assert found["A6"] == {"agrees": 8, "measured": 16} and found["C4"] == {"agrees": 0, "measured": 16}
+
+
+def test_claims_that_exclude_each_other_are_found():
+    table = rows(*[{"A6", "A7"}] * 12, *[{"B1", "A7"}] * 12, *[{"B3"}] * 2, *[set()] * 6)
+    table += [replace(row, statistics=statistics({"C4"}, GROUPS["networks"].targets)) for row in table]  # not complete
+    found = calibration_results.claims_together(table)
+    at = CLAIMS.index
+    assert found.both[at("A6"), at("A7")] == 12 and found.rows[at("A6"), at("A7")] == 32
+    assert found.both[at("A6"), at("B1")] == 0 and found.expected[at("A6"), at("B1")] == pytest.approx(4.5)
+    assert found.never == [("A6", "B1")]  # B3 holds too rarely to count
+    assert found.pairs[0] == ("A6", "B1", 0, pytest.approx(4.5)) and ("A6", "B3") in [each[:2] for each in found.pairs]
+    assert found.sets == [(("A6", "A7"), 12), (("A7", "B1"), 12), (("B3",), 2)]
+    assert found.both[at("C4"), at("C4")] == 32 and found.rows[at("C4"), at("C4")] == 64
+    texts = [text.get_text() for text in calibration_figures.draw_together(found).texts]
+    assert texts.count("×") == 1 and "38" in texts  # 12 of 32
+
+
+def test_what_would_have_to_give_is_the_claim_that_no_row_holds_with_the_others():
+    table = rows(set(CLAIMS) - {"B1"}, set(CLAIMS) - {"A3", "A4"})
+    found = calibration_results.giving(table)
+    assert found["B1"] == (0.0, table[0])
+    assert found["A3"][0] > 0 and found["C4"][0] > 0
+
+
+def test_a_posterior_knows_the_choice_that_matters_and_no_other():
+    table = [replace(row, statistics=statistics(CLAIMS if row.reading.contact == "rounded" else ()))
+             for row in rows(*[()] * 128, points=128)]
+    found = calibration_results.posterior(table, 2_000)
+    assert found.weights.sum() == pytest.approx(1) and 500 < found.effective < 1_600
+    contact = calibration_results.marginal("contact", found)
+    assert contact.levels == ("rounded", "truncated") and contact.posterior[0] > 0.9
+    said = {name: calibration_results.marginal(name, found).information for name in WITHIN}
+    assert calibration_results.most_informative(found, 2)[0] == "contact"
+    assert said["contact"] > 0.5 and sum(said[name] for name in WITHIN if name != "contact") < 0.2
+    levels, prior, places = calibration_results.binned("learning_rate", design(64))
+    assert len(levels) == 6 and prior == pytest.approx(1 / 6) and np.ptp(np.bincount(places)) <= 2
+
+
+def test_what_a_missed_target_goes_together_with_least():
+    table = rows({"A6"}, {"A6"}, {"A6"}, {"C2", "C3"}, {"C2", "C3"}, {"C3", "A6"})
+    found = calibration_results.conflicts(table, table[-1])
+    missed = {conflict.missed: conflict for conflict in found}
+    assert set(missed) == {name for name, target in TARGETS.items() if target.claim not in ("C3", "A6")}
+    assert missed["C2"].met.startswith("A6") and missed["C2"].both == 0
+    assert missed["C2"].expected == pytest.approx(2 * 4 / 6) and missed["C2"].found.shape == (6, 2)
+    shown = calibration_figures.draw_conflicts([missed["C2"]], table[-1])
+    assert shown[0, 0].get_title(loc="right") == "0 meet both, by chance 1"
+    assert shown[0, 0].lines[0].get_xydata() == pytest.approx(missed["C2"].found)
+
+
+def test_marginals_and_pairs_are_drawn_with_their_shares():
+    found = Posterior(design(64), np.full(64, 1 / 64))
+    panel, *_ = calibration_figures.draw_marginals(found, found, names=("contact", "learning_rate")).flat
+    np.testing.assert_allclose([patch.get_width() for patch in panel.patches], 0.5)
+    np.testing.assert_allclose(panel.lines[0].get_xdata(), 0.5)
+    pairs = calibration_figures.draw_pairs(found, ["contact", "bootstrap"])
+    assert pairs[1, 0].images[0].get_array().sum() == pytest.approx(1)
+
+
+def test_distances_are_drawn_by_wave_with_the_nearest_so_far():
+    table = [replace(row, wave=wave) for wave, row in enumerate(rows({"A6"}, CLAIMS, set()))]
+    points, steps = calibration_figures.draw_distances(table).lines
+    np.testing.assert_allclose(points.get_ydata(), [row.distance for row in table])
+    assert steps.get_ydata().tolist() == [table[0].distance, 0, 0]
+
+
+def test_predicted_curves_are_means_over_runs():
+    worlds = {"n_creeps": 3, "steps": 30_000}
+    lives = [{"layers": lived(*rates, **worlds), ("layer", 3): lived(0.2, **worlds)} for rates in ((0.4, 0.6), (0.1,))]
+    keys = {"N3": ("layer", 3), "all": "layers"}
+    axes = calibration_figures.draw_rates(lives, keys, total=["N3", "all"])
+    curves = {text.get_text(): text.xy[1] for text in axes.texts}
+    assert curves == pytest.approx({"N3": 0.2, "all": 0.6, "sum": 0.8}, abs=0.02)
+    assert [line.get_linewidth() > 1 for line in axes.lines[:6]] == [False, True] * 3
+    calibration_figures.mark_minutes(axes, (5, 160))  # these runs last ten minutes
+    assert "5 min" in [text.get_text() for text in axes.texts] and len(axes.texts) == 4
+    summed = calibration_figures.draw_accumulated(lives[:1], keys)
+    assert [line.get_ydata()[-1] for line in summed.lines[:2]] == pytest.approx([120, 300], rel=0.01)

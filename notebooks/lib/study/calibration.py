@@ -1,28 +1,18 @@
 """Calibration: which values of the choices that the thesis leaves open reproduce all of its printed numbers at once?
 
 The method is history matching (Craig et al. 1997; Vernon et al. 2010), a search that rules out implausible readings
-rather than one that climbs to the best fit:
+rather than one that climbs to the best fit. The page on calibration explains it. Its steps:
 
-1. *Design.* Readings are spread evenly through the priors within the text by a scrambled Sobol sequence. All are run in
-   the two cheap groups of conditions, and the first 48 in every group, so that the others are not run for favourites
-   alone.
-2. *Emulator.* Random forests, fitted to the readings that have been run, predict each statistic from the choices. The
-   uncertainty of a prediction combines the disagreement of the trees and the noise of a few runs.
-3. *Candidates.* Thousands of readings that have not been run are drawn: half from the priors, half as children of the
-   readings nearest to the targets, which take each choice from one of two parents or afresh from its prior. The
-   *implausibility* of a candidate is how far its prediction lies outside the target's interval, in units that combine
-   the target's scale and the prediction's uncertainty; its maximum over targets must be below 3. Those are run that are
-   most promising for paper B alone, those most promising for all papers, and as many others at random, since the
-   emulator errs where it has few data.
-4. *Waves.* The next emulator is fitted to these results too, and so on until time is up. Each wave runs its candidates
-   in both cheap groups. Object vectors and both modalities are run for the readings that are most promising for paper
-   B, whatever they give for paper A; networks and single maps for those most promising for all papers.
-5. *Refinement.* From given readings and the nearest ones found from them, a local search runs children with more runs
-   each. A round runs them in one group after the other, and after each only the nearest half goes on.
-6. *Narrowing.* Readings between the two for which most claims hold are run with more runs yet, in every group.
-7. *Confirmation.* A search over thousands of noisy numbers finds lucky ones. So the leading readings, for which most
-   claims hold, are run again with fresh seeds and more runs, and only these results count.
-8. *Scale.* The unit of a desire vector concerns paper C alone. So the leading readings are run there with other units.
+1. `calibrate` runs a *design*, readings spread evenly through the priors within the text. All are run in the two cheap
+   groups of conditions, and the first 48 in every group, so that the others are not run for favourites alone.
+2. Then it runs *waves* of `candidates`: readings that are promising, or not implausible, by an `Emulator` of all
+   results so far. A wave runs its candidates in both cheap groups. Object vectors and both modalities are run for the
+   readings that are most promising for paper B, networks and single maps for those most promising for all papers.
+3. `refine` searches near given readings and the nearest ones found from them, with more runs each. A round runs
+   children in one group after the other, and after each only the nearest go on.
+4. `narrow` runs readings between the two for which most claims hold, with more runs yet.
+5. `confirm` runs the leading readings again with fresh seeds, since a search over noisy numbers finds lucky ones.
+6. `rescale` runs the leading readings in paper C with other units of a desire vector, which concern no other paper.
 
 Every row has its own seed, so that no tank's luck is shared by all.
 """
@@ -80,7 +70,7 @@ def calibrate(minutes, table=(), executor=None, seed=0, runs=RUNS, steps=STEPS, 
 
 
 def refine(minutes, table, parents, runs, executor=None, seed=0, keep=None):
-    """Search near given readings for a number of minutes, and return the table that includes the rows: see point 5.
+    """Search near given readings for a number of minutes, and return the table that includes the rows.
 
     parents: readings, to which the nearest 12 complete rows of more than 2 runs are added. runs: of each condition.
     executor, seed, keep: as in `calibrate`. A round is not interrupted, so the call may take longer.
@@ -107,7 +97,7 @@ def refine(minutes, table, parents, runs, executor=None, seed=0, keep=None):
 
 
 def narrow(table, refined_runs, n, runs, executor=None, seed=0):
-    """Run n readings between two in every group, and return the table that includes their rows: see point 6.
+    """Run n readings between two in every group, and return the table that includes their rows.
 
     The two are those of the complete rows of `refined_runs` runs for which most claims hold, or else the nearest. Each
     number lies between theirs, and all other choices are the first one's.
@@ -129,7 +119,7 @@ def narrow(table, refined_runs, n, runs, executor=None, seed=0):
 
 
 def rescale(table, n, scales, runs, executor=None, seed=0):
-    """Run the n leading of the most-run readings in paper C with other scales of desires: see point 8.
+    """Run the n leading of the most-run readings in paper C with other scales of desires.
 
     Returns the table that includes the new rows, n for each scale, which have been run in that group alone.
     runs: of each condition. executor, seed: as in `calibrate`. Raises ValueError for a bad argument.
@@ -223,6 +213,7 @@ def _short(value):
 class Emulator:
     """Random forests that predict the statistics of a reading from its choices, one forest for each group.
 
+    A prediction's uncertainty combines the disagreement of the trees and the noise of a few runs.
     table: rows. A group in which fewer than 24 of them have been run is not predicted.
     """
 
@@ -299,7 +290,9 @@ def prospects(rows, emulator, papers="ABC"):
 def candidates(table, emulator, n, rng):
     """Readings to run next, a list of n `Reading`.
 
-    A third is the most promising for paper B, a third for all papers, and the others are not implausible.
+    Half are drawn from the priors; half are children of the readings nearest to the targets. A third of the n are the
+    most promising for paper B, a third for all papers, and the others are drawn at random from those whose
+    *implausibility*, the largest distance of a prediction from its target, is below 3.
     """
     drawn = [reading_at(shares) for shares in rng.random((POOL // 2, len(WITHIN)))]
     for papers in ("B", "ABC"):

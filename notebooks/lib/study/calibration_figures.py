@@ -1,5 +1,5 @@
-"""The figures of the calibration: the posterior of each choice and of pairs, which claims hold together, how the search
-converged, and the thesis's figures as predicted by the readings that remain.
+"""The figures of the calibration: the thesis's figures as predicted by readings, which claims hold together, the
+posterior of each choice and of pairs, and how the search converged.
 
 A figure of one panel is drawn into `ax`, one of several into `figure`; by default into a new one. Each function returns
 its axes.
@@ -14,41 +14,33 @@ from matplotlib.patches import Patch, Rectangle
 from lib.study.multiverse_figures import SHADES
 from lib.study.calibration_results import binned, marginal, progress
 from lib.study.calibration_targets import TARGETS
-from neorl.drawing.style import (AGENT, CURVES, INK, RED, SMALL, TEXT, axes_or_new, figure_or_new, letters,
-                                 name_ends, width_of_figures)
-from neorl.drawing.thesis_figures import name_level
-from neorl.evidence.claims import FINAL
+from neorl.drawing.style import (AGENT, CURVES, INK, RED, SMALL, TEXT, axes_or_new, figure_or_new, name_ends,
+                                 width_of_figures)
 from neorl.evidence.curves import binned_rate, low_passed
 from neorl.evidence.priors import WITHIN
-from neorl.evidence.statements import STATEMENTS
 
 ROW = 0.15  # inches, for a bar with its name
 NARROW = 12  # letters per line
 ROOMY = 4  # most levels whose labels do not touch in a pair's panel
 POINTS = 100  # of a predicted curve
-SINGLE = {f"N{n}": ("single", n) for n in (10, 30, 50)}
-LAYERS = {"N3": ("layer", 3), "N7": ("layer", 7), "N23": ("layer", 23), "all three": "layers"}
-MODALITIES = {"place": ("place", "all"), "objects": ("objects", "all"), "both": "both"}
-NETWORKS = {name: ("network", name) for name in "ABCD"}
+COLUMNS = 2  # of panels
 
 
-def draw_marginals(remaining, nearest=None, names=tuple(WITHIN), columns=2, figure=None):
+def draw_marginals(remaining, nearest, names=tuple(WITHIN), figure=None):
     """Prior (outlines) and posterior (bars) of each choice, as shares of its levels.
 
-    remaining: a `Posterior`, the bars. nearest: another, whose shares are drawn as points, or None. names: of the
-    choices. columns: of panels.
+    remaining: a `Posterior`, the bars. nearest: another, whose shares are drawn as points. names: of the choices.
     """
     each = [marginal(name, remaining) for name in names]
-    rows = [each[i : i + columns] for i in range(0, len(each), columns)]
+    rows = [each[i : i + COLUMNS] for i in range(0, len(each), COLUMNS)]
     heights = [max(len(found.levels) for found in row) for row in rows]
     figure = figure_or_new(figure, (width_of_figures(), sum(ROW * high + 0.42 for high in heights)))
-    grid = figure.subplots(len(rows), columns, height_ratios=heights, squeeze=False)
+    grid = figure.subplots(len(rows), COLUMNS, height_ratios=heights, squeeze=False)
     for axes, name, found in zip(grid.flat, names, each):
         at = np.arange(len(found.levels))
         axes.barh(at, found.posterior, 0.8, color=AGENT, alpha=0.75)
         axes.barh(at, found.prior, 0.8, fill=False, edgecolor=INK, linewidth=0.8)
-        if nearest:
-            axes.plot(marginal(name, nearest).posterior, at, linestyle="none", marker="o", markersize=2.5, color=RED)
+        axes.plot(marginal(name, nearest).posterior, at, linestyle="none", marker="o", markersize=2.5, color=RED)
         axes.set_yticks(at, [level.replace(" … ", "…") for level in found.levels], fontsize=SMALL)
         axes.set_title(WITHIN[name].label, size=SMALL, color=TEXT, pad=2)
         axes.set(ylim=(len(at) - 0.4, -0.6), xlim=(0, None), xticks=[])
@@ -56,12 +48,9 @@ def draw_marginals(remaining, nearest=None, names=tuple(WITHIN), columns=2, figu
         axes.spines["bottom"].set_visible(False)
     for axes in grid.flat[len(each):]:
         axes.set_visible(False)
-    handles = [Patch(facecolor="none", edgecolor=INK), Patch(color=AGENT, alpha=0.75)]
-    words = ["before", "after"]
-    if nearest:
-        handles.append(Line2D([], [], linestyle="none", marker="o", markersize=3, color=RED))
-        words.append("nearest readings")
-    figure.legend(handles, words, loc="outside upper center", ncols=3, frameon=False, fontsize=SMALL)
+    handles = [Patch(facecolor="none", edgecolor=INK), Patch(color=AGENT, alpha=0.75),
+               Line2D([], [], linestyle="none", marker="o", markersize=3, color=RED)]
+    figure.legend(handles, ["before", "after", "nearest readings"], loc="outside upper center", ncols=3, frameon=False, fontsize=SMALL)
     return grid
 
 
@@ -128,17 +117,17 @@ def draw_together(together, ax=None):
     return axes
 
 
-def draw_conflicts(found, row, columns=2, figure=None):
+def draw_conflicts(found, row, figure=None):
     """What each target that a row misses goes together with least: all readings that were run, by both statistics.
 
     Shaded is where both targets are met; the middle 96 % of the readings are shown, the row as a ring. A panel's
     heading says how many readings meet both, and how many would by chance.
 
-    found: of `calibration_results.conflicts`, at least one. row: the `Row` that was asked about. columns: of panels.
+    found: of `calibration_results.conflicts`, at least one. row: the `Row` that was asked about.
     """
-    high = -(-len(found) // columns)
+    high = -(-len(found) // COLUMNS)
     figure = figure_or_new(figure, (width_of_figures(), 2.1 * high))
-    grid = figure.subplots(high, columns, squeeze=False)
+    grid = figure.subplots(high, COLUMNS, squeeze=False)
     for axes, conflict in zip(grid.flat, found):
         names = conflict.missed, conflict.met
         limits = []
@@ -185,68 +174,45 @@ def draw_distances(table, ax=None):
     return axes
 
 
-def draw_single(lives, ax=None):
-    """Figure 4.4, top: accumulated reward of single maps. lives: see `draw_modalities`."""
+def draw_accumulated(lives, keys, ax=None):
+    """Accumulated reward of conditions, the mean over runs. lives, keys: see `draw_rates`."""
     def accumulated(result):
         edges = np.linspace(0, result.rewards.shape[1] - 1, POINTS).astype(int)
         return result.rewards.mean(axis=0).cumsum(dtype=float)[edges]
 
-    curves = {name: [accumulated(life[key]) for life in lives] for name, key in SINGLE.items()}
-    axes = _draw_curves(curves, _minutes(lives, SINGLE), ax)
+    axes = _draw_curves({name: [accumulated(life[key]) for life in lives] for name, key in keys.items()},
+                        _minutes(lives, keys), ax)
     axes.set_ylabel("accumulated reward")
     return axes
 
 
-def draw_layers(lives, ax=None):
-    """Figure 4.4, bottom: three maps together, each of them alone, and their sum. lives: see `draw_modalities`.
+def draw_rates(lives, keys, total=(), ax=None):
+    """Reward per second of conditions under several readings, low-passed means over runs.
 
-    A dashed line marks the thesis's multiple of the final reward rate of N7 under the first reading.
+    lives: {key of the condition: `Result`} of each reading, the first of which is drawn thick. keys: {name: key}.
+    total: names whose sum is drawn, too, in grey.
     """
-    curves = _smooth(lives, LAYERS)
-    curves["sum"] = [sum(alone) for alone in zip(*(curves[name] for name in ("N3", "N7", "N23")))]
-    axes = _draw_curves(curves, _minutes(lives, LAYERS), ax, [*CURVES[:len(LAYERS)], INK])
-    times = STATEMENTS["A7"].bounds.number
-    return _mark_level(axes, times * lives[0]["layer", 7].rate(*FINAL).mean(), f"{times:g} × N7", INK)
+    curves = {name: [low_passed(binned_rate(life[key], POINTS).mean(axis=0, keepdims=True))[0] for life in lives]
+              for name, key in keys.items()}
+    colours = CURVES[:len(curves)]
+    if total:
+        curves["sum"], colours = [sum(alone) for alone in zip(*(curves[name] for name in total))], (*colours, INK)
+    return _draw_curves(curves, _minutes(lives, keys), ax, colours)
 
 
-def draw_modalities(lives, ax=None):
-    """Figure 4.5: place cells, object-vector cells, both; the thesis's levels and minutes are dashed and dotted.
-
-    lives: {key of the condition: `Result`} of each reading, the first of which is drawn thick.
-    """
-    lengths = _minutes(lives, MODALITIES)
-    axes = _draw_curves(_smooth(lives, MODALITIES), lengths, ax)
-    levels, minutes = ((statement.also["place cells"].number, statement.bounds.number)
-                       for statement in (STATEMENTS["B3"], STATEMENTS["B4"]))
-    for level, minute, colour in zip(levels, minutes, (CURVES[0], CURVES[2])):
-        _mark_level(axes, level, f"{level:.2f}", colour)
-        if minute <= max(lengths):
-            axes.axvline(minute, color=colour, linewidth=0.9, linestyle=":")
-            axes.annotate(f"{minute:g} min", (minute, 0.99), xycoords=("data", "axes fraction"), color=letters(colour),
+def mark_minutes(axes, minutes):
+    """Mark times as dotted lines with their names, if they lie within the axes. minutes: of simulated time."""
+    for minute in minutes:
+        if minute <= axes.get_xlim()[1]:
+            axes.axvline(minute, color=INK, linewidth=0.9, linestyle=":")
+            axes.annotate(f"{minute:g} min", (minute, 0.99), xycoords=("data", "axes fraction"), color=TEXT,
                           fontsize=SMALL, va="top")
-    return axes
-
-
-def draw_networks(lives, ax=None):
-    """Figure 4.7e: networks A to D. A dashed line marks what D has to exceed, a multiple of C's final level.
-
-    lives: see `draw_modalities`.
-    """
-    axes = _draw_curves(_smooth(lives, NETWORKS), _minutes(lives, NETWORKS), ax)
-    times = STATEMENTS["C4"].bounds.low
-    return _mark_level(axes, times * lives[0]["network", "C"].rate(*FINAL).mean(), f"{times:g} × C", INK)
 
 
 def _minutes(lives, keys):
     """The minutes of the runs of each reading, which are the same for all of `keys`."""
     key, *_ = keys.values()
     return [life[key].seconds / 60 for life in lives]
-
-
-def _smooth(lives, keys):
-    """The mean reward per second of each condition for each reading, low-passed: {name: [(POINTS,), …]}."""
-    return {name: [low_passed(binned_rate(life[key], POINTS).mean(axis=0, keepdims=True))[0] for life in lives]
-            for name, key in keys.items()}
 
 
 def _draw_curves(curves, lengths, ax, colours=CURVES):
@@ -261,13 +227,4 @@ def _draw_curves(curves, lengths, ax, colours=CURVES):
     axes.axhline(0, color=INK, linewidth=0.7, zorder=1)
     axes.set(xlabel="simulated minutes", ylabel="reward per second", xlim=(0, max(lengths)), ylim=axes.get_ylim())
     name_ends(axes, ends)
-    return axes
-
-
-def _mark_level(axes, level, words, colour):
-    """Draw a level of the thesis as a dashed line, with its name; extend the axes to it."""
-    low, high = axes.get_ylim()
-    axes.set_ylim(low, max(high, 1.05 * level))
-    axes.axhline(level, color=colour, linewidth=0.9, linestyle="--")
-    name_level(axes, level, words)
     return axes

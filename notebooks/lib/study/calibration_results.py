@@ -24,11 +24,10 @@ LEAST_EXPECTED = 3.0  # rows: if two independent claims hold together in this ma
 
 
 class Posterior(NamedTuple):
-    """The readings that remain, their weights, which add up to 1, and the rule that selects them."""
+    """The readings that remain, and their weights, which add up to 1."""
 
     readings: list
     weights: np.ndarray  # (readings,)
-    rule: str
 
     @property
     def effective(self):
@@ -37,16 +36,11 @@ class Posterior(NamedTuple):
 
 
 def accepted(table):
-    """The complete rows that agree with all targets; if none does, the 25 nearest: ([Row, …], rule).
-
-    Raises ValueError if no row is complete.
+    """The complete rows that agree with all targets; if none does, the 25 nearest. Raises ValueError if no row is
+    complete.
     """
     complete = nearest(table)
-    agreeing = [row for row in complete if row.distance == 0]
-    if agreeing:
-        return agreeing, f"the {len(agreeing)} readings that agree with all targets"
-    near = complete[:NEAREST]
-    return near, f"the {len(near)} readings nearest to the targets; none of {len(complete)} agrees with all"
+    return [row for row in complete if row.distance == 0] or complete[:NEAREST]
 
 
 def posterior(table, draws=DRAWS, seed=0):
@@ -60,12 +54,12 @@ def posterior(table, draws=DRAWS, seed=0):
     each = np.array(list(Emulator(table, seed).implausibility(readings).values()))
     logs = -0.5 * np.sum(each**2, axis=0)
     weights = np.exp(logs - logs.max())
-    return Posterior(readings, weights / weights.sum(), f"{draws:,} draws from the priors, weighted by the emulator")
+    return Posterior(readings, weights / weights.sum())
 
 
 def equally(rows):
     """A `Posterior` of the readings of rows, with equal weights."""
-    return Posterior([row.reading for row in rows], np.full(len(rows), 1 / len(rows)), f"{len(rows)} rows")
+    return Posterior([row.reading for row in rows], np.full(len(rows), 1 / len(rows)))
 
 
 class Marginal(NamedTuple):
@@ -118,16 +112,18 @@ class Together(NamedTuple):
     sets: list  # of (claims that hold together, complete rows in which they do), the largest first
 
     @property
-    def unseen(self):
-        """Pairs of claims that hold together in no row: [(name, name, rows expected), …], the most expected first."""
-        pairs = [(self.claims[i], self.claims[j], float(self.expected[i, j]))
-                 for i, j in combinations(range(len(self.claims)), 2) if self.both[i, j] == 0]
-        return sorted(pairs, key=lambda pair: -pair[2])
+    def pairs(self):
+        """Pairs of claims: [(name, name, rows in which both hold, rows expected), …], those that go together least
+        first.
+        """
+        pairs = [(self.claims[i], self.claims[j], int(self.both[i, j]), float(self.expected[i, j]))
+                 for i, j in combinations(range(len(self.claims)), 2)]
+        return sorted(pairs, key=lambda pair: (pair[2] + 1) / (pair[3] + 1))
 
     @property
     def never(self):
-        """The unseen pairs that would be expected in three rows or more: a list of (name, name)."""
-        return [(a, b) for a, b, expected in self.unseen if expected >= LEAST_EXPECTED]
+        """The pairs that never hold together, though expected in three rows or more: a list of (name, name)."""
+        return [pair[:2] for pair in self.pairs if pair[2] == 0 and pair[3] >= LEAST_EXPECTED]
 
 
 def claims_together(table):

@@ -69,27 +69,21 @@ def conditions(row, group):
     return {key: found[key] for key in GROUPS[group].keys}
 
 
-def run(rows, group, executor=None, progress=False):
+def run(rows, group, executor=None):
     """Run the conditions of rows in a group by `sweep`, and return the rows with its statistics: a list."""
     wanted = [conditions(row, group) for row in rows]
-    results = sweep([each for of_row in wanted for each in of_row.values()], executor, progress)
+    results = sweep([each for of_row in wanted for each in of_row.values()], executor, progress=False)
     return [replace(row, statistics=row.statistics | measure(group, {key: next(results) for key in of_row}))
             for row, of_row in zip(rows, wanted)]
 
 
-def lives(row, groups=tuple(GROUPS), executor=None, progress=False):
-    """The results of a row's reading in groups of conditions: {key of the condition: `Result`}."""
-    wanted = {key: each for group in groups for key, each in conditions(row, group).items()}
-    return dict(zip(wanted, sweep(list(wanted.values()), executor, progress)))
+def measured(row, results):
+    """The row with the statistics of results, {key of the condition: `Result`}, for each group that is complete."""
+    groups = [name for name, group in GROUPS.items() if all(key in results for key in group.keys)]
+    return replace(row, statistics={name: each for group in groups for name, each in measure(group, results).items()})
 
 
-def measured(row, life):
-    """The row with the statistics of the results of `lives`, for each group whose conditions are all among them."""
-    groups = [name for name, group in GROUPS.items() if all(key in life for key in group.keys)]
-    return replace(row, statistics={name: each for group in groups for name, each in measure(group, life).items()})
-
-
-def rerun(table, n, seed=0, groups=tuple(GROUPS), executor=None):
+def rerun(table, n, seed=0, groups=tuple(GROUPS)):
     """Recompute n rows of a table: [(row as stored, row as recomputed), …], which should be equal.
 
     Rows are drawn without replacement. groups: names; a row is compared in those of them in which it has been run.
@@ -103,7 +97,7 @@ def rerun(table, n, seed=0, groups=tuple(GROUPS), executor=None):
     again = [replace(row, statistics={}) for row in rows]
     for group in GROUPS:
         of_group = [i for i, common in enumerate(shared) if group in common]
-        for i, row in zip(of_group, run([again[i] for i in of_group], group, executor)):
+        for i, row in zip(of_group, run([again[i] for i in of_group], group)):
             again[i] = row
     return list(zip(kept, again))
 
