@@ -17,12 +17,13 @@ from typing import NamedTuple
 import numpy as np
 
 from lib.alternatives.living import Contestant, learn_nothing
-from lib.alternatives.sight import ACTIONS
+from lib.alternatives.tabular_learners import ACTIONS
 from neorl.core.choices import Action
 from neorl.core.scene import ABSENT
 from neorl.core.kernel import array, inlined_kernel, kernel
 from neorl.worlds.waterworld import GREEN, RED, WaterWorldState, step
 
+PLANNED = 1 / 30  # length of the planner's runs, which does not learn, as a share of a learner's
 PUSH = 0.25  # board widths per second that an action adds to the velocity
 HOLDS = (1, 2, 4, 8, 16)
 

@@ -1,21 +1,21 @@
-"""Deep reinforcement learning in WaterWorld with Stable-Baselines3: how the stored tables were made.
+"""Deep reinforcement learning in WaterWorld with Stable-Baselines3: the script that makes the stored tables.
 
 1. Methods: DQN and PPO of Stable-Baselines3, and QR-DQN of its contributed package, with two layers of 64 units, on one
    thread. Each is one agent that learns from one stream of experience without episodes.
 2. Observation: that of `neorl.gym`, with positions relative to the agent and the nearest creep first, followed by the
    velocity of every creep in that order. The other learners of the page do not observe the creeps' velocities.
    Positions of creeps are multiplied by a tuned factor.
-3. Search: the same number of settings is drawn for each method (`lib.alternatives.deep_settings`), and each
-   is tried once, for `SEARCH_STEPS` steps with 3 creeps on a seed of its own. The one that earned most in the last
-   third of these is used for all runs.
+3. Search: the same number of settings is drawn for each method (`lib.alternatives.search`), and each is tried once with
+   3 creeps on a seed of its own. The one that earned most in the last third is used for all runs.
 4. Exploration ends after a number of steps, not after a share of a run, so a long run begins like a short one.
-5. Most runs of 600,000 steps in the package's table were computed by loops that do the libraries' arithmetic with fewer
-   calls, at two to five times their speed. Compared with eleven runs of this script, three or more of each method and
-   up to the full length, they earned the same reward in every minute. They have no time in the table.
+5. Most rows of 600,000 steps are by "elsewhere": loops that do the libraries' arithmetic with fewer calls, at two to
+   five times their speed, and are not in this repository. The first 150,000 steps of every such run are also a row of
+   this script, with the same reward in every minute. The script computes the rows by "elsewhere" anew, and replaces
+   them.
 
-Both tables are made by ``python -m lib.alternatives.deep_runs search deep_search.csv`` and ``… run
-deep_search.csv deep_runs.csv``, which resume when rerun. They take hours, and need stable-baselines3 and sb3-contrib,
-which no extra includes. `lib.alternatives.stored` reads the tables.
+Both tables are made by ``python -m lib.alternatives.deep_runs search deep_search.csv`` and ``… run deep_runs.csv``,
+which resume when rerun. A run takes minutes, the tables hours; they need stable-baselines3 and sb3-contrib, which no
+extra includes.
 """
 
 import sys
@@ -24,9 +24,9 @@ from pathlib import Path
 
 import numpy as np
 
-from lib.alternatives.deep_settings import SEARCH_SEED, SEARCH_STEPS, SETTINGS, settings_of
-from lib.alternatives.stored import (METHODS, MINUTE, RUN_FIELDS, SEARCH_FIELDS, append, chosen, finished,
-                                                read_search, row_of_run)
+from lib.alternatives.living import HERE, MINUTE, Row, read, write
+from lib.alternatives.search import DEEP, DEEP_SETTINGS, DEEP_STEPS, SEED, append, best_settings, setting_of
+from lib.alternatives.search import read as read_search
 from neorl.extras import require
 
 gymnasium = require("gymnasium", extra="gym")
@@ -115,26 +115,31 @@ def _kilobytes(model):
     return (sum(each.element_size() * each.nelement() for each in tensors) + sum(each.nbytes for each in arrays)) / 1e3
 
 
-def search(path, *methods):
-    """Try `SETTINGS` settings of each method, or of those named, and append their rewards to the table at `path`."""
-    done = {(row["method"], row["number"]) for row in read_search(path)} if Path(path).exists() else set()
-    for number in range(SETTINGS):
-        for method in methods or METHODS:
+def search(path):
+    """Try `DEEP_SETTINGS` settings of each method, and append their rewards to the table at `path`."""
+    done = {row[:2] for row in read_search(path)} if Path(path).exists() else set()
+    for number in range(DEEP_SETTINGS):
+        for method in DEEP:
             if (method, number) not in done:
-                rewards, _, _ = live(method, settings_of(method, number), 3, SEARCH_STEPS, SEARCH_SEED, number)
+                rewards, _, _ = live(method, setting_of(method, number), 3, DEEP_STEPS, SEED, number)
                 third = rewards[-len(rewards) // 3:]
-                append(path, SEARCH_FIELDS, (method, number, f"{third.sum() / (60 * len(third)):.4f}"))
+                append(path, method, number, third.sum() / (60 * len(third)))
 
 
-def run_all(searched, path):
-    """Compute the runs of `PLAN` that the table at `path` does not have yet, with the best settings of the search."""
-    best = chosen(read_search(searched))
+def run_all(path):
+    """Compute the runs of `PLAN` that the table at `path` does not have by this script, with the settings found."""
+    done = {row[:4] for row in read(path) if row.by == HERE} if Path(path).exists() else set()
     for creeps, steps, runs in PLAN:
         for run in range(runs):
-            for method in METHODS:
-                if (method, creeps, steps, run) not in finished(path):
-                    rewards, seconds, kilobytes = live(method, settings_of(method, best[method]), creeps, steps, 0, run)
-                    append(path, RUN_FIELDS, row_of_run(method, creeps, steps, run, seconds, kilobytes, rewards))
+            for method in DEEP:
+                if (method, creeps, steps, run) not in done:
+                    write(path, [row_of(method, creeps, steps, run)])
+
+
+def row_of(method, creeps, steps, run):
+    """Compute one run, with the setting that the search found: a `Row`."""
+    rewards, seconds, kilobytes = live(method, best_settings()[method], creeps, steps, 0, run)
+    return Row(method, creeps, steps, run, HERE, seconds, kilobytes, rewards)
 
 
 if __name__ == "__main__":

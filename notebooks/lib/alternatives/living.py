@@ -1,24 +1,39 @@
-"""The run loop for learners and controllers in WaterWorld that are not agents of neorl.
+"""How the contestants of the page on alternatives live, what they earn, and the runs that are stored for the page.
 
-A *contestant* is two kernels, ``act(setting, memory, state, rules)``, which returns the number of an action, and
-``learn(setting, memory, state, rules, action, reward, restarted)``, called after the world's step. `state` is the
-`WaterWorldState` and `rules` are its rules; a learner reads only the scene in it, a controller all of it. When the last
-green creep is captured the board is reset before ``learn`` is called, with `restarted` true, and learning continues.
+1. A *contestant* is two kernels, ``act(setting, memory, state, rules)``, which returns the number of an action, and
+   ``learn(setting, memory, state, rules, action, reward, restarted)``, called after the world's step. `state` is the
+   `WaterWorldState` and `rules` are its rules; a learner reads only the scene in it, a controller all of it.
+2. When the last green creep is captured the board is reset before ``learn`` is called, with `restarted` true, and
+   learning continues.
+3. A table of stored runs has a row for each run, with its reward in each minute of `MINUTE` steps. `by` is "code here",
+   or "elsewhere" for rewards that no program in this repository has computed yet.
 """
 
+import csv
 import functools
+import io
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from time import thread_time
 from typing import NamedTuple
 
 import numpy as np
 
+from neorl.agents.compile import n_bytes
 from neorl.core.kernel import arrays, execute, inlined, kernel
 from neorl.core.stream import new_stream
+from neorl.experiments.run import Run
+from neorl.files import write_whole
 from neorl.worlds import waterworld
 from neorl.worlds.waterworld import WaterWorld
 
-THREADS = 2
+BOARDS = {creeps: WaterWorld(n_creeps=creeps) for creeps in (3, 8)}
+FPS, THREADS, BINS = BOARDS[3].fps, 2, 50
+TIMED_STEPS = 20_000
+MINUTE = 3_000  # steps
+FOLDER = Path(__file__).parent
+TABLES = FOLDER / "long_runs.csv", FOLDER / "deep_runs.csv"
+HERE, ELSEWHERE = "code here", "elsewhere"
 
 
 class Contestant(NamedTuple):
@@ -30,16 +45,44 @@ class Contestant(NamedTuple):
     new_memory: object
 
 
-class Lived(NamedTuple):
-    """Results of runs: rewards, float64 (runs, bins); processor seconds of each, (runs,); bytes of a memory."""
+class Earned(NamedTuple):
+    """What the runs of one contestant earned, and what they cost."""
 
-    rewards: np.ndarray
-    seconds: np.ndarray
-    bytes: int
+    rewards: np.ndarray  # float64 (runs, bins)
+    steps: int  # per run
+    seconds: float  # to compute a step on one core, the world's part included
+    kilobytes: float  # of its memory
+
+    @property
+    def edges(self):
+        """The steps at which bins begin and end: float64 (bins + 1,)."""
+        return np.linspace(0, self.steps, self.rewards.shape[1] + 1).round()
+
+    @property
+    def rates(self):
+        """Reward per simulated second in each bin: float64 (runs, bins)."""
+        return self.rewards / (np.diff(self.edges) / FPS)
+
+    def rate(self, begin=0.0, end=1.0):
+        """Reward per simulated second between two fractions of the run: float64 (runs,)."""
+        return self._between(begin * self.steps, end * self.steps)
+
+    def steps_to(self, level):
+        """Steps until the rate over the last tenth of a run first reaches a level: (runs,), infinite if never."""
+        window = self.steps / 10
+        ends = self.edges[self.edges >= window]
+        made = np.array([self._between(end - window, end) >= level for end in ends])
+        return np.where(made.any(axis=0), ends[made.argmax(axis=0)], np.inf)
+
+    def _between(self, begin, end):
+        """Reward per simulated second between two steps, which may lie within a bin: float64 (runs,)."""
+        sums = np.pad(self.rewards.cumsum(axis=1), ((0, 0), (1, 0)))
+        first, last = (np.array([np.interp(at, self.edges, run) for run in sums]) for at in (begin, end))
+        return (last - first) / ((end - begin) / FPS)
 
 
-def live(contestant, world, *, steps, runs, bins, seed=0):
-    """Run a contestant in a `WaterWorld`: `Lived`.
+def live(contestant, world, *, steps, runs, bins=BINS, seed=0):
+    """Run a contestant in a `WaterWorld`: `Earned`.
 
     steps: of each run. bins: parts of a run, as equal as whole steps allow. Run k has the world of
     ``neorl.Run(agent, world, seed, k)``; the contestant draws from a random stream of its own.
@@ -59,7 +102,7 @@ def live(contestant, world, *, steps, runs, bins, seed=0):
     live_one(0, np.zeros_like(edges))  # compiles the kernel before calls are timed
     with ThreadPoolExecutor(THREADS) as pool:
         list(pool.map(live_one, range(runs)))
-    return Lived(rewards, seconds, int(sizes[0]))
+    return Earned(rewards, steps, float(np.median(seconds)) / steps, int(sizes[0]) / 1e3)
 
 
 @functools.cache
@@ -85,4 +128,65 @@ def learn_nothing(setting, memory, state, rules, action, reward, restarted):
     """Do nothing: a controller does not learn."""
 
 
-BOARDS = {creeps: WaterWorld(n_creeps=creeps) for creeps in (3, 8)}
+def of_result(result, bins=BINS):
+    """What an agent of neorl earned: `Earned`. result: a `neorl.Result` in a `WaterWorld`."""
+    edges = np.linspace(0, result.steps, bins + 1).round()
+    sums = np.pad(result.rewards.cumsum(axis=1, dtype=float), ((0, 0), (1, 0)))
+    rewards = np.diff(np.array([np.interp(edges, result.edges * FPS, run) for run in sums]), axis=1)
+    run, timed = Run(result.agent, result.world), min(result.steps, TIMED_STEPS)
+    run.advance(1)
+    began = thread_time()
+    run.advance(timed)
+    return Earned(rewards, result.steps, (thread_time() - began) / timed, n_bytes(result.agent, result.world) / 1e3)
+
+
+class Row(NamedTuple):
+    """A row of a table of stored runs."""
+
+    method: str
+    creeps: int
+    steps: int
+    run: int
+    by: str  # `HERE` or `ELSEWHERE`
+    seconds: float  # of processor time for the run; NaN if it was not timed
+    kilobytes: float
+    rewards: np.ndarray  # in each minute: float64 (minutes,), whole numbers
+
+
+def read(*paths):
+    """The rows of tables of stored runs, by default of the page's: a list of `Row`."""
+    rows = []
+    for path in paths or TABLES:
+        with open(path, newline="") as file:
+            rows += [Row(row["method"], int(row["creeps"]), int(row["steps"]), int(row["run"]), row["by"],
+                         float(row["seconds"]), float(row["kilobytes"]), np.array(row["rewards"].split(), float))
+                     for row in csv.DictReader(file)]
+    return rows
+
+
+def write(path, rows):
+    """Write rows to a table of stored runs, which need not exist; they replace those of the same runs."""
+    kept = {row[:4]: row for row in [*(read(path) if Path(path).exists() else ()), *rows]}
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows([Row._fields] + [
+        [*row[:5], f"{row.seconds:.3g}", f"{row.kilobytes:.4g}", " ".join(f"{each:.0f}" for each in row.rewards)]
+        for row in kept.values()])
+    write_whole(path, text.getvalue().encode())
+
+
+def stored(rows, names, creeps, steps):
+    """The first `steps` of the stored runs of some contestants: {name: `Earned`}.
+
+    rows: a list of `Row`. steps: at least `MINUTE`, cut to whole minutes. Each run is read from its shortest row that is
+    long enough. The time of a step is the median over all rows of a contestant on the board that have one.
+    """
+    found, minutes = {}, steps // MINUTE
+    for name in names:
+        own = [row for row in rows if (row.method, row.creeps) == (name, creeps)]
+        of_run = {row.run: row for row in sorted(own, key=lambda row: -row.steps) if len(row.rewards) >= minutes}
+        if of_run:
+            lived = [of_run[run] for run in sorted(of_run)]
+            seconds = float(np.nanmedian([row.seconds / row.steps for row in own]))
+            found[name] = Earned(np.array([row.rewards[:minutes] for row in lived]), minutes * MINUTE, seconds,
+                                 lived[0].kilobytes)
+    return found
