@@ -1,4 +1,4 @@
-"""Drawings of paths through the tank: along a plan, and by an agent's own knowledge."""
+"""The figures of chapter 1: paths through the tank, along a plan and by an agent's own knowledge."""
 
 import numpy as np
 from matplotlib.collections import LineCollection

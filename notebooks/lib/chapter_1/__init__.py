@@ -1,1 +1,0 @@
-"""Experiments, figures and sentences of chapter 1."""
