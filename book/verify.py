@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from neorl.experiments import cache, kept
+from neorl.experiments import store
 from neorl.experiments.run import new_bins
 from neorl.experiments.simulation import live
 from neorl.files import cache_folder
@@ -24,11 +24,11 @@ sys.path.append(str(Path(__file__).resolve().parents[1] / "notebooks"))  # pages
 
 def main():
     chosen = parse_arguments()
-    conditions = kept.conditions()
+    conditions = store.conditions()
     everything = [(condition, k) for condition in conditions for k in range(condition.runs)]
     if not everything:
         sys.exit(f"{cache_folder()} holds no condition that was computed with the present source: make book first")
-    others = sum(each.kind == "conditions" and not each.is_older for each in kept.kept()) - len(conditions)
+    others = sum(each.kind == "conditions" and not each.is_older for each in store.kept()) - len(conditions)
     sample = random.Random(chosen.seed).sample(everything, min(chosen.sample, len(everything)))
     print(f"{len(sample)} of {len(everything)} runs of {len(conditions)} conditions in {cache_folder()}, "
           f"seed {chosen.seed}")
@@ -61,10 +61,9 @@ def parse_arguments():
 
 def compare(condition, k):
     """Recompute a run: its difference from the cached one, as text or None, and its number of bins."""
-    result = cache.load(condition)
+    result = store.load(condition)
     rewards, hits = new_bins(condition.world, 1, condition.steps)
-    live(condition.agent, condition.world, condition.steps, condition.seed, k, condition.changes, rewards[0], hits[0],
-         each_slice=lambda steps: None)
+    live(condition, k, rewards[0], hits[0])
     same = (bits(result.rewards[k]) == bits(rewards[0])) & np.all(result.hits[k] == hits[0], axis=-1)
     if same.all():
         return None, same.size

@@ -32,10 +32,10 @@ from neorl.core.modality import Axis, Modality, cartesian, polar
 from neorl.core.policy import greedy, softmax
 from neorl.core.scene import ABSENT, CARDINAL, Actions, Scene
 from neorl.core.stream import randint, uniform
-from neorl.experiments.cache import Condition
+from neorl.experiments.condition import Condition
+from neorl.experiments.result import Result
 from neorl.experiments.run import Run
-from neorl.experiments.simulation import Result, simulate
-from neorl.experiments.sweeping import simulate_once, sweep
+from neorl.experiments.simulation import simulate, simulate_once, sweep
 from neorl.experiments.trajectory import Trajectory
 from neorl.worlds import walls
 from neorl.worlds.arena import Arena

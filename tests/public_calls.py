@@ -191,7 +191,7 @@ TABLE = {
            "load": entry(Run.load, path=paths, errors=(OSError,)),
        }.items()},
     **{f"neorl.{where}.{kind.__name__}.{name}": each for kind, value, where in (
-        (Agent, neorl.network_d([2]), "agents.agent"), (Condition, CONDITION, "experiments.cache"),
+        (Agent, neorl.network_d([2]), "agents.agent"), (Condition, CONDITION, "experiments.condition"),
         (Arena, Arena(), "worlds.arena"), (WaterWorld, BOARD, "worlds.waterworld"),
         (world.World, BOARD, "worlds.world"), *((type(each), each, f"worlds.{name}") for name, each in SPACES.items()))
        for name, each in {
@@ -200,8 +200,8 @@ TABLE = {
            "save": entry(saved_as(value), path=described_paths, errors=(OSError,)),
            "load": entry(kind.load, path=described_paths, errors=(OSError,)),
        }.items()},
-    "neorl.experiments.simulation.Result.save": entry(saved_as(RESULT), path=paths, errors=(OSError,)),
-    "neorl.experiments.simulation.Result.load": entry(Result.load, path=paths, errors=(OSError,)),
+    "neorl.experiments.result.Result.save": entry(saved_as(RESULT), path=paths, errors=(OSError,)),
+    "neorl.experiments.result.Result.load": entry(Result.load, path=paths, errors=(OSError,)),
     "neorl.experiments.run.Run": entry(
         lambda **each: Run(**each).advance(40), agent=agents, world=[BOARD], seed=seeds, run=st.integers(0, 9),
         after=st.builds(lambda: Run(neorl.place_cells([3]), BOARD))),
@@ -217,19 +217,21 @@ TABLE = {
     "neorl.experiments.simulation.simulate": entry(
         partial(neorl.simulate, progress=False), long=("steps", "runs", "threads"), agent=agents, world=[BOARD],
         steps=st.integers(1, 60), runs=st.integers(1, 2), seed=seeds,
-        changes=[(), [(20, neorl.place_cells([2]))]], threads=[None, 1], also=("change",)),
-    "neorl.experiments.sweeping.simulate_once": entry(
+        changes=[(), [(20, neorl.place_cells([2]))]], threads=[None, 1],
+        cache=[False, True], also=("change",)),
+    "neorl.experiments.simulation.simulate_once": entry(
         partial(neorl.simulate_once, progress=False), long=("steps", "runs"), agent=agents, world=[BOARD], steps=[60],
         runs=[1], seed=[0], changes=[()]),
-    "neorl.experiments.cache.Condition": entry(
+    "neorl.experiments.condition.Condition": entry(
         Condition, agent=agents, world=[BOARD], steps=st.integers(1, 60), runs=st.integers(1, 2), seed=seeds,
         changes=[(), [(20, neorl.place_cells([2]))]], also=("change",),
         then=lambda condition: (condition.key, repr(condition))),
-    "neorl.experiments.sweeping.sweep": entry(
+    "neorl.experiments.simulation.sweep": entry(
         lambda **each: list(neorl.sweep(**each, progress=False)), executor=[None],
+        cache=[True, False], threads=[None, 1], long=("threads",),
         conditions=[[Condition(neorl.place_cells([2]), BOARD, 40, 1)]], also="condition"),
-    "neorl.experiments.simulation.Result.rate": entry(RESULT.rate, begin=[0.0, 0.2], end=[0.5, 1.0]),
-    "neorl.experiments.simulation.Result.hit_rate": entry(RESULT.hit_rate, begin=[0.0, 0.2], end=[0.5, 1.0]),
+    "neorl.experiments.result.Result.rate": entry(RESULT.rate, begin=[0.0, 0.2], end=[0.5, 1.0]),
+    "neorl.experiments.result.Result.hit_rate": entry(RESULT.hit_rate, begin=[0.0, 0.2], end=[0.5, 1.0]),
     "neorl.evidence.curves.binned_rate": entry(curves.binned_rate, result=[RESULT], points=st.integers(1, 40)),
     "neorl.evidence.curves.low_passed": entry(curves.low_passed, rates=[CURVES, CURVES.tolist()]),
     "neorl.evidence.statistics.estimate": entry(

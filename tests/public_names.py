@@ -18,7 +18,7 @@ MODULES = (*EXPORTED, agent, beyond, learner, papers, horde, kernel, maps, modal
 # Classes that only kernels or the package itself instantiate; kernels refuse to be called.
 MADE_INSIDE = {f"neorl.{name}" for name in (
     "agents.learner.Offer", "core.kernel.Kernel", "core.scene.Scene", "evidence.statistics.Estimate",
-    "drawing.rate_maps.Track", "experiments.recording.Recording", "gym.playing.Played", "experiments.simulation.Result",
+    "drawing.rate_maps.Track", "experiments.recording.Recording", "gym.playing.Played", "experiments.result.Result",
     "experiments.trajectory.Trajectory", "worlds.arena.ArenaRules", "worlds.arena.ArenaState",
     "worlds.waterworld.Rules",
     *(f"worlds.{name}{part}" for name in ("arm.Arm", "vessel.Vessel", "water_maze.WaterMaze")

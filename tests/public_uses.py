@@ -79,7 +79,8 @@ def acted():
 
 def result_of(world, runs=3, bins=40):
     rng = np.random.default_rng(0)
-    return Result(neorl.place_cells([3]), world, 10 * bins, runs, 0, rng.normal(size=(runs, bins)).astype(np.float32),
+    return Result(Condition(neorl.place_cells([3]), world, 10 * bins, runs),
+                  rng.normal(size=(runs, bins)).astype(np.float32),
                   rng.integers(0, 3, (runs, bins, 2)).astype(np.int16))
 
 

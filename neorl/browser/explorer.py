@@ -30,7 +30,7 @@ from neorl.evidence.priors import TO_THE_LETTER as LETTER
 from neorl.evidence.reading import networks
 from neorl.evidence.statistics import tolerance_band
 from neorl.experiments.run import bin_steps
-from neorl.experiments.simulation import Result
+from neorl.experiments.result import Result
 from neorl.extras import require
 from neorl.worlds.arena import Arena
 from neorl.worlds.arm import Arm

@@ -45,7 +45,7 @@ from neorl.core.parameters import Parameters, derive
 from neorl.core.state import State, begin_values
 from neorl.core.steps import steps_with
 from neorl.core.stream import start_stream
-from neorl.experiments.cache import source_digest
+from neorl.experiments.condition import source_digest
 from neorl.extras import require
 from neorl.worlds import arena, arm, vessel, water_maze, waterworld
 from neorl.worlds.probe import probes_with

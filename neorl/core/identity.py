@@ -1,6 +1,6 @@
 """The identity of values that a result depends on: their content, and everything that their code looks up.
 
-A cached file is found by a text of everything that determined it (`neorl.experiments.cache`,
+A cached file is found by a text of everything that determined it (`neorl.experiments.condition`,
 `neorl.core.compile_cache`). A function counts by its bytecode, since its file may have changed after it was read, and
 by the present values of its globals, closures, defaults and attributes of modules, down to the functions among them.
 The code of the rooms `core` and `worlds` counts by name, since the key of such a file also contains the digest of

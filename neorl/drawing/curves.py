@@ -15,7 +15,7 @@ from neorl import checks
 from neorl.drawing.style import CURVES, INK, axes_or_new, by_name, looks, name_ends, numbers
 from neorl.evidence.curves import CUTOFF_PERIODS, binned_rate, low_passed
 from neorl.evidence.statistics import Estimate, mean_band, tolerance_band
-from neorl.experiments.simulation import Result
+from neorl.experiments.result import Result
 
 POINTS = 400  # per curve; more would not be visible
 APART = 3  # points between intervals at one x

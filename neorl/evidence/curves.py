@@ -5,7 +5,7 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from neorl import checks
-from neorl.experiments.simulation import Result
+from neorl.experiments.result import Result
 
 # Paper B smooths its curves "by a Butterworth low-pass filter" (section 3). The thesis states neither of these.
 FILTER_ORDER = 4

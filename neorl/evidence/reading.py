@@ -15,7 +15,7 @@ from neorl.agents.agent import Agent, Node
 from neorl.agents.rules import CALIBRATED, GREEDY, Learning, Policy
 from neorl.evidence import claims
 from neorl.evidence.pins import agreement
-from neorl.experiments.cache import Condition
+from neorl.experiments.condition import Condition
 from neorl.worlds.waterworld import WaterWorld
 
 SINGLE, LAYERS, PRIMES = (10, 30, 50, 70, 90), papers.LAYERS, papers.PRIMES

@@ -17,7 +17,7 @@ from neorl.evidence.marks import NOT_COMPUTED, leads, symbol
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 from neorl.evidence.statistics import Estimate
 from neorl.evidence.verdict import VERDICTS
-from neorl.experiments.cache import source_digest
+from neorl.experiments.condition import source_digest
 from neorl.files import cache_folder, write_whole
 
 LETTER, CALIBRATED = "to the letter", "calibrated"  # names of readings

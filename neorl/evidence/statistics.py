@@ -12,7 +12,7 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from neorl import checks
-from neorl.experiments.simulation import Result
+from neorl.experiments.result import Result
 from neorl.worlds.waterworld import WaterWorld
 
 RESAMPLES = 1_000

@@ -3,32 +3,30 @@
 import argparse
 import os
 import sys
-from pathlib import Path
 
 from neorl import files
-from neorl.experiments import kept
-from neorl.experiments.exchange import about
-from neorl.experiments.experiment import read_experiment
-from neorl.experiments.sweeping import sweep
+from neorl.experiments import store
+from neorl.experiments.condition import Condition
+from neorl.experiments.result import about
+from neorl.experiments.simulation import simulate
 
 LAST_FIFTH = (0.8, 1.0)
 
 
 def main(arguments=None):
     """Run a command from its arguments, by default those of this process. Returns the exit status."""
-    parser = argparse.ArgumentParser(prog="python -m neorl", description="Run experiments, and inspect the cache.")
+    parser = argparse.ArgumentParser(prog="python -m neorl", description="Run conditions, and inspect the cache.")
     commands = parser.add_subparsers(required=True, metavar="command")
-    run = commands.add_parser("run", help="run the experiment described in a file",
-                              description="Run the conditions in a file, see neorl.experiments.experiment, unless they "
-                              "are cached already, and report their reward.")
+    run = commands.add_parser("run", help="run the condition described in a file",
+                              description="Run the condition that neorl.Condition.save has written, or somebody by "
+                              "hand, unless it is cached already, and report its reward.")
     run.add_argument("file", help="a name that ends in .toml or .json")
-    run.add_argument("--save", metavar="results.npz", help="also write the result there, for neorl.Result.load; "
-                     "for a file with variations, one each, results-NAME.npz")
+    run.add_argument("--save", metavar="result.npz", help="also write the result there, for neorl.Result.load")
     run.set_defaults(call=lambda given: run_file(given.file, given.save))
     cache = commands.add_parser("cache", help="list the cache on disk, or clear it",
                                 description="List the contents of the folder that NEORL_CACHE names, or of the user's "
                                 "cache folder. All of it may be removed at any time, and is recreated when needed.")
-    cache.add_argument("--clear", nargs="?", const="all", choices=kept.WHICH, help="remove all of it, only compiled "
+    cache.add_argument("--clear", nargs="?", const="all", choices=store.WHICH, help="remove all of it, only compiled "
                        "code, or only files from older sources than these")
     cache.set_defaults(call=lambda given: clear_cache(given.clear) if given.clear else list_cache())
     given = parser.parse_args(arguments)
@@ -47,23 +45,20 @@ def main(arguments=None):
 
 
 def run_file(path, save=None):
-    """Run the experiment in a file, and print its results.
+    """Run the condition in a file, and print its result.
 
-    path: as in `read_experiment`. save: where to write them to, or None; with variations, each to a file of its own.
-    Raises what `read_experiment`, `sweep` and `neorl.Result.save` raise.
+    path: as in `neorl.Condition.load`. save: where to write the result to, or None.
+    Raises what `neorl.Condition.load`, `simulate` and `neorl.Result.save` raise.
     """
-    conditions = read_experiment(path)
-    targets = [Path(save).with_stem(f"{Path(save).stem}-{name}") if name else Path(save) for name in conditions
-               ] if save else [None] * len(conditions)
-    results = sweep(list(conditions.values()), progress=sys.stderr.isatty())
-    for (name, condition), result, target in zip(conditions.items(), results, targets):
-        if target:
-            result.save(target)
-        print(f"{name}: {kept.in_words(about(condition))}" if name else kept.in_words(about(condition)))
-        late = f", {_rate(result, *LAST_FIFTH)} in the last fifth" if len(result.time) >= 5 else ""
-        spread = ", ± the standard deviation over runs" if result.runs > 1 else ""
-        print(f"  reward per second: {_rate(result)}{late}{spread}")
-        print(f"  kept in {target or condition.path}")
+    condition = Condition.load(path)
+    result = simulate(**condition.choices, cache=True, progress=sys.stderr.isatty())
+    if save:
+        result.save(save)
+    late = f", {_rate(result, *LAST_FIFTH)} in the last fifth" if len(result.time) >= 5 else ""
+    spread = ", ± the standard deviation over runs" if result.runs > 1 else ""
+    print(store.in_words(about(condition)))
+    print(f"  reward per second: {_rate(result)}{late}{spread}")
+    print(f"  kept in {save or condition.path}")
 
 
 def _rate(result, *shares):
@@ -75,12 +70,12 @@ def _rate(result, *shares):
 def list_cache():
     """Print the contents of the cache."""
     print(files.cache_folder())
-    everything = kept.kept()
-    for kind, (words, _) in kept.KINDS.items():
+    everything = store.kept()
+    for kind, (words, _) in store.KINDS.items():
         some = [each for each in everything if each.kind == kind]
         print(f"{words}: {_amount(some)}" if some else f"{words}: none")
         if kind == "conditions":
-            lines = [(kept.in_words(each.about), each) for each in some if each.about]
+            lines = [(store.in_words(each.about), each) for each in some if each.about]
             for line, each in sorted(lines, key=lambda pair: pair[0]):
                 print(f"  {line}: {_bytes(each.size)}{', from older sources' * each.is_older}")
             unknown = [each for each in some if not each.about]
@@ -91,8 +86,8 @@ def list_cache():
 
 
 def clear_cache(which):
-    """Clear the cache, and print how much was removed. which: see `neorl.experiments.kept.clear`."""
-    print(f"removed from {files.cache_folder()}: {_amount(kept.clear(which))}")
+    """Clear the cache, and print how much was removed. which: see `neorl.experiments.store.clear`."""
+    print(f"removed from {files.cache_folder()}: {_amount(store.clear(which))}")
 
 
 def _amount(some):

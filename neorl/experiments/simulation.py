@@ -1,131 +1,42 @@
-"""Independent learners run in parallel in a world, and their rewards."""
+"""Runs of conditions, on this machine's cores or on any executor, with the same results to the last bit.
+
+1. A task is one or more runs of a condition, at least 100,000 steps if there are so many: one core computes them in
+   turn, and returns their rewards and hits. A single condition thus keeps all cores as busy as many do.
+2. The process that called writes finished runs to disk; runs that are on disk already are not repeated
+   (`neorl.experiments.store`).
+3. A task that fails, by itself or with its worker, is retried after the others are done, up to three attempts in all.
+   An executor that breaks as a whole is replaced by the cores of this machine. Without a cache, where nothing would be
+   kept, the first error ends the call.
+4. On this machine the workers are threads, not processes: compiled kernels run in parallel in them. Threads share the
+   kernels, have no start-up time, and accept kernels and worlds defined in a notebook, which cannot be sent to a
+   process.
+5. There is no time limit, since only the user knows how long a run may take. Ctrl-C ends a sweep that waits for a
+   hanging worker, reports the task it waited for, and leaves finished runs on disk.
+"""
 
 import os
 import threading
-from collections.abc import Callable
-from concurrent.futures import CancelledError, ThreadPoolExecutor
-from dataclasses import dataclass
-from os import PathLike
-from typing import Any, Self
-
-import numpy as np
-from numpy.typing import NDArray
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import BrokenExecutor, CancelledError, Executor, ThreadPoolExecutor, as_completed
+from typing import NamedTuple
 
 from neorl import checks
 from neorl.agents.agent import Agent
+from neorl.agents.compile import n_values
 from neorl.agents.memory import fitting_runs
-from neorl.experiments import exchange
-from neorl.experiments.run import SLICE, Run, bin_steps, new_bins
+from neorl.experiments.condition import Condition
+from neorl.experiments.result import Result
+from neorl.experiments.run import SLICE, Run, new_bins
+from neorl.experiments.store import Disk, Keeper
 from neorl.worlds.world import World
 
-
-@dataclass(frozen=True, eq=False)
-class Result:
-    """The rewards and hits of the runs of one condition.
-
-    rewards: float32 (runs, bins), summed over bins of 0.2 s. hits: int16 (runs, bins, kinds), the number of things of
-    each kind that were met, counted up to 32,767 in a bin; in WaterWorld green and red creeps.
-    changes: (step, agent) pairs, the agents that the runs became at these steps.
-    agent, world, steps, runs, seed: as in `simulate`.
-    """
-
-    agent: Agent
-    world: World
-    steps: int
-    runs: int
-    seed: int
-    rewards: NDArray[np.float32]
-    hits: NDArray[np.int16]
-    changes: tuple[tuple[int, Agent], ...] = ()
-
-    __eq__ = checks.equal_fields
-
-    @property
-    def seconds(self) -> float:
-        """Simulated seconds per run."""
-        return self.steps / self.world.fps
-
-    @property
-    def edges(self) -> NDArray[np.float64]:
-        """float64 (bins + 1,): when the first bin begins and when each bin ends, in simulated seconds."""
-        steps = np.arange(self.rewards.shape[1] + 1) * bin_steps(self.world)
-        return np.minimum(steps, self.steps) / self.world.fps
-
-    @property
-    def time(self) -> NDArray[np.float64]:
-        """float64 (bins,): when each bin ends, in simulated seconds."""
-        return self.edges[1:]
-
-    @property
-    def totals(self) -> NDArray[np.float64]:
-        """float64 (runs,): the accumulated reward of each run."""
-        return self.rewards.sum(axis=1, dtype=float)
-
-    def rate(self, begin: float = 0.0, end: float = 1.0) -> NDArray[np.float64]:
-        """float64 (runs,): reward per simulated second between two fractions of the run, to the nearest bin.
-
-        begin, end: the fractions, in [0, 1]. Raises ValueError for others, and for intervals shorter than a bin.
-        """
-        bins, seconds = self._stretch(begin, end)
-        return self.rewards[:, bins].sum(axis=1, dtype=float) / seconds
-
-    def hit_rate(self, begin: float = 0.0, end: float = 1.0) -> NDArray[np.float64]:
-        """float64 (runs, kinds): things of each kind met per simulated second between two fractions of the run.
-
-        begin, end: the fractions, in [0, 1]. Raises ValueError as `rate` does.
-        """
-        bins, seconds = self._stretch(begin, end)
-        return self.hits[:, bins].sum(axis=1) / seconds
-
-    def to_frame(self) -> Any:
-        """A `pandas.DataFrame` with a row for each run and bin, sorted by run, then bin.
-
-        Columns: "run", int64; "time", float64, when the bin ends, in simulated seconds; "reward", float32, the sum over
-        the bin; and for each kind of thing, such as ``hits_green``, int16, the number met in the bin.
-        Raises ImportError without pandas.
-        """
-        return exchange.to_frame(self)
-
-    def to_xarray(self) -> Any:
-        """An `xarray.Dataset` of dimensions run, time and kind, with coordinates of the same names.
-
-        time: when each bin ends, in simulated seconds. rewards: float32 (run, time), the sum over the bin. hits: int16
-        (run, time, kind), the number of things met in the bin. attributes: steps and runs; agent, world and changes as
-        JSON texts (see `neorl.core.description`); seed and the version of neorl as texts.
-        Raises ImportError without xarray, ValueError for an agent or a world that cannot be imported by name.
-        """
-        return exchange.to_xarray(self)
-
-    def save(self, path: str | PathLike[str]) -> None:
-        """Save to a NumPy npz file: the arrays rewards and hits, and the text about, a table in JSON.
-
-        path: of the file, a string or a `pathlib.Path`; an existing file is replaced.
-        Raises OSError if it cannot be written, ValueError for an agent or a world that cannot be imported by name
-        (`neorl.core.description`).
-        """
-        exchange.save(self, path)
-
-    @classmethod
-    def load(cls, path: str | PathLike[str]) -> Self:
-        """Load a result that `save` has written.
-
-        path: of the file, a string or a `pathlib.Path`.
-        Raises OSError if there is no such file, ValueError if it is damaged, of another kind or from a newer neorl, or
-        if its agent or world cannot be imported.
-        """
-        return cls(**exchange.load(path))
-
-    def _stretch(self, begin, end):
-        checks.real("begin", begin, 0, 1)
-        checks.real("end", end, 0, 1)
-        first, last = (round(share * self.rewards.shape[1]) for share in (begin, end))
-        if first >= last:
-            raise checks.error("end", f"a share at least a bin after begin, {begin!r}", end)
-        return slice(first, last), self.edges[last] - self.edges[first]
+ATTEMPTS = 3
+TASK_STEPS = 100_000  # they take a typical agent a tenth of a second, and a task's overhead is a millisecond
 
 
 def simulate(agent: Agent, world: World, *, steps: int, runs: int, seed: int = 0,
-             changes: tuple[tuple[int, Agent], ...] = (), threads: int | None = None,
+             changes: tuple[tuple[int, Agent], ...] = (), cache: bool = False, threads: int | None = None,
              progress: bool | Callable[[int, int], object] = True) -> Result:
     """Run `runs` independent learners for `steps` steps each, one core per run, and return their `Result`.
 
@@ -133,50 +44,206 @@ def simulate(agent: Agent, world: World, *, steps: int, runs: int, seed: int = 0
     seed: integer ≥ 0; run k is the same for any number of runs and threads.
     changes: (step, agent) pairs in order of time: from that step on every learner is that agent, see
         `neorl.Run.change`.
-    threads: the number of runs in parallel, an integer ≥ 1; by default one per core, as far as they fit into the free
-        memory.
+    cache: read what is on disk already instead of computing it, and keep finished runs there, so that after an
+        interruption the next call does the rest.
+    threads: the greatest number of runs in parallel, an integer ≥ 1; by default one per core, as far as they fit into
+        the free memory.
     progress: show a progress bar; or a function (done, total), which is called now and then with the number of steps
         that all runs together have taken, and will take. It is called from threads, but never twice at once.
-    Raises ValueError for a bad argument, MemoryError if a single run does not fit into the free memory.
+
+    Raises ValueError for a bad argument, MemoryError if a single run does not fit into the free memory. Warns if
+    results that are to be cached cannot be written to disk.
     """
-    checks.instance("agent", agent, Agent)
-    checks.instance("world", world, World)
-    steps, runs = checks.integer("steps", steps, at_least=1), checks.integer("runs", runs, at_least=1)
-    seed = checks.integer("seed", seed, at_least=0)
-    changes = checked_changes(changes, steps)
-    usable = min(usable_threads(each, world) for each in (agent, *(later for _, later in changes)))
-    threads = usable if threads is None else checks.integer("threads", threads, at_least=1)
-    rewards, hits = new_bins(world, runs, steps)
-    stop, before = threading.Event(), threading.local()
-    with progress_bar(runs * steps, label(agent), progress) as bar:
+    try:
+        return next(sweep([Condition(agent, world, steps, runs, seed, changes)], progress=progress, cache=cache,
+                          threads=threads))
+    except RuntimeError as failure:
+        raise failure.__cause__ or failure
 
-        def each_slice(lived):
-            if stop.is_set():
-                raise CancelledError
-            bar.update(lived)
 
-        def live_one(k):
-            before.run = live(agent, world, steps, seed, k, changes, rewards[k], hits[k], each_slice,
-                              getattr(before, "run", None))
+def simulate_once(agent: Agent, world: World, *, steps: int, runs: int, seed: int = 0,
+                  changes: tuple[tuple[int, Agent], ...] = (),
+                  progress: bool | Callable[[int, int], object] = True) -> Result:
+    """`simulate` with ``cache=True``. The arguments are those of `simulate`."""
+    return simulate(agent, world, steps=steps, runs=runs, seed=seed, changes=changes, cache=True, progress=progress)
 
-        with ThreadPoolExecutor(min(threads, runs)) as pool:
+
+def sweep(conditions: Sequence[Condition], executor: Executor | None = None,
+          progress: bool | Callable[[int, int], object] = True, *, cache: bool = True,
+          threads: int | None = None) -> Iterator[Result]:
+    """Compute independent conditions, and return an iterator of their `Result`s, in order.
+
+    conditions: `Condition`s. All are computed before this returns; each result is read from disk when its turn comes.
+    executor: any `concurrent.futures.Executor` whose workers can import this version of neorl, such as a process
+        pool, `dask.distributed.Client.get_executor()`, or an executor over MPI; by default this machine's cores. It is
+        not shut down.
+    progress: show a progress bar, with the time left at the pace so far; or a function (done, total) as in `simulate`,
+        of the steps of those conditions that are not on disk already.
+    cache: as in `simulate`; without it, all results are in memory.
+    threads: as in `simulate`. Not with an executor, which has workers of its own.
+
+    Results that cannot be written to disk stay in memory, with a warning.
+
+    Raises ValueError for a bad argument, MemoryError if a single run, or results that cannot be written, do not fit
+    into the free memory of this machine, RuntimeError for conditions that have failed three times, once all others are
+    kept; the next call resumes there.
+    """
+    conditions = checks.several("conditions", conditions)
+    for condition in conditions:
+        checks.instance("condition", condition, Condition)
+    if not hasattr(executor, "submit") and executor is not None:
+        raise checks.error("executor", "an executor of concurrent.futures or None", executor)
+    if threads is not None:
+        checks.integer("threads", threads, at_least=1)
+        if executor is not None:
+            raise checks.error("threads", "None beside an executor", threads)
+    cache = checks.flag("cache", cache)
+    disk, keepers = Disk() if cache else None, {}
+    names = [condition.key if cache else id(condition) for condition in conditions]
+    for name, condition in zip(names, conditions):
+        if name not in keepers:
+            keepers[name] = Keeper(condition, disk)
+    missing = [keeper for keeper in keepers.values() if keeper.missing]
+    # The largest come first, so that later runs can reuse their memory.
+    missing.sort(key=lambda keeper: -n_values(keeper.condition.agent, keeper.condition.world))
+    waiting = [task for keeper in missing for task in _tasks(keeper)]
+    total, errors = sum(task.steps for task in waiting), list[tuple[Task, BaseException]]()
+    name = label(missing[0].condition.agent) if len(missing) == 1 else "sweep"
+    with progress_bar(total, name, progress) as bar:
+        try:
+            for _ in range(ATTEMPTS):
+                errors = _run(waiting, executor, threads, cache, bar) if waiting else []
+                waiting = [task for task, _ in errors]
+                if any(isinstance(error, BrokenExecutor) for _, error in errors):
+                    warnings.warn(f"{executor!r} is broken; this machine's cores do the rest", RuntimeWarning,
+                                  stacklevel=2)
+                    executor = None
+        finally:
+            for keeper in missing:
+                keeper.write_runs()
+    if errors:
+        failed = {id(task.keeper): (task.keeper.condition, error) for task, error in errors}
+        condition, error = next(iter(failed.values()))
+        raise RuntimeError(f"{len(failed)} of {len(conditions)} conditions have failed {ATTEMPTS} times, such as "
+                           f"{condition}: {error!r}") from error
+    return (keepers[name].result() or simulate(**condition.choices, cache=True)
+            for name, condition in zip(names, conditions))
+
+
+class Task(NamedTuple):
+    """Some runs of a condition, and where they are kept."""
+
+    keeper: Keeper
+    runs: list
+
+    @property
+    def steps(self):
+        """The steps of all these runs together."""
+        return len(self.runs) * self.keeper.condition.steps
+
+
+def _tasks(keeper):
+    count = -(-TASK_STEPS // keeper.condition.steps)
+    return [Task(keeper, keeper.missing[first : first + count]) for first in range(0, len(keeper.missing), count)]
+
+
+def _run(tasks, executor, threads, cache, bar):
+    """Compute tasks, and return the failed ones, [(task, exception), ...]."""
+    if executor is None:
+        return _run_here(tasks, threads, cache, bar)
+    return _collect(tasks, lambda condition, runs: executor.submit(_live, condition, runs, condition.key), cache,
+                    lambda task: bar.update(task.steps))
+
+
+def _run_here(tasks, threads, cache, bar):
+    conditions = {id(task.keeper): task.keeper.condition for task in tasks}.values()
+    lives = [(agent, each.world) for each in conditions
+             for agent in (each.agent, *(later for _, later in each.changes))]
+    usable = usable_threads(*max(lives, key=lambda life: n_values(*life)))
+    pool = ThreadPoolExecutor(usable if threads is None else min(usable, threads))
+    stop, room = threading.Event(), threading.local()
+
+    def each_slice(lived):
+        if stop.is_set():
+            raise CancelledError
+        bar.update(lived)
+
+    try:
+        return _collect(tasks, lambda condition, runs: pool.submit(
+            _live, condition, runs, condition.key if cache else None, each_slice, room), cache)
+    except BaseException:
+        stop.set()
+        raise
+    finally:
+        pool.shutdown(wait=not stop.is_set())  # a thread that is still compiling may end by itself
+
+
+def _collect(tasks, submit, cache, finished=lambda task: None):
+    """Submit tasks, pass their results to their keepers, and return the failed ones, [(task, exception), ...]."""
+    waiting, errors = {}, []
+    try:
+        for task in tasks:
+            waiting[submit(task.keeper.condition, task.runs)] = task
+    except BrokenExecutor as error:
+        errors = [(task, error) for task in tasks[len(waiting) :]]
+    try:
+        for future in as_completed(waiting):
+            task = waiting.pop(future)
             try:
-                for finished in [pool.submit(live_one, k) for k in range(runs)]:
-                    finished.result()
-            except BaseException:
-                stop.set()
-                pool.shutdown(cancel_futures=True)
-                raise
-    return Result(agent, world, steps, runs, seed, rewards, hits, changes)
+                rewards, hits = future.result()
+            except Exception as error:
+                if not cache:
+                    raise
+                errors.append((task, error))
+            else:
+                task.keeper.add(task.runs, rewards, hits)
+                finished(task)
+    except KeyboardInterrupt as interruption:
+        if waiting:
+            task = next((task for future, task in waiting.items() if future.running()), next(iter(waiting.values())))
+            interruption.add_note(f"{len(waiting)} tasks were left, such as runs {task.runs[0]} to {task.runs[-1]} of "
+                                  f"{task.keeper.condition}"
+                                  + "; finished runs are kept, and the next call resumes there." * cache)
+        raise
+    finally:
+        for future in waiting:  # none, unless it was interrupted
+            future.cancel()
+    return errors
 
 
-def live(agent, world, steps, seed, k, changes, rewards, hits, each_slice, after=None):
-    """Carry out run k, and return it. Its rewards and hits are written into the arrays given.
+def _live(condition, runs, key, each_slice=lambda lived: None, room=None):
+    """The work of one task: carry out runs of a condition, and return their rewards and hits.
+
+    key: of the condition, where the caller computes it, or None if they are not cached. A worker with other code or
+    constants than the caller's is refused, since its results could differ. room: holds the thread's last run, whose
+    memory the next one reuses.
+    """
+    _check_key(condition, key)
+    rewards, hits = new_bins(condition.world, len(runs), condition.steps)
+    run = vars(room).pop("run", None) if room else None
+    if run and n_values(run.agent, run.world) < n_values(condition.agent, condition.world):
+        run = None  # frees its memory before another run allocates
+    for k, *into in zip(runs, rewards, hits):
+        run = live(condition, k, *into, each_slice, run)
+    if room:
+        room.run = run
+    _check_key(condition, key)
+    return rewards, hits
+
+
+def _check_key(condition, key):
+    if key and condition.key != key:
+        raise RuntimeError(f"worker {os.getpid()} must have the sources of neorl and the kernels and constants of the "
+                           "sweep that it works for, but has others; restart it, and change nothing while it runs")
+
+
+def live(condition, k, rewards, hits, each_slice=lambda lived: None, after=None):
+    """Carry out run k of a condition, and return it. Its rewards and hits are written into the arrays given.
 
     each_slice: called after every slice with its number of steps; an exception in it ends the run. after: see `Run`.
     """
-    run = Run(agent, world, seed, k, after=after)
-    for until, later in (*changes, (steps, None)):
+    run = Run(condition.agent, condition.world, condition.seed, k, after=after)
+    for until, later in (*condition.changes, (condition.steps, None)):
         while run.step < until:
             slice_steps = min(SLICE, until - run.step)
             run.advance(slice_steps, rewards, hits)
@@ -184,6 +251,12 @@ def live(agent, world, steps, seed, k, changes, rewards, hits, each_slice, after
         if later:
             run.change(later)
     return run
+
+
+def usable_threads(agent, world):
+    """The number of runs of an agent in a world to run in parallel: one per core, within nine tenths of free memory."""
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    return min(fitting_runs(agent, world), cores)
 
 
 def progress_bar(steps, name, shown):
@@ -225,20 +298,3 @@ class Report:
 def label(agent):
     """An agent in a few words, for a progress bar."""
     return ", ".join(f"{node.name} {'+'.join(f'N{n}' for n in node.resolutions)}" for node in agent.nodes)
-
-
-def checked_changes(changes, steps):
-    """`changes` as a tuple. Raises ValueError unless they are (step, agent) pairs in order, within the run."""
-    pairs, least = [], 0
-    for pair in checks.several("changes", changes):
-        if len(checks.several("changes", pair)) != 2:
-            raise checks.error("changes", "pairs (step, agent)", pair)
-        least = checks.integer("step of a change", pair[0], at_least=least, at_most=steps)
-        pairs.append((least, checks.instance("agent of a change", pair[1], Agent)))
-    return tuple(pairs)
-
-
-def usable_threads(agent, world):
-    """The number of runs of an agent in a world to run in parallel: one per core, within nine tenths of free memory."""
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-    return min(fitting_runs(agent, world), cores)

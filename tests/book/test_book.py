@@ -71,14 +71,14 @@ def test_a_notebook_opens_from_the_repository_that_is_set(make_book, tmp_path):
 def test_without_a_repository_there_are_no_buttons_and_docstrings_become_lists_with_links(make_book, open_page,
                                                                                           tmp_path):
     page, reference = make_book(modules=["neorl.agents.individual", "neorl.experiments.run",
-                                         "neorl.experiments.simulation", "neorl.experiments.cache",
-                                         "neorl.experiments.sweeping"])
+                                         "neorl.experiments.simulation", "neorl.experiments.result",
+                                         "neorl.experiments.condition"])
     assert "mybinder" not in page and "colab" not in page and "fa-github" not in page
     text = re.sub(r"<[^>]+>", "", reference)
     assert "The repository is at" not in text and "built without the address of its repository" in text
     assert "Raises" in text and "ValueError" in text
-    of_store = reference.split('id="neorl.experiments.sweeping.simulate_once"')[1].split("</article>")[0]
-    assert re.search(r'href="#neorl.experiments.simulation.Result"[^>]*><code[^>]*><span class="pre">Result', of_store)
+    of_store = reference.split('id="neorl.experiments.simulation.simulate"')[1].split("</article>")[0]
+    assert re.search(r'href="#neorl.experiments.result.Result"[^>]*><code[^>]*><span class="pre">Result', of_store)
     assert "float64 (actions,): the value of each action" in text  # a comment beside a field
     assert "Alias for field number" not in text
     search = (tmp_path / "_build" / "html" / "_static" / "language_data.js").read_text(encoding="utf-8")

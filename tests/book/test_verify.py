@@ -10,9 +10,8 @@ import edited
 import pytest
 
 from neorl import Condition, Policy, WaterWorld, files, kernel, multimodal, place_cells, simulate, simulate_once
-from neorl.experiments import cache
-from neorl.experiments import kept as kept_files
-from neorl.experiments.kept import conditions
+from neorl.experiments import store
+from neorl.experiments.store import conditions
 
 VERIFY = Path(__file__).parents[2] / "book" / "verify.py"
 KEPT = [Condition(place_cells([3]), WaterWorld(), 505, 3, 1),
@@ -42,7 +41,7 @@ def test_runs_equal_to_the_cached_ones_pass(kept):
 def test_a_run_that_differs_from_the_cached_one_is_named(kept, name):
     values = getattr(kept[1], name).copy()
     values[1, 7] += 1
-    cache.save(KEPT[1], replace(kept[1], **{name: values}))
+    store.save(replace(kept[1], **{name: values}))
     done = verify("--sample", "5", "--seed", "2")
     assert done.returncode == 1
     assert f"run 1 of {KEPT[1]}, kept in {KEPT[1].path}: 1 of 40 bins differ, the first from 1.4 s on" in done.stdout
@@ -59,10 +58,10 @@ def test_files_without_a_condition_of_the_present_source_are_skipped(kept, cache
         return 0
 
     own = Condition(place_cells([3], policy=Policy(choose=first)), WaterWorld(), 50, 1)
-    cache.save(own, simulate(**own.choices, progress=False))
-    assert own.path.exists() and cache.load(own) is not None
+    store.save(simulate(**own.choices, progress=False))
+    assert own.path.exists() and store.load(own) is not None
     assert sorted(conditions(), key=KEPT.index) == KEPT
-    monkeypatch.setattr(kept_files, "source_digest", lambda: "another source")
+    monkeypatch.setattr(store, "source_digest", lambda: "another source")
     assert conditions() == []
 
 

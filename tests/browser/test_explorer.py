@@ -239,7 +239,8 @@ def test_a_condition_in_the_arena_stands_beside_one_in_a_tank(conditions):
     Agent([Node("PC", modality.Modality("own", [modality.Axis(distance)]), [3])]),
 ])
 def test_custom_kernels_cannot_be_shown(agent):
-    result = replace(simulate(place_cells([3]), TANK, steps=10, runs=1, progress=False), agent=agent)
+    result = simulate(place_cells([3]), TANK, steps=10, runs=1, progress=False)
+    result = replace(result, condition=replace(result.condition, agent=agent))
     with pytest.raises(ValueError, match="condition X must have the kernels that are compiled for the page, with the"):
         Explorer({"X": result})
 

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from neorl import NresMap, Result, Run, WaterWorld, brownian, network_b, object_vector_cells, place_cells, simulate
+from neorl import (Condition, NresMap, Result, Run, WaterWorld, brownian, network_b, object_vector_cells, place_cells,
+                   simulate)
 from neorl.core.geometry import TAU
 from neorl.core.modality import MODALITIES, Modality, cartesian
 from neorl import drawing
@@ -54,7 +55,8 @@ def test_names_at_the_ends_keep_apart_and_near():
 def made_up(rate, runs, steps, seed=0):
     """A result in which every run earns `rate` per second, with noise in each bin."""
     rewards = np.random.default_rng(seed).normal(0.2 * rate, 0.3, (runs, -(-steps // 10))).astype(np.float32)
-    return Result(place_cells([2]), WaterWorld(), steps, runs, 0, rewards, np.zeros((*rewards.shape, 2), np.int16))
+    return Result(Condition(place_cells([2]), WaterWorld(), steps, runs), rewards,
+                  np.zeros((*rewards.shape, 2), np.int16))
 
 
 def test_the_filter_keeps_what_is_slow():

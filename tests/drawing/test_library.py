@@ -12,7 +12,7 @@ from matplotlib import pyplot as plt
 from matplotlib.patches import Circle
 
 import neorl
-from neorl import NresMap, Result, Run, WaterWorld, drawing, network_d, place_cells
+from neorl import Condition, NresMap, Result, Run, WaterWorld, drawing, network_d, place_cells
 from neorl.evidence.statistics import Estimate
 
 MODULES = [importlib.import_module(f"neorl.drawing.{each.name}") for each in pkgutil.iter_modules(drawing.__path__)]
@@ -23,7 +23,7 @@ ESTIMATES = {"D": [Estimate(0.1, 0.0, 0.3), Estimate(0.4, 0.3, 0.5)]}
 def made_up(minutes, runs=3, reward=0.1):
     steps = int(minutes * 60 * 50)
     rewards = np.full((runs, -(-steps // 10)), reward, np.float32)
-    return Result(place_cells([2]), TANK, steps, runs, 0, rewards, np.zeros((*rewards.shape, 2), np.int16))
+    return Result(Condition(place_cells([2]), TANK, steps, runs), rewards, np.zeros((*rewards.shape, 2), np.int16))
 
 
 @pytest.fixture(scope="module")

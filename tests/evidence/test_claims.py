@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from neorl import Result, WaterWorld, place_cells
+from neorl import Condition, Result, WaterWorld, place_cells
 from neorl.evidence import claims
 
 
@@ -17,7 +17,7 @@ def lives(curve, runs=20, noise=0.02, world=EIGHT, steps=10_000):
     bins = len(curve)
     each = np.random.default_rng(0).normal(0, noise, (runs, 1))
     rewards = ((curve + each) * 0.2).astype(np.float32)
-    return Result(place_cells([1]), world, steps, runs, 0, rewards, np.zeros((runs, bins, 2), np.int16))
+    return Result(Condition(place_cells([1]), world, steps, runs), rewards, np.zeros((runs, bins, 2), np.int16))
 
 
 def made_up(early, final=None, runs=20, learned_by=0.1):
@@ -123,7 +123,8 @@ def climbing(final, minutes, runs=20):
     rate = np.minimum(np.arange(bins) / 300 / minutes, 1) * final
     noise = np.random.default_rng(0).uniform(0.95, 1.05, (runs, 1))
     rewards = (rate * noise * 0.2).astype(np.float32)
-    return Result(place_cells([1]), WaterWorld(), 600_000, runs, 0, rewards, np.zeros((runs, bins, 2), np.int16))
+    condition = Condition(place_cells([1]), WaterWorld(), 600_000, runs)
+    return Result(condition, rewards, np.zeros((runs, bins, 2), np.int16))
 
 
 def paper_b_judged(place, objects, both, control=None):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from neorl import Result, WaterWorld, place_cells
+from neorl import Condition, Result, WaterWorld, place_cells
 from neorl.evidence import claims
 
 
@@ -14,7 +14,7 @@ def sample(mean, runs=20):
 def lives(early, final, runs=20):
     rewards = np.repeat([[early] * 500 + [final] * 500], runs, axis=0) * 0.2
     rewards *= np.random.default_rng(round(1e3 * (early + 7 * final))).normal(1, 0.02, (runs, 1))
-    return Result(place_cells([1]), WaterWorld(), 10_000, runs, 0, rewards.astype(np.float32),
+    return Result(Condition(place_cells([1]), WaterWorld(), 10_000, runs), rewards.astype(np.float32),
                   np.zeros((runs, 1_000, 2), np.int16))
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from neorl import Result, WaterWorld, place_cells
+from neorl import Condition, Result, WaterWorld, place_cells
 from neorl.evidence.statistics import (Estimate, estimate, lead_over_best, lead_over_sum, mean_band,
                                        minutes_sooner, minutes_to_own_level, points, probability_of_improvement,
                                        rank_correlation, ratio, resets, time_to_final_level, time_to_level,
@@ -120,7 +120,7 @@ def test_the_time_to_the_final_level_is_that_of_each_run():
     rewards[1, 100:] = 1  # a step after 20 s reaches nine tenths 9 bins later
     rewards[2] = np.arange(400) / 400  # final level 359.5 / 400; the mean of bins 320 to 329 reaches nine tenths of it
     rewards[3] = -1  # never
-    result = Result(place_cells([1]), WaterWorld(), 4_000, 4, 0, rewards, np.zeros((4, 400, 2), np.int16))
+    result = Result(Condition(place_cells([1]), WaterWorld(), 4_000, 4), rewards, np.zeros((4, 400, 2), np.int16))
     np.testing.assert_allclose(time_to_final_level(result), [2.0, 21.8, 66.0, 80.0])
     np.testing.assert_allclose(time_to_level(result, 0.5), [2.0, 20.2, 9.2, 80.0])  # bin 101; bins 36 to 45
     np.testing.assert_allclose(time_to_level(result, [9, 9, 9, -9]), [80.0, 80.0, 80.0, 2.0])
@@ -130,7 +130,7 @@ def test_the_mean_reaches_a_level_later_than_the_luckiest_run():
     """Half of the runs are lucky once, early; the mean only reaches its final level when all have learned."""
     rewards = np.full((10, 400), 0.01, np.float32)
     rewards[:5, 20:30], rewards[:, 200:] = 0.2, 0.2
-    result = Result(place_cells([1]), WaterWorld(), 4_000, 10, 0, rewards, np.zeros((10, 400, 2), np.int16))
+    result = Result(Condition(place_cells([1]), WaterWorld(), 4_000, 10), rewards, np.zeros((10, 400, 2), np.int16))
     assert time_to_final_level(result).min() == pytest.approx(6, abs=0.5)
     found = minutes_to_own_level(result)
     assert 60 * found.value == pytest.approx(42, abs=1) and 60 * found.high <= 43
@@ -145,7 +145,7 @@ def steps_up(bins, at, runs=10, height=1.0, before=0.0):
     rewards = np.full((runs, bins), before, np.float32)
     rewards[:, at:] = height * 0.2
     hits = np.zeros((runs, bins, 2), np.int16)
-    return Result(place_cells([1]), WaterWorld(), 10 * bins, runs, 0, rewards, hits)
+    return Result(Condition(place_cells([1]), WaterWorld(), 10 * bins, runs), rewards, hits)
 
 
 def test_a_lead_in_time_is_that_of_the_mean_over_runs():
@@ -175,10 +175,10 @@ def test_resets_and_points_follow_from_rewards_and_creeps():
     hits = np.zeros((2, 3, 2), np.int16)
     hits[0], hits[1] = [[3, 1], [2, 0], [0, 4]], [[1, 0], [0, 0], [0, 0]]
     rewards = np.array([[2 + 5, 2 + 5, -4], [1, 0, 0]], np.float32)
-    result = Result(place_cells([1]), WaterWorld(win_reward=5.0), 30, 2, 0, rewards, hits)
+    result = Result(Condition(place_cells([1]), WaterWorld(win_reward=5.0), 30, 2), rewards, hits)
     assert list(points(result)) == [0, 1] and list(resets(result)) == [2, 0]
     with pytest.raises(ValueError, match="win_reward of the world is 0.0, allowed are worlds"):
-        resets(Result(place_cells([1]), WaterWorld(), 30, 2, 0, rewards, hits))
+        resets(Result(Condition(place_cells([1]), WaterWorld(), 30, 2), rewards, hits))
 
 
 def test_leads_and_ratios_are_those_of_means():

@@ -1,6 +1,5 @@
 """What the commands print, write and return."""
 
-import re
 import subprocess
 import sys
 
@@ -26,17 +25,6 @@ def test_a_file_is_run_described_and_saved(cache_folder, tmp_path, capsys):
         f"  reward per second: {rate.mean():.3f} ± {rate.std(ddof=1):.3f}, {late.mean():.3f} ± {late.std(ddof=1):.3f} "
         "in the last fifth, ± the standard deviation over runs", f"  kept in {tmp_path / 'results.npz'}"]
     assert CONDITION.path.exists()
-
-
-def test_variations_are_run_by_name(cache_folder, tmp_path, capsys):
-    (tmp_path / "experiment.toml").write_text(
-        "steps = 30\nruns = 1\nagent.is = 'place_cells'\nworld.is = 'WaterWorld'\nagent.resolutions = [3]\n"
-        "[variations]\nfine.agent.resolutions = [4]\nlater.seed = 1")
-    assert main(["run", str(tmp_path / "experiment.toml"), "--save", str(tmp_path / "r.npz")]) == 0
-    lines = capsys.readouterr().out.splitlines()
-    assert lines[0] == "fine: PC N4 in WaterWorld, 30 steps, 1 run, seed 0" and lines[3].startswith("later: PC N3 in")
-    assert re.fullmatch(r"  reward per second: -?\d\.\d{3}", lines[1])
-    assert Result.load(tmp_path / "r-later.npz").seed == 1 and (tmp_path / "r-fine.npz").exists()
 
 
 def test_the_cache_is_listed_and_cleared(tmp_path, capsys, monkeypatch):
@@ -69,7 +57,7 @@ def test_an_interruption_says_how_to_go_on(cache_folder, tmp_path, capsys, monke
         raise KeyboardInterrupt
 
     CONDITION.save(tmp_path / "experiment.json")
-    monkeypatch.setattr(command, "sweep", interrupted)
+    monkeypatch.setattr(command, "simulate", interrupted)
     assert main(["run", str(tmp_path / "experiment.json")]) == 130
     assert "the same command resumes there" in capsys.readouterr().err
 

@@ -8,20 +8,19 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
 from types import SimpleNamespace
 
-import numpy as np
 import pytest
 from distributed import Client, LocalCluster
 from tqdm import tqdm
 
-from neorl import Condition, WaterWorld, multimodal, place_cells, simulate_once, sweep
-from neorl.experiments import cache, sweeping
-from neorl.experiments.simulation import simulate
+from neorl import Condition, Result, WaterWorld, multimodal, place_cells, simulate, sweep
+from neorl.experiments import condition as conditions
+from neorl.experiments import simulation, store
+from neorl.experiments.run import new_bins
 
 WORLD = WaterWorld()
 CONDITIONS = [Condition(place_cells([n]), WORLD, 2_000, 2, seed) for n in (2, 3) for seed in (0, 1)]
@@ -33,25 +32,53 @@ pytestmark = pytest.mark.usefixtures("cache_folder")
 def lived(monkeypatch):
     """The tasks that workers in this process have computed: (condition, runs)."""
     tasks = []
-    original = sweeping._live
-    monkeypatch.setattr(sweeping, "_live", lambda *task: tasks.append(task[:2]) or original(*task))
+    original = simulation._live
+    monkeypatch.setattr(simulation, "_live", lambda *task: tasks.append(task[:2]) or original(*task))
     return tasks
+
+
+def alone(condition):
+    """The result of a condition, run by run."""
+    rewards, hits = new_bins(condition.world, condition.runs, condition.steps)
+    for k in range(condition.runs):
+        simulation.live(condition, k, rewards[k], hits[k])
+    return Result(condition, rewards, hits)
 
 
 def assert_the_same(results, conditions=CONDITIONS):
     results = list(results)
     assert len(results) == len(conditions)
-    for result, condition in zip(results, conditions):
-        alone = simulate(**condition.choices, progress=False)
-        np.testing.assert_array_equal(result.rewards, alone.rewards)
-        np.testing.assert_array_equal(result.hits, alone.hits)
-        assert (result.agent, result.seed, result.changes) == (alone.agent, alone.seed, alone.changes)
+    assert results == [alone(condition) for condition in conditions]
     assert any(result.rewards.any() for result in results)
 
 
-def test_a_sweep_returns_the_results_of_its_conditions_alone_and_in_order(lived):
-    assert_the_same(sweep(CONDITIONS, progress=False))
+@pytest.mark.parametrize("choices", [{}, {"cache": False}, {"threads": 1}])
+def test_a_sweep_returns_the_results_of_its_conditions_alone_and_in_order(lived, choices):
+    results = sweep(CONDITIONS, **choices, progress=False)
     assert sorted(map(repr, lived)) == sorted(repr((each, [0, 1])) for each in CONDITIONS)
+    assert_the_same(results)
+
+
+def test_without_a_cache_nothing_is_kept_and_the_first_error_ends_it(cache_folder, monkeypatch):
+    simulate(**CONDITIONS[0].choices, progress=False)
+    assert not (cache_folder / "conditions").exists()
+    fails(monkeypatch, lambda condition, runs: True)
+    with pytest.raises(MemoryError, match="for now"):
+        simulate(**CONDITIONS[0].choices, progress=False)
+
+
+@pytest.mark.parametrize("choices, message", [
+    ({"conditions": "all"}, "conditions must be .*, but is 'all'"),
+    ({"conditions": [CONDITIONS[0], 3]}, "condition must be a Condition, but is 3"),
+    ({"executor": 4}, "executor must be an executor of concurrent.futures or None, but is 4"),
+    ({"threads": 0}, "threads must be .*, but is 0"), ({"threads": True}, "threads must be .*, but is True"),
+    ({"threads": 2, "executor": ThreadPoolExecutor(1)}, "threads must be None beside an executor, but is 2"),
+    ({"progress": "no"}, "progress must be True, False or a function that takes the steps done and their total, but"),
+    ({"cache": "no"}, "cache must be True or False, but is 'no'")])
+def test_a_bad_sweep_is_refused_before_anything_runs(choices, message, lived):
+    with pytest.raises(ValueError, match=message):
+        sweep(**{"conditions": CONDITIONS, "progress": False} | choices)
+    assert lived == []
 
 
 def test_what_is_on_disk_or_asked_for_twice_is_computed_once(lived):
@@ -60,25 +87,9 @@ def test_what_is_on_disk_or_asked_for_twice_is_computed_once(lived):
     assert len(lived) == len(CONDITIONS)
 
 
-def test_a_sweep_may_be_empty():
-    assert list(sweep([], progress=False)) == []
-
-
-def test_what_is_no_executor_is_refused():
-    with pytest.raises(ValueError, match="executor must be an executor of concurrent.futures or None, but is 4"):
-        sweep(CONDITIONS, 4)
-
-
-@pytest.mark.parametrize("conditions, message", [
-    ("all", "conditions must be .*, but is 'all'"), ([CONDITIONS[0], 3], "condition must be a Condition, but is 3")])
-def test_what_is_no_list_of_conditions_is_refused(conditions, message):
-    with pytest.raises(ValueError, match=message):
-        sweep(conditions)
-
-
 def fails(monkeypatch, fails_now):
     """Make a task fail after its work is done, if `fails_now(condition, runs)`."""
-    original = sweeping._live
+    original = simulation._live
 
     def live(condition, runs, *others):
         brought = original(condition, runs, *others)
@@ -86,7 +97,7 @@ def fails(monkeypatch, fails_now):
             raise MemoryError("for now")
         return brought
 
-    monkeypatch.setattr(sweeping, "_live", live)
+    monkeypatch.setattr(simulation, "_live", live)
 
 
 def test_a_condition_that_fails_is_run_again_after_the_others(lived, monkeypatch):
@@ -100,31 +111,31 @@ def test_a_condition_that_always_fails_is_reported_after_the_others_are_kept(mon
     fails(monkeypatch, lambda condition, runs: condition.seed == 1)
     with pytest.raises(RuntimeError, match="2 of 5 conditions have failed 3 times, such as Condition.*MemoryError"):
         sweep(CONDITIONS, progress=False)
-    assert [cache.load(condition) is not None for condition in CONDITIONS] == [True, False, True, False, True]
+    assert [store.load(condition) is not None for condition in CONDITIONS] == [True, False, True, False, True]
 
 
 def test_a_worker_with_other_sources_is_refused(monkeypatch):
-    monkeypatch.setattr(sweeping, "ATTEMPTS", 1)
-    calls = iter(["the sweep's"] * 3 + ["the worker's"] * 100)
-    monkeypatch.setattr(cache, "source_digest", lambda: next(calls))
+    monkeypatch.setattr(simulation, "ATTEMPTS", 1)
+    calls = iter(["the sweep's"] * 4 + ["the worker's"] * 100)
+    monkeypatch.setattr(conditions, "source_digest", lambda: next(calls))
     with pytest.raises(RuntimeError, match="must have the sources of neorl"):
         sweep(CONDITIONS[:1], ThreadPoolExecutor(1), progress=False)
-    assert cache.load(CONDITIONS[0]) is None
+    assert store.load(CONDITIONS[0]) is None
 
 
 def test_an_interrupted_sweep_keeps_what_is_finished_and_gives_up_the_rest(monkeypatch, cache_folder):
-    original, finished = cache.save, []
+    original, finished = store.save, []
 
-    def keep_one(condition, result):
+    def keep_one(result):
         if finished:
             raise KeyboardInterrupt
-        finished.append(condition)
-        original(condition, result)
+        finished.append(result.condition)
+        original(result)
 
-    monkeypatch.setattr(cache, "save", keep_one)
+    monkeypatch.setattr(store, "save", keep_one)
     with pytest.raises(KeyboardInterrupt):
         sweep(CONDITIONS, progress=False)
-    assert cache.load(finished[0]) is not None and len(list((cache_folder / "conditions").iterdir())) == 1
+    assert store.load(finished[0]) is not None and len(list((cache_folder / "conditions").iterdir())) == 1
     assert len(list((cache_folder / "runs").iterdir())) == 1  # the runs of the second, whose result was not written
 
 
@@ -152,71 +163,24 @@ def test_a_sweep_that_waits_for_a_worker_that_hangs_can_be_interrupted_and_says_
     assert all(future.cancelled() for future in executor.futures)
 
 
-def test_progress_is_shown_for_the_sweep_or_its_only_condition(capsys):
-    sweep(CONDITIONS[:2])
-    sweep(CONDITIONS[2:3])
-    printed = capsys.readouterr().err
-    assert "sweep:" in printed and "PC N3:" in printed
-
-
 @pytest.mark.parametrize("executor", [None, ThreadPoolExecutor(2)])
 def test_the_bar_moves_by_runs_and_ends_at_their_number(monkeypatch, executor):
     """One condition with many runs is split over all workers."""
     moves, original = [], tqdm.update
     monkeypatch.setattr(tqdm, "update", lambda bar, steps: moves.append(steps) or original(bar, steps))
-    condition = Condition(place_cells([3]), WORLD, sweeping.TASK_STEPS // 2, 10)
+    condition = Condition(place_cells([3]), WORLD, simulation.TASK_STEPS // 2, 10)
     results = sweep([condition], executor)
     assert sum(moves) == 10 * condition.steps and len(moves) >= 5
     assert_the_same(results, [condition])
 
 
-@pytest.mark.parametrize("workers", [1, 2, 10**9])
-def test_any_number_of_workers_brings_the_same(workers, lived):
-    assert_the_same(sweep(CONDITIONS, workers=workers, progress=False))
-    assert len(lived) == len(CONDITIONS)
-
-
 def test_workers_are_threads_at_most_so_many(monkeypatch):
-    asked, original = [], sweeping.ThreadPoolExecutor
-    monkeypatch.setattr(sweeping, "usable_threads", lambda agent, world: 3)
-    monkeypatch.setattr(sweeping, "ThreadPoolExecutor", lambda count: asked.append(count) or original(count))
-    for seed, workers in enumerate([None, 1, 2, 9]):
-        sweep([Condition(place_cells([3]), WORLD, 100, 1, seed)], workers=workers, progress=False)
+    asked, original = [], simulation.ThreadPoolExecutor
+    monkeypatch.setattr(simulation, "usable_threads", lambda agent, world: 3)
+    monkeypatch.setattr(simulation, "ThreadPoolExecutor", lambda count: asked.append(count) or original(count))
+    for seed, threads in enumerate([None, 1, 2, 9]):
+        sweep([Condition(place_cells([3]), WORLD, 100, 1, seed)], threads=threads, progress=False)
     assert asked == [3, 1, 2, 3]
-
-
-@pytest.mark.parametrize("workers", [0, -1, 1.5, True, "2"])
-def test_what_is_no_number_of_workers_is_refused(workers):
-    with pytest.raises(ValueError, match="workers must be .*, but is .*"):
-        sweep(CONDITIONS, workers=workers)
-
-
-@pytest.mark.parametrize("progress", ["no", None, np.array([0.5, np.nan])])
-def test_what_is_no_choice_of_a_bar_is_refused_before_anything_runs(progress, lived):
-    with pytest.raises(ValueError, match="progress must be .*, but is .*"):
-        sweep(CONDITIONS, progress=progress)
-    for run in (simulate, simulate_once):
-        with pytest.raises(ValueError, match="progress must be .*, but is .*"):
-            run(**CONDITIONS[0].choices, progress=progress)
-    assert lived == []
-
-
-def test_workers_beside_an_executor_are_refused():
-    with ThreadPoolExecutor(1) as pool, pytest.raises(ValueError, match="workers must be None beside an executor, bu"):
-        sweep(CONDITIONS, pool, workers=2)
-
-
-def test_any_executor_will_do(lived):
-    class Slow(ThreadPoolExecutor):
-        def submit(self, *task):
-            submitted.append(task)
-            return super().submit(*task)
-
-    submitted = []
-    with Slow(2) as executor:
-        assert_the_same(sweep(CONDITIONS, executor, progress=False))
-        assert isinstance(executor.submit(time.sleep, 0), Future)  # the sweep left it open
-    assert len(submitted) == len(CONDITIONS) + 1
 
 
 def test_a_process_pool_that_breaks_is_replaced_by_the_cores_of_this_machine():
@@ -249,15 +213,15 @@ def test_a_cluster_of_worker_processes_brings_the_same(cluster, lived):
 def test_a_killed_worker_of_a_cluster_loses_only_its_current_task(cluster, monkeypatch):
     """One of two workers is killed as soon as the first condition is cached; unfinished tasks are repeated."""
     conditions = [Condition(place_cells([3]), WORLD, 200_000, 1, seed) for seed in range(20, 28)]
-    original, kept_after = cache.save, []
+    original, kept_after = store.save, []
 
-    def keep_and_kill(condition, result):
-        original(condition, result)
+    def keep_and_kill(result):
+        original(result)
         if not kept_after:
             os.kill(next(iter(client.run(os.getpid).values())), signal.SIGKILL)
-        kept_after.append(condition)
+        kept_after.append(result)
 
-    monkeypatch.setattr(cache, "save", keep_and_kill)
+    monkeypatch.setattr(store, "save", keep_and_kill)
     with Client(cluster) as client:
         results = sweep(conditions, client.get_executor(), progress=False)
     assert len(kept_after) == len(conditions)  # each once

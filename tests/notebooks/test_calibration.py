@@ -12,11 +12,11 @@ from lib.study.calibration import Emulator, candidates, design, features, prospe
 from lib.study.calibration_results import Posterior
 from lib.study.calibration_table import Row, read_table, write_table
 from lib.study.calibration_targets import CLAIMS, GROUPS, TARGETS, Measure, Target
-from neorl import CALIBRATED, WaterWorld, place_cells
+from neorl import CALIBRATED, Condition, WaterWorld, place_cells
 from neorl.evidence.priors import OF_TRIALS, TO_THE_LETTER, WITHIN
 from neorl.evidence.reading import Reading
 from neorl.evidence.statements import STATEMENTS
-from neorl.experiments.simulation import Result
+from neorl.experiments.result import Result
 
 SAMPLE = 3  # rows of the table that are recomputed, in the cheapest group
 
@@ -26,7 +26,7 @@ def lived(*rates, runs=4, steps=150_000, n_creeps=8):
     world = WaterWorld(n_creeps=n_creeps)
     bins = np.repeat(np.array(rates) * 0.2, steps // 10 // len(rates))
     rewards = np.tile(bins.astype(np.float32), (runs, 1))
-    return Result(place_cells([3]), world, steps, runs, 0, rewards, np.zeros((*rewards.shape, 2), np.int16))
+    return Result(Condition(place_cells([3]), world, steps, runs), rewards, np.zeros((*rewards.shape, 2), np.int16))
 
 
 def test_a_distance_is_zero_inside_and_counted_in_scale_and_error_outside():
@@ -82,8 +82,9 @@ def test_the_error_is_that_of_the_mean_over_runs():
     assert found["B3 both"].error == pytest.approx(rates.std(ddof=1) / 2, rel=1e-3)
     assert found["B1 level"] == pytest.approx((1, 0), abs=1e-4)  # runs with the same seed are paired
     with pytest.raises(ValueError, match="runs must be an integer of at least 2, but is 1"):
-        calibration_targets.measure("both", {key: replace(each, runs=1, rewards=each.rewards[:1])
-                                             for key, each in results.items()})
+        calibration_targets.measure("both", {
+            key: replace(each, condition=replace(each.condition, runs=1), rewards=each.rewards[:1])
+            for key, each in results.items()})
 
 
 def test_a_claim_holds_if_all_its_targets_do():

@@ -11,7 +11,7 @@ from matplotlib import pyplot as plt
 from matplotlib.colors import to_hex
 
 from lib import paper_a
-from neorl import NresMap, Result, WaterWorld, brownian, place_cells
+from neorl import Condition, NresMap, Result, WaterWorld, brownian, place_cells
 from neorl.drawing.style import AGENT, GREEN, INK, RED
 from neorl.evidence.priors import TO_THE_LETTER
 from neorl.evidence.reading import LAYERS, SINGLE, Reading, conditions, judge
@@ -42,7 +42,7 @@ def made_up(agent, rate, runs=12, steps=150_000, world=WORLD):
     bins = steps // 10
     hits = np.zeros((runs, bins, 2), np.int16)
     hits[..., 0] = np.random.default_rng(0).random((runs, bins)) < 0.2 * rate
-    return Result(agent, world, steps, runs, 0, hits[..., 0].astype(np.float32), hits)
+    return Result(Condition(agent, world, steps, runs), hits[..., 0].astype(np.float32), hits)
 
 
 def results_of(layers=LAYERS, single=SINGLE, world=WORLD):
@@ -160,7 +160,7 @@ def steady(rate, n_creeps=8):
     """A result in which every run earns `rate` per second throughout."""
     rewards = np.full((2, 500), 0.2 * rate, np.float32)
     hits = np.zeros((2, 500, 2), np.int16)
-    return Result(place_cells([2]), WaterWorld(n_creeps=n_creeps), 5_000, 2, 0, rewards, hits)
+    return Result(Condition(place_cells([2]), WaterWorld(n_creeps=n_creeps), 5_000, 2), rewards, hits)
 
 
 def test_maps_together_are_drawn_beside_each_alone_their_sum_and_the_level_of_the_thesis():

@@ -102,7 +102,7 @@ def made_up(rate, runs=2, red=0.0, bins=3_000):
     luck = np.random.default_rng(0).random((runs, bins, 2))
     hits = (luck < 0.2 * np.array([rate, red])).astype(np.int16)
     rewards = (hits[..., 0] - hits[..., 1]).astype(np.float32)
-    return neorl.Result(neorl.place_cells([2]), WaterWorld(), 10 * bins, runs, 0, rewards, hits)
+    return neorl.Result(neorl.Condition(neorl.place_cells([2]), WaterWorld(), 10 * bins, runs), rewards, hits)
 
 
 def test_the_figures_of_the_paper_have_their_agents_in_order():

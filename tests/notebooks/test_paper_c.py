@@ -14,7 +14,7 @@ from lib import paper_c
 from neorl.evidence.priors import TO_THE_LETTER
 from neorl.evidence.reading import Reading, conditions, networks
 from neorl.evidence.report import CALIBRATED, LETTER
-from neorl.experiments.cache import Condition
+from neorl.experiments.condition import Condition
 
 CELLS = nbformat.read(Path(__file__).parents[2] / "notebooks" / "paper_c.ipynb", 4).cells
 READINGS = {LETTER: TO_THE_LETTER, CALIBRATED: Reading()}
@@ -63,7 +63,7 @@ def made_up(agent, rate, runs=12, bins=3_000):
     """A result in which every run earns about `rate` per second in its second half, and nothing before."""
     hits = np.zeros((runs, bins, 2), np.int16)
     hits[:, bins // 2 :, 0] = np.random.default_rng(0).random((runs, bins - bins // 2)) < 0.2 * rate
-    return Result(agent, WaterWorld(), 10 * bins, runs, 0, hits[..., 0].astype(np.float32), hits)
+    return Result(Condition(agent, WaterWorld(), 10 * bins, runs), hits[..., 0].astype(np.float32), hits)
 
 
 @pytest.fixture

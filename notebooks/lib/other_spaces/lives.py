@@ -5,7 +5,7 @@ import numpy as np
 from lib.other_spaces import minds
 from neorl import Arm, Run, Vessel
 from neorl.core.kernel import mapped
-from neorl.experiments.sweeping import simulate_once
+from neorl.experiments.simulation import simulate_once
 
 ARMS = {2: Arm((0.5, 0.5), radius=0.15), 3: Arm((0.4, 0.3, 0.3), radius=0.15)}  # by the number of links
 WATERS = Vessel()

@@ -15,9 +15,8 @@ import numpy as np
 from neorl.agents.agent import Desire, Node, Place
 from neorl.agents.rules import Policy
 from neorl.core.modality import PLACE_CELL
-from neorl.experiments.sweeping import simulate_once
 from neorl.experiments.run import Run, bin_steps
-from neorl.experiments.simulation import usable_threads
+from neorl.experiments.simulation import simulate_once, usable_threads
 
 PLACES = (Place(0.3, 0.3), Place(0.65, 0.65))  # desired in turn, for the agent's position
 MOVES, SECONDS_A_MOVE = 6, 30

@@ -16,7 +16,7 @@ import numpy as np
 from lib.study.calibration_targets import GROUPS, TARGETS, Measure, distance, held, measure, tested
 from neorl import checks
 from neorl.evidence.reading import Reading, conditions as all_conditions
-from neorl.experiments.sweeping import sweep
+from neorl.experiments.simulation import sweep
 
 SHIPPED = Path(__file__).with_name("calibration.csv")
 OWN = ("wave", "seed", "runs", "steps")

@@ -84,7 +84,8 @@ def _ratio(above, below, least):
 
 def _minutes(result, share=0.9):
     """Simulated minutes until the mean over runs reaches a share of its final level."""
-    mean = replace(result, runs=1, rewards=result.rewards.mean(axis=0, keepdims=True))
+    alone = replace(result.condition, runs=1)
+    mean = replace(result, condition=alone, rewards=result.rewards.mean(axis=0, keepdims=True))
     return float(time_to_final_level(mean, share)[0]) / 60
 
 
@@ -231,7 +232,8 @@ def measure(group, results):
 
 
 def _without(result, run):
-    return replace(result, runs=result.runs - 1, rewards=np.delete(result.rewards, run, axis=0))
+    fewer = replace(result.condition, runs=result.runs - 1)
+    return replace(result, condition=fewer, rewards=np.delete(result.rewards, run, axis=0))
 
 
 def _rounded(value):

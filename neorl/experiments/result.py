@@ -1,0 +1,168 @@
+"""The result of a condition: rewards and hits of its runs, as arrays, tables of pandas and xarray, and files.
+
+A saved result is an npz file of its arrays, rewards and hits, and a text, about: a table in JSON with the agent, the
+world and everything else that determined it, as plain data (`neorl.core.description`), and the version of neorl.
+"""
+
+import json
+import sys
+from dataclasses import dataclass, fields
+from operator import attrgetter
+from os import PathLike
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from neorl import checks
+from neorl.core.description import described, restored
+from neorl.experiments.condition import Condition
+from neorl.experiments.run import bin_steps
+from neorl.extras import require
+from neorl.files import read_arrays, write_arrays
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """The rewards and hits of the runs of one condition.
+
+    condition: the `neorl.Condition`, whose agent, world, steps, runs, seed and changes the result has, too.
+    rewards: float32 (runs, bins), summed over bins of 0.2 s. hits: int16 (runs, bins, kinds), the number of things of
+    each kind that were met, counted up to 32,767 in a bin; in WaterWorld green and red creeps.
+    """
+
+    condition: Condition
+    rewards: NDArray[np.float32]
+    hits: NDArray[np.int16]
+
+    __eq__ = checks.equal_fields
+
+    agent, world, steps, runs, seed, changes = (property(attrgetter(f"condition.{each.name}"))
+                                                for each in fields(Condition))
+
+    @property
+    def seconds(self) -> float:
+        """Simulated seconds per run."""
+        return self.steps / self.world.fps
+
+    @property
+    def edges(self) -> NDArray[np.float64]:
+        """float64 (bins + 1,): when the first bin begins and when each bin ends, in simulated seconds."""
+        steps = np.arange(self.rewards.shape[1] + 1) * bin_steps(self.world)
+        return np.minimum(steps, self.steps) / self.world.fps
+
+    @property
+    def time(self) -> NDArray[np.float64]:
+        """float64 (bins,): when each bin ends, in simulated seconds."""
+        return self.edges[1:]
+
+    @property
+    def totals(self) -> NDArray[np.float64]:
+        """float64 (runs,): the accumulated reward of each run."""
+        return self.rewards.sum(axis=1, dtype=float)
+
+    def rate(self, begin: float = 0.0, end: float = 1.0) -> NDArray[np.float64]:
+        """float64 (runs,): reward per simulated second between two fractions of the run, to the nearest bin.
+
+        begin, end: the fractions, in [0, 1]. Raises ValueError for others, and for intervals shorter than a bin.
+        """
+        bins, seconds = self._stretch(begin, end)
+        return self.rewards[:, bins].sum(axis=1, dtype=float) / seconds
+
+    def hit_rate(self, begin: float = 0.0, end: float = 1.0) -> NDArray[np.float64]:
+        """float64 (runs, kinds): things of each kind met per simulated second between two fractions of the run.
+
+        begin, end: the fractions, in [0, 1]. Raises ValueError as `rate` does.
+        """
+        bins, seconds = self._stretch(begin, end)
+        return self.hits[:, bins].sum(axis=1) / seconds
+
+    def _stretch(self, begin, end):
+        checks.real("begin", begin, 0, 1)
+        checks.real("end", end, 0, 1)
+        first, last = (round(share * self.rewards.shape[1]) for share in (begin, end))
+        if first >= last:
+            raise checks.error("end", f"a share at least a bin after begin, {begin!r}", end)
+        return slice(first, last), self.edges[last] - self.edges[first]
+
+    def to_frame(self) -> Any:
+        """A `pandas.DataFrame` with a row for each run and bin, sorted by run, then bin.
+
+        Columns: "run", int64; "time", float64, when the bin ends, in simulated seconds; "reward", float32, the sum over
+        the bin; and for each kind of thing, such as ``hits_green``, int16, the number met in the bin.
+        Raises ImportError without pandas.
+        """
+        runs, bins = self.rewards.shape
+        columns = {"run": np.repeat(np.arange(runs), bins), "time": np.tile(self.time, runs),
+                   "reward": self.rewards.reshape(-1)}
+        columns |= {f"hits_{kind}": self.hits[:, :, i].reshape(-1) for i, kind in enumerate(self.world.kinds)}
+        return require("pandas", extra="data").DataFrame(columns, copy=True)
+
+    def to_xarray(self) -> Any:
+        """An `xarray.Dataset` of dimensions run, time and kind, with coordinates of the same names.
+
+        time: when each bin ends, in simulated seconds. rewards: float32 (run, time), the sum over the bin. hits: int16
+        (run, time, kind), the number of things met in the bin. attributes: steps and runs; agent, world and changes as
+        JSON texts (see `neorl.core.description`); seed and the version of neorl as texts.
+        Raises ImportError without xarray, ValueError for an agent or a world that cannot be imported by name.
+        """
+        xarray = require("xarray", extra="data")
+        known = about(self.condition)
+        texts = {name: json.dumps(known[name], ensure_ascii=False) for name in ("agent", "world", "changes")}
+        return xarray.Dataset(
+            {"rewards": (("run", "time"), self.rewards.copy(), {"long_name": "reward in the bin that ends then"}),
+             "hits": (("run", "time", "kind"), self.hits.copy(),
+                      {"long_name": "things met in the bin that ends then"})},
+            {"run": np.arange(self.runs), "kind": np.array(self.world.kinds, str),
+             "time": ("time", self.time, {"units": "s", "long_name": "simulated time"})},
+            {**texts, "steps": self.steps, "runs": self.runs, "seed": str(self.seed), "neorl": known["neorl"]})
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Save to a NumPy npz file: the arrays rewards and hits, and the text about, a table in JSON.
+
+        path: of the file, a string or a `pathlib.Path`; an existing file is replaced.
+        Raises OSError if it cannot be written, ValueError for an agent or a world that cannot be imported by name
+        (`neorl.core.description`).
+        """
+        arrays = {"rewards": self.rewards, "hits": self.hits}
+        write_arrays(checks.path("path", path), "Result", about(self.condition), arrays, np.savez_compressed)
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> Self:
+        """Load a result that `save` has written.
+
+        path: of the file, a string or a `pathlib.Path`.
+        Raises OSError if there is no such file, ValueError if it is damaged, of another kind or from a newer neorl, or
+        if its agent or world cannot be imported.
+        """
+        path = checks.path("path", path)
+        known, arrays = read_arrays(path, "Result")
+        try:
+            condition = condition_of(known)
+            return cls(condition, *fitting(arrays, condition, condition.runs))
+        except ValueError as error:
+            raise ValueError(f"{path}: {error}") from error
+
+
+def about(condition):
+    """Everything that determines a condition as plain data, and the version of neorl.
+
+    Raises ValueError for an agent or a world that cannot be imported by name.
+    """
+    return {"neorl": sys.modules["neorl"].__version__, **described(condition, Condition)}  # above this room
+
+
+def condition_of(known):
+    """The condition that `about` has described. Raises ValueError if it cannot be restored."""
+    return restored({each.name: known[each.name] for each in fields(Condition) if each.name in known}, Condition)
+
+
+def fitting(arrays, condition, runs):
+    """Rewards and hits of runs of a condition, from {name: array}. Raises ValueError if they are of another one."""
+    bins = -(-condition.steps // bin_steps(condition.world))
+    for name, dtype, shape in (("rewards", np.float32, (runs, bins)),
+                               ("hits", np.int16, (runs, bins, len(condition.world.kinds)))):
+        found = arrays.get(name, np.empty(0))
+        if (found.dtype, found.shape) != (dtype, shape):
+            raise ValueError(f"{name} must be {dtype.__name__} {shape}, but is {found.dtype} {found.shape}")
+    return arrays["rewards"], arrays["hits"]

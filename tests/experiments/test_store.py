@@ -1,0 +1,428 @@
+"""Finished runs are found again under keys of all that determines them, whole, despite kills, damage and full disks."""
+
+import json
+import os
+import signal
+import stat
+import subprocess
+import sys
+import time
+from dataclasses import replace
+
+import grimp
+import numpy as np
+import pytest
+
+from neorl import (CALIBRATED, Condition, Learning, Policy, Result, WaterWorld, files, kernel, network_d, place_cells,
+                   simulate, softmax, sweep)
+from neorl.evidence import report
+from neorl.experiments import condition as conditions
+from neorl.experiments import simulation, store
+from neorl.experiments.run import new_bins
+from neorl.worlds.arena import Arena
+
+LONG = Condition(place_cells([3]), WaterWorld(), simulation.TASK_STEPS, 6)
+SHORT = Condition(place_cells([3]), WaterWorld(), 500, 3)
+pytestmark = pytest.mark.usefixtures("cache_folder")
+
+
+@pytest.fixture
+def at_once(monkeypatch):
+    """Write runs as soon as they are finished."""
+    monkeypatch.setattr(store, "SECONDS", -1)
+
+
+@pytest.fixture
+def lived(monkeypatch):
+    """The numbers of the runs that were computed."""
+    runs, original = [], simulation._live
+    monkeypatch.setattr(simulation, "_live", lambda *task: runs.extend(task[1]) or original(*task))
+    return runs
+
+
+def once(condition):
+    return simulate(**condition.choices, cache=True, progress=False)
+
+
+def assert_whole(result, condition):
+    rewards, hits = new_bins(condition.world, condition.runs, condition.steps)
+    for k in range(condition.runs):
+        simulation.live(condition, k, rewards[k], hits[k])
+    assert result == Result(condition, rewards, hits) and rewards.any()
+
+
+def found(cache_folder, folder):
+    return sorted(path.name for path in (cache_folder / folder).glob("[!.]*"))
+
+
+def test_a_condition_is_computed_once(lived):
+    first, second = once(SHORT), once(SHORT)
+    assert first == second and lived == [0, 1, 2]
+    assert Result.load(SHORT.path) == first
+
+
+def test_the_key_depends_on_everything_that_determines_a_result(monkeypatch):
+    keys = [SHORT.key]
+    keys.append(replace(SHORT, agent=place_cells([3], learning=Learning(discount=0.81))).key)
+    keys += [replace(SHORT, agent=place_cells([3], policy=Policy(choose=choose))).key
+             for choose in (softmax(0.1), softmax(1.0))]
+    keys += [replace(SHORT, world=world).key for world in (WaterWorld(fps=30), WaterWorld(contact="truncated"))]
+    keys += [replace(SHORT, **size).key for size in ({"steps": 501}, {"runs": 4}, {"seed": 1})]
+    keys.append(replace(SHORT, changes=[(100, place_cells([3]))]).key)
+    monkeypatch.setattr(conditions, "source_digest", lambda: "another source")
+    keys.append(SHORT.key)
+    assert len(set(keys)) == len(keys)
+
+
+def test_equal_conditions_are_kept_under_one_key():
+    plain = Condition(place_cells([3], 1.0, learning=Learning(0.5, memory=2.0, terminal=True), policy=Policy(0.0)),
+                      WaterWorld(win_reward=5.0), steps=100, runs=2, changes=[(50, place_cells([4]))])
+    numpy = Condition(place_cells(np.array([3]), np.float64(1), policy=Policy(np.float32(0)),
+                                  learning=Learning(np.float64(0.5), memory=2, terminal=np.bool_(True))),
+                      WaterWorld(np.int64(250), np.int8(3), win_reward=5, contact=np.str_("rounded")),
+                      steps=np.int64(100), runs=np.uint8(2), changes=[(np.int64(50), place_cells([4]))])
+    assert plain == numpy and plain.key == numpy.key
+
+
+def test_the_source_digest_covers_every_module_that_a_run_imports():
+    imported = grimp.build_graph("neorl", cache_dir=None).find_upstream_modules("neorl.experiments.simulation")
+    assert {"neorl.core.horde", "neorl.worlds.world"} < imported
+    assert {name.split(".")[1] for name in imported} == set(conditions.PARTS)
+
+
+@pytest.mark.parametrize("change, message", [
+    ({"agent": "PC"}, "agent must be .*, but is 'PC'"), ({"world": 3}, "world must be .*, but is 3"),
+    ({"steps": 0}, "steps must be an integer of at least 1, but is 0"),
+    ({"runs": -1}, "runs must be .*, but is -1"), ({"seed": 0.5}, "seed must be .*, but is 0.5"),
+    ({"changes": 5}, "changes must be .*, but is 5"), ({"changes": [(5,)]}, r"changes must be pairs \(step, agent\)"),
+    ({"changes": [(501, place_cells())]}, "step of a change must be an integer from 0 to 500, but is 501"),
+    ({"changes": [(50, place_cells()), (49, place_cells())]}, "step of a change must"),
+    ({"changes": [(5, "PC")]}, "agent of a change must be")])
+def test_a_condition_that_could_not_run_is_refused(change, message):
+    with pytest.raises(ValueError, match=message):
+        Condition(**SHORT.choices | change)
+    with pytest.raises(ValueError, match=message):
+        simulate(**SHORT.choices | change)
+
+
+def flipped(content, place):
+    return content[:place] + bytes([content[place] ^ 1]) + content[place + 1 :]
+
+
+@pytest.mark.parametrize("damage", [
+    lambda content: content[:-1], lambda content: b"", lambda content: content[:40], lambda content: b"\x93NUMPY",
+    lambda content: flipped(content, 200), lambda content: flipped(content, len(content) // 2)])
+def test_a_damaged_file_is_noticed_and_computed_again(cache_folder, lived, damage):
+    once(SHORT)
+    SHORT.path.write_bytes(damage(SHORT.path.read_bytes()))
+    assert_whole(once(SHORT), SHORT)
+    once(SHORT)
+    assert lived == [0, 1, 2, 0, 1, 2]
+
+
+@pytest.mark.parametrize("arrays", [
+    {"rewards": np.zeros((3, 50), np.float32)}, {"rewards": np.zeros((3, 50)), "hits": np.zeros((3, 50, 2), np.int16)},
+    {"rewards": np.zeros((2, 50), np.float32), "hits": np.zeros((2, 50, 2), np.int16)}],
+    ids=["fields", "numbers", "runs"])
+def test_a_whole_file_of_another_version_is_no_result(lived, arrays):
+    files.write_arrays(SHORT.path, "Result", {}, arrays)
+    assert_whole(once(SHORT), SHORT)
+    assert lived == [0, 1, 2]
+
+
+def interrupt_after(monkeypatch, count):
+    """Simulate Ctrl-C once `count` tasks are finished."""
+    original, calls = store.Keeper.add, []
+
+    def add(keeper, *brought):
+        if len(calls) == count:
+            raise KeyboardInterrupt
+        calls.append(brought)
+        original(keeper, *brought)
+
+    monkeypatch.setattr(store.Keeper, "add", add)
+
+
+def test_the_runs_of_an_interrupted_condition_are_not_computed_again(monkeypatch, cache_folder, lived):
+    with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
+        interrupt_after(patch, 4)
+        once(LONG)
+    assert len(found(cache_folder, "runs")) == 1 and len(store.load_runs(LONG)) == 4
+    lived.clear()
+    assert_whole(once(LONG), LONG)
+    assert len(lived) == 2
+    assert found(cache_folder, "runs") == [] and found(cache_folder, "conditions") == [LONG.key]
+
+
+def test_runs_are_written_while_others_are_computed_and_short_conditions_once(at_once, monkeypatch, cache_folder):
+    written, original = [], store.save_runs
+    monkeypatch.setattr(store, "save_runs", lambda *task: written.extend(task[1]) or original(*task))
+    assert_whole(once(LONG), LONG)
+    assert len(written) == len(set(written)) == 5  # the sixth completes the condition
+    assert found(cache_folder, "runs") == []
+    monkeypatch.setattr(store, "save_runs", None)
+    assert_whole(once(SHORT), SHORT)
+
+
+def test_runs_of_a_condition_that_fails_are_kept(monkeypatch, cache_folder):
+    original = simulation._live
+
+    def live(condition, runs, *others):
+        if 2 in runs:
+            raise MemoryError("never")
+        return original(condition, runs, *others)
+
+    with monkeypatch.context() as patch, pytest.raises(MemoryError, match="never"):
+        patch.setattr(simulation, "_live", live)
+        once(LONG)
+    assert sorted(store.load_runs(LONG)) == [0, 1, 3, 4, 5]
+
+
+@pytest.mark.parametrize("damage", [lambda content: content[:-1], lambda content: b""])
+def test_damaged_runs_are_computed_again(cache_folder, lived, damage):
+    alone = simulate(**LONG.choices, progress=False)
+    lived.clear()
+    for runs in ((1, 2), (0, 5)):
+        store.save_runs(LONG, {k: (alone.rewards[k], alone.hits[k]) for k in runs})
+    (path,) = (cache_folder / "runs").glob("*-0")
+    path.write_bytes(damage(path.read_bytes()))
+    assert once(LONG) == alone
+    assert sorted(lived) == [0, 3, 4, 5]
+
+
+@pytest.mark.parametrize("options, reason", [("size=8k", "No space left"), ("ro", "Read-only")])
+def test_a_full_or_read_only_disk_causes_one_warning(at_once, cache_folder, mount, monkeypatch, options, reason):
+    compiled, disk = (cache_folder / "compiled").resolve(), mount(cache_folder / "disk", options)
+    if options != "ro":
+        (disk / "compiled").symlink_to(compiled)
+    monkeypatch.setenv("NEORL_CACHE", str(disk))
+    conditions = [LONG, replace(SHORT, steps=20_000)]
+    with pytest.warns(RuntimeWarning, match=f"{disk} takes no results .{reason}") as warned:
+        results = list(sweep(conditions, progress=False))
+    assert len(warned) == 1
+    for result, condition in zip(results, conditions):
+        assert_whole(result, condition)
+    assert damaged(disk) == []
+
+
+def test_what_fits_neither_on_the_disk_nor_into_memory_is_an_error(tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("NEORL_CACHE", str(tmp_path / "file"))
+    with pytest.warns(RuntimeWarning, match="file takes no results"):
+        assert_whole(once(SHORT), SHORT)
+    monkeypatch.setattr("psutil.virtual_memory", lambda: type("Memory", (), {"available": 10_000}))  # bytes
+    with pytest.warns(RuntimeWarning, match="takes no"), pytest.raises(MemoryError, match="file takes no results, and"):
+        once(replace(SHORT, steps=20_000))
+
+
+def test_single_runs_that_a_killed_process_left_beside_their_condition_are_removed(cache_folder):
+    result = once(SHORT)
+    store.save_runs(SHORT, {0: (result.rewards[0], result.hits[0])})
+    assert len(found(cache_folder, "runs")) == 1
+    once(SHORT)
+    assert found(cache_folder, "runs") == []
+
+
+WORK = """
+from neorl import *
+import neorl.experiments.store
+neorl.experiments.store.SECONDS = 0
+conditions = [Condition(place_cells([3]), WaterWorld(), 100_000, 20, seed) for seed in range(3)]
+print("begins", flush=True)
+results = sweep(conditions, threads=2, progress=False)
+print([float(result.totals.sum()) for result in results])
+"""
+WORKED_ON = [Condition(place_cells([3]), WaterWorld(), 100_000, 20, seed) for seed in range(3)]
+
+
+def started():
+    process = subprocess.Popen([sys.executable, "-c", WORK], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                               preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+    assert process.stdout.readline() == "begins\n"
+    return process
+
+
+def damaged(cache_folder):
+    """Files under their final names that are not whole."""
+    found = []
+    for folder, kind in (("conditions", "Result"), ("runs", "runs")):
+        for path in (cache_folder / folder).glob("[!.]*"):
+            try:
+                files.read_arrays(path, kind)
+            except FileNotFoundError:  # removed in the meantime
+                continue
+            except ValueError:
+                found.append(path)
+    return found
+
+
+def lived_so_far():
+    return sum(20 if store.load(each) else len(store.load_runs(each)) for each in WORKED_ON)
+
+
+def of_all():
+    return f"{[float(simulate(**each.choices, progress=False).totals.sum()) for each in WORKED_ON]}\n"
+
+
+def test_a_sweep_that_is_killed_again_and_again_ends_with_equal_results(cache_folder):
+    random = np.random.default_rng(5)
+    for _ in range(2):
+        had, process = lived_so_far(), started()
+        while lived_so_far() == had and process.poll() is None:
+            time.sleep(0.01)
+        time.sleep(random.uniform(0, 0.2))
+        process.kill()
+        process.communicate()
+        assert damaged(cache_folder) == [] and lived_so_far() > had
+    assert started().communicate() == (of_all(), "")
+    assert found(cache_folder, "runs") == []
+
+
+def test_an_interrupted_process_ends_and_says_what_it_was_at(cache_folder):
+    process = started()
+    while not lived_so_far():
+        time.sleep(0.01)
+    process.send_signal(signal.SIGINT)
+    _, complaints = process.communicate()
+    assert process.returncode in (1, -signal.SIGINT, 130) and "\nKeyboardInterrupt" in complaints
+    assert "tasks were left, such as runs " in complaints and "finished runs are kept" in complaints
+    assert 0 < lived_so_far() < 60 and damaged(cache_folder) == []
+
+
+def test_two_sweeps_of_the_same_conditions_at_once_do_not_disturb_each_other(cache_folder):
+    processes = [started(), started()]
+    assert [process.communicate() for process in processes] == [(of_all(), "")] * 2
+    assert damaged(cache_folder) == [] and found(cache_folder, "runs") == []
+    assert len(found(cache_folder, "conditions")) == 3
+
+
+def test_what_a_killed_process_was_writing_is_removed_when_it_is_old(tmp_path):
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    old, young, other = (folder / name for name in (".neorl-old.tmp", ".neorl-young.tmp", ".profile"))
+    for path in (old, young, other):
+        path.write_text("half")
+    for path in (old, other):
+        os.utime(path, (0, 0))
+    files.write_whole(folder / "new", b"whole")
+    assert sorted(path.name for path in folder.iterdir()) == [young.name, other.name, "new"]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no file modes")
+@pytest.mark.parametrize("mask, mode", [(0o022, 0o644), (0o077, 0o600)])
+def test_a_kept_file_is_as_open_to_others_as_any_other_new_file(tmp_path, mask, mode):
+    before = os.umask(mask)
+    try:
+        files.write_whole(tmp_path / "new", b"whole")
+    finally:
+        os.umask(before)
+    assert stat.S_IMODE((tmp_path / "new").stat().st_mode) == mode
+
+
+def test_a_file_that_cannot_be_written_leaves_nothing(tmp_path, monkeypatch):
+    monkeypatch.setattr(os, "fsync", lambda _: (_ for _ in ()).throw(OSError(28, "No space left on device")))
+    with pytest.raises(OSError, match="No space left"):
+        files.write_whole(tmp_path / "folder" / "new", b"whole")
+    assert list((tmp_path / "folder").iterdir()) == []
+
+
+DIGEST = "0f" * 32
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """An empty cache folder, for compiled kernels too, since the tests remove them."""
+    monkeypatch.setenv("NEORL_CACHE", str(tmp_path / "kept"))
+    return tmp_path / "kept"
+
+
+def keep(condition):
+    rewards, hits = new_bins(condition.world, condition.runs, condition.steps)
+    store.save(Result(condition, rewards, hits))
+    return condition.path
+
+
+@pytest.fixture
+def full(folder):
+    """A cache with a file of each kind, current and older, among foreign files: {name: path}."""
+    paths = {"condition": keep(SHORT), "older condition": folder / "conditions" / DIGEST}
+    paths["older condition"].write_bytes(b"of another version")
+    for kind, name in (("compiled", DIGEST), ("wasm", DIGEST), ("runs", f"{DIGEST}-3")):
+        for age in ("", "older "):
+            path = paths[f"{age}{kind}"] = folder / kind / (name if age else name.replace("0f", "f0"))
+            files.write_checked(path, b"content")
+            if age:
+                os.utime(path, (0, 0))
+    report.save("chapter_1")
+    paths["claims"] = folder / "claims" / "chapter_1.json"
+    for name in ("letter.txt", "conditions/letter.txt", "claims/letter.json", "claims/list.json", "compiled/letter",
+                 f"letters/{DIGEST}", f"wasm/{DIGEST}.wasm"):
+        path = paths[f"other {name}"] = folder / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text("[]" if name.endswith("list.json") else "dear friend")
+    return paths
+
+
+OURS = {"condition", "older condition", "compiled", "older compiled", "wasm", "older wasm", "runs", "older runs",
+        "claims"}
+
+
+@pytest.mark.parametrize("which, remain", [
+    ("all", set()), ("compiled", OURS - {"compiled", "older compiled", "wasm", "older wasm"}),
+    ("older", {"condition", "compiled", "wasm", "runs", "claims"}),
+])
+def test_what_is_asked_for_is_removed_and_nothing_of_others(full, which, remain):
+    others = {path: path.read_bytes() for name, path in full.items() if name not in OURS - remain}
+    removed = store.clear(which)
+    assert {full[name] for name in OURS - remain} == {each.path for each in removed}
+    assert not any(each.path.exists() for each in removed)
+    assert all(path.read_bytes() == content for path, content in others.items())
+    assert store.clear(which) == []
+
+
+def test_conditions_and_claims_of_other_sources_are_older(full, monkeypatch):
+    monkeypatch.setattr(store, "source_digest", lambda: "another")
+    assert {each.path for each in store.kept() if each.is_older} >= {full["condition"], full["claims"]}
+
+
+@pytest.mark.parametrize("change, words", [
+    ({"steps": 1_500_000, "runs": 1, "seed": 2**70}, f"PC N3 in WaterWorld, 1,500,000 steps, 1 run, seed {2**70}"),
+    ({"agent": network_d([2])}, "PC N2 and OVC N2 in WaterWorld, "),
+    ({"agent": place_cells([2, 3], learning=replace(CALIBRATED, memory=10), policy=Policy(0.0, choose=softmax(0.5)),
+                           own_cell="silent")},
+     "PC N2+N3 (memory 10.0, choose softmax(0.5), own_cell silent) in"),
+    ({"world": WaterWorld(n_creeps=8, win_reward=5)}, " in WaterWorld (n_creeps 8, win_reward 5.0), "),
+    ({"world": Arena(radius=0.1)}, " in Arena (radius 0.1), "),
+    ({"changes": [(100, place_cells([9]))]}, " in WaterWorld, from step 100 on PC N9, 500 steps"),
+])
+def test_conditions_are_described_in_words(folder, change, words):
+    keep(replace(SHORT, **change))
+    (kept,) = store.kept()
+    assert words in store.in_words(kept.about) and store.conditions() == [replace(SHORT, **change)]
+
+
+def test_a_condition_with_a_local_kernel_is_kept_and_described(folder):
+    @kernel
+    def of_no_module(value, stream):
+        return 0
+
+    condition = replace(SHORT, agent=place_cells([2], policy=Policy(choose=of_no_module)))
+    keep(condition)
+    (kept,) = store.kept()
+    assert "of_no_module" in store.in_words(kept.about) and store.load(condition).agent == condition.agent
+    assert store.conditions() == []
+
+
+@pytest.mark.parametrize("about", ["[]", "{}", json.dumps({"agent": {}, "world": {}, "steps": "x"}), "{"])
+def test_an_invalid_note_is_ignored(folder, about):
+    path = folder / "conditions" / DIGEST
+    path.parent.mkdir(parents=True)
+    with path.open("wb") as file:
+        np.savez(file, about=np.array(about))
+    (kept,) = store.kept()
+    assert kept.about is None and kept.is_older
+
+
+def test_another_choice_is_refused():
+    with pytest.raises(ValueError, match="which must be 'all', 'compiled' or 'older', but is 'some'"):
+        store.clear("some")
