@@ -53,7 +53,8 @@ AT_ONCE, GIGABYTES_EACH = 2, 4
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1"}
 STALL_SECONDS = 300  # cells compute and never wait: one that takes no processor time for so long has hung
 ROOM = 2**20  # bytes: less than one page of the book
-CLAIMS, FRONT, ERRATA, PICTURES = INCLUDED = "claims-table.md", "claims-front.html", "errata-table.md", "contents.md"
+CLAIMS, FRONT, SQUARES, ERRATA, PICTURES = INCLUDED = (
+    "claims-table.md", "claims-front.html", "claims-squares.html", "errata-table.md", "contents.md")
 
 
 def main():
@@ -312,7 +313,8 @@ def write_tables():
     """Write what pages include: the claims with the notebooks' results, their strip, errata, contents in pictures."""
     record = report.load(sorted(CHAPTERS.glob("*.claims.json")))
     toc = (ROOT / "book" / "_toc.yml").read_text(encoding="utf-8")
-    for name, table in ((CLAIMS, ledger.page(record)), (FRONT, ledger.front(record)), (ERRATA, report.errata()),
+    for name, table in ((CLAIMS, ledger.page(record)), (FRONT, ledger.front(record)),
+                        (SQUARES, ledger.squares(record)), (ERRATA, report.errata()),
                         (PICTURES, contents.pictures(toc, CHAPTERS))):
         target = CHAPTERS / name
         if not target.exists() or target.read_text(encoding="utf-8") != table:

@@ -1,10 +1,11 @@
-"""The page of all claims, and the strip of them that opens the book, from the records of `neorl.evidence.report`.
+"""The page of all claims, and what the first page says of them, from the records of `neorl.evidence.report`.
 
 1. A strip with a square for each claim and a tally come first, then a row for each, then the evidence for its verdict.
 2. A row has the estimates under both readings, the verdict, and the shares of readings in separate columns.
 3. Pages are MyST Markdown. The strip is HTML, since its squares are links with a shape of their own.
 """
 
+from collections import Counter
 from html import escape
 
 from neorl.evidence import marks, report
@@ -28,8 +29,17 @@ def page(record):
 
 
 def front(record):
-    """The headline result and the strip that open the book, as HTML. record: as `report.load` returns it."""
-    return f'<p class="result">{sentence(record)}</p>\n{strip(record, "claims.html")}\n'
+    """What was found, in a sentence, as HTML for the first page. record: as `report.load` returns it."""
+    def link(name):
+        return f'<a href="claims.html#{anchor(name)}" title="{escape(STATEMENTS[name].text)}">{name}</a>'
+
+    return f'<p class="result">{sentence(record, link)}</p>\n'
+
+
+def squares(record):
+    """The strip of claims and the meaning of its symbols, as HTML for the first page. record: as in `front`."""
+    legend = " · ".join(f"{marks.html(verdict)} {verdict}" for verdict in counts(record))
+    return f'{strip(record, "claims.html")}\n<p class="legend-of-claims">{legend}</p>\n'
 
 
 def counts(record):
@@ -38,18 +48,19 @@ def counts(record):
     return {verdict: found.count(verdict) for verdict in marks.MARKS if verdict in found}
 
 
-def sentence(record):
-    """The headline result: how many claims are reproduced, as one sentence of HTML."""
-    found = counts(record)
-    if not any(found.get(verdict) for verdict in VERDICTS[:3]):
-        return (f"This book judges {len(CLAIMS)} claims of P. R. Leikanger’s thesis on navigation; verdicts need "
-                f"{RUNS_FOR_A_VERDICT} runs per condition, and this build has fewer.")
-    reproduced, partly, failed = (found.get(verdict, 0) for verdict in VERDICTS[:3])
-    rest = len(CLAIMS) - reproduced - partly - failed
-    left = f"; {rest} could not be judged" if rest else ""
-    verb = "is" if reproduced == 1 else "are"
-    return (f"Recomputed from scratch, <strong>{reproduced} of {len(CLAIMS)} claims</strong> of P. R. Leikanger’s "
-            f"thesis on navigation {verb} reproduced, {partly} partly and {failed} not{left}.")
+def sentence(record, named=str):
+    """How many claims, and which, are reproduced, with the number of runs: a sentence. named: a name to its text."""
+    runs = Counter(found["runs"] for found in record["claims"].values()).most_common(1)
+    groups = {verdict: [named(name) for name in CLAIMS if report.verdict(record, name) == verdict]
+              for verdict in VERDICTS[:3]}
+    if not any(groups.values()):
+        return (f"This book judges {len(CLAIMS)} claims of P. R. Leikanger’s thesis. Verdicts need "
+                f"{RUNS_FOR_A_VERDICT} runs of each condition, and this build has fewer.")
+    parts = [f"{len(names)} {verdict} ({', '.join(names)})" for verdict, names in groups.items() if names]
+    left = len(CLAIMS) - sum(map(len, groups.values()))
+    parts += [f"{left} not judged"] if left else []
+    return (f"We reran P. R. Leikanger’s thesis with {runs[0][0]} runs of each condition. Of its {len(CLAIMS)} claims "
+            f"we found {'; '.join(parts)}.")
 
 
 def tally(record):

