@@ -310,11 +310,6 @@ TABLE |= {
         drawing.draw_rate_map, track=[TRACK], cell=[None, 0, 5], bins=st.integers(1, 30)),
     "neorl.drawing.receptive_fields.draw_receptive_fields": drawing_of(
         drawing.draw_receptive_fields, nres_map=MAPS, world=[BOARD], state=states),
-    "neorl.drawing.thesis_figures.draw_against_thesis": drawing_of(
-        drawing.draw_against_thesis, thesis=[{"both": 0.55, "one": 0.2}],
-        readings=[{"book": dict(zip(("both", "one"), ESTIMATES))}]),
-    "neorl.drawing.thesis_figures.mark_levels": entry(
-        drawing.mark_levels, axes=st.builds(lambda: Figure().add_subplot()), levels=[{"thesis": 0.5}], then=drawn),
     "neorl.drawing.value_maps.draw_cells": drawing_of(
         drawing.draw_cells, nres_map=MAPS, colour=["red", "#808080"], fills=[None, {1: ("red", 0.5)}],
         width=st.floats(0, 5)),

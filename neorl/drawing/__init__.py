@@ -11,7 +11,6 @@ is returned.
 - boards: `new_board`, `new_boards`, `draw_world`, `draw_walls`, `draw_tank`, `draw_desires`, `animate`;
 - maps: `draw_cells`, `draw_values`, `draw_value_map`, `draw_receptive_fields`; `track`, `rate_map`, `draw_rate_map`;
 - networks: `draw_network`, `neorl.drawing.draw_networks`;
-- comparison with the thesis's numbers: `draw_against_thesis`, `mark_levels`;
 - style: `use_style`, `STYLE` and the colours.
 
 The room uses `neorl.evidence` and the rooms below it.
@@ -30,11 +29,10 @@ from neorl.drawing.network_figures import draw_network, draw_networks
 from neorl.drawing.rate_maps import Track, draw_rate_map, rate_map, track
 from neorl.drawing.receptive_fields import draw_receptive_fields
 from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, STYLE, use_style
-from neorl.drawing.thesis_figures import draw_against_thesis, mark_levels
 from neorl.drawing.value_maps import draw_cells, draw_value_map, draw_values
 
 __all__ = ["AGENT", "CURVES", "GREEN", "INK", "RED", "STYLE", "Track", "animate", "draw_accumulated",
-           "draw_against_thesis", "draw_cells", "draw_costs", "draw_curves", "draw_desires", "draw_network",
-           "draw_networks", "draw_proficiency", "draw_rate_map", "draw_receptive_fields", "draw_smoothed", "draw_sweep",
-           "draw_tank", "draw_value_map", "draw_values", "draw_walls", "draw_world", "mark_levels", "new_board",
+           "draw_cells", "draw_costs", "draw_curves", "draw_desires", "draw_network", "draw_networks",
+           "draw_proficiency", "draw_rate_map", "draw_receptive_fields", "draw_smoothed", "draw_sweep",
+           "draw_tank", "draw_value_map", "draw_values", "draw_walls", "draw_world", "new_board",
            "new_boards", "rate_map", "track", "use_style"]

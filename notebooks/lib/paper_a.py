@@ -11,13 +11,13 @@ import numpy as np
 from lib.shared import side_by_side
 from lib.shared.notebook import FINEST
 from lib.shared.wording import table
+from lib.shared.thesis_figures import mark_levels
 from neorl.core.horde import as_vectors
 from neorl.core.maps import NresMap
 from neorl.core.scene import CARDINAL
 from neorl.drawing.boards import new_board
 from neorl.drawing.curves import draw_proficiency
 from neorl.drawing.style import AGENT, FILL, GREEN, INK, RED, mark
-from neorl.drawing.thesis_figures import mark_levels
 from neorl.drawing.value_maps import draw_cells, draw_values
 from neorl.evidence.priors import BEYOND
 from neorl.evidence.reading import LAYERS, SINGLE

@@ -6,8 +6,8 @@ The results under one reading are {name: `Result`}, of networks "A" to "D" and o
 import numpy as np
 
 from lib.shared.wording import table
+from lib.shared.thesis_figures import mark_levels
 from neorl.drawing.curves import draw_proficiency
-from neorl.drawing.thesis_figures import mark_levels
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.statistics import estimate
 from neorl.evidence.verdict import FINAL

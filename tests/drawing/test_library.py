@@ -39,7 +39,6 @@ def figures_of_one_panel(run):
         drawing.draw_accumulated: ({"N2": made_up(1)},), drawing.draw_proficiency: ({"N2": made_up(1)},),
         drawing.draw_smoothed: ({"N2": made_up(1)},), drawing.draw_curves: (np.arange(4), curves),
         drawing.draw_sweep: ([1, 2], ESTIMATES), drawing.draw_costs: (["a", "b"], [1.0, 2.1], np.array([1.0, 2.0])),
-        drawing.draw_against_thesis: ({"a": 0.5}, {"here": {"a": Estimate(0.4, 0.3, 0.5)}}),
         drawing.draw_network: (network_d(),), drawing.draw_cells: (NresMap(3),),
         drawing.draw_values: (NresMap(3), np.ones((9, 4)) * [0, 1, 0, 0]),
         drawing.draw_value_map: (run, [(0.5, 0.5)]), drawing.draw_world: (TANK, run.world_state),

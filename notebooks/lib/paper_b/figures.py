@@ -9,13 +9,13 @@ from matplotlib.patches import Circle
 
 from lib.paper_b.trials import SECONDS_A_MOVE, best_values, values_for_objects
 from lib.shared.wording import table
+from lib.shared.thesis_figures import draw_against_thesis
 from neorl.core.maps import NresMap
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, MODALITIES
 from neorl.drawing.boards import as_board, draw_tank, new_boards
 from neorl.drawing.curves import draw_curves, draw_sweep
 from neorl.drawing.receptive_fields import draw_receptive_fields
 from neorl.drawing.style import AGENT, FILL, GREEN, INK, mark
-from neorl.drawing.thesis_figures import draw_against_thesis
 from neorl.drawing.value_maps import draw_cells, draw_values
 from neorl.evidence.report import CALIBRATED, LETTER
 from neorl.evidence.statements import STATEMENTS

@@ -29,9 +29,6 @@ def draw_against_thesis(thesis: Mapping[str, float], readings: Mapping[str, Mapp
     labels, at most 7; an estimate without bounds (NaN) is a dot alone. An interval that reaches far beyond all numbers
     is cut off, with an arrow at the edge. Returns the axes, `ax` or those of a new figure.
     Raises ValueError for no labels, for labels that differ, and for more readings.
-
-    >>> from neorl.evidence.statistics import Estimate
-    >>> axes = drawing.draw_against_thesis({"both": 0.55}, {"calibrated": {"both": Estimate(0.5, 0.4, 0.6)}})
     """
     for label, number in by_name("thesis", thesis).items():
         checks.real(f"thesis[{label!r}]", number)
@@ -87,9 +84,6 @@ def mark_levels(axes: Axes, levels: Mapping[str, float]) -> Axes:
 
     The axes are extended to the levels, and the names at the ends of curves are spaced again. Returns the axes.
     Raises ValueError for anything else.
-
-    >>> axes = drawing.draw_curves([0, 1], {"here": np.array([[0.1, 0.5]])})
-    >>> axes = drawing.mark_levels(axes, {"thesis": 0.55})
     """
     checks.instance("axes", axes, Axes)
     heights = [checks.real(f"levels[{name!r}]", height) for name, height in by_name("levels", levels).items()]

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
+from lib.shared.thesis_figures import draw_against_thesis, mark_levels
 from neorl import drawing
-from neorl.drawing.thesis_figures import draw_against_thesis, mark_levels
 from neorl.evidence.statistics import Estimate
 
 THESIS = {"place cells": 0.29, "both": 0.55}
