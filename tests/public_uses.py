@@ -13,7 +13,7 @@ import neorl
 from neorl import (Agent, Arena, Arm, Axis, Condition, Desire, Learner, Learning, Modality, Node, NresMap, Policy,
                    Result, Run, Scene, Vessel, WaterMaze, WaterWorld)
 from neorl.core import kernel
-from neorl.core.description import described, restored
+from neorl.description import described, restored
 from neorl.core.identity import identity
 from neorl.core.kernel import arrays
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL

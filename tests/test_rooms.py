@@ -19,7 +19,7 @@ def test_a_room_imports_only_from_the_rooms_below_it():
 
 def test_every_module_lies_in_a_room():
     assert [path.name for path in sorted((ROOT / "neorl").glob("*.py"))] == [
-        "__init__.py", "__main__.py", "checks.py", "extras.py", "files.py"]
+        "__init__.py", "__main__.py", "checks.py", "description.py", "extras.py", "files.py"]
 
 
 def test_no_modules_import_each_other_in_a_circle():

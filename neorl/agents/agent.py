@@ -16,7 +16,7 @@ from neorl import checks
 from neorl.checks import NotNegative, OneOf
 from neorl.agents.rules import Contacts, Learning, Policy
 from neorl.core.choices import MapState, Weighting
-from neorl.core.description import Described
+from neorl.description import Described
 from neorl.core.horde import OWN_CELL
 from neorl.core.maps import NresMap
 from neorl.core.modality import Modality

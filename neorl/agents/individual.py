@@ -1,7 +1,7 @@
 """An agent in a world, with everything it has learned: the base of `neorl.Learner` and `neorl.Run`.
 
 Parameters, state and values are read-only views. A saved file holds every array, the agent and its world as plain data
-(`neorl.core.description`), and a digest that reveals damage.
+(`neorl.description`), and a digest that reveals damage.
 """
 
 from os import PathLike
@@ -14,7 +14,7 @@ from neorl import checks
 from neorl.agents.agent import LEARNED, Agent
 from neorl.agents.compile import compiled, constants_of, n_values, own_axes
 from neorl.agents.memory import fitting_runs, kept_apart, read_only
-from neorl.core.description import described, restored
+from neorl.description import described, restored
 from neorl.core.horde import as_vectors
 from neorl.core.kernel import arrays, execute, mapped
 from neorl.core.modality import check_faults

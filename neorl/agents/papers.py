@@ -32,7 +32,7 @@ HINTS = get_type_hints(Agent)
 
 
 def paper_agent(function: Maker) -> Maker:
-    """Mark a function as one that a file may name to describe an agent (`neorl.core.description`)."""
+    """Mark a function as one that a file may name to describe an agent (`neorl.description`)."""
     own = list(signature(function).parameters.values())
     names = [each.name for each in own if each.kind is not Parameter.VAR_KEYWORD]
     names += CHOICES if len(names) < len(own) else ()

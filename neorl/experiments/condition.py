@@ -9,11 +9,12 @@ from dataclasses import dataclass, fields
 
 from neorl import checks, files
 from neorl.agents.agent import Agent
-from neorl.core.description import Described
+from neorl.description import Described
 from neorl.core.identity import digest_of_source, identity
 from neorl.worlds.world import World
 
-PARTS = ("checks", "extras", "files", "core", "worlds", "agents", "experiments")  # everything that takes part in a run
+# Everything that takes part in a run.
+PARTS = ("checks", "extras", "files", "core", "description", "worlds", "agents", "experiments")
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
 """The result of a condition: rewards and hits of its runs, as arrays, tables of pandas and xarray, and files.
 
 A saved result is an npz file of its arrays, rewards and hits, and a text, about: a table in JSON with the agent, the
-world and everything else that determined it, as plain data (`neorl.core.description`), and the version of neorl.
+world and everything else that determined it, as plain data (`neorl.description`), and the version of neorl.
 """
 
 import json
@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from neorl import checks
-from neorl.core.description import described, restored
+from neorl.description import described, restored
 from neorl.experiments.condition import Condition
 from neorl.experiments.run import bin_steps
 from neorl.extras import require
@@ -103,7 +103,7 @@ class Result:
 
         time: when each bin ends, in simulated seconds. rewards: float32 (run, time), the sum over the bin. hits: int16
         (run, time, kind), the number of things met in the bin. attributes: steps and runs; agent, world and changes as
-        JSON texts (see `neorl.core.description`); seed and the version of neorl as texts.
+        JSON texts (see `neorl.description`); seed and the version of neorl as texts.
         Raises ImportError without xarray, ValueError for an agent or a world that cannot be imported by name.
         """
         xarray = require("xarray", extra="data")
@@ -122,7 +122,7 @@ class Result:
 
         path: of the file, a string or a `pathlib.Path`; an existing file is replaced.
         Raises OSError if it cannot be written, ValueError for an agent or a world that cannot be imported by name
-        (`neorl.core.description`).
+        (`neorl.description`).
         """
         arrays = {"rewards": self.rewards, "hits": self.hits}
         write_arrays(checks.path("path", path), "Result", about(self.condition), arrays, np.savez_compressed)

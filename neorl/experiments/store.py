@@ -25,7 +25,7 @@ import numpy as np
 from neorl import checks, files
 from neorl.agents.agent import Agent
 from neorl.agents.rules import CALIBRATED, GREEDY
-from neorl.core.description import described
+from neorl.description import described
 from neorl.experiments.condition import PARTS, source_digest
 from neorl.experiments.result import Result, about, condition_of, fitting
 from neorl.worlds.arena import Arena

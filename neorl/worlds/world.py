@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from neorl import checks
-from neorl.core.description import Described
+from neorl.description import Described
 from neorl.core.kernel import Kernel, execute, fields, full_name, is_tuple, length, new_tuple
 from neorl.core.scene import Actions
 from neorl.core.stream import new_stream

@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from neorl import (Agent, Arena, Axis, Condition, Desire, Learning, Modality, Node, Place, Policy, WaterWorld, World,
                    brownian, kernel, multimodal, network_a, network_b, network_c, network_d, object_vector_cells,
                    place_cells, softmax)
-from neorl.core.description import described, read_data, restored
 from neorl.core.modality import HEAD_DIRECTION_CELL, LANDMARK_VECTOR_CELL, MODALITIES, PLACE_CELL
+from neorl.description import described, read_data, restored
 
 PAPERS = (place_cells, object_vector_cells, multimodal, network_a, network_b, network_c, network_d)
 SHARES, UNITS = st.floats(0, 1), st.sampled_from(["cells", "seconds"])

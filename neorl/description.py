@@ -38,7 +38,7 @@ class Described:
     """A frozen dataclass that can be written as plain data, and read back as an equal value with the same key."""
 
     def to_dict(self) -> dict[str, Any]:
-        """The value as plain data, see `neorl.core.description`.
+        """The value as plain data, see `neorl.description`.
 
         Raises ValueError for values that cannot be found by name, such as a kernel defined in a function, or that are
         not plain data.
