@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from test_claims import brownian, made_up
 
-from lib.chapter_2.latent_learning import Record
+from lib.chapter_2.maze import Record
 from neorl.evidence import claims
 
 

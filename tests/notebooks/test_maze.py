@@ -1,21 +1,27 @@
-"""The maze of T-shaped units, the animals that run it, and their figures."""
+"""The maze of T-shaped units, the animals that run it, and the plan of it."""
 
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
+from page_cells import defined
 
-from lib.chapter_2 import maze_figures
-from lib.chapter_2.latent_learning import (DAYS, GROUPS, LEARNERS, Animal, Record, Rival, _learn_by_traces,
-                                                      compare_groups, compare_learners, findings, judge, known_by, live,
-                                                      simulate_groups)
-from lib.chapter_2.maze import Maze, random_maze
+from lib.chapter_2 import figures
+from lib.chapter_2.maze import (DAYS, GROUPS, LEARNERS, Animal, Maze, Record, Rival, _learn_by_traces, findings, live,
+                                simulate)
 from lib.shared.grid import MOVES
 from lib.shared.tabular import Rates
 from neorl.core.kernel import execute, new_tuple
 from neorl.core.stream import new_stream
-from neorl.evidence.statistics import Estimate
+from neorl.evidence import claims
 
 N, S, E, W = range(4)
+FED_FROM = dict(zip(GROUPS, (1, DAYS + 1, 11)))
+
+
+def groups(animal, runs):
+    """The three groups of animals, as on the page."""
+    return {group: simulate(animal, Maze(), day, runs, 0, number)
+            for number, (group, day) in enumerate(FED_FROM.items())}
 
 
 def walk(maze, moves, state=0):
@@ -60,45 +66,18 @@ def test_every_move_leads_to_where_it_points():
 
 @pytest.mark.parametrize("turns", ["", "RX", "RRR", "LLL", "RLRRR"])
 def test_a_bad_path_or_one_that_crosses_itself_is_refused(turns):
-    with pytest.raises(ValueError, match="turns is .*, allowed are L and R"):
+    with pytest.raises(ValueError, match="turns must be L and R, on a way that does not cross itself, but is"):
         Maze(turns)
-
-
-def test_random_mazes_have_as_many_units_and_differ():
-    drawn = {random_maze(seed, units=9).turns for seed in range(5)}
-    assert len(drawn) > 3 and {len(turns) for turns in drawn} == {9}
-    assert random_maze(1) == random_maze(1) and random_maze(1, alley=2).alley == 2
-
-
-@pytest.mark.parametrize("change, message", [
-    ({"learner": "rat"}, "learner must be .*, but is 'rat'"), ({"exploration": 2}, "exploration must be .*, but is 2"),
-    ({"trace": -1}, "trace must be .*, but is -1"),
-    ({"learning_rate": "a"}, "learning_rate must be .*, but is 'a'"),
-    ({"discount": 1.1}, "discount must be .*, but is 1.1"),
-])
-def test_a_bad_animal_is_refused(change, message):
-    with pytest.raises(ValueError, match=message):
-        Animal(**change)
-
-
-@pytest.mark.parametrize("change, message", [
-    ({"animal": "neoRL"}, "animal must be an Animal, but is"), ({"maze": "RL"}, "maze must be a Maze,"),
-    ({"runs": 0}, "runs must be .*, but is 0"),
-    ({"seed": -1}, "seed must be .*, but is -1"), ({"first_reward": 0}, "first_reward must be .*, but is 0"),
-])
-def test_a_bad_experiment_is_refused(change, message):
-    with pytest.raises(ValueError, match=message):
-        simulate_groups(**{"animal": Animal(), "maze": Maze(), "runs": 2} | change)
 
 
 @pytest.fixture(scope="module")
 def by_learner():
-    return {learner: simulate_groups(Animal(learner), Maze(), runs=60) for learner in LEARNERS}
+    return {learner: groups(Animal(learner), 60) for learner in LEARNERS}
 
 
 @pytest.mark.parametrize("learner", LEARNERS)
 def test_a_run_is_the_same_alone_and_among_others(by_learner, learner):
-    alone = simulate_groups(Animal(learner), Maze(), runs=2)
+    alone = groups(Animal(learner), 2)
     for group in GROUPS:
         np.testing.assert_array_equal(alone[group].errors, by_learner[learner][group].errors[:2])
     assert (by_learner[learner]["never"].errors[:, :10] != by_learner[learner]["delayed"].errors[:, :10]).any()
@@ -127,11 +106,6 @@ def test_sarsa_learns_the_whole_path_from_one_meal(by_learner):
     assert (known[:, :10] == 0).all() and known[:, 10:].mean() > 0.99
 
 
-def test_sarsa_without_a_trace_learns_one_unit_a_meal():
-    known = simulate_groups(Animal("Sarsa(λ)", trace=0.0, exploration=0.0), Maze(), runs=3)["throughout"].known
-    np.testing.assert_allclose(known[:, :5], np.tile(np.arange(1, 6) / 14, (3, 1)))
-
-
 @pytest.mark.parametrize("ended", [False, True])
 def test_sarsa_learns_along_replacing_traces(ended):
     animal, rng = new_tuple(Rival, {"states": 3}, {}), np.random.default_rng(0)
@@ -154,7 +128,7 @@ def test_sarsa_leaves_no_trace_of_yesterday():
 
 
 def test_sarsa_tries_what_it_has_tried_least():
-    errors = simulate_groups(Animal("Sarsa(λ)", exploration=0.0), Maze(), runs=60)["never"].errors
+    errors = simulate(Animal("Sarsa(λ)", exploration=0.0), Maze(), DAYS + 1, 60).errors
     # It tries the four actions in turn, the blind before or after the true path: half an error per unit on the first
     # day, and from then on as many entries into the blind as into the true path.
     assert errors[:, 0].mean() == pytest.approx(7, abs=1)
@@ -163,13 +137,13 @@ def test_sarsa_tries_what_it_has_tried_least():
 
 def test_fed_throughout_and_without_exploration_neorl_and_q_learning_do_the_same():
     hardly = Animal("neoRL", exploration=1e-12), Animal("Q-learning", exploration=1e-12)  # both draw whether to explore
-    neorl, q_learning = (simulate_groups(animal, Maze(), runs=20)["throughout"].errors for animal in hardly)
+    neorl, q_learning = (simulate(animal, Maze(), 1, 20).errors for animal in hardly)
     np.testing.assert_array_equal(neorl, q_learning)
     assert (neorl[:, 14:] == 0).all()
 
 
 def test_exploration_is_the_share_of_drawn_actions():
-    errors = simulate_groups(Animal(exploration=0.2), Maze(), runs=60)["throughout"].errors[:, 15:]
+    errors = simulate(Animal(exploration=0.2), Maze(), 1, 60).errors[:, 15:]
     # At a known choice point an action leads to the true path with probability 0.85 and to the blind with 0.05.
     assert errors.mean() == pytest.approx(14 * 0.05 / 0.85, abs=0.3)
 
@@ -185,9 +159,9 @@ def test_learned_values_solve_the_bellman_equation(learner):
         np.testing.assert_allclose(horde[0, N, 1 : maze.goal], 0.9 ** np.arange(maze.goal - 1.0), rtol=1e-5)
 
 
-def test_the_delayed_group_is_fed_from_the_day_that_is_given():
-    groups = simulate_groups(Animal("Q-learning"), Maze(), runs=5, first_reward=4)
-    assert (groups["delayed"].known[:, :3] == 0).all() and (groups["delayed"].known[:, 3] == 1 / 14).all()
+def test_a_group_is_fed_from_the_day_that_is_given():
+    known = simulate(Animal("Q-learning"), Maze(), 4, 5).known
+    assert (known[:, :3] == 0).all() and (known[:, 3] == 1 / 14).all()
 
 
 def flat(level, after=None, day_12=None, runs=20):
@@ -199,43 +173,26 @@ def flat(level, after=None, day_12=None, runs=20):
 
 def test_the_findings_of_the_original_are_found_in_results_that_have_them():
     falling = Record(np.tile(np.concatenate([np.linspace(14, 3, 11), np.full(6, 2.0)]), (20, 1)), None)
-    groups = {"throughout": falling, "never": flat(14, 13), "delayed": flat(14, 1, 3)}
-    assert [found.holds for found in findings(groups).values()] == [True] * 8
+    results = {"throughout": falling, "never": flat(14, 13), "delayed": flat(14, 1, 3)}
+    assert [found.holds for found in findings(results, 11).values()] == [True] * 8
 
 
 def test_the_findings_of_the_original_are_not_found_in_results_that_lack_them():
-    groups = {"throughout": flat(12), "never": flat(12), "delayed": flat(14, 13, 14.1)}
-    assert [found.holds for found in findings(groups).values()] == [False] * 8
-    numbers = [found.here.value for found in findings(groups).values()]
+    results = {"throughout": flat(12), "never": flat(12), "delayed": flat(14, 13, 14.1)}
+    assert [found.holds for found in findings(results, 11).values()] == [False] * 8
+    numbers = [found.here.value for found in findings(results, 11).values()]
     assert numbers == pytest.approx([0, 0, 0, 2, 0.1, 2.1, 7.1 / 6, 2.1], abs=0.01)
 
 
 def test_groups_differ_in_either_direction_and_are_ahead_only_with_the_whole_interval():
-    found = findings({"throughout": flat(12), "never": flat(12), "delayed": flat(10, 13, 12.005)})
+    found = findings({"throughout": flat(12), "never": flat(12), "delayed": flat(10, 13, 12.005)}, 11)
     assert found["before"].here.value == pytest.approx(-2) and not found["before"].holds
     assert found["one meal"].here.low < 0 < found["one meal"].here.high and not found["one meal"].holds
 
 
-def test_every_kind_of_animal_is_compared_and_neorl_is_judged():
-    level = {"throughout": flat(2), "never": flat(14), "delayed": flat(14, 2, 2)}
-    ahead = level | {"delayed": flat(14, 1, 1)}
-    by_learner = {"neoRL": level, "Q-learning": ahead, "Sarsa(λ)": level}
-    found = compare_learners(by_learner)
-    assert [found[name]["below"].holds for name in LEARNERS] == [False, True, False]
-    assert found["Q-learning"] == findings(ahead)
-    assert judge(by_learner).verdict == "partly" and judge(by_learner | {"neoRL": ahead}).verdict == "reproduced"
-    assert "With other learners it is: Q-learning −1.00" in judge(by_learner).detail
-
-
-@pytest.mark.parametrize("day", [0, DAYS])
-def test_findings_need_a_day_after_the_first_meal(day):
-    with pytest.raises(ValueError, match=f"first_reward must be an integer from 1 to 16, but is {day}"):
-        findings(dict.fromkeys(GROUPS, flat(1)), day)
-
-
 def test_the_plan_draws_every_blind_and_every_door():
     maze = Maze()
-    maze_figures.draw_plan(maze)
+    figures.draw_plan(maze)
     drawn = {tuple(np.round(line.get_xydata().ravel(), 6)) for line in plt.gca().lines}
     for choice, blind in zip(maze.choice_points, maze.blinds):
         assert tuple(np.round(maze.places[[choice, blind]].ravel(), 6)) in drawn
@@ -245,35 +202,25 @@ def test_the_plan_draws_every_blind_and_every_door():
         np.testing.assert_allclose(door.get_xydata().mean(axis=0), maze.places[[choice, choice + 1]].mean(axis=0))
 
 
-def test_mean_errors_are_drawn_in_a_panel_for_each_learner(by_learner):
-    maze_figures.draw_errors(by_learner, 11)
-    panels = plt.gcf().axes
-    assert [axes.get_title() for axes in panels] == list(LEARNERS)
-    for axes, groups in zip(panels, by_learner.values()):
-        for line, record in zip(axes.lines, groups.values()):
-            np.testing.assert_allclose(line.get_ydata(), record.errors.mean(axis=0))
-        assert {text.get_text() for text in axes.texts} == {"throughout", "never", "from day 11"}
+@pytest.mark.parametrize("parameters, after, verdict", [
+    ({}, 2, "partly"), ({}, 1, "reproduced"), ({}, 12, "not reproduced"),
+    ({"exploration": 0.3}, 2, None), ({"learning_rate": 0.2}, 2, None),
+])
+def test_the_page_judges_the_animals_of_the_book_alone(parameters, after, verdict):
+    levels = {1: flat(2), DAYS + 1: flat(14), 11: flat(14, after, after)}
+    page = defined("chapter_2", "experiment", "judging", Maze=Maze, Animal=Animal, DAYS=DAYS, LEARNERS=LEARNERS,
+                   claims=claims, simulate=lambda animal, maze, day, runs, seed, number: levels[day],
+                   **{"runs": 20, "seed": 0, "learning_rate": 0.1, "exploration": 0.1, **parameters})
+    assert [claim.verdict for claim in page.judged] == ([verdict] if verdict else [])
+    assert {animal.exploration for animal in page.animals.values()} == {parameters.get("exploration", 0.1)}
 
 
-def test_what_is_known_is_drawn_by_day(by_learner):
-    maze_figures.draw_known({name: groups["delayed"].known for name, groups in by_learner.items()}, 11)
-    neorl, q_learning, sarsa, day = plt.gca().lines
-    assert neorl.get_xdata()[[0, -1]].tolist() == [1, 17] and day.get_xdata() == [11, 11]
-    np.testing.assert_allclose(q_learning.get_ydata(), np.maximum(np.arange(17) - 9, 0) / 14)
-
-
-def test_settings_are_drawn_as_points_with_their_intervals():
-    rows = {"a": {"x": [Estimate(1, 0, 2), Estimate(3, 2, 4)], "y": [Estimate(5, 4, 6), Estimate(7, 6, 8)]},
-            "b": {"x": [Estimate(2, 1, 3), Estimate(4, 3, 5)], "y": [Estimate(6, 5, 7), Estimate(8, 7, 9)]}}
-    maze_figures.draw_settings(rows, ["first", "second"])
-    first, second = plt.gcf().axes
-    assert [list(line.get_xdata()) for line in second.lines[1:]] == [[3, 4], [7, 8]]
-    assert [list(each.get_segments()[0][:, 0]) for each in first.collections] == [[0, 2], [4, 6]]
-    assert [label.get_text() for label in first.get_yticklabels()] == ["a", "b"]
-
-
-def test_all_kinds_of_animals_are_compared_in_all_groups_and_by_what_they_know():
-    found = compare_groups(Maze(), runs=2)
-    assert list(found) == list(LEARNERS) and {*found["neoRL"]} == {*GROUPS}
-    known = known_by(found, "delayed")
-    assert list(known) == list(LEARNERS) and known["neoRL"] is found["neoRL"]["delayed"].known
+@pytest.mark.parametrize("call, message", [
+    (lambda: Animal("rat"), "learner must be .*, but is 'rat'"), (lambda: Animal(trace=-1), "trace must be .*, but is"),
+    (lambda: simulate(Animal(), "RL", 1, 2), "maze must be a Maze"),
+    (lambda: simulate(Animal(), Maze(), 0, 2), "first_meal must be .*, but is 0"),
+    (lambda: findings(dict.fromkeys(GROUPS, flat(1)), DAYS), "first_meal must be an integer from 1 to 16, but is 17"),
+])
+def test_a_bad_argument_is_refused(call, message):
+    with pytest.raises(ValueError, match=message):
+        call()

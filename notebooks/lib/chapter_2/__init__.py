@@ -1,1 +1,1 @@
-"""Experiments, figures and sentences of chapter 2: how animals learn, and tuned cells."""
+"""Toy systems and figures of chapter 2."""

@@ -1,4 +1,4 @@
-"""The tuning of cells, measured from their spikes while an animal roams a box.
+"""Kinds of cells, and their tuning, measured from their spikes while an animal roams a box.
 
 1. *Trajectory*: the velocity is an Ornstein-Uhlenbeck process along each axis, and walls reflect it, so that the animal
    covers the box uniformly. The box is a unit square, of 1 m, say; y points south as everywhere in neorl.
@@ -7,6 +7,8 @@
 3. *Tuning*: spikes in each bin of a variable, divided by the time spent there, both smoothed by a Gaussian. For
    position this is a rate map, for direction or speed a tuning curve (thesis section 2.2.1).
 4. *Information*: bits per spike about the variable (Skaggs et al. 1993), compared with that of spikes shifted in time.
+5. *Kinds* follow from the modalities of this book. `THESIS` is the thesis's table 2.1, after Bicanski and Burgess (2020):
+   whether the locality and the direction of a kind are allocentric, a distance or neither, and what the kind concerns.
 """
 
 from typing import NamedTuple
@@ -18,10 +20,37 @@ from scipy.signal import lfilter
 from neorl import checks
 from neorl.core.geometry import TAU
 from neorl.core.maps import NresMap
+from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, MODALITIES
 
 SHIFTS = 99  # random shifts of the spikes in time
+THESIS = {
+    "head-direction cell": ("–", "allocentric", "head direction"),
+    "place cell": ("allocentric", "–", "agent position"),
+    "border cell": ("allocentric", "–", "location of borders"),
+    "boundary-vector cell": ("[distance]", "allocentric", "location of boundaries"),
+    "object-vector cell": ("[distance]", "allocentric", "location of objects"),
+    "landmark-vector cell": ("[distance]", "allocentric", "location of landmarks"),
+}
+CONCERNS = {("position", "margin"): "location of borders", ("position", "component"): "agent position",
+            ("velocity", "direction"): "head direction", ("velocity", "length"): "agent speed"}
 # The arguments high, bins and closed of `tuning_curve` for each variable that spikes may be informative about.
 VARIABLES = {"position": (1.0, 20, False), "direction": (TAU, 18, True), "speed": (0.5, 10, False)}
+
+
+def kinds():
+    """The entries of `THESIS` for each modality of the book: {kind: (locality, direction, concern)}.
+
+    The emulation of paper B is left out.
+    """
+    return {each.name: (_locality(each), "allocentric" if "direction" in each.names else "–",
+                        CONCERNS.get((each.follows, each.axes[0].feature), f"location of {each.follows}"))
+            for each in MODALITIES if each != CARTESIAN_OBJECT_VECTOR_CELL}
+
+
+def _locality(modality):
+    if modality.follows == "position":
+        return "allocentric"
+    return "[distance]" if "distance" in modality.names else "–"
 
 
 class Trajectory(NamedTuple):
@@ -100,11 +129,6 @@ class TuningCurve(NamedTuple):
     seconds: np.ndarray  # float64 (bins,) or (bins, bins), time spent there, smoothed as the spikes are
 
 
-def rates(trains, names, values, **binning):
-    """The rates of the `tuning_curve` of the named cells, {name: (bins,)}. trains: {name: spikes}."""
-    return {name: tuning_curve(trains[name], values, **binning).rate for name in names}
-
-
 def tuning_curve(counts, values, step, high, bins, smoothing=1.0, closed=False):
     """The tuning of a cell to a variable: a `TuningCurve`.
 
@@ -177,34 +201,37 @@ def information_in_spikes(trains, trajectory, seed=0):
     return found
 
 
-def rate_maps(cells, trajectory, objects, seed, **axes):
-    """Rate maps of cells, from spikes drawn here: {cell: rate}, as in `TuningCurve`.
+def mistaken(places, phases, tolerance=0.1, far=0.15):
+    """The share of places that modules of grid cells do not distinguish from some distant place.
 
-    cells: {cell: (`NresMap`, which of its cells)}. objects: see `in_field`. seed: a sequence of integers, to which the
-    number of the cell is appended. axes: the arguments of `tuning_curve` from ``step`` on.
+    places: (places, 2), in box widths. phases: of each module at these places, (modules, places, 2), in periods. Two
+    places are indistinguishable if their phases differ by at most ``tolerance`` in every module, and distant if they
+    are more than ``far`` apart.
     """
-    maps = {}
-    for number, (name, cell) in enumerate(cells.items()):
-        fired = spikes(in_field(*cell, trajectory, objects), trajectory.step, [*seed, number])
-        maps[name] = tuning_curve(fired, trajectory.position, **axes).rate
-    return maps
+    alike = np.linalg.norm(places[:, None] - places, axis=-1) > far
+    for at in phases:
+        apart = np.abs(at[:, None] - at)
+        alike &= np.all(np.minimum(apart, 1 - apart) <= tolerance, axis=-1)
+    return alike.any(axis=1).mean()
 
 
-def likeness(maps, others):
-    """The similarity of two maps of each cell, their correlation over the places visited in both: {cell: number}.
+def lose_track(steps, seed, noise=0.05, reach=0.1):
+    """The errors of path integration, by itself and with correction at walls: float64 (2, steps), in box widths.
 
-    maps: {cell: rate (bins, bins)}. others: the same, of at least these cells.
+    An animal that knows where it begins roams the box and sums its displacements. Each second adds an error with the
+    standard deviation ``noise``, in box widths, to either coordinate. At most ``reach`` from a wall, a corrected
+    coordinate becomes that of the middle of this strip, as border cells would allow (Hardcastle et al. 2015).
+    seed: a sequence of integers.
     """
-    found = {}
-    for cell, rate in maps.items():
-        seen = ~np.isnan(rate + others[cell])
-        found[cell] = np.corrcoef(rate[seen], others[cell][seen])[0, 1]
-    return found
-
-
-def cartesian(distance, bearing):
-    """A point in polar coordinates as (x, y): float64 (2,). bearing: radians from the x axis towards the y axis."""
-    return distance * np.array([np.cos(bearing), np.sin(bearing)])
+    walk = roam(steps, seed)
+    drift = np.random.default_rng([*seed, 1]).normal(0, noise * np.sqrt(walk.step), (steps, 2))
+    drift[0] = 0
+    error = np.cumsum(drift, axis=0)
+    low, high = walk.position < reach, walk.position > 1 - reach
+    latest = np.maximum.accumulate(np.where(low | high, np.arange(steps)[:, None], -1), axis=0)  # correction
+    off = np.where(low, reach / 2, 1 - reach / 2) - walk.position  # of a coordinate when it is corrected
+    since = error + np.take_along_axis(off - error, np.maximum(latest, 0), 0)
+    return np.linalg.norm([error, np.where(latest >= 0, since, error)], axis=2)
 
 
 def egocentric(vectors, heading):

@@ -1,12 +1,17 @@
-"""Trajectories and tuning against closed forms and cases counted by hand."""
+"""Chapter 2: an animal in a box, the tuning of its cells, and the neuron in the page's cells, by closed forms."""
 
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
+from page_cells import defined
+from scipy.integrate import solve_ivp
+from scipy.signal import lfilter
+from scipy.special import exprel
 
-from lib.chapter_2 import tuning_figures
-from lib.chapter_2.tuning import (Trajectory, TuningCurve, cartesian, egocentric, in_field, information,
-                                          likeness, rate_maps, rates, roam, spikes, information_in_spikes, tuning_curve)
+from lib.chapter_2 import figures, tuning
+from lib.chapter_2.tuning import (THESIS, Trajectory, TuningCurve, egocentric, in_field, information,
+                                  information_in_spikes, kinds, lose_track, mistaken, roam, spikes, tuning_curve)
+from lib.shared.grid import Grid
 from neorl import NresMap
 from neorl.core.geometry import TAU
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, HEAD_DIRECTION_CELL, LANDMARK_VECTOR_CELL,
@@ -16,6 +21,17 @@ from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, HEAD_DIRECTI
 @pytest.fixture(scope="module")
 def trajectory():
     return roam(200_000, seed=1)
+
+
+@pytest.fixture(scope="module")
+def axon():
+    page = defined("chapter_2", "cell-32", np=np, exprel=exprel, solve_ivp=solve_ivp, figures=figures)
+    plt.close("all")
+    return page
+
+
+def cells_of(cell, **given):
+    return defined("chapter_2", cell, np=np, lfilter=lfilter, **given)
 
 
 def standing(*places, velocity=(0.1, 0.0)):
@@ -44,15 +60,6 @@ def test_speeds_are_rayleigh_distributed_and_velocity_has_the_given_persistence(
     still = roam(400_000, seed=2, step=0.1, speed=1e-6, persistence=2.0).velocity[:, 0]  # meets no wall
     lagged = [np.mean(still[:-lag] * still[lag:]) / np.mean(still**2) for lag in (10, 20)]
     np.testing.assert_allclose(lagged, np.exp([-0.5, -1.0]), atol=0.02)
-
-
-def test_the_animal_runs_from_the_first_step_on():
-    assert np.mean([roam(1, seed).speed for seed in range(300)]) == pytest.approx(0.2, rel=0.1)
-
-
-def test_a_seed_fixes_the_trajectory():
-    np.testing.assert_array_equal(roam(100, 3).position, roam(100, 3).position)
-    assert not np.array_equal(roam(100, 3).position, roam(100, 4).position)
 
 
 def test_a_cell_is_active_where_its_field_says():
@@ -106,31 +113,12 @@ def test_where_the_animal_never_was_there_is_no_rate():
     assert np.isnan(smooth.rate).tolist() == [False, True, False, True] and np.all(smooth.seconds > 0)
 
 
-def test_what_lies_beyond_the_axis_is_left_out():
-    tuned = tuning_curve([1, 1, 1], [-0.1, 0.5, 1.1], step=1.0, high=1.0, bins=1, smoothing=0.0)
-    assert (tuned.rate, tuned.seconds) == (1.0, 1.0)
-
-
 def test_smoothing_leaves_a_constant_rate_alone_and_a_direction_closed():
     values = np.tile((np.arange(8) + 0.5) / 8 * TAU, 10)
     np.testing.assert_allclose(tuning_curve(np.ones(80), values, 0.1, TAU, 8).rate, 10.0)
     single = tuning_curve(np.arange(80) % 8 == 0, values, 0.1, TAU, 8, closed=True).rate
     np.testing.assert_allclose(single[1:], single[:0:-1])  # symmetric about the first bin, across the end
     assert single[0] > single[1] > single[2] and single[-1] == pytest.approx(single[1])
-
-
-def test_a_map_is_smoothed_along_both_axes():
-    places = (np.stack(np.meshgrid(range(9), range(9), indexing="ij"), axis=-1).reshape(-1, 2) + 0.5) / 9
-    blob = tuning_curve(np.arange(81) == 40, places, 1.0, 1.0, 9).rate
-    assert blob[4, 4] > blob[3, 4] > blob[3, 3] > 0
-    np.testing.assert_allclose(blob, blob.T)
-
-
-def test_a_map_recovers_the_rates_that_made_it(trajectory):
-    active = in_field(NresMap(2), 3, trajectory)
-    tuned = tuning_curve(spikes(active, 0.02, 5, 10.0, 1.0), trajectory.position, 0.02, 1.0, bins=10)
-    assert tuned.rate[7:, 7:].mean() == pytest.approx(10.0, rel=0.05)
-    assert tuned.rate[:3].mean() == pytest.approx(1.0, rel=0.1)
 
 
 def test_information_of_a_cell_with_one_field_measures_how_small_it_is():
@@ -140,12 +128,6 @@ def test_information_of_a_cell_with_one_field_measures_how_small_it_is():
     assert information(TuningCurve(field, seconds)) == pytest.approx(4.0)  # log₂ 16
     assert information(TuningCurve(np.full((4, 4), 2.0), seconds)) == pytest.approx(0.0)
     assert information(TuningCurve(np.zeros((4, 4)), seconds)) == 0.0
-
-
-def test_information_is_weighted_by_time_and_ignores_bins_that_were_not_visited():
-    rate = np.array([[4.0, 0.0, np.nan], [1.0, 1.0, np.nan]])
-    expected = [0.25 * 4 * 2, 0.0]  # a quarter of the time at four times the mean: 2 bits
-    np.testing.assert_allclose(information(TuningCurve(rate, np.array([1.0, 3.0, 9.0]))), expected)
 
 
 def test_information_is_the_mutual_information_of_a_rare_spike():
@@ -170,26 +152,6 @@ def test_spikes_inform_about_what_they_follow_and_only_by_chance_about_anything_
     assert found["north"]["direction"].bits == expected > 0.5
 
 
-def test_rate_maps_are_drawn_from_a_stream_for_each_cell(trajectory):
-    walk = Trajectory(trajectory.position[:5_000], trajectory.velocity[:5_000], 0.02)
-    axes = {"step": 0.02, "high": 1.0, "bins": 5}
-    cells = {"place": (NresMap(2), 0), "object": (NresMap(6, OBJECT_VECTOR_CELL), 1)}
-    maps = rate_maps(cells, walk, [(0.5, 0.5)], [3, 1], **axes)
-    fired = spikes(in_field(*cells["object"], walk, [(0.5, 0.5)]), 0.02, [3, 1, 1])
-    assert [*maps] == ["place", "object"]
-    np.testing.assert_array_equal(maps["object"], tuning_curve(fired, walk.position, **axes).rate)
-
-
-def test_maps_are_compared_where_both_were_seen():
-    one, other = np.array([[1.0, 2.0], [3.0, np.nan]]), np.array([[2.0, 4.0], [6.0, -50.0]])
-    found = likeness({"same": one, "turned": one}, {"turned": -other, "more": one, "same": other})
-    assert found == pytest.approx({"same": 1.0, "turned": -1.0}) and [*found] == ["same", "turned"]
-
-
-def test_a_point_in_polar_coordinates_has_cartesian_ones():
-    np.testing.assert_allclose(cartesian(3.0, np.pi / 6), [1.5 * np.sqrt(3), 1.5])
-
-
 def test_forward_is_where_one_heads_and_starboard_a_quarter_turn_to_the_right():
     north, east = [1.0, 0.0], [0.0, 1.0]
     np.testing.assert_allclose(egocentric([north, east], 0.0), [[1, 0], [0, 1]])
@@ -197,17 +159,10 @@ def test_forward_is_where_one_heads_and_starboard_a_quarter_turn_to_the_right():
     np.testing.assert_allclose(egocentric([1.0, 1.0], [np.pi / 4, np.pi]), [[np.sqrt(2), 0], [-1, -1]], atol=1e-15)
 
 
-def test_turning_changes_no_distance():
-    rng = np.random.default_rng(0)
-    vectors = rng.normal(size=(50, 2))
-    seen = egocentric(vectors, rng.uniform(0, 7, 50))
-    np.testing.assert_allclose(np.linalg.norm(seen, axis=1), np.linalg.norm(vectors, axis=1))
-
-
 def test_a_rate_map_is_drawn_with_x_to_the_right_and_y_down(trajectory):
     north_east = (trajectory.position > [0.5, -1]).all(axis=1) & (trajectory.position[:, 1] < 0.5)
     tuned = tuning_curve(north_east, trajectory.position, 0.02, 1.0, bins=4, smoothing=0.0)
-    tuning_figures.draw_rate_maps(trajectory, north_east, {"corner": tuned.rate}, [(0.2, 0.3)])
+    figures.draw_rate_maps(trajectory, north_east, {"corner": tuned.rate}, [(0.2, 0.3)])
     path, panel, *_ = plt.gcf().axes
     (image,) = panel.images
     shown = image.get_array()
@@ -219,7 +174,7 @@ def test_a_rate_map_is_drawn_with_x_to_the_right_and_y_down(trajectory):
 
 
 def test_a_tuning_curve_runs_clockwise_from_east_and_closes():
-    tuning_figures.draw_tuning_curves({"cell": np.array([1.0, 5.0, 1.0, 1.0])}, {"cell": np.array([1.0, np.nan])}, 0.5)
+    figures.draw_tuning_curves({"cell": np.array([1.0, 5.0, 1.0, 1.0])}, {"cell": np.array([1.0, np.nan])}, 0.5)
     around, along = plt.gcf().axes
     angles, rates = around.lines[0].get_data()
     assert around.get_theta_direction() == -1 and rates.tolist() == [1.0, 5.0, 1.0, 1.0, 1.0]
@@ -227,41 +182,117 @@ def test_a_tuning_curve_runs_clockwise_from_east_and_closes():
     assert along.lines[0].get_xdata().tolist() == pytest.approx([0.125, 0.375])
 
 
-def test_tuning_curves_are_named_outside_the_circle_on_opposite_sides():
-    rates = np.array([1.0, 5.0, 1.0, 1.0])
-    tuning_figures.draw_tuning_curves({"tuned": rates, "flat": np.ones(4)}, {"flat": rates}, 0.5)
-    around, _ = plt.gcf().axes
-    tuned, flat = around.texts
-    assert min(tuned.xyann[1], flat.xyann[1]) > around.get_rmax()
-    assert flat.xyann[0] - tuned.xyann[0] == pytest.approx(np.pi)
+def test_kinds_are_those_of_the_thesis_and_the_speed_cell():
+    found = kinds()
+    assert {kind: found[kind] for kind in THESIS} == THESIS
+    assert set(found) - set(THESIS) == {"speed cell"} and found["speed cell"] == ("–", "–", "agent speed")
 
 
-def test_both_frames_meet_in_the_point():
-    tuning_figures.draw_frames((2.0, 1.0), 0.3, 3.0, np.pi / 3)
-    left, right = plt.gcf().axes
-    for dotted in left.lines[1:3]:  # from the forward and the starboard axis
-        np.testing.assert_allclose(dotted.get_xydata()[1], [1.0, 2.0])
-        along, across = dotted.get_xydata()[0], dotted.get_xydata()[1] - dotted.get_xydata()[0]
-        assert along @ across == pytest.approx(0.0, abs=1e-12)
-    assert right.lines[1].get_xydata()[0] == pytest.approx([1.5, 1.5 * np.sqrt(3)])
+def test_a_grid_cell_fires_most_at_the_nodes_of_a_hexagonal_lattice(trajectory):
+    page = cells_of("cell-56-work", TAU=TAU, tuning=tuning, walk=trajectory, seed=0,
+                    where={"step": 0.02, "high": 1.0, "bins": 25})
+    angles = np.radians(60 * np.arange(6))
+    nodes = 0.3 * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+    np.testing.assert_allclose(page.grid_rate(np.vstack([(0, 0), nodes, 2 * nodes]), 0.3), 1.0, atol=1e-12)
+    fine = np.random.default_rng(0).random((20_000, 2))
+    rates = page.grid_rate(fine, 0.3)
+    assert rates.min() == pytest.approx(0, abs=0.01) and rates.max() <= 1
+    high = fine[rates > 0.99] @ np.linalg.inv(np.array([nodes[0], nodes[1]]))
+    assert np.abs(high - np.round(high)).max() < 0.1
+    one, other, wide = (page.phases(fine[:400], scale) for scale in (0.3, 0.42, 1.5))
+    assert mistaken(fine[:400], [one]) == 1.0 and mistaken(fine[:400], [wide], tolerance=0.05) == 0.0
+    assert mistaken(fine[:400], [one, other]) < 0.1
+
+
+def test_an_object_cell_has_a_compact_field_in_its_own_frame_alone(trajectory):
+    maps = cells_of("cell-56-objects", tuning=tuning, walk=trajectory, seed=0,
+                    where={"step": 0.02, "high": 1.0, "bins": 25}).object_maps
+    for cell, frames in maps.items():
+        share = {frame: np.mean(rate > np.nanmax(rate) / 3) for frame, rate in frames.items()}
+        own, other = sorted(share, key=share.get)
+        assert cell == f"{own} cell" and share[other] > 3 * share[own]
+        peak = np.unravel_index(np.nanargmax(frames[own]), frames[own].shape)
+        np.testing.assert_allclose((np.array(peak) + 0.5) / 25 - 0.5, (0.2, -0.15), atol=0.06)
+
+
+def test_the_error_of_a_sum_grows_with_the_root_of_time_and_that_corrected_stays():
+    alone, corrected = np.stack([lose_track(1_000, [1, run]) for run in range(200)], axis=1)
+    assert alone.shape == (200, 1000) and np.all(alone[:, 0] == 0)
+    for second in (5, 20):
+        assert np.mean(alone[:, 50 * second - 1] ** 2) == pytest.approx(2 * 0.05**2 * second, rel=0.2)
+    assert corrected[:, -1].mean() < 0.7 * alone[:, -1].mean()
+    alone, corrected = lose_track(3_000, [0, 0], noise=0)
+    assert np.all(alone == 0) and 0 < corrected.max() <= np.hypot(0.05, 0.05)  # half its reach along each axis
 
 
 @pytest.mark.parametrize("call, message", [
-    (lambda: roam(0), "steps must be .*, but is 0"), (lambda: roam(10, step=0.0), "step must be .*, but is 0.0"),
-    (lambda: roam(10, speed=-1.0), "speed must be .*, but is -1.0"),
+    (lambda: roam(0), "steps must be .*, but is 0"), (lambda: roam(10, speed=-1.0), "speed must be .*, but is -1.0"),
     (lambda: in_field(NresMap(2), 4, roam(5)), "cell must be an integer from 0 to 3, but is 4"),
-    (lambda: in_field("map", 0, roam(5)), "nres_map must be a NresMap, but is 'map'"),
     (lambda: spikes([True], 0.02, inside=-1.0), "inside must be .*, but is -1.0"),
     (lambda: tuning_curve([1], [0.5], 1.0, 1.0, bins=0), "bins must be .*, but is 0"),
-    (lambda: tuning_curve([1], [0.5], 1.0, 0.0, bins=1), "high must be .*, but is 0.0"),
-    (lambda: egocentric([1.0, 2.0, 3.0], 0.0), r"vectors must have the shape \(…, 2\), for north, east, but has \(3,"),
 ])
 def test_a_bad_argument_is_refused(call, message):
     with pytest.raises(ValueError, match=message):
         call()
 
 
-def test_rates_are_those_of_the_tuning_curves_of_some_cells():
-    trains, values = {"a": np.array([1, 0, 1, 0]), "b": np.array([0, 1, 0, 1])}, np.array([0.1, 0.9, 0.1, 0.9])
-    found = rates(trains, ["b"], values, step=1.0, high=1.0, bins=2, smoothing=0.0)
-    assert list(found) == ["b"] and found["b"].tolist() == [0.0, 1.0]
+def test_the_gates_move_as_in_the_paper(axon):
+    """Values at a depolarisation of 25 and 10 mV, where the formulas are 0/0, and of 30 mV."""
+    opening, closing = axon.gate_rates(axon.REST + 25)
+    assert (opening[0], closing[0]) == pytest.approx((1.0, 4 * np.exp(-25 / 18)))
+    opening, closing = axon.gate_rates(axon.REST + 10)
+    assert (opening[2], closing[2]) == pytest.approx((0.1, 0.125 * np.exp(-1 / 8)))
+    opening, closing = axon.gate_rates(axon.REST + 30)
+    assert (opening[1], closing[1]) == pytest.approx((0.07 * np.exp(-1.5), 0.5))
+
+
+def test_an_action_potential_is_all_or_none_and_obeys_its_own_equation(axon):
+    peaks = {current: axon.action_potential(current)[1].max() for current in (0.0, 6.9, 6.95, 16.0)}
+    assert peaks[0.0] == pytest.approx(axon.REST, abs=0.02) and peaks[6.9] < -55.0
+    assert 30.0 < peaks[6.95] < peaks[16.0] < 45.0
+    time, potential, m, h, n = axon.action_potential(10.0)
+    flow = 120 * m**3 * h * (potential - 50) + 36 * n**4 * (potential + 77) + 0.3 * (potential + 54.387)
+    inside = (time > 5.05) & (time < 5.95)
+    change = np.gradient(potential, time)  # by finite differences
+    np.testing.assert_allclose(change[inside], 10.0 - flow[inside], atol=0.05)
+    np.testing.assert_allclose(change[time > 6.05], -flow[time > 6.05], atol=1.0)
+
+
+def test_the_soma_fires_as_often_as_the_closed_form_says_and_rests_after_a_spike():
+    integrate = cells_of("neuron").integrate
+    currents = np.array([1.0, 1.4, 2.5, 3.5, 4.0])
+    _, fired = integrate(np.tile(currents, (40_000, 1)), step=0.05)
+    drive = 10 * currents[2:]
+    np.testing.assert_allclose(fired.sum(axis=0)[2:] / 2, 1000 / (2 + 10 * np.log(drive / (drive - 15))), rtol=0.01)
+    assert not fired[:, :2].any()
+    potential, fired = integrate(np.full(10_000, 1e6))
+    assert np.diff(np.flatnonzero(fired)).min() == 21  # 2 ms at the reset, and one step up
+    potential, _ = integrate(np.full(300, 1.2), step=0.5)
+    time = 0.5 * np.arange(1, 301)
+    np.testing.assert_allclose(potential, -65.0 + 12.0 * (1 - np.exp(-time / 10.0)), rtol=1e-12)
+
+
+def test_a_synapse_sets_off_a_current_for_each_spike():
+    spikes = np.zeros(1_000, bool)
+    spikes[[100, 400]] = True
+    current = cells_of("synapse").synaptic_current(spikes, weight=-0.5, decay=4.0, step=0.2)
+    assert current[99] == 0.0 and current[100] == -0.5 and current[120] == pytest.approx(-0.5 / np.e)
+    assert current[400] == pytest.approx(-0.5 * (1 + np.exp(-15.0))) and current[-1] == pytest.approx(0, abs=1e-10)
+
+
+def test_a_shock_is_forgotten_and_five_apart_are_not():
+    efficacy = cells_of("synapse").efficacy
+    np.testing.assert_allclose(efficacy(np.array([-1, 0, 15, 60]), [0]), 1 + np.array([0, 1, np.exp(-1), np.exp(-4)]))
+    share = np.exp(-1.0)  # of a trace, a quarter of an hour later
+    assert efficacy(24 * 60.0, [0.0]) == pytest.approx(1.0)
+    assert efficacy(24 * 60.0, 15.0 * np.arange(5)) == pytest.approx(1 + 4 * share * (1 - share))
+    assert efficacy(24 * 60.0, 0.1 * np.arange(5)) < 1.05
+
+
+def test_a_desire_is_drawn_everywhere_but_in_the_marked_places():
+    grid = Grid(("F..",))
+    q = np.zeros((3, 4))
+    q[:, 3] = 1.0  # west
+    figures.draw_motives(grid, {"none": 0 * q, "west": q}, {0: "F"})
+    none, west = plt.gcf().axes
+    assert len(none.collections[-1].U) == 0 and west.collections[-1].U.tolist() == pytest.approx([-0.38, -0.38])
