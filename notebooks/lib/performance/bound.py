@@ -1,4 +1,4 @@
-"""A lower bound for the time of a step: the world's own step, and the agent's bytes at the machine's bandwidth.
+"""What a step takes at least: the world's own step, and the bytes that an agent moves.
 
 Bytes that an update must move, in each map for each change of cell that it learns from, with A actions:
 
@@ -19,28 +19,18 @@ And in every step:
 The *working set* consists of all lines of values that learning touches in the timed stretch, and of the memory.
 """
 
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
-from lib.performance.bandwidth import LINE
-from lib.performance.timing import again, always, in_turns
-from neorl.agents.papers import multimodal, place_cells
-from neorl.agents.rules import CALIBRATED
+from lib.performance.timing import LINE, always
 from neorl.core.kernel import array, execute, kernel
+from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
 from neorl.core.stream import new_stream, randint
-from neorl.evidence.statistics import estimate
-from neorl.experiments.run import Run
-from neorl.worlds.waterworld import Rules, WaterWorld, WaterWorldState, reset, step
+from neorl.worlds.waterworld import Rules, WaterWorldState, reset, step
 
 NEAREST_CACHE = 2**15  # bytes, on most processors of the last decade
-ALL_GOALS, MEMORY = (replace(CALIBRATED, bootstrap=cells == 0, memory=cells) for cells in (0.0, 30.0))
-AGENTS = {"N23 (all goals)": place_cells([23], learning=ALL_GOALS), "N23 (memory)": place_cells([23], learning=MEMORY),
-          "twelve maps (all goals)": multimodal(learning=ALL_GOALS, object_state="object"),
-          "twelve maps (memory)": multimodal(learning=MEMORY, object_state="object")}
-LIVED = 20_000  # steps that an agent lives before it is timed
-STRETCH = 5_000  # timed steps, at most
+RATES = np.full(4, 0.01, np.float32)
 
 
 class Moved(NamedTuple):
@@ -57,57 +47,6 @@ class Moved(NamedTuple):
     def bytes(self):
         """All bytes per step."""
         return self.standing + self.ordered + self.scattered
-
-
-class Loop(NamedTuple):
-    """One agent's loop, world and agent together, beside its bound. Seconds per step, each (rounds,)."""
-
-    moved: Moved
-    world: np.ndarray
-    loop: np.ndarray
-
-    def moving(self, bandwidths):
-        """Seconds per step that it takes to copy the bytes in order."""
-        return self.moved.bytes / bandwidths.at(self.moved.working_set)
-
-    def ratio(self, bandwidths):
-        """Time of the loop as a multiple of its bound: an `Estimate` over repetitions."""
-        moving = self.moving(bandwidths)
-        return estimate(lambda loop, world, axis: loop.min(axis) / (world.min(axis) + moving), self.loop, self.world)
-
-
-def measure(steps, rounds, seed=0, agents=AGENTS):
-    """Time the agents' loops in a tank with three creeps, in turns: {name: `Loop`}."""
-    world, steps = WaterWorld(), min(steps, STRETCH)
-    runs = {name: Run(agent, world, seed) for name, agent in agents.items()}
-    for run in runs.values():
-        run.advance(LIVED)
-    timed = {"": bare(world, steps, seed), **{name: again(run, steps) for name, run in runs.items()}}
-    seconds = in_turns(timed, rounds)
-    return {name: Loop(moved(run.copy(), steps), seconds[""] / steps, seconds[name] / steps)
-            for name, run in runs.items()}
-
-
-def spent(steps, rounds, seed=0, agents=AGENTS):
-    """Seconds of a step by part, averaged over random movement: {name: {part: seconds}}.
-
-    The agents are made indifferent, so they draw their actions and all move identically. Then parts are removed: first
-    learning, then desires. What is left beside the world's step is to find the active cells.
-    """
-    world, steps = WaterWorld(), min(steps, STRETCH)
-    lives = {}
-    for name, agent in agents.items():
-        blank = replace(agent, learning=replace(CALIBRATED, learning_rate=0.0, memory=0.0))
-        indifferent = [replace(desire, valence=0.0) for desire in agent.desires]
-        for part, less in (("all", replace(agent, desires=indifferent)),
-                           ("desires", replace(blank, desires=indifferent)), ("seeing", replace(blank, desires=()))):
-            lives[name, part] = Run(less, world, seed)
-            lives[name, part].advance(LIVED)
-    times = in_turns({"": bare(world, steps, seed), **{key: again(run, steps) for key, run in lives.items()}}, rounds)
-    least = {key: each.min() / steps for key, each in times.items()}
-    return {name: {"world": least[""], "seeing": least[name, "seeing"] - least[""],
-                   "choosing": least[name, "desires"] - least[name, "seeing"],
-                   "learning": least[name, "all"] - least[name, "desires"]} for name in agents}
 
 
 def bare(world, steps, seed=0):
@@ -172,3 +111,23 @@ def moved(run, steps):
     working_set = LINE * int(touched.sum()) + int(most) * (4 * (4 * actions + 1) + 8 + 16)
     return Moved(standing, ordered / steps, scattered / steps, working_set, changes / steps,
                  remembered / max(1, changes))
+
+
+def learning_all_goals(resolution, changes, seed=0):
+    """A preparation for `in_turns`, to time learning all goals along a random walk through cells that know all of them.
+
+    changes: of cell, the number of times that it learns.
+    """
+    cells, rng = resolution**2, np.random.default_rng(seed)
+    moves = rng.choice([-1, 1, -resolution, resolution], changes + 1)
+    path = np.clip(np.cumsum(moves) + cells // 2, 0, cells - 1)
+    values = MapValues(np.full(4 * cells**2, 0.1, np.float32), 0, cells, 4, np.tile([0, cells], (cells, 1)),
+                       np.empty(cells, np.float32))
+    return always(execute, learn_along, values, Rule(np.float32(0.9), True, ZERO, False), path, RATES)
+
+
+@kernel
+def learn_along(values: MapValues, rule: Rule, path: array("int64", "cells"), rates: array("float32", 4)) -> None:
+    """Learn all goals from each change of cell along a path."""
+    for change in range(path.shape[0] - 1):
+        learn_all_goals(values, rule, path[change], path[change + 1], rates)

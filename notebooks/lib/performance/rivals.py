@@ -133,6 +133,19 @@ def by_heads(stretch, heads):
     return best
 
 
+def ways(stretch):
+    """Preparations for `in_turns` of all implementations that are installed here: {name: function}, the package first.
+    """
+    heads = heads_of(stretch.q)
+    found = {"neoRL": lambda: _of_copies(by_kernel, stretch, stretch.q, stretch.goal_range),
+             "NumPy": lambda: _of_copies(by_numpy, stretch, stretch.q),
+             "an object for each goal": lambda: lambda: by_heads(stretch, heads)}
+    if is_installed("jax"):
+        scan = by_jax(stretch)
+        found["JAX"] = lambda: _of_device(scan, stretch.q)
+    return found
+
+
 def is_installed(module):
     """Whether an optional package is installed."""
     return importlib.util.find_spec(module) is not None
@@ -182,3 +195,17 @@ def ple_steps(width, creeps, steps, seed=0):
                 game.reset_game()
 
     return run
+
+
+def _of_copies(function, stretch, *arrays):
+    """A call with copies of arrays that are made before the timing."""
+    copies = [array.copy() for array in arrays]
+    return lambda: function(stretch, *copies)
+
+
+def _of_device(scan, q):
+    """A call of a JAX program whose values are put on its device before the timing."""
+    import jax
+
+    values = jax.block_until_ready(jax.device_put(np.array(q), jax.devices("cpu")[0]))
+    return lambda: scan(values)
