@@ -49,21 +49,15 @@ def test_a_run_is_the_same_among_any_number_of_runs_and_learns(name):
 
 
 def test_contestants_live_in_the_worlds_of_runs():
-    seen = []
-
-    def new_memory(world, stream):
-        return controllers.Nothing(np.zeros(1))
-
-    lived = living.live(controllers.nearest_green()._replace(new_memory=new_memory), BOARDS[3], steps=50, runs=1,
-                        bins=1, seed=5)
-    state = Run(place_cells([1]), BOARDS[3], seed=5).world_state
+    lived = living.live(controllers.nearest_green(), BOARDS[3], steps=50, runs=1, bins=1, seed=5)
+    state, total = Run(place_cells([1]), BOARDS[3], seed=5).world_state, 0.0
     for _ in range(50):
         action, _ = act(controllers.nearest_green(), state)
         reward, _, done = BOARDS[3].step(state, int(action))
-        seen.append(reward)
+        total += reward
         if done:
             execute(BOARDS[3].dynamics.reset, state, BOARDS[3].rules)
-    assert lived.rewards[0, 0] == sum(seen)
+    assert lived.rewards[0, 0] == total
 
 
 def test_the_whole_scene_as_one_state_ignores_the_order_of_creeps():
@@ -169,12 +163,9 @@ def test_the_stored_search_is_what_the_script_finds(method):
     assert search.evaluate(method, int(np.argmax(rates))) == pytest.approx(max(rates), abs=1e-4)
 
 
-def test_the_search_draws_within_its_ranges_and_is_stored_whole_for_deep_learners():
-    for number in range(20):
-        drawn = search.setting_of("hybrid reward", number)
-        assert drawn.cells in search.RANGES["hybrid reward"]["cells"] and 0.01 <= drawn.learning_rate <= 0.5
-    assert search.setting_of("PD", 3) == search.setting_of("PD", 3) != search.setting_of("PD", 4)
-    assert all(len(search.rates()[method]) == search.DEEP_SETTINGS for method in search.DEEP)
+def test_the_search_of_deep_learners_is_stored_whole():
+    assert {method: len(search.rates()[method]) for method in search.DEEP} == dict.fromkeys(
+        ("DQN", "QR-DQN", "PPO"), search.DEEP_SETTINGS)
 
 
 @pytest.mark.parametrize("name, creeps", [("hybrid reward", 3), ("monolithic", 8)])
@@ -203,11 +194,7 @@ def test_every_long_deep_run_begins_as_the_run_that_the_script_computed():
     for run, row in long.items():
         assert len(row.rewards) == 200 and short[run].by == living.HERE
         assert np.array_equal(row.rewards[:50], short[run].rewards)
-
-
-def test_what_was_not_timed_here_was_not_computed_here():
-    assert {row.by for row in LONG} <= {living.HERE, living.ELSEWHERE}
-    assert all(np.isnan(row.seconds) == (row.by == living.ELSEWHERE) for row in SHORT + LONG)
+        assert np.isnan(row.seconds) == (row.by == living.ELSEWHERE)  # whose time nobody knows
 
 
 @pytest.mark.parametrize("method", search.DEEP)
@@ -268,9 +255,3 @@ def test_rates_lie_between_steps_and_levels_are_reached_by_means():
     assert each.rates[0, :2] == pytest.approx([0.1, 0.2])
     assert each.steps_to(1.05) == pytest.approx([60_000])  # bins of 1.0, 1.1 and 1.2
     assert np.isinf(each.steps_to(2.5)).all()
-
-
-def test_rewards_of_agents_are_shared_out_over_bins():
-    each = living.of_result(simulate(brownian(), BOARDS[3], steps=3_000, runs=2, progress=False))
-    assert each.rewards.shape == (2, living.BINS) and each.edges[-1] == 3_000
-    assert each.rewards[0].sum() == pytest.approx(Run(brownian(), BOARDS[3]).advance(3_000))
