@@ -124,10 +124,10 @@ def test_what_a_function_raises_is_no_part_of_an_argument():
 def test_a_name_links_to_its_room_or_below_and_an_argument_to_nothing(make_book):
     _, reference = make_book(modules=[f"neorl.{name}" for name in (
         "core.kernel", "core.modality", "core.maps", "core.choices", "core.scene", "worlds", "worlds.world",
-        "worlds.arena", "agents.individual", "agents.learner",
-        "experiments.run")] + ["lib.chapter_3.hybrid_reward", "lib.other_spaces.lives"])
-    of_polar = reference.split('id="neorl.core.modality.polar"')[1].split("</dl>")[0]
-    assert ">reach<" in of_polar and "#lib.other_spaces.lives.reach" not in of_polar
+        "worlds.arena", "worlds.arm", "agents.individual", "agents.learner",
+        "experiments.run")] + ["lib.chapter_3.hybrid_reward", "lib.other_spaces.trials"])
+    of_arm = reference.split('id="neorl.worlds.arm.Arm"')[1].split("</dl>")[0]
+    assert ">lengths<" in of_arm and "#lib.other_spaces.trials.lengths" not in of_arm
     of_axis = reference.split('id="neorl.core.modality.Axis"')[1].split("</dl>")[0]
     assert "#neorl.core.maps.NresMap.intervals" not in of_axis
     assert 'href="#neorl.core.kernel.kernel" title' in of_axis  # neorl.kernel

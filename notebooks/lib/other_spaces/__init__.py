@@ -1,1 +1,1 @@
-"""The page "Is it general?": one learning rule in several spaces, and Kaelbling's properties."""
+"""What the page "Is it general?" needs beside its experiments: rivals, yardsticks and recordings, and figures."""

@@ -1,13 +1,13 @@
 """Figures of the page "Is it general?": what an agent does in each world, and learning curves.
 
-Functions that draw a world take `ax`, or make a new board; those that draw a pair of panels return both.
+Functions that draw a world take `ax`, or make a new board; those that draw a pair of panels return both. What an agent
+does is `seen` as `lib.other_spaces.trials.watch` records it.
 """
 
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.patches import Circle, Rectangle
 
-from lib.other_spaces import birds, hill, lives, minds, pool
 from neorl.core.geometry import TAU
 from neorl.drawing.boards import as_board, board_or_new
 from neorl.drawing.curves import draw_curves
@@ -19,6 +19,7 @@ MARGIN = 0.15  # around an arm and its targets, a little more than their radius
 BIRD = 0.05  # half the length of a bird's body, as a share of the square
 # Names of birds that do not fit above their body, where another bird or a path is: right, down, side.
 ASIDE = {"gingerbread": (-0.03, 0.07, "right"), "sleigh": (-0.03, 0.15, "left")}
+STRETCHES = 20  # of a run, for a point of a curve each
 MULTIPLES = (1, 2, 5, 10, 20)  # ticks
 FIRST_STEPS, ASIDE_OF_PATH = 10, 0.05  # a path's number stands beside its first steps, diameters of the pool from it
 
@@ -34,18 +35,25 @@ def pair(heights=(1, 0.8)):
 def draw_arms(reached, seen):
     """An arm of two links on its way to two targets, and the reward per second of both arms over their runs.
 
-    reached: from `lives.reach`. seen: from `lives.watch`, with an arm of two links.
+    reached: {(links, "agent" or "random"): `Result`}. seen: of an arm of two links.
     """
     above, below = pair((0.6, 0.8))  # an arm on its way moves within a low part of its circle
-    draw_reaching(seen, above)
-    minutes = lives.curve(reached[2, "agent"])[0]
-    curves = {f"{links} links{name}": lives.curve(reached[links, key])[1]
+    draw_reaching(seen, reached[2, "agent"].world.radius, above)
+    minutes = curve(reached[2, "agent"])[0]
+    curves = {f"{links} links{name}": curve(reached[links, key])[1]
               for links in (2, 3) for key, name in (("agent", ""), ("random", ", random"))}
     draw_curves(minutes, curves, "simulated minutes", "reward per second", below)
     return above, below
 
 
-def draw_reaching(seen, ax=None, targets=2):
+def curve(result):
+    """Reward per second over `STRETCHES` of the runs of a `Result`: (minutes (stretches,), (runs, stretches))."""
+    shares = np.linspace(0, 1, STRETCHES + 1)
+    rates = [result.rate(*each) for each in zip(shares[:-1], shares[1:])]
+    return shares[1:] * result.seconds / 60, np.stack(rates, axis=1)
+
+
+def draw_reaching(seen, radius, ax=None, targets=2):
     """Postures of an arm until it has met `targets` targets, earlier ones fainter, with the targets and obstacles."""
     axes = board_or_new(ax)
     ends = [at for at, (_, met) in enumerate(seen) if met][: targets + 1]
@@ -56,10 +64,10 @@ def draw_reaching(seen, ax=None, targets=2):
         axes.plot(*joints.T, color=AGENT, alpha=0.15 + 0.6 * rank / len(shown), linewidth=1.8)
         axes.plot(*joints[-1], marker="o", markersize=3, color=AGENT)
     for last in ends[1:]:
-        axes.add_patch(Circle(seen[last - 1][0].point[0], lives.ARMS[2].radius, facecolor=GREEN, alpha=0.5))
+        axes.add_patch(Circle(seen[last - 1][0].point[0], radius, facecolor=GREEN, alpha=0.5))
         axes.text(*seen[last - 1][0].point[0], "+", color=TEXT, ha="center", va="center", weight="bold")
     for obstacle in {tuple(seen[at][0].point[1]) for at in shown}:
-        axes.add_patch(Circle(obstacle, lives.ARMS[2].radius, facecolor=RED, alpha=0.5))
+        axes.add_patch(Circle(obstacle, radius, facecolor=RED, alpha=0.5))
         axes.text(*obstacle, "−", color=TEXT, ha="center", va="center", weight="bold")
     axes.plot(0, 0, marker="s", markersize=6, color=INK)
     places = np.concatenate([place for state, _ in (seen[at] for at in shown)
@@ -78,17 +86,17 @@ def joints_of(posture):
 def draw_vessel(sailed, seen):
     """A vessel's track among others, and the reward per minute of pilots over their runs.
 
-    sailed: from `lives.sail`. seen: from `lives.watch`.
+    sailed: {pilot: `Result`}. seen: of a vessel.
     """
     above, below = pair()
-    draw_track(seen, above)
-    minutes = lives.curve(sailed["radar"])[0]
-    draw_curves(minutes, {name: 60 * lives.curve(result)[1] for name, result in sailed.items()}, "simulated minutes",
+    draw_track(seen, sailed["radar"].world.radius, above)
+    minutes = curve(sailed["radar"])[0]
+    draw_curves(minutes, {name: 60 * curve(result)[1] for name, result in sailed.items()}, "simulated minutes",
                 "reward per minute", below)
     return above, below
 
 
-def draw_track(seen, ax=None):
+def draw_track(seen, radius, ax=None):
     """The track of a vessel, the waypoints that it reaches, and the tracks of the others."""
     axes = board_or_new(ax)
     axes.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
@@ -103,30 +111,30 @@ def draw_track(seen, ax=None):
     axes.annotate("", track[-1], track[-4], arrowprops={"arrowstyle": "-|>", "color": AGENT})
     for number, at in enumerate([at for at, (_, met) in enumerate(seen) if met and at > 0], 1):
         place = seen[at - 1][0].scene.things[0]
-        axes.add_patch(Circle(place, lives.WATERS.radius, facecolor=GREEN, alpha=0.5))
+        axes.add_patch(Circle(place, radius, facecolor=GREEN, alpha=0.5))
         mark(axes, place, str(number), ha="center", va="center")
     return axes
 
 
-def draw_pool(swum, paths):
+def draw_pool(swum, paths, maze):
     """Paths of a swimmer's first and second trial of a day, and seconds to the platform over the days.
 
-    swum: from `pool.swim`. paths: (first, second), float64 (steps, 2) each.
+    swum: {"moved" or "fixed": {swimmer: float64 (runs, days, trials a day)}}. paths: (first, second), float64
+    (steps, 2) each, on the last day of the `maze`.
     """
     above, below = pair()
-    draw_paths(paths, above)
-    trials = np.arange(pool.DAYS * pool.TRIALS_A_DAY) + 0.5
-    draw_curves(trials / pool.TRIALS_A_DAY, {
-        **{name: each.reshape(len(each), -1) for name, each in swum["moved"].items()},
-        "neoRL, fixed": swum["fixed"]["neoRL"].reshape(len(swum["fixed"]["neoRL"]), -1)}, "days",
-        "seconds to the platform", below)
+    draw_paths(paths, maze, above)
+    trials = np.arange(maze.trials) + 0.5
+    drawn = swum["moved"] | {"neoRL, fixed": swum["fixed"]["neoRL"]}
+    draw_curves(trials / maze.trials_a_day, {name: each.reshape(len(each), -1) for name, each in drawn.items()}, "days",
+                "seconds to the platform", below)
     below.set_ylim(0, None)
-    for day in range(1, pool.DAYS):
+    for day in range(1, len(maze.places)):
         below.axvline(day, color=INK, linewidth=0.8)
     return above, below
 
 
-def draw_paths(paths, ax=None):
+def draw_paths(paths, maze, ax=None):
     """The pool with the paths of trials, from the rim to the platform where the last one ends."""
     axes = board_or_new(ax)
     axes.add_patch(Circle((0.5, 0.5), 0.5, fill=False, edgecolor=INK, linewidth=1.4))
@@ -135,17 +143,18 @@ def draw_paths(paths, ax=None):
         ahead = path[min(FIRST_STEPS, len(path) - 1)] - path[0]
         aside = path[0] + ASIDE_OF_PATH * np.array([ahead[1], -ahead[0]]) / max(np.hypot(*ahead), 1e-9)
         axes.text(*aside, str(number), color=letters(colour), weight="bold", ha="center", va="center")
-    axes.add_patch(Circle(pool.MOVED.places[-1], pool.MOVED.radius, facecolor=GREEN, alpha=0.6))
+    axes.add_patch(Circle(maze.places[-1], maze.radius, facecolor=GREEN, alpha=0.6))
     return axes
 
 
-def draw_birds(asked, paths):
+def draw_birds(asked, paths, named, nameless):
     """The space of birds with paths to some of them, and the steps of questions as multiples of the fewest.
 
-    asked: from `birds.ask`. paths: float64 (steps, 2) each, from `birds.path`.
+    asked: {agent: float64 (runs, birds)}. paths: float64 (steps, 2) each. named: {name: (neck, legs)}. nameless: (neck,
+    legs) each.
     """
     above, below = pair((1, 0.5))
-    draw_space(paths, above)
+    draw_space(paths, named, nameless, above)
     draw_rows({name: estimate(np.mean, each.mean(axis=1)) for name, each in asked.items()},
               "steps, as a multiple of the fewest", below)
     below.set_xscale("log")
@@ -155,17 +164,17 @@ def draw_birds(asked, paths):
     return above, below
 
 
-def draw_space(paths, ax=None):
+def draw_space(paths, named, nameless, ax=None):
     """The space of birds: those with a name, some others, and paths between them."""
     axes = board_or_new(ax)
     axes.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
     for path in paths:
         axes.plot(*path.T, color=AGENT, linewidth=1.2)
-    for name, bird in birds.NAMED.items():
+    for name, bird in named.items():
         draw_bird(bird, axes, GREEN)
         right, down, side = ASIDE.get(name, (0.02, -0.04, "right"))
         axes.text(bird[0] + right, bird[1] + down, name, color=TEXT, ha=side, va="bottom", fontsize=9)
-    for bird in birds.NAMELESS:
+    for bird in nameless:
         draw_bird(bird, axes, INK)
     axes.text(0.5, 1.03, "neck →", color=TEXT, ha="center", va="top")
     axes.text(-0.03, 0.5, "legs →", color=TEXT, ha="right", va="center", rotation=270)
@@ -182,39 +191,42 @@ def draw_bird(bird, axes, colour):
         axes.plot([x + foot, x + foot], [y, y + legs], color=colour, linewidth=1.2)
 
 
-def draw_car(driven, learner):
+def draw_car(driven, learner, decisions):
     """The pushes that a driver has learned, by place and velocity, and steps per episode as drivers learn.
 
-    driven: from `hill.drive`. learner: a driver that has learned, a `neorl.Learner`.
+    driven: {driver: float64 (runs, points)} over so many `decisions`. learner: a driver that has learned, a
+    `neorl.Learner`.
     """
     above, below = pair()
     draw_pushes(learner, above)
-    decisions = (np.arange(hill.POINTS) + 1) * hill.DECISIONS / hill.POINTS
-    draw_curves(decisions, driven, "decisions", "steps per episode", below)
+    points = driven["neoRL"].shape[1]
+    draw_curves((np.arange(points) + 1) * decisions / points, driven, "decisions", "steps per episode", below)
     return above, below
 
 
 def draw_pushes(learner, ax=None):
     """Whether a driver pushes left or right, by cell of place (rightward) and velocity (upward); empty if unknown."""
-    axes = axes_or_new(ax)
-    q = learner.q(0)
-    goals = [minds.COLUMNS - 1 + minds.COLUMNS * row for row in range(minds.ROWS)]
-    value = q[:, :, goals].sum(axis=2)
-    push = np.where(value.max(axis=1) > 0, value[:, 2] - value[:, 0], np.nan).reshape(minds.ROWS, minds.COLUMNS)
+    axes, (places, velocities) = axes_or_new(ax), learner.agent.nodes[0].modality.axes
+    columns, rows = places.intervals, velocities.intervals
+    goals = [columns - 1 + columns * row for row in range(rows)]
+    value = learner.q(0)[:, :, goals].sum(axis=2)
+    push = np.where(value.max(axis=1) > 0, value[:, 2] - value[:, 0], np.nan).reshape(rows, columns)
     axes.axis("on")
-    axes.set(aspect="auto", xlim=minds.TRACK, ylim=minds.SPEEDS, xlabel="place", ylabel="velocity")
-    for row in range(minds.ROWS):
-        for column in range(minds.COLUMNS):
-            if np.isfinite(push[row, column]):
-                right = push[row, column] > 0
-                x = minds.TRACK[0] + (column + 0.5) * (minds.TRACK[1] - minds.TRACK[0]) / minds.COLUMNS
-                y = minds.SPEEDS[0] + (row + 0.5) * (minds.SPEEDS[1] - minds.SPEEDS[0]) / minds.ROWS
-                axes.plot(x, y, marker=">" if right else "<", markersize=5, color=CURVES[0] if right else CURVES[1])
+    axes.set(aspect="auto", xlim=(places.low, places.high), ylim=(velocities.low, velocities.high), xlabel="place",
+             ylabel="velocity")
+    for row, column in np.argwhere(np.isfinite(push)):
+        right = push[row, column] > 0
+        x = places.low + (column + 0.5) * (places.high - places.low) / columns
+        y = velocities.low + (row + 0.5) * (velocities.high - velocities.low) / rows
+        axes.plot(x, y, marker=">" if right else "<", markersize=5, color=CURVES[0] if right else CURVES[1])
     return axes
 
 
 def draw_worlds(scores, ax=None):
-    """Probability that a run of the agent beats a random agent's, by world. scores: from `scores.of_each_world`."""
+    """Probability that a run of the agent beats a random agent's, by world.
+
+    scores: {world: (float64 (runs,) of the agent, the same of the random agent)}.
+    """
     axes = draw_rows({world: probability_of_improvement(*each) for world, each in scores.items()},
                      "probability of beating a random agent", ax)
     axes.set_xlim(0, 1.04)
