@@ -11,9 +11,10 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
-from lib.study.multiverse_figures import SHADES
-from lib.study.calibration_results import binned, marginal, progress
+from lib.study.calibration_results import INTERVALS, marginal, progress
 from lib.study.calibration_targets import TARGETS
+from lib.study.multiverse import binned
+from lib.study.multiverse_figures import SHADES
 from neorl.drawing.style import (AGENT, CURVES, INK, RED, SMALL, TEXT, axes_or_new, figure_or_new, name_ends,
                                  width_of_figures)
 from neorl.evidence.curves import binned_rate, low_passed
@@ -61,7 +62,7 @@ def draw_pairs(remaining, names, figure=None):
     """
     size = width_of_figures()
     grid = figure_or_new(figure, (size, size)).subplots(len(names), len(names), squeeze=False)
-    cut = [binned(name, remaining.readings) for name in names]
+    cut = [binned(name, remaining.readings, INTERVALS) for name in names]
     for i, (below, _, down) in enumerate(cut):
         for j, (beside, _, across) in enumerate(cut):
             axes = grid[i, j]
@@ -174,30 +175,30 @@ def draw_distances(table, ax=None):
     return axes
 
 
-def draw_accumulated(lives, keys, ax=None):
-    """Accumulated reward of conditions, the mean over runs. lives, keys: see `draw_rates`."""
+def draw_accumulated(results, keys, ax=None):
+    """Accumulated reward of conditions, the mean over runs. results, keys: see `draw_rates`."""
     def accumulated(result):
         edges = np.linspace(0, result.rewards.shape[1] - 1, POINTS).astype(int)
         return result.rewards.mean(axis=0).cumsum(dtype=float)[edges]
 
-    axes = _draw_curves({name: [accumulated(life[key]) for life in lives] for name, key in keys.items()},
-                        _minutes(lives, keys), ax)
+    axes = _draw_curves({name: [accumulated(each[key]) for each in results] for name, key in keys.items()},
+                        _minutes(results, keys), ax)
     axes.set_ylabel("accumulated reward")
     return axes
 
 
-def draw_rates(lives, keys, total=(), ax=None):
+def draw_rates(results, keys, total=(), ax=None):
     """Reward per second of conditions under several readings, low-passed means over runs.
 
-    lives: {key of the condition: `Result`} of each reading, the first of which is drawn thick. keys: {name: key}.
+    results: {key of the condition: `Result`} of each reading, the first of which is drawn thick. keys: {name: key}.
     total: names whose sum is drawn, too, in grey.
     """
-    curves = {name: [low_passed(binned_rate(life[key], POINTS).mean(axis=0, keepdims=True))[0] for life in lives]
+    curves = {name: [low_passed(binned_rate(each[key], POINTS).mean(axis=0, keepdims=True))[0] for each in results]
               for name, key in keys.items()}
     colours = CURVES[:len(curves)]
     if total:
         curves["sum"], colours = [sum(alone) for alone in zip(*(curves[name] for name in total))], (*colours, INK)
-    return _draw_curves(curves, _minutes(lives, keys), ax, colours)
+    return _draw_curves(curves, _minutes(results, keys), ax, colours)
 
 
 def mark_minutes(axes, minutes):
@@ -209,10 +210,10 @@ def mark_minutes(axes, minutes):
                           fontsize=SMALL, va="top")
 
 
-def _minutes(lives, keys):
+def _minutes(results, keys):
     """The minutes of the runs of each reading, which are the same for all of `keys`."""
     key, *_ = keys.values()
-    return [life[key].seconds / 60 for life in lives]
+    return [each[key].seconds / 60 for each in results]
 
 
 def _draw_curves(curves, lengths, ax, colours=CURVES):

@@ -14,6 +14,7 @@ import scipy
 from lib.study.calibration import IN_FULL, Emulator, reading_at
 from lib.study.calibration_table import leading, nearest
 from lib.study.calibration_targets import CLAIMS, TARGETS, distance
+from lib.study.multiverse import binned
 from neorl import checks
 from neorl.evidence.priors import WITHIN
 
@@ -77,22 +78,8 @@ class Marginal(NamedTuple):
 
 def marginal(name, remaining):
     """The `Marginal` of a choice of `priors.WITHIN` in a `Posterior`."""
-    levels, prior, places = binned(name, remaining.readings)
+    levels, prior, places = binned(name, remaining.readings, INTERVALS)
     return Marginal(levels, prior, np.bincount(places, remaining.weights, len(levels)))
-
-
-def binned(name, readings):
-    """A choice in levels: (levels, their shares of the prior (levels,), the level of each reading (readings,))."""
-    choice = WITHIN[checks.one_of("name", name, tuple(WITHIN))]
-    values = [getattr(reading, name) for reading in readings]
-    if isinstance(choice.prior, tuple):
-        levels = list(dict.fromkeys(choice.prior))
-        prior = np.array([choice.prior.count(level) for level in levels]) / len(choice.prior)
-        return tuple(map(choice.words, levels)), prior, np.array([levels.index(value) for value in values])
-    ends = [choice.words(choice.at(min(i / INTERVALS, 1 - 1e-9))) for i in range(INTERVALS + 1)]
-    levels = tuple(" … ".join(pair) for pair in zip(ends, ends[1:]))
-    places = [min(int(choice.place(value) * INTERVALS), INTERVALS - 1) for value in values]
-    return levels, np.full(INTERVALS, 1 / INTERVALS), np.array(places)
 
 
 def most_informative(remaining, n):

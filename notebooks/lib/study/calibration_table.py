@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lib.study.calibration_targets import GROUPS, TARGETS, Measure, distance, held, measure, tested
+from lib.study.calibration_targets import CLAIMS, GROUPS, TARGETS, Measure, distance, measure
 from neorl import checks
 from neorl.evidence.reading import Reading, conditions as all_conditions
 from neorl.experiments.simulation import sweep
@@ -53,14 +53,15 @@ class Row:
         return distance(self.statistics)
 
     @property
-    def held(self):
-        """The claims that hold: a frozenset of names."""
-        return held(self.statistics)
+    def tested(self):
+        """The claims whose targets are all measured: a frozenset of names."""
+        return frozenset(CLAIMS) - {target.claim for name, target in TARGETS.items() if name not in self.statistics}
 
     @property
-    def tested(self):
-        """The claims that were measured: a frozenset of names."""
-        return tested(self.statistics)
+    def held(self):
+        """The tested claims whose targets all agree with the thesis: a frozenset of names."""
+        return self.tested - {TARGETS[name].claim for name, found in self.statistics.items()
+                              if not TARGETS[name].holds(found.value)}
 
 
 def conditions(row, group):
@@ -83,23 +84,17 @@ def measured(row, results):
     return replace(row, statistics={name: each for group in groups for name, each in measure(group, results).items()})
 
 
-def rerun(table, n, seed=0, groups=tuple(GROUPS)):
-    """Recompute n rows of a table: [(row as stored, row as recomputed), …], which should be equal.
+def rerun(table, n, group, seed=0):
+    """Recompute n rows of a table in a group: [(row as stored, row as recomputed), …], which should be equal.
 
-    Rows are drawn without replacement. groups: names; a row is compared in those of them in which it has been run.
-    Raises ValueError if n is not an integer from 1 to the number of rows.
+    Rows are drawn without replacement among those that were run in the group.
+    Raises ValueError if n is not an integer from 1 to their number.
     """
-    chosen = np.random.default_rng(seed).choice(len(table), checks.integer("n", n, 1, len(table)), replace=False)
-    rows = [table[i] for i in sorted(chosen)]
-    shared = [tuple(name for name in row.groups if name in groups) for row in rows]
-    kept = [replace(row, statistics={name: row.statistics[name] for group in common for name in GROUPS[group].targets})
-            for row, common in zip(rows, shared)]
-    again = [replace(row, statistics={}) for row in rows]
-    for group in GROUPS:
-        of_group = [i for i, common in enumerate(shared) if group in common]
-        for i, row in zip(of_group, run([again[i] for i in of_group], group)):
-            again[i] = row
-    return list(zip(kept, again))
+    rows = [replace(row, statistics={name: row.statistics[name] for name in GROUPS[group].targets})
+            for row in table if group in row.groups]
+    drawn = np.random.default_rng(seed).choice(len(rows), checks.integer("n", n, 1, len(rows)), replace=False)
+    kept = [rows[i] for i in sorted(drawn)]
+    return list(zip(kept, run([replace(row, statistics={}) for row in kept], group)))
 
 
 def nearest(table):

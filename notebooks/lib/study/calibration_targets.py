@@ -192,7 +192,6 @@ class Group:
     keys: tuple
     targets: tuple[str, ...]
 
-
     @property
     def paper(self):
         """The paper whose numbers its targets are: "A", "B" or "C"."""
@@ -249,15 +248,3 @@ def distance(statistics):
         return math.inf
     each = [min(TARGETS[name].distance(*found), 4.0) for name, found in statistics.items()]
     return float(np.sqrt(np.mean(np.square(each))))
-
-
-def held(statistics):
-    """The claims whose targets are all measured and agree with the thesis: a frozenset of names."""
-    return frozenset(claim for claim in tested(statistics)
-                     if all(TARGETS[name].holds(found.value) for name, found in statistics.items()
-                            if TARGETS[name].claim == claim))
-
-
-def tested(statistics):
-    """The claims whose targets are all measured: a frozenset of names."""
-    return frozenset(CLAIMS) - {target.claim for name, target in TARGETS.items() if name not in statistics}

@@ -92,21 +92,31 @@ def support(readings, judged):
     """
     counts = np.array([len(held(claims)) for claims in judged])
     found = []
-    for name, choice in WITHIN.items():
-        if isinstance(choice.prior, tuple):
-            levels = list(map(choice.words, choice.prior))
-            letter, *at = [choice.prior.index(getattr(reading, name)) for reading in [TO_THE_LETTER, *readings]]
-        else:
-            ends = [choice.words(choice.prior.ppf(part / PARTS)) for part in range(PARTS + 1)]
-            levels = [" … ".join(dict.fromkeys(pair)) for pair in zip(ends, ends[1:])]
-            letter, *at = [min(int(PARTS * choice.place(getattr(reading, name))), PARTS - 1)
-                           for reading in [TO_THE_LETTER, *readings]]
+    for name in WITHIN:
+        levels, _, (letter, *at) = binned(name, [TO_THE_LETTER, *readings], PARTS)
         at = np.array(at)
         for level, words in enumerate(levels):
             if np.any(at == level) and np.any(at == letter):
                 lead = estimate(difference, counts[at == level], counts[at == letter])
                 found.append(Support(name, words, level == letter, counts[at == level].mean(), lead))
     return found
+
+
+def binned(name, readings, parts):
+    """A choice of `WITHIN` in levels: (levels, their shares of the prior (levels,), that of each reading (readings,)).
+
+    parts: of equal probability, into which the prior of a number is cut.
+    """
+    choice = WITHIN[name]
+    values = [getattr(reading, name) for reading in readings]
+    if isinstance(choice.prior, tuple):
+        levels = list(dict.fromkeys(choice.prior))
+        prior = np.array([choice.prior.count(level) for level in levels]) / len(choice.prior)
+        return tuple(map(choice.words, levels)), prior, np.array([levels.index(value) for value in values])
+    ends = [choice.words(choice.at(min(i / parts, 1 - 1e-9))) for i in range(parts + 1)]
+    levels = tuple(" … ".join(dict.fromkeys(pair)) for pair in zip(ends, ends[1:]))
+    places = [min(int(choice.place(value) * parts), parts - 1) for value in values]
+    return levels, np.full(parts, 1 / parts), np.array(places)
 
 
 def importances(readings, claims):
