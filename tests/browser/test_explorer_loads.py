@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from explorer_page import write_page
+from explorer_page import wait, write_page
 from playwright.sync_api import expect
 
 from neorl import Explorer
@@ -59,10 +59,6 @@ def explorer(open_page, tmp_path):
     page = open_page(tmp_path, "page.html", viewport={"width": 800, "height": 1200})
     wait(page, "paused")
     return page
-
-
-def wait(page, state):
-    page.wait_for_function("state => document.querySelector('.neorl-explorer')?.dataset.state === state", arg=state)
 
 
 def test_clicks_at_random_while_agents_are_loaded_do_no_harm(explorer):

@@ -7,9 +7,9 @@ import pytest
 from explorer_page import drop_by_keyboard, explorer_of, play_to_the_end, press, wait, wait_for_maps, write_page
 from playwright.sync_api import expect
 
-from neorl import (CALIBRATED, Desire, Explorer, Learning, Place, Run, WaterWorld, multimodal, network_d, place_cells,
+from neorl import (Desire, Explorer, Learning, Place, Run, WaterWorld, multimodal, network_d, place_cells,
                    simulate)
-from neorl.core.modality import BORDER_CELL, CARTESIAN_OBJECT_VECTOR_CELL, OBJECT_VECTOR_CELL
+from neorl.core.modality import OBJECT_VECTOR_CELL
 
 SIZE = {"steps": 30_000, "runs": 12, "seed": 3, "progress": False}
 TANK = WaterWorld()
@@ -109,41 +109,6 @@ def test_a_slider_changes_the_run_as_python_changes_the_agent(open_page, site, c
     assert score != conditions["D"].totals[0]
 
 
-def test_no_memory_stands_at_the_left_end_of_its_slider(open_page, site, conditions):
-    page = open_page(*site("D", memory=1000.0))
-    explorer_of(page)
-    assert page.locator('[name="memory"]').input_value() == "3"
-    set_slider(page, "memory", -1)
-    assert play_to_the_end(page) == conditions["D"].totals[0]
-    assert explorer_of(page).get_attribute("data-condition") == "D"
-
-
-@pytest.mark.parametrize("rule, counts", [
-    ({"bootstrap": True, "memory": 0.0}, True), ({"bootstrap": False, "memory": 0.0}, False),
-    ({"bootstrap": False, "memory": 2.0}, True)])
-def test_a_horizon_without_effect_is_not_offered(open_page, tmp_path, rule, counts):
-    learning, short = replace(CALIBRATED, **rule), {"steps": 5_000, "runs": 1, "progress": False}
-    result = simulate(place_cells([5], learning=learning), TANK, **short)
-    other = simulate(place_cells([5], learning=replace(learning, discount=0.5)), TANK, **short)
-    assert (result.rewards != other.rewards).any() == counts
-    write_page(tmp_path, [Explorer({"PC": result}, playing=False)])
-    page = open_page(tmp_path, "page.html")
-    explorer_of(page)
-    horizon = page.locator('[name="horizon"]')
-    assert horizon.is_enabled() == counts
-    assert (horizon.locator("+ output").text_content() == "no effect") == (not counts)
-
-
-def test_the_horizon_of_a_preset_stands_on_its_slider(open_page, site):
-    page = open_page(*site("D", discount=0.8))
-    explorer_of(page)
-    horizon = page.locator('[name="horizon"]')
-    assert (horizon.input_value(), horizon.locator("+ output").text_content()) == ("0.7", "5")
-    set_slider(page, "horizon", 1)
-    set_slider(page, "horizon", 0.7)
-    assert explorer_of(page).get_attribute("data-condition") == "D"
-
-
 def test_creeps_resolutions_modality_and_seed_begin_the_run_that_python_begins(open_page, site):
     page = open_page(*site("places"))
     explorer = explorer_of(page)
@@ -173,21 +138,6 @@ def test_the_state_of_object_vectors_in_the_menu_begins_the_run_that_python_begi
     menu.select_option("per object")  # and the run of the preset begins at once
     wait_for_score(page, conditions["both"].totals[0])
     assert explorer_of(page).get_attribute("data-condition") == "both"
-
-
-def test_the_state_can_be_chosen_for_a_modality_that_has_one(open_page, site):
-    page = open_page(*site("places"))
-    explorer_of(page)
-    modality, state = (page.locator(f'[name="{name}"]') for name in ("modality", "object_state"))
-    expect(state).to_be_hidden()
-    modality.select_option("object-vector cell, Cartesian")
-    expect(state).to_have_value("object")
-    state.select_option("self")
-    node = replace(PLACES.nodes[0], modality=CARTESIAN_OBJECT_VECTOR_CELL, state="self")
-    assert play_to_the_end(page) == lived(replace(PLACES, nodes=[node]))
-    modality.select_option("border cell")
-    expect(state).to_be_hidden()
-    wait_for_score(page, lived(replace(PLACES, nodes=[replace(PLACES.nodes[0], modality=BORDER_CELL)])))
 
 
 def test_the_modality_of_a_preset_stands_in_the_menu_and_comes_back_with_its_ranges(open_page, site):
@@ -330,17 +280,6 @@ def test_every_control_has_a_name_for_screen_readers(open_page, site):
     assert unnamed == []
 
 
-def test_every_number_of_a_slider_has_room_on_a_phone(open_page, site):
-    phone = {"viewport": {"width": 400, "height": 900}}
-    page = open_page(*site("Network D, to the letter", memory=0.123, discount=0.99), **phone)
-    explorer_of(page)
-    page.evaluate("document.body.style.width = 'auto'")
-    page.locator(".neorl-explorer summary").click()
-    crowded = page.evaluate("""[...document.querySelectorAll(".neorl-explorer output")].filter(
-        (each) => each.scrollWidth > each.clientWidth).map((each) => each.textContent)""")
-    assert crowded == [] and page.evaluate("document.documentElement.scrollWidth") == 400
-
-
 def spoilt(**changes):
     def change(record):
         record["state"] |= changes
@@ -377,10 +316,3 @@ def test_a_browser_without_a_required_feature_gets_a_message(chromium, open_page
     page_path.write_text(page_path.read_text().replace("<body", f"<script>delete window.{missing}</script><body", 1))
     page = open_page(folder, name)
     expect(page.locator("[role=alert]:visible")).to_contain_text("needs WebAssembly and web workers")
-
-
-def test_with_forced_colours_every_button_has_a_border(open_page, site):
-    page = open_page(*site("both"), forced_colors="active")
-    explorer_of(page)
-    assert set(page.locator(".neorl-explorer button").evaluate_all(
-        "buttons => buttons.map(button => getComputedStyle(button).borderTopStyle)")) == {"solid"}

@@ -90,29 +90,6 @@ def test_a_replay_plays_to_its_end_in_real_time_and_can_be_moved(open_page, tmp_
     expect(replay).to_have_attribute("data-frame", "50")
 
 
-@pytest.mark.parametrize("width", [1200, 400])
-def test_the_tanks_stand_side_by_side(open_page, tmp_path, recordings, width):
-    write_page(tmp_path, [Replay(recordings, playing=False)])
-    page = open_page(tmp_path, "page.html", viewport={"width": width, "height": 800})
-    page.locator(".neorl-replay canvas").nth(1).wait_for()
-    left, right = (board.bounding_box() for board in page.locator(".neorl-replay .board").all())
-    assert left["x"] + left["width"] <= right["x"] and left["y"] == right["y"]
-    assert left["width"] == pytest.approx(right["width"], abs=1) and left["width"] > 0.4 * min(width, 620)
-
-
-def test_the_agents_are_drawn_where_they_were(open_page, tmp_path, recordings):
-    write_page(tmp_path, [Replay(recordings, playing=False)])
-    page = open_page(tmp_path, "page.html")
-    page.locator("[name=time]").fill("50")
-    for index, recording in enumerate(recordings):
-        x, y = recording.agent[100, :2]
-        red, green, blue = page.locator("canvas").nth(index).evaluate(
-            """(canvas, [x, y]) => [...canvas.getContext("2d").getImageData(
-                (x + 0.055) / 1.11 * canvas.width, (y + 0.055) / 1.11 * canvas.height, 1, 1).data.slice(0, 3)]""",
-            [float(x), float(y)])
-        assert blue > red and blue > 150  # the agent's colour
-
-
 def test_with_reduced_motion_a_replay_waits_for_play(open_page, tmp_path, recordings):
     write_page(tmp_path, [Replay(recordings)])
     page = open_page(tmp_path, "page.html", reduced_motion="reduce")

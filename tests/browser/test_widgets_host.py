@@ -89,14 +89,6 @@ def test_views_of_one_model_share_its_state_and_its_initialisation(show):
     assert page.locator(".counter").all_inner_texts() == ["8", "8"]
 
 
-def test_a_style_is_added_once(show):
-    styled = anywidget(COUNTER, count=1, _css=".counter { color: rgb(1, 2, 3); }")
-    page = show({"one": styled, "two": styled})
-    page.locator(".counter").last.wait_for()
-    assert page.locator("style").count() == 1
-    assert page.locator(".counter").last.evaluate("element => getComputedStyle(element).color") == "rgb(1, 2, 3)"
-
-
 def test_the_model_reports_changes_and_a_view_removes_only_its_own_listeners(show):
     esm = """export default { async render({ model, el }) {
         const seen = [];
@@ -171,8 +163,3 @@ def test_a_place_that_names_no_model_says_so(show, view):
 def test_a_widget_that_never_finishes_starting_delays_no_other(show):
     page = show({"slow": anywidget("export default { render: () => new Promise(() => {}) };"), "good": GOOD})
     assert page.locator(".counter").inner_text() == "3"
-
-
-def test_a_page_without_widgets_is_left_alone(show):
-    page = show({}, [], state="{}")
-    assert page.locator("body > :not(script)").count() == 0
