@@ -78,6 +78,7 @@ class Explorer extends Address {
     on(tank, "pointerleave", () => { this.life.pointer = null; });
     on(tank, "click", (event) => this.tap(event));
     on(window, "hashchange", () => this.visit());
+    on(document, "click", ({ target }) => target.closest("a")?.href === location.href && this.visit()); // once more
     on(document, "visibilitychange", () => this.refresh());
     on(window, "resize", () => this.wake()); // also when the page moves to a screen of another resolution
     on(matchMedia("(prefers-color-scheme: dark)"), "change", () => this.recolour());
