@@ -6,7 +6,7 @@
 import numpy as np
 
 from neorl.evidence.statements import STATEMENTS
-from neorl.evidence.statistics import RECENT, difference, estimate, minutes_sooner, quotient, ratio
+from neorl.evidence.statistics import difference, estimate, minutes_sooner, quotient, ratio
 from neorl.evidence.verdict import AFTER_TURN, BEFORE_TURN, FINAL, fewest_runs, judged, lead_over_brownian, learned
 
 
@@ -95,12 +95,13 @@ def judge_real_time(load, delay, beside=None):
         None if the machine does not count them.
     Returns a `Claim`.
     """
-    share, latest, latest_allowed = estimate(np.mean, load), delay.max(), STATEMENTS["T5"].also["steps late"].high
+    share, latest, within = estimate(np.mean, load), delay.max(), STATEMENTS["T5"].bounds
+    latest_allowed = STATEMENTS["T5"].also["steps late"].high
     busy = "" if beside is None else f" The machine ran {beside:.2f} processes per core just before."
     return judged("T5", share, f"Steps done after the next one was due: {(delay > 1).sum()} of {delay.size}; the "
                   f"latest was done {latest:.2f} steps after it was due. The rule allows {latest_allowed:g}.{busy}",
-                  len(load), reproduced=share.high < 1 and latest <= latest_allowed, partly=share.high < 1,
-                  possible=share.low < 1)
+                  len(load), reproduced=share.high < within.high and latest <= latest_allowed,
+                  partly=share.high < within.high, possible=share.low < within.high)
 
 
 def judge_more_maps(additions):
@@ -110,10 +111,10 @@ def judge_more_maps(additions):
     sequence of those of the agents with fewer, in runs of the same length. brownian: Brownian motion on the same board.
     Returns a `Claim`.
     """
-    sooner, room, testable = {}, {}, []
+    sooner, room, testable, later = {}, {}, [], STATEMENTS["T6"].also["shares of a run later"].high
     for name, (more, fewer, brownian) in additions.items():
         sooner[name] = sooner_with_more(more, fewer)
-        room[name] = RECENT * more.seconds / 60
+        room[name] = later * more.seconds / 60
         if any(learned(result, brownian) for result in fewer):
             testable.append(name)
     counted = testable or list(additions)
@@ -193,7 +194,7 @@ def judge_latent_learning(agent, rivals, first_reward=11):
     rivals: {name: the same} of other learners, which are reported and not judged.
     Returns a `Claim`.
     """
-    runs = min(len(record.errors) for record in agent.values())
+    runs, level = min(len(record.errors) for record in agent.values()), STATEMENTS["H1"].also["level"].high
     after, next_day = slice(first_reward, None), slice(first_reward, first_reward + 1)
     lead = _more_errors(agent, "delayed", "throughout", after)
     at_once = _more_errors(agent, "delayed", "throughout", next_day)
@@ -202,7 +203,7 @@ def judge_latent_learning(agent, rivals, first_reward=11):
                        for name, groups in rivals.items())
     return judged("H1", lead, f"On the day after the first reward it is {at_once}. Drawing level is read as within a "
                   f"tenth of the effect of reward, {worth.value:.2f}. With other learners it is: {others}.", runs,
-                  reproduced=lead.high < 0, partly=max(lead.high, at_once.high) <= 0.1 * worth.value,
+                  reproduced=lead.high < 0, partly=max(lead.high, at_once.high) <= level * worth.value,
                   possible=lead.low < 0, testable=worth.low > 0)
 
 

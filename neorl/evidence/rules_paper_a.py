@@ -6,9 +6,9 @@
 import numpy as np
 
 from neorl.evidence.statements import STATEMENTS
-from neorl.evidence.statistics import (RECENT, difference, estimate, lead_over_best, lead_over_sum,
-                                       minutes_sooner, minutes_to_own_level, probability_of_improvement, quotient,
-                                       rank_correlation, ratio, resets)
+from neorl.evidence.statistics import (difference, estimate, lead_over_best, lead_over_sum, minutes_sooner,
+                                       minutes_to_own_level, probability_of_improvement, quotient, rank_correlation,
+                                       ratio, resets)
 from neorl.evidence.verdict import EARLY, FINAL, MIDDLE, fewest_runs, judged, learned
 
 LENGTH = 150_000  # of the paper's runs, in steps
@@ -73,8 +73,9 @@ def _judge_saturation(by_resolution, runs, some_learned):
     first, last = (estimate(rank_correlation, *rates.values()) for rates in (early, final))
     rise = {n: final[n] - middle[n] for n in order}
     coarse, fine = (np.concatenate([rise[n] for n in some]) for some in (order[:2], order[-2:]))
-    slower = estimate(difference, 0.5 * fine, coarse)
-    flat = estimate(np.mean, np.concatenate([0.1 * final[n] - rise[n] for n in order[:2]]))
+    of_fine, of_own = (each.high for each in STATEMENTS["A3"].also.values())
+    slower = estimate(difference, of_fine * fine, coarse)
+    flat = estimate(np.mean, np.concatenate([of_own * final[n] - rise[n] for n in order[:2]]))
     levelled = slower.low > 0 or flat.low > 0
     return judged("A3", last, f"Early it is {first}. From the middle fifth of the run to the last, the reward per "
                   f"second of N{order[0]} and N{order[1]} rises by {estimate(np.mean, coarse)}, that of N{order[-2]} "
@@ -107,7 +108,8 @@ def judge_multiple_layers(by_resolution, together, brownian):
 
     gain = estimate(ratio, all_final, final[7])
     sooner = minutes_sooner(together, by_resolution[7], 0.5 * final[7].mean())
-    room, near = RECENT * together.seconds / 60, STATEMENTS["A7"].bounds
+    near, later = STATEMENTS["A7"].bounds, STATEMENTS["A7"].also["shares of a run later"]
+    room = later.high * together.seconds / 60
     a7 = judged("A7", gain, f"Near {near.number:g} is read as {near}. At half the final level of N7, "
                 f"their lead over it is {sooner} minutes; as fast is read as at most {room:.2f} minutes later.", runs,
                 reproduced=near.hold(gain) and sooner.low >= -room, partly=gain.low > 1,

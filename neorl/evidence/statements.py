@@ -84,7 +84,8 @@ STATEMENTS = {
         "resolutions seem to saturate at a lower proficiency.",
         "Coarse maps learn faster at first and saturate lower",
         "Rank correlation of N with the final reward per second",
-        "> 0, and < 0 early", "fig-accumulated", "judge_single_layer"),
+        "> 0, and < 0 early", "fig-accumulated", "judge_single_layer",
+        also={"rise to that of fine maps": Bounds(high=0.5), "rise to own level": Bounds(high=0.1)}),
     "A4": Statement(
         ONE_MAP,
         "For these particular runs, with 8 creeps and during a 150,000 time step interval, the N50 representation "
@@ -111,7 +112,8 @@ STATEMENTS = {
         "Together they earn 3.5 times as much as N7 and learn at least as fast",
         "Final reward per second together, divided by that of N7",
         "3.5", "fig-proficiency", "judge_multiple_layers",
-        Bounds(2.5, 5.0, number=3.5)),  # within a factor of the square root of 2
+        Bounds(2.5, 5.0, number=3.5),  # within a factor of the square root of 2
+        also={"shares of a run later": Bounds(high=1 / 40)}),
     "A8": Statement(
         "section 4.3.1",
         "The multi-resolution neoRL agent across multiple NRES sets performed better than single-resolution neoRL "
@@ -207,7 +209,8 @@ STATEMENTS = {
         "solutions capable of allocentric Euclidean navigation in real-time has failed.",
         "No other method of reinforcement learning or AI navigates this board in real time",
         "Final reward per second of the best alternative, divided by that of the thesis's best agent",
-        "none succeeds", "fig-alternatives-curves", "judge_alternatives", Bounds(high=1.0)),
+        "none succeeds", "fig-alternatives-curves", "judge_alternatives",
+        Bounds(high=1.0), also={"failing": Bounds(low=0.5)}),
     "T1": Statement(
         "paper A, The Control Problem by Superposition",
         "In the neoRL approach, moving rewards or changing agent priorities during an agent's life-time does not "
@@ -250,7 +253,7 @@ STATEMENTS = {
         "degrade learning performance",
         "More maps never slow learning",
         "Smallest lead, in minutes, of agents with more maps at half the final level of the best agent with fewer",
-        "≥ 0", "fig-more-maps", "judge_more_maps"),
+        "≥ 0", "fig-more-maps", "judge_more_maps", also={"shares of a run later": Bounds(high=1 / 40)}),
     "T7": Statement(
         "chapter 4, introduction",
         "following a school other than temporal-difference learning is required for neoRL.",
@@ -306,7 +309,8 @@ STATEMENTS = {
         "than all other subjects.",
         "Latent learning: animals first rewarded on day 11 overtake those rewarded throughout",
         "Errors per day after the first reward, less those of animals rewarded throughout",
-        "fewer", "fig-2-errors", "judge_latent_learning", Bounds(high=0.0), demonstration=True),
+        "fewer", "fig-2-errors", "judge_latent_learning",
+        Bounds(high=0.0), also={"level": Bounds(high=0.1)}, demonstration=True),
 }
 
 CLAIMS = tuple(name for name, statement in STATEMENTS.items() if not statement.demonstration)
