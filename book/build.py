@@ -20,22 +20,24 @@ import time
 from pathlib import Path
 
 sys.modules["rfc3987_syntax"] = None  # jsonschema would read for a second a grammar that no notebook needs
+sys.path.append(str(Path(__file__).resolve().parents[1] / "notebooks"))  # has what pages share
 
 # ruff: noqa: E402
 import contents
+import ledger
 import nbformat
 import papermill
 import psutil
 import workers
 from excerpts import save_figures, save_widgets
 from jupyter_client import AsyncKernelManager
+from lib.shared import report
+from lib.shared.opening import CLAIMS_PAGE
 from nbclient.exceptions import DeadKernelError
 from page_order import results_first
 from papermill.exceptions import PapermillExecutionError, strip_color
 from traitlets.config import Config
 
-from neorl.evidence import ledger, report
-from neorl.evidence.opening import CLAIMS_PAGE
 from neorl.files import cache_folder, write_whole
 
 ROOT = Path(__file__).resolve().parent.parent

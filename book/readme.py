@@ -1,11 +1,14 @@
 """Write the claims of the last build into the README, in short: ``make readme``, after ``make book``."""
 
 import re
+import sys
 from pathlib import Path
 
-from neorl.evidence import report
-
 ROOT = Path(__file__).resolve().parent.parent
+sys.path.append(str(ROOT / "notebooks"))  # has what pages share
+
+from lib.shared import report  # noqa: E402
+
 BETWEEN = re.compile(r"(?<=<!-- claims: make readme -->\n).*(?=<!-- end of claims -->)", re.S)
 
 

@@ -24,14 +24,14 @@ NOTEBOOKS = ("assumptions", "chapter_5", "paper_a")
 SIMULATE = """from pathlib import Path
 from IPython.display import SVG
 import neorl
-from neorl.evidence import report
+from lib.shared import report
 result = neorl.simulate_once(neorl.place_cells([3]), neorl.WaterWorld(), steps=10_000, runs=runs, seed={seed},
                              progress=False)
 lines = "".join(f"<path d='M{{k}} 0V{{abs(paid):.0f}}'/>" for k, paid in enumerate(result.rewards.ravel()))
 print(f"{{result.totals.sum():.6f}}")"""
 DRAW = """SVG(f"<svg xmlns='http://www.w3.org/2000/svg' width='75pt' height='30pt'>{lines * 20}</svg>")"""
 FIND_SHARES = "report.save('assumptions', shares={'A2': {'holds': 1, 'undecided': 0, 'untestable': 0, 'readings': 4}})"
-CONCLUDE = """from neorl.evidence import report
+CONCLUDE = """from lib.shared import report
 print(sorted(report.load()["shares"].items()))
 report.save("chapter_5")"""
 CONFIG = """title: A small book

@@ -25,7 +25,7 @@ def test_import_neorl_imports_nothing_that_takes_long():
 
 
 def test_figures_and_statistics_import_no_part_of_scipy_before_they_use_it():
-    listed = subprocess.run([sys.executable, "-c", "import neorl.drawing, neorl.evidence.report, sys; "
+    listed = subprocess.run([sys.executable, "-c", "import neorl.drawing, neorl.evidence.reading, sys; "
                              "print(*sys.modules)"], capture_output=True, text=True, check=True)
     assert not {"scipy.optimize", "scipy.signal", "scipy.stats"} & set(listed.stdout.split())
 

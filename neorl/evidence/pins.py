@@ -11,7 +11,6 @@
 Quotations are verbatim except for mathematics, which is set in plain characters; square brackets are the source's.
 """
 
-import re
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -56,26 +55,6 @@ class Agreement:
 def agreement(reading):
     """The `Agreement` of a `Reading` with the text."""
     return Agreement(tuple(pin for pin in PINS if pin.allows and not pin.allows(reading)))
-
-
-def tables(labels=None):
-    """All pins as two Markdown tables, of pinned choices and of open ones, each below its status.
-
-    labels: {field of `Reading`: the name that other tables and figures give to it}, added to the choice if it differs.
-    """
-    parts = []
-    for status in ("pinned", "open"):
-        rows = [f"| {_called(pin, labels or {})} | {f'“{pin.quotation}” ({pin.place})' if pin.quotation else '–'} | "
-                f"{pin.follows} |" for pin in PINS if pin.status == status]
-        head = [f"**{status.capitalize()}**", "", "| Choice | What the text says | What follows |", "|---|---|---|"]
-        parts.append("\n".join([*head, *rows]))
-    raised = re.sub(r"\^(\w+)", r"<sup>\1</sup>", "\n\n".join(parts))
-    return re.sub(r"_(\w+)", r"<sub>\1</sub>", raised)
-
-
-def _called(pin, labels):
-    others = [labels[name] for name in pin.fields if labels.get(name, pin.choice) != pin.choice]
-    return pin.choice + (f" (*{'*, *'.join(others)}*)" if others else "")
 
 
 def _always(_):

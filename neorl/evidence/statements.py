@@ -2,9 +2,8 @@
 
 *Demonstrations* stand beside them: experiments of this book on sentences that ask for something and report no result.
 
-Nothing here is computed. `neorl.evidence.claims` judges the claims, `neorl.evidence.report` reports the findings, and
-`neorl.evidence.errata` lists the errors of the source. Quotations are from the thesis (Leikanger 2022), shortened where
-there is a "…".
+Nothing here is computed. `neorl.evidence.claims` judges the claims. Quotations are from the thesis (Leikanger 2022),
+shortened where there is a "…".
 """
 
 import math

@@ -4,9 +4,9 @@ Each conclusion rests on some claims, and claims on other worlds and agents on n
 """
 
 from lib.shared.wording import table
-from neorl.evidence import report
-from neorl.evidence.marks import html
-from neorl.evidence.report import CALIBRATED, LETTER
+from lib.shared import report
+from lib.shared.marks import html
+from lib.shared.report import CALIBRATED, LETTER
 from neorl.evidence.statements import CLAIMS
 from neorl.evidence.verdict import VERDICTS
 
@@ -23,7 +23,7 @@ def verdicts(record):
 
     A claim that was not computed, or is judged under one reading only, is in the last column.
 
-    record: as `neorl.evidence.report.load` returns it.
+    record: as `lib.shared.report.load` returns it.
     """
     of_readings = {LETTER: record["letter"], CALIBRATED: record["claims"]}
     rows = []

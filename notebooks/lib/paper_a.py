@@ -21,7 +21,7 @@ from neorl.drawing.style import AGENT, FILL, GREEN, INK, RED, mark
 from neorl.drawing.value_maps import draw_cells, draw_values
 from neorl.evidence.priors import BEYOND
 from neorl.evidence.reading import LAYERS, SINGLE
-from neorl.evidence.report import CALIBRATED, LETTER
+from lib.shared.report import CALIBRATED, LETTER
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.statistics import estimate
 from neorl.evidence.verdict import FINAL

@@ -117,7 +117,7 @@ def test_what_a_notebook_has_found_stands_beside_its_page_and_in_the_table_of_al
                                                                                           monkeypatch):
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path / "cache"))
     content = nbformat.read(notebook, 4)
-    content.cells[3].source = ("from neorl.evidence import report\nreport.save('page', shares={'A2': "
+    content.cells[3].source = ("from lib.shared import report\nreport.save('page', shares={'A2': "
                                "{'holds': 1, 'undecided': 1, 'untestable': 0, 'readings': 4}})")
     nbformat.write(content, notebook)
     build.compute(notebook, {"runs": 3})

@@ -10,7 +10,7 @@ import pytest
 from neorl import Agent, Desire, Node, Policy
 from neorl.core import modality
 from neorl.evidence.claims import VERDICTS
-from neorl.evidence.report import NOT_COMPUTED, in_short
+from lib.shared.report import NOT_COMPUTED, in_short
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 
 EXAMPLES = re.compile(r"```python\n(.*?)```", re.DOTALL)

@@ -49,10 +49,6 @@ def test_what_is_open_breaks_nothing(change):
     assert replace(TO_THE_LETTER, **change).within_the_text
 
 
-def test_the_reading_to_the_letter_is_within_the_text():
-    assert TO_THE_LETTER.within_the_text and str(TO_THE_LETTER.within_the_text) == "within the text"
-
-
 def test_designs_within_the_text_are_and_those_beyond_are_not():
     assert all(reading.within_the_text for reading in multiverse.design(256))
     assert not any(reading.within_the_text for reading in multiverse.design(256, choices=BEYOND))
@@ -66,18 +62,3 @@ def test_every_sentence_that_pins_a_choice_is_broken_somewhere_beyond_and_nowher
             names = [name for name in of_pin for _ in range(60)]
             assert any(not pin.allows(replace(TO_THE_LETTER, **{name: value}))
                        for name, value in zip(names, values)) == breaks, pin.choice
-
-
-def test_the_tables_have_a_row_for_each_choice_what_is_pinned_first():
-    pinned, unsettled = pins.tables().split("\n\n**Open**\n\n")
-    rows = pinned.splitlines()[4:], unsettled.splitlines()[2:]
-    assert [len(each) for each in rows] == [len(PINNED), len(pins.PINS) - len(PINNED)]
-    assert all(line.count("|") == 4 for each in rows for line in each)
-    plain = pins.tables().replace("<sup>", "^").replace("<sub>", "_").replace("</sup>", "").replace("</sub>", "")
-    assert all(f"“{pin.quotation}” ({pin.place}) |" in plain for pin in pins.PINS if pin.quotation)
-    assert "“e<sup>out</sup> = d”" in unsettled and "Q<sub>tot</sub>(s, a)" in pinned and "^" not in pins.tables()
-
-
-def test_a_choice_that_other_tables_name_otherwise_has_both_names():
-    text = pins.tables({"scale": "desire scale", "contact": "contact"})
-    assert "| where a desire lies (*desire scale*) |" in text and "| contact |" in text

@@ -4,12 +4,13 @@ import json
 
 import pytest
 from matplotlib import pyplot as plt
-from test_claims import brownian, made_up, paper_a, paper_c
+from test_claims import brownian, paper_a, paper_c
 
+from lib.shared import report
+from lib.shared.errata import ERRATA
 from lib.study.multiverse_figures import draw_standing
 from neorl.drawing.style import STYLE
-from neorl.evidence import claims, report
-from neorl.evidence.errata import ERRATA
+from neorl.evidence import claims
 from neorl.evidence.statements import STATEMENTS
 
 pytestmark = pytest.mark.usefixtures("cache_folder")
@@ -49,38 +50,6 @@ def test_a_table_of_a_page_has_both_readings_and_what_the_verdicts_rest_on():
     (line,) = [line for line in table.splitlines() if line.startswith("- **C2**")]
     assert "“Experiment b demonstrates the effect of separating desires" in line and "(paper C, section 3)" in line
     assert "Here: 0.10 [0.09, 0.11], 20 runs. A run of B" in line and "To the letter: −0.30" in line
-
-
-def test_a_column_without_an_entry_is_left_out():
-    table = report.table(networks())
-    assert table.splitlines()[0] == "| Claim | Thesis | Here | Verdict |" and "empty cell" not in table
-    table = report.table(networks(), networks()[:1])
-    assert table.splitlines()[0] == "| Claim | Thesis | To the letter | Calibrated | Verdict |"
-    assert "An empty cell" in table
-
-
-def test_the_reading_to_the_letter_stands_first_in_a_comparison():
-    judged = {"other": layers(), "calibrated": networks(), "to the letter": networks() + layers()}
-    compared = report.comparison(judged).splitlines()
-    assert compared[0] == "| Reading | A6 | A7 | A8 | C1 | C2 | C3 | C4 |"
-    assert [line.split(" |")[0] for line in compared[2:]] == ["| to the letter", "| calibrated", "| other"]
-    assert compared[4].startswith("| other | ●\u00a00.21 | ●\u00a03.55 |") and compared[4].endswith("|  |  |  |  |")
-
-
-def test_a_summary_names_where_claims_hold_and_what_comes_closest():
-    good, bad = (networks(*(made_up(0.0, final) for final in finals))
-                 for finals in [(0.05, 0.15, 0.3, 0.6), (0.05, 0.02, 0.3, 0.1)])
-    text = report.summary({"calibrated": bad, "other": good, "to the letter": bad})
-    assert "- **C1** Network A improves over time but stays weak: *to the letter; calibrated; other*." in text
-    assert "- **C4** Recursion (D) improves on C drastically: *other*." in text
-    assert "The reading closest to the thesis is *other*: 4 claims are reproduced and 0 partly." in text
-    assert text.endswith(" In the reading *to the letter* they are 2 and 0. In the reading *calibrated* they are 2 "
-                         "and 0.")
-    assert "none of these readings" in report.summary({"calibrated": bad})
-    assert "The readings closest to the thesis are *calibrated*, *other*: 2 claims are" in report.summary(
-        {"calibrated": bad, "other": bad})
-    few = networks(*paper_c(runs=2))
-    assert report.summary({"calibrated": few}) == "With so few runs there are no verdicts to sum up."
 
 
 @pytest.fixture

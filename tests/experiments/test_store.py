@@ -15,7 +15,6 @@ import pytest
 
 from neorl import (CALIBRATED, Condition, Learning, Policy, Result, WaterWorld, files, kernel, network_d, place_cells,
                    simulate, softmax, sweep)
-from neorl.evidence import report
 from neorl.experiments import condition as conditions
 from neorl.experiments import simulation, store
 from neorl.experiments.run import new_bins
@@ -353,8 +352,9 @@ def full(folder):
             files.write_checked(path, b"content")
             if age:
                 os.utime(path, (0, 0))
-    report.save("chapter_1")
     paths["claims"] = folder / "claims" / "chapter_1.json"
+    content = {"page": "chapter_1", "source": conditions.source_digest(), "claims": {}}
+    files.write_whole(paths["claims"], json.dumps(content).encode())
     for name in ("letter.txt", "conditions/letter.txt", "claims/letter.json", "claims/list.json", "compiled/letter",
                  f"letters/{DIGEST}", f"wasm/{DIGEST}.wasm"):
         path = paths[f"other {name}"] = folder / name

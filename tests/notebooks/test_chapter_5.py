@@ -9,7 +9,7 @@ import pytest
 
 from lib import chapter_5
 from neorl.evidence.reading import PRIMES, Reading, conditions
-from neorl.evidence.report import CALIBRATED, LETTER
+from lib.shared.report import CALIBRATED, LETTER
 from neorl.evidence.statements import CLAIMS
 from neorl.evidence.verdict import VERDICTS
 

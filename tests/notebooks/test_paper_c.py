@@ -13,7 +13,7 @@ from neorl import Result, Run, WaterWorld, brownian, network_b
 from lib import paper_c
 from neorl.evidence.priors import TO_THE_LETTER
 from neorl.evidence.reading import Reading, conditions, networks
-from neorl.evidence.report import CALIBRATED, LETTER
+from lib.shared.report import CALIBRATED, LETTER
 from neorl.experiments.condition import Condition
 
 CELLS = nbformat.read(Path(__file__).parents[2] / "notebooks" / "paper_c.ipynb", 4).cells

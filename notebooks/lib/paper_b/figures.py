@@ -17,7 +17,7 @@ from neorl.drawing.curves import draw_curves, draw_sweep
 from neorl.drawing.receptive_fields import draw_receptive_fields
 from neorl.drawing.style import AGENT, FILL, GREEN, INK, mark
 from neorl.drawing.value_maps import draw_cells, draw_values
-from neorl.evidence.report import CALIBRATED, LETTER
+from lib.shared.report import CALIBRATED, LETTER
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.statistics import estimate, quotient
 

@@ -132,7 +132,7 @@ def draw_standing(record, names, ax=None):
     Bars are from short runs: the undecided share follows the one that holds, in another colour. Points are from runs as
     long as the papers', where there are any.
 
-    record: as `neorl.evidence.report.load` returns it. names: of the claims, from the top.
+    record: as `lib.shared.report.load` returns it. names: of the claims, from the top.
     Returns the axes, `ax` or those of a new figure.
     """
     axes = axes_or_new(ax, figsize=(width_of_figures(), 1.3 * ROW * len(names) + 0.7))

@@ -1,6 +1,6 @@
 """The box that opens a page shows verdicts with symbols and links, or says that there are none."""
 
-from neorl.evidence import marks, opening
+from lib.shared import marks, opening
 from neorl.evidence.statistics import Estimate
 from neorl.evidence.verdict import judged
 
@@ -19,13 +19,6 @@ def test_a_box_has_verdicts_by_reading_with_symbols_names_and_links():
     assert "C1</a> not testable, because the agents learned too little" in untested
 
 
-def test_demonstrations_stand_beside_the_claims():
-    text = opening.what_was_found("", 10, {"": {"G1": "partly", "A2": "reproduced", "B7": "reproduced"}})
-    claims, better, worse = text.split("\n\n")[2].split("; ")
-    assert "A2</a> reproduced" in claims and "beside" not in claims
-    assert better.startswith("beside the claims, ") and "B7</a> reproduced" in better and "G1</a> partly" in worse
-
-
 def test_with_few_runs_a_box_says_that_there_are_no_verdicts():
     text = opening.what_was_found("It earns 0.30.", 9, {"calibrated": {"A2": "reproduced"}})
     assert "**Quick look: no verdicts.**" in text and "computed with 9" in text and "A2" not in text
@@ -36,7 +29,3 @@ def test_a_box_can_consist_of_verdicts_alone():
     claims = [judged("A2", Estimate(0.1, 0.05, 0.2), "", 10, reproduced=True, partly=False, possible=True)]
     assert opening.found({"calibrated": claims}, 10) == opening.what_was_found("", 10, {
         "calibrated": {"A2": "reproduced"}})
-
-
-def test_a_page_without_claims_has_a_box_of_sentences():
-    assert opening.what_was_found("Fast.", 10) == '<div class="found">\n\n**What was found**\n\nFast.\n\n</div>'

@@ -1,4 +1,4 @@
-"""The page of all claims, and what the first page says of them, from the records of `neorl.evidence.report`.
+"""The page of all claims, and what the first page says of them, from the records of `lib.shared.report`.
 
 1. A strip with a square for each claim and a tally come first, then a row for each, then the evidence for its verdict.
 2. A row has the estimates under both readings, the verdict, and the shares of readings in separate columns.
@@ -8,7 +8,8 @@
 from collections import Counter
 from html import escape
 
-from neorl.evidence import marks, report
+from lib.shared import marks, report, wording
+from lib.shared.opening import anchor
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 from neorl.evidence.verdict import RUNS_FOR_A_VERDICT, VERDICTS
 
@@ -83,14 +84,8 @@ def strip(record, address=""):
     return f'<ul class="claims-strip" aria-label="Verdict of each claim">{"".join(squares)}</ul>'
 
 
-def anchor(name):
-    """The fragment of the URL of a claim's row."""
-    return f"claim-{name.lower()}"
-
-
 def _table(record, names):
-    rows = [f"| {' | '.join(COLUMNS)} |", "|---" * len(COLUMNS) + "|", *(_row(record, name) for name in names)]
-    return "\n".join([":::{div} claims", *rows, ":::"])
+    return f":::{{div}} claims\n{wording.table(COLUMNS, [_row(record, name) for name in names])}\n:::"
 
 
 def _row(record, name):
@@ -99,10 +94,9 @@ def _row(record, name):
     judged = f"{marks.html(verdict)}\u00a0{verdict}"
     if found:
         judged += f" {{ref}}`figure <{statement.figure}>`, {{ref}}`rule <{report.label(statement.rule)}>`"
-    cells = [f'<span id="{anchor(name)}"></span>**{name}** {statement.text} <small>{statement.statistic}</small>',
-             statement.thesis,
-             *(_marked(record[part].get(name)) for part in ("letter", "claims")), judged, *_shares(share)]
-    return f"| {' | '.join(cells)} |"
+    return [f'<span id="{anchor(name)}"></span>**{name}** {statement.text} <small>{statement.statistic}</small>',
+            statement.thesis,
+            *(_marked(record[part].get(name)) for part in ("letter", "claims")), judged, *_shares(share)]
 
 
 def _marked(found):

@@ -4,8 +4,10 @@ The values are read from the code that uses them, and the sources of a reading's
 the table always agrees with both.
 """
 
+import re
 from typing import NamedTuple
 
+from lib.shared import wording
 from neorl.evidence.curves import CUTOFF_PERIODS, FILTER_ORDER
 from neorl.evidence.pins import PINS
 from neorl.evidence.priors import BEYOND, WITHIN
@@ -72,8 +74,26 @@ def source(name):
 
 def table():
     """The constants as a Markdown table."""
-    rows = ["| Constant | Value | From |", "|---|---|---|"]
-    return "\n".join(rows + [f"| {each.name} | {each.value} | {each.source} |" for each in constants()])
+    return wording.table(["Constant", "Value", "From"], constants())
+
+
+def of_pins(labels=None):
+    """All pins as two Markdown tables, of pinned choices and of open ones, each below its status.
+
+    labels: {field of `Reading`: the name that other tables and figures give to it}, added to the choice if it differs.
+    """
+    parts = []
+    for status in ("pinned", "open"):
+        rows = [[_called(pin, labels or {}), f"“{pin.quotation}” ({pin.place})" if pin.quotation else "–", pin.follows]
+                for pin in PINS if pin.status == status]
+        parts += [f"**{status.capitalize()}**", wording.table(["Choice", "What the text says", "What follows"], rows)]
+    raised = re.sub(r"\^(\w+)", r"<sup>\1</sup>", "\n\n".join(parts))
+    return re.sub(r"_(\w+)", r"<sub>\1</sub>", raised)
+
+
+def _called(pin, labels):
+    others = [labels[name] for name in pin.fields if labels.get(name, pin.choice) != pin.choice]
+    return pin.choice + (f" (*{'*, *'.join(others)}*)" if others else "")
 
 
 def _listed(resolutions):

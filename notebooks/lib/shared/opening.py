@@ -6,8 +6,7 @@ the numbers to remember. With too few runs for verdicts it says so instead.
 
 from html import escape
 
-from neorl.evidence.ledger import anchor
-from neorl.evidence.marks import html
+from lib.shared.marks import html
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.verdict import RUNS_FOR_A_VERDICT, VERDICTS
 
@@ -64,3 +63,8 @@ def _line(reading, found):
 def _link(name):
     """The name of a claim as a link to its row on the page of claims, with its text as the link's title."""
     return f'<a href="{CLAIMS_PAGE}#{anchor(name)}" title="{escape(STATEMENTS[name].text)}">{name}</a>'
+
+
+def anchor(name):
+    """The fragment of the URL of a claim's row."""
+    return f"claim-{name.lower()}"

@@ -2,8 +2,9 @@
 
 from dataclasses import replace
 
+from lib.shared import provenance
 from neorl import GREEDY, WaterWorld
-from neorl.evidence import provenance
+from neorl.evidence.pins import PINS
 from neorl.evidence.priors import BEYOND, TO_THE_LETTER
 
 
@@ -31,3 +32,10 @@ def test_the_source_of_a_choice_is_the_sentence_that_pins_it_unless_the_default_
     assert provenance.source("tiled_fraction") == "against paper B, figure 3"
     assert provenance.source("object_state") == "open in paper B, section 3; value by calibration"
     assert provenance.source("contact") == "value by calibration"
+
+
+def test_the_tables_of_pins_have_a_row_for_each_choice_what_is_pinned_first():
+    pinned, unsettled = provenance.of_pins({"scale": "desire scale"}).split("\n\n**Open**\n\n")
+    assert len(pinned.splitlines()[4:] + unsettled.splitlines()[2:]) == len(PINS)
+    assert "“e<sup>out</sup> = d”" in unsettled and "Q<sub>tot</sub>(s, a)" in pinned
+    assert "| where a desire lies (*desire scale*) |" in unsettled

@@ -2,7 +2,7 @@
 
 A record is a JSON file for each page, in the folder ``claims`` of the cache. It has the claims that the page has judged
 under the book's reading ("claims") and under the reading to the letter ("letter"), or, from the page of assumptions,
-the shares of readings within the text under which claims hold ("shares"). `neorl.evidence.ledger` makes the page of
+the shares of readings within the text under which claims hold ("shares"). `book/ledger.py` makes the page of
 all claims from the records.
 """
 
@@ -12,8 +12,9 @@ from collections import Counter
 
 import numpy as np
 
-from neorl.evidence.errata import ERRATA
-from neorl.evidence.marks import NOT_COMPUTED, leads, symbol
+from lib.shared import wording
+from lib.shared.errata import ERRATA
+from lib.shared.marks import NOT_COMPUTED, leads, symbol
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 from neorl.evidence.statistics import Estimate
 from neorl.evidence.verdict import VERDICTS
@@ -42,8 +43,7 @@ def table(claims, letter=(), shares=None):
     for kind, title in ((CLAIMS, []), (DEMONSTRATIONS, [BESIDE, ""])):
         names = [claim.name for claim in claims if claim.name in kind]
         if names:
-            lines += [*title, *_filled(record, names, "the quantities in italics below"), "", *evidence(record, names),
-                      ""]
+            lines += [*title, _filled(record, names, "the quantities in italics below"), "", *evidence(record, names), ""]
     return "\n".join(lines[:-1])
 
 
@@ -54,43 +54,17 @@ def comparison(judged):
     """
     counts = Counter(claim.name for claims in judged.values() for claim in claims)
     names = sorted(name for name, count in counts.items() if 2 * count > len(judged))
-    rows = ["| Reading | " + " | ".join(names) + " |", "|---" * (len(names) + 1) + "|"]
-    for reading in _in_order(judged):
-        cells = {claim.name: _with_symbol(claim.verdict, f"{claim.here.value:z.2f}") for claim in judged[reading]}
-        rows.append(f"| {reading} | " + " | ".join(cells.get(name, "") for name in names).replace("-", "−") + " |")
-    return "\n".join(rows)
-
-
-def summary(judged):
-    """The readings that reproduce each claim, and the closest ones, in Markdown: judged {reading: [Claim, …]}.
-
-    Demonstrations are not counted.
-    """
-    by_reading = {reading: {claim.name: claim.verdict for claim in judged[reading] if claim.name in CLAIMS}
-                  for reading in _in_order(judged)}
-    if any("no verdict" in verdicts.values() for verdicts in by_reading.values()):
-        return "With so few runs there are no verdicts to sum up."
-    lines = ["Each claim, and the readings that reproduce it:", ""]
-    for name in dict.fromkeys(name for verdicts in by_reading.values() for name in verdicts):
-        where = [reading for reading, verdicts in by_reading.items() if verdicts.get(name) == "reproduced"]
-        lines.append(f"- **{name}** {STATEMENTS[name].text}: *{'; '.join(where) or 'none of these readings'}*.")
-    score = {reading: tuple([*verdicts.values()].count(kind) for kind in ("reproduced", "partly"))
-             for reading, verdicts in by_reading.items()}
-    best, partly = highest = max(score.values())
-    closest = [reading for reading in score if score[reading] == highest]
-    text = (f"The {'reading' if len(closest) == 1 else 'readings'} closest to the thesis "
-            f"{'is' if len(closest) == 1 else 'are'} *{'*, *'.join(closest)}*: {best} "
-            f"{'claim is' if best == 1 else 'claims are'} reproduced and {partly} partly.")
-    text += "".join(f" In the reading *{reading}* they are {score[reading][0]} and {score[reading][1]}."
-                    for reading in (LETTER, CALIBRATED) if reading in score and reading not in closest)
-    return "\n".join([*lines, "", text])
+    rows = []
+    for reading in [each for each in dict.fromkeys([LETTER, CALIBRATED, *judged]) if each in judged]:
+        cells = {claim.name: _with_symbol(claim.verdict, wording.number(claim.here.value)) for claim in judged[reading]}
+        rows.append([reading, *(cells.get(name, "") for name in names)])
+    return wording.table(["Reading", *names], rows)
 
 
 def errata(place=""):
     """The errata of the source as a Markdown table: all, or those of a place such as "paper A"."""
-    rows = ["| Where | The thesis says | Correct |", "|---|---|---|"]
-    rows += [f"| {each.place} | {each.says} | {each.right} |" for each in ERRATA if place in each.place]
-    return re.sub(r"\^([A-Z]+)", r"<sup>\1</sup>", "\n".join(rows))
+    rows = wording.table(["Where", "The thesis says", "Correct"], [each for each in ERRATA if place in each.place])
+    return re.sub(r"\^([A-Z]+)", r"<sup>\1</sup>", rows)
 
 
 def save(page, claims=(), shares=None, letter=()):
@@ -127,18 +101,18 @@ def verdict(record, name):
 
 def extract(record, names):
     """Some claims of a record, as `load` returns it, as a Markdown table."""
-    return "\n".join(_filled(record, names, "those that the claim's page explains"))
+    return _filled(record, names, "those that the claim's page explains")
 
 
 def in_short(record):
     """All claims and demonstrations by verdict, in plain Markdown; our number stands where the thesis prints one."""
     claims, demonstrations = (
-        _lines(["Verdict", "Claims"], [
+        wording.table(["Verdict", "Claims"], [
             [f"{symbol(kind)}\u00a0{kind}", "; ".join(_beside_thesis(record, name) for name in some
                                                        if verdict(record, name) == kind)]
             for kind in (*VERDICTS, NOT_COMPUTED) if any(verdict(record, name) == kind for name in some)])
         for some in (CLAIMS, DEMONSTRATIONS))
-    return "\n".join([*claims, "", BESIDE, "", *demonstrations]) + "\n"
+    return "\n".join([claims, "", BESIDE, "", demonstrations]) + "\n"
 
 
 def evidence(record, names):
@@ -165,17 +139,13 @@ def label(rule):
     return f"rule-{rule.replace('_', '-')}"
 
 
-def _in_order(judged):
-    return [reading for reading in dict.fromkeys([LETTER, CALIBRATED, *judged]) if reading in judged]
-
-
 def _kept(claims):
     return {claim.name: {"here": [float(each) if np.isfinite(each) else None for each in claim.here],
                          "runs": claim.runs, "verdict": claim.verdict, "detail": claim.detail} for claim in claims}
 
 
 def _filled(record, names, numbers):
-    """The lines of a table of claims without its empty columns, and of its legend. numbers: what they are, in words."""
+    """A table of claims without its empty columns, and its legend. numbers: what they are, in words."""
     rows = [_cells(record, name) for name in names]
     kept = [at for at in range(len(COLUMNS)) if any(row[at] for row in rows)]
     head = [COLUMNS[at] for at in kept]
@@ -183,7 +153,7 @@ def _filled(record, names, numbers):
         head = ["Here" if each == "Calibrated" else each for each in head]
     rows = [[row[at] for at in kept] for row in rows]
     empty = "" if all(map(all, rows)) else EMPTY
-    return [*_lines(head, rows), "", LEGEND + empty + NUMBERS.format(numbers)]
+    return f"{wording.table(head, rows)}\n\n{LEGEND}{empty}{NUMBERS.format(numbers)}"
 
 
 def _cells(record, name):
@@ -198,11 +168,6 @@ def _beside_thesis(record, name):
     statement, found = STATEMENTS[name], record["claims"].get(name)
     numbers = f" ({statement.thesis}; here {number(found)})" if found and statement.bounds.number is not None else ""
     return f"**{name}** {statement.text}{numbers}"
-
-
-def _lines(head, rows):
-    first, *others = (f"| {' | '.join(cells)} |" for cells in (head, *rows))
-    return [first, "|---" * len(head) + "|", *others]
 
 
 def _marked(found):
