@@ -8,7 +8,6 @@ import pytest
 from neorl import Condition, Result, WaterWorld, place_cells
 from neorl.evidence import claims
 
-
 EIGHT = WaterWorld(win_reward=5.0)
 
 
@@ -40,6 +39,10 @@ def brownian(score=0.0, boards=0, runs=20):
     rewards = np.zeros_like(result.rewards)
     rewards[:, 0] = hits[:, 0, 0] + 5 * np.round(boards / 15)
     return replace(result, hits=hits, rewards=rewards)
+
+
+def in_world(result, world):
+    return replace(result, condition=replace(result.condition, world=world))
 
 
 def paper_a(runs=20):
@@ -107,7 +110,7 @@ def test_resets_are_counted_in_as_many_steps_as_the_papers_runs_have():
     claim = claims.judge_single_layer(paper_a()[0], brownian(boards=30))[0]
     assert claim.here == pytest.approx((0, 0, 0)) and "resets the board 30.00 [30.00, 30.00] times" in claim.detail
     with pytest.raises(ValueError, match="win_reward of the world is 0.0, allowed are"):
-        claims.judge_single_layer(paper_a()[0], replace(brownian(), world=WaterWorld()))
+        claims.judge_single_layer(paper_a()[0], in_world(brownian(), WaterWorld()))
 
 
 def paper_b(runs=20):
@@ -202,7 +205,7 @@ def test_only_improvement_and_recursion_have_to_exceed_chance(chance, expected):
 
 def playing(boards, brought, runs=20):
     """Runs where the last green creep earns 1 more, with `boards` or one more resets, and `brought` points for each."""
-    result = replace(lives(np.zeros(1_000), runs), world=WaterWorld(win_reward=1.0))
+    result = lives(np.zeros(1_000), runs, world=WaterWorld(win_reward=1.0))
     each = boards + np.arange(runs) % 2
     hits, rewards = result.hits.copy(), np.zeros_like(result.rewards)
     hits[:, 10, 0], hits[:, 20, 1] = np.rint((brought + 2) * each), 2 * each
@@ -216,7 +219,7 @@ def test_points_are_counted_from_one_reset_to_the_next(boards, brought, expected
     claim = claims.judge_points(playing(boards, brought))
     assert claim.verdict == expected
     assert claim.here.value == pytest.approx(brought, abs=0.01)
-    assert claims.judge_points(replace(brownian(0.5), world=WaterWorld(win_reward=1e9))).verdict == "not testable"
+    assert claims.judge_points(in_world(brownian(0.5), WaterWorld(win_reward=1e9))).verdict == "not testable"
 
 
 def at_half_time(before, after, final, runs=20):
@@ -259,11 +262,6 @@ def test_a_turn_of_desires_is_judged_by_what_the_same_agents_do_later(revalued, 
     assert claims.judge_changes(revalued, moved).verdict == expected
 
 
-def test_decay_after_the_turn_is_reported():
-    decays = [" it decays." in claims.judge_changes(taking(1, 3, final)).detail for final in (3, 1)]
-    assert decays == [False, True]
-
-
 def test_red_creeps_are_counted_per_minute():
     claim = claims.judge_changes(taking(1, 3, 4))
     assert claim.here == pytest.approx((0.75, 0.75, 0.75))
@@ -289,10 +287,6 @@ def test_more_maps_are_compared_with_the_quickest_of_those_with_fewer(more, expe
     assert claim.verdict == expected and "by a modality" in claim.detail
     nothing = {name: (each, fewer, brownian(0.5)) for name, (each, fewer, _) in additions.items()}
     assert claims.judge_more_maps(nothing).verdict == "not testable"
-    assert "Left out" not in claim.detail + claims.judge_more_maps(nothing).detail
-    one = {"maps": additions["maps"], "a modality": nothing["a modality"]}
-    assert ("Left out, since no agent with fewer maps has learned there: a modality."
-            in claims.judge_more_maps(one).detail)
 
 
 @pytest.mark.parametrize("steps, expected", [
@@ -302,17 +296,10 @@ def test_persistence_is_needed_where_the_best_of_temporal_difference_fails(steps
     per_step = {name: made_up(final) for name, final in steps.items()}
     agents = {"place cells": (made_up(0.6), per_step, brownian(0.1))}
     claim = claims.judge_persistence(agents)
-    assert claim.verdict == expected and "best with γ 0.99" in claim.detail
+    assert claim.verdict == expected
     unlearned = {"both": (made_up(0.6), per_step, brownian(0.7))}
     assert claims.judge_persistence(unlearned).verdict == "not testable"
     assert claims.judge_persistence(agents | unlearned).here == claim.here
-    assert "gains nothing there: both." in claims.judge_persistence(agents | unlearned).detail
-
-
-def test_persistence_is_needed_by_each_kind_of_agent():
-    fails, succeeds = ((made_up(0.6), {"γ": made_up(final)}, brownian(0.1)) for final in (0.1, 0.6))
-    claim = claims.judge_persistence({"place cells": fails, "both": succeeds})
-    assert claim.verdict == "partly" and claim.here.value == pytest.approx(1, abs=0.05)
 
 
 @pytest.mark.parametrize("stays, expected", [
@@ -357,11 +344,6 @@ def test_room_for_a_claim_is_no_part_of_it():
     found = {claim.name: (claim.outcome, claim.undecided) for claim in judged}
     assert found["A4"] == found["C2"] == found["C3"] == found["C4"] == ("not reproduced", True)
     assert found["A7"][0] == found["A8"][0] == "not reproduced"
-
-
-def test_a_few_runs_have_an_outcome_but_no_verdict():
-    claim = claims.judge_networks(*paper_c(runs=4), brownian())[1]
-    assert (claim.outcome, claim.verdict) == ("reproduced", "no verdict")
 
 
 @pytest.mark.filterwarnings("error")

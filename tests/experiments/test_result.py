@@ -45,14 +45,6 @@ def test_the_bins_add_up():
                                result.totals)
 
 
-@pytest.mark.parametrize("begin, end, message", [
-    (-0.1, 1, "begin must be .*, but is -0.1"), (0, 1.1, "end must be .*, but is 1.1"),
-    (0.5, 0.5, "end must be a share "), (1, 0, "end must be .*, but is 0")])
-def test_a_bad_stretch_is_refused(begin, end, message):
-    with pytest.raises(ValueError, match=message):
-        RESULTS[0].rate(begin, end)
-
-
 def test_results_are_equal_if_their_conditions_and_numbers_are():
     one = RESULTS[0]
     assert one == replace(one, rewards=one.rewards.copy()) != "result"

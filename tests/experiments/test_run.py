@@ -61,24 +61,6 @@ def test_no_array_that_the_kernels_trust_can_be_written_to(run, part):
     assert run.advance(100) == Run(multimodal([3, 4]), TANK, seed=1).advance(100)
 
 
-def test_the_values_of_a_run_are_read_only(run):
-    run.advance(1_000)
-    with pytest.raises(ValueError, match="read-only"):
-        run.q(1)[0, 0, 0] = 1.0
-
-
-@pytest.mark.parametrize("index", [-1, -2, 4, 0.0, "PC"])
-def test_there_is_no_map_before_the_first_or_after_the_last(run, index):
-    with pytest.raises(ValueError, match=f"index must be an integer from 0 to 3, but is {index!r}"):
-        run.q(index)
-
-
-@pytest.mark.parametrize("make", [lambda: NresMap(4 * 10**9), lambda: place_cells([65_536]), lambda: NresMap(46_341)])
-def test_a_map_of_more_cells_than_can_be_counted_is_refused(make):
-    with pytest.raises(ValueError, match="resolution must be .*, but is .*"):
-        make()
-
-
 def test_an_agent_that_does_not_fit_into_memory_is_refused_by_a_run_and_by_a_change(run):
     large = place_cells([2_000])
     with pytest.raises(MemoryError, match="a run of this agent needs 238418.9 GiB of memory"):
@@ -86,23 +68,6 @@ def test_an_agent_that_does_not_fit_into_memory_is_refused_by_a_run_and_by_a_cha
     with pytest.raises(MemoryError, match="a run of this agent needs"):
         run.change(large)
     run.advance(100)
-
-
-def test_learn_and_superpose_take_the_cells_of_a_map():
-    nres_map = NresMap(4)
-    q = np.zeros((16, 4, 16), np.float32)
-    cell_tm1, cell_t = nres_map.encode([0.1, 0.1]), nres_map.encode([0.4, 0.1])
-    learn(q, cell_tm1, cell_t, [0, 0, 1, 0], learning_rate=0.5)
-    assert superpose(q, cell_tm1, [cell_t], [2.0]).tolist() == [0, 0, 1, 0]
-
-
-@pytest.mark.parametrize("bad", [
-    lambda q: learn(q, 0, 1, 0.5), lambda q: learn(q[0], 0, 1, [0] * 4), lambda q: learn(q.tolist(), 0, 1, [0] * 4),
-    lambda q: learn(q, 0, 1.0, [0] * 4), lambda q: superpose(q, 0, 1, [1.0]), lambda q: superpose(q, 0, [1], 1.0),
-])
-def test_what_is_no_table_of_values_or_no_cell_is_refused(bad):
-    with pytest.raises(ValueError, match="must be "):
-        bad(np.zeros((4, 4, 4), np.float32))
 
 
 def test_hits_are_kept_without_rewards(run):
