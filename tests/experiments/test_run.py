@@ -11,8 +11,8 @@ import time
 import numpy as np
 import pytest
 
-from neorl import (Agent, Arena, Desire, Learning, Node, NresMap, Policy, Run, WaterWorld, learn, multimodal,
-                   network_d, place_cells, superpose)
+from neorl import (Agent, Arena, Desire, Learning, Node, Policy, Run, WaterWorld, multimodal,
+                   network_d, place_cells)
 from neorl.agents.compile import constants_of
 from neorl.core.kernel import arrays
 from neorl.core.modality import PLACE_CELL

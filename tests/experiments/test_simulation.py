@@ -8,10 +8,10 @@ import pytest
 from golden import learning, plain_rule
 
 import neorl
-from neorl import Agent, Desire, Node, Policy, Run, WaterWorld, multimodal, network_c, place_cells, simulate
+from neorl import Agent, Node, Policy, Run, WaterWorld, multimodal, network_c, place_cells, simulate
 from neorl.core.kernel import arrays
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
-                                 LANDMARK_VECTOR_CELL, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL)
+                                 LANDMARK_VECTOR_CELL, OBJECT_VECTOR_CELL, PLACE_CELL)
 
 TANK = WaterWorld(n_creeps=8, win_reward=5.0)
 
