@@ -34,7 +34,7 @@ from jupyter_client import AsyncKernelManager
 from lib.shared import report
 from lib.shared.opening import CLAIMS_PAGE
 from nbclient.exceptions import DeadKernelError
-from page_order import results_first
+from page_cells import of_page
 from papermill.exceptions import PapermillExecutionError, strip_color
 from traitlets.config import Config
 
@@ -44,11 +44,10 @@ ROOT = Path(__file__).resolve().parent.parent
 CHAPTERS = ROOT / "book" / "chapters"
 BUILT = ROOT / "_build"
 HTML = BUILT / "html" / "index.html"
-SHARES = "assumptions"  # finds the shares of readings,
-READ_SHARES = ("calibration", "own_world", "paper_a", "paper_b", "paper_c")  # which these read
+SHARES = "assumptions"  # finds the shares of readings
 CONCLUSION = "chapter_5"  # reads what all others have found
 ALONE = ("paper_b", "performance")  # measure times
-ORDER = (SHARES, "beyond_agents", *READ_SHARES)  # dependencies and long ones first
+ORDER = (SHARES, "beyond_agents", "calibration", "paper_a", "paper_b", "paper_c")  # long ones first
 # Much of a notebook keeps only one core busy: compiling, drawing. The papers' tables of values take gigabytes.
 AT_ONCE, GIGABYTES_EACH = 2, 4
 # Beside another notebook, threads of linear algebra waiting for each other took fifty times as long as one thread.
@@ -110,8 +109,7 @@ def compute_all(notebooks):
     tidy(notebooks)
     restore_claims(notebooks)
     names = {notebook.name for notebook in notebooks}
-    needs = {notebook.name: frozenset(names - {notebook.name} if notebook.stem == CONCLUSION else
-                                      names & {f"{SHARES}.ipynb"} if notebook.stem in READ_SHARES else ())
+    needs = {notebook.name: frozenset(names - {notebook.name} if notebook.stem == CONCLUSION else ())
              for notebook in notebooks}
     tasks = {notebook.name: workers.Task((__file__, "--notebook", notebook, "--parameters",
                                           json.dumps(parameters)), needs[notebook.name], notebook.stem in ALONE)
@@ -171,10 +169,10 @@ def preference(notebook):
 
 
 def records(notebook):
-    """The records of claims that a notebook reads: all, that of shares, or none."""
-    if notebook.stem == CONCLUSION:
-        return sorted(set(CHAPTERS.glob("*.claims.json")) - {CHAPTERS / f"{CONCLUSION}.claims.json"})
-    return sorted(CHAPTERS.glob(f"{SHARES}.claims.json")) if notebook.stem in READ_SHARES else []
+    """The records of claims that a notebook reads: all of the others, or none."""
+    if notebook.stem != CONCLUSION:
+        return []
+    return sorted(set(CHAPTERS.glob("*.claims.json")) - {CHAPTERS / f"{CONCLUSION}.claims.json"})
 
 
 def attempt(notebook, parameters):
@@ -218,7 +216,7 @@ def compute(notebook, parameters):
             shown = output.get("data", {})
             if "text/markdown" in shown:
                 shown["text/markdown"] = shown["text/markdown"].replace(f'"{CLAIMS_PAGE}', '"../claims.html')
-    executed.cells = results_first(executed.cells, notebook.stem, parameters, time.monotonic() - began)
+    executed.cells = of_page(executed.cells, parameters)
     save_figures(executed, work)
     save_widgets(executed, work)
     if claims.exists():

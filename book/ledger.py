@@ -112,7 +112,10 @@ def _shares(share):
     """
     if not share:
         return "", "", ""
-    agrees = (f"{report.percent(share['agrees'], share['measured'])} of {share['measured']}"
-              if share.get("measured") else "")
-    total = share["readings"]
-    return agrees, f"{report.percent(share['holds'], total)} of {total}", report.percent(share["undecided"], total)
+    agrees = _share(share["agrees"], share["measured"]) if share.get("measured") else ""
+    return agrees, _share(share["holds"], share["readings"]), _share(share["undecided"], share["readings"])
+
+
+def _share(count, total):
+    """A count of a total, from 20 on as a percentage, as text."""
+    return f"{count} of {total}" if total < 20 else f"{100 * count / total:.0f}\u00a0% of {total}"

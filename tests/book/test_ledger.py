@@ -32,9 +32,9 @@ def test_a_row_has_both_readings_the_verdict_and_shares_in_columns_of_their_own(
     assert row("C2") == (
         "| **C2** One desire per colour (B) beats one for all (A) Lead of B over A in final reward per second "
         "| > 0 | ◐ −0.30 [−0.31, −0.29] | ● 0.10 [0.09, 0.11] | ● reproduced {ref}`figure "
-        "(fig-proficiency-networks>`, {ref}`rule (rule-judge-networks>` | 5 % of 40 | 25 % of 256 | 10 % |")
+        "(fig-proficiency-networks>`, {ref}`rule (rule-judge-networks>` | 5 % of 40 | 25 % of 256 | 10 % of 256 |")
     assert row("A6").endswith("| 0.19 | ◇ no verdict {ref}`figure (fig-proficiency>`, {ref}`rule "
-                              "(rule-judge-multiple-layers>` |  | 25 % of 4 | 0 % |")
+                              "(rule-judge-multiple-layers>` |  | 1 of 4 | 0 of 4 |")
     assert row("H1").endswith("| fewer |  |  | ◇ not computed in this build |  |  |  |")
     assert "●</span>\u00a0reproduced" in ledger.page(RECORD)  # a symbol stays beside its word
 

@@ -15,6 +15,7 @@ import numpy as np
 from lib.shared import wording
 from lib.shared.errata import ERRATA
 from lib.shared.marks import NOT_COMPUTED, leads, symbol
+from lib.shared.opening import link
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 from neorl.evidence.statistics import Estimate
 from neorl.evidence.verdict import VERDICTS
@@ -22,29 +23,22 @@ from neorl.experiments.condition import source_digest
 from neorl.files import cache_folder, write_whole
 
 LETTER, CALIBRATED = "to the letter", "calibrated"  # names of readings
-COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict", "Share within the text")
-LEGEND = "● reproduced, ◐ partly, ○ not reproduced, ◇ no learning to test; without a symbol, no verdict. "
-EMPTY = "An empty cell was not computed, or does not depend on the reading. "
-NUMBERS = "Numbers, with 95\u00a0% intervals over runs, are {}."
+COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict")
+LEGEND = ("● reproduced, ◐ partly, ○ not reproduced, ◇ no learning to test; without a symbol, no verdict. Numbers are the "
+          "quantities in italics, with 95\u00a0% intervals over runs. A claim's name leads to what its verdict rests on.")
 BESIDE = "Beside the claims stand demonstrations of this book:"
 PARTS = ("claims", "letter", "shares")  # of a record
 
 
-def table(claims, letter=(), shares=None):
-    """Claims as a Markdown table, and below it the evidence for each verdict; then demonstrations in the same way.
+def table(claims, letter=()):
+    """Claims as a Markdown table, then demonstrations; without claims to the letter there is no choice of a reading.
 
-    A column without an entry is left out; without claims to the letter there is no choice of a reading.
-
-    claims: a sequence of `Claim`, under the book's reading. letter: the same, under that to the letter. shares: as in
-    `save`.
+    claims: a sequence of `Claim`, under the book's reading. letter: the same, under that to the letter.
     """
-    record = {"claims": _kept(claims), "letter": _kept(letter), "shares": shares or {}}
-    lines = []
-    for kind, title in ((CLAIMS, []), (DEMONSTRATIONS, [BESIDE, ""])):
-        names = [claim.name for claim in claims if claim.name in kind]
-        if names:
-            lines += [*title, _filled(record, names, "the quantities in italics below"), "", *evidence(record, names), ""]
-    return "\n".join(lines[:-1])
+    record = {"claims": _kept(claims), "letter": _kept(letter)}
+    some, others = ([claim.name for claim in claims if claim.name in kind] for kind in (CLAIMS, DEMONSTRATIONS))
+    parts = [extract(record, some)] if some else []
+    return "\n\n".join([*parts, *([BESIDE, extract(record, others)] if others else [])])
 
 
 def comparison(judged):
@@ -100,8 +94,13 @@ def verdict(record, name):
 
 
 def extract(record, names):
-    """Some claims of a record, as `load` returns it, as a Markdown table."""
-    return _filled(record, names, "those that the claim's page explains")
+    """Some claims of a record, as `load` returns it, as a Markdown table without its empty columns, and its legend."""
+    rows = [_cells(record, name) for name in names]
+    kept = [at for at in range(len(COLUMNS)) if any(row[at] for row in rows)]
+    head = [COLUMNS[at] for at in kept]
+    if "To the letter" not in head:
+        head = ["Here" if each == "Calibrated" else each for each in head]
+    return f"{wording.table(head, [[row[at] for at in kept] for row in rows])}\n\n{LEGEND}"
 
 
 def in_short(record):
@@ -124,14 +123,9 @@ def evidence(record, names):
         for part, reading in (("claims", "Here"), ("letter", "To the letter")):
             found = record[part].get(name)
             if found:
-                line += f" {reading}: {number(found)}, {found['runs']} runs. {found['detail']}"
+                line += f" {reading}, {found['runs']} runs: {found['detail']}"
         lines.append(line)
     return lines
-
-
-def percent(count, total):
-    """A count as a percentage of a total, as text."""
-    return f"{100 * count / total:.0f}\u00a0%"
 
 
 def label(rule):
@@ -144,23 +138,10 @@ def _kept(claims):
                          "runs": claim.runs, "verdict": claim.verdict, "detail": claim.detail} for claim in claims}
 
 
-def _filled(record, names, numbers):
-    """A table of claims without its empty columns, and its legend. numbers: what they are, in words."""
-    rows = [_cells(record, name) for name in names]
-    kept = [at for at in range(len(COLUMNS)) if any(row[at] for row in rows)]
-    head = [COLUMNS[at] for at in kept]
-    if "To the letter" not in head:
-        head = ["Here" if each == "Calibrated" else each for each in head]
-    rows = [[row[at] for at in kept] for row in rows]
-    empty = "" if all(map(all, rows)) else EMPTY
-    return f"{wording.table(head, rows)}\n\n{LEGEND}{empty}{NUMBERS.format(numbers)}"
-
-
 def _cells(record, name):
     statement = STATEMENTS[name]
-    return [f"**{name}** {statement.text}", statement.thesis, *(_marked(record[part].get(name))
-                                                                for part in ("letter", "claims")),
-            verdict(record, name), _share(record["shares"].get(name))]
+    return [f"**{link(name)}** {statement.text} <small>*{statement.statistic}*</small>", statement.thesis,
+            *(_marked(record[part].get(name)) for part in ("letter", "claims")), verdict(record, name)]
 
 
 def _beside_thesis(record, name):
@@ -176,15 +157,3 @@ def _marked(found):
 
 def _with_symbol(verdict, text):
     return f"{symbol(verdict)}\u00a0{text}" if leads(verdict) else text
-
-
-def _share(share):
-    if not share:
-        return ""
-    total = share["readings"]
-    short = f"short runs: {percent(share['holds'], total)} of {total}"
-    if share["undecided"]:
-        short += f", {percent(share['undecided'], total)} undecided"
-    if not share.get("measured"):
-        return short
-    return f"{percent(share['agrees'], share['measured'])} of {share['measured']}; {short}"
