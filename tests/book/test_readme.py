@@ -10,7 +10,7 @@ import pytest
 from neorl import Agent, Desire, Node, Policy
 from neorl.core import modality
 from neorl.evidence.claims import VERDICTS
-from lib.shared.report import NOT_COMPUTED, in_short
+from lib.shared.report import NOT_COMPUTED
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 
 EXAMPLES = re.compile(r"```python\n(.*?)```", re.DOTALL)
@@ -32,11 +32,14 @@ def test_the_tables_have_every_claim_as_it_is_stated_now_and_a_verdict_from_the_
             assert bool(found) == (STATEMENTS[name].bounds.number is not None), claim
 
 
-def test_the_table_is_written_between_its_marks_and_nothing_else_is_touched():
+def test_claims_are_written_between_the_marks_and_nothing_else_is_touched():
     text = "before\n<!-- claims: make readme -->\nold\n<!-- end of claims -->\nafter | \\1\n"
-    table = in_short({"claims": {}, "letter": {}, "shares": {}})
-    assert readme.BETWEEN.sub(lambda _: table, text) == (
-        f"before\n<!-- claims: make readme -->\n{table}<!-- end of claims -->\nafter | \\1\n")
+    found = {"here": [0.1, 0.09, 0.11], "runs": 20, "verdict": "reproduced", "detail": ""}
+    new = readme.by_verdict({"claims": {"C2": found}, "letter": {}, "shares": {}})
+    assert "with 20 runs of each condition" in new and new.count("**C2** One desire per colour") == 1
+    assert all(new.count(f"**{name}** ") == 1 for name in STATEMENTS)
+    assert readme.BETWEEN.sub(lambda _: new, text) == (
+        f"before\n<!-- claims: make readme -->\n{new}<!-- end of claims -->\nafter | \\1\n")
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning:distributed", "ignore::ResourceWarning")

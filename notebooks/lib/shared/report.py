@@ -103,17 +103,6 @@ def extract(record, names):
     return f"{wording.table(head, [[row[at] for at in kept] for row in rows])}\n\n{LEGEND}"
 
 
-def in_short(record):
-    """All claims and demonstrations by verdict, in plain Markdown; our number stands where the thesis prints one."""
-    claims, demonstrations = (
-        wording.table(["Verdict", "Claims"], [
-            [f"{symbol(kind)}\u00a0{kind}", "; ".join(_beside_thesis(record, name) for name in some
-                                                       if verdict(record, name) == kind)]
-            for kind in (*VERDICTS, NOT_COMPUTED) if any(verdict(record, name) == kind for name in some)])
-        for some in (CLAIMS, DEMONSTRATIONS))
-    return "\n".join([claims, "", BESIDE, "", demonstrations]) + "\n"
-
-
 def evidence(record, names):
     """A list item for each claim: the sentence that is judged, the quantity measured, and the finding."""
     lines = []
@@ -142,13 +131,6 @@ def _cells(record, name):
     statement = STATEMENTS[name]
     return [f"**{link(name)}** {statement.text} <small>*{statement.statistic}*</small>", statement.thesis,
             *(_marked(record[part].get(name)) for part in ("letter", "claims")), verdict(record, name)]
-
-
-def _beside_thesis(record, name):
-    """A claim as it is stated, with the number that the thesis prints and ours, if it prints one."""
-    statement, found = STATEMENTS[name], record["claims"].get(name)
-    numbers = f" ({statement.thesis}; here {number(found)})" if found and statement.bounds.number is not None else ""
-    return f"**{name}** {statement.text}{numbers}"
 
 
 def _marked(found):
