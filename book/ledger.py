@@ -13,7 +13,7 @@ from lib.shared.opening import anchor
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 from neorl.evidence.verdict import RUNS_FOR_A_VERDICT, VERDICTS
 
-COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict", "Agrees", "Holds", "Undecided")
+COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict", "Agrees", "Reproduced", "Undecided")
 CHAPTERS = {"A": "Paper A: maps of one space", "B": "Paper B: modalities", "C": "Paper C: networks of desires",
             "T": "The thesis as a whole"}
 

@@ -44,8 +44,8 @@ def design(points: int, seed: int = 0, choices: Mapping[str, Choice] = WITHIN) -
 
 
 def outcome(claim):
-    """The outcome of a claim: "holds", "undecided" or "fails"."""
-    return "holds" if claim.outcome == "reproduced" else "undecided" if claim.undecided else "fails"
+    """The outcome of a claim: "reproduced", "undecided" or "not reproduced"."""
+    return "reproduced" if claim.outcome == "reproduced" else "undecided" if claim.undecided else "not reproduced"
 
 
 def by_claim(*sweeps):
@@ -65,14 +65,14 @@ def shares(claims):
     counts = {}
     for name, found in claims.items():
         outcomes = [outcome(claim) for claim in found]
-        counts[name] = {"holds": outcomes.count("holds"), "undecided": outcomes.count("undecided"),
+        counts[name] = {"holds": outcomes.count("reproduced"), "undecided": outcomes.count("undecided"),
                         "untestable": sum(claim.outcome == "not testable" for claim in found), "readings": len(found)}
     return counts
 
 
 def held(claims):
     """The names of the claims that hold, of {name: `Claim`}."""
-    return [name for name, claim in claims.items() if outcome(claim) == "holds"]
+    return [name for name, claim in claims.items() if outcome(claim) == "reproduced"]
 
 
 class Support(NamedTuple):

@@ -14,12 +14,12 @@ from neorl.drawing.style import AGENT, FILL, INK, RED, SMALL, TEXT, axes_or_new,
 from neorl.evidence.priors import WITHIN
 from neorl.evidence.statements import STATEMENTS
 
-COLOURS = {"holds": AGENT, "undecided": RED, "fails": INK}
+COLOURS = {"reproduced": AGENT, "undecided": RED, "not reproduced": INK}
 UNDECIDED = {"facecolor": (RED, FILL), "edgecolor": RED, "linewidth": 1}  # of bars
-BARS = {"holds": {"color": AGENT}, "undecided": UNDECIDED, "fails": {"facecolor": "none", "edgecolor": INK}}
+BARS = {"reproduced": {"color": AGENT}, "undecided": UNDECIDED, "not reproduced": {"facecolor": "none", "edgecolor": INK}}
 DIAMOND = {"color": INK, "marker": "D", "markersize": 6, "linestyle": "none", "markeredgecolor": "white",
            "markeredgewidth": 0.8}  # the edge sets it off from bars
-OUTCOMES = {"holds": "o", "undecided": "D", "fails": "."}  # markers
+OUTCOMES = {"reproduced": "o", "undecided": "D", "not reproduced": "."}  # markers
 SHADES = LinearSegmentedColormap.from_list("shades", [AGENT + "10", AGENT + "ff"])
 ROW = 0.2  # inches
 
@@ -140,7 +140,7 @@ def draw_standing(record, names, ax=None):
         share = record["shares"].get(name)
         if share:
             holds, undecided = (100 * share[kind] / share["readings"] for kind in ("holds", "undecided"))
-            axes.barh(row, holds, 0.55, color=COLOURS["holds"])
+            axes.barh(row, holds, 0.55, color=COLOURS["reproduced"])
             if undecided:
                 axes.barh(row, undecided, 0.55, left=holds, **UNDECIDED)
             if share.get("measured"):
@@ -152,9 +152,9 @@ def draw_standing(record, names, ax=None):
     axes.set(xlim=(0, 100), ylim=(len(names) - 0.4, -0.6), xlabel="% of readings")
     axes.tick_params(axis="y", length=0, pad=8)  # a diamond at 0 reaches beyond the axis
     axes.spines["left"].set_visible(False)
-    handles = [Rectangle((0, 0), 1, 1, color=COLOURS["holds"]), Rectangle((0, 0), 1, 1, **UNDECIDED)]
+    handles = [Rectangle((0, 0), 1, 1, color=COLOURS["reproduced"]), Rectangle((0, 0), 1, 1, **UNDECIDED)]
     handles.append(Line2D([], [], **DIAMOND))
-    axes.legend(handles, ["holds", "undecided", "agrees, in long runs"], frameon=False, fontsize=SMALL, ncols=3,
+    axes.legend(handles, ["reproduced", "undecided", "agrees, in long runs"], frameon=False, fontsize=SMALL, ncols=3,
                 labelcolor=TEXT, loc="lower right", bbox_to_anchor=(1, 1.0), borderpad=0)  # beyond 100 % is no room
     return axes
 
