@@ -34,7 +34,7 @@ from jupyter_client import AsyncKernelManager
 from lib.shared import report
 from lib.shared.opening import CLAIMS_PAGE
 from nbclient.exceptions import DeadKernelError
-from page_cells import of_page
+from cells import of_page
 from papermill.exceptions import PapermillExecutionError, strip_color
 from traitlets.config import Config
 

@@ -49,7 +49,8 @@ INDEX = "# A small book\n\n```{include} chapters/contents.md\n```\n"
 def make_tree(tree):
     """Write the sources of the book into a folder."""
     (tree / "book").mkdir(parents=True)
-    (tree / "notebooks").mkdir()
+    shutil.copytree(ROOT / "notebooks" / "lib" / "shared", tree / "notebooks" / "lib" / "shared")
+    shutil.copy(ROOT / "notebooks" / "lib" / "__init__.py", tree / "notebooks" / "lib")
     for path in (ROOT / "book").glob("*.py"):
         shutil.copy(path, tree / "book")  # links would lead the build to the real tree
     (tree / "neorl").mkdir()  # pages depend on the sources here, but import the real package

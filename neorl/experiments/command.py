@@ -18,8 +18,8 @@ def main(arguments=None):
     parser = argparse.ArgumentParser(prog="python -m neorl", description="Run conditions, and inspect the cache.")
     commands = parser.add_subparsers(required=True, metavar="command")
     run = commands.add_parser("run", help="run the condition described in a file",
-                              description="Run the condition that neorl.Condition.save has written, or somebody by "
-                              "hand, unless it is cached already, and report its reward.")
+                              description="Run the condition in a file, written by neorl.Condition.save or by hand, "
+                              "unless it is cached already, and report its reward.")
     run.add_argument("file", help="a name that ends in .toml or .json")
     run.add_argument("--save", metavar="result.npz", help="also write the result there, for neorl.Result.load")
     run.set_defaults(call=lambda given: run_file(given.file, given.save))

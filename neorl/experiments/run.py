@@ -185,4 +185,7 @@ def bin_steps(world):
 def new_bins(world, runs, steps):
     """Zeros for the rewards and hits of runs of `steps` steps: float32 (runs, bins) and int16 (runs, bins, kinds)."""
     bins = -(-steps // bin_steps(world))
-    return np.zeros((runs, bins), np.float32), np.zeros((runs, bins, len(world.kinds)), np.int16)
+    try:
+        return np.zeros((runs, bins), np.float32), np.zeros((runs, bins, len(world.kinds)), np.int16)
+    except ValueError as error:  # more than an array can have
+        raise MemoryError(f"the rewards of {runs} runs of {steps} steps do not fit into memory") from error

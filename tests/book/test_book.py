@@ -153,7 +153,7 @@ def test_the_reference_has_types_and_defaults_as_in_code(make_book):
                     "statistics: dict = dict())", "read_table(path=SHIPPED)",
                     "draw_curves(xs: ArrayLike, curves: Mapping[str, ArrayLike],", "(name: str, array: NDArray[",
                     "→ NDArray[float64]", "modality: Modality = PLACE_CELL)", "table: NDArray[float64]",
-                    "position: array('float64', 'axes')", "Replay(recordings, playing=True)",
+                    "position: array('float64', 'axes')", "Replay(recordings, playing=True, speed=1)",
                     "resolutions: Sequence[int] = (2, 3, 5, 7, 11, 13),", "at_least: float = -1e+30,"):
         assert written in signatures
     assert not re.search(r"[~<]|Path\(|_Buffer|ndarray", signatures)

@@ -205,7 +205,7 @@ def test_a_click_on_a_cell_shows_how_to_get_there(open_page, site, over):
     play_to_the_end(page)
     arena = page.locator(".arena canvas")
     page.locator('[name="field"]').uncheck()
-    page.locator('[name="map"]').select_option(label="PC N5")
+    page.locator('[name="map"]').select_option("PC N5")
     arena.scroll_into_view_if_needed()
     page.wait_for_timeout(300)
     before = arena.screenshot()

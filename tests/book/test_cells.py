@@ -6,7 +6,7 @@ from pathlib import Path
 from nbformat.v4 import new_code_cell, new_markdown_cell
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "book"))
-import page_cells  # noqa: E402
+import cells  # noqa: E402
 
 
 def cell(source, *tags):
@@ -18,11 +18,11 @@ CELLS = [new_markdown_cell("# Title"), cell("runs: int = 20  # of each", "parame
 
 
 def test_a_page_keeps_the_order_of_its_notebook():
-    assert [each.source for each in page_cells.of_page(CELLS, {"runs": 1_000})] == [
+    assert [each.source for each in cells.of_page(CELLS, {"runs": 1_000})] == [
         "# Title", "runs: int = 1_000  # of each", "import neorl", "Text."]
 
 
 def test_only_the_parameters_that_were_given_change():
     source = "runs: int = 20\nruns_more: int = 3\nname: str = 'a'  # b"
-    assert page_cells.with_values(source, {"runs": 4, "name": "c"}) == (
+    assert cells.with_values(source, {"runs": 4, "name": "c"}) == (
         "runs: int = 4\nruns_more: int = 3\nname: str = 'c'  # b")
