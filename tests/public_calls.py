@@ -247,8 +247,6 @@ TABLE = {
         statistics.tolerance_band, curves=[CURVES], share=shares, confidence=shares),
     "neorl.evidence.statistics.tolerated_share": entry(
         statistics.tolerated_share, runs=st.integers(0, 99), beyond=st.integers(1, 9), confidence=shares),
-    "neorl.evidence.statistics.time_to_level": entry(
-        statistics.time_to_level, result=[RESULT], level=[0.1, [1, 2, 0], np.array(0.3)]),
     "neorl.evidence.statistics.time_to_final_level": entry(
         statistics.time_to_final_level, result=[RESULT], share=shares),
     "neorl.evidence.statistics.minutes_sooner": entry(

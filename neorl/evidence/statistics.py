@@ -157,24 +157,6 @@ def tolerated_share(runs: int, beyond: int = 1, confidence: float = 0.95) -> flo
     return float(scipy.stats.beta.ppf(1 - confidence, runs + 1 - 2 * beyond, 2 * beyond)) if runs >= 2 * beyond else 0.0
 
 
-def time_to_level(result: Result, level: ArrayLike) -> NDArray[np.float64]:
-    """When each run first reaches a level of reward per second: float64 (runs,), in simulated seconds.
-
-    result: a `Result`. level: a number, or one for each run. It is reached when the mean over the preceding fortieth of
-    the run reaches it; where it is never reached, the time is the whole run. Raises ValueError for anything else.
-    """
-    runs = checks.instance("result", result, Result).runs
-    level = checks.doubles("level", level)
-    if level.shape not in ((), (runs,)):
-        raise ValueError(f"level has the shape {level.shape}, allowed is one number, or {runs}")
-    return _time_to_level(result, level)
-
-
-def _time_to_level(result, level):
-    rates, ends = _recent_rates(result)
-    return _first(rates >= np.reshape(level, (-1, 1)), ends, result.seconds)
-
-
 def _recent_rates(result):
     """Reward per second over the preceding fortieth of the run, (runs, windows), and the end of each such window."""
     bins = result.rewards.shape[1]
@@ -230,13 +212,15 @@ def _mean_of_runs(rates, chosen):
 def time_to_final_level(result: Result, share: float = 0.9) -> NDArray[np.float64]:
     """When each run first reaches `share` of its final level: float64 (runs,), in simulated seconds.
 
-    The final level is a run's own reward per second in its last fifth, and is reached as in `time_to_level`. A run
-    whose final level is not positive never reaches it.
+    The final level is a run's own reward per second in its last fifth. A run reaches it when the mean over the
+    preceding fortieth of the run does; where it is never reached, or not positive, the time is the whole run.
 
     result: a `Result`. share: from 0 to 1. Raises ValueError for anything else.
     """
     final, share = checks.instance("result", result, Result).rate(0.8, 1.0), checks.real("share", share, 0, 1)
-    return _time_to_level(result, np.where(final > 0, share * final, np.inf))
+    rates, ends = _recent_rates(result)
+    level = np.where(final > 0, share * final, np.inf)
+    return _first(rates >= level[:, None], ends, result.seconds)
 
 
 def minutes_to_own_level(*results: Result, share: float = 0.9, of: Callable | None = None) -> Estimate:

@@ -10,7 +10,7 @@ from scipy import stats
 from neorl import Condition, Result, WaterWorld, place_cells
 from neorl.evidence.statistics import (Estimate, estimate, lead_over_best, lead_over_sum, mean_band,
                                        minutes_sooner, minutes_to_own_level, points, probability_of_improvement,
-                                       rank_correlation, ratio, resets, time_to_final_level, time_to_level,
+                                       rank_correlation, ratio, resets, time_to_final_level,
                                        tolerance_band, tolerated_share)
 
 
@@ -122,8 +122,6 @@ def test_the_time_to_the_final_level_is_that_of_each_run():
     rewards[3] = -1  # never
     result = Result(Condition(place_cells([1]), WaterWorld(), 4_000, 4), rewards, np.zeros((4, 400, 2), np.int16))
     np.testing.assert_allclose(time_to_final_level(result), [2.0, 21.8, 66.0, 80.0])
-    np.testing.assert_allclose(time_to_level(result, 0.5), [2.0, 20.2, 9.2, 80.0])  # bin 101; bins 36 to 45
-    np.testing.assert_allclose(time_to_level(result, [9, 9, 9, -9]), [80.0, 80.0, 80.0, 2.0])
 
 
 def test_the_mean_reaches_a_level_later_than_the_luckiest_run():
@@ -167,7 +165,6 @@ def test_a_lead_in_time_is_not_made_by_the_noise_of_single_runs():
     """One run in ten reaches the level early; the mean over runs reaches it only at the step."""
     noisy = steps_up(400, 200, runs=100)
     noisy.rewards[::10, 20:40] = 0.2
-    assert np.sum(time_to_level(noisy, 0.5) < 10) == 10
     assert minutes_sooner(noisy, steps_up(400, 200, runs=100), 0.5).value == 0
 
 
