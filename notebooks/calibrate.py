@@ -10,11 +10,11 @@ import argparse
 import time
 from pathlib import Path
 
+from lib.shared.priors import OF_TRIALS
 from lib.study import calibration
 from lib.study.calibration_results import progress
 from lib.study.calibration_table import SHIPPED, read_table, write_table
 from lib.study.calibration_targets import GROUPS
-from neorl.evidence.priors import OF_TRIALS
 
 
 def main():

@@ -26,7 +26,7 @@ from neorl.browser import wasm
 from neorl.browser.worlds import IN_THE_PLANE, NAMES, rules_of, sizes_of
 from neorl.core.kernel import is_tuple
 from neorl.core.modality import MODALITIES, PLACE_CELL, axis_parameters
-from neorl.evidence.priors import TO_THE_LETTER as LETTER
+from neorl.evidence.reading import TO_THE_LETTER as LETTER
 from neorl.evidence.reading import networks
 from neorl.evidence.statistics import tolerance_band
 from neorl.experiments.run import bin_steps

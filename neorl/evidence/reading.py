@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from neorl import checks
-from neorl.agents import papers
+from neorl.agents import papers, rules
 from neorl.agents.agent import Agent, Node
 from neorl.agents.rules import CALIBRATED, GREEDY, Learning, Policy
 from neorl.evidence import claims
@@ -116,6 +116,11 @@ class Reading:
                 "object_reach": self.object_reach if of_step or self.object_state == "object" else 0.0,
                 "object_tiled_fraction": self.object_tiled_fraction, "object_beyond": self.object_beyond,
                 "object_centred": self.object_centred}
+
+
+# What the text prints or pins, and where it leaves more the plainest, or the middle of a prior (`neorl.evidence.pins`).
+TO_THE_LETTER = Reading(**{name: value for name, value in vars(rules.TO_THE_LETTER).items() if name in vars(Reading)},
+                        weighting="resolution", place_gain=1.0, scale=10.0)
 
 
 def conditions(reading: Reading, steps: int, runs: int, seed: int = 0,

@@ -3,10 +3,10 @@
 Each conclusion rests on some claims, and claims on other worlds and agents on none; all others are the ground of both.
 """
 
-from lib.shared.wording import table
 from lib.shared import report
 from lib.shared.marks import html
 from lib.shared.report import CALIBRATED, LETTER
+from lib.shared.wording import table
 from neorl.evidence.statements import CLAIMS
 from neorl.evidence.verdict import VERDICTS
 

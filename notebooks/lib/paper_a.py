@@ -10,6 +10,8 @@ import numpy as np
 
 from lib.shared import side_by_side
 from lib.shared.notebook import FINEST
+from lib.shared.priors import BEYOND
+from lib.shared.report import CALIBRATED, LETTER
 from lib.shared.wording import table
 from lib.shared.thesis_figures import mark_levels
 from neorl.core.horde import as_vectors
@@ -19,9 +21,7 @@ from neorl.drawing.boards import new_board
 from neorl.drawing.curves import draw_proficiency
 from neorl.drawing.style import AGENT, FILL, GREEN, INK, RED, mark
 from neorl.drawing.value_maps import draw_cells, draw_values
-from neorl.evidence.priors import BEYOND
 from neorl.evidence.reading import LAYERS, SINGLE
-from lib.shared.report import CALIBRATED, LETTER
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.statistics import estimate
 from neorl.evidence.verdict import FINAL

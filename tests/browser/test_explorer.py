@@ -15,7 +15,7 @@ from neorl import (CALIBRATED, Agent, Arena, Desire, Explorer, Learning, Node, P
 from neorl.agents.papers import OF_OBJECTS
 from neorl.browser.explorer import AGENTS, CURVE_BINS, IN_THE_ARENA, OTHER_SPACES
 from neorl.core import modality
-from neorl.evidence.priors import TO_THE_LETTER as LETTER
+from neorl.evidence.reading import TO_THE_LETTER as LETTER
 from neorl.evidence.reading import Reading, networks
 
 TANK = WaterWorld(n_creeps=8, win_reward=5.0)

@@ -4,9 +4,9 @@ from dataclasses import fields, replace
 
 import pytest
 
+from lib.shared.priors import BEYOND, TO_THE_LETTER, WITHIN
 from lib.study import multiverse
 from neorl.evidence import pins
-from neorl.evidence.priors import BEYOND, TO_THE_LETTER, WITHIN
 from neorl.evidence.reading import Reading
 
 PINNED = [pin for pin in pins.PINS if pin.status == "pinned"]

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from lib.shared.priors import OF_TRIALS, TO_THE_LETTER, WITHIN
 from lib.study import calibration, calibration_figures, calibration_results, calibration_table, calibration_targets
 from lib.study.calibration import Emulator, candidates, design, features, prospects
 from lib.study.calibration_results import Posterior
@@ -14,7 +15,6 @@ from lib.study.calibration_table import Row, read_table, write_table
 from lib.study.calibration_targets import CLAIMS, GROUPS, TARGETS, Measure, Target
 from lib.study.multiverse import binned
 from neorl import CALIBRATED, Condition, WaterWorld, place_cells
-from neorl.evidence.priors import OF_TRIALS, TO_THE_LETTER, WITHIN
 from neorl.evidence.reading import Reading
 from neorl.evidence.statements import STATEMENTS
 from neorl.experiments.result import Result

@@ -19,8 +19,7 @@ from neorl.agents.rules import CALIBRATED
 from neorl.core.horde import learn
 from neorl.core.kernel import execute
 from neorl.core.stream import new_stream, randint, uniform
-from neorl.evidence.priors import TO_THE_LETTER
-from neorl.evidence.reading import Reading, conditions
+from neorl.evidence.reading import TO_THE_LETTER, Reading, conditions
 
 PAGE = json.loads((Path(__file__).parents[2] / "notebooks" / "chapter_4.ipynb").read_text(encoding="utf-8"))
 SOURCES = {cell["id"]: "".join(cell["source"]) for cell in PAGE["cells"]}

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from lib import chapter_5
-from neorl.evidence.reading import PRIMES, Reading, conditions
 from lib.shared.report import CALIBRATED, LETTER
+from neorl.evidence.reading import PRIMES, Reading, conditions
 from neorl.evidence.statements import CLAIMS
 from neorl.evidence.verdict import VERDICTS
 

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-import neorl
+from lib.shared.priors import BEYOND, PINNED, TO_THE_LETTER, WITHIN, LogUniform
 from lib.study import multiverse
 from lib.study.multiverse_figures import OUTCOMES, draw_importance, draw_outcomes, draw_specification
+import neorl
 from neorl import (CALIBRATED, Learning, Policy, multimodal, network_a, network_b, network_c, network_d, place_cells,
                    simulate)
 from neorl.agents.rules import AT_EVERY_STEP
 from neorl.evidence.claims import Claim
-from neorl.evidence.priors import BEYOND, PINNED, TO_THE_LETTER, WITHIN, LogUniform
 from neorl.evidence.reading import GROUPS, Reading, conditions, judge
 from neorl.evidence.statistics import Estimate
 

@@ -11,11 +11,10 @@ from matplotlib import pyplot as plt
 from matplotlib.colors import to_hex
 
 from lib import paper_a
+from lib.shared.report import CALIBRATED, LETTER
 from neorl import Condition, NresMap, Result, WaterWorld, brownian, place_cells
 from neorl.drawing.style import AGENT, GREEN, INK, RED
-from neorl.evidence.priors import TO_THE_LETTER
-from neorl.evidence.reading import LAYERS, SINGLE, Reading, conditions, judge
-from lib.shared.report import CALIBRATED, LETTER
+from neorl.evidence.reading import LAYERS, SINGLE, TO_THE_LETTER, Reading, conditions, judge
 
 PAGE = nbformat.read(Path(__file__).parents[2] / "notebooks" / "paper_a.ipynb", 4)
 CELLS = {cell.id: cell.source for cell in PAGE.cells if cell.cell_type == "code"}

@@ -12,8 +12,7 @@ from lib.paper_b import figures, trials
 from lib.paper_b.trials import SECONDS_A_MOVE, best_values, learn
 from neorl import WaterWorld, object_vector_cells
 from neorl.core.modality import MODALITIES
-from neorl.evidence.priors import TO_THE_LETTER
-from neorl.evidence.reading import PRIMES, Reading, conditions
+from neorl.evidence.reading import PRIMES, TO_THE_LETTER, Reading, conditions
 from neorl.evidence.statistics import Estimate
 
 PAGE = json.loads((Path(__file__).parents[2] / "notebooks" / "paper_b.ipynb").read_text(encoding="utf-8"))

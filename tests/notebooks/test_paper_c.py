@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from neorl import Result, Run, WaterWorld, brownian, network_b
 from lib import paper_c
-from neorl.evidence.priors import TO_THE_LETTER
-from neorl.evidence.reading import Reading, conditions, networks
 from lib.shared.report import CALIBRATED, LETTER
+from neorl import Result, Run, WaterWorld, brownian, network_b
+from neorl.evidence.reading import TO_THE_LETTER, Reading, conditions, networks
 from neorl.experiments.condition import Condition
 
 CELLS = nbformat.read(Path(__file__).parents[2] / "notebooks" / "paper_c.ipynb", 4).cells

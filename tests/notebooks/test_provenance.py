@@ -3,9 +3,10 @@
 from dataclasses import replace
 
 from lib.shared import provenance
+from lib.shared.priors import BEYOND, PINNED, TO_THE_LETTER, WITHIN
 from neorl import GREEDY, WaterWorld
 from neorl.evidence.pins import PINS
-from neorl.evidence.priors import BEYOND, TO_THE_LETTER
+from neorl.evidence.reading import Reading
 
 
 def test_every_choice_and_every_rule_of_the_tank_has_a_source():
@@ -39,3 +40,8 @@ def test_the_tables_of_pins_have_a_row_for_each_choice_what_is_pinned_first():
     assert len(pinned.splitlines()[4:] + unsettled.splitlines()[2:]) == len(PINS)
     assert "“e<sup>out</sup> = d”" in unsettled and "Q<sub>tot</sub>(s, a)" in pinned
     assert "| where a desire lies (*desire scale*) |" in unsettled
+
+
+def test_the_reading_to_the_letter_takes_what_is_pinned_or_else_what_is_plainest():
+    plainest = {name: choice.plainest for name, choice in WITHIN.items()}
+    assert TO_THE_LETTER == Reading(**PINNED, **plainest | {"memory": 0.0})

@@ -3,8 +3,7 @@
 from dataclasses import replace
 
 from lib.shared import side_by_side
-from neorl.evidence.priors import TO_THE_LETTER
-from neorl.evidence.reading import Reading
+from neorl.evidence.reading import TO_THE_LETTER, Reading
 
 
 def test_a_change_that_leaves_a_reading_unchanged_is_dropped():

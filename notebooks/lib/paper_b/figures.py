@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.patches import Circle
 
 from lib.paper_b.trials import SECONDS_A_MOVE, best_values, values_for_objects
+from lib.shared.report import CALIBRATED, LETTER
 from lib.shared.wording import table
 from lib.shared.thesis_figures import draw_against_thesis
 from neorl.core.maps import NresMap
@@ -17,7 +18,6 @@ from neorl.drawing.curves import draw_curves, draw_sweep
 from neorl.drawing.receptive_fields import draw_receptive_fields
 from neorl.drawing.style import AGENT, FILL, GREEN, INK, mark
 from neorl.drawing.value_maps import draw_cells, draw_values
-from lib.shared.report import CALIBRATED, LETTER
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.statistics import estimate, quotient
 

@@ -8,9 +8,9 @@ import re
 from typing import NamedTuple
 
 from lib.shared import wording
+from lib.shared.priors import BEYOND, WITHIN
 from neorl.evidence.curves import CUTOFF_PERIODS, FILTER_ORDER
 from neorl.evidence.pins import PINS
-from neorl.evidence.priors import BEYOND, WITHIN
 from neorl.evidence.reading import LAYERS, LENGTHS, PRIMES, SINGLE, Reading, conditions
 from neorl.evidence.statements import STATEMENTS
 from neorl.experiments.run import BIN_SECONDS

@@ -2,8 +2,8 @@
 
 from dataclasses import replace
 
+from lib.shared.priors import BEYOND, WITHIN
 from lib.shared.wording import table
-from neorl.evidence.priors import BEYOND, WITHIN
 
 
 def changed(reading, changes):

@@ -23,11 +23,11 @@ from dataclasses import replace
 import numpy as np
 import scipy
 
+from lib.shared.priors import TO_THE_LETTER, WITHIN
 from lib.study import calibration_table
 from lib.study.calibration_table import Row
 from lib.study.calibration_targets import GROUPS, TARGETS
 from neorl import checks
-from neorl.evidence.priors import TO_THE_LETTER, WITHIN
 from neorl.extras import require
 
 RUNS, STEPS = 2, 600_000  # of a reading: the papers' own lengths

@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
+from lib.shared.priors import WITHIN
 from lib.study.calibration_results import INTERVALS, marginal, progress
 from lib.study.calibration_targets import TARGETS
 from lib.study.multiverse import binned
@@ -18,7 +19,6 @@ from lib.study.multiverse_figures import SHADES
 from neorl.drawing.style import (AGENT, CURVES, INK, RED, SMALL, TEXT, axes_or_new, figure_or_new, name_ends,
                                  width_of_figures)
 from neorl.evidence.curves import binned_rate, low_passed
-from neorl.evidence.priors import WITHIN
 
 ROW = 0.15  # inches, for a bar with its name
 NARROW = 12  # letters per line

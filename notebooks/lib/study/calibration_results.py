@@ -11,12 +11,12 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
+from lib.shared.priors import WITHIN
 from lib.study.calibration import IN_FULL, Emulator, reading_at
 from lib.study.calibration_table import leading, nearest
 from lib.study.calibration_targets import CLAIMS, TARGETS, distance
 from lib.study.multiverse import binned
 from neorl import checks
-from neorl.evidence.priors import WITHIN
 
 NEAREST = 25  # rows that stand for the posterior where none agrees with all targets
 DRAWS = 10_000

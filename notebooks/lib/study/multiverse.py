@@ -1,6 +1,6 @@
 """The multiverse of readings: all choices that the thesis leaves open, varied jointly, and their effect on the claims.
 
-1. A *reading* fixes every open choice (`neorl.evidence.reading`); each choice has a prior (`neorl.evidence.priors`).
+1. A *reading* fixes every open choice (`neorl.evidence.reading`); each choice has a prior (`lib.shared.priors`).
 2. A design is a scrambled Sobol sequence through the priors, so that any power of two of its readings fills the space.
 3. A claim *holds* under a reading if its verdict is "reproduced", is *undecided* if its intervals leave room for it, and
    *fails* otherwise, also if agents have learned nothing to test it by.
@@ -14,8 +14,8 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
+from lib.shared.priors import TO_THE_LETTER, WITHIN, Choice
 from neorl import checks
-from neorl.evidence.priors import TO_THE_LETTER, WITHIN, Choice
 from neorl.evidence.reading import Reading
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.statistics import Estimate, difference, estimate

@@ -9,9 +9,9 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
+from lib.shared.priors import WITHIN
 from lib.study.multiverse import outcome
 from neorl.drawing.style import AGENT, FILL, INK, RED, SMALL, TEXT, axes_or_new, figure_or_new, mark, width_of_figures
-from neorl.evidence.priors import WITHIN
 from neorl.evidence.statements import STATEMENTS
 
 COLOURS = {"reproduced": AGENT, "undecided": RED, "not reproduced": INK}

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 
 from neorl.agents import papers
 from neorl.agents.rules import WHEN_INDIFFERENT
-from neorl.evidence.reading import LAYERS, Reading
+from neorl.evidence.reading import LAYERS, TO_THE_LETTER, Reading
 from neorl.worlds.waterworld import CONTACTS
 
 # Measures of a value that are uniform in their logarithm, with their inverses.
@@ -147,7 +147,6 @@ WITHIN = {
 PINNED: dict[str, Any] = {
     "own_cell": "counts", "tiled_fraction": 1.0, "exploration": 0.0, "when_indifferent": "random", "network_gain": 1.0,
     "recursion": -1.0}
-TO_THE_LETTER = Reading(**PINNED, **{name: choice.plainest for name, choice in WITHIN.items()} | {"memory": 0.0})
 # The two readings that trials outside this project had found, from which the search is refined: see point 5.
 _TRIED: dict[str, Any] = {"discount": 1.0, "absent_form": "away", "bootstrap": False, "weighting": "cells",
                           "scale": 100.0}
