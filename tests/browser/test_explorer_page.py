@@ -184,7 +184,7 @@ def test_elements_and_creeps_are_dragged_to_where_the_pointer_goes(open_page, si
 
 
 def test_a_change_on_the_way_keeps_what_was_learned(open_page, site):
-    page = open_page(*site("both", speed=1000.0, playing=True))
+    page = open_page(*site("both", speed=20.0, playing=True))
     explorer = explorer_of(page, "running")
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step > 1000")
     set_slider(page, "valence_red", 1)
