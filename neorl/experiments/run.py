@@ -188,4 +188,4 @@ def new_bins(world, runs, steps):
     try:
         return np.zeros((runs, bins), np.float32), np.zeros((runs, bins, len(world.kinds)), np.int16)
     except ValueError as error:  # more than an array can have
-        raise MemoryError(f"the rewards of {runs} runs of {steps} steps do not fit into memory") from error
+        raise MemoryError("steps and runs must be so many that their rewards fit into memory") from error

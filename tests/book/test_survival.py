@@ -153,7 +153,7 @@ def test_an_interrupted_build_says_so_and_a_second_one_meanwhile_is_refused(tree
     process.send_signal(signal.SIGCONT)
     said, _ = process.communicate()
     assert_failed_well(tree, process.returncode, said, {}, "\ninterrupted; make book resumes from here")
-    assert "Traceback" not in said and len(written(tree)) >= 1
+    assert "Traceback" not in said
     assert not psutil.wait_procs(started, timeout=60)[1]
 
 
