@@ -75,7 +75,7 @@ class Replay {
   time() {
     const seconds = this.seconds[this.at];
     if (this.speed === 1) return `${seconds.toFixed(1)} s`;
-    return `${Math.floor(seconds / 60)}:${String(Math.floor(seconds % 60)).padStart(2, "0")} min, ${this.speed} ×`;
+    return `${Math.floor(seconds / 60)}:${String(Math.floor(seconds % 60)).padStart(2, "0")}, ${this.speed}×`;
   }
 
   play(playing) {

@@ -66,7 +66,7 @@ def test_a_fast_replay_has_fewer_frames_and_ends_with_the_same_score(open_page, 
     assert replay.get_attribute("data-frame") == "5"
     for index, recording in enumerate(recordings):
         expect(replay.locator(".legend").nth(index)).to_have_text(scored(*recording.hits[100]))
-    expect(replay.locator("output")).to_have_text("0:02 min, 10 ×")
+    expect(replay.locator("output")).to_have_text("0:02, 10×")
 
 
 def test_a_replay_plays_to_its_end_in_real_time_and_can_be_moved(open_page, tmp_path, recordings):
