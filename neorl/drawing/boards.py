@@ -142,7 +142,9 @@ def _draw_velocity(axes, place, velocity):
 
 
 def draw_desires(run: Run, ax: Axes | None = None) -> Axes:
-    """Draw where the desires between nodes place their elements of interest, as arrows from the agent.
+    """Draw where the desires between nodes place their elements of interest, as arrows from the agent to squares.
+
+    An arrow without a square leads to an element beyond the margin of the board.
 
     run: a `neorl.Run` in a world of two axes. Raises ValueError for anything else.
 
@@ -156,9 +158,12 @@ def draw_desires(run: Run, ax: Axes | None = None) -> Axes:
     for desire, landing in zip(run.agent.desires, run.state.desires.target[:, :2]):
         if run.agent.comes_from_node(desire):
             colour = desire_colour(desire)
-            axes.annotate("", start + landing, start, annotation_clip=False, arrowprops={
+            low, high = (np.array([[-MARGIN], [1 + MARGIN]]) - start)[:, landing != 0] / landing[landing != 0]
+            shown = min(1.0, np.maximum(low, high).min(initial=1.0))
+            axes.annotate("", start + shown * landing, start, annotation_clip=False, arrowprops={
                 "arrowstyle": "->", "color": colour, "linestyle": "--", "linewidth": 1.6, "shrinkA": 8, "shrinkB": 3})
-            axes.plot(*(start + landing), marker="s", markersize=7, color=colour, clip_on=False)
+            if shown == 1:
+                axes.plot(*(start + landing), marker="s", markersize=7, color=colour, clip_on=False)
     return axes
 
 

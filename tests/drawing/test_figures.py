@@ -187,11 +187,13 @@ def test_the_active_receptive_fields_are_filled(modality, resolution):
     assert np.mean(filled == expected) > 0.98  # all but where corners are rounded
 
 
-def test_desires_are_drawn_where_they_land():
+def test_desires_are_drawn_where_they_land_or_towards_it_if_that_is_far_away():
     run = Run(network_b([3, 5]), WaterWorld(), seed=0)
-    run.advance(20_000)
-    axes = drawing.new_board()
-    drawing.draw_desires(run, axes)
-    landed = [line.get_xydata()[0] - run.world_state.scene.position / 250 for line in axes.lines]
-    np.testing.assert_allclose(landed, run.state.desires.target[2:, :2])
-    assert [line.get_color() for line in axes.lines] == [drawing.GREEN, drawing.RED]
+    start = run.world_state.scene.position / 250
+    run._state.desires.target[2:, :2] = [[0.1, -0.2], [9.0, 3.0]]
+    axes = drawing.draw_desires(run, drawing.new_board())
+    (near,) = axes.lines
+    np.testing.assert_allclose(near.get_xydata()[0] - start, [0.1, -0.2])
+    assert near.get_color() == drawing.GREEN
+    far = axes.texts[-1].xy
+    np.testing.assert_allclose(far, [1.06, start[1] + 3 * (1.06 - start[0]) / 9])
