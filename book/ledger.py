@@ -6,10 +6,11 @@
 """
 
 from collections import Counter
+from functools import partial
 from html import escape
 
 from lib.shared import marks, report, wording
-from lib.shared.opening import anchor
+from lib.shared.opening import anchor, link
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 from neorl.evidence.verdict import RUNS_FOR_A_VERDICT, VERDICTS
 
@@ -31,16 +32,13 @@ def page(record):
 
 def front(record):
     """What was found, in a sentence, as HTML for the first page. record: as `report.load` returns it."""
-    def link(name):
-        return f'<a href="claims.html#{anchor(name)}" title="{escape(STATEMENTS[name].text)}">{name}</a>'
-
-    return f'<p class="result">{sentence(record, link)}</p>\n'
+    return f'<p class="result">{sentence(record, partial(link, page="claims.html"))}</p>\n'
 
 
 def squares(record):
     """The strip of claims and the meaning of its symbols, as HTML for the first page. record: as in `front`."""
     legend = " · ".join(f"{marks.html(verdict)} {verdict}" for verdict in counts(record))
-    return f'{strip(record, "claims.html")}\n<p class="legend-of-claims">{legend}</p>\n'
+    return f'{strip(record, "claims.html")}\n<p>{legend}</p>\n'
 
 
 def counts(record):

@@ -41,9 +41,9 @@ def _line(reading, found):
     return f"{reading.capitalize()}{': ' if reading else ''}{'; '.join(groups)}"
 
 
-def link(name):
+def link(name, page=CLAIMS_PAGE):
     """The name of a claim as a link to its row on the page of claims, with its text as the link's title."""
-    return f'<a href="{CLAIMS_PAGE}#{anchor(name)}" title="{escape(STATEMENTS[name].text)}">{name}</a>'
+    return f'<a href="{page}#{anchor(name)}" title="{escape(STATEMENTS[name].text)}">{name}</a>'
 
 
 def anchor(name):
