@@ -123,7 +123,6 @@ RESULT = result_of(WaterWorld(win_reward=5.0))
 CONDITION = Condition(neorl.place_cells([2]), BOARD, 40, 1)
 SAMPLE = np.array([0.1, 0.5, 0.2, 0.9])
 CURVES = np.random.default_rng(0).normal(size=(5, 60))
-COUNTS = [1.0, 0.5, 0]
 reals = st.floats(-2, 2)
 shares = st.floats(0, 1)
 seeds = st.integers(0, 2**70)

@@ -13,13 +13,13 @@ from graphlib import CycleError, TopologicalSorter
 from typing import Annotated
 
 from neorl import checks
-from neorl.checks import NotNegative, OneOf
 from neorl.agents.rules import Contacts, Learning, Policy
+from neorl.checks import NotNegative, OneOf
 from neorl.core.choices import MapState, Weighting
-from neorl.description import Described
 from neorl.core.horde import OWN_CELL
 from neorl.core.maps import NresMap
 from neorl.core.modality import Modality
+from neorl.description import Described
 
 WEIGHTINGS = tuple(Weighting.__members__)
 MOST_PARTS = 4_096  # nodes, or desires; time and memory are quadratic in their number
