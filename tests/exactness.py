@@ -180,7 +180,7 @@ def make_environment(python):
     """Make an interpreter's environment unless it exists; returns its version. Raises ValueError if it does not run."""
     version = version_of(python)
     if version is None:
-        raise ValueError(f"python is {python!r}, allowed are interpreters of Python that run")
+        raise ValueError(f"python must be an interpreter of Python that runs, but is {python!r}")
     if version not in environments():
         folder = cache_folder() / "pythons" / version
         subprocess.run([python, "-m", "venv", "--clear", folder], check=True)

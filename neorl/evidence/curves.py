@@ -34,8 +34,8 @@ def low_passed(rates: ArrayLike) -> NDArray[np.float64]:
     """
     rates = checks.doubles("rates", rates)
     if rates.ndim != 2 or rates.shape[1] <= 2 * CUTOFF_PERIODS or not len(rates):
-        raise ValueError(f"rates has the shape {rates.shape}, allowed are (runs, points), with more than "
-                         f"{2 * CUTOFF_PERIODS} points")
+        raise ValueError(f"rates must have the shape (runs, points), with more than {2 * CUTOFF_PERIODS} points, but "
+                         f"has {rates.shape}")
     points = rates.shape[1]
     sections = scipy.signal.butter(FILTER_ORDER, 2 * CUTOFF_PERIODS / points, output="sos")
     near = points // CUTOFF_PERIODS

@@ -44,8 +44,8 @@ def estimate(statistic: Callable, *samples: ArrayLike, rng: Rng = 0) -> Estimate
     that is empty or not finite.
     """
     if not callable(statistic) or not samples:
-        raise ValueError(f"statistic is {checks.shown(statistic)} of {len(samples)} samples, allowed are functions of "
-                         "one sample or more")
+        raise ValueError(f"statistic must be a function of one sample or more, but is {checks.shown(statistic)} of "
+                         f"{len(samples)}")
     checked, rng = [_sample("samples", each) for each in samples], _generator(rng)
     value = float(statistic(*checked, axis=-1))
     if min(map(len, checked)) < 2:
@@ -123,7 +123,7 @@ def resets(result: Result) -> NDArray[np.float64]:
     """
     win_reward = _in_waterworld(result).win_reward
     if win_reward == 0:
-        raise ValueError("win_reward of the world is 0.0, allowed are worlds where a reset shows in the reward")
+        raise ValueError("win_reward of the world must differ from 0, so that a reset shows in the reward, but is 0.0")
     return np.rint((result.totals - points(result)) / win_reward)
 
 
@@ -184,7 +184,7 @@ def minutes_sooner(quick: Results, slow: Results, level: float) -> Estimate:
         for result in group:
             checks.instance(name, result, Result)
         if len({(result.steps, result.world.fps) for result in group}) != 1:
-            raise ValueError(f"{name} has {len(group)} results, allowed are one or more, all of runs of one length")
+            raise ValueError(f"{name} must be one result or more, all of runs of one length, but has {len(group)}")
     thinned = [[_thinned(*_recent_rates(result)) for result in group] for group in groups]
 
     def lead(*chosen, axis):
@@ -234,8 +234,8 @@ def minutes_to_own_level(*results: Result, share: float = 0.9, of: Callable | No
     """
     share = checks.real("share", share, 0, 1)
     if not results or (not callable(of) if of is not None else len(results) > 1):
-        raise ValueError(f"results has {len(results)} and of is {checks.shown(of)}, allowed is one result, or several "
-                         "with a function of their minutes")
+        raise ValueError(f"results must be one, or several with `of`, a function of their minutes, but are "
+                         f"{len(results)} with {checks.shown(of)}")
     minutes = [_minutes_to_own_level(checks.instance("results", each, Result), share) for each in results]
 
     def statistic(*chosen, axis):
@@ -270,14 +270,14 @@ def mean_band(curves: ArrayLike, rng: Rng = 0) -> Any:
 def _sample(name, values):
     sample = checks.doubles(name, values)
     if sample.ndim != 1 or not len(sample):
-        raise ValueError(f"{name} is {checks.shown(values)}, allowed is a number for each run, of one run or more")
+        raise checks.error(name, "a number for each run, of one run or more", values)
     return np.asarray(values) if np.asarray(values).dtype.kind == "i" else sample  # indices of runs stay integers
 
 
 def _curves(values):
     curves = checks.doubles("curves", values)
     if curves.ndim != 2 or not curves.size:
-        raise ValueError(f"curves has the shape {curves.shape}, allowed are (runs, points), at least one of each")
+        raise ValueError(f"curves must have the shape (runs, points), at least one of each, but has {curves.shape}")
     return curves
 
 

@@ -35,7 +35,7 @@ def walk(strength, goal, steps, runs, seed=0):
     checks.real("strength", strength, 0, 1)
     goal = np.asarray(goal, float)
     if goal.shape != (3,) or np.isnan(goal).any():
-        raise ValueError(f"goal is {goal}, allowed are three numbers")
+        raise ValueError(f"goal must be three numbers, but is {goal}")
     checks.integer("steps", steps, at_least=1)
     checks.integer("runs", runs, at_least=1)
     sequences = [np.random.SeedSequence(checks.integer("seed", seed, at_least=0), spawn_key=(run,))
@@ -143,7 +143,8 @@ def decompose(series, order):
     """
     series = checks.finite("series", np.asarray(series, float))
     if series.ndim != 1 or len(series) <= 2 * PAST:
-        raise ValueError(f"series has the shape {series.shape}, allowed are (steps,) with more than {2 * PAST} steps")
+        raise ValueError(f"series must have the shape (steps,), with more than {2 * PAST} steps, but has "
+                         f"{series.shape}")
     checks.integer("order", order, at_least=1, at_most=PAST)
     spectrum = np.abs(np.fft.rfft(series))
     peak = 1 + spectrum[1:-1].argmax()

@@ -50,7 +50,7 @@ def fit_ridges(values, terms, angles=ANGLES):
     """
     values = checks.finite("values", np.asarray(values, float))
     if values.ndim != 2 or values.shape[0] != values.shape[1] or np.ptp(values) == 0:
-        raise ValueError(f"values has the shape {values.shape}, allowed are squares (side, side), not all equal")
+        raise ValueError(f"values must be a square (side, side), not all equal, but has the shape {values.shape}")
     checks.integer("terms", terms, at_least=1)
     side = np.linspace(-1, 1, len(values))
     x, y = (each.ravel() for each in np.meshgrid(side, side))
@@ -124,7 +124,7 @@ def compare(grid, valences, placements, seed=0, discount=0.8):
     """
     valences = checks.finite("valences", np.asarray(valences, float))
     if valences.ndim != 1 or not 0 < len(valences) < grid.states or valences.max() <= 0:
-        raise ValueError(f"valences is {valences}, allowed are fewer than {grid.states} numbers, at least one above 0")
+        raise ValueError(f"valences must be fewer than {grid.states} numbers, at least one above 0, but is {valences}")
     rng = np.random.default_rng(checks.integer("seed", seed, at_least=0))
     rewards = np.zeros((checks.integer("placements", placements, at_least=1), grid.states))
     for reward in rewards:
@@ -152,5 +152,5 @@ def _paid(grid, rewards):
     """The reward of each action in each state: float64 (…, states, 4)."""
     rewards = checks.finite("rewards", np.asarray(rewards, float))
     if rewards.shape[-1:] != (grid.states,):
-        raise ValueError(f"rewards has the shape {rewards.shape}, allowed are (…, {grid.states})")
+        raise ValueError(f"rewards must have the shape (…, {grid.states}), but has {rewards.shape}")
     return rewards[..., grid.next_state] * (grid.next_state != np.arange(grid.states)[:, None])

@@ -29,7 +29,7 @@ class Grid:
     def __post_init__(self):
         object.__setattr__(self, "rows", checks.several("rows", self.rows))
         if len({len(row) for row in self.rows}) != 1 or not set("".join(self.rows)) - {WALL}:
-            raise ValueError(f"rows is {self.rows!r}, allowed are strings of equal length that are not all wall")
+            raise ValueError(f"rows must be strings of equal length that are not all wall, but is {self.rows!r}")
 
     @cached_property
     def places(self):

@@ -27,7 +27,7 @@ def begin(runs, steps, seed, fewest_steps=1, **others):
              "seed": checks.integer("seed", seed, at_least=0), **others}
     for name in injected_names():
         if name not in known:
-            raise ValueError(f"parameter {name} is unknown, allowed are {', '.join(known)}")
+            raise ValueError(f"a parameter must be one of {', '.join(known)}, but is {name}")
     set_matplotlib_formats("svg")
     plt.switch_backend(plt.get_backend())  # otherwise only the first figure would switch it
     plt.uninstall_repl_displayhook()  # its hook draws all figures of a cell, and displaying them draws them again
