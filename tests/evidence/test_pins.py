@@ -5,7 +5,6 @@ from dataclasses import fields, replace
 import pytest
 
 from lib.shared.priors import BEYOND, TO_THE_LETTER, WITHIN
-from lib.study import multiverse
 from neorl.evidence import pins
 from neorl.evidence.reading import Reading
 
@@ -37,21 +36,6 @@ def test_a_reading_against_the_text_says_which_sentences_it_breaks(change, broke
     found = replace(TO_THE_LETTER, **change).within_the_text
     assert not found and [pin.choice for pin in found.broken] == broken
     assert all(f"“{pin.quotation}” ({pin.place})" in str(found) for pin in found.broken)
-
-
-@pytest.mark.parametrize("change", [
-    {"weighting": "cells"}, {"credit": "count"}, {"credit": "share"}, {"credit": "activity", "memory": 0.0},
-    {"absent_form": "decay"}, {"bootstrap": False}, {"terminal": True}, {"object_tiled_fraction": 0.25},
-    {"place_gain": 5.0},
-    {"network_resolutions": (2, 3)}, {"fps": 60}, {"learning_rate": 0.9}, {"memory": 0.0}, {"vectors": "signed"},
-    {"scale": 100.0}, {"when_indifferent": "no-op"}, {"object_state": "object"}])
-def test_what_is_open_breaks_nothing(change):
-    assert replace(TO_THE_LETTER, **change).within_the_text
-
-
-def test_designs_within_the_text_are_and_those_beyond_are_not():
-    assert all(reading.within_the_text for reading in multiverse.design(256))
-    assert not any(reading.within_the_text for reading in multiverse.design(256, choices=BEYOND))
 
 
 def test_every_sentence_that_pins_a_choice_is_broken_somewhere_beyond_and_nowhere_within():

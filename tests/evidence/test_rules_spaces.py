@@ -2,20 +2,13 @@
 
 import numpy as np
 import pytest
+from test_claims import made_up
 
-from neorl import Condition, Result, WaterWorld, place_cells
 from neorl.evidence import claims
 
 
 def sample(mean, runs=20):
     return mean + np.random.default_rng(round(100 * mean)).normal(0, 0.02 * abs(mean), runs)
-
-
-def lives(early, final, runs=20):
-    rewards = np.repeat([[early] * 500 + [final] * 500], runs, axis=0) * 0.2
-    rewards *= np.random.default_rng(round(1e3 * (early + 7 * final))).normal(1, 0.02, (runs, 1))
-    return Result(Condition(place_cells([1]), WaterWorld(), 10_000, runs), rewards.astype(np.float32),
-                  np.zeros((runs, 1_000, 2), np.int16))
 
 
 @pytest.mark.parametrize("agent, table, chance, expected", [
@@ -41,14 +34,14 @@ def test_composition(apart, expected):
 @pytest.mark.parametrize("joined, expected", [
     ((1.0, 1.3), "reproduced"), ((1.0, 0.95), "partly"), ((1.0, 0.8), "not reproduced")])
 def test_extension(joined, expected):
-    alone = lives(1.0, 1.0)
-    claim = claims.judge_extension(lives(*joined), alone, lives(0.0, 0.0))
+    alone, joined_later = made_up(1.0), made_up(*joined, learned_by=0.5)
+    claim = claims.judge_extension(joined_later, alone, made_up(0.0))
     assert claim.verdict == expected and claim.here.value == pytest.approx(60 * (joined[1] - 1), abs=2)
-    assert claims.judge_extension(lives(*joined), alone, lives(1.5, 1.5)).verdict == "not testable"
+    assert claims.judge_extension(joined_later, alone, made_up(1.5)).verdict == "not testable"
 
 
 def test_few_runs_give_no_verdict():
     assert claims.judge_efficiency(sample(1, 9), sample(4), sample(5)).verdict == "no verdict"
     assert claims.judge_generality({"a": (sample(3, 9), sample(1))}).verdict == "no verdict"
     assert claims.judge_composition(sample(1), sample(1, 9), sample(5)).verdict == "no verdict"
-    assert claims.judge_extension(lives(1, 2, 9), lives(1, 1), lives(0, 0)).verdict == "no verdict"
+    assert claims.judge_extension(made_up(1, 2, runs=9), made_up(1), made_up(0)).verdict == "no verdict"
