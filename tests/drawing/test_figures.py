@@ -7,11 +7,9 @@ from matplotlib import pyplot as plt
 from neorl import (Condition, NresMap, Result, Run, WaterWorld, brownian, network_b, object_vector_cells, place_cells,
                    simulate)
 from neorl.core.geometry import TAU
-from neorl.core.modality import MODALITIES, Modality, cartesian
+from neorl.core.modality import MODALITIES
 from neorl import drawing
-from neorl.drawing.style import name_ends
 from neorl.evidence.curves import binned_rate, low_passed
-from neorl.evidence.statistics import Estimate
 
 
 @pytest.fixture(scope="module")
@@ -42,16 +40,6 @@ def test_proficiency_draws_the_sum_of_the_parts(results):
     np.testing.assert_allclose(total, n3 + n7, rtol=1e-5, atol=1e-12)
 
 
-def test_names_at_the_ends_keep_apart_and_near():
-    axes = plt.figure().add_subplot()
-    axes.set_ylim(0, 1)
-    name_ends(axes, [(0.5, "b", "k"), (0.5, "c", "k"), (0.49, "a", "k"), (0.9, "d", "k")])
-    heights = [text.xy[1] for text in axes.texts]
-    assert np.all(np.diff(heights) >= 0.0749)
-    assert np.mean(heights[:3]) == pytest.approx(1.49 / 3) and heights[3] == pytest.approx(0.9)
-    assert [text.get_text() for text in axes.texts] == ["a", "b", "c", "d"]
-
-
 def made_up(rate, runs, steps, seed=0):
     """A result in which every run earns `rate` per second, with noise in each bin."""
     rewards = np.random.default_rng(seed).normal(0.2 * rate, 0.3, (runs, -(-steps // 10))).astype(np.float32)
@@ -73,54 +61,10 @@ def test_the_filter_takes_out_what_is_fast():
     assert np.abs(fast[:, 30:-30]).max() < 0.01
 
 
-def test_too_short_a_run_is_refused():
-    assert low_passed(np.ones((2, 41))).shape == (2, 41)
-    with pytest.raises(ValueError, match="rates has the shape .* more than 40 points"):
-        low_passed(np.ones((2, 40)))
-
-
-def test_the_filter_keeps_the_mean_and_follows_no_single_point_at_the_end():
-    noise = np.random.default_rng(0).normal(0.5, 0.1, (50, 400))
-    smooth = low_passed(noise)
-    assert np.abs(smooth.mean(axis=1) - noise.mean(axis=1)).max() < 0.01
-    assert smooth[:, [0, -1]].std() < 0.6 * 0.1
-    assert smooth[:, 100:-100].std() < 0.4 * 0.1
-
-
-@pytest.mark.parametrize("runs, steps", [(3, 3_000), (1, 3_000), (4, 60_005)])
-def test_smoothed_curves(runs, steps):
-    results = {f"N{n}": made_up(n, runs, steps, seed=n) for n in range(7)}
-    drawing.draw_smoothed(results)
-    plt.gcf().draw_without_rendering()
-    axes = plt.gca()
-    smooth, raw = axes.lines[:7], axes.lines[8:]
-    assert len(axes.lines) == 15 and len(axes.collections) == (7 if runs > 1 else 0)
-    assert {text.get_text() for text in axes.texts} == set(results)
-    assert [line.get_color() for line in smooth] == [line.get_color() for line in raw] == list(drawing.CURVES)
-    for front, behind, result in zip(smooth, raw, results.values()):
-        assert len(front.get_ydata()) <= 400
-        assert front.get_ydata().mean() == pytest.approx(result.rate().mean(), abs=0.1)
-        assert np.diff(front.get_ydata()).std() < 0.3 * np.diff(behind.get_ydata()).std()
-        assert front.get_xdata()[-1] == pytest.approx(steps / 50 / 60, rel=0.01)
-    assert np.ptp(axes.get_ylim()) < 1.35 * np.ptp([line.get_ydata() for line in smooth])
-
-
 def test_a_last_bin_that_is_short_counts_as_short():
     result = made_up(1.0, 1, 95)
     result.rewards[:] = [0.2] * 9 + [0.1]
     np.testing.assert_allclose(binned_rate(result, 5), 1.0, rtol=1e-6)
-
-
-def test_a_sweep_shows_values_and_intervals():
-    estimates = {"D": [Estimate(0.1, 0.0, 0.3), Estimate(0.4, 0.3, 0.5)],
-                 "single run": [Estimate(0.2, np.nan, np.nan)] * 2}
-    drawing.draw_sweep([-1, 0.5], estimates, "r", "reward")
-    plt.gcf().draw_without_rendering()
-    axes = plt.gca()
-    np.testing.assert_array_equal(axes.lines[1].get_xydata(), [[-1, 0.1], [0.5, 0.4]])
-    np.testing.assert_array_equal(axes.collections[0].get_segments(), [[[-1, 0], [-1, 0.3]], [[0.5, 0.3], [0.5, 0.5]]])
-    assert {text.get_text() for text in axes.texts} == set(estimates)
-    assert (axes.get_xlabel(), axes.get_ylabel()) == ("r", "reward")
 
 
 def test_arrows_point_where_values_pull():
@@ -131,21 +75,6 @@ def test_arrows_point_where_values_pull():
     (quiver,) = axes.collections
     assert len(quiver.U) == 1 and quiver.U[0] < 0 < quiver.V[0]
     assert quiver.U[0] == pytest.approx(-2 * quiver.V[0])
-
-
-def test_a_board_shows_every_cell_agent_and_creep():
-    world = WaterWorld(n_creeps=5)
-    axes = drawing.new_board()
-    drawing.draw_cells(NresMap(3), fills={4: ("red", 0.5)}, ax=axes)
-    drawing.draw_tank(world, world.reset(0), axes)
-    assert len(axes.patches) == 9 + 1 + 6
-
-
-def test_cells_of_a_map_with_ranges_of_its_own():
-    axes = drawing.new_board()
-    drawing.draw_cells(NresMap(2, Modality("", cartesian("position", (0, 1), (-1, 3)))), ax=axes)
-    boxes = [(*patch.get_xy(), patch.get_width(), patch.get_height()) for patch in axes.patches]
-    assert boxes == [(0, -1, 0.5, 2), (0.5, -1, 0.5, 2), (0, 1, 0.5, 2), (0.5, 1, 0.5, 2)]
 
 
 def test_the_outermost_cells_of_a_map_reach_as_far_as_things_can_be():

@@ -9,7 +9,6 @@ import sys
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
-from matplotlib.patches import Circle
 
 import neorl
 from neorl import Condition, NresMap, Result, Run, WaterWorld, drawing, network_d, place_cells
@@ -80,27 +79,6 @@ def test_runs_of_different_lengths_are_drawn_to_scale(draw):
         assert axes.get_xlim()[1] == pytest.approx(ends["long"], rel=0.02)
 
 
-def test_a_sum_of_runs_of_different_lengths_is_refused():
-    with pytest.raises(ValueError, match="results of total must be one or more, all of as many runs and seconds, but"):
-        drawing.draw_proficiency({"a": made_up(1)}, total=("sum", [made_up(20), made_up(2)]))
-
-
-@pytest.mark.parametrize("count", [8, 20, 28])
-def test_any_number_of_curves_is_drawn_and_distinguished(count):
-    axes = drawing.draw_curves(np.arange(9), {f"agent {i}": np.full((1, 9), float(i)) for i in range(count)})
-    assert len({(line.get_color(), line.get_linestyle()) for line in axes.lines}) == len(axes.lines) == count
-    axes.figure.draw_without_rendering()
-    extents = sorted((text.get_window_extent().y0, text.get_window_extent().y1) for text in axes.texts)
-    assert len(extents) == count
-    assert all(above > below - 1 for (_, below), (above, _) in zip(extents, extents[1:]))  # to within a pixel
-
-
-def test_a_curve_with_gaps_is_named_where_it_ends():
-    curve = np.array([[1.0, 2.0, np.nan, np.nan]])
-    axes = drawing.draw_curves(np.arange(4), {"gone": curve})
-    assert [text.xy[1] for text in axes.texts] == [2.0]
-
-
 # Simulates an environment with only the core's packages, matplotlib and its dependencies.
 HIDE = """
 import importlib.abc, sys
@@ -133,18 +111,3 @@ drawing.draw_network(neorl.network_d()).figure.savefig("network.svg")
     done = python(code, OF_THE_BOOK, tmp_path)
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "network.svg").read_text().startswith("<?xml")
-
-
-def test_without_matplotlib_the_extra_is_named(tmp_path):
-    done = python("import neorl; neorl.simulate; from neorl.drawing import draw_curves", ("matplotlib",), tmp_path)
-    assert ("ImportError: matplotlib must be installed for this, but is not; pip install "
-            "'neorl-companion[plot]'") in done.stderr
-
-
-def test_an_agent_at_the_wall_is_drawn_inside_its_board():
-    tank = WaterWorld()
-    state = tank.reset(seed=0)
-    state.scene.position[:] = 0.0
-    axes = drawing.draw_world(tank, state)
-    assert all(radius - 1e-9 <= x <= 1 - radius + 1e-9 for patch in axes.patches if isinstance(patch, Circle)
-               for radius in [patch.radius] for x in patch.center)

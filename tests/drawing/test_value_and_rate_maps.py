@@ -5,10 +5,9 @@ import pytest
 from matplotlib.patches import Wedge
 from matplotlib.transforms import Affine2D
 
-from neorl import Agent, Arena, Axis, Desire, Modality, Node, NresMap, Run, WaterWorld, drawing, place_cells
+from neorl import Agent, Axis, Desire, Modality, Node, NresMap, Run, WaterWorld, drawing, place_cells
 from neorl.core.geometry import TAU
-from neorl.core.modality import (BORDER_CELL, HEAD_DIRECTION_CELL, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL,
-                                 cartesian, polar)
+from neorl.core.modality import (HEAD_DIRECTION_CELL, OBJECT_VECTOR_CELL, PLACE_CELL, polar)
 
 TANK = WaterWorld()
 UNEQUAL = (0.0, 0.1, 0.25, 0.7, 1.0)
@@ -46,13 +45,6 @@ def test_arrows_of_a_polar_map_lie_in_its_sectors_and_point_where_values_pull():
     middles = np.stack([quiver.X + quiver.U / 2, quiver.Y + quiver.V / 2], axis=1)
     for cell, patch in enumerate(wedges(drawing.draw_cells(nres_map))):
         assert patch.get_path().contains_point(middles[cell])
-
-
-@pytest.mark.parametrize("modality", [BORDER_CELL, SPEED_CELL, Modality("", (*PLACE_CELL.axes,
-                                                                            *HEAD_DIRECTION_CELL.axes))])
-def test_maps_of_other_spaces_are_refused(modality):
-    with pytest.raises(ValueError, match="nres_map must be of the components x and y of one vector, of its length an"):
-        drawing.draw_cells(NresMap(2, modality))
 
 
 def learned(modality, resolution):
@@ -99,13 +91,6 @@ def test_receptive_fields_lie_where_their_boundaries_are(modality):
     assert np.mean(filled == np.isin(encode(seen), encode(perceived))) > 0.97  # all but where corners are rounded
 
 
-def test_unequal_fields_are_cut_at_their_boundaries():
-    axes = drawing.draw_receptive_fields(NresMap(2, UNEQUAL_PLACES), TANK, TANK.reset(0))
-    columns, *_ = axes.collections
-    at = np.concatenate([path.vertices[:, 0] for path in columns.get_paths()])
-    assert set(np.round(at, 2)) == {0.1, 0.25, 0.7}
-
-
 def test_a_track_holds_the_positions_and_cells_of_the_run():
     seen, run, alone = Run(place_cells([4]), TANK), Run(place_cells([4]), TANK), []
     track = drawing.track(seen, seconds=2)
@@ -128,21 +113,3 @@ def test_the_rate_of_a_place_cell_is_its_field_and_where_the_agent_never_was_is_
     np.testing.assert_allclose(drawing.rate_map(track, bins=2), [[0.04, 0.02], [0.02, 0.02]])
     assert np.isnan(drawing.rate_map(track, cell=0, bins=3)[1, 1])
     assert drawing.rate_map(track, bins=7).sum() == pytest.approx(5 * 0.02)
-
-
-def test_a_rate_map_is_drawn_as_it_is_with_a_scale():
-    track = drawing.Track(np.array([[0.1, 0.1], [0.9, 0.6]]), np.array([[2], [0]]), 0.02)
-    axes = drawing.draw_rate_map(track, cell=2, bins=2)
-    np.testing.assert_array_equal(axes.images[0].get_array().filled(-1), [[1, -1], [-1, 0]])
-    assert axes.images[0].get_extent() == [0, 1, 1, 0]
-    assert [each.get_ylabel() for each in axes.figure.axes] == ["", "share of time with cell 2 active"]
-
-
-def test_an_arena_is_drawn_with_its_walls_places_and_agent():
-    arena = Arena(obstacles=[(0.4, 0.4, 0.6, 0.5)], places=[("platform", 0.65, 0.35), ("trap", 0.3, 0.6)])
-    axes = drawing.draw_world(arena, arena.reset(0))
-    wall, obstacle, platform, trap, agent = axes.patches
-    assert wall.get_radius() == 0.5 and obstacle.get_xy() == (0.4, 0.4)
-    np.testing.assert_allclose([platform.center, trap.center], [(0.65, 0.35), (0.3, 0.6)])
-    assert platform.get_facecolor() != trap.get_facecolor()
-    assert Modality("", cartesian("position", (0, 1), (0, 1))).axes == PLACE_CELL.axes
