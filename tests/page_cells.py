@@ -7,11 +7,14 @@ from types import SimpleNamespace
 NOTEBOOKS = Path(__file__).parents[1] / "notebooks"
 
 
-def source(page, cell):
-    """The code in the cell of a page, by the names of both."""
+def code(page):
+    """The code in the cells of a page, in their order: {cell: source}."""
     cells = json.loads((NOTEBOOKS / f"{page}.ipynb").read_text(encoding="utf-8"))["cells"]
-    (found,) = ["".join(each["source"]) for each in cells if each["id"] == cell]
-    return found
+    return {each["id"]: "".join(each["source"]) for each in cells if each["cell_type"] == "code"}
+
+
+def source(page, cell):
+    return code(page)[cell]
 
 
 def defined(page, *cells, **given):
@@ -20,3 +23,21 @@ def defined(page, *cells, **given):
     for cell in cells:
         exec(compile(source(page, cell), f"{page}.ipynb, {cell}", "exec"), names)
     return SimpleNamespace(**names)
+
+
+def planned(page, *cells, until=(), **given):
+    """The names that a page's parameters, imports and some of its cells define, with conditions in place of results.
+
+    until: lines that need results; a cell ends before the first of them. given: other values of names.
+    """
+    parameters, imports, *_ = code(page).values()
+    names = {"__name__": f"cells_of_{page}"}
+    exec(parameters, names)
+    exec(imports.partition("notebook.begin")[0], names)
+    names |= {"sweep": iter, **given}
+    for cell in cells:
+        text = source(page, cell)
+        for line in until:
+            text = text.partition(line)[0]
+        exec(compile(text, f"{page}.ipynb, {cell}", "exec"), names)
+    return names

@@ -1,8 +1,5 @@
 """The page on alternatives: its learners, controllers and stored runs."""
 
-import os
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -60,30 +57,6 @@ def test_contestants_live_in_the_worlds_of_runs():
     assert lived.rewards[0, 0] == total
 
 
-def test_the_whole_scene_as_one_state_ignores_the_order_of_creeps():
-    setting = SETTINGS["monolithic"]._replace(cells=4, reach=1.0)
-    creeps = [(0.2, 0.1, GREEN), (-0.3, 0.0, RED), (0.2, 0.1, RED)]
-    rows = [act(tabular_learners.monolithic(setting), tank(*some))[1].rows[0]
-            for some in (creeps, creeps[::-1], [*creeps[:2], (0.2, 0.1, GREEN)])]
-    assert rows[0] == rows[1] != rows[2]
-
-
-def test_joint_cells_see_the_nearest_of_each_kind():
-    contestant = tabular_learners.joint_cells(SETTINGS["joint cells"]._replace(cells=5, reach=0.5, warped=False))
-    near, far = (0.1, 0.2, GREEN), (0.4, -0.4, GREEN)
-    alone, with_far, with_red = (act(contestant, tank(*some))[1].rows[0]
-                                 for some in ([near], [near, far], [near, (-0.3, 0.1, RED)]))
-    assert alone == with_far != with_red
-
-
-@pytest.mark.parametrize("warped, cells", [(False, [0, 1, 3, 4, 4]), (True, [0, 0, 4, 4, 4])])
-def test_cells_are_equal_or_grow_with_distance(warped, cells):
-    setting = SETTINGS["hybrid reward"]._replace(cells=5, reach=0.5, warped=warped, speeds=1)
-    contestant = tabular_learners.hybrid_reward(setting)
-    rows = [act(contestant, tank((0.0, y, GREEN)))[1].rows[0] for y in (-0.49, -0.2, 0.2, 0.4, 0.6)]
-    assert [row % 5 for row in rows] == cells and {row // 5 for row in rows} == {2}
-
-
 def test_a_contact_teaches_the_head_of_its_creep_alone():
     setting = SETTINGS["hybrid reward"]._replace(first=0.0, exploration=0.0)
     contestant = tabular_learners.hybrid_reward(setting)
@@ -94,14 +67,6 @@ def test_a_contact_teaches_the_head_of_its_creep_alone():
     execute(contestant.learn, setting, memory, state, BOARDS[3].rules, action, 1.0, False)
     assert memory.table[rows[0], action] == setting.learning_rate
     assert np.count_nonzero(memory.table) == 1
-
-
-def test_a_new_board_teaches_heads_nothing():
-    setting = SETTINGS["hybrid reward"]
-    contestant = tabular_learners.hybrid_reward(setting)
-    action, memory = act(contestant, tank((0.2, 0.0, GREEN)))
-    execute(contestant.learn, setting, memory, tank((0.1, 0.3, RED)), BOARDS[3].rules, action, 0.0, True)
-    assert np.all(memory.table == setting.first)
 
 
 def test_successor_features_learn_what_contacts_are_worth_and_count_them():
@@ -116,17 +81,6 @@ def test_successor_features_learn_what_contacts_are_worth_and_count_them():
     assert memory.weights == pytest.approx([1, -1], abs=1e-3)
     seen = memory.table[memory.rows[0]].reshape(3, tabular_learners.ACTIONS, 2)[:, action]
     assert seen == pytest.approx(np.array([[0, 1]] * 3))
-
-
-@pytest.mark.parametrize("creep, action", [((0.3, 0.1, GREEN), 2), ((-0.3, 0.1, GREEN), 3), ((0.1, 0.3, GREEN), 1),
-                                           ((0.1, -0.3, GREEN), 0)])
-def test_controllers_go_for_green_creeps(creep, action):
-    for contestant in (controllers.nearest_green(), controllers.pd(GAINS), controllers.planner(GAINS)):
-        assert act(contestant, tank(creep))[0] == action
-
-
-def test_pd_keeps_away_from_red_creeps():
-    assert act(controllers.pd(GAINS), tank((0.12, 0.0, RED)))[0] == 3
 
 
 def test_the_planner_does_not_know_creeps_to_come_and_leaves_the_world_unchanged():
@@ -144,28 +98,11 @@ def test_controllers_that_know_more_earn_more():
     assert 1.5 < rates[0] < rates[1] < rates[2] < 5
 
 
-def test_the_same_bits_without_the_compiler():
-    program = ("from lib.alternatives import controllers, search, tabular_learners\n"
-               "from lib.alternatives.living import BOARDS, live\n"
-               "settings = search.best_settings()\n"
-               "made = [make(settings[name]) for name, make in tabular_learners.TABULAR.items()]\n"
-               "for each in (*made, controllers.pd(settings['PD']), controllers.planner(settings['PD'])):\n"
-               "    print(live(each, BOARDS[3], steps=150, runs=1, bins=5, seed=2).rewards.tolist())\n")
-    outputs = [subprocess.run([sys.executable, "-c", program], env=os.environ | {"NUMBA_DISABLE_JIT": off}, text=True,
-                              capture_output=True, check=True).stdout for off in "01"]
-    assert outputs[0] == outputs[1] and "1.0" in outputs[0]
-
-
 @pytest.mark.parametrize("method", search.RANGES)
 def test_the_stored_search_is_what_the_script_finds(method):
     rates = search.rates()[method]
     assert len(rates) == search.SETTINGS
     assert search.evaluate(method, int(np.argmax(rates))) == pytest.approx(max(rates), abs=1e-4)
-
-
-def test_the_search_of_deep_learners_is_stored_whole():
-    assert {method: len(search.rates()[method]) for method in search.DEEP} == dict.fromkeys(
-        ("DQN", "QR-DQN", "PPO"), search.DEEP_SETTINGS)
 
 
 @pytest.mark.parametrize("name, creeps", [("hybrid reward", 3), ("monolithic", 8)])
@@ -220,32 +157,6 @@ def test_deep_learners_see_how_fast_creeps_move_nearest_first():
                                               abs=1e-6)
     assert observation[16:18] == pytest.approx(velocity, abs=1e-6)
     assert env.observation_space.contains(observation) and env.rewards.shape == (2,)
-
-
-def test_the_script_computes_anew_what_was_computed_elsewhere(tmp_path, monkeypatch):
-    from lib.alternatives import deep_runs
-    table, old = tmp_path / "runs.csv", [row for row in LONG if row.method in search.DEEP and row.creeps == 3]
-    living.write(table, old)
-    monkeypatch.setattr(deep_runs, "PLAN", ((3, 600_000, 4),))
-    asked = []
-    monkeypatch.setattr(deep_runs, "live", lambda *run: asked.append(run) or (np.arange(200.0), 5.0, 1.0))
-    deep_runs.run_all(table)
-    assert [(run[0], run[2:]) for run in asked] == [
-        (row.method, (3, 600_000, 0, row.run)) for row in old if row.by == living.ELSEWHERE and row.run < 4]
-    found = {row[:4]: row for row in living.read(table)}
-    assert len(found) == len(old) and found["PPO", 3, 600_000, 3].rewards[-1] == 199
-    assert np.array_equal(found["PPO", 3, 600_000, 4].rewards, old[-1 - 3 * 5].rewards)
-
-
-def test_stored_runs_are_read_for_as_many_steps_as_asked():
-    for steps in (150_000, 600_000):
-        found = living.stored(SHORT + LONG, search.DEEP, 8, steps)
-        assert {name: (len(each.rewards), each.steps) for name, each in found.items()} == dict.fromkeys(
-            search.DEEP, (10, steps))
-        assert all(0 < each.seconds < 0.02 for each in found.values())  # also where only shorter runs were timed
-    short = living.stored(SHORT, ["DQN"], 8, 10_000)["DQN"]
-    assert short.steps == 9_000 and np.array_equal(short.rewards, found["DQN"].rewards[:, :3])
-    assert living.stored(LONG, ["DQN"], 5, 3_000) == {}
 
 
 def test_rates_lie_between_steps_and_levels_are_reached_by_means():

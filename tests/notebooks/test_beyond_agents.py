@@ -1,27 +1,21 @@
 """The page on the forager: what its cells build and run, the planners that lack knowledge, the records of searches."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
-from page_cells import defined, source
+from page_cells import planned
 
 from lib.alternatives.controllers import act_planner, planner
-from lib.alternatives.living import BOARDS, live
 from lib.alternatives.search import best_settings
 from lib.beyond_agents import figures, search
-from neorl import (GREEDY, Agent, Contacts, Desire, Learning, Modality, Node, NresMap, Run, WaterWorld, cartesian,
-                   execute, forager, kernel, multimodal, simulate)
-from neorl.agents.beyond import foveated_cells
+from neorl import (NresMap, Run, WaterWorld, execute, forager, kernel, multimodal, simulate)
 from neorl.core.choices import Action
-
-PAGE, RESOLUTIONS = "beyond_agents", (5, 9, 15, 25)
-IMPORTS = {}
-exec(source(PAGE, "3f201254").partition("notebook.begin")[0], IMPORTS)
-
 
 def page(*cells, **given):
     """What cells of the page define, with short runs unless given otherwise."""
-    return defined(PAGE, *cells, **IMPORTS | {"runs": 2, "steps": 2_000, "seed": 5, "resolutions": RESOLUTIONS,
-                                              "n_creeps": 3, "tank": WaterWorld()} | given)
+    return SimpleNamespace(**planned("beyond_agents", *cells, until=['results["forager"]'], **{
+        "runs": 2, "steps": 2_000, "seed": 5, "tank": WaterWorld(), **given}))
 
 
 def test_all_parts_make_the_forager_and_none_the_bare_agent():
@@ -44,16 +38,12 @@ def test_receptive_fields_are_as_large_without_mirror_images():
 
 
 def test_each_condition_has_another_agent_and_long_runs_are_four_times_as_long():
-    cells = defined(PAGE, "agent-with", **IMPORTS, resolutions=RESOLUTIONS)
-    experiment = source(PAGE, "6395b8c6").partition('results["forager"]')[0]
-    names = IMPORTS | vars(cells) | {"runs": 3, "steps": 2_000, "seed": 5, "n_creeps": 4, "sweep": iter}
-    exec(experiment, names)
-    made = names["made"]
+    made = page("agent-with", "6395b8c6", n_creeps=4).made
     assert len({repr(each.agent) for each in made.values()}) == 18  # two ways lead to all parts but the last
     assert [made[f"{n} creeps"].world.n_creeps for n in (3, 8)] == [3, 8]
     assert {each.world.n_creeps for name, each in made.items() if "creeps" not in name} == {4}
     assert {each.steps for each in made.values()} == {2_000, 8_000}
-    assert made["revalued"].changes == ((1_000, forager(RESOLUTIONS, 1.0, 1.0)),)
+    assert made["revalued"].changes == ((1_000, forager((5, 9, 15, 25), 1.0, 1.0)),)
 
 
 def test_hits_per_second_count_all_hits():
@@ -68,20 +58,6 @@ def test_fear_stays_low_where_there_is_a_way_out():
     known = np.isfinite(cells.fears).all(axis=0)
     middles, mean = cells.edges[:-1][known] + 0.025, cells.fears[:, known].mean(axis=0)
     assert mean[middles < 0.6].max() < 0.1 < mean.max()
-
-
-def test_gaps_add_up_to_the_distance():
-    rates = {name: np.random.default_rng(k).random(3) for k, name in enumerate("abcdefgh")}
-    cells = page("gaps-table", boards={3: rates})
-    *parts, whole = cells.gaps(rates).values()
-    assert np.allclose(sum(parts), whole) and np.allclose(whole, rates["h"] - rates["b"])
-
-
-def test_a_planner_that_knows_of_red_creeps_meets_fewer():
-    gains = best_settings()["PD"]
-    earned = {avoiding: live(planner(gains, captures=1, avoiding=avoiding), BOARDS[8], steps=3_000, runs=4, bins=1)
-              for avoiding in (False, True)}
-    assert earned[True].rewards.sum() > 1.3 * earned[False].rewards.sum()
 
 
 @kernel
@@ -102,25 +78,6 @@ def test_a_plan_of_one_capture_does_not_look_beyond():
         execute(ask, contestant.setting, contestant.new_memory(world, None), state, world.rules, found)
         chosen[captures] = found[0]
     assert chosen[1] != Action.E == chosen[2]
-
-
-def test_a_desire_vector_is_a_velocity_for_a_node_of_velocities():
-    velocities = Modality("velocity cell", cartesian("velocity", (-1, 1), (-1, 1)))
-    agent = Agent([Node("OVC", foveated_cells(velocity=False), (5,), gain=0.0, goals="contacts"),
-                   Node("V", velocities, (9,))],
-                  [Desire("green", "OVC", 1.0), Desire("OVC", "V", 1.0, scale=50.0)],
-                  Learning(0.1, 0.9, update_on="step"), GREEDY, own_cell="silent", contacts=Contacts(first_value=0.0))
-    run, elsewhere = Run(agent, WaterWorld(), 3), 0
-    run.advance(30_000)
-    velocities = run.agent.maps[1]
-    for _ in range(100):
-        here, known = velocities.encode(run.world_state.scene.velocity / run.world.size), run.q(1).copy()
-        run.advance(1)
-        goal = velocities.encode(50.0 * run.output("OVC").desire)
-        if goal != here and run.output("V").valence:  # otherwise the desire is met, or the board is new
-            elsewhere += 1
-            assert np.array_equal(run.output("V").q, known[here, :, goal])
-    assert elsewhere > 10
 
 
 def test_gains_move_to_where_reward_is(monkeypatch):
@@ -148,10 +105,3 @@ def test_the_forager_is_the_best_of_its_record():
     assert search.agent_of(best) == forager()
     found = simulate(forager(), WaterWorld(), runs=4, steps=150_000, seed=search.SEED, progress=False)
     assert np.isclose(found.rate(2 / 3).mean(), best["with_3"], atol=2e-3)
-
-
-def test_settings_span_their_ranges():
-    low, high = (search.settings_at([each] * 7) for each in (0.0, 1.0))
-    assert tuple(low["resolutions"]) == search.RESOLUTIONS[0] and tuple(high["resolutions"]) == search.RESOLUTIONS[-1]
-    for name, (least, most) in search.RANGES.items():
-        assert low[name] == pytest.approx(least) and high[name] == pytest.approx(most)

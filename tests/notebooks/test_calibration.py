@@ -7,10 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lib.shared.priors import OF_TRIALS, TO_THE_LETTER, WITHIN
-from lib.study import calibration, calibration_figures, calibration_results, calibration_table, calibration_targets
-from lib.study.calibration import Emulator, candidates, design, features, prospects
-from lib.study.calibration_results import Posterior
+from lib.shared.priors import TO_THE_LETTER, WITHIN
+from lib.study import calibration, calibration_results, calibration_table, calibration_targets
+from lib.study.calibration import design, features
 from lib.study.calibration_table import Row, read_table, write_table
 from lib.study.calibration_targets import CLAIMS, GROUPS, TARGETS, Measure, Target
 from lib.study.multiverse import binned
@@ -111,15 +110,6 @@ def made_up(rows, group, executor=None):
             for row in rows]
 
 
-@pytest.fixture
-def table():
-    """A made-up design of 64 rows, 32 of which have been run in all groups."""
-    rows = made_up([Row(0, i, 2, 3_000, reading) for i, reading in enumerate(design(64))], "layers")
-    for group in GROUPS:
-        rows[:32] = made_up(rows[:32], group)
-    return rows
-
-
 def test_a_design_keeps_to_the_text_and_spans_the_priors():
     readings = design(64)
     assert readings == design(64)
@@ -130,40 +120,6 @@ def test_a_design_keeps_to_the_text_and_spans_the_priors():
     assert readings[0] == replace(TO_THE_LETTER, **{name: getattr(readings[0], name) for name in WITHIN})
     found = features(readings)
     assert found.min() >= 0 and found.max() <= 1 and np.ptp(found, axis=0).min() > 0
-
-
-def test_the_emulator_predicts_what_it_has_learned_and_is_unsure_elsewhere(table):
-    emulator = Emulator(table)
-    fresh = design(64, seed=5)
-    found = emulator.predict(fresh)
-    assert set(found) == set(TARGETS)
-    mean, spread = found["C4"]
-    actual = np.clip([truth(reading, "C4").value for reading in fresh], 1.5 - 8 * 0.2, None)
-    assert np.corrcoef(mean, actual)[0, 1] > 0.8
-    assert np.mean(np.abs(mean - actual) < 3 * spread) > 0.9
-    assert np.all(spread >= 0.1 * 0.2)
-    few = [row if i < 10 else replace(row, statistics={name: row.statistics[name] for name in GROUPS["layers"].targets})
-           for i, row in enumerate(table)]
-    assert set(Emulator(few).forests) == {"layers"}  # the other groups have too few rows
-
-
-def test_prospects_take_what_was_measured_before_what_is_predicted(table):
-    emulator = Emulator(table)
-    known, unknown = table[0], replace(table[0], statistics={})
-    assert prospects([known], emulator)[0] == pytest.approx(known.distance)
-    each = np.array([found[0] for found in emulator.implausibility([unknown.reading]).values()])
-    assert prospects([unknown], emulator)[0] == pytest.approx(np.sqrt(np.mean(np.minimum(each, 4) ** 2)))
-
-
-def test_candidates_lie_where_the_targets_are(table):
-    rng = np.random.default_rng(0)
-    found = candidates(table, Emulator(table), 40, rng)
-    assert len(found) == 40 and len(set(found)) > 35
-    assert all(reading == replace(TO_THE_LETTER, **{name: getattr(reading, name) for name in WITHIN})
-               for reading in found)
-    off = [max(TARGETS[name].distance(*truth(reading, name)) for name in TARGETS) for reading in found[:20]]
-    all_off = [max(TARGETS[name].distance(*truth(reading, name)) for name in TARGETS) for reading in design(64, 3)]
-    assert np.median(off) < 0.3 * np.median(all_off)
 
 
 @pytest.fixture
@@ -204,58 +160,6 @@ def test_the_leading_are_confirmed_with_fresh_seeds_and_more_runs(small):
         calibration.confirm([], 5, 20)
 
 
-def test_a_refined_search_comes_nearer_round_by_round(small):
-    table = calibration.calibrate(0.05)
-    refined = calibration.refine(0.2, table, design(2, 9), 6)
-    new = refined[len(table):]
-    assert refined[: len(table)] == table and {row.runs for row in new} == {6}
-    assert {group: sum(group in row.groups for row in new[:24]) for group in GROUPS} == calibration.ROUND | {
-        "places": 14, "layers": 14, "objects": 14}
-    rounds = [[row.distance for row in new if row.wave == wave and row.complete] for wave in
-              sorted({row.wave for row in new})]
-    assert len(rounds) > 2 and np.mean(rounds[-1]) < np.mean(rounds[0])
-
-
-def test_narrowing_draws_between_the_two_readings_for_which_most_claims_hold(small):
-    table = calibration.refine(0.1, [], OF_TRIALS, 6)
-    narrowed = calibration.narrow(table, 6, 5, 40)
-    one, other = (row.reading for row in calibration_table.leading(table)[:2])
-    assert len(narrowed) == len(table) + 5 and all(row.complete and row.runs == 40 for row in narrowed[-5:])
-    for row in narrowed[-5:]:
-        for name, choice in WITHIN.items():
-            value, ends = getattr(row.reading, name), [getattr(each, name) for each in (one, other)]
-            assert value == ends[0] if isinstance(choice.prior, tuple) else (
-                0.999 * min(ends) <= value <= 1.001 * max(ends))
-    with pytest.raises(ValueError, match="table has 0 complete rows of 9 runs, but two are needed"):
-        calibration.narrow(table, 9, 5, 40)
-
-
-def test_other_scales_are_tried_in_paper_c_alone(small):
-    table = calibration.confirm(calibration.refine(0.1, [], OF_TRIALS, 6), 3, 20)
-    rescaled = calibration.rescale(table, 2, (5, 50), 8)
-    first = [row.reading for row in calibration_table.leading(table) if row.runs == 20][:2]
-    assert rescaled[: len(table)] == table
-    assert [row.reading for row in rescaled[len(table):]] == [
-        replace(reading, scale=scale) for scale in (5.0, 50.0) for reading in first]
-    assert {(row.groups, row.runs) for row in rescaled[len(table):]} == {(("networks",), 8)}
-
-
-def test_a_search_goes_on_from_a_table(small):
-    short = calibration.calibrate(0.05)
-    longer = calibration.calibrate(0.2, table=short)
-    assert len(short) < 64 and len(longer) > len(short)
-    assert [row.reading for row in longer[: len(short)]] == [row.reading for row in short]
-    assert [row.reading for row in longer[:64]] == design(64)
-
-
-def test_no_time_runs_nothing_and_bad_arguments_are_refused(small):
-    assert calibration.calibrate(0) == []
-    for bad, words in (({"minutes": -1}, "minutes must be .*, but is -1"), ({"seed": -1}, "seed must be .*, but is -1"),
-                       ({"runs": 1}, "runs must be .*, but is 1")):
-        with pytest.raises(ValueError, match=words):
-            calibration.calibrate(**{"minutes": 1, **bad})
-
-
 def statistics(holding, names=tuple(TARGETS)):
     """Made-up statistics of targets under which only the given claims hold."""
     found = {}
@@ -284,14 +188,6 @@ def test_a_table_reads_back_exactly(tmp_path):
     assert read_table(tmp_path / "table.csv") == table
     assert table[3].groups == ("layers",) and not table[3].complete
     assert table[4].groups == tuple(GROUPS) and table[4].complete
-
-
-def test_a_table_of_another_version_is_refused(tmp_path):
-    path = tmp_path / "table.csv"
-    write_table(rows({"A6"}), path)
-    path.write_text(path.read_text().replace("discount", "horizon", 1))
-    with pytest.raises(ValueError, match="other columns than this version has: discount, horizon"):
-        read_table(path)
 
 
 def test_a_row_runs_again_as_it_was(cache_folder):
@@ -354,8 +250,6 @@ def test_claims_that_exclude_each_other_are_found():
     assert found.pairs[0] == ("A6", "B1", 0, pytest.approx(4.5)) and ("A6", "B3") in [each[:2] for each in found.pairs]
     assert found.sets == [(("A6", "A7"), 12), (("A7", "B1"), 12), (("B3",), 2)]
     assert found.both[at("C4"), at("C4")] == 32 and found.rows[at("C4"), at("C4")] == 64
-    texts = [text.get_text() for text in calibration_figures.draw_together(found).texts]
-    assert texts.count("×") == 1 and "38" in texts  # 12 of 32
 
 
 def test_what_would_have_to_give_is_the_claim_that_no_row_holds_with_the_others():
@@ -386,36 +280,3 @@ def test_what_a_missed_target_goes_together_with_least():
     assert set(missed) == {name for name, target in TARGETS.items() if target.claim not in ("C3", "A6")}
     assert missed["C2"].met.startswith("A6") and missed["C2"].both == 0
     assert missed["C2"].expected == pytest.approx(2 * 4 / 6) and missed["C2"].found.shape == (6, 2)
-    shown = calibration_figures.draw_conflicts([missed["C2"]], table[-1])
-    assert shown[0, 0].get_title(loc="right") == "0 meet both, by chance 1"
-    assert shown[0, 0].lines[0].get_xydata() == pytest.approx(missed["C2"].found)
-
-
-def test_marginals_and_pairs_are_drawn_with_their_shares():
-    found = Posterior(design(64), np.full(64, 1 / 64))
-    panel, *_ = calibration_figures.draw_marginals(found, found, names=("contact", "learning_rate")).flat
-    np.testing.assert_allclose([patch.get_width() for patch in panel.patches], 0.5)
-    np.testing.assert_allclose(panel.lines[0].get_xdata(), 0.5)
-    pairs = calibration_figures.draw_pairs(found, ["contact", "bootstrap"])
-    assert pairs[1, 0].images[0].get_array().sum() == pytest.approx(1)
-
-
-def test_distances_are_drawn_by_wave_with_the_nearest_so_far():
-    table = [replace(row, wave=wave) for wave, row in enumerate(rows({"A6"}, CLAIMS, set()))]
-    points, steps = calibration_figures.draw_distances(table).lines
-    np.testing.assert_allclose(points.get_ydata(), [row.distance for row in table])
-    assert steps.get_ydata().tolist() == [table[0].distance, 0, 0]
-
-
-def test_predicted_curves_are_means_over_runs():
-    worlds = {"n_creeps": 3, "steps": 30_000}
-    lives = [{"layers": lived(*rates, **worlds), ("layer", 3): lived(0.2, **worlds)} for rates in ((0.4, 0.6), (0.1,))]
-    keys = {"N3": ("layer", 3), "all": "layers"}
-    axes = calibration_figures.draw_rates(lives, keys, total=["N3", "all"])
-    curves = {text.get_text(): text.xy[1] for text in axes.texts}
-    assert curves == pytest.approx({"N3": 0.2, "all": 0.6, "sum": 0.8}, abs=0.02)
-    assert [line.get_linewidth() > 1 for line in axes.lines[:6]] == [False, True] * 3
-    calibration_figures.mark_minutes(axes, (5, 160))  # these runs last ten minutes
-    assert "5 min" in [text.get_text() for text in axes.texts] and len(axes.texts) == 4
-    summed = calibration_figures.draw_accumulated(lives[:1], keys)
-    assert [line.get_ydata()[-1] for line in summed.lines[:2]] == pytest.approx([120, 300], rel=0.01)

@@ -3,14 +3,10 @@
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
-import pytest
-from matplotlib import pyplot as plt
 from page_cells import defined
 
-from lib import chapter_1
 from neorl import Learning, Run, WaterWorld, execute, multimodal, place_cells, simulate_once
 from neorl.core.kernel import arrays
-from neorl.experiments.recording import Recording
 
 TANK = WaterWorld()
 GIVEN = {"np": np, "Run": Run, "execute": execute, "tank": TANK}
@@ -68,18 +64,3 @@ def test_the_route_passes_its_waypoints_in_order():
 def test_the_captain_earns_more_than_one_per_second():
     page = defined("chapter_1", "helmsman", "captain", **GIVEN, agent=place_cells([2]), runs=3, seed=1, minute=3_000)
     assert page.by_rule.min() > 1 and len(set(page.by_rule)) == 3
-
-
-def test_a_path_breaks_off_where_the_agent_is_put_back_and_a_creep_is_drawn_where_it_was_met():
-    agent = np.array([(0.5, 0.5, 0, 0), (0.52, 0.5, 1, 0), (0.5, 0.5, 0, 0), (0.5, 0.48, 0, -1)], np.float32)
-    hits = np.array([(0, 0), (0, 1), (1, 1), (1, 1)])
-    recording = Recording("made up", 50, 0.05, agent, np.zeros((4, 1, 4), np.float32), np.ones((4, 1), bool), hits)
-    axes = plt.figure().add_subplot()
-    chapter_1.draw_recording(axes, recording)
-    (path,) = axes.collections
-    assert np.allclose(path.get_segments(), [agent[0:2, :2], agent[2:4, :2]])
-    assert [patch.center for patch in axes.patches] == [pytest.approx((0.52, 0.5)), pytest.approx((0.52, 0.5)),
-                                                        pytest.approx((0.5, 0.48))]
-    assert [text.get_text() for text in axes.texts] == ["+", "−", ""]
-    assert "1 green, 1 red" in axes.get_title()
-    plt.close("all")

@@ -1,16 +1,14 @@
 """The page of chapter 4: its experiment, and its toy systems against closed forms and second implementations."""
 
 import itertools
-import json
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from matplotlib import pyplot as plt
+from page_cells import planned, source
 
-from lib.chapter_4 import credit, figures, noise, superposition
+from lib.chapter_4 import noise, superposition
 from lib.chapter_4.credit import DEFAULT, DIFFERENCE, INVERSION, Chamber, learn_in
 from lib.chapter_4.noise import expected_squared_displacement, mean_squared_displacement, walk
 from lib.chapter_4.superposition import fit_ridges, plan
@@ -21,8 +19,6 @@ from neorl.core.kernel import execute
 from neorl.core.stream import new_stream, randint, uniform
 from neorl.evidence.reading import TO_THE_LETTER, Reading, conditions
 
-PAGE = json.loads((Path(__file__).parents[2] / "notebooks" / "chapter_4.ipynb").read_text(encoding="utf-8"))
-SOURCES = {cell["id"]: "".join(cell["source"]) for cell in PAGE["cells"]}
 AGENTS = {"place cells": ("layers", ("brownian", 8)), "object-vector cells": (("objects", "all"), ("brownian", 3)),
           "both": ("both", ("brownian", 3))}  # the keys of their conditions
 FAR = (np.inf, 0, 0)
@@ -34,12 +30,7 @@ QUICK = replace(INVERSION, learning_rate=0.3)
 
 def run_cells(*names, **given):
     """What some cells of the page define, with conditions in place of results: {name: value}."""
-    page = {"runs": 30, "steps": 600_000, "seed": 3, "resolutions": [3, 7, 23], "stays": [1, 10, 50], **given}
-    exec(SOURCES["cell-02"].partition("notebook.begin")[0], page)
-    page["sweep"] = iter
-    for name in ("lists", *names):
-        exec(SOURCES[name], page)
-    return page
+    return planned("chapter_4", "lists", *names, **{"runs": 30, "steps": 600_000, "seed": 3, **given})
 
 
 @pytest.mark.parametrize("steps", [1_000, 600_000])
@@ -97,15 +88,9 @@ def keep_pace(seconds, runs):
 
     page = run_cells(runs=runs) | {"time": clock, "run": SimpleNamespace(advance=advance),
                                    "tank": SimpleNamespace(fps=50)}
-    exec(SOURCES["cell-45-work"], page)
+    exec(source("chapter_4", "cell-45-work"), page)
     assert clock.step == page["delay"].size == 35 * min(runs, 12)
     return page["load"], page["delay"]
-
-
-def test_a_quick_run_idles_until_each_step_is_due():
-    load, delay = keep_pace([0.002], runs=20)
-    np.testing.assert_allclose(load, np.full(12, 0.1))
-    np.testing.assert_allclose(delay, 0.1)
 
 
 def test_a_slow_step_makes_those_after_it_late_until_they_have_caught_up():
@@ -263,18 +248,6 @@ def test_a_comparison_is_that_of_superposed_and_planned_actions():
     assert comparison.achieved[0] == pytest.approx(followed / best.max(axis=1)[outside].sum())
 
 
-def test_the_loss_is_a_share_of_the_average_return_of_the_plan():
-    """In a corridor of three, a desired cell may lie behind a feared one; the plan then stays and earns nothing."""
-    corridor = Grid(("...",))
-    assert plan(corridor, [0, -1, 1])[0].max() == pytest.approx(0)
-    comparison = superposition.compare(corridor, [1.0, -1.0], placements=200)
-    assert np.isfinite(comparison).all() and comparison.achieved.max() == pytest.approx(1)
-    assert np.mean(comparison.at_random) < np.mean(comparison.achieved) < 1
-    two = superposition.compare(N5, [1.0, 1.0], placements=50)  # which are pursued as planned
-    np.testing.assert_allclose([two.agreement, two.achieved], 1)
-    assert np.all(two.at_random < 0.5)
-
-
 def test_cosines_are_those_of_the_angles():
     half = 0.5**0.5
     found = superposition.cosines(np.array([[1.0, 0], [0, 2], [3, 3], [0, 0]]))
@@ -348,53 +321,3 @@ def test_the_rule_of_the_agents_remembers_no_earlier_cell_when_put_back():
     assert replace(DEFAULT, learning_rate=CALIBRATED.learning_rate, discount=CALIBRATED.discount) == CALIBRATED
     learned = [learn_in(Chamber(), replace(DEFAULT, memory=memory), 30, runs) for memory, runs in ((0.0, 2), (5.0, 3))]
     np.testing.assert_array_equal(learned[0], learned[1][:2])
-
-
-def test_roles_are_means_over_both_exits():
-    values = np.array([[1.0, 0.2], [0.4, 0.8], [0.5, 0.7], [0.0, 0.1]])
-    np.testing.assert_allclose(credit.by_role(values), [0.9, 0.3, 0.6, 0.05])
-    assert credit.lead_of_cause(values) == pytest.approx(0.3)
-
-
-@pytest.mark.parametrize("call, message", [
-    (lambda: walk(1.1, FAR, 5, 1), "strength must be .*, but is 1.1"),
-    (lambda: walk(0.1, (1, 2), 5, 1), "goal must be"), (lambda: walk(0.1, (1, 2, np.nan), 5, 1), "goal must be"),
-    (lambda: walk(0.1, FAR, 0, 1), "steps must be .*, but is 0"),
-    (lambda: noise.generate([np.inf], 1.0, 20.0, 100), "coefficients must be"),
-    (lambda: noise.generate([0.5], 1.0, 1, 100), "period must be"),
-    (lambda: noise.generate([0.5], 1.0, 20.0, 40), "steps must be .*, but is 40"),
-    (lambda: noise.decompose(np.zeros(40), 2), "series must have the shape"),
-    (lambda: noise.decompose(np.zeros(90), 0), "order must be .*, but is 0"),
-    (lambda: fit_ridges(np.ones((4, 4)), 1), "values must be a square"),
-    (lambda: fit_ridges(X, 0), "terms must be .*, but is 0"),
-    (lambda: plan(N5, np.ones(24)), r"rewards must have the shape \(…, 25\), but has \(24,\)"),
-    (lambda: plan(N5, np.ones(25), 1.0), "discount must be .*, but is 1.0"),
-    (lambda: superposition.compare(N5, [-1], 3), "valences must be"),
-    (lambda: superposition.compare(N5, [1], 0), "placements must be .*, but is 0"),
-    (lambda: Chamber(effort=0), "effort must be .*, but is 0"), (lambda: Chamber(bell=-0.1), "bell must be .*, but is"),
-    (lambda: learn_in(Chamber(), replace(INVERSION, credit="activity"), 1, 1),
-     "credit must be 'share', 'happened', 'count' or 'last', but is 'activity'"),
-    (lambda: learn_in(Chamber(), INVERSION, 0, 1), "visits must be .*, but is 0"),
-])
-def test_a_bad_argument_is_refused(call, message):
-    with pytest.raises(ValueError, match=message):
-        call()
-
-
-def test_displacements_are_drawn_where_they_are_expected():
-    lags = np.array([1, 10, 100])
-    squared = {beta: np.tile(expected_squared_displacement(beta, lags), (4, 1)) for beta in (0.0, 0.3)}
-    figures.draw_displacements(lags, squared)
-    line, points = plt.gca().lines[:2]
-    np.testing.assert_allclose(points.get_ydata(), [0, 0.5, 1])
-    np.testing.assert_allclose(line.get_ydata()[[0, -1]], [0, 1])
-
-
-def test_policies_are_drawn_where_there_is_no_element_and_ringed_where_they_differ():
-    grid = Grid(("....",))
-    left, right = (plan(grid, reward) for reward in np.eye(4)[[0, 3]])
-    figures.draw_policies(grid, {"left": left, "right": right}, {0: 1.0, 3: -1.0})
-    first, second = plt.gcf().axes
-    (arrows,) = first.collections
-    assert len(arrows.U) == 2 and np.all(arrows.U < 0) and np.all(second.collections[0].U > 0)
-    assert [float(ring.get_xdata()[0]) for ring in first.lines] == [1, 2] and not second.lines

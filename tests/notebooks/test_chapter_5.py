@@ -1,11 +1,10 @@
 """The page of chapter 5: its experiment, and the verdicts on the claims behind each conclusion."""
 
-import json
 import re
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
+from page_cells import planned
 
 from lib import chapter_5
 from lib.shared.report import CALIBRATED, LETTER
@@ -13,18 +12,10 @@ from neorl.evidence.reading import PRIMES, Reading, conditions
 from neorl.evidence.statements import CLAIMS
 from neorl.evidence.verdict import VERDICTS
 
-PAGE = json.loads((Path(__file__).parents[2] / "notebooks" / "chapter_5.ipynb").read_text(encoding="utf-8"))
-SOURCES = {cell["id"]: "".join(cell["source"]) for cell in PAGE["cells"]}
-
 
 def experiment(**given):
     """What the page's cells define down to its experiment, with conditions in place of results: {name: value}."""
-    page = {"runs": 3, "steps": 900, "seed": 2, "counts": [1, 2, 4, 6], "begin": 0.5, **given}
-    exec(SOURCES["cell-02"].partition("notebook.begin")[0], page)
-    page["sweep"] = iter
-    for name in ("lists", "experiment"):
-        exec(SOURCES[name], page)
-    return page
+    return planned("chapter_5", "lists", "experiment", runs=3, steps=900, seed=2, **given)
 
 
 def test_agents_have_the_coarsest_maps_of_paper_b_up_to_all():
@@ -45,13 +36,6 @@ def test_indifferent_agents_have_the_same_desires_but_no_valence_until_these_beg
     assert later.changes == ((step, throughout.agent),)
     assert [desire.source for desire in later.agent.desires] == [desire.source for desire in throughout.agent.desires]
     assert not any(desire.valence for desire in later.agent.desires) and later.agent.nodes == throughout.agent.nodes
-
-
-@pytest.mark.parametrize("change, message", [({"begin": 0.95}, "begin must be .*, but is 0.95"),
-                                             ({"counts": [7]}, "counts must be .*, but is 7")])
-def test_a_bad_parameter_is_refused(change, message):
-    with pytest.raises(ValueError, match=message):
-        experiment(**change)
 
 
 def test_every_claim_belongs_to_one_group():

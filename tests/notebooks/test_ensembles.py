@@ -4,10 +4,8 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from lib.chapter_3 import ensembles
 from lib.chapter_3.ensembles import CHOOSERS, LEARNERS, best_reward, run_ensemble
 from lib.shared.grid import Grid
-from neorl.core.kernel import execute
 from neorl.evidence.statistics import estimate
 
 SMALL = Grid((".......#G", "..#....#.", "S.#....#.", "..#......", ".....#...", "........."))  # of the page
@@ -116,12 +114,6 @@ def test_a_life_is_the_same_alone_and_among_others():
     assert np.any(among[1] != among[0])
 
 
-def test_the_exponential_function_is_that_of_numpy():
-    xs = np.linspace(-49.9, 0, 500)
-    np.testing.assert_allclose([execute(ensembles._exponential, x) for x in xs], np.exp(xs), rtol=1e-7)
-    assert execute(ensembles._exponential, 0.0) == 1 and execute(ensembles._exponential, -1e9) == 0
-
-
 def test_the_best_reward_in_a_corridor_is_known():
     """With one way to go, 85 % of steps lead ahead and 5 % back; 10 %, and any step out of the corridor, hit a wall."""
     assert best_reward(Grid(("SG",))) == pytest.approx(0.85 * 100 - 0.15 * 2)
@@ -137,16 +129,3 @@ def test_single_learners_earn_the_reported_rewards():
     for learner, reported in zip(LEARNERS, (5.20, 5.20, 5.21, 5.21, 5.18)):
         value, low, high = estimate(np.mean, run_ensemble(SMALL, learner, steps=50_000, runs=20)[:, -1])
         assert chance.max() < 0 < low and abs(value - reported) < 0.15 and value < best
-
-
-@pytest.mark.parametrize("make, message", [
-    (lambda: best_reward(Grid(("SSG",))), "maze must be a grid with one S and one G"),
-    (lambda: run_ensemble("maze", "Sarsa", steps=100, runs=1), "maze must be a Grid, but is 'maze'"),
-    (lambda: run_ensemble(SMALL, "SARSA", steps=100, runs=1), "chooser must be 'Q-learning', 'Sarsa', 'actor–critic',"),
-    (lambda: run_ensemble(SMALL, "Sarsa", steps=19, runs=1), "steps must be .*, but is 19"),
-    (lambda: run_ensemble(SMALL, "Sarsa", steps=100, runs=1, doublings=6),
-     "doublings must be an integer from -5 to 5, but is 6"),
-])
-def test_a_bad_argument_is_refused(make, message):
-    with pytest.raises(ValueError, match=message):
-        make()

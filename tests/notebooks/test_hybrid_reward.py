@@ -9,8 +9,6 @@ import pytest
 from lib.chapter_3 import hybrid_reward
 from lib.chapter_3.hybrid_reward import KINDS, Game, Learner, play, settled_values
 from lib.shared.grid import Grid
-from neorl.core.kernel import execute
-from neorl.core.stream import new_stream
 from neorl.evidence.statistics import probability_of_improvement
 
 JUNCTION = Grid(("o.....o", "###.###", "###.###", "###o###"))
@@ -100,15 +98,6 @@ def test_states_are_counted():
     assert SMALL.states("heads") == SMALL.states("latent heads") == 2 * cells + cells * cells
 
 
-def test_every_set_of_places_is_equally_likely_to_hold_the_fruits():
-    game = Game(fruits=5)
-    board, stream = hybrid_reward._board(game), new_stream(np.random.SeedSequence(3))
-    drawn = np.array([execute(hybrid_reward._laid_out, board, stream) for _ in range(5_600)])
-    sets, counts = np.unique(drawn, return_counts=True)
-    assert len(sets) == 56 and all(int(each).bit_count() == 5 for each in sets)
-    assert np.sum((counts - 100) ** 2 / 100) < 93  # χ² with 55 degrees of freedom, 99.9 %
-
-
 def test_a_ghost_that_chases_comes_nearer_with_every_step():
     game = Game()
     toward, grid = hybrid_reward._board(game).toward, game.grid
@@ -144,17 +133,3 @@ def test_heads_learn_faster_than_one_learner():
     final = {kind: play(Game(), Learner(kind), steps=30_000, runs=10).final for kind in KINDS}
     assert probability_of_improvement(final["heads"], final["one learner"]).low > 0.9
     assert probability_of_improvement(final["latent heads"], final["one learner"]).low > 0.9
-
-
-@pytest.mark.parametrize("make, message", [
-    (lambda: Game(rows=("a.o",)), "rows must be a grid with one a, one g and at least one o"),
-    (lambda: Game(rows=("a.g",)), "at least one o"),
-    (lambda: Game(fruits=9), "fruits must be an integer from 1 to 8, but is 9"),
-    (lambda: Learner("two"), "kind must be 'one learner', 'heads' or 'latent heads', but is 'two'"),
-    (lambda: play("pacman", Learner("heads"), steps=1_000, runs=1), "game must be a Game, but is 'pacman'"),
-    (lambda: play(Game(), Learner("heads"), steps=999, runs=1), "steps must be .*, but is 999"),
-    (lambda: settled_values(Game().grid, 37, 0.5), "place must be an integer from 0 to 36, but is 37"),
-])
-def test_a_bad_argument_is_refused(make, message):
-    with pytest.raises(ValueError, match=message):
-        make()

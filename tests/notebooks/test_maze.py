@@ -2,10 +2,8 @@
 
 import numpy as np
 import pytest
-from matplotlib import pyplot as plt
 from page_cells import defined
 
-from lib.chapter_2 import figures
 from lib.chapter_2.maze import (DAYS, GROUPS, LEARNERS, Animal, Maze, Record, Rival, _learn_by_traces, findings, live,
                                 simulate)
 from lib.shared.grid import MOVES
@@ -48,13 +46,6 @@ def test_a_blind_is_on_the_other_side_of_each_unit_and_leads_back_only():
 def test_doors_close_behind_an_animal_that_leaves_a_choice_point():
     maze = Maze("RLL")
     assert walk(maze, [N, S, N, E, W, N, S]) == [0, 1, 0, 1, 2, 2, 3, 3]
-
-
-def test_alleys_between_choice_points_can_be_walked_both_ways_up_to_the_door():
-    maze = Maze("RL", alley=2)
-    assert list(maze.choice_points) == [3, 6] and maze.goal == 9 and maze.states == 12
-    assert walk(maze, [N, N, S, N, N, E, E, W, W, E, E, N]) == [0, 1, 2, 1, 2, 3, 4, 5, 4, 4, 5, 6, 7]
-    assert walk(maze, [W, E], state=3) == [3, 10, 3]
 
 
 def test_every_move_leads_to_where_it_points():
@@ -127,14 +118,6 @@ def test_sarsa_leaves_no_trace_of_yesterday():
     assert learned[0].any() and np.array_equal(learned[1], learned[2])
 
 
-def test_sarsa_tries_what_it_has_tried_least():
-    errors = simulate(Animal("Sarsa(λ)", exploration=0.0), Maze(), DAYS + 1, 60).errors
-    # It tries the four actions in turn, the blind before or after the true path: half an error per unit on the first
-    # day, and from then on as many entries into the blind as into the true path.
-    assert errors[:, 0].mean() == pytest.approx(7, abs=1)
-    assert (np.abs(errors.sum(axis=1) - 14 * DAYS) <= 14).all()
-
-
 def test_fed_throughout_and_without_exploration_neorl_and_q_learning_do_the_same():
     hardly = Animal("neoRL", exploration=1e-12), Animal("Q-learning", exploration=1e-12)  # both draw whether to explore
     neorl, q_learning = (simulate(animal, Maze(), 1, 20).errors for animal in hardly)
@@ -159,11 +142,6 @@ def test_learned_values_solve_the_bellman_equation(learner):
         np.testing.assert_allclose(horde[0, N, 1 : maze.goal], 0.9 ** np.arange(maze.goal - 1.0), rtol=1e-5)
 
 
-def test_a_group_is_fed_from_the_day_that_is_given():
-    known = simulate(Animal("Q-learning"), Maze(), 4, 5).known
-    assert (known[:, :3] == 0).all() and (known[:, 3] == 1 / 14).all()
-
-
 def flat(level, after=None, day_12=None, runs=20):
     errors = np.full((runs, DAYS), float(level)) + np.arange(runs)[:, None] % 2 * 0.01
     errors[:, 11:] += (level if after is None else after) - level
@@ -184,24 +162,6 @@ def test_the_findings_of_the_original_are_not_found_in_results_that_lack_them():
     assert numbers == pytest.approx([0, 0, 0, 2, 0.1, 2.1, 7.1 / 6, 2.1], abs=0.01)
 
 
-def test_groups_differ_in_either_direction_and_are_ahead_only_with_the_whole_interval():
-    found = findings({"throughout": flat(12), "never": flat(12), "delayed": flat(10, 13, 12.005)}, 11)
-    assert found["before"].here.value == pytest.approx(-2) and not found["before"].holds
-    assert found["one meal"].here.low < 0 < found["one meal"].here.high and not found["one meal"].holds
-
-
-def test_the_plan_draws_every_blind_and_every_door():
-    maze = Maze()
-    figures.draw_plan(maze)
-    drawn = {tuple(np.round(line.get_xydata().ravel(), 6)) for line in plt.gca().lines}
-    for choice, blind in zip(maze.choice_points, maze.blinds):
-        assert tuple(np.round(maze.places[[choice, blind]].ravel(), 6)) in drawn
-    doors = [line for line in plt.gca().lines if line.get_linewidth() == 2.5]
-    assert len(doors) == 14
-    for door, choice in zip(doors, maze.choice_points):
-        np.testing.assert_allclose(door.get_xydata().mean(axis=0), maze.places[[choice, choice + 1]].mean(axis=0))
-
-
 @pytest.mark.parametrize("parameters, after, verdict", [
     ({}, 2, "partly"), ({}, 1, "reproduced"), ({}, 12, "not reproduced"),
     ({"exploration": 0.3}, 2, None), ({"learning_rate": 0.2}, 2, None),
@@ -213,14 +173,3 @@ def test_the_page_judges_the_animals_of_the_book_alone(parameters, after, verdic
                    **{"runs": 20, "seed": 0, "learning_rate": 0.1, "exploration": 0.1, **parameters})
     assert [claim.verdict for claim in page.judged] == ([verdict] if verdict else [])
     assert {animal.exploration for animal in page.animals.values()} == {parameters.get("exploration", 0.1)}
-
-
-@pytest.mark.parametrize("call, message", [
-    (lambda: Animal("rat"), "learner must be .*, but is 'rat'"), (lambda: Animal(trace=-1), "trace must be .*, but is"),
-    (lambda: simulate(Animal(), "RL", 1, 2), "maze must be a Maze"),
-    (lambda: simulate(Animal(), Maze(), 0, 2), "first_meal must be .*, but is 0"),
-    (lambda: findings(dict.fromkeys(GROUPS, flat(1)), DAYS), "first_meal must be an integer from 1 to 16, but is 17"),
-])
-def test_a_bad_argument_is_refused(call, message):
-    with pytest.raises(ValueError, match=message):
-        call()

@@ -4,11 +4,9 @@ from dataclasses import fields, replace
 
 import numpy as np
 import pytest
-from matplotlib import pyplot as plt
 
 from lib.shared.priors import BEYOND, PINNED, TO_THE_LETTER, WITHIN, LogUniform
 from lib.study import multiverse
-from lib.study.multiverse_figures import OUTCOMES, draw_importance, draw_outcomes, draw_specification
 import neorl
 from neorl import (CALIBRATED, Learning, Policy, multimodal, network_a, network_b, network_c, network_d, place_cells,
                    simulate)
@@ -100,13 +98,6 @@ def test_every_reading_of_a_design_has_valid_agents(choices):
         assert conditions(reading, 1_000, 1)
 
 
-@pytest.mark.parametrize("change, message", [({"vectors": "long"}, "vectors must be 'by size' or 'signed', but is 'l"),
-                                             ({"network_resolutions": 5}, "network_resolutions must be a list or a ")])
-def test_another_value_is_refused(change, message):
-    with pytest.raises(ValueError, match=message):
-        Reading(**change)
-
-
 def test_conditions_come_in_groups_that_hold_all_in_the_end():
     whole = conditions(TO_THE_LETTER, 3_000, 2, seed=5)
     assert set(whole) == {key for keys in GROUPS.values() for key in keys}
@@ -115,12 +106,6 @@ def test_conditions_come_in_groups_that_hold_all_in_the_end():
     assert all(whole[key] == condition for key, condition in some.items())
     with pytest.raises(ValueError, match="groups must be 'layers', 'single', 'modal', 'networks', 'revaluing', 'reso"):
         conditions(TO_THE_LETTER, 3_000, 2, groups=["fast"])
-
-
-@pytest.mark.parametrize("field", ["exploration", "recursion", "fps"])
-def test_a_reading_names_the_field_that_is_invalid(field):
-    with pytest.raises(ValueError, match=f"^{field} must be .*, but is 1j"):
-        Reading(**{field: 1j})
 
 
 def test_papers_b_and_c_simulate_the_same_time_at_any_rate_and_paper_a_the_same_steps():
@@ -136,14 +121,6 @@ def test_brownian_motion_runs_as_long_as_in_paper_a_and_is_shared():
     assert (found["brownian", 3].steps, found["brownian", 3].world) == (3_000, found["both"].world)
     other = conditions(Reading(), 3_000, 4)
     assert all(found[key] == other[key] for key in (("brownian", 8), ("brownian", 3)))
-
-
-def test_choices_about_things_make_no_difference_to_place_cells():
-    other = replace(TO_THE_LETTER, object_state="object", object_reach=0.1, object_beyond="none",
-                    object_tiled_fraction=0.5)
-    found, same = conditions(TO_THE_LETTER, 3_000, 2), conditions(other, 3_000, 2)
-    assert all((found[key] == same[key]) == (key[0] in ("brownian", "layer", "single", "place") or key == "layers" or
-                                             key == ("pace", "place")) for key in found)
 
 
 @pytest.mark.parametrize("prior, ends, middle", [
@@ -168,18 +145,6 @@ def test_a_design_fills_the_priors_evenly_and_any_power_of_two_is_part_of_the_ne
     np.testing.assert_allclose(np.log(rates / 3e-4) / np.log(0.5 / 3e-4), (np.arange(64) + 0.5) / 64, atol=1 / 64)
     assert multiverse.design(16, seed=1) != readings[:16]
     assert len(set(readings)) == 64
-
-
-def test_a_design_varies_what_is_chosen_and_nothing_else():
-    readings = multiverse.design(8, choices={"scale": BEYOND["scale"]})
-    assert len({reading.scale for reading in readings}) == 8
-    assert {replace(reading, scale=TO_THE_LETTER.scale) for reading in readings} == {TO_THE_LETTER}
-
-
-@pytest.mark.parametrize("points", [0, 1, 3, 100, 2.0])
-def test_a_design_of_another_size_is_refused(points):
-    with pytest.raises(ValueError, match=f"points must be .*, but is {points}"):
-        multiverse.design(points)
 
 
 @pytest.fixture(scope="module")
@@ -242,65 +207,3 @@ def test_support_counts_the_claims_that_hold_at_each_level(made_up):
     assert len(parts) == 5 and [each.is_to_the_letter for each in parts] == [False, False, True, False, False]
     assert parts[4].held > parts[0].held == 0 and parts[0].level == "0.333 … 0.838"
     assert ("memory", "216 … 1,000") in found and "exploration" not in {name for name, _ in found}
-
-
-def test_the_choices_that_matter_are_found_from_enough_readings(made_up):
-    readings, claims = made_up
-    importance, explained = multiverse.importances(readings, {"A2": claims[:31], "C2": claims})
-    assert list(importance) == list(explained) == ["C2"] and explained["C2"] > 0.8
-    shares = importance["C2"]
-    assert set(shares) == {name for name, choice in WITHIN.items() if "C" in choice.papers}
-    first, second, third = sorted(shares, key=shares.get, reverse=True)[:3]
-    assert (first, second) == ("discount", "credit") and shares[third] < 0.12
-
-
-def points(axes, markers=(*OUTCOMES.values(), "^", "v", "x")):
-    """The points of a curve with any of the given markers, from left to right."""
-    found = np.concatenate([line.get_xydata() for line in axes.lines
-                            if line.get_linestyle() == "None" and line.get_marker() in markers])
-    return found[found[:, 0].argsort()]
-
-
-def test_a_number_beyond_the_axis_is_marked_there(made_up):
-    readings, claims = made_up[0], [*made_up[1]]
-    claims[3], claims[5], claims[7], claims[9] = map(claim, (40.0, -40.0, np.inf, np.nan))
-    curve, _ = draw_specification(readings, {"C2": claims}, "C2")
-    low, high = points(curve)[:, 1].min(), points(curve)[:, 1].max()
-    assert -1 < low < high < 2
-    assert points(curve, "x")[0].tolist() == [0, low] and points(curve, "v")[0].tolist() == [1, low]
-    assert points(curve, "^")[-2:].tolist() == [[126, high], [127, high]]
-    assert len(points(curve, "^")) == sum(each.here.value > high for each in claims) < 8
-
-
-def test_a_specification_curve_is_in_order_and_shows_every_choice_below(made_up):
-    readings, claims = made_up
-    curve, strips = draw_specification(readings, {"C2": claims[:64]}, "C2")
-    at = points(curve)
-    assert len(at) == 64 and np.all(np.diff(at[:, 1]) >= 0)
-    labels = [tick.get_text() for tick in strips.get_yticklabels()]
-    assert labels == [choice.label for choice in WITHIN.values() if "C" in choice.papers]
-    (image,) = strips.images
-    order = np.argsort([each.here.value for each in claims[:64]], kind="stable")
-    np.testing.assert_allclose(image.get_array()[labels.index("discount, γ")],
-                               [WITHIN["discount"].place(readings[i].discount) for i in order])
-    draw_specification(readings, {"A4": [replace(each, name="A4") for each in claims]}, "A4")
-    of_paper_a = [tick.get_text() for tick in plt.gcf().axes[1].get_yticklabels()]
-    assert "resolutions, C" not in of_paper_a and "map weights" in of_paper_a
-
-
-def test_bars_of_outcomes_add_up_to_the_readings_of_each_claim(made_up):
-    _, claims = made_up
-    many, few = draw_outcomes({"A2": [claim(0, "partly", True), claim(1, "reproduced")], "C2": claims})
-    assert [tick.get_text() for tick in many.get_yticklabels()] == ["C2"]
-    held = sum(each.outcome == "reproduced" for each in claims)
-    assert [patch.get_width() for patch in many.patches] == [held, 0, 128 - held]
-    assert [patch.get_width() for patch in few.patches] == [1, 1, 0]
-
-
-def test_importance_is_drawn_as_discs_of_that_area():
-    axes = draw_importance({"A2": {"discount": 0.25, "credit": -0.1}, "C4": {"scale": 1.0}})
-    sizes = [line.get_markersize() for line in axes.lines]
-    assert sizes[0] == pytest.approx(sizes[2] / 2) and sizes[1] == 0
-    assert [tick.get_text() for tick in axes.get_xticklabels()] == ["A2", "C4"] and not axes.texts
-    empty = draw_importance({"A2": {}, "C4": {}})
-    assert [text.get_text() for text in empty.texts] == ["no claim's number is predicted"]

@@ -1,25 +1,25 @@
 """The page "Is it general?": its agents, its trials in each world, and the rivals."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from page_cells import defined, source
+from page_cells import planned
 
-from lib.other_spaces import figures, trials
+from lib.other_spaces import trials
 from lib.shared.tabular import Rates
 from neorl import Learning, Policy, Run, Scene
+from neorl.agents.spaces import FAR_RADAR, pilot, reacher, swimmer
 from neorl.core.kernel import function_of
 
-PAGE, RUNS, STEPS = "other_spaces", 2, 3_000
-IMPORTS = {}
-exec(source(PAGE, "spaces-2").partition("notebook.begin")[0], IMPORTS)
+RUNS, STEPS = 2, 3_000
 
 
 def cells(*names, **given):
     """What cells of the page define, after its agents."""
-    given = IMPORTS | {"runs": RUNS, "steps": STEPS, "seed": 0, "traffic": 3, "decisions": 200} | given
-    return defined(PAGE, "agents", *names, **given)
+    return SimpleNamespace(**planned("other_spaces", "agents", *names, **{
+        "runs": RUNS, "steps": STEPS, "seed": 0, "decisions": 200, **given}))
 
 
 @pytest.fixture(scope="module")
@@ -29,8 +29,8 @@ def page():
 
 
 def test_all_agents_have_one_rule_and_one_policy(page):
-    agents = [IMPORTS["reacher"](2), IMPORTS["reacher"](3), IMPORTS["pilot"](), IMPORTS["swimmer"](), page.far_pilot,
-              page.compass_pilot, page.one_map, page.map_of_each, page.driver]
+    agents = [reacher(2), reacher(3), pilot(), swimmer(), page.far_pilot, page.compass_pilot, page.one_map,
+              page.map_of_each, page.driver]
     assert {(agent.learning, agent.policy, agent.own_cell) for agent in agents} == {
         (Learning(credit="share"), Policy(), "silent")}
 
@@ -41,20 +41,20 @@ def test_a_bearing_is_seen_from_the_bow(thing, turns):
         to_world = np.array([[math.cos(heading), -math.sin(heading)], [math.sin(heading), math.cos(heading)]])
         place = 0.5 + to_world @ (np.array(thing) - 0.5)
         scene = Scene(np.array([0.5, 0.5]), 0.1 * to_world[:, 0], place[None], np.zeros(1, int), np.zeros(1, int))
-        (seen,) = IMPORTS["FAR_RADAR"].modality.coordinates(scene, 1.0)
+        (seen,) = FAR_RADAR.modality.coordinates(scene, 1.0)
         assert (seen[1] - turns + 0.5) % 1 == pytest.approx(0.5, abs=1e-9)
         assert seen[0] == pytest.approx(0.4)
 
 
 def test_a_second_map_joins_at_half_time(page):
     joins, far = page.sailed["near joins"], page.sailed["far radar"]
-    assert joins.changes == ((STEPS // 2, IMPORTS["pilot"]()),)
+    assert joins.changes == ((STEPS // 2, pilot()),)
     half = joins.rewards.shape[1] // 2
     np.testing.assert_array_equal(joins.rewards[:, :half], far.rewards[:, :half])
 
 
 def test_what_is_watched_follows_the_run(page):
-    agent, world = IMPORTS["reacher"](2), page.arms[2]
+    agent, world = reacher(2), page.arms[2]
     seen = trials.watch(agent, world, 100, 50, 3)
     run = Run(agent, world, 3)
     run.advance(150)
@@ -68,13 +68,6 @@ def test_an_experienced_swimmer_finds_a_new_place_again_at_the_second_trial(page
             assert seconds.shape == (RUNS, 8, 4) and np.all((0 < seconds) & (seconds <= page.moved.trial_seconds))
     again = {name: seconds[:, page.late, 1].mean() for name, seconds in page.swum["moved"].items()}
     assert again["neoRL"] < 0.6 * again["random"]
-
-
-def test_paths_lead_from_the_rim_to_the_platform(page):
-    paths = trials.paths_of_last_day(IMPORTS["swimmer"](), page.moved, 0)
-    assert len(paths) == 2
-    for path in paths:
-        assert math.dist(path[0], (0.5, 0.5)) == pytest.approx(0.45)
 
 
 def test_cells_of_the_table_of_q_learning():
@@ -128,24 +121,3 @@ def test_more_is_better_in_every_score(page):
 def test_a_claim_is_judged_with_the_worlds_that_it_was_made_for(page, given, names):
     found = {name: getattr(page, name) for name in ("swum", "asked", "sailed", "scores", "late")}
     assert [claim.name for claim in cells("judging", **found | given).judged] == names
-
-
-def test_figures_draw_what_the_page_has(page):
-    above, below = figures.draw_arms(page.reached, trials.watch(IMPORTS["reacher"](2), page.arms[2], 100, 30, 3))
-    assert len(below.lines) == 4 and len(above.lines) > figures.SEEN
-    _, below = figures.draw_vessel(page.sailed, trials.watch(page.far_pilot, page.waters, 100, 30, 3))
-    assert below.lines[0].get_ydata()[-1] == pytest.approx(60 * page.sailed["radar"].rate(0.95).mean())
-    figures.draw_birds(page.asked, [np.array([(0.5, 0.5), (0.5, 0.55)])], page.named, page.nameless)
-    above, _ = figures.draw_car(page.driven, page.played[0].learner, 200)
-    assert len(above.lines) <= 18 * 14
-
-
-def test_the_number_of_a_path_stands_beside_it(page):
-    path = np.column_stack([np.linspace(0.05, 0.5, 90), np.full(90, 0.5)])
-    (number,) = figures.draw_paths([path], page.moved).texts
-    assert number.get_text() == "1" and 0.04 < np.hypot(*(path - number.get_position()).T).min() < 0.06
-    assert figures.draw_paths([path[:1]], page.moved).texts[0].get_position() == tuple(path[0])
-
-
-def test_joints_of_a_posture():
-    np.testing.assert_allclose(figures.joints_of(np.array([0.25, 0.75])), [[0, 0], [0, 0.5], [0.5, 0.5]], atol=1e-12)

@@ -77,19 +77,6 @@ def test_what_cells_define_is_cached_and_saved_like_what_modules_define(session)
     assert later == again and there == here and here[2] == "Pond()"
 
 
-def test_a_file_with_rules_of_a_notebook_names_them_where_they_are_not_defined(session):
-    pond, rules = source("own_world", "cell-09"), source("own_world", "cell-21")
-    refused = """
-try:
-    Run.load("run.npz")
-except ValueError as error:
-    print(json.dumps([str(error)]))
-"""
-    assert session(pond, rules, SETUP, SAVED) == []
-    ((message,),) = session(SETUP, refused)
-    assert "what can be imported, but is '__main__:wall_distance'" in message
-
-
 def test_the_pond_of_kernels_is_that_of_the_loop():
     world = defined("own_world", "cell-09").Pond()
     state, rng, finds, pad = world.reset(0), np.random.default_rng(0), 0, np.array([0.8, 0.3])

@@ -80,15 +80,3 @@ def test_actions_that_do_not_stick_are_those_of_the_grid():
     process = temporality.sticky(CLIFF.next_state, WORTH, 0.0)
     np.testing.assert_allclose(decision.plan(*process.expected(), 0.9), np.repeat(plain, 4, axis=0))
     assert len(process.starts) == 4 * (CLIFF.states - 3)
-
-
-@pytest.mark.parametrize("call, message", [
-    (lambda: temporality.symbols(1, 2), "alphabet must be .*, but is 1"),
-    (lambda: temporality.symbols(2, 0), "memory must be .*, but is 0"),
-    (lambda: temporality.outcomes(2, 2, "product"), "rule must be 'sum', 'delay', 'table' or 'pause', but is 'produc"),
-    (lambda: temporality.window(2, 3, 4), "length must be an integer from 0 to 3, but is 4"),
-    (lambda: temporality.sticky(CLIFF.next_state, WORTH, 1.5), "stickiness must be .*, but is 1.5"),
-])
-def test_a_bad_argument_is_refused(call, message):
-    with pytest.raises(ValueError, match=message):
-        call()

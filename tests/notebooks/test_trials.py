@@ -78,26 +78,9 @@ def test_an_object_is_the_goal_or_the_state():
     assert {name: values for name, (values, _) in sizes.items()} == {"self": 4 * (4 + 25), "object": 4 * (16 + 625)}
 
 
-def test_costs_are_those_of_agents_with_one_more_map_each_time():
-    both = papers.multimodal(PRIMES)
-    one = trials._with_maps(both, [("PC", 2), ("OVC", 3)])
-    assert [(node.name, node.resolutions) for node in one.nodes] == [("PC", (2,)), ("OVC", (3,))]
-    assert one.desires == both.desires and trials._with_maps(both, []).desires == ()
-    cost = trials.measure_costs(BOTH, TANK, 500, 3)
-    assert cost.labels == ["PC N2", "PC N3", "OVC N2", "OVC N3"]
-    assert cost.alone.shape == cost.first.shape == (4, 3) and (cost.first > 0).all()
-    assert cost.measured[0] == cost.predicted[0]
-
-
 def test_a_desire_that_moves_is_a_condition_that_can_be_rerun(cache_folder):
     result = trials.live_with_moving_desire(PLACE, TANK, 4_001, 2, seed=3)
     assert (result.steps, result.runs, result.seed) == (1_000 + 2 * 1_500, 2, 3)
     assert result.agent == PLACE
     assert [step for step, _ in result.changes] == [1_000, 2_500]
     assert [later.desires[0].source for _, later in result.changes] == [*trials.PLACES]
-
-
-def test_maps_that_stay_keep_what_they_know_and_new_ones_know_nothing():
-    places, both = papers.place_cells(PRIMES), papers.multimodal(PRIMES)
-    assert trials.maps_kept(places, both, neorl.WaterWorld(), 5_000) == 2
-    assert trials.maps_kept(places, papers.place_cells((2, 4)), neorl.WaterWorld(), 5_000) == 1

@@ -1,0 +1,85 @@
+"""What pages share: tables, marks, the box of findings, readings side by side, figures with the thesis's numbers."""
+
+import re
+from dataclasses import replace
+
+import numpy as np
+from contrast import GROUNDS, STYLE_SHEET, contrast, variables
+
+from lib.shared import marks, opening, provenance, report, side_by_side
+from lib.shared.fields import superposed_field
+from lib.shared.priors import BEYOND
+from lib.shared.thesis_figures import draw_against_thesis
+from lib.shared.wording import number, scientific, table
+from neorl import GREEDY, WaterWorld, superpose
+from neorl.evidence.reading import TO_THE_LETTER, Reading
+from neorl.evidence.statistics import Estimate
+from neorl.evidence.verdict import VERDICTS, Claim
+
+
+def test_a_table_has_a_line_for_its_heads_a_rule_and_a_line_for_each_row():
+    assert table(("a", 1), [("b", Estimate(2, 1, 3))]) == "| a | 1 |\n|---|---|\n| b | 2.00 [1.00, 3.00] |"
+    assert [number(value) for value in (1.234, -1.5, -0.001)] == ["1.23", "−1.50", "0.00"]
+    assert [scientific(value) for value in (2.4e-16, 3e9, 0.0)] == ["2 × 10<sup>−16</sup>", "3 × 10<sup>9</sup>", "0"]
+
+
+def test_every_verdict_has_a_mark_whose_colour_is_legible_on_all_grounds():
+    assert [marks.symbol(verdict) for verdict in (*VERDICTS, report.NOT_COMPUTED)] == ["●", "◐", "○", "◇", "◇", "◇"]
+    styled = dict(re.findall(r"\n\.(verdict-[\w-]+) \{\n  color: var\(--([\w-]+)\);", STYLE_SHEET.read_text()))
+    assert styled.keys() == {mark.css for mark in marks.MARKS.values()}
+    for mode, colours in variables("verdict-").items():
+        assert colours.keys() == set(styled.values())
+        for name, colour in {**colours, **variables("table-link")[mode]}.items():
+            for ground in GROUNDS[mode]:
+                assert contrast(colour, ground) >= 4.5, (mode, name, ground)
+
+
+def claims(**verdicts):
+    return [Claim(name, Estimate(0.1, 0.05, 0.2), "", 10, verdict, False) for name, verdict in verdicts.items()]
+
+
+def test_a_box_has_verdicts_by_reading_with_links_or_says_that_there_are_none():
+    judged = {"calibrated": claims(A2="reproduced", A3="partly", A4="reproduced"), "": claims(C1="not testable")}
+    calibrated, nameless = opening.found(judged, 10).split("\n\n")[2:4]
+    names = re.findall(r'<a href="../book/claims.md#claim-\w+" title="[^"]+">(\w+)</a>', calibrated)
+    assert calibrated.startswith("Calibrated: ") and names == ["A2", "A4", "A3"]
+    assert "C1</a> not testable, because the agents learned too little" in nameless
+    assert "A2" not in opening.found(judged, 9) and "**Quick look: no verdicts.**" in opening.found(judged, 9)
+
+
+def test_variants_of_a_reading_are_those_that_differ_and_its_choices_are_open_or_pinned():
+    reading = Reading(memory=0.0, exploration=0.1)
+    made = side_by_side.changed(reading, {"no memory": {"memory": 0.0}, "greedy": {"exploration": 0.0}})
+    assert made == {"greedy": replace(reading, exploration=0.0)}
+    choices = side_by_side.choices({"letter": TO_THE_LETTER, "far": replace(TO_THE_LETTER, recursion=2.0)},
+                                   ["recursion", "network_resolutions"])
+    assert choices.splitlines()[2:] == ["| recursion, r | pinned | −1 | 2 |",
+                                        "| resolutions, C | open | {3, 7, 23} | {3, 7, 23} |"]
+
+
+def test_every_constant_has_a_source_and_the_value_of_the_code():
+    constants = {each.name: each for each in provenance.constants()}
+    assert {choice.label for choice in BEYOND.values()} <= set(constants)
+    assert all(each.value and each.source for each in constants.values())
+    assert constants["side of the tank"].value == f"{WaterWorld().width} pixels"
+    assert constants["exploration, ε"].value == f"{GREEDY.exploration:g}"
+    assert constants["steps of a run, paper A"].value == "150,000" and constants["creeps, paper A"].value == "8"
+    assert constants["creeps, papers B and C"].source.startswith("paper B")
+
+
+def test_a_field_has_the_superposition_of_every_cell():
+    q = np.random.default_rng(0).random((9, 4, 9), np.float32)
+    field = superposed_field(q, [2, 7], [1.0, -0.5])
+    np.testing.assert_array_equal(field, [superpose(q, state, [2, 7], [1.0, -0.5]) for state in range(9)])
+
+
+def test_the_number_of_the_thesis_stands_beside_what_was_found():
+    found = {"to the letter": {"both": Estimate(0.1, 0.05, 0.15), "place cells": Estimate(0.2, 0.1, 0.3)},
+             "calibrated": {"place cells": Estimate(0.3, 0.25, 0.35), "both": Estimate(0.5, np.nan, np.nan)}}
+    axes = draw_against_thesis({"place cells": 0.29, "both": 0.55}, found, "reward per second")
+    assert [label.get_text() for label in axes.get_yticklabels()] == ["place cells", "both"]
+    numbers, to_the_letter, calibrated = (lines.get_segments() for lines in axes.collections)
+    np.testing.assert_allclose(np.array(numbers)[:, :, 0], [[0.29, 0.29], [0.55, 0.55]])
+    assert [list(line.get_xdata()) for line in axes.lines] == [[0.2, 0.1], [0.3, 0.5]]
+    np.testing.assert_allclose(np.array(to_the_letter)[:, :, 0], [[0.1, 0.3], [0.05, 0.15]])
+    np.testing.assert_allclose(calibrated[0][:, 0], [0.25, 0.35])
