@@ -31,7 +31,7 @@ def agent():
                  Policy(choose=second_best(0.1)))
 
 def look():
-    condition = Condition(agent(), Pond(), 2_000, 2)
+    condition = Condition(agent(), Pond(), 600, 2)
     known = condition.path.exists()
     reward = simulate_once(**condition.choices, progress=False).rewards.sum()
     print(json.dumps([condition.key, float(reward), known]))
@@ -43,22 +43,26 @@ for x in (0.2, 0.1, 0.2):
     learner.act()
     learner.observe(Scene([x, 0.2], things=[[0.8, 0.3]], kinds=["pad"]))
 run = Run(agent(), Pond())
-run.advance(2_000)
+run.advance(600)
 learner.save("learner.npz"), run.save("run.npz")
 """
 LOADED = """
-print(json.dumps([[Learner.load("learner.npz").act() for _ in range(3)], Run.load("run.npz").advance(1_000),
+print(json.dumps([[Learner.load("learner.npz").act() for _ in range(3)], Run.load("run.npz").advance(300),
                   str(Run.load("run.npz").world)]))
 """
 
 
 @pytest.fixture
 def session(tmp_path, cache_folder):
-    """Run cells as a notebook does, in a process of their own, and return what they print, each line read as JSON."""
+    """Run cells as a notebook does, in a process of their own, and return what they print, each line read as JSON.
+
+    Nothing is compiled there: the book's build runs the page with the compiler.
+    """
     def session(*cells):
         done = subprocess.run([sys.executable, "-c", SHELL, json.dumps(cells)], cwd=tmp_path, capture_output=True,
                               text=True, env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path),
-                                              "IPYTHONDIR": str(tmp_path / "ipython")})
+                                              "IPYTHONDIR": str(tmp_path / "ipython"),
+                                              "NUMBA_DISABLE_JIT": "1"})
         assert done.returncode == 0, done.stdout + done.stderr
         return [json.loads(line) for line in done.stdout.splitlines() if line.startswith("[")]
 
