@@ -1,20 +1,14 @@
 """Bad arguments found by fuzzing are refused by messages that name the argument, what it must be and what it is."""
 
-from fractions import Fraction
-
-import numba
 import numpy as np
 import pytest
 from fuzzing import Unequal, Unprintable
 
-import neorl
-from neorl import (CARDINAL, Actions, Agent, Arena, Axis, Desire, Learner, Learning, Modality, Node, NresMap, Place,
-                   Policy, Run, Scene, WaterWorld, checks, drawing, kernel, kernel_maker, learn, object_vector_cells,
-                   place_cells, softmax, superpose)
+from neorl import (Actions, Agent, Axis, Desire, Learner, Learning, Modality, Node, NresMap, Scene, WaterWorld, checks,
+                   kernel, kernel_maker, learn, object_vector_cells, place_cells, softmax)
 from neorl.agents.compile import n_bytes
-from neorl.core.horde import as_vectors
 from neorl.core.modality import PLACE_CELL, cartesian, polar
-from neorl.evidence import curves, statistics
+from neorl.evidence import statistics
 
 WORLD = WaterWorld(n_creeps=2)
 MASKED = np.ma.array([0.5, 0.6], mask=[True, False])
@@ -40,99 +34,47 @@ def state_with(**fields):
 
 @pytest.mark.parametrize("call, message", [
     (lambda: checks.real("x", 10**400), r"x must be a finite number from -1e\+30 to 1e\+30, but is 100000000000000000"),
-    (lambda: checks.real("x", Fraction(10**400, 3)), r"x must be a finite number from -1e\+30 to 1e\+30, but is Fract"),
     (lambda: checks.integer("x", 10**5000, 0, 9), "x must be an integer from 0 to 9, but is a value of type int"),
     (lambda: checks.integer("x", Unprintable(), 0), "x must be an integer of at least 0, but is <Unprintable instanc"),
-    (lambda: checks.one_of("x", np.array(["a"]), ("a", "b")), r"x must be 'a' or 'b', but is array\(\['a'\], dtype='<"),
     (lambda: checks.one_of("x", Unequal("c"), ("a", "b")), "x must be 'a' or 'b', but is 'c'"),
     (lambda: checks.several("x", range(2**80)), r"x must be 1048576 values or fewer, but is range\(0, 120892581961462"),
     (lambda: checks.several("x", np.broadcast_to(0.0, (10**12,))), "x must be 1048576 values or fewer, but is array"),
-    (lambda: checks.doubles("x", ["1.5"]), "x must be .*, but is .*"),
     (lambda: checks.doubles("x", [[1], [1, 2]]), "x must be .*, but is .*"),
     (lambda: checks.doubles("x", np.ones(2, complex)), r"x must be numbers, in lists of equal lengths, but is array\("),
     (lambda: checks.doubles("x", [1e308]), r"x must be finite numbers from -1e\+30 to 1e\+30, but is array\(\[1.e\+30"),
     (lambda: checks.doubles("x", MASKED), r"x must be free of masked values, but is masked_array\(data=\[--, 0.6\],"),
-    (lambda: Actions(("a",), (MASKED,)), r"pushes must be free of masked values, but is masked_array\(data=\[--, 0.6"),
-    (lambda: NresMap(3).encode(MASKED), r"points must be free of masked values, but is masked_array\(data=\[--, 0.6\]"),
-    (lambda: learner().begin(scene(position=MASKED)), "scene.position must be free of masked values, but is masked_a"),
-    (lambda: drawing.draw_curves(MASKED, {"a": [[1, 2]]}), r"xs must be free of masked values, but is masked_array\(d"),
-    (lambda: checks.path("x", None), "x must be the path of a file, but is None"),
     (lambda: checks.path("x", "a\0b"), r"x must be the path of a file, but is 'a\\x00b'"),
     (lambda: checks.instance("x", None, Agent), "x must be an Agent, but is None"),
-    (lambda: WaterWorld(win_reward=1e308), r"win_reward must be a finite number from -1e\+30 to 1e\+30, but is 1e\+30"),
-    (lambda: WaterWorld(fps=2**80), "fps must be an integer from 1 to 2147483648, but is 1208925819614629174706176"),
-    (lambda: Learner(place_cells([3]), 1, ("green", "red"), fps=2**101), "fps must be a finite number from 1e-30 to "),
-    (lambda: Arena(pay=[1e308]), r"pay must be a finite number from -1e\+30 to 1e\+30, but is 1e\+308"),
-    (lambda: Learning(memory=1e308), r"memory must be a finite number from 0 to 1e\+30, but is 1e\+308"),
-    (lambda: Desire("green", "PC", 1e308), r"valence must be a finite number from -1e\+30 to 1e\+30, but is 1e\+308"),
-    (lambda: Place.of_fields(None), "coordinates must be a list or a tuple, but is None"),
-    (lambda: place_cells([3]).comes_from_node(None), "desire must be a Desire, but is None"),
     (lambda: Agent([Node("PC", PLACE_CELL, [3])], [Desire("green", "PC", 1.0)] * 4_097),
      "desires must be 0 to 4096, each a Desire, but are 4097"),
-    (lambda: Axis("position", along=2**80), "along must be an integer from 0 to 7, but is 1208925819614629174706176"),
-    (lambda: Axis("position", intervals=2**80), "intervals must be an integer from 1 to 2147483647, but is 120892581"),
-    (lambda: Axis("position", low=-1e308), r"low must be a finite number from -1e\+30 to 1e\+30, but is -1e\+308"),
     (lambda: Axis("position", low=0, high=5e-324), "low must be below high, 5e-324, but is 0.0"),
-    (lambda: cartesian("position", None), "ranges must be a list or a tuple, but is None"),
     (lambda: cartesian("position", (0, 1, 2)), r"ranges must be pairs \(low, high\), but is \(\(0, 1, 2\),\)"),
     (lambda: Modality("x", polar("landmarks", 1), [(0.5,)]), "landmarks must be places of 2 coordinates or more, but"),
-    (lambda: PLACE_CELL.coordinates(None, 1), "scene must be a Scene, but is None"),
     (lambda: PLACE_CELL.coordinates(Scene((0.5,)), 1), "the world of place cells must have 2 axes or more, but has 1"),
-    (lambda: PLACE_CELL.coordinates(Scene((0.5, 0.5)), 0), r"size must be a finite number from 1e-30 to 1e\+30, but i"),
-    (lambda: NresMap(2**80), "resolution must be an integer from 1 to 2147483647, but is 1208925819614629174706176"),
-    (lambda: NresMap(3).encode("ab"), "points must be numbers, in lists of equal lengths, but is 'ab'"),
-    (lambda: Actions(("a",), ((1,),), idle=["x"]), r"idle must be a str, but is \['x'\]"),
     (lambda: Actions(("a",), ((1,) * 9,)), r"pushes must be of 8 axes and 1024 actions or fewer, but is \(\(1, 1, 1, "),
     (lambda: learn(values_with(np.nan), 0, 1, (1, 1)), r"q must be finite numbers from -1e\+30 to 1e\+30, but is arra"),
-    (lambda: superpose(values_with(np.inf), 1, [2], [1]), r"q must be finite numbers from -1e\+30 to 1e\+30, but is a"),
-    (lambda: superpose(values_with(0), 1, [2], [1e308]), r"valences must be a finite number from -1e\+30 to 1e\+30, b"),
-    (lambda: as_vectors(None), "values must be numbers, in lists of equal lengths, but is None"),
-    (lambda: as_vectors([1, 2, 3, 4], None), "actions must be an Actions, but is None"),
     (lambda: kernel(3), "function must be .*, but is 3"),
-    (lambda: kernel_maker(3), "function must be .*, but is 3"),
     (lambda: kernel_maker(lambda: 3)(), "what <lambda>.<locals>.<lambda> returns must be a function that is decorate"),
-    (lambda: softmax([1]), r"temperature must be a finite number from 1e-30 to 1e\+30, but is \[1\]"),
     (lambda: learner().begin(None), "scene must be a neorl.Scene, or have its fields, but is None"),
-    (lambda: learner().begin(scene(position=[[1], [1, 2]])), r"scene.position must be numbers of the shape \(2,\), bu"),
     (lambda: learner().begin(scene(position=range(10**12))), r"scene.position must be numbers of the shape \(2,\), bu"),
-    (lambda: learner().begin(scene(position=(1e308, 0))), r"scene must be of finite numbers from -1e\+30 to 1e\+30, b"),
-    (lambda: learner().begin(scene(things=5)), r"scene.things must be numbers of the shape \(1, 2\), but is 5"),
-    (lambda: learner().begin(scene(kinds=None)), "scene.kinds must be a list of 1, each None, 'green', 'red', -1, 0 "),
-    (lambda: learner().begin(scene(met=[np.nan])), r"scene.met must be finite numbers from -1e\+30 to 1e\+30, but is "),
-    (lambda: learner().begin(scene(met=np.array(5))), r"scene.met must be numbers of the shape \(1,\), but is array\("),
     (lambda: learner().begin(scene(met=np.array([2**70, 0], object))), r"scene.met must be numbers of the shape \(1,"),
     (lambda: WORLD.step(state_with(direction=np.full((2, 2), 2.0)), 0), "state.direction must be vectors of length 1"),
-    (lambda: WORLD.step(state_with(jitter=np.full(2, 1e300)), 0), r"state.jitter must be finite numbers from -1e\+30 "),
-    (lambda: WORLD.step(state_with(speed=np.full(2, 1e308)), 0), r"state.speed must be finite numbers from -1e\+30 to"),
     (lambda: statistics.estimate(np.mean, []), r"samples must be a number for each run, .*, but is \[\]"),
     (lambda: statistics.estimate(np.mean, [1, np.nan]), r"samples must be finite numbers from -1e\+30 to 1e\+30, but "),
-    (lambda: statistics.estimate(np.mean, [1, 2], rng=-1), "rng must be an integer of at least 0, but is -1"),
-    (lambda: statistics.mean_band([1, 2]), "curves must have the shape .runs, points., .*, but has .2,."),
     (lambda: statistics.tolerance_band(np.zeros((0, 3))), "curves must have the shape .*, but has .0, 3."),
-    (lambda: statistics.tolerated_share(5, 0), "beyond must be an integer from 1 to 2147483648, but is 0"),
-    (lambda: statistics.points(None), "result must be a Result, but is None"),
-    (lambda: statistics.minutes_sooner([], [], 1.0), "quick must be one result or more, .*, but has 0"),
-    (lambda: curves.binned_rate(None, 3), "result must be a Result, but is None"),
-    (lambda: curves.low_passed(None), "rates must be numbers, in lists of equal lengths, but is None"),
-])
+    (lambda: statistics.minutes_sooner([], [], 1.0), "quick must be one result or more, .*, but has 0")])
 def test_what_is_refused(call, message):
     with pytest.raises(ValueError, match=f"(?s){message}"):
         call()
 
 
-def test_a_masked_array_without_a_masked_value_is_an_array():
+def test_other_forms_of_numbers_are_plain_numbers():
     assert checks.doubles("x", np.ma.array([0.5, 0.6])).tolist() == [0.5, 0.6]
-
-
-def test_numbers_of_numpy_and_arrays_of_no_axis_are_numbers():
+    assert str(checks.real("x", -0.0)) == "0.0"  # without a sign, so that equal values have equal keys
     assert checks.real("x", np.array(0.5)) == checks.real("x", np.float32(0.5)) == 0.5
     assert checks.integer("x", np.array(5), 0) == checks.integer("x", np.uint8(5), 0) == 5
     assert checks.flag("x", np.array(True)) is True
     assert softmax(np.array(2.0)) is softmax(temperature=2.0) is softmax(np.float64(2))
-
-
-def test_zero_has_no_sign_so_that_equal_values_have_equal_keys():
-    assert str(checks.real("x", -0.0)) == "0.0"
 
 
 def test_arrays_that_cannot_be_written_to_and_those_in_another_order_are_points_like_others():
@@ -143,30 +85,9 @@ def test_arrays_that_cannot_be_written_to_and_those_in_another_order_are_points_
         assert NresMap(5).encode(same).tolist() == cells
 
 
-def test_a_policy_that_returns_no_action_takes_the_nearest():
-    @kernel
-    def far_off(value, stream):
-        return 10**9
-
-    run = Run(place_cells([3], policy=Policy(choose=far_off)), WORLD)
-    run.advance(10)
-    assert run.state.last_event[0] == len(CARDINAL.names)
-
-
-@pytest.mark.skipif(numba.config.DISABLE_JIT, reason="the compiler is off")
-def test_a_kernel_that_cannot_be_compiled_is_named():
-    @kernel
-    def of_nothing():
-        return 0
-
-    with pytest.raises(TypeError, match="^the kernel .*of_nothing .*test_checks.py, line .* must be .*, but Cannot"):
-        Run(place_cells([3], policy=Policy(choose=of_nothing)), WORLD).advance(1)
-
-
 def test_what_is_remembered_counts_as_memory():
     none, some = (place_cells([3], learning=Learning(memory=memory)) for memory in (0, 2))
     assert n_bytes(some, WORLD) - n_bytes(none, WORLD) == 9 * (20 + 16 * 4)
     short, long = (object_vector_cells([3], object_state="self", learning=Learning(memory=memory))
                    for memory in (0, 1e9))
     assert n_bytes(long, WORLD) - n_bytes(short, WORLD) == (500 - 1) * (2 * 8 + 4 * 4)
-    assert neorl.agents.memory.n_bytes is n_bytes

@@ -18,7 +18,7 @@ from neorl.core.modality import HEAD_DIRECTION_CELL, LANDMARK_VECTOR_CELL, MODAL
 from neorl.description import described, read_data, restored
 
 PAPERS = (place_cells, object_vector_cells, multimodal, network_a, network_b, network_c, network_d)
-SHARES, UNITS = st.floats(0, 1), st.sampled_from(["cells", "seconds"])
+SHARES = st.floats(0, 1)
 OWN = Modality("place × direction", PLACE_CELL.axes + HEAD_DIRECTION_CELL.axes)
 
 
@@ -100,23 +100,18 @@ def test_an_experiment_can_be_written_by_hand(tmp_path):
     assert Condition.load(path) == Condition(agent, WaterWorld(n_creeps=8), 1_000, 2)
 
 
-def test_modalities_and_kernels_go_by_name(monkeypatch):
+def test_modalities_and_kernels_go_by_name_and_numbers_of_numpy_are_plain_numbers(monkeypatch):
     module = types.ModuleType("my_modalities")
     module.OWN = OWN
     monkeypatch.setitem(sys.modules, "my_modalities", module)
     for name, modality in ((each.name, each) for each in MODALITIES):
         assert restored({"name": "X", "modality": name, "resolutions": [2]}, Node).modality is modality
-    assert Agent.from_dict({"nodes": [{"name": "X", "modality": "my_modalities:OWN", "resolutions": [2]}]}) == Agent(
-        [Node("X", OWN, [2])])
-    assert described(Policy())["choose"] == {"kernel": "greedy"}
-    assert described(Learning(credit=of_a_module))["credit"] == {"kernel": f"{__name__}:of_a_module"}
-
-
-def test_numbers_of_numpy_are_plain_numbers():
+    node = restored({"name": "X", "modality": "my_modalities:OWN", "resolutions": np.array([2, 3])}, Node)
+    assert repr(node) == repr(Node("X", OWN, (2, 3)))
     data = {"is": np.str_("WaterWorld"), "n_creeps": np.int64(3), "win_reward": np.array(0.5)}
     assert repr(World.from_dict(data)) == repr(WaterWorld(n_creeps=3, win_reward=0.5))
-    node = restored({"name": "X", "modality": "place cell", "resolutions": np.array([2, 3])}, Node)
-    assert repr(node) == repr(Node("X", PLACE_CELL, (2, 3)))
+    assert described(Policy())["choose"] == {"kernel": "greedy"}
+    assert described(Learning(credit=of_a_module))["credit"] == {"kernel": f"{__name__}:of_a_module"}
 
 
 FINE = {"agent": {"is": "place_cells"}, "world": {"is": "WaterWorld"}, "steps": 100, "runs": 2}
@@ -126,58 +121,36 @@ NODE = {"name": "PC", "modality": "place cell", "resolutions": [3]}
 @pytest.mark.parametrize("change, message", [
     ({"stepps": 3}, "^a field of the data must be 'agent', .*, but is 'stepps'; did you mean 'steps'"),
     ({"steps": "many"}, "^steps must be an integer of at least 1, but is 'many'"),
-    ({"runs": True}, "^runs must be .*, but is True"),
     ({"world": {}}, "^world.is must be the name of a kind of World, but is missing"),
-    ({"world": 3}, "^world must be .*, but is 3"),
     ({"world": {"is": "WaterWorlds"}}, "^world.is must be a name of neorl, or 'module:name' of what can be imported, "),
     ({"world": {"is": "place_cells"}}, "^world.is must be the name of a kind of World, but is 'place_cells'"),
     ({"world": {"is": "Arena", "places": [["a", 0.1, {"kernel": "greedy"}]]}},
      "^world.places must be .*, but is <kernel"),
-    ({"world": {"is": "Arena", "places": [["a", 0.1, "b"]]}}, "^world.places must be .*, but is 'b'"),
     ({"world": {"is": f"{__name__}:Cave", "depth": "deep"}}, "^world.depth must be a number, but is 'deep'"),
-    ({"world": {"is": f"{__name__}:Cave", "depth": True}}, "^world.depth must be a number, but is True"),
-    ({"world": {"is": f"{__name__}:Cave"}}, "^world.depth must be .*, but is missing"),
     ({"world": {"is": f"{__name__}:Cave", "depth": 1, "rooms": [["a", 1], ["b", 0.5]]}},
      r"^world.rooms\[1\]\[1\] must"),
     ({"world": {"is": "no_such_module:Cave"}}, "^world.is must be a name of neorl, or 'module:name' of what can be im"),
     ({"agent": {"is": "os:system"}}, "^agent.is must be the name of a kind of Agent, but is 'os:system'"),
     ({"agent": {"is": "place_cells", "learning": {"memry": 3}}}, "^a field of agent.learning must be .* 'memory'"),
-    ({"agent": {"is": "place_cells", "learning": {"memory": -1}}}, "^agent.learning.memory must be .*, but is -1"),
-    ({"agent": {"is": "place_cells", "resolution": [3]}}, "^a field of agent must be .* 'resolutions'"),
-    ({"agent": {"is": "place_cells", "resolutions": 3}}, "^agent.resolutions must be .*, but is 3"),
     ({"agent": {}}, "^agent.nodes must be .*, but is missing"),
-    ({"agent": {"nodes": [3]}}, r"^agent.nodes\[0\] must b"),
-    ({"agent": {"nodes": [NODE, NODE]}}, "^agent.nodes must have different names, but have 'PC', 'PC'"),
     ({"agent": {"nodes": [NODE | {"modality": "place cel"}]}},
      r"^agent.nodes\[0\].modality must be a table, 'module:N"),
     ({"agent": {"nodes": [NODE | {"modality": "os:path"}]}},
      r"^agent.nodes\[0\].modality must be .*, but is 'os:path'"),
-    ({"agent": {"nodes": [NODE | {"resolutions": [3, 0]}]}},
-     r"^agent.nodes\[0\]: resolution must be an integer from 1"),
     ({"agent": {"nodes": [NODE], "desires": [{"source": {"coordinates": ["x"]}, "target": "PC"}]}},
      r"^agent.desires\[0\].source.coordinates must be .*, but is 'x'"),
     ({"agent": {"is": "place_cells", "policy": {"choose": {"kernel": "softmax", "of": [-1]}}}},
      r"^agent.policy.choose.of is \[-1\]: temperature must be a finite number from 1e-30 to 1e\+30, but is -1"),
     ({"agent": {"is": "place_cells", "policy": {"choose": {"kernel": "os:system", "of": ["exit 3"]}}}},
      "^agent.policy.choose.kernel must be .*, but is 'os:system'"),
-    ({"agent": {"is": "place_cells", "policy": {"choose": {"kernel": "os:system"}}}},
-     "^agent.policy.choose must be .*, but is <built"),
     ({"agent": {"is": "place_cells", "policy": {"choose": {"kernel": "greedy", "o": 1}}}}, "^the fields of agent.poli"),
-    ({"changes": [[3, 5]]}, r"^changes\[0\]\[1\] must be an Agent, but is 5"),
-    ({"changes": [[3]]}, "^changes must be pair"),
-])
+    ({"changes": [[3, 5]]}, r"^changes\[0\]\[1\] must be an Agent, but is 5")])
 def test_what_is_wrong_is_named_by_its_path(tmp_path, change, message):
     with pytest.raises(ValueError, match=message):
         Condition.from_dict(FINE | change)
     (tmp_path / "condition.json").write_text(json.dumps(FINE | change))
     with pytest.raises(ValueError, match=f"^{tmp_path / 'condition.json'}: {message.replace('^', '')}"):
         Condition.load(tmp_path / "condition.json")
-
-
-@pytest.mark.parametrize("data", [None, 3, "x", [], [[]], {"kernel": "greedy"}, {"is": "WaterWorld"}, {1: 2}])
-def test_other_data_are_refused(data):
-    with pytest.raises(ValueError, match="must be "):
-        Agent.from_dict(data)
 
 
 def test_data_that_contain_themselves_are_refused():
@@ -216,8 +189,7 @@ def test_what_cannot_be_found_again_is_not_written(tmp_path):
 
     for value, message in ((place_cells([2], policy=Policy(choose=of_no_module)), "^policy.choose must be a kernel th"),
                            (Hidden(), "the value must be a "), (Cave(np.float32(0.1)), "^depth must be a number, a te"),
-                           (Cave(np.zeros(2)), "^depth must be a number, a text, a tuple, a dataclass or a kernel to "),
-                           (Cave({"a": 1}), "^depth must be a number, a text, a tuple, a dataclass or a kernel to be")):
+                           (Cave(np.zeros(2)), "^depth must be a number, a text, a tuple, a dataclass or a kernel to")):
         with pytest.raises(ValueError, match=message):
             value.save(tmp_path / "value.json")
     for value in (Cave(float("nan")), Cave(float("inf"))):
@@ -232,12 +204,6 @@ def test_none_is_left_out_where_it_is_the_default_and_refused_by_toml_elsewhere(
     Cave(None).save(tmp_path / "cave.json")
     with pytest.raises(ValueError, match="choose a name that ends in .json"):
         Cave(None).save(tmp_path / "cave.toml")
-
-
-def test_without_the_package_that_writes_toml_the_extra_is_named(tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, "tomli_w", None)
-    with pytest.raises(ImportError, match=r"pip install 'neorl-companion\[data\]'"):
-        brownian().save(tmp_path / "agent.toml")
 
 
 def test_another_process_reads_the_same_key(tmp_path):

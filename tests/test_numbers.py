@@ -7,7 +7,7 @@ import pytest
 
 import neorl
 from neorl import (Actions, Agent, Arena, Arm, Axis, Condition, Contacts, Desire, Learner, Learning, Modality, Node,
-                   NresMap, Place, Policy, Result, Run, Scene, Trajectory, Vessel, WaterMaze, WaterWorld, World)
+                   NresMap, Place, Policy, Result, Run, Scene, Trajectory, Vessel, WaterMaze, WaterWorld)
 from neorl.core.identity import identity
 from neorl.core.modality import LANDMARK_VECTOR_CELL, PLACE_CELL, cartesian, polar
 
@@ -82,21 +82,6 @@ def test_single_precision_is_another_number():
     assert Policy(np.float32(0.1)) == Policy(float(np.float32(0.1))) != Policy(0.1)
 
 
-def test_equal_conditions_of_numpys_numbers_have_equal_keys():
-    plain = Condition(neorl.network_d([3], scale=17.86), WaterWorld(n_creeps=3), 100, 2, 5)
-    numpys = Condition(neorl.network_d(np.array([3]), recursion=np.array(-1), scale=np.float64(17.86)),
-                       WaterWorld(n_creeps=np.int64(3)), np.uint64(100), np.array(2), np.int8(5))
-    assert numpys == plain and numpys.key == plain.key and hash(numpys) == hash(plain)
-
-
-@pytest.mark.parametrize("first", [np.float64(0.123), np.array(0.123)])
-def test_a_kernel_maker_takes_numpys_numbers_for_the_same(first):
-    numpys, plain = (Policy(choose=neorl.softmax(each)) for each in (first, 0.123))
-    assert numpys == plain and identity(numpys) == identity(plain)
-    with pytest.raises(ValueError, match="temperature must be .*, but is True"):
-        neorl.softmax(True)
-
-
 def test_a_kernel_maker_tells_an_integer_from_the_same_number():
     """A kernel may use an integer as the length of a loop."""
     @neorl.kernel_maker
@@ -141,7 +126,3 @@ def test_public_functions_take_numpys_numbers(make_int, make_float):
     for plain, numpys in zip(numbers(int, float), numbers(make_int, make_float), strict=True):
         np.testing.assert_equal(numpys, plain)
         assert identity(numpys) == identity(plain)
-
-
-def test_a_world_of_a_users_own_is_read_with_plain_numbers():
-    assert repr(World.from_dict({"is": "Arena", "radius": np.float64(0.25)})) == repr(Arena(radius=0.25))
