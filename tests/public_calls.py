@@ -329,37 +329,24 @@ TABLE |= {
         lambda **each: [*reading.networks(**each)], reading=[reading.Reading()]),
     "neorl.experiments.recording.record": entry(
         recording.record, name=["Newborn"], run=RUNS, steps=st.integers(1, 5), long=("steps",)),
-    **{f"neorl.gym.environment.{kind.__name__}.{name}": each
-       for kind in (environment.WorldEnv, environment.WaterWorldEnv, environment.ArenaEnv) for name, each in {
-           "reset": entry(lambda **each: new_env().reset(**each)[0], seed=[None, 0, 5], options=[None], also="run"),
-           "step": entry(method(environment.WorldEnv.step, lambda: begun(new_env())), action=[0, np.int64(4)]),
-       }.items()},
+    "neorl.gym.environment.WorldEnv.reset": entry(
+        lambda **each: new_env().reset(**each)[0], seed=[None, 0, 5], options=[None], also="run"),
+    "neorl.gym.environment.WorldEnv.step": entry(
+        method(environment.WorldEnv.step, lambda: begun(new_env())), action=[0, np.int64(4)]),
     "neorl.gym.environment.WorldEnv": entry(
         lambda **each: begun(environment.WorldEnv(**each)).step(0)[0], world=[BOARD, POOL],
         render_mode=[None, "rgb_array"], egocentric=[True, False], continuing=[None, True, False]),
-    "neorl.gym.environment.WaterWorldEnv": entry(
-        lambda **each: begun(environment.WaterWorldEnv(**each)).step(0)[0], render_mode=[None, "rgb_array"],
-        egocentric=[True, False], continuing=[True, False], n_creeps=[2]),
-    "neorl.gym.environment.ArenaEnv": entry(
-        lambda **each: begun(environment.ArenaEnv(**each)).step(0)[0], render_mode=[None, "rgb_array"],
-        egocentric=[True, False], continuing=[True, False], places=[[("platform", 0.6, 0.3)]]),
     "neorl.gym.playing.play": entry(
         lambda **each: playing.play(**each).rewards, agent=[neorl.place_cells([3])], env=st.builds(new_env),
         scene=st.just(scene_of), steps=st.integers(0, 5), seed=st.integers(0, 99), things=[0], kinds=[("green", "red")],
         actions=[None], commands=[None, range(5)], long=("steps",), also=("Discrete", "surroundings", "kind", "axes")),
     **{f"neorl.gym.vector.VectorWorldEnv{name}": each for name, each in {
         "": entry(lambda **each: vector.VectorWorldEnv(**each).reset(seed=0)[0], world=[BOARD, POOL],
-                  num_envs=st.integers(1, 3), max_episode_steps=[None, 5], autoreset_mode=["NextStep", "SameStep"],
+                  num_envs=st.integers(1, 3), max_episode_steps=[None, 5],
                   render_mode=[None, "rgb_array"], egocentric=[True, False], continuing=[None, True],
                   long=("num_envs",)),
         ".reset": entry(lambda **each: vector.VectorWorldEnv(BOARD, 2).reset(**each)[0], seed=[None, 3, [1, 2]],
-                        options=[None], also=("run", "reset_mask")),
+                        options=[None], also="run"),
         ".step": entry(method(vector.VectorWorldEnv.step, lambda: begun(vector.VectorWorldEnv(BOARD, 2))),
                        actions=[[0, 1], np.array([4, 0])])}.items()},
-    "neorl.gym.vector.vector_waterworld": entry(
-        lambda **each: vector.vector_waterworld(**each).reset(seed=0)[0], num_envs=[1, 2], n_creeps=[2],
-        egocentric=[True, False], continuing=[True, False], long=("num_envs",)),
-    "neorl.gym.vector.vector_arena": entry(
-        lambda **each: vector.vector_arena(**each).reset(seed=0)[0], num_envs=[1, 2], egocentric=[True, False],
-        continuing=[True, False], shape=["round", "square"], long=("num_envs",)),
 }

@@ -35,7 +35,7 @@ FOR_AUTHORS = {f"neorl.{name}" for name in (
         "space_of")),
     *(f"evidence.statistics.{name}" for name in (  # called by `estimate`
         "difference", "lead_over_best", "lead_over_sum", "least_of_most", "quotient", "rank_correlation", "ratio")),
-    "evidence.reading.additions", "evidence.reading.judge", "gym.environment.checked_seed", "gym.environment.seed_row",
+    "evidence.reading.additions", "evidence.reading.judge", "gym.vector.VectorWorldEnv.advance",
     "agents.papers.paper_agent", "core.kernel.jit_is_off", "core.scene.checked_scene", "worlds.world.check_arrays",
     "worlds.walls.checked", "worlds.world.check_outcome", "worlds.world.check_rules")}
 NOTHING_TO_REPLACE = {"neorl.agents.papers.brownian", "neorl.drawing.style.use_style"}  # they take no arguments

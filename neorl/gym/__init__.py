@@ -16,17 +16,15 @@ The package needs gymnasium, and pygame to show an environment in a window: the 
 """
 
 from neorl.extras import require
-from neorl.gym.environment import ArenaEnv, WaterWorldEnv, WorldEnv
+from neorl.gym.environment import WorldEnv
 from neorl.gym.playing import Played, play
-from neorl.gym.vector import VectorWorldEnv, vector_arena, vector_waterworld
+from neorl.gym.vector import VectorWorldEnv
 
-__all__ = ["ArenaEnv", "Played", "VectorWorldEnv", "WaterWorldEnv", "WorldEnv", "play", "vector_arena",
-           "vector_waterworld"]
+__all__ = ["Played", "VectorWorldEnv", "WorldEnv", "play"]
 
 MINUTE = 3_000  # steps
 
-register = require("gymnasium", extra="gym").register
-register("neorl/WaterWorld-v0", entry_point="neorl.gym:WaterWorldEnv", max_episode_steps=MINUTE,
-         vector_entry_point="neorl.gym:vector_waterworld")
-register("neorl/Arena-v0", entry_point="neorl.gym:ArenaEnv", vector_entry_point="neorl.gym:vector_arena")
-register("neorl/World-v0", entry_point="neorl.gym:WorldEnv", vector_entry_point="neorl.gym:VectorWorldEnv")
+for name, steps in (("WaterWorld", MINUTE), ("Arena", None), ("World", None)):
+    require("gymnasium", extra="gym").register(
+        f"neorl/{name}-v0", entry_point="neorl.gym:WorldEnv", vector_entry_point="neorl.gym:VectorWorldEnv",
+        max_episode_steps=steps, kwargs={} if name == "World" else {"world": name})

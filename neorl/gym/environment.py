@@ -29,11 +29,7 @@ from numpy.typing import NDArray
 
 from neorl import checks
 from neorl.extras import require
-from neorl.gym.batch import Batch
-from neorl.gym.observation import observation_space
-from neorl.gym.rendering import Window, frame
-from neorl.worlds.arena import Arena
-from neorl.worlds.waterworld import WaterWorld
+from neorl.gym.vector import VectorWorldEnv
 from neorl.worlds.world import World
 
 gymnasium = require("gymnasium", extra="gym")
@@ -42,35 +38,29 @@ gymnasium = require("gymnasium", extra="gym")
 class WorldEnv(gymnasium.Env):
     """A world as a Gymnasium environment; see the module for its rules.
 
-    world: a `neorl.World`. render_mode: None; "rgb_array": `render` returns a picture, uint8 (500, 500, 3); or "human",
-    a window that shows every step at the world's frame rate. egocentric: whether things are relative to the agent,
-    nearest first. continuing: whether an episode goes on when one of the world is over; by default only in WaterWorld.
+    world: a `neorl.World`, or the name of one, "WaterWorld" or "module:name", with some of its fields. render_mode:
+    None, or "rgb_array": `render` returns a picture, uint8 (500, 500, 3). egocentric: whether things are relative to
+    the agent, nearest first. continuing: whether an episode goes on when one of the world is over; by default only in
+    WaterWorld.
 
     Raises ValueError for anything else.
     """
 
-    metadata = {"render_modes": ["human", "rgb_array"]}
+    metadata = {"render_modes": ["rgb_array"]}
 
-    def __init__(self, world: World, render_mode: str | None = None, egocentric: bool = True,
-                 continuing: bool | None = None) -> None:
-        continuing = isinstance(world, WaterWorld) if continuing is None else continuing
-        self._batch = Batch(world, 1, egocentric, continuing)
-        self.render_mode = checks.one_of("render_mode", render_mode, (None, *self.metadata["render_modes"]))
-        self.metadata = {**self.metadata, "render_fps": world.fps}
-        self.observation_space = observation_space(world, egocentric)
-        self.action_space = gymnasium.spaces.Discrete(len(world.actions.all_names))
-        self._begun = self._over = False
-        self._window: Window | None = None
-
-    @property
-    def world(self) -> World:
-        """The `neorl.World`."""
-        return self._batch.world
+    def __init__(self, world: World | str, render_mode: str | None = None, egocentric: bool = True,
+                 continuing: bool | None = None, **fields: Any) -> None:
+        self._envs = VectorWorldEnv(world, 1, None, render_mode, egocentric, continuing, **fields)
+        self.world, self.render_mode = self._envs.world, self._envs.render_mode
+        self.metadata = {**self.metadata, "render_fps": self.world.fps}
+        self.observation_space = self._envs.single_observation_space
+        self.action_space = self._envs.single_action_space
+        self._over = True
 
     @property
     def world_state(self) -> Any:
         """The state of the world, as read-only views."""
-        return self._batch.state_of(0)
+        return self._envs.world_states[0]
 
     def reset(self, *, seed: int | None = None,
               options: Mapping[str, Any] | None = None) -> tuple[NDArray[np.float32], dict[str, Any]]:
@@ -79,11 +69,9 @@ class WorldEnv(gymnasium.Env):
         seed: an integer ≥ 0, or None to continue the random stream. options: None, or {"run": k}, k ≥ 0, with a seed.
         Returns (observation: float32 (numbers,), info). Raises ValueError for anything else.
         """
-        seed, run = checked_seed(seed, options)
-        super().reset(seed=seed)
-        seed_row(self, self._batch, 0, seed, run, self._begun)
-        self._batch.begin(True)
-        self._begun, self._over = True, False
+        self._envs.reset(seed=[seed], options=options)
+        super().reset(seed=None if seed is None else int(seed))
+        self._over = False
         return self._returned()[::4]
 
     def step(self, action: int) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
@@ -93,20 +81,17 @@ class WorldEnv(gymnasium.Env):
         Returns (observation: float32 (numbers,), reward: float, terminated: bool, truncated: bool, info).
         Raises ValueError for any other action, `gymnasium.error.ResetNeeded` before `reset` and after the end.
         """
-        if not self._begun or self._over:
+        if self._over:
             raise gymnasium.error.ResetNeeded("step() must follow reset(), but came before it, or after the end of an "
                                               "episode")
-        slots = self._batch.slots
-        slots.action[0] = checks.integer("action", action, at_least=0, at_most=int(self.action_space.n) - 1)
-        slots.begins[0] = False
-        self._batch.step()
-        self._over = bool(slots.terminated[0] or slots.truncated[0])
-        return self._returned()
+        action = checks.integer("action", action, at_least=0, at_most=int(self.action_space.n) - 1)
+        self._envs.advance(action)
+        returned = self._returned()
+        self._over = returned[2] or returned[3]
+        return returned
 
     def _returned(self):
-        slots = self._batch.slots
-        if self.render_mode == "human":
-            self.render()
+        slots = self._envs.slots
         info = {"met": slots.met[0].copy(), "restarted": bool(slots.restarted[0])}
         return (slots.observation[0].copy(), float(slots.reward[0]), bool(slots.terminated[0]),
                 bool(slots.truncated[0]), info)
@@ -116,62 +101,5 @@ class WorldEnv(gymnasium.Env):
 
         Raises `gymnasium.error.ResetNeeded` before `reset`.
         """
-        if not self._begun:
-            raise gymnasium.error.ResetNeeded("render() must follow reset(), but came before it")
-        if self.render_mode is None:
-            gymnasium.logger.warn("render() was called without a render_mode, such as render_mode='rgb_array'")
-            return None
-        picture = frame(self.world, self.world_state.scene)
-        if self.render_mode == "rgb_array":
-            return picture
-        self._window = self._window or Window(self.world.fps)
-        self._window.show(picture)
-        return None
-
-    def close(self) -> None:
-        """Close the window, if there is one."""
-        if self._window is not None:
-            self._window.close()
-            self._window = None
-
-    def __getstate__(self):
-        return {**vars(self), "_window": None}  # a copy has a window of its own
-
-
-class WaterWorldEnv(WorldEnv):
-    """`neorl.WaterWorld` as an environment: "neorl/WaterWorld-v0".
-
-    rules: the fields of `WaterWorld`. The others are those of `WorldEnv`.
-    """
-
-    def __init__(self, render_mode: str | None = None, egocentric: bool = True, continuing: bool = True,
-                 **rules: Any) -> None:
-        super().__init__(WaterWorld(**rules), render_mode, egocentric, continuing)
-
-
-class ArenaEnv(WorldEnv):
-    """`neorl.Arena` as an environment: "neorl/Arena-v0".
-
-    rules: the fields of `Arena`. The others are those of `WorldEnv`.
-    """
-
-    def __init__(self, render_mode: str | None = None, egocentric: bool = True, continuing: bool = False,
-                 **rules: Any) -> None:
-        super().__init__(Arena(**rules), render_mode, egocentric, continuing)
-
-
-def checked_seed(seed, options):
-    """The seed, and the run number in the options, of a reset."""
-    options = checks.instance("options", {} if options is None else options, Mapping)
-    if set(options) - {"run"} or options and seed is None:
-        raise checks.error("options", "None, or with a seed {'run': k}", options)
-    seed = None if seed is None else checks.integer("seed", seed, at_least=0)
-    return seed, checks.integer("run", options.get("run", 0), at_least=0)
-
-
-def seed_row(env, batch, row, seed, run, begun):
-    """Seed a row of a batch with run `run` of a seed; without one, continue, or draw the first seed from `env`."""
-    if seed is None and not begun:
-        seed = int(env.np_random.integers(2**63))
-    if seed is not None:
-        batch.seed(row, np.random.SeedSequence(seed, spawn_key=(run,)))
+        pictures = self._envs.render()
+        return None if pictures is None else pictures[0]

@@ -1,13 +1,10 @@
-"""Pictures of a world, as arrays or in a window: the agent, the things coloured by kind, walls and obstacles.
+"""Pictures of a world, as arrays: the agent, the things coloured by kind, walls and obstacles.
 
 A world of more than two axes is projected onto the first two; one of a single axis is drawn as a line.
 """
 
-import os
-
 import numpy as np
 
-from neorl.extras import require
 from neorl.worlds.arena import Arena
 from neorl.worlds.waterworld import WaterWorld
 
@@ -51,28 +48,3 @@ def draw_disc(picture, x, y, radius, colour):
     part = picture[rows, columns]
     part[...] = np.rint(part + share * (np.array(colour) - part))
 
-
-class Window:
-    """A window that shows pictures at a fixed rate. Pygame has only one at a time, which all environments share."""
-
-    def __init__(self, fps):
-        os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
-        self._pygame, self._fps = require("pygame", extra="gym"), fps
-        self._clock = self._pygame.time.Clock()
-
-    def show(self, picture):
-        """Show a picture, uint8 (500, 500, 3), and wait for the time of the next one."""
-        display = self._pygame.display
-        if not display.get_init():
-            display.init()
-        if not display.get_surface():
-            display.set_caption("neorl")
-            display.set_mode((SIDE, SIDE))
-        self._pygame.event.pump()
-        self._pygame.surfarray.blit_array(display.get_surface(), picture.swapaxes(0, 1))
-        display.flip()
-        self._clock.tick(self._fps)
-
-    def close(self):
-        """Close the window."""
-        self._pygame.display.quit()

@@ -1,9 +1,8 @@
 """Many environments of one world in one compiled step.
 
 They equal those of `neorl.gym.environment`, to the last bit, and follow Gymnasium's rules for `VectorEnv`s: environment
-i of a seed is that of seed + i; an environment whose episode is over begins the next one in the following step (mode
-`NEXT_STEP`, which ignores its action in that step), in the same step (`SAME_STEP`, with the last observation of the
-episode in ``infos["final_obs"]``), or on ``reset(options={"reset_mask": mask})`` (`DISABLED`).
+i of a seed is that of seed + i; an environment whose episode is over begins the next one in the following step, in
+which its action is ignored (mode `NEXT_STEP`).
 """
 
 from collections.abc import Mapping, Sequence
@@ -13,92 +12,101 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from neorl import checks
+from neorl.agents.memory import read_only
+from neorl.core.kernel import arrays, execute, mapped, new_tuple
+from neorl.core.stream import new_stream
+from neorl.description import restored
 from neorl.extras import require
-from neorl.gym.batch import Batch
-from neorl.gym.environment import checked_seed, seed_row
+from neorl.gym.batch import Slots, Task, batch_step
 from neorl.gym.observation import observation_space
 from neorl.gym.rendering import frame
-from neorl.worlds.arena import Arena
 from neorl.worlds.waterworld import WaterWorld
-from neorl.worlds.world import World
+from neorl.worlds.world import World, check_outcome
 
 gymnasium = require("gymnasium", extra="gym")
-Mode = gymnasium.vector.AutoresetMode
+MOST_NUMBERS = 2**28  # in the observations of all environments, 1 GiB
 
 
 class VectorWorldEnv(gymnasium.vector.VectorEnv):
     """Many environments of one world in one compiled step; see the module.
 
-    world: a `neorl.World`. num_envs: the number of environments, ≥ 1. max_episode_steps: after which an episode is
-    truncated, ≥ 1, or None. autoreset_mode: a `gymnasium.vector.AutoresetMode`, or its value. render_mode: None, or
-    "rgb_array". egocentric, continuing: as in `neorl.gym.environment.WorldEnv`.
+    world, render_mode, egocentric, continuing, fields: as in `neorl.gym.environment.WorldEnv`. num_envs: the number of
+    environments, ≥ 1. max_episode_steps: after which an episode is truncated, ≥ 1, or None.
 
-    Raises ValueError for anything else.
+    Raises ValueError for anything else, and for more than 2²⁸ numbers in all observations.
     """
 
-    metadata = {"render_modes": ["rgb_array"]}
+    metadata = {"render_modes": ["rgb_array"], "autoreset_mode": gymnasium.vector.AutoresetMode.NEXT_STEP}
 
-    def __init__(self, world: World, num_envs: int = 1, max_episode_steps: int | None = None,
-                 autoreset_mode: Any = Mode.NEXT_STEP, render_mode: str | None = None, egocentric: bool = True,
-                 continuing: bool | None = None) -> None:
-        continuing = isinstance(world, WaterWorld) if continuing is None else continuing
-        try:
-            self._mode = Mode(autoreset_mode)
-        except ValueError:
-            raise checks.error("autoreset_mode", checks.either(mode.value for mode in Mode), autoreset_mode) from None
-        self._batch = Batch(world, num_envs, egocentric, continuing, self._mode is Mode.SAME_STEP, max_episode_steps)
+    def __init__(self, world: World | str, num_envs: int = 1, max_episode_steps: int | None = None,
+                 render_mode: str | None = None, egocentric: bool = True, continuing: bool | None = None,
+                 **fields: Any) -> None:
+        if isinstance(world, str):
+            world = restored({"is": world, **fields}, World, "world")
+        elif fields:
+            raise ValueError(f"fields must be left out beside a World, which has its own, but are {', '.join(fields)}")
+        self.world = world = checks.instance("world", world, World)
+        self.num_envs = n = checks.integer("num_envs", num_envs, at_least=1)
+        axes, kinds = world.actions.axes, len(world.kinds)
+        numbers = 2 * axes + world.things * (axes + kinds)
+        if n * numbers > MOST_NUMBERS:
+            raise checks.error("num_envs", f"at most {MOST_NUMBERS // numbers}, of {numbers} numbers each", n)
+        last_step = (2**62 if max_episode_steps is None else
+                     checks.integer("max_episode_steps", max_episode_steps, at_least=1))
+        continuing = isinstance(world, WaterWorld) if continuing is None else checks.flag("continuing", continuing)
         self.render_mode = checks.one_of("render_mode", render_mode, (None, *self.metadata["render_modes"]))
-        self.metadata = {**self.metadata, "render_fps": world.fps, "autoreset_mode": self._mode}
+        self.metadata = {**self.metadata, "render_fps": world.fps}
         batch_space = gymnasium.vector.utils.batch_space
-        self.num_envs = len(self._batch.slots.action)
-        self.single_observation_space = observation_space(world, egocentric)
+        self.single_observation_space = observation_space(world, checks.flag("egocentric", egocentric))
         self.single_action_space = gymnasium.spaces.Discrete(len(world.actions.all_names))
-        self.observation_space = batch_space(self.single_observation_space, self.num_envs)
-        self.action_space = batch_space(self.single_action_space, self.num_envs)
-        self._begun = np.zeros(self.num_envs, bool)
-
-    @property
-    def world(self) -> World:
-        """The `neorl.World`."""
-        return self._batch.world
+        self.observation_space = batch_space(self.single_observation_space, n)
+        self.action_space = batch_space(self.single_action_space, n)
+        self._task = Task(float(world.size), kinds, egocentric, continuing, world.terminal is not None, last_step)
+        self._step = batch_step(world.dynamics)
+        self._states = mapped(lambda each: np.zeros((n, *each.shape), each.dtype),
+                              new_tuple(world.State, world.sizes, {}))
+        self.slots = Slots(np.zeros(n, np.int64), np.zeros(n, np.int64), np.zeros((n, numbers), np.float32),
+                           np.zeros(n), np.zeros(n, bool), np.zeros(n, bool), np.zeros((n, kinds), np.int64),
+                           np.zeros(n, bool), np.zeros(kinds, bool), np.zeros(world.things),
+                           np.zeros(world.things, np.int64))
+        self.slots.terminal[:] = world.terminal or False
+        self._begun = False
 
     @property
     def world_states(self) -> tuple[Any, ...]:
         """The states of the worlds, one for each environment, as read-only views: a tuple."""
-        return tuple(map(self._batch.state_of, range(self.num_envs)))
+        return tuple(mapped(lambda each: read_only(each[row]), self._states)  # noqa: B023, called at once
+                     for row in range(self.num_envs))
 
-    def reset(self, *, seed: int | Sequence[int] | None = None,
+    def reset(self, *, seed: int | Sequence[int | None] | None = None,
               options: Mapping[str, Any] | None = None) -> tuple[NDArray[np.float32], dict[str, Any]]:
         """Begin an episode in every environment.
 
         seed: an integer ≥ 0, with seed + i for environment i; a list of one for each; or None to continue the streams.
-        options: None, or {"run": k} as in `WorldEnv.reset`, and "reset_mask": bool (num_envs,), if not all begin.
+        options: None, or with a seed {"run": k}, k ≥ 0, as in `WorldEnv.reset`.
         Returns (observations: float32 (num_envs, numbers), infos). Raises ValueError for anything else.
         """
-        if not isinstance(options, Mapping | None):
-            raise checks.error("options", "None or a dict", options)
-        options = dict(options or {})
-        chosen = self._mask(options.pop("reset_mask", np.ones(self.num_envs, bool)))
-        if isinstance(seed, list | tuple):
-            seeds = seed
-        else:
-            first, _ = checked_seed(seed, options)
-            seeds = [None if seed is None else first + i for i in range(self.num_envs)]
-            super().reset(seed=first)
+        single = None if seed is None or isinstance(seed, list | tuple) else checks.integer("seed", seed, at_least=0)
+        seeds = seed if isinstance(seed, list | tuple) else [None if single is None else single + row
+                                                             for row in range(self.num_envs)]
         if len(seeds) != self.num_envs:
             raise checks.error("seed", f"an integer of at least 0, None, or a list of {self.num_envs} of them", seed)
-        checked = [checked_seed(each, options) for each in seeds]
-        for i in np.flatnonzero(chosen):
-            its_seed, run = checked[i]
-            seed_row(self, self._batch, i, its_seed, run, self._begun[i])
-        self._batch.begin(chosen)
-        self._begun |= chosen
-        return self._batch.slots.observation.copy(), self._infos(chosen)
-
-    def _mask(self, mask):
-        if not isinstance(mask, np.ndarray) or mask.dtype != bool or mask.shape != (self.num_envs,) or not mask.any():
-            raise checks.error("reset_mask", f"an array of bool ({self.num_envs},), not all False", mask)
-        return mask
+        seeds = [None if each is None else checks.integer("seed", each, at_least=0) for each in seeds]
+        options = {} if options is None else options
+        if not isinstance(options, Mapping) or set(options) - {"run"} or options and None in seeds:
+            raise checks.error("options", "None, or with a seed {'run': k}", options)
+        run = checks.integer("run", options.get("run", 0), at_least=0)
+        super().reset(seed=single)
+        for row, each in enumerate(seeds):
+            if each is None and not self._begun:
+                each = int(self.np_random.integers(2**63))
+            if each is not None:
+                for array in arrays(self._states).values():
+                    array[row] = 0
+                self._states.stream[row] = new_stream(np.random.SeedSequence(each, spawn_key=(run,)))
+        self._rules, self._begun, self.slots.truncated[:] = self.world.rules, True, True
+        self.advance(0)
+        return self.slots.observation.copy(), self._infos()
 
     def step(self, actions: ArrayLike) -> tuple[NDArray[np.float32], NDArray[np.float64], NDArray[np.bool],
                                                 NDArray[np.bool], dict[str, Any]]:
@@ -107,12 +115,9 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
         actions: integers (num_envs,), each in 0 … actions − 1.
         Returns (observations: float32 (num_envs, numbers), rewards: float64 (num_envs,), terminated: bool (num_envs,),
         truncated: bool (num_envs,), infos).
-        Raises ValueError for other actions, `gymnasium.error.ResetNeeded` before `reset`, and when an episode is over
-        and is not reset automatically.
+        Raises ValueError for other actions, `gymnasium.error.ResetNeeded` before `reset`.
         """
-        slots, mode = self._batch.slots, self._mode
-        over = slots.terminated | slots.truncated
-        if not self._begun.all() or mode is Mode.DISABLED and over.any():
+        if not self._begun:
             raise gymnasium.error.ResetNeeded("step() must follow reset(), but came before it")
         checks.unmasked("actions", actions)
         try:
@@ -123,62 +128,30 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
                 or not 0 <= given.min() <= given.max() < self.single_action_space.n):
             raise checks.error("actions", f"integers ({self.num_envs},) from 0 to {self.single_action_space.n - 1}",
                                actions)
-        slots.action[:] = given
-        slots.begins[:] = over if mode is Mode.NEXT_STEP else False
-        self._batch.step()
-        infos = {}
-        if mode is Mode.SAME_STEP:
-            infos = self._final_infos(slots.terminated | slots.truncated)
-        return (slots.observation.copy(), slots.reward.copy(), slots.terminated.copy(), slots.truncated.copy(),
-                infos | self._infos(np.ones(self.num_envs, bool)))
+        self.advance(given)
+        return *(each.copy() for each in self.slots[2:6]), self._infos()
 
-    def _infos(self, about):
-        """The infos of the environments that `about` marks: bool (num_envs,)."""
-        slots = self._batch.slots
-        return {"met": np.where(about[:, None], slots.met, 0), "_met": about.copy(),
-                "restarted": slots.restarted & about, "_restarted": about.copy()}
+    def advance(self, actions):
+        """`step` without its checks; the outcome is in `slots`."""
+        slots, dynamics = self.slots, self.world.dynamics
+        slots.action[:] = actions
+        row = execute(self._step, self._states, self._rules, self._task, slots)
+        if row >= 0:
+            check_outcome(self.world, dynamics.reset if slots.restarted[row] else dynamics.step,
+                          mapped(lambda each: each[row].copy(), self._states), float(slots.reward[row]))
 
-    def _final_infos(self, over):
-        """The last observations and infos of the episodes that are over; the next ones have begun in the same step."""
-        if not over.any():
-            return {}
-        slots, observations = self._batch.slots, np.full(self.num_envs, None, object)
-        for i in np.flatnonzero(over):
-            observations[i] = slots.last_observation[i].copy()
-        final = {"final_obs": observations, "_final_obs": over, "final_info": self._infos(over), "_final_info": over}
-        slots.met[over], slots.restarted[over] = 0, True
-        return final
+    def _infos(self):
+        infos = {"met": self.slots.met.copy(), "restarted": self.slots.restarted.copy()}
+        return infos | {f"_{name}": np.ones(self.num_envs, bool) for name in infos}
 
-    def render(self):
-        """A picture of every world, uint8 (500, 500, 3), if the mode is "rgb_array": a tuple; else None.
+    def render(self) -> tuple[NDArray[np.uint8], ...] | None:
+        """A picture of every world, uint8 (500, 500, 3), north up, if the mode is "rgb_array": a tuple; else None.
 
         Raises `gymnasium.error.ResetNeeded` before `reset`.
         """
-        if not self._begun.all():
+        if not self._begun:
             raise gymnasium.error.ResetNeeded("render() must follow reset(), but came before it")
         if self.render_mode is None:
             gymnasium.logger.warn("render() was called without a render_mode, such as render_mode='rgb_array'")
             return None
         return tuple(frame(self.world, state.scene) for state in self.world_states)
-
-
-def vector_waterworld(num_envs: int = 1, max_episode_steps: int | None = None, autoreset_mode: Any = Mode.NEXT_STEP,
-                      render_mode: str | None = None, egocentric: bool = True, continuing: bool = True,
-                      **rules: Any) -> VectorWorldEnv:
-    """Many environments of `neorl.WaterWorld`: "neorl/WaterWorld-v0" of `gymnasium.make_vec`.
-
-    rules: the fields of `WaterWorld`. The others are those of `VectorWorldEnv`, which it returns.
-    """
-    return VectorWorldEnv(WaterWorld(**rules), num_envs, max_episode_steps, autoreset_mode, render_mode, egocentric,
-                          continuing)
-
-
-def vector_arena(num_envs: int = 1, max_episode_steps: int | None = None, autoreset_mode: Any = Mode.NEXT_STEP,
-                 render_mode: str | None = None, egocentric: bool = True, continuing: bool = False,
-                 **rules: Any) -> VectorWorldEnv:
-    """Many environments of `neorl.Arena`: "neorl/Arena-v0" of `gymnasium.make_vec`.
-
-    rules: the fields of `Arena`. The others are those of `VectorWorldEnv`, which it returns.
-    """
-    return VectorWorldEnv(Arena(**rules), num_envs, max_episode_steps, autoreset_mode, render_mode, egocentric,
-                          continuing)

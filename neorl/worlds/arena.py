@@ -124,6 +124,11 @@ class Arena(World, checks.Final):
         return tuple(dict.fromkeys(kind for kind, *_ in self.places))
 
     @property
+    def terminal(self) -> list[bool]:
+        """For each kind, whether a meeting ends the trial."""
+        return [self.ends] * len(self.kinds)
+
+    @property
     def things(self) -> int:
         """The number of places."""
         return len(self.places)

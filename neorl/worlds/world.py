@@ -70,6 +70,7 @@ class World(Described, metaclass=_Checking):
     size: Any
     fps: Any
     rules: Any
+    terminal: Any = None  # for each kind, whether meeting it ends a trial that otherwise ends by a limit of time
 
     def __init_subclass__(cls, **keywords: Any) -> None:
         super().__init_subclass__(**keywords)

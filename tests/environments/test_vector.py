@@ -1,4 +1,4 @@
-"""Vector environments equal, to the bit, single ones that Gymnasium vectorises, in each autoreset mode."""
+"""Vector environments equal, to the bit, single ones that Gymnasium vectorises."""
 
 import copy
 import hashlib
@@ -21,42 +21,37 @@ from neorl.gym import VectorWorldEnv, WorldEnv
 
 WORLDS = {"tank": WaterWorld(width=60, n_creeps=2, win_reward=5.0), "pond": Pond(),
           "pool": Arena(places=[("platform", 0.65, 0.35), ("trap", 0.3, 0.4)], pay=[2.0, -1.0], trial_seconds=1.5)}
-MODES = list(AutoresetMode)
 
 
-def both(world, n, mode, limit, **choices):
+def both(world, n, limit, **choices):
     """Our vector environment, and single ones that Gymnasium steps one after the other."""
     def single():
         env = WorldEnv(world, **choices)
         return env if limit is None else TimeLimit(env, limit)
 
-    return (VectorWorldEnv(world, n, limit, mode, **choices), SyncVectorEnv([single] * n, autoreset_mode=mode))
+    return (VectorWorldEnv(world, n, limit, **choices),
+            SyncVectorEnv([single] * n, autoreset_mode=AutoresetMode.NEXT_STEP))
 
-
-@pytest.mark.parametrize("mode", MODES, ids=[mode.value for mode in MODES])
 @pytest.mark.parametrize("continuing, limit", [(True, 37), (False, None), (False, 37)])
 @pytest.mark.parametrize("name", WORLDS)
-def test_they_return_what_single_environments_do_to_the_bit(name, continuing, limit, mode):
-    n, rng, over, restarted = 5, np.random.default_rng(0), np.zeros(5, bool), 0
-    ours, theirs = both(WORLDS[name], n, mode, limit, continuing=continuing)
+def test_they_return_what_single_environments_do_to_the_bit(name, continuing, limit):
+    n, rng, restarted = 5, np.random.default_rng(0), 0
+    ours, theirs = both(WORLDS[name], n, limit, continuing=continuing)
     assert ours.observation_space == theirs.observation_space and ours.action_space == theirs.action_space
-    assert ours.metadata["autoreset_mode"] == theirs.metadata["autoreset_mode"] == mode
+    assert ours.metadata["autoreset_mode"] == theirs.metadata["autoreset_mode"]
     returned = [envs.reset(seed=7, options={"run": 1}) for envs in (ours, theirs)]
     assert data_equivalence(*returned, exact=True)
     for _ in range(1_000):
-        if mode is AutoresetMode.DISABLED and over.any():
-            returned = [envs.reset(options={"reset_mask": over.copy()}) for envs in (ours, theirs)]
-            assert data_equivalence(*returned, exact=True)
         actions = rng.integers(0, 5, n)
         returned = [envs.step(actions) for envs in (ours, theirs)]
         assert data_equivalence(*returned, exact=True)
-        over, restarted = returned[0][2] | returned[0][3], restarted + returned[0][4]["restarted"].sum()
+        restarted += returned[0][4]["restarted"].sum()
         assert returned[0][0] in ours.observation_space
-    assert restarted > 0 or mode is AutoresetMode.DISABLED
+    assert restarted > 0
 
 
 def test_seeds_are_those_of_single_environments():
-    ours, theirs = both(WORLDS["tank"], 3, "NextStep", None)
+    ours, theirs = both(WORLDS["tank"], 3, None)
     assert data_equivalence(ours.reset(seed=[5, 9, 5]), theirs.reset(seed=[5, 9, 5]), exact=True)
     assert data_equivalence(ours.reset(seed=[None, 9, None]), theirs.reset(seed=[None, 9, None]), exact=True)
     assert data_equivalence(ours.reset(), theirs.reset(), exact=True)
@@ -94,7 +89,7 @@ def test_a_copy_continues_independently_to_the_same_bits(again):
 
 
 def test_what_was_returned_is_not_written_to():
-    envs = VectorWorldEnv(WORLDS["tank"], 3, 2, "SameStep")
+    envs = VectorWorldEnv(WORLDS["tank"], 3, 2)
     kept = [envs.reset(seed=0)] + [envs.step(np.zeros(3, int)) for _ in range(3)]
     copies = copy.deepcopy(kept)
     for _ in range(5):
@@ -106,20 +101,15 @@ def test_what_was_returned_is_not_written_to():
 
 
 def test_bad_actions_are_refused_and_steps_outside_of_episodes():
-    envs = VectorWorldEnv(Pond(), 2, 1, "Disabled", "rgb_array")
+    envs = VectorWorldEnv(Pond(), 2, 1, "rgb_array")
     for call in (lambda: envs.step([0, 0]), envs.render):
         with pytest.raises(gymnasium.error.ResetNeeded, match="must follow reset"):
             call()
-    envs.reset(options={"reset_mask": np.array([True, False])})
-    with pytest.raises(gymnasium.error.ResetNeeded, match="must follow reset"):
-        envs.step([0, 0])
     envs.reset(seed=0)
     for actions in ([0, 5], [0, -1], [0], [[0, 1]], [0.0, 1.0], "NN", None, 3, [2**64 - 1, 0]):
         with pytest.raises(ValueError, match="actions must be .*, but is .*"):
             envs.step(actions)
     envs.step(np.array([4, 0], np.uint8))
-    with pytest.raises(gymnasium.error.ResetNeeded, match="must follow reset"):
-        envs.step([0, 0])
 
 
 def digest(name):
