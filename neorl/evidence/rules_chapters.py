@@ -6,8 +6,8 @@
 import numpy as np
 
 from neorl.evidence.statements import STATEMENTS
-from neorl.evidence.statistics import difference, estimate, minutes_sooner, quotient, ratio
-from neorl.evidence.verdict import AFTER_TURN, BEFORE_TURN, FINAL, fewest_runs, judged, lead_over_brownian, learned
+from neorl.evidence.statistics import Estimate, difference, estimate, minutes_sooner, quotient, ratio
+from neorl.evidence.verdict import AFTER_TURN, BEFORE_TURN, FINAL, fewest_runs, judged, learned, share_of_run
 
 
 def judge_changes(revalued, moved=None):
@@ -21,23 +21,16 @@ def judge_changes(revalued, moved=None):
     """
     before, after, later = (_red_a_minute(revalued, *share) for share in (BEFORE_TURN, AFTER_TURN, FINAL))
     kept, turn = estimate(ratio, after, later), estimate(difference, after, before)
-    settled = estimate(difference, later, before)
-    at_once, as_near = STATEMENTS["T1"].bounds, STATEMENTS["T1"].also["moved"]
-    whole, room = [turn.low > 0 and at_once.hold(kept)], [turn.high > 0 and at_once.allow(kept)]
-    decay = "" if settled.low > 0 else " Finally the rate is not above that before the turn, so it decays."
-    detail = (f"Per minute, {estimate(np.mean, before)} before the turn, {estimate(np.mean, after)} after it and "
-              f"{estimate(np.mean, later)} finally. No retraining is read as a rise at once, to {at_once} of the later "
-              f"level.{decay}")
+    asked, held = {"rise": turn}, False
     if moved:
         first, others = moved["experienced"][:, :2].mean(axis=1), moved["experienced"][:, 2:].mean(axis=1)
-        near = estimate(ratio, others, first)
-        known = estimate(difference, moved["ignorant"][:, :2].mean(axis=1), first)
-        whole.append(as_near.hold(near) and known.low > 0)
-        room.append(as_near.allow(near) and known.high > 0)
-        detail += (f" After later moves of a place the distance is {near} times that after the first two, and after "
-                   f"these it is {known} smaller than for agents that have learned nothing.")
-    return judged("T1", kept, detail, revalued.runs, reproduced=all(whole), partly=turn.low > 0 or any(whole),
-                  possible=all(room))
+        asked |= {"moved": estimate(ratio, others, first),
+                  "ignorant, less": estimate(difference, moved["ignorant"][:, :2].mean(axis=1), first)}
+        held = STATEMENTS["T1"].also["moved"].hold(asked["moved"]) and asked["ignorant, less"].low > 0
+    per_minute = {"before the turn": before, "after it": after, "finally": later}
+    return judged("T1", kept, revalued.runs, asked,
+                  {"per minute": {when: estimate(np.mean, rate) for when, rate in per_minute.items()}},
+                  partly=turn.low > 0 or held)
 
 
 def judge_cost(together, alone, none):
@@ -46,9 +39,7 @@ def judge_cost(together, alone, none):
     together: with all maps. alone: a sequence, with each map alone. none: without any.
     Returns a `Claim`.
     """
-    cost, linear = estimate(_cost_ratio, together, none, *alone), STATEMENTS["T2"].bounds
-    return judged("T2", cost, f"The rule allows {linear}.", len(together), reproduced=linear.hold(cost), partly=False,
-                  possible=linear.allow(cost))
+    return judged("T2", estimate(_cost_ratio, together, none, *alone), len(together), partly=False)
 
 
 def judge_temporality(whole, short):
@@ -60,13 +51,8 @@ def judge_temporality(whole, short):
     Returns a `Claim`.
     """
     loss = {name: estimate(_loss, whole[name], short[name]) for name in whole}
-    least = min(loss, key=lambda name: loss[name].value)
-    found = "; ".join(f"{lost} with “{name}”" for name, lost in loss.items())
-    worth = STATEMENTS["T3"].bounds
-    needed = [worth.hold(lost) for lost in loss.values()]
-    return judged("T3", loss[least], f"It is {found}. All L steps are needed if {worth} is lost in every process.",
-                  min(map(len, (*whole.values(), *short.values()))), reproduced=all(needed), partly=any(needed),
-                  possible=all(worth.allow(lost) for lost in loss.values()),
+    return judged("T3", min(loss.values(), key=lambda each: each.value),
+                  min(map(len, (*whole.values(), *short.values()))), {"loss": loss},
                   testable=all(estimate(np.mean, each).low > 0 for each in whole.values()))
 
 
@@ -81,9 +67,7 @@ def judge_tables(states, values, entries, filled):
                           for table in (values, entries, filled))
     square, linear = STATEMENTS["T4"].bounds, STATEMENTS["T4"].also["values"]
     fits = [linear.low <= value.value <= linear.high, square.low <= entry.value <= square.high]
-    return judged("T4", entry, f"For the values of Q-learning the exponent is {value}, and for the entries of the "
-                  f"model that differ from 0 it is {full}. The rule allows {square} for the model and {linear} for the "
-                  "values.", len(values),
+    return judged("T4", entry, len(values), shown={"values": value, "entries that differ from 0": full},
                   reproduced=all(fits), partly=any(fits), possible=False)
 
 
@@ -95,13 +79,12 @@ def judge_real_time(load, delay, beside=None):
         None if the machine does not count them.
     Returns a `Claim`.
     """
-    share, latest, within = estimate(np.mean, load), delay.max(), STATEMENTS["T5"].bounds
-    latest_allowed = STATEMENTS["T5"].also["steps late"].high
-    busy = "" if beside is None else f" The machine ran {beside:.2f} processes per core just before."
-    return judged("T5", share, f"Steps done after the next one was due: {(delay > 1).sum()} of {delay.size}; the "
-                  f"latest was done {latest:.2f} steps after it was due. The rule allows {latest_allowed:g}.{busy}",
-                  len(load), reproduced=share.high < within.high and latest <= latest_allowed,
-                  partly=share.high < within.high, possible=share.low < within.high)
+    share, latest = estimate(np.mean, load), Estimate(delay.max(), np.nan, np.nan)
+    within, in_time = STATEMENTS["T5"].bounds, delay.max() <= STATEMENTS["T5"].also["steps late"].high
+    busy = {} if beside is None else {"processes per core just before": Estimate(beside, np.nan, np.nan)}
+    return judged("T5", share, len(load), shown={
+        "steps late": latest, "share of steps done late": estimate(np.mean, (delay > 1).mean(axis=1)), **busy},
+        reproduced=within.hold(share) and in_time, partly=within.hold(share), possible=within.allow(share))
 
 
 def judge_more_maps(additions):
@@ -111,23 +94,21 @@ def judge_more_maps(additions):
     sequence of those of the agents with fewer, in runs of the same length. brownian: Brownian motion on the same board.
     Returns a `Claim`.
     """
-    sooner, room, testable, later = {}, {}, [], STATEMENTS["T6"].also["shares of a run later"].high
+    sooner, shares, testable = {}, {}, []
     for name, (more, fewer, brownian) in additions.items():
         sooner[name] = sooner_with_more(more, fewer)
-        room[name] = later * more.seconds / 60
+        shares[name] = share_of_run(sooner[name], more)
         if any(learned(result, brownian) for result in fewer):
             testable.append(name)
-    counted = testable or list(additions)
-    least = min(counted, key=lambda name: sooner[name].value)
-    as_soon = [sooner[name].low >= -room[name] for name in counted]
-    found = "; ".join(f"{sooner[name]} by {name}" for name in counted)
-    rest = ", ".join(name for name in additions if name not in counted)
-    left_out = f" Left out, since no agent with fewer maps has learned there: {rest}." if rest else ""
-    return judged("T6", sooner[least], f"It is {found}, at half the final level of the best agent with fewer maps, "
-                  f"over the quickest.{left_out} Not slower is read as at most a fortieth of the run later.",
+    counted = testable or list(additions)  # additions where an agent with fewer maps has learned
+    bounds = STATEMENTS["T6"].also["share of a run sooner"]
+    as_soon = [bounds.hold(shares[name]) for name in counted]
+    return judged("T6", min((sooner[name] for name in counted), key=lambda each: each.value),
                   min(fewest_runs(more, *fewer) for more, fewer, _ in additions.values()),
+                  shown={"minutes sooner": {name: sooner[name] for name in counted},
+                         "share of a run sooner": {name: shares[name] for name in counted}},
                   reproduced=all(as_soon), partly=any(as_soon),
-                  possible=all(sooner[name].high >= -room[name] for name in counted), testable=bool(testable))
+                  possible=all(bounds.allow(shares[name]) for name in counted), testable=bool(testable))
 
 
 def sooner_with_more(more, fewer):
@@ -147,26 +128,18 @@ def judge_persistence(agents):
     Brownian motion on the same board.
     Returns a `Claim`.
     """
-    share, lead, text = {}, {}, {}
+    share, lead = {}, {}
     for name, (persistent, per_step, brownian) in agents.items():
-        best = max(per_step, key=lambda discount: per_step[discount].rate(*FINAL).mean())
-        step, cell = per_step[best].rate(*FINAL), persistent.rate(*FINAL)
-        share[name] = estimate(_share_of_lead, step, cell, brownian.rate())
-        lead[name] = estimate(difference, cell, step)
-        text[name] = (f"With {name}, learning at every step does best with {best}, and leads Brownian motion by "
-                      f"{lead_over_brownian(per_step[best], brownian)}; the lead of learning at changes of cell over "
-                      f"it is {lead[name]}.")
+        step = max((each.rate(*FINAL) for each in per_step.values()), key=np.mean)
+        share[name] = estimate(_share_of_lead, step, persistent.rate(*FINAL), brownian.rate())
+        lead[name] = estimate(difference, persistent.rate(*FINAL), step)
     counted = [name for name, (persistent, _, brownian) in agents.items() if learned(persistent, brownian)]
-    rest = ", ".join(name for name in agents if name not in counted)
-    left_out = f" Left out, as learning at changes of cell gains nothing there: {rest}." if rest and counted else ""
     counted, testable = counted or list(agents), bool(counted)
-    runs = min(fewest_runs(persistent, *per_step.values()) for persistent, per_step, _ in agents.values())
-    most, fails = max(counted, key=lambda name: share[name].value), STATEMENTS["T7"].bounds
-    return judged("T7", share[most], f"{' '.join(text[name] for name in counted)}{left_out} Learning at "
-                  f"every step fails if it gains {fails} of the other.", runs,
-                  reproduced=all(fails.hold(share[name]) for name in counted),
-                  partly=any(lead[name].low > 0 for name in counted),
-                  possible=all(fails.allow(share[name]) for name in counted), testable=testable)
+    return judged("T7", max((share[name] for name in counted), key=lambda each: each.value),
+                  min(fewest_runs(persistent, *per_step.values()) for persistent, per_step, _ in agents.values()),
+                  {"gain": {name: share[name] for name in counted}},
+                  {"lead at changes of cell": {name: lead[name] for name in counted}},
+                  partly=any(lead[name].low > 0 for name in counted), testable=testable)
 
 
 def judge_time_scale(resolutions, stays):
@@ -179,12 +152,9 @@ def judge_time_scale(resolutions, stays):
     order = np.argsort(resolutions)[::-1]
     width, time = -np.log(np.asarray(resolutions, float)[order]), np.log(stays)[:, order]
     power = estimate(np.mean, _powers(width, time))
-    longer = [estimate(np.mean, each) for each in np.diff(time, axis=1).T]
-    direct = STATEMENTS["T8"].bounds
-    return judged("T8", power, f"1 means in proportion. The rule asks for {direct}, and for longer stays in every "
-                  "coarser map.", len(stays),
-                  reproduced=direct.hold(power) and all(each.low > 0 for each in longer), partly=power.low > 0,
-                  possible=direct.allow(power) and all(each.high > 0 for each in longer))
+    coarser = [f"N{resolutions[at]}" for at in order[1:]]
+    longer = dict(zip(coarser, (estimate(np.mean, each) for each in np.diff(time, axis=1).T)))
+    return judged("T8", power, len(stays), {"longer in the next coarser map": longer}, partly=power.low > 0)
 
 
 def judge_latent_learning(agent, rivals, first_reward=11):
@@ -199,12 +169,9 @@ def judge_latent_learning(agent, rivals, first_reward=11):
     lead = _more_errors(agent, "delayed", "throughout", after)
     at_once = _more_errors(agent, "delayed", "throughout", next_day)
     worth = _more_errors(agent, "never", "throughout", after)
-    others = "; ".join(f"{name} {_more_errors(groups, 'delayed', 'throughout', after)}"
-                       for name, groups in rivals.items())
-    return judged("H1", lead, f"On the day after the first reward it is {at_once}. Drawing level is read as within a "
-                  f"tenth of the effect of reward, {worth.value:.2f}. With other learners it is: {others}.", runs,
-                  reproduced=lead.high < 0, partly=max(lead.high, at_once.high) <= level * worth.value,
-                  possible=lead.low < 0, testable=worth.low > 0)
+    return judged("H1", lead, runs, shown={"on the day after the first reward": at_once, "effect of reward": worth, **{
+        f"with {name}": _more_errors(groups, "delayed", "throughout", after) for name, groups in rivals.items()}},
+        partly=max(lead.high, at_once.high) <= level * worth.value, testable=worth.low > 0)
 
 
 def _red_a_minute(result, begin, end):

@@ -9,7 +9,7 @@ from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.statistics import (difference, estimate, lead_over_best, lead_over_sum, minutes_sooner,
                                        minutes_to_own_level, probability_of_improvement, quotient, rank_correlation,
                                        ratio, resets)
-from neorl.evidence.verdict import EARLY, FINAL, MIDDLE, fewest_runs, judged, learned
+from neorl.evidence.verdict import EARLY, FINAL, MIDDLE, fewest_runs, judged, learned, share_of_run
 
 LENGTH = 150_000  # of the paper's runs, in steps
 
@@ -23,43 +23,34 @@ def judge_single_layer(by_resolution, brownian):
     """
     runs = fewest_runs(*by_resolution.values(), brownian)
     rate = {n: result.rate() for n, result in sorted(by_resolution.items())}
-    mean = {n: values.mean() for n, values in rate.items()}
-    best = max(mean, key=mean.get)
 
-    a1, share = STATEMENTS["A1"], LENGTH / brownian.steps
-    score, boards = estimate(np.mean, brownian.totals * share), estimate(np.mean, resets(brownian) * share)
-    around_0, none = a1.bounds, a1.also["resets"]
-    a1 = judged("A1", score, f"“Around 0” is read as {around_0}. In as many steps of 1/{brownian.world.fps} s it "
-                f"resets the board {boards} times; no reset is read as {none}.", runs,
-                reproduced=around_0.hold(score) and none.hold(boards),
-                partly=around_0.hold(score) or none.hold(boards),
-                possible=around_0.allow(score) and none.allow(boards))
+    share = LENGTH / brownian.steps
+    a1 = judged("A1", estimate(np.mean, brownian.totals * share), runs,
+                {"resets": estimate(np.mean, resets(brownian) * share)})
 
     lead = {n: estimate(difference, values, brownian.rate()) for n, values in rate.items()}
     some_learned = any(each.low > 0 for each in lead.values())
     least = min(lead, key=lambda n: lead[n].low)
     chance = probability_of_improvement(rate[least], brownian.rate())
-    a2 = judged("A2", lead[least], f"It is that of N{least}, a run of which beats one of the control with probability "
-                f"{chance}.", runs, reproduced=lead[least].low > 0, partly=some_learned,
-                possible=all(each.high > 0 for each in lead.values()))
+    a2 = judged("A2", lead[least], runs, {"lead": _of_maps(lead)},
+                {"probability that a run beats one of the control": _of_maps({least: chance})})
 
     others = [values for n, values in rate.items() if n != 50]
     ahead = estimate(lead_over_best, rate[50], *others)
     ends = estimate(lead_over_best, rate[50], rate[10], rate[90])
-    a4 = judged("A4", ahead, f"N{best} accumulates most. Over the better of N10 and N90 the lead of N50 is {ends}; "
-                "if it is above 0, the claim holds in part.", runs, reproduced=ahead.low > 0, partly=ends.low > 0,
-                possible=ahead.high > 0, testable=some_learned)
+    a4 = judged("A4", ahead, runs, shown={"over the better of N10 and N90": ends, "reward per second": _of_maps(
+        {n: estimate(np.mean, values) for n, values in rate.items()})}, partly=ends.low > 0, testable=some_learned)
 
-    order = sorted(by_resolution)
     spread = minutes_to_own_level(*by_resolution.values(), share=0.5, of=_least_of_most)
     pair = minutes_to_own_level(by_resolution[70], by_resolution[10], share=0.5, of=quotient)
-    took = "; ".join(f"N{n} {minutes_to_own_level(by_resolution[n], share=0.5)}" for n in order)
-    comparable, near = STATEMENTS["A5"].bounds, STATEMENTS["A5"].also["N70 to N10"]
-    a5 = judged("A5", spread, f"Minutes of the mean over runs: {took}. N70 takes {pair} times as long as N10. "
-                f"“Comparable” is read as {comparable}, and for these two alone as {near}.", runs,
-                reproduced=comparable.hold(spread), partly=near.hold(pair), possible=comparable.allow(spread),
-                testable=some_learned)
+    took = {n: minutes_to_own_level(by_resolution[n], share=0.5) for n in rate}
+    a5 = judged("A5", spread, runs, shown={"N70 to N10": pair, "minutes": _of_maps(took)},
+                partly=STATEMENTS["A5"].also["N70 to N10"].hold(pair), testable=some_learned)
     return [a1, a2, _judge_saturation(by_resolution, runs, some_learned), a4, a5]
+
+
+def _of_maps(found):
+    return {f"N{n}": each for n, each in found.items()}
 
 
 def _least_of_most(*times):
@@ -73,14 +64,14 @@ def _judge_saturation(by_resolution, runs, some_learned):
     first, last = (estimate(rank_correlation, *rates.values()) for rates in (early, final))
     rise = {n: final[n] - middle[n] for n in order}
     coarse, fine = (np.concatenate([rise[n] for n in some]) for some in (order[:2], order[-2:]))
-    of_fine, of_own = (each.high for each in STATEMENTS["A3"].also.values())
+    of_fine, of_own = (STATEMENTS["A3"].also[f"rise to {of}"].high for of in ("that of fine maps", "own level"))
     slower = estimate(difference, of_fine * fine, coarse)
     flat = estimate(np.mean, np.concatenate([of_own * final[n] - rise[n] for n in order[:2]]))
     levelled = slower.low > 0 or flat.low > 0
-    return judged("A3", last, f"Early it is {first}. From the middle fifth of the run to the last, the reward per "
-                  f"second of N{order[0]} and N{order[1]} rises by {estimate(np.mean, coarse)}, that of N{order[-2]} "
-                  f"and N{order[-1]} by {estimate(np.mean, fine)}. “Saturate” is read as a rise of less than half "
-                  "that of the fine maps, or of less than a tenth of the map's own level.", runs,
+    rises = {f"N{order[0]} and N{order[1]}": coarse, f"N{order[-2]} and N{order[-1]}": fine}
+    return judged("A3", last, runs, {"early": first},
+                  {"rise from the middle fifth of the run to the last": {
+                      maps: estimate(np.mean, rates) for maps, rates in rises.items()}},
                   reproduced=first.high < 0 < last.low and levelled,
                   partly=first.high < 0 or (last.low > 0 and levelled),
                   possible=first.low < 0 < last.high and (slower.high > 0 or flat.high > 0), testable=some_learned)
@@ -102,19 +93,12 @@ def judge_multiple_layers(by_resolution, together, brownian):
 
     surplus = estimate(lead_over_sum, all_final, *final.values())
     sooner = minutes_sooner(together, alone, 0.5 * sum(values.mean() for values in final.values()))
-    a6 = judged("A6", surplus, f"At half the final level of the sum, their lead over it is {sooner} minutes.", runs,
-                reproduced=surplus.low > 0 and sooner.low > 0, partly=surplus.low > 0 or sooner.low > 0,
-                possible=surplus.high > 0 and sooner.high > 0, testable=some_learned)
+    a6 = judged("A6", surplus, runs, {"minutes sooner": sooner}, testable=some_learned)
 
     gain = estimate(ratio, all_final, final[7])
     sooner = minutes_sooner(together, by_resolution[7], 0.5 * final[7].mean())
-    near, later = STATEMENTS["A7"].bounds, STATEMENTS["A7"].also["shares of a run later"]
-    room = later.high * together.seconds / 60
-    a7 = judged("A7", gain, f"Near {near.number:g} is read as {near}. At half the final level of N7, "
-                f"their lead over it is {sooner} minutes; as fast is read as at most {room:.2f} minutes later.", runs,
-                reproduced=near.hold(gain) and sooner.low >= -room, partly=gain.low > 1,
-                possible=near.allow(gain) and sooner.high >= -room,
-                testable=learned(by_resolution[7], brownian))
+    a7 = judged("A7", gain, runs, {"share of a run sooner": share_of_run(sooner, together)},
+                {"minutes sooner": sooner}, partly=gain.low > 1, testable=learned(by_resolution[7], brownian))
 
     level = 0.5 * final[best].mean()
     sooner = {n: minutes_sooner(together, result, level) for n, result in by_resolution.items()}
@@ -122,10 +106,9 @@ def judge_multiple_layers(by_resolution, together, brownian):
     quicker = all(each.low > 0 for each in sooner.values())
     lead = estimate(lead_over_best, all_final, *final.values())
     chance = probability_of_improvement(all_final, final[best])
-    a8 = judged("A8", sooner[quickest], f"It is that over N{quickest}, at half the final level of N{best}. The final "
-                f"lead over the best alone is {lead}; the probability of improvement on N{best} is {chance}.", runs,
-                reproduced=quicker and lead.low > 0, partly=quicker or lead.low > 0,
-                possible=all(each.high > 0 for each in sooner.values()) and lead.high > 0, testable=some_learned)
+    a8 = judged("A8", sooner[quickest], runs, {"minutes sooner": _of_maps(sooner), "final lead": lead},
+                {"probability of improvement": _of_maps({best: chance})}, partly=quicker or lead.low > 0,
+                testable=some_learned)
     return [a6, a7, a8]
 
 
@@ -138,11 +121,9 @@ def judge_margin(by_resolution, together, brownian):
     """
     final = [result.rate(*FINAL) for result in by_resolution.values()]
     gain = estimate(_mean_gain, brownian.rate(), *final)
-    share, little = estimate(_share_of_gain, together.rate(*FINAL), brownian.rate(), *final), STATEMENTS["A9"].bounds
-    return judged("A9", share, f"The mean lead of {len(final)} single maps is {gain}. “Marginally” is read as {little} "
-                  "of the lead of the three together.", fewest_runs(*by_resolution.values(), together),
-                  reproduced=gain.low > 0 and little.hold(share), partly=gain.low > 0,
-                  possible=gain.high > 0 and little.allow(share), testable=learned(together, brownian))
+    share = estimate(_share_of_gain, together.rate(*FINAL), brownian.rate(), *final)
+    return judged("A9", share, fewest_runs(*by_resolution.values(), together), {"lead": gain}, partly=gain.low > 0,
+                  testable=learned(together, brownian))
 
 
 def _mean_gain(chance, *single, axis):
@@ -162,9 +143,5 @@ def judge_exploration(together, alone, brownian):
     """
     best = max(alone, key=np.mean)
     over_one, over_chance = (estimate(ratio, together, other) for other in (best, brownian))
-    more, more_than_chance = STATEMENTS["T9"].bounds.low, STATEMENTS["T9"].also["Brownian motion"].low
-    return judged("T9", over_one, f"They are in {estimate(np.mean, together)} squares, {over_chance} times as many as "
-                  "Brownian motion.", min(map(len, (together, *alone, brownian))),
-                  reproduced=over_one.low > more and over_chance.low > more_than_chance,
-                  partly=over_one.low > more or over_chance.low > more_than_chance,
-                  possible=over_one.high > more and over_chance.high > more_than_chance)
+    return judged("T9", over_one, min(map(len, (together, *alone, brownian))), {"over Brownian motion": over_chance},
+                  {"squares": estimate(np.mean, together)})

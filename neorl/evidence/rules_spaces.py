@@ -15,11 +15,8 @@ def judge_efficiency(agent, table, chance):
     Returns a `Claim`.
     """
     share, gain = estimate(ratio, agent, table), estimate(difference, chance, agent)
-    few, partly = STATEMENTS["G1"].bounds, STATEMENTS["G1"].also["partly"]
-    return judged("G1", share, f"They take {gain} seconds less than at random. “Efficient” is read as {few} of "
-                  "Q-learning's time.", min(map(len, (agent, table, chance))),
-                  reproduced=few.hold(share) and gain.low > 0, partly=share.high < partly.high and gain.low > 0,
-                  possible=few.allow(share) and gain.high > 0)
+    return judged("G1", share, min(map(len, (agent, table, chance))), {"seconds less than at random": gain},
+                  partly=STATEMENTS["G1"].also["partly"].hold(share) and gain.low > 0)
 
 
 def judge_generality(scores):
@@ -28,14 +25,8 @@ def judge_generality(scores):
     Returns a `Claim`.
     """
     better = {world: probability_of_improvement(*pair) for world, pair in scores.items()}
-    least = min(better, key=lambda world: better[world].value)
-    chance = STATEMENTS["G2"].bounds.low
-    text = "; ".join(f"{world} {each}" for world, each in better.items())
-    runs = min(len(each) for pair in scores.values() for each in pair)
-    return judged("G2", better[least], f"By world: {text}.", runs,
-                  reproduced=all(each.low > chance for each in better.values()),
-                  partly=any(each.low > chance for each in better.values()),
-                  possible=all(each.high > chance for each in better.values()))
+    return judged("G2", min(better.values(), key=lambda each: each.value),
+                  min(len(each) for pair in scores.values() for each in pair), {"world": better})
 
 
 def judge_composition(apart, whole, chance):
@@ -47,11 +38,8 @@ def judge_composition(apart, whole, chance):
     Returns a `Claim`.
     """
     cost, gain = estimate(ratio, apart, whole), estimate(ratio, chance, apart)
-    few, partly = STATEMENTS["G3"].bounds, STATEMENTS["G3"].also["partly"]
-    return judged("G3", cost, f"Random agents take {gain} times as long as those with a map for each. “Compositional” "
-                  f"is read as {few}, and in part as {partly}.", min(map(len, (apart, whole, chance))),
-                  reproduced=few.hold(cost) and gain.low > 1, partly=partly.hold(cost) and gain.low > 1,
-                  possible=few.allow(cost) and gain.high > 1)
+    return judged("G3", cost, min(map(len, (apart, whole, chance))), {"random agents": gain},
+                  partly=STATEMENTS["G3"].also["partly"].hold(cost) and gain.low > 1)
 
 
 def judge_extension(joined, alone, chance):
@@ -62,9 +50,5 @@ def judge_extension(joined, alone, chance):
     """
     gain = estimate(difference, 60 * joined.rate(*FINAL), 60 * alone.rate(*FINAL))
     kept = estimate(ratio, joined.rate(*AFTER_TURN), alone.rate(*AFTER_TURN))
-    helps, nothing_lost = gain.low > 0, STATEMENTS["G4"].also["kept"]
-    return judged("G4", gain, f"In the fortieth of the run after the change they earn {kept} times what agents without "
-                  f"it earn; the rule allows {nothing_lost}.", fewest_runs(joined, alone, chance),
-                  reproduced=helps and nothing_lost.hold(kept), partly=helps or nothing_lost.hold(kept),
-                  possible=gain.high > 0 and nothing_lost.allow(kept),
+    return judged("G4", gain, fewest_runs(joined, alone, chance), {"kept": kept},
                   testable=estimate(difference, alone.rate(*FINAL), chance.rate(*FINAL)).low > 0)

@@ -7,6 +7,7 @@ shortened where there is a "…".
 """
 
 import math
+import operator
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -15,25 +16,36 @@ from dataclasses import dataclass, field
 class Bounds:
     """The interval of an estimate that agrees with a claim.
 
-    low, high: its ends, which may be infinite. number: the thesis's own, if it gives one.
+    low, high: its ends, which may be infinite. number: the thesis's own, if it gives one. open: without its ends.
     """
 
     low: float = -math.inf
     high: float = math.inf
     number: float | None = None
+    open: bool = False
 
     def hold(self, found):
         """Whether the interval of an `Estimate` lies within."""
-        return self.low <= found.low and found.high <= self.high
+        return self._below(self.low, found.low) and self._below(found.high, self.high)
 
     def allow(self, found):
         """Whether the interval of an `Estimate` reaches inside, so that more runs might show the claim."""
-        return self.low <= found.high and found.low <= self.high
+        return self._below(self.low, found.high) and self._below(found.low, self.high)
+
+    def _below(self, one, other):
+        return (operator.lt if self.open else operator.le)(one, other)
 
     def __str__(self):
-        if math.isinf(self.low) or math.isinf(self.high):
-            return f"{self.low:g} or more" if math.isinf(self.high) else f"{self.high:g} or less"
-        return f"from {self.low:g} to {self.high:g}".replace("-", "−")
+        if math.isinf(self.high):
+            text = f"more than {self.low:g}" if self.open else f"{self.low:g} or more"
+        elif math.isinf(self.low):
+            text = f"less than {self.high:g}" if self.open else f"{self.high:g} or less"
+        else:
+            text = f"from {self.low:g} to {self.high:g}"
+        return text.replace("-", "−")
+
+
+POSITIVE, NEGATIVE = Bounds(low=0.0, open=True), Bounds(high=0.0, open=True)
 
 
 @dataclass(frozen=True)
@@ -47,8 +59,8 @@ class Statement:
     thesis: str  # its number, in words
     figure: str  # the label of the figure of this book that shows it
     rule: str  # the function of `neorl.evidence.claims` that judges it
-    bounds: Bounds = Bounds(low=0.0)  # of our number
-    also: Mapping[str, Bounds] = field(default_factory=dict)  # of other numbers that the rule compares
+    bounds: Bounds = POSITIVE  # of our number
+    also: Mapping[str, Bounds] = field(default_factory=dict)  # of other numbers that the rule compares, by name
     demonstration: bool = False  # an experiment of this book, shown beside the claims and not counted among them
 
     @property
@@ -112,7 +124,7 @@ STATEMENTS = {
         "Final reward per second together, divided by that of N7",
         "3.5", "fig-proficiency", "judge_multiple_layers",
         Bounds(2.5, 5.0, number=3.5),  # within a factor of the square root of 2
-        also={"shares of a run later": Bounds(high=1 / 40)}),
+        also={"share of a run sooner": Bounds(low=-1 / 40)}),
     "A8": Statement(
         "section 4.3.1",
         "The multi-resolution neoRL agent across multiple NRES sets performed better than single-resolution neoRL "
@@ -126,7 +138,7 @@ STATEMENTS = {
         "marginally improved navigation capabilities over Brownian motion in the WaterWorld environment.",
         "Single maps improve on Brownian motion, but little beside several",
         "Mean final lead of single maps over Brownian motion, divided by that of 3, 7 and 23 together",
-        "marginal", "fig-accumulated", "judge_margin", Bounds(high=0.5)),
+        "marginal", "fig-accumulated", "judge_margin", Bounds(high=0.5), also={"lead": POSITIVE}),
     "B1": Statement(
         GENERAL,
         "There is no loss in sample efficiency when utilizing the OVC modality compared to PC modality.",
@@ -154,7 +166,8 @@ STATEMENTS = {
         "Agents with both modalities reach their final level after 15 minutes, place cells after more than 160",
         "Simulated minutes until the mean of both reaches nine tenths of its final level",
         "15", "fig-modal", "judge_pace",
-        Bounds(high=30.0, number=15.0), also={"place cells": Bounds(low=80.0, number=160.0)}),  # a factor of 2
+        Bounds(high=30.0, number=15.0),  # a factor of 2
+        also={"place cells": Bounds(low=80.0, number=160.0), "both, less": NEGATIVE}),
     "B5": Statement(
         "paper B, section 3",
         "the agent must catch the last green in a board full of red before the board can be reset and continue beyond "
@@ -209,7 +222,7 @@ STATEMENTS = {
         "No other method of reinforcement learning or AI navigates this board in real time",
         "Final reward per second of the best alternative, divided by that of the thesis's best agent",
         "none succeeds", "fig-alternatives-curves", "judge_alternatives",
-        Bounds(high=1.0), also={"failing": Bounds(low=0.5)}),
+        Bounds(high=1.0), also={"failing": Bounds(low=0.5), "over it": Bounds(high=1.0)}),
     "T1": Statement(
         "paper A, The Control Problem by Superposition",
         "In the neoRL approach, moving rewards or changing agent priorities during an agent's life-time does not "
@@ -217,7 +230,8 @@ STATEMENTS = {
         "Moving or revaluing elements needs no retraining",
         "Red creeps per minute in the fortieth of the run after they become desired, divided by the same agents' "
         "final rate",
-        "1", "fig-revalued", "judge_changes", Bounds(low=0.8), also={"moved": Bounds(low=0.8)}),
+        "1", "fig-revalued", "judge_changes", Bounds(low=0.8),
+        also={"rise": POSITIVE, "moved": Bounds(low=0.8), "ignorant, less": POSITIVE}),
     "T2": Statement(
         "section 4.4",
         "Assessing additional NRES maps in the same agent … only results in a linear increase in computation.",
@@ -245,14 +259,14 @@ STATEMENTS = {
         "All execution runs smoothly on a single CPU core",
         "One core keeps up with real time, under the load that the machine has besides",
         "Share of a core at 50 steps per second",
-        "< 1", "fig-4-realtime", "judge_real_time", Bounds(high=1.0), also={"steps late": Bounds(high=2.0)}),
+        "< 1", "fig-4-realtime", "judge_real_time", Bounds(high=1.0, open=True), also={"steps late": Bounds(high=2.0)}),
     "T6": Statement(
         "section 4.4",
         "Assessing additional NRES maps in the same agent improves navigational capabilities significantly, does not "
         "degrade learning performance",
         "More maps never slow learning",
         "Smallest lead, in minutes, of agents with more maps at half the final level of the best agent with fewer",
-        "≥ 0", "fig-more-maps", "judge_more_maps", also={"shares of a run later": Bounds(high=1 / 40)}),
+        "≥ 0", "fig-more-maps", "judge_more_maps", also={"share of a run sooner": Bounds(low=-1 / 40)}),
     "T7": Statement(
         "chapter 4, introduction",
         "following a school other than temporal-difference learning is required for neoRL.",
@@ -265,7 +279,8 @@ STATEMENTS = {
         "the direct relation between larger receptive fields and a slower time scale is prominent.",
         "Larger receptive fields go with a slower time scale",
         "Exponent with which the stay in a field grows with its width",
-        "direct relation", "fig-time-scale", "judge_time_scale", Bounds(low=0.5)),
+        "direct relation", "fig-time-scale", "judge_time_scale", Bounds(low=0.5),
+        also={"longer in the next coarser map": POSITIVE}),
     "T9": Statement(
         "section 4.3.1",
         "Directed exploration is proposed as a plausible explanation for improved learning when navigating according "
@@ -273,20 +288,21 @@ STATEMENTS = {
         "Several maps explore more of the board than each of them alone, and than Brownian motion",
         "Squares of a 90 × 90 board in which 3, 7 and 23 together are in the first tenth of a run, divided by those of "
         "the best of them alone",
-        "> 1", "fig-explored", "judge_exploration", Bounds(low=1.0), also={"Brownian motion": Bounds(low=1.0)}),
+        "> 1", "fig-explored", "judge_exploration", Bounds(low=1.0, open=True)),
     "G1": Statement(
         "paper B, section 1",
         "Navigation has to be efficient (require few interactions for learning new behaviors)",
         "Efficient: after one trial at a new place, agents find it again sooner than Q-learning on the same cells",
         "Seconds of the second trial at a new place in a water maze, divided by those of Q-learning",
         "few", "fig-spaces-pool", "judge_efficiency",
-        Bounds(high=0.5), also={"partly": Bounds(high=1.0)}, demonstration=True),
+        Bounds(high=0.5), also={"partly": Bounds(high=1.0, open=True), "seconds less than at random": POSITIVE},
+        demonstration=True),
     "G2": Statement(
         "paper B, section 3",
         "it is crucial that NRES-oriented navigation can operate based on different Euclidean spaces",
         "General: with one learning rule, agents beat chance in every other space that was tried",
         "Smallest probability, over the worlds, that a run of the agent beats a run of random actions",
-        "> 0.5", "fig-spaces-all", "judge_generality", Bounds(low=0.5), demonstration=True),
+        "> 0.5", "fig-spaces-all", "judge_generality", Bounds(low=0.5, open=True), demonstration=True),
     "G3": Statement(
         "paper B, section 3",
         "NeoRL navigation must be … compositional across conceptual components, without any significant decline in "
@@ -294,7 +310,8 @@ STATEMENTS = {
         "Compositional: a map for each feature reaches any combination as directly as one map of both",
         "Steps to a point of a space of two features with a map for each, divided by those with one map of both",
         "1", "fig-spaces-birds", "judge_composition",
-        Bounds(high=1.25), also={"partly": Bounds(high=2.0)}, demonstration=True),
+        Bounds(high=1.25), also={"partly": Bounds(high=2.0), "random agents": Bounds(low=1.0, open=True)},
+        demonstration=True),
     "G4": Statement(
         "chapter 5, on paper B",
         "The neoRL framework is general across NRES modalities, compositional and incremental by additional neoRL "
@@ -309,7 +326,7 @@ STATEMENTS = {
         "Latent learning: animals first rewarded on day 11 overtake those rewarded throughout",
         "Errors per day after the first reward, less those of animals rewarded throughout",
         "fewer", "fig-2-errors", "judge_latent_learning",
-        Bounds(high=0.0), also={"level": Bounds(high=0.1)}, demonstration=True),
+        NEGATIVE, also={"level": Bounds(high=0.1)}, demonstration=True),
 }
 
 CLAIMS = tuple(name for name, statement in STATEMENTS.items() if not statement.demonstration)

@@ -11,9 +11,10 @@
 Rewards are per simulated second and means over runs; early is the first tenth of a run, final the last fifth.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
-from neorl.evidence.statements import STATEMENTS
+from neorl.evidence.statements import STATEMENTS, Bounds
 from neorl.evidence.statistics import Estimate, difference, estimate
 
 RUNS_FOR_A_VERDICT = 10
@@ -28,7 +29,7 @@ class Claim:
 
     name: str
     here: Estimate
-    detail: str
+    numbers: Mapping[str, tuple[Estimate, Bounds | None]]  # all that the rule reads, with the bounds it asks for
     runs: int
     outcome: str  # one of VERDICTS but the last, whatever the number of runs
     undecided: bool  # not reproduced, but the intervals leave room for it, so that more runs might show it
@@ -44,10 +45,27 @@ class Claim:
         return self.outcome if self.runs >= RUNS_FOR_A_VERDICT else "no verdict"
 
 
-def judged(name, here, detail, runs, *, reproduced, partly, possible, testable=True):
-    """The `Claim` of that name. possible: whether the intervals leave room for it."""
+def judged(name, here, runs, asked=None, shown=None, *, reproduced=None, partly=None, possible=None, testable=True):
+    """The `Claim` of that name.
+
+    here: our number, an `Estimate`. asked: {what: an `Estimate`, or {of what: `Estimate`}}, the other numbers that a
+    reproduction asks for, with the bounds of `Statement.also` or those of our number. shown: numbers that are only
+    reported. reproduced, partly, possible: by default whether all bounds are held, any are, and all leave room.
+    """
+    statement = STATEMENTS[name]
+    asked, shown = ({f"{what}, {of}" if of else what: (found, statement.also.get(what, default))
+                     for what, each in given.items()
+                     for of, found in (each if isinstance(each, dict) else {"": each}).items()}
+                    for given, default in ((asked or {}, statement.bounds), (shown or {}, None)))
+    parts = [(here, statement.bounds), *asked.values()]
+    held = [bounds.hold(found) for found, bounds in parts]
+    reproduced, partly = all(held) if reproduced is None else reproduced, any(held) if partly is None else partly
+    possible = all(bounds.allow(found) for found, bounds in parts) if possible is None else possible
     outcome = "not testable" if not testable else VERDICTS[0 if reproduced else 1 if partly else 2]
-    return Claim(name, here, detail, runs, outcome, bool(testable and possible and not reproduced))
+    numbers = asked | shown
+    if here not in [found for found, _ in numbers.values()]:
+        numbers = {statement.statistic: parts[0]} | numbers
+    return Claim(name, here, numbers, runs, outcome, bool(testable and possible and not reproduced))
 
 
 def lead_over_brownian(result, brownian):
@@ -58,6 +76,11 @@ def lead_over_brownian(result, brownian):
 def learned(result, brownian):
     """Whether agents finally earn more than Brownian motion on the same board."""
     return lead_over_brownian(result, brownian).low > 0
+
+
+def share_of_run(minutes, result):
+    """An `Estimate` in minutes, as a share of the runs of a result."""
+    return Estimate(*(60 * each / result.seconds for each in minutes))
 
 
 def fewest_runs(*results):

@@ -14,7 +14,7 @@ from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 sys.path.insert(0, str(Path(__file__).parents[2] / "book"))
 import ledger  # noqa: E402
 
-FOUND = {"here": [0.1, 0.09, 0.11], "runs": 20, "verdict": "reproduced", "detail": "A run of B beats one of A."}
+FOUND = {"here": [0.1, 0.09, 0.11], "runs": 20, "verdict": "reproduced", "numbers": {}}
 RECORD = {"claims": {"C2": FOUND, "A6": FOUND | {"here": [0.19, None, None], "runs": 1, "verdict": "no verdict"},
                      "B1": FOUND | {"verdict": "not reproduced"}},
           "letter": {"C2": FOUND | {"here": [-0.3, -0.31, -0.29], "verdict": "partly"}},

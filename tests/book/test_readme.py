@@ -34,7 +34,7 @@ def test_the_tables_have_every_claim_as_it_is_stated_now_and_a_verdict_from_the_
 
 def test_claims_are_written_between_the_marks_and_nothing_else_is_touched():
     text = "before\n<!-- claims: make readme -->\nold\n<!-- end of claims -->\nafter | \\1\n"
-    found = {"here": [0.1, 0.09, 0.11], "runs": 20, "verdict": "reproduced", "detail": ""}
+    found = {"here": [0.1, 0.09, 0.11], "runs": 20, "verdict": "reproduced", "numbers": {}}
     new = readme.by_verdict({"claims": {"C2": found}, "letter": {}, "shares": {}})
     assert "with 20 runs of each condition" in new and new.count("**C2** One desire per colour") == 1
     assert all(new.count(f"**{name}** ") == 1 for name in STATEMENTS)

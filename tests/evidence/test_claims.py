@@ -108,7 +108,7 @@ def test_what_earns_no_more_than_brownian_motion_has_learned_nothing():
 
 def test_resets_are_counted_in_as_many_steps_as_the_papers_runs_have():
     claim = claims.judge_single_layer(paper_a()[0], brownian(boards=30))[0]
-    assert claim.here == pytest.approx((0, 0, 0)) and "resets the board 30.00 [30.00, 30.00] times" in claim.detail
+    assert claim.here == pytest.approx((0, 0, 0)) and claim.numbers["resets"][0] == (30, 30, 30)
     with pytest.raises(ValueError, match="win_reward of the world must differ from 0"):
         claims.judge_single_layer(paper_a()[0], in_world(brownian(), WaterWorld()))
 
@@ -265,7 +265,8 @@ def test_a_turn_of_desires_is_judged_by_what_the_same_agents_do_later(revalued, 
 def test_red_creeps_are_counted_per_minute():
     claim = claims.judge_changes(taking(1, 3, 4))
     assert claim.here == pytest.approx((0.75, 0.75, 0.75))
-    assert "300.00 [300.00, 300.00] before the turn, 900.00" in claim.detail  # 1 and 3 per bin of 0.2 s
+    found = [claim.numbers[f"per minute, {when}"][0].value for when in ("before the turn", "after it")]
+    assert found == pytest.approx([300, 900])  # 1 and 3 per bin of 0.2 s
 
 
 @pytest.mark.parametrize("together, expected", [(7.0, "reproduced"), (8.5, "not reproduced")])
@@ -284,7 +285,7 @@ def test_more_maps_are_compared_with_the_quickest_of_those_with_fewer(more, expe
     fewer, slow = made_up(0.0, 0.3), made_up(0.0, 0.3, learned_by=0.6)
     additions = {name: (each, [slow, fewer], brownian()) for name, each in zip(("maps", "a modality"), more)}
     claim = claims.judge_more_maps(additions)
-    assert claim.verdict == expected and "by a modality" in claim.detail
+    assert claim.verdict == expected and "minutes sooner, a modality" in claim.numbers
     nothing = {name: (each, fewer, brownian(0.5)) for name, (each, fewer, _) in additions.items()}
     assert claims.judge_more_maps(nothing).verdict == "not testable"
 

@@ -39,6 +39,17 @@ def test_a_table_of_a_page_has_both_readings_and_leads_to_what_the_verdicts_rest
     assert found.endswith("| > 0 | ○\u00a0−0.30 [−0.31, −0.29] | ●\u00a00.10 [0.09, 0.11] | reproduced |")
 
 
+def test_what_a_verdict_rests_on_is_its_sentence_and_the_numbers_of_both_readings():
+    kept = {"claims": report._kept(networks()), "letter": report._kept(networks(*paper_c()[::-1]))}
+    (item,) = report.evidence(kept, ["C1"])
+    assert "“The neoRL network from illustration 4a improves" in item and "(paper C, section 3)" in item
+    header, _, rise, lead, *_ = item.split("\n\n")[1].splitlines()
+    assert header == "  | Number | Rule | Here, 20 runs | To the letter, 20 runs |"
+    assert rise == ("  | Final reward per second of A, less its early one | more than 0 | 0.05 [0.05, 0.05] | "
+                    "0.40 [0.40, 0.40] |")
+    assert lead.startswith("  | lead over Brownian motion | more than 0 | 0.05 [")
+
+
 @pytest.fixture
 def record(cache_folder):
     report.save("paper_c", networks(), letter=networks(*paper_c()[::-1]))

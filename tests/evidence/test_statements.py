@@ -1,7 +1,7 @@
 """The statements: their quotations, their bounds, and the rules that they name."""
 
 from neorl.evidence import claims
-from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS, Bounds
+from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, POSITIVE, STATEMENTS, Bounds
 from neorl.evidence.statistics import Estimate
 
 
@@ -10,8 +10,10 @@ def test_bounds_are_read_by_both_ends_of_an_interval():
     within, across, beyond = Estimate(3, 2.5, 5), Estimate(3, 2, 4), Estimate(6, 5.1, 7)
     assert [near.hold(each) for each in (within, across, beyond)] == [True, False, False]
     assert [near.allow(each) for each in (within, across, beyond)] == [True, True, False]
-    assert [str(each) for each in (near, Bounds(low=0.8), Bounds(high=30), Bounds(-5, 5))] == [
-        "from 2.5 to 5", "0.8 or more", "30 or less", "from −5 to 5"]
+    assert [str(each) for each in (near, Bounds(low=0.8), Bounds(high=30), Bounds(-5, 5), POSITIVE)] == [
+        "from 2.5 to 5", "0.8 or more", "30 or less", "from −5 to 5", "more than 0"]
+    at_0 = Estimate(1, 0, 2)
+    assert Bounds(low=0.0).hold(at_0) and POSITIVE.allow(at_0) and not POSITIVE.hold(at_0)
 
 
 def test_a_number_stands_in_the_words_of_its_statement_and_within_its_bounds():

@@ -9,6 +9,7 @@ all claims from the records.
 import json
 import re
 from collections import Counter
+from textwrap import indent
 
 import numpy as np
 
@@ -104,17 +105,20 @@ def extract(record, names):
 
 
 def evidence(record, names):
-    """A list item for each claim: the sentence that is judged, the quantity measured, and the finding."""
-    lines = []
-    for name in names:
-        statement = STATEMENTS[name]
-        line = f"- **{name}** “{statement.quotation}” ({statement.place}) *{statement.statistic}*."
-        for part, reading in (("claims", "Here"), ("letter", "To the letter")):
-            found = record[part].get(name)
-            if found:
-                line += f" {reading}, {found['runs']} runs: {found['detail']}"
-        lines.append(line)
-    return lines
+    """A list item for each claim: the sentence that is judged, and a table of the numbers that its rule compares."""
+    return [f"- **{name}** “{STATEMENTS[name].quotation}” ({STATEMENTS[name].place})." + _numbers(record, name)
+            for name in names]
+
+
+def _numbers(record, name):
+    """The numbers of a claim under both readings, with the bounds that its rule asks for, as an indented table."""
+    found = {reading: record[part][name] for reading, part in (("Here", "claims"), ("To the letter", "letter"))
+             if name in record[part]}
+    asked = {what: asks for each in found.values() for what, (_, asks) in each["numbers"].items()}
+    rows = [[what, asks, *(number({"here": each["numbers"][what][0]}) if what in each["numbers"] else ""
+                           for each in found.values())] for what, asks in asked.items()]
+    head = ["Number", "Rule", *(f"{reading}, {each['runs']} runs" for reading, each in found.items())]
+    return "\n\n" + indent(wording.table(head, rows), "  ") if rows else ""
 
 
 def label(rule):
@@ -123,8 +127,13 @@ def label(rule):
 
 
 def _kept(claims):
-    return {claim.name: {"here": [float(each) if np.isfinite(each) else None for each in claim.here],
-                         "runs": claim.runs, "verdict": claim.verdict, "detail": claim.detail} for claim in claims}
+    return {claim.name: {"here": _bounded(claim.here), "runs": claim.runs, "verdict": claim.verdict,
+                         "numbers": {what: [_bounded(found), str(bounds or "")]
+                                     for what, (found, bounds) in claim.numbers.items()}} for claim in claims}
+
+
+def _bounded(found):
+    return [float(each) if np.isfinite(each) else None for each in found]
 
 
 def _cells(record, name):
