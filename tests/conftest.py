@@ -90,6 +90,16 @@ def open_page(chromium):
     `open_page(folder, path, over="http" or "file")` returns Playwright's page; `**options` are those of its context.
     A test that expects an error removes it from `open_page.complaints`.
     """
+    yield from opened(chromium)
+
+
+@pytest.fixture(scope="module")
+def open_shared_page(chromium):
+    """As `open_page`, for a page that all tests of a module share."""
+    yield from opened(chromium)
+
+
+def opened(chromium):
     servers, contexts, complaints = [], [], []
 
     def open_page(folder, path, over="http", **options):

@@ -2,9 +2,10 @@
 
 The first Explorer of a page uses the fragment that begins with `#explorer`; in JupyterLab there is none. The fragment
 has the settings that differ from the preset, by their names in `SHORT`, also `run` and `seed`; the `minute` at which
-the run pauses; the `map` shown, with the `goal` chosen in it; and `start`, one of the things to try. An example is
-#explorer_agent-network-d_run-7_red-0p5. Names are in lower case, and p is the decimal point, because pages use a
-fragment as a selector, which allows few other characters. */
+the run pauses; the `map` shown, with the `goal` chosen in it; the agent `beside` it, with the minutes for which that
+one has `learned`; and `start`, one of the things to try. An example is #explorer_agent-network-d_run-7_red-0p5. Names
+are in lower case, and p is the decimal point, because pages use a fragment as a selector, which allows few other
+characters. */
 
 const PREFIX = "#explorer";
 const SHORT = { agent: "preset", run: "run", seed: "seed", resolutions: "resolutions", modality: "modality",
@@ -17,7 +18,7 @@ const named = (names, text) => names.find((name) => slug(name) === text) ?? text
 const written = (number) => String(number).replace(".", "p");
 const numberOf = (text) => (text.trim() === "" ? NaN : Number(text.replace("p", ".")));
 
-/** Parse an address into {settings, minute, map, goal, start}, or null if it is not for an Explorer. */
+/** Parse an address into {settings, minute, map, goal, beside, start}, or null if it is not for an Explorer. */
 function readAddress(hash, presets, modalities, preset) {
   if (!hash.startsWith(PREFIX)) return null;
   const said = Object.fromEntries(hash.slice(PREFIX.length).split("_").filter(Boolean).map((part) => {
@@ -35,13 +36,15 @@ function readAddress(hash, presets, modalities, preset) {
   const { preset: key = preset } = Object.fromEntries(given);
   const defaults = Object.hasOwn(presets, key) ? { ...initialSettings(presets, key), seed: presets[key].seed } : {};
   const isSaid = (name) => Object.hasOwn(said, name);
-  return { settings: { ...defaults, preset: key, run: 0, ...Object.fromEntries(given) },
+  const other = isSaid("beside") ? valueOf("preset", said.beside) : null;
+  const beside = other && { agent: other === key ? "" : other, learned: numberOf(said.learned ?? "0") };
+  return { beside, settings: { ...defaults, preset: key, run: 0, ...Object.fromEntries(given) },
     minute: isSaid("minute") ? numberOf(said.minute) : null, start: said.start, map: said.map,
     goal: isSaid("goal") ? numberOf(said.goal) : null };
 }
 
 /** The address of the settings that differ from their preset's, and of the view. */
-function addressOf(presets, settings, { minute, map, goal }) {
+function addressOf(presets, settings, { minute, map, goal, beside }) {
   const { preset } = settings;
   const defaults = { ...initialSettings(presets, preset), preset: null, run: null, seed: presets[preset].seed };
   const parts = [PREFIX];
@@ -53,10 +56,11 @@ function addressOf(presets, settings, { minute, map, goal }) {
   }
   if (minute) parts.push(`minute-${written(minute)}`);
   if (goal !== null) parts.push(`map-${slug(map)}`, `goal-${goal}`);
+  if (beside) parts.push(`beside-${slug(beside.agent || preset)}`, `learned-${beside.learned}`);
   return parts.join("_");
 }
 
-class Address extends Starters {
+class Address extends Beside {
   hasAddress() {
     return document.querySelector(".neorl-explorer:not(.neorl-replay)") === this.root
       && !document.body.hasAttribute("data-jp-theme-name");
@@ -67,12 +71,13 @@ class Address extends Starters {
     const { presets, modalities, model } = this;
     const said = this.hasAddress() ? readAddress(location.hash, presets, modalities, model.get("preset")) : null;
     if (!said) return false;
-    const { settings, minute, map, goal, start } = said;
+    const { settings, minute, map, goal, beside, start } = said;
     const starts = { watch: () => this.watch(), red: () => this.revalueRed(), corner: () => this.showCorner(),
       game: () => this.joinGame() };
     const wishes = { get: (name) => (Object.hasOwn(settings, name) ? settings[name] : model.get(name)) };
     const isMoment = minute === null || (minute >= 0 && minute < 1e6);
-    const problem = problemOf(presets, modalities, wishes) || (isMoment ? "" : "Its minute must be a number ≥ 0.");
+    const problem = problemOf(presets, modalities, wishes) || (isMoment ? "" : "Its minute must be a number ≥ 0.")
+      || this.problemBeside(settings.preset, beside);
     if (problem) {
       this.refuse(this.control("preset"), `The address does not describe a run of this Explorer. ${problem}`);
       return false;
@@ -87,6 +92,7 @@ class Address extends Starters {
       if (Object.hasOwn(starts, start)) await starts[start]();
       this.refresh();
     };
+    this.compare(beside);
     this.fresh({ ...settings, playing: true }, { step, hurries: true, act, news: "Running up to that moment …" });
     return true;
   }
@@ -97,7 +103,7 @@ class Address extends Starters {
     const settings = { ...this.settings(), seed: model.get("seed"), run: model.get("run") };
     const minute = isMoment && frame && !changed ? Number((frame.step / world.fps / 60).toFixed(5)) : 0;
     const { name: map = "", goal = null } = frame?.seen ?? {};
-    return addressOf(presets, settings, { minute, map, goal });
+    return addressOf(presets, settings, { minute, map, goal, beside: this.beside });
   }
 
   /** Update the page's address, once the reader has used a control, without a new entry in the history. */

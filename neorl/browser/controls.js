@@ -14,15 +14,12 @@ class Controls {
   }
 
   fillMenus() {
-    for (const key of orderedKeys(this.presets)) {
-      const { group, label, totals } = this.presets[key];
-      const groups = [...this.control("preset").children];
-      const same = groups.find((each) => each.label === group) ?? document.createElement("optgroup");
-      same.label = group;
-      same.append(new Option(label, key));
-      this.control("preset").append(same);
-      if (totals.length) this.control("open-preset").append(new Option(label, key));
-    }
+    const { presets } = this;
+    const keys = orderedKeys(presets);
+    fillMenu(this.control("preset"), presets, keys);
+    this.control("open-preset").append(...keys.filter((key) => presets[key].totals.length)
+      .map((key) => new Option(presets[key].label, key)));
+    this.control("learned").append(...LESSONS.map((minutes) => new Option(`${minutes} minutes`, minutes)));
     this.control("modality").append(...Object.keys(this.modalities).map((name) => new Option(name, name)));
     this.control("object_state").append(...Object.entries(STATES).map(([state, label]) => new Option(label, state)));
     this.part(".open").hidden = !this.control("open-preset").length;
@@ -44,6 +41,7 @@ class Controls {
       memory: () => this.write({ memory: Number(value) === NO_MEMORY ? 0 : power(value) }),
       map: () => this.look({ map: value, goal: null }), field: () => this.look(this.layers()),
       heat: () => this.look(this.layers()), trail: () => this.wake(),
+      beside: () => this.chooseSecond(), learned: () => this.chooseSecond(),
       "element-valence": () => this.changeElement(this.selected, { valence: Number(value) }) }[name];
     if (act) return act();
     const [, node] = name.match(/^gain-(\d+)$/) ?? [];
@@ -55,7 +53,7 @@ class Controls {
     const acts = { play: () => this.togglePlay(), step: () => this.step(), reset: () => this.reset(),
       "new-run": () => this.newRun(), open: () => this.openRun(), drop: () => this.beginDrop(detail === 0),
       delete: () => this.deleteElement(), link: () => this.copyLink(), watch: () => this.watch(),
-      red: () => this.revalueRed(), corner: () => this.showCorner(),
+      red: () => this.revalueRed(), corner: () => this.showCorner(), compare: () => this.toggleSecond(),
       game: () => (this.life.game ? this.leaveGame() : this.joinGame()), clear: () => this.clearElements() };
     this.touched ||= action in acts;
     return acts[action]?.();
@@ -163,6 +161,7 @@ class Controls {
     this.action("step").disabled = !frame || frame.ended;
     this.action("link").disabled = !frame;
     this.offerStarters();
+    this.showSecond();
     for (const name of ["map", "field", "heat"]) this.control(name).disabled = !frame;
     this.part(".pad").hidden = !game;
     this.showSpeed();
@@ -176,6 +175,7 @@ class Controls {
     const { label, runs, band } = this.presets[this.condition] ?? {};
     const swatch = (kind) => Object.assign(document.createElement("span"), { className: `swatch ${kind}` });
     this.part(".legend").replaceChildren(swatch("own"), this.life.changed ? "this run, changed on the way" : "this run",
+      ...(this.beside ? [swatch("beside"), this.names()[1]] : []),
       ...(band ? [swatch("band"), `where most of ${runs} runs of ${label} lie`] : []));
   }
 
@@ -235,19 +235,21 @@ class Controls {
   }
 
   draw(now = performance.now()) {
-    const { life: { frame, cursor, trail, length, world, rate }, colours, condition } = this;
+    const { life: { frame, cursor, trail, length, world, rate, second }, colours, condition } = this;
     const isLoading = !frame && !this.failed;
     if (!this.arena.clientWidth || (isLoading && this.drawn)) return; // keep the last picture while loading
     Object.assign(this, { drawn: now, stale: false });
+    this.drawSecond();
     drawArena(this.arena, colours, frame, { cursor, trail: this.control("trail").checked ? trail : [] });
     this.arrange(Boolean(frame?.arm));
     if (frame?.arm) drawLimb(this.limb, colours, frame);
     drawCurve(this.curve, colours, { seconds: length.steps / world.fps, binSeconds: length.bin / world.fps,
-      rewards: frame?.rewards ?? [], lived: (frame?.step ?? 0) / world.fps, band: this.presets[condition]?.band });
+      rewards: frame?.rewards ?? [], beside: second?.frame.rewards, lived: (frame?.step ?? 0) / world.fps,
+      band: this.presets[condition]?.band });
     this.placeHandles();
     this.showKey();
     if (frame && !this.running()) this.part(".unseen").textContent = describe(frame);
-    this.part(".lived").textContent = this.livedText();
+    this.part(".lived").textContent = this.beside ? this.minutesText() : this.livedText(); // the tanks have titles
     this.part(".pace").textContent = this.running() && rate
       ? `${grouped(rate)} steps per second, ${grouped(rate / world.fps)} × real time` : "";
     const able = [frame?.seen.axes.length, true, this.hasCreeps()]; // the cells of contacts are not goals
@@ -259,7 +261,7 @@ class Controls {
     const [space, limb] = [this.part(".space"), this.part(".limb")];
     if (limb.hidden === !hasArm) return;
     const [main, inset] = hasArm ? [limb, space] : [space, limb];
-    this.part(".lived").after(main);
+    this.part(".first").append(main);
     this.part(".side").prepend(inset);
     limb.hidden = space.firstElementChild.hidden = !hasArm;
   }
@@ -270,11 +272,16 @@ class Controls {
     if (markup !== this.keyMarkup) this.part(".key").innerHTML = this.keyMarkup = markup;
   }
 
+  minutesText() {
+    const { frame, world } = this.life;
+    return frame ? `${(frame.step / world.fps / 60).toFixed(1)} simulated minutes` : "";
+  }
+
   livedText() {
-    const { frame, game, world } = this.life;
+    const { frame, game } = this.life;
     if (!frame) return "";
     if (game) return `You: ${shown(frame.player?.reward ?? 0)} · neoRL: ${shown(frame.reward - game.score)}`;
-    return `${(frame.step / world.fps / 60).toFixed(1)} simulated minutes · score ${shown(frame.reward)}`;
+    return `${this.minutesText()} · ${this.scores() || `score ${shown(frame.reward)}`}`;
   }
 
   sentences() {

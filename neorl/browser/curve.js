@@ -1,11 +1,13 @@
 /* The curve of reward over the run, on a canvas of its own, drawn purely from its arguments, as in drawing.js. */
 
-/** Reward per second over the run. curve: {seconds, binSeconds, rewards (of bins), lived (seconds), band or none}. */
-function drawCurve(canvas, colours, { seconds, binSeconds, rewards, lived, band }) {
+/** Reward per second over the run. curve: {seconds, binSeconds, rewards (of bins), beside (of another run, or none),
+ * lived (seconds), band or none}. */
+function drawCurve(canvas, colours, { seconds, binSeconds, rewards, beside, lived, band }) {
   const board = { context: fittedContext(canvas), colours };
   const [left, top, right, bottom] = [34, 8, canvas.clientWidth - 8, canvas.clientHeight - 20];
   const { edges, rates } = ratesOf(rewards, binSeconds, lived, seconds);
-  const values = [0, 0.5, ...rates, ...(band ? [...band.low, ...band.high] : [])];
+  const others = beside ? ratesOf(beside, binSeconds, lived, seconds).rates : [];
+  const values = [0, 0.5, ...rates, ...others, ...(band ? [...band.low, ...band.high] : [])];
   const [least, most] = [Math.min(...values), Math.max(...values)];
   const [step, minutes] = [roundStep((most - least) / 3), roundStep(seconds / 240)];
   const xOf = (second) => left + ((right - left) * second) / seconds;
@@ -27,9 +29,11 @@ function drawCurve(canvas, colours, { seconds, binSeconds, rewards, lived, band 
     fillPath(board, colours.ink, 0.2, (path) => addLine(path, outline));
     stroke(board, colours.ink, 1, 0.8, (path) => addLine(path, pointsOf(band.edges, band.middle)));
   }
-  const own = pointsOf(edges, rates);
-  if (own.length) own.unshift([left, own[0][1]]); // from the first second
-  stroke(board, colours.agent, 1.8, 1, (path) => addLine(path, own));
+  for (const [colour, each] of [[colours.place, others], [colours.agent, rates]]) {
+    const points = pointsOf(edges, each);
+    if (points.length) points.unshift([left, points[0][1]]); // from the first second
+    stroke(board, colour, 1.8, 1, (path) => addLine(path, points));
+  }
 }
 
 /** Reward per second in each bin that has begun. The last, unfinished one is averaged over the full length of a bin,

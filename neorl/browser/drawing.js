@@ -34,8 +34,9 @@ function fittedContext(canvas) {
   return context;
 }
 
-/** Draw the arena. frame: from the engine, or null; cursor: a place, or none; trail: where the agent has been. */
-function drawArena(canvas, colours, frame, { cursor = null, trail = [] } = {}) {
+/** Draw the arena. frame: from the engine, or null; cursor: a place, or none; trail: where the agent has been;
+ * elements: of interest, where they are no buttons over the canvas. */
+function drawArena(canvas, colours, frame, { cursor = null, trail = [], elements = [] } = {}) {
   const context = fittedContext(canvas);
   const unit = canvas.clientWidth / (1 + 2 * BOARD_MARGIN);
   context.translate(BOARD_MARGIN * unit, BOARD_MARGIN * unit);
@@ -56,6 +57,7 @@ function drawArena(canvas, colours, frame, { cursor = null, trail = [] } = {}) {
   if (frame?.current) drawCurrent(board, frame.current);
   drawTrail(board, trail);
   if (frame) drawMovers(board, frame);
+  drawElements(board, elements);
   if (cursor) drawCursor(board, cursor);
 }
 

@@ -60,10 +60,10 @@ function mapAxes({ nodes: { first_map, first_axis, follows } }) {
     sum + (first_map[n + 1] - first_map[n]) * (first_axis[n + 1] - first_axis[n]), 0);
 }
 
-
 const call = (name, more = {}) => run.machine.call(name, { ...run.sizes, ...more }, { ...run, ...more });
 
 function begin(request) {
+  const taught = request.keeps ? run.state.values : null; // of a run of the same agent, as in `Run.transfer`
   run = null; // so that its memory can be freed before the next is allocated
   ({ layout, compiled } = modules[request.world.module]);
   run = newRun(request);
@@ -77,6 +77,7 @@ function begin(request) {
   call("reset", { state: run.world_state });
   call("begin_values");
   call("begin");
+  for (const name of taught ? ["q", "goal_range"] : []) run.state.values[name].set(taught[name]);
   lookAt({ map: request.map, goal: null, field: request.field, heat: request.heat });
   return frame();
 }

@@ -4,11 +4,12 @@ Everything it needs is in its state, so it works in a page without Python: the k
 (`neorl.browser.wasm`), its *presets* (agents as parameters, with the tolerance band of the page's runs of them), and
 its traits, which are the controls.
 
-- `settings.js` turns a preset and the traits into parameters, and `engine.js` runs them in a worker, in the memory of
-  `machine.js`. Nothing else affects a run: run k of a seed is the same as in `neorl.Run`. `views.js` defines what a
-  frame shows of each world.
+- `settings.js` turns a preset and the traits into parameters, and `engine.js` runs them in a worker, which
+  `simulator.js` starts, in the memory of `machine.js`. Nothing else affects a run: run k of a seed is the same as in
+  `neorl.Run`. `views.js` defines what a frame shows of each world.
 - `drawing.js`, `movers.js` and `curve.js` draw; `page.js`, `legend.js`, `controls.js`, `hands.js` and `widget.js` are
-  the interface; `starters.js` has things to try, and `address.js` keeps the state in the page's address.
+  the interface; `starters.js` has things to try, `beside.js` the second tank, and `address.js` keeps the state in the
+  page's address.
 """
 
 import math
@@ -67,8 +68,8 @@ LABELS = {"Foveated cells, contacts alone": "Forager: foveated cells, contacts a
 STEPS = 300_000  # of a run of an agent that is not a condition of the page
 AVOIDED = ("red", "obstacle", "vessel")  # the kinds whose valence has a control
 CURVE_BINS = 50
-SCRIPTS = ("settings.js", "drawing.js", "movers.js", "curve.js", "page.js", "legend.js", "controls.js", "hands.js",
-           "starters.js", "address.js", "widget.js")
+SCRIPTS = ("settings.js", "simulator.js", "drawing.js", "movers.js", "curve.js", "page.js", "legend.js", "controls.js",
+           "hands.js", "starters.js", "beside.js", "address.js", "widget.js")
 
 
 def _text(*names):

@@ -147,6 +147,7 @@ class Hands extends Controls {
 
   async joinGame() {
     const { life } = this;
+    this.compare(null); // there is one game at a time
     life.game = { held: NO_ACTION, next: null, sent: NO_ACTION, pushed: 0, score: life.frame.reward };
     life.changed = true;
     this.write({ playing: true });

@@ -23,6 +23,17 @@ function drawMovers(board, frame) {
   for (const landing of landings.filter(isElsewhere)) drawLanding(board, landing);
 }
 
+/** Draw elements of interest that another tank's reader has dropped. */
+function drawElements(board, elements) {
+  for (const { x, y, valence } of elements) {
+    const [colour, sign] = signOf(board, valence);
+    board.context.setLineDash([3, 3]);
+    stroke(board, colour, 2, 1, (path) => path.arc(x * board.unit, y * board.unit, 16, 0, FULL_TURN));
+    board.context.setLineDash([]);
+    write(board, sign, x * board.unit, y * board.unit, "bold 16px", colour, board.colours.paper);
+  }
+}
+
 /** Draw a thing with its sign, a vessel on its course, or a place with its extent. */
 function drawThing(board, thing, radius) {
   const { colours, unit } = board;

@@ -34,16 +34,19 @@ const pad = (key) => `<button type="button" data-key="Arrow${key.slice(0, -2)}" 
 const pageOf = (id) => `<p role="alert" hidden></p>
   <div class="starters buttons" role="group" aria-label="Things to try">${press("watch", "Watch it learn")}
     ${press("red", "Make red desirable half-way")}${press("corner", "Show the way to a corner")}
-    ${press("game", "Play against it")}</div>
+    ${press("compare", "Newborn beside veteran")}${press("game", "Play against it")}</div>
   <div class="bar">${choice("preset", "Agent")}<div class="buttons">${press("play", "Play")}${press("step", "Step")}
     ${press("new-run", "New run")}${press("reset", "Reset")}</div>
     ${slide("speed", "Speed", 0, SPEEDS.length - 1, 1)}</div>
   <div class="columns"><div class="board"><p class="lived"></p>
-    <div class="space"><p class="title" hidden>Joint space: first joint across, second down</p>
+    <div class="tanks"><div class="first"><p class="named" hidden></p>
+      <div class="space"><p class="title" hidden>Joint space: first joint across, second down</p>
       <div class="arena"><canvas tabindex="0" role="application" aria-describedby="${id}" aria-label="The world. Arrow
       keys move a cursor, Enter chooses the cell under it, Escape deselects it."></canvas><div class="grips"></div>
       <div class="marks"></div>
-      <div class="pad" hidden>${["Up ↑", "Left ←", "Down ↓", "Right →"].map(pad).join("")}</div></div></div>
+      <div class="pad" hidden>${["Up ↑", "Left ←", "Down ↓", "Right →"].map(pad).join("")}</div></div></div></div>
+      <div class="second" hidden><p class="named"></p><canvas role="img" aria-label="The second tank"></canvas></div></div>
+    <div class="versus" hidden>${choice("beside", "Second tank")}${choice("learned", "has learned for")}</div>
     <p class="unseen" id="${id}"></p><p class="said"></p>
     <div class="element" hidden>${slide("element-valence", "Its valence", -2, 2, 0.1)}
       ${press("delete", "Delete")}</div>
@@ -56,7 +59,7 @@ const pageOf = (id) => `<p role="alert" hidden></p>
   <div class="side"><div class="limb" hidden><p class="title">Workspace: the plane in which the arm moves</p>
     <canvas role="img" aria-label="The arm in the plane, with the points that it seeks and avoids"></canvas></div>
     <p class="title">Reward per second</p>
-    <canvas role="img" aria-label="Reward per simulated second over the run, in minutes"></canvas>
+    <canvas class="curve" role="img" aria-label="Reward per simulated second over the run, in minutes"></canvas>
     <p class="legend"></p><p class="pace"></p>${choice("modality", "Modality")}
     ${choice("object_state", "State of object vectors")}
     <label class="labelled"><span>Resolutions</span><input type="text" name="resolutions" autocomplete="off"></label>
@@ -86,7 +89,21 @@ class Refusal extends Error {}
 /** Everything the page holds of one run; every run has its own, and they share nothing. */
 const newLife = (given = {}) => ({ frame: null, world: { fps: 1 }, length: { steps: 1, bin: 1 }, changed: false,
   advancing: false, owed: 0, counted: 0, rate: 0, cursor: null, game: null, held: null, slid: false, dragged: null,
-  tapped: null, pointer: null, trail: [], due: null, news: "", ...given });
+  tapped: null, pointer: null, trail: [], second: null, changes: [], due: null, news: "", ...given });
+
+/** A trail extended by the agent's place in a frame, without what is too long ago. */
+const trailOf = (trail, { agent, step: now }, fps) =>
+  [...trail, { ...agent, step: now }].filter(({ step }) => now - step <= TRAIL * fps);
+
+/** Fill a menu with agents, in groups, after an option of its own, if any. */
+function fillMenu(menu, presets, keys, first = null) {
+  const groups = Object.groupBy(keys, (key) => presets[key].group);
+  menu.replaceChildren(...(first ? [first] : []), ...Object.entries(groups).map(([label, members]) => {
+    const group = Object.assign(document.createElement("optgroup"), { label });
+    group.append(...members.map((key) => new Option(presets[key].label, key)));
+    return group;
+  }));
+}
 
 /** Add or remove children until there are `count`. */
 function grow(parent, count, markupOf) {

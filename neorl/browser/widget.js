@@ -10,41 +10,18 @@
 - Every failure ends the run with a message. The next change of a control tries again; Reset does so with the settings
   of the preset. */
 
-/** Start the worker. Each request resolves to its answer; after a failure, passed to onFailure, none resolves. */
-function startEngine(source, onFailure) {
-  if (typeof WebAssembly !== "object" || typeof Worker !== "function") {
-    throw new Refusal("This browser cannot run the simulation: it needs WebAssembly and web workers.");
-  }
-  const address = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
-  const [worker, waiting] = [new Worker(address), []];
-  const stop = () => {
-    worker.onmessage = worker.onerror = null;
-    worker.terminate();
-    URL.revokeObjectURL(address);
-  };
-  worker.onmessage = ({ data }) => (data.type === "failed" ? onFailure(data.message) : waiting.shift()?.(data));
-  worker.onerror = (event) => {
-    event.preventDefault();
-    onFailure();
-  };
-  const ask = (message, transfer) => {
-    worker.postMessage(message, transfer);
-    return new Promise((resolve) => waiting.push(resolve));
-  };
-  return { ask, stop };
-}
-
 let explorers = 0; // so far, for ids that are unique on the page
 
 class Explorer extends Address {
   constructor(model, place) {
     super();
     Object.assign(this, { model, presets: model.get("_presets"), modalities: model.get("_modalities"),
-      life: newLife(), elements: [], selected: null, noted: new Set(), undo: [], drawn: 0, told: 0, failed: false });
+      life: newLife(), elements: [], beside: null, selected: null, noted: new Set(), undo: [], drawn: 0, told: 0,
+      failed: false });
     this.calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.root = Object.assign(document.createElement("div"), { className: "neorl-explorer",
       innerHTML: pageOf(`neorl-tank-${explorers += 1}`) });
-    [this.arena, this.limb, this.curve] = this.root.querySelectorAll("canvas");
+    [this.arena, this.second, this.limb, this.curve] = this.root.querySelectorAll("canvas");
     this.fillMenus();
     place.append(this.root);
     this.listen();
@@ -84,7 +61,7 @@ class Explorer extends Address {
     on(matchMedia("(prefers-color-scheme: dark)"), "change", () => this.recolour());
     const theme = { attributeFilter: ["data-theme", "data-mode", "data-jp-theme-name", "class"] };
     watch(new MutationObserver(() => this.recolour()), [document.documentElement, theme], [document.body, theme]);
-    watch(new ResizeObserver(() => this.wake()), [this.arena], [this.curve]);
+    watch(new ResizeObserver(() => this.wake()), [this.arena], [this.second], [this.curve]);
     watch(new IntersectionObserver((entries) => this.approach(entries.at(-1)), { rootMargin: "200px" }), [this.root]);
     watch(new IntersectionObserver((entries) => this.sight(entries.at(-1))), [this.root]);
     for (const name of [...NEW_RUN, ...GOES_ON, "speed", "playing"]) {
@@ -146,56 +123,46 @@ class Explorer extends Address {
     return Object.fromEntries(["preset", ...OF_PRESET].map((name) => [name, this.model.get(name)]));
   }
 
-  parameters() {
+  parameters(settings = this.settings()) {
     const layout = this.model.get("_layout").plane; // enumerations are the same in all modules
-    return chosenParameters(layout, this.presets, this.modalities, this.settings(), this.elements);
+    return chosenParameters(layout, this.presets, this.modalities, settings, this.elements);
   }
 
   async begin() {
     const { presets, model } = this;
     const [{ steps, band }, seed, run] = [presets[model.get("preset")], model.get("seed"), model.get("run")];
     const [world, bin] = [worldOf(presets, this.settings()), band?.steps_per_bin ?? Math.ceil(steps / 50)];
-    this.life = newLife({ world, length: { steps, bin }, changed: this.elements.length > 0, due: this.due });
+    const changes = this.condition === model.get("preset") ? presets[this.condition].changes : [];
+    this.life = newLife({ world, length: { steps, bin }, changes, changed: this.elements.length > 0, due: this.due });
     this.due = null;
     this.refresh();
-    if (!this.engine) this.startEngine();
-    if (!this.loaded.has(world.module)) await this.load(world.module);
-    const changes = this.condition === model.get("preset") ? presets[this.condition].changes : [];
-    this.take(await this.ask({ type: "begin", parameters: this.parameters(), world, seed, run, steps, bin_steps: bin,
-      changes, map: this.control("map").value, ...this.layers() }));
+    this.engine ??= startEngine(model, (message) => this.fail(message));
+    const begun = this.ask({ type: "begin", parameters: this.parameters(), world, seed, run, steps, bin_steps: bin,
+      changes, map: this.control("map").value, ...this.layers() });
+    await this.beginSecond();
+    this.take(await begun);
     await this.meet();
   }
 
-  startEngine() {
-    this.engine = startEngine(this.model.get("_engine"), (message) => this.fail(message));
-    this.loaded = new Set();
-  }
-
-  /** Load a module of kernels, when its first run begins. */
-  async load(name) {
-    const { buffer, byteOffset, byteLength } = this.model.get("_wasm")[name];
-    const wasm = buffer.slice(byteOffset, byteOffset + byteLength);
-    this.loaded.add(name);
-    await this.ask({ type: "load", name, wasm, layout: this.model.get("_layout")[name] }, [wasm]);
-  }
-
-  /** The engine's answer; if the run has been replaced since the request, the promise never resolves. */
-  ask(message, transfer) {
+  /** An engine's answer; if the run has been replaced since the request, the promise never resolves. */
+  ask(message, engine = this.engine) {
     const { life } = this;
-    return new Promise((resolve) =>
-      this.engine.ask(message, transfer).then((answer) => life === this.life && resolve(answer)));
+    return new Promise((resolve) => engine.ask(message).then((answer) => life === this.life && resolve(answer)));
   }
 
   async change() {
     const { life } = this;
     life.changed ||= life.frame.step > 0 || this.elements.length > 0;
-    this.take(await this.ask({ type: "change", parameters: this.parameters() }));
+    const changed = this.ask({ type: "change", parameters: this.parameters() });
+    await this.changeSecond();
+    this.take(await changed);
   }
 
   /** Show another map, goal or place, with or without the field. Has no effect while a run loads. */
   async look(choice) {
     if (!this.life.frame) return;
     this.take(await this.ask({ type: "look", ...choice }));
+    await this.lookSecond();
     this.writeAddress();
   }
 
@@ -218,6 +185,7 @@ class Explorer extends Address {
     life.advancing = true;
     const until = life.due ? Math.max(0, life.due.step - life.frame.step) : steps;
     const frame = await this.ask({ type: "advance", steps: Math.min(steps, until), budget });
+    await this.keepStep(frame);
     life.advancing = false;
     this.take(frame);
     this.count(frame.steps);
@@ -233,9 +201,7 @@ class Explorer extends Address {
 
   take(frame) {
     const { life, life: { trail, world } } = this;
-    life.frame = frame;
-    life.trail = [...trail, { ...frame.agent, step: frame.step }].filter(({ step }) =>
-      frame.step - step <= TRAIL * world.fps);
+    Object.assign(life, { frame, trail: trailOf(trail, frame, world.fps) });
     this.showMaps(frame);
     Object.assign(this.root.dataset, { step: frame.step, score: frame.reward, goal: frame.seen.goal ?? "" });
     if (frame.ended && this.life.game) this.safely(() => this.leaveGame())();
@@ -327,6 +293,7 @@ class Explorer extends Address {
 
   abandon() {
     this.engine?.stop();
+    this.stopSecond();
     const { world, length } = this.life; // of the axes
     Object.assign(this, { engine: null, life: newLife({ world, length }), following: null });
   }
@@ -335,6 +302,7 @@ class Explorer extends Address {
     this.inSight = false;
     cancelAnimationFrame(this.scheduled);
     this.engine?.stop();
+    this.stopSecond();
     for (const undo of this.undo) undo();
     this.root.remove();
   }
