@@ -60,7 +60,7 @@ function addressOf(presets, settings, { minute, map, goal, beside }) {
   return parts.join("_");
 }
 
-class Address extends Beside {
+class Address extends Tour {
   hasAddress() {
     return document.querySelector(".neorl-explorer:not(.neorl-replay)") === this.root
       && !document.body.hasAttribute("data-jp-theme-name");

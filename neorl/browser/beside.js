@@ -77,6 +77,8 @@ class Beside extends Starters {
     const seed = (this.model.get("seed") + 1) % (MOST_SEED + 1);
     let frame = await this.askSecond({ ...request, seed, changes: [], bin_steps: request.steps });
     while (frame && !frame.ended && !this.noted.size) {
+      const minutes = Math.floor(frame.step / request.world.fps / 60);
+      this.part(".lived").textContent = `The second agent has learned for ${minutes} minutes …`;
       frame = await this.askSecond({ type: "advance", steps: STEPS_WITHOUT_END, budget: FREE_BUDGET });
     }
     if (frame && !frame.ended) this.note("run");

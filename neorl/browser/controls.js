@@ -54,7 +54,8 @@ class Controls {
       "new-run": () => this.newRun(), open: () => this.openRun(), drop: () => this.beginDrop(detail === 0),
       delete: () => this.deleteElement(), link: () => this.copyLink(), watch: () => this.watch(),
       red: () => this.revalueRed(), corner: () => this.showCorner(), compare: () => this.toggleSecond(),
-      game: () => (this.life.game ? this.leaveGame() : this.joinGame()), clear: () => this.clearElements() };
+      game: () => (this.life.game ? this.leaveGame() : this.joinGame()), clear: () => this.clearElements(),
+      tour: () => this.startTour(), next: () => this.nextStop(), end: () => this.endTour() };
     this.touched ||= action in acts;
     return acts[action]?.();
   }

@@ -79,6 +79,7 @@ class Hands extends Controls {
     const { life, life: { game } } = this;
     const { target, key } = event;
     const [action, dx, dy] = KEYS[key] ?? [];
+    if (key === "Escape" && target.closest(".tour")) return this.endTour();
     const [onMark, onTank] = [target.matches(".interest"), target === this.arena];
     if (key === "Escape" && game) return this.leaveGame();
     if (!onMark && !onTank || (action === undefined && !["Enter", " ", "Escape", "Delete"].includes(key))) return null;
@@ -105,9 +106,13 @@ class Hands extends Controls {
   dropElement(place) {
     this.dropping = false;
     if (this.elements.length >= MOST_ELEMENTS || !this.life.frame) return;
+    this.addElement(place);
+    this.part(".marks").lastChild.focus();
+  }
+
+  addElement(place) {
     this.elements.push({ ...place, valence: 1 });
     this.placeHandles();
-    this.part(".marks").lastChild.focus();
     this.note("elements");
   }
 

@@ -32,9 +32,10 @@ const chip = (n) => `<button type="button" data-chip="${n}" aria-label="Resoluti
 const pad = (key) => `<button type="button" data-key="Arrow${key.slice(0, -2)}" aria-label="${key.slice(0, -2)}">
   ${key.at(-1)}</button>`;
 const pageOf = (id) => `<p role="alert" hidden></p>
-  <div class="starters buttons" role="group" aria-label="Things to try">${press("watch", "Watch it learn")}
+  <div class="starters buttons" role="group" aria-label="Things to try">${press("tour", "Take the tour")}
+    ${press("compare", "Newborn beside veteran")}${press("watch", "Watch it learn")}
     ${press("red", "Make red desirable half-way")}${press("corner", "Show the way to a corner")}
-    ${press("compare", "Newborn beside veteran")}${press("game", "Play against it")}</div>
+    ${press("game", "Play against it")}</div>
   <div class="bar">${choice("preset", "Agent")}<div class="buttons">${press("play", "Play")}${press("step", "Step")}
     ${press("new-run", "New run")}${press("reset", "Reset")}</div>
     ${slide("speed", "Speed", 0, SPEEDS.length - 1, 1)}</div>
@@ -71,7 +72,10 @@ const pageOf = (id) => `<p role="alert" hidden></p>
     ${slide("learning_rate", "Learning rate α", -3, 0, 0.01)}
     ${slide("horizon", "Horizon, cells", 0, 3, 0.01)}${slide("memory", "Memory, cells", NO_MEMORY, 3, 0.01)}
     ${slide("n_creeps", "Creeps", 1, 12, 1)}<div class="gains"></div>
-    ${number("seed", "Seed")}${number("run", "Run")}</div></details><p class="unseen told" aria-live="polite"></p>`;
+    ${number("seed", "Seed")}${number("run", "Run")}</div></details><p class="unseen told" aria-live="polite"></p>
+  <section class="tour" aria-label="Guided tour" hidden><p id="${id}-tour" role="status"></p><div class="buttons">
+    <button type="button" data-action="next" aria-describedby="${id}-tour"></button>${press("end", "Stop")}</div>
+    </section>`;
 
 const power = (exponent) => Number((10 ** exponent).toPrecision(2)); // as on the logarithmic sliders
 const shown = (value) => String(Number(Number(value).toPrecision(value >= 1000 ? 9 : 3))).replace("-", "−");
