@@ -36,12 +36,14 @@ class Told(Wild):
 MET = "wander broke a rule of worlds: after it, state.scene.met must be 0, or for a thing that was met 1 + the number"
 REWARD = "wander broke a rule of worlds: after it, reward must be a finite number from -1e+30 to 1e+30, but is"
 KIND = "wander broke a rule of worlds: after it, state.scene.kinds must be −1 or the numbers of ('green', 'red'), but"
+PLACE = "wander broke a rule of worlds: after it, state.scene.position must be finite"
 BROKEN = {  # rules of worlds, by what a kernel writes, and what is then said
     **{f"met {met}": ((3, "met", 0, 0.0, met), MET) for met in (3, 400, 4_000_000, 99_999_999, -1, -(2**62))},
     "kind 9 for a step": ((3, "kinds", 0, 0.0, 9), KIND),
     "a reward of nan": ((3, "reward", 0, np.nan, 0), REWARD),
     "a reward of -inf": ((3, "reward", 0, -np.inf, 0), REWARD),
     "rewards that cancel": ((3, "reward", 0, 1e300, 0), REWARD, (5, "reward", 0, -1e300, 0)),
+    "no place for a step": ((3, "position", 0, np.nan, 0), PLACE, (4, "position", 0, 0.5, 0)),
     "no place": ((RESET, "position", 0, np.nan, 0),
                  "begin broke a rule of worlds: after it, state.scene.position must be finite"),
 }

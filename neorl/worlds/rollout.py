@@ -27,10 +27,14 @@ MOST_RECORDED = 2**63 - 1  # in a frame, likewise
 def observed(parameters, constants, state, scene, reward, hits, interval, most):
     """Perceive the outcome of an action, learn from it, and add the things met to hits[interval], up to `most` each.
 
-    Returns whether the numbers of all kinds keep the rules of worlds; counting ends at the first that does not.
+    Returns whether the agent's place and velocity and the numbers of all kinds keep the rules of worlds; counting ends
+    at the first that does not.
     """
     state.reward[0] = reward
     life.observe(parameters, constants, state, scene)
+    for axis in range(len(constants.axes)):  # at once, since a later step may put the agent back
+        if not (abs(scene.position[axis]) <= LARGEST and abs(scene.velocity[axis]) <= LARGEST):
+            return False
     for thing in range(scene.met.shape[0]):
         met = scene.met[thing]
         if not (0 <= met <= hits.shape[1] and ABSENT <= scene.kinds[thing] < hits.shape[1]):
