@@ -20,6 +20,7 @@ Code compiled for calls from Python is cached on disk (`neorl.core.compile_cache
 constants, so a kernel is compiled again once any that it reads, or that a kernel it calls reads, has another value.
 """
 
+import contextlib
 import functools
 import inspect
 import os
@@ -160,6 +161,34 @@ def _compiled(function, options):
                          f"{full_name(function)} calls {drawn}, which no seed of a run determines: call "
                          "neorl.core.stream.uniform or randint with the stream of the world's state or of the policy")
     return function if jit_is_off() else Kernel(function, options)
+
+
+@contextlib.contextmanager
+def announcing(told):
+    """Within this context, call told(True) when numba begins to compile, in any thread, and told(False) when it ends.
+
+    Kernels that are found on disk are not compiled.
+    """
+    if jit_is_off():
+        yield
+        return
+    from numba.core import event
+
+    class Announcer(event.Listener):
+        depth = 0  # kernels that are called are compiled within those that call them
+
+        def on_start(self, _):
+            self.depth += 1
+            if self.depth == 1:
+                told(True)
+
+        def on_end(self, _):
+            self.depth -= 1
+            if self.depth == 0:
+                told(False)
+
+    with event.install_listener("numba:compile", Announcer()):
+        yield
 
 
 def jit_is_off():

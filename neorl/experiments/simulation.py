@@ -25,6 +25,7 @@ from neorl import checks
 from neorl.agents.agent import Agent
 from neorl.agents.compile import n_values
 from neorl.agents.memory import fitting_runs
+from neorl.core.kernel import announcing
 from neorl.experiments.condition import Condition
 from neorl.experiments.result import Result
 from neorl.experiments.run import SLICE, Run, new_bins
@@ -112,7 +113,7 @@ def sweep(conditions: Sequence[Condition], executor: Executor | None = None,
     with progress_bar(total, name, progress) as bar:
         try:
             for _ in range(ATTEMPTS):
-                errors = _run(waiting, executor, threads, cache, bar) if waiting else []
+                errors = _run(waiting, executor, threads, cache, bar, name) if waiting else []
                 waiting = [task for task, _ in errors]
                 if any(isinstance(error, BrokenExecutor) for _, error in errors):
                     warnings.warn(f"{executor!r} is broken; this machine's cores do the rest", RuntimeWarning,
@@ -147,10 +148,11 @@ def _tasks(keeper):
     return [Task(keeper, keeper.missing[first : first + count]) for first in range(0, len(keeper.missing), count)]
 
 
-def _run(tasks, executor, threads, cache, bar):
+def _run(tasks, executor, threads, cache, bar, name):
     """Compute tasks, and return the failed ones, [(task, exception), ...]."""
     if executor is None:
-        return _run_here(tasks, threads, cache, bar)
+        with announcing(lambda compiles: bar.set_description(f"{name}, compiling" if compiles else name)):
+            return _run_here(tasks, threads, cache, bar)
     return _collect(tasks, lambda condition, runs: executor.submit(_live, condition, runs, condition.key), cache,
                     lambda task: bar.update(task.steps))
 
@@ -287,6 +289,9 @@ class Report:
 
     def __exit__(self, *error):
         pass
+
+    def set_description(self, text):
+        """Do nothing: the function takes numbers."""
 
     def update(self, steps):
         """Count more steps, and call the function."""

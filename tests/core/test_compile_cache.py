@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from neorl import files
-from neorl.core.kernel import execute
+from neorl.core.kernel import announcing, execute, kernel
 
 SOURCE = """
 from typing import NamedTuple
@@ -133,3 +133,19 @@ def test_a_kernel_that_no_module_defines_is_compiled_and_not_kept(module):
     own = {}
     exec("from neorl import kernel\n@kernel\ndef answer(x):\n    return x", own)
     assert execute(own["answer"], 2.0) == 2.0 and not kept()
+
+
+def test_compilation_is_announced_once_and_reading_from_disk_is_not(cache_folder):
+    told = []
+    for _ in range(2):
+        @kernel
+        def halved(x):
+            return x / 2
+
+        @kernel
+        def quartered(x):
+            return halved(halved(x))
+
+        with announcing(told.append):
+            assert execute(quartered, 3.0) == execute(quartered, 3.0) == 0.75
+    assert told == [True, False]
