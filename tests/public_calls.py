@@ -5,17 +5,14 @@ from functools import partial
 import numpy as np
 from fuzzing import entry
 from hypothesis import strategies as st
-from matplotlib.figure import Figure
-from public_uses import (BOARD, CONDITION, CURVES, POOL, RESULT, SAMPLE, SCENE, SCENES, SPACES, acted, agents, begun,
-                         described_paths, drawing_of, drawn, fields_of, in_a_loop, live, live_in, live_in_state,
-                         make_with, method, new_env, new_learner, new_run, paper, paths, q, reals, resolutions,
-                         result_of, saved, saved_as, scene_of, scene_then, seeds, sense, shares, states, step_with,
-                         tile, use_modality, want_it)
+from public_uses import (BOARD, CONDITION, MAZE, POOL, RESULT, SCENE, SCENES, VESSEL, acted, agents, begun,
+                         described_paths, fields_of, in_a_loop, live, live_in, live_in_state, make_with, method,
+                         new_env, new_learner, new_run, paper, paths, q, reals, resolutions, saved, saved_as, scene_of,
+                         scene_then, seeds, sense, shares, states, step_with, tile, use_modality, want_it)
 
 import neorl
 from neorl import (CARDINAL, Actions, Agent, Arena, Arm, Axis, Condition, Contacts, Desire, Learner, Learning, Modality,
-                   Node, NresMap, Place, Policy, Result, Run, Scene, Vessel, WaterMaze, WaterWorld, drawing, greedy,
-                   softmax)
+                   Node, NresMap, Place, Policy, Result, Run, Scene, Vessel, WaterMaze, WaterWorld, greedy, softmax)
 from neorl.agents import learner
 from neorl.agents.beyond import forager, foveated_cells
 from neorl.agents.individual import Individual
@@ -24,8 +21,6 @@ from neorl.core.identity import identity
 from neorl.core.kernel import arrays
 from neorl.core.modality import MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, cartesian, polar
 from neorl.core.stream import new_stream
-from neorl.evidence import curves, reading, statistics
-from neorl.evidence.statistics import Estimate
 from neorl.experiments import recording
 from neorl.gym import environment, playing, vector
 from neorl.worlds import walls, world
@@ -113,20 +108,11 @@ TABLE = {
     "neorl.worlds.world.World.reset": entry(BOARD.reset, seed=seeds, then=lambda state: list(arrays(state).values())),
     "neorl.worlds.world.World.step": entry(
         BOARD.step, state=states, action=["N", 0, "no-op", np.int8(4)]),
-    "neorl.worlds.waterworld.WaterWorld.reset": entry(BOARD.reset, seed=seeds),
-    "neorl.worlds.waterworld.WaterWorld.step": entry(BOARD.step, state=states, action=["N", 0]),
-    "neorl.worlds.arena.Arena.reset": entry(POOL.reset, seed=seeds, then=lambda state: list(arrays(state).values())),
-    "neorl.worlds.arena.Arena.step": entry(POOL.step, state=st.integers(0, 5).map(POOL.reset), action=["N", 0]),
     "neorl.worlds.world.World.step, fields": entry(step_with, **fields_of(BOARD.reset(0)), also="state"),
     "neorl.worlds.world.World.check_state": entry(BOARD.check_state, state=states),
     "neorl.worlds.waterworld.WaterWorld.check_state": entry(BOARD.check_state, state=states),
-    "neorl.worlds.arena.Arena.check_state": entry(POOL.check_state, state=st.integers(0, 5).map(POOL.reset)),
-    **{f"neorl.worlds.{module}.{type(space).__name__}.{name}": each for module, space in SPACES.items()
-       for name, each in {
-           "reset": entry(space.reset, seed=seeds, then=lambda state: list(arrays(state).values())),
-           "step": entry(space.step, state=st.integers(0, 5).map(space.reset), action=[space.actions.names[0], 0]),
-           "check_state": entry(space.check_state, state=st.integers(0, 5).map(space.reset)),
-       }.items()},
+    "neorl.worlds.vessel.Vessel.check_state": entry(VESSEL.check_state, state=st.integers(0, 5).map(VESSEL.reset)),
+    "neorl.worlds.water_maze.WaterMaze.check_state": entry(MAZE.check_state, state=st.integers(0, 5).map(MAZE.reset)),
     "neorl.agents.rules.Learning": entry(
         Learning, learning_rate=shares, discount=shares, update_on=["cell"], credit=["happened", "activity", "share"],
         activity=st.floats(0, 9), absent_decay=shares, absent_form=["decay", "away"], terminal=[True, False],
@@ -180,20 +166,15 @@ TABLE = {
     "neorl.agents.learner.Learner.observe": entry(method(Learner.observe, acted), scene=SCENES),
     "neorl.agents.learner.Learner.observe, fields": entry(
         scene_then(Learner.observe, acted), **{name: [each] for name, each in SCENE._asdict().items()}, also="scene"),
-    **{f"neorl.{where}.{kind.__name__}.{name}": each for kind, where in (
-        (Learner, "agents.learner"), (Run, "experiments.run"), (Individual, "agents.individual"))
-       for name, each in {
-           "q": entry(method(Individual.q, new_learner), index=[0]),
-           "output": entry(method(Individual.output, new_learner), name=["PC"]),
-           "change": entry(method(Individual.change, acted), agent=agents),
-           "transfer": entry(method(Individual.transfer, new_learner), other=st.builds(new_learner), also="maps"),
-           "save": entry(saved, path=paths, errors=(OSError,)),
-           "load": entry(Run.load, path=paths, errors=(OSError,)),
-       }.items()},
-    **{f"neorl.{where}.{kind.__name__}.{name}": each for kind, value, where in (
-        (Agent, neorl.network_d([2]), "agents.agent"), (Condition, CONDITION, "experiments.condition"),
-        (Arena, Arena(), "worlds.arena"), (WaterWorld, BOARD, "worlds.waterworld"),
-        (world.World, BOARD, "worlds.world"), *((type(each), each, f"worlds.{name}") for name, each in SPACES.items()))
+    "neorl.agents.individual.Individual.q": entry(method(Individual.q, new_learner), index=[0]),
+    "neorl.agents.individual.Individual.output": entry(method(Individual.output, new_learner), name=["PC"]),
+    "neorl.agents.individual.Individual.change": entry(method(Individual.change, acted), agent=agents),
+    "neorl.agents.individual.Individual.transfer": entry(
+        method(Individual.transfer, new_learner), other=st.builds(new_learner), also="maps"),
+    "neorl.agents.individual.Individual.save": entry(saved, path=paths, errors=(OSError,)),
+    "neorl.agents.individual.Individual.load": entry(Run.load, path=paths, errors=(OSError,)),
+    **{f"{kind.__name__}.{name}": each for kind, value in (
+        (Agent, neorl.network_d([2])), (Condition, CONDITION), (Arena, Arena()), (world.World, BOARD), (Arm, Arm()))
        for name, each in {
            "from_dict": entry(kind.from_dict, data=[{"is": type(value).__name__} | value.to_dict()], then=identity,
                               also=("is", *value.to_dict())),
@@ -232,30 +213,6 @@ TABLE = {
         conditions=[[Condition(neorl.place_cells([2]), BOARD, 40, 1)]], also="condition"),
     "neorl.experiments.result.Result.rate": entry(RESULT.rate, begin=[0.0, 0.2], end=[0.5, 1.0]),
     "neorl.experiments.result.Result.hit_rate": entry(RESULT.hit_rate, begin=[0.0, 0.2], end=[0.5, 1.0]),
-    "neorl.evidence.curves.binned_rate": entry(curves.binned_rate, result=[RESULT], points=st.integers(1, 40)),
-    "neorl.evidence.curves.low_passed": entry(curves.low_passed, rates=[CURVES, CURVES.tolist()]),
-    "neorl.evidence.statistics.estimate": entry(
-        lambda statistic, first, second, rng: statistics.estimate(statistic, first, second, rng=rng).value,
-        statistic=[statistics.difference, statistics.ratio], first=[SAMPLE, [1, 2]], second=[SAMPLE], rng=seeds,
-        also="samples"),
-    "neorl.evidence.statistics.probability_of_improvement": entry(
-        lambda **each: statistics.probability_of_improvement(**each).value, better=[SAMPLE, [1, 2]], worse=[SAMPLE],
-        rng=seeds),
-    "neorl.evidence.statistics.points": entry(statistics.points, result=[RESULT]),
-    "neorl.evidence.statistics.resets": entry(statistics.resets, result=[RESULT], also="win_reward"),
-    "neorl.evidence.statistics.tolerance_band": entry(
-        statistics.tolerance_band, curves=[CURVES], share=shares, confidence=shares),
-    "neorl.evidence.statistics.tolerated_share": entry(
-        statistics.tolerated_share, runs=st.integers(0, 99), beyond=st.integers(1, 9), confidence=shares),
-    "neorl.evidence.statistics.time_to_final_level": entry(
-        statistics.time_to_final_level, result=[RESULT], share=shares),
-    "neorl.evidence.statistics.minutes_sooner": entry(
-        lambda **each: statistics.minutes_sooner(**each).value, quick=[RESULT, [RESULT, RESULT]], slow=[RESULT],
-        level=reals),
-    "neorl.evidence.statistics.minutes_to_own_level": entry(
-        lambda result, share: statistics.minutes_to_own_level(result, share=share).value, result=[RESULT],
-        share=shares, also="results"),
-    "neorl.evidence.statistics.mean_band": entry(statistics.mean_band, curves=[CURVES], rng=seeds),
     "neorl.agents.papers.place_cells": paper(neorl.place_cells, valence_green=reals, valence_red=reals),
     "neorl.agents.papers.object_vector_cells": paper(neorl.object_vector_cells, valence_green=reals, valence_red=reals),
     "neorl.agents.papers.multimodal": paper(neorl.multimodal, place_gain=reals, object_gain=reals),
@@ -265,70 +222,8 @@ TABLE = {
                                            place_gain=reals, object_gain=reals),
     "neorl.agents.papers.network_d": paper(neorl.network_d, recursion=reals, scale=st.floats(0, 2),
                                            signed=[True, False], place_gain=reals, object_gain=reals),
-}
-RUNS, TRACK = st.builds(new_run), drawing.track(new_run(), 1)
-NAMED_RESULTS = [{"N3": RESULT, "N5": RESULT}]
-ESTIMATES = [Estimate(0.5, 0.4, 0.6), Estimate(0.1, np.nan, np.nan)]
-MAPS = st.sampled_from([NresMap(3), NresMap(4, OBJECT_VECTOR_CELL)])
-TABLE |= {
-    "neorl.drawing.animation.animate": entry(
-        drawing.animate, run=RUNS, path=["run.gif"], seconds=[0.05], fps=[25], size=[64], background=["white", "#121"],
-        errors=(OSError,), long=("seconds",)),
-    "neorl.drawing.boards.new_board": entry(drawing.new_board, size=st.floats(1, 9), low=st.floats(-1, 0), then=drawn),
-    "neorl.drawing.boards.new_boards": entry(
-        drawing.new_boards, columns=st.integers(1, 3), rows=st.integers(1, 2), then=drawn, long=("columns", "rows")),
-    "neorl.drawing.boards.draw_world": drawing_of(drawing.draw_world, world=[BOARD], state=states),
-    "neorl.drawing.boards.draw_tank": drawing_of(drawing.draw_tank, world=[BOARD], state=states),
-    "neorl.drawing.boards.draw_walls": drawing_of(drawing.draw_walls, world=[BOARD, POOL]),
-    "neorl.drawing.boards.draw_desires": drawing_of(drawing.draw_desires, run=RUNS),
-    "neorl.drawing.curves.draw_accumulated": drawing_of(
-        drawing.draw_accumulated, results=NAMED_RESULTS, control=[None, {"luck": RESULT}]),
-    "neorl.drawing.curves.draw_proficiency": drawing_of(
-        drawing.draw_proficiency, results=NAMED_RESULTS, total=[None, ("sum", [RESULT, RESULT])],
-        points=st.integers(1, 99)),
-    "neorl.drawing.curves.draw_smoothed": drawing_of(
-        drawing.draw_smoothed, results=[{"N3": result_of(BOARD, bins=60)}]),
-    "neorl.drawing.curves.draw_curves": drawing_of(
-        drawing.draw_curves, xs=[np.arange(60), range(60)], curves=[{"a": CURVES, "b": CURVES.tolist()}]),
-    "neorl.drawing.curves.draw_sweep": drawing_of(
-        drawing.draw_sweep, xs=[[3, 7], np.array([1.0, 2.0])], estimates_by_name=[{"a": ESTIMATES}]),
-    "neorl.drawing.curves.draw_costs": drawing_of(
-        drawing.draw_costs, labels=[["N3", "N7"]], measured=[[1.0, 2.0]], predicted=[[1.0, 2.5]]),
-    "neorl.drawing.network_figures.draw_network": drawing_of(drawing.draw_network, agent=agents),
-    "neorl.drawing.network_figures.draw_networks": entry(
-        drawing.draw_networks, agents=[{"D": neorl.network_d([2]), "A": neorl.network_a([2])}],
-        figure=st.builds(lambda: Figure(figsize=(5, 4))), then=drawn),
-    "neorl.drawing.rate_maps.track": entry(
-        lambda run, seconds, index: drawing.track(run, seconds, index).position, run=RUNS, seconds=[0.1, 1],
-        index=[0, 1], long=("seconds",)),
-    "neorl.drawing.rate_maps.rate_map": entry(
-        lambda **each: np.nan_to_num(drawing.rate_map(**each)), track=[TRACK], cell=[None, 0, 5],
-        bins=st.integers(1, 30)),
-    "neorl.drawing.rate_maps.draw_rate_map": drawing_of(
-        drawing.draw_rate_map, track=[TRACK], cell=[None, 0, 5], bins=st.integers(1, 30)),
-    "neorl.drawing.receptive_fields.draw_receptive_fields": drawing_of(
-        drawing.draw_receptive_fields, nres_map=MAPS, world=[BOARD], state=states),
-    "neorl.drawing.value_maps.draw_cells": drawing_of(
-        drawing.draw_cells, nres_map=MAPS, colour=["red", "#808080"], fills=[None, {1: ("red", 0.5)}],
-        width=st.floats(0, 5)),
-    "neorl.drawing.value_maps.draw_values": drawing_of(
-        drawing.draw_values, nres_map=[NresMap(2)], values=[np.ones((4, 4)), np.eye(4).tolist()], actions=[CARDINAL]),
-    "neorl.drawing.value_maps.draw_value_map": drawing_of(
-        drawing.draw_value_map, run=RUNS, goals=[[(0.7, 0.7)], [(0.1, 0.2), (0.5, 0.5)][:1]], valences=[None, [1.0]],
-        index=[0, 1], also="points"),
-    "neorl.evidence.reading.Reading": entry(
-        reading.Reading, learning_rate=shares, discount=[0.9], credit=["happened", "step"], memory=st.floats(0, 99),
-        exploration=shares, place_gain=reals, vectors=["signed", "by size"], recursion=reals,
-        network_resolutions=[(3, 7), [2]], fps=st.integers(10, 60), contact=["rounded"],
-        also=("resolution", "gain", "scale"),
-        then=lambda made: (reading.conditions(made, 1_000, 1), made.within_the_text)),
-    "neorl.evidence.reading.conditions": entry(
-        lambda **each: [*reading.conditions(**each)], reading=[reading.Reading()], steps=st.integers(1, 9_999),
-        runs=st.integers(1, 9), seed=seeds, groups=[("modal",), ["layers", "networks"]], also="group"),
-    "neorl.evidence.reading.networks": entry(
-        lambda **each: [*reading.networks(**each)], reading=[reading.Reading()]),
     "neorl.experiments.recording.record": entry(
-        recording.record, name=["Newborn"], run=RUNS, steps=st.integers(1, 5), long=("steps",)),
+        recording.record, name=["Newborn"], run=st.builds(new_run), steps=st.integers(1, 5), long=("steps",)),
     "neorl.gym.environment.WorldEnv.reset": entry(
         lambda **each: new_env().reset(**each)[0], seed=[None, 0, 5], options=[None], also="run"),
     "neorl.gym.environment.WorldEnv.step": entry(

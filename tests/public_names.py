@@ -1,26 +1,22 @@
-"""The public names: the callables for which `public_calls.TABLE` must have an entry."""
+"""The public names that compute: those for which `public_calls.TABLE` must have an entry."""
 
 import inspect
 
 import neorl
-from neorl import drawing
-from neorl.agents import agent, beyond, learner, papers
+from neorl.agents import agent, beyond, individual, learner, papers
 from neorl.core import horde, kernel, maps, modality, policy, scene, stream
-from neorl.evidence import curves, reading, statistics
 from neorl.experiments import recording
 from neorl.gym import environment, playing, vector
 from neorl.worlds import arena, arm, vessel, walls, water_maze, waterworld, world
 
-EXPORTED = (neorl, drawing)  # packages that re-export names of their modules
-MODULES = (*EXPORTED, agent, beyond, learner, papers, horde, kernel, maps, modality, policy, scene, stream, arena, arm,
-           vessel, walls, water_maze, waterworld, world, recording, curves, reading, statistics, environment, playing,
-           vector)
+MODULES = (neorl, agent, beyond, individual, learner, papers, horde, kernel, maps, modality, policy, scene, stream,
+           arena, arm, vessel, walls, water_maze, waterworld, world, recording, environment, playing, vector)
 # Classes that only kernels or the package itself instantiate; kernels refuse to be called.
 MADE_INSIDE = {f"neorl.{name}" for name in (
-    "agents.learner.Offer", "core.kernel.Kernel", "core.scene.Scene", "evidence.statistics.Estimate",
-    "drawing.rate_maps.Track", "experiments.recording.Recording", "gym.playing.Played", "experiments.result.Result",
-    "experiments.trajectory.Trajectory", "worlds.arena.ArenaRules", "worlds.arena.ArenaState",
-    "worlds.waterworld.Rules",
+    "agents.individual.Individual", "agents.individual.Output", "agents.learner.Offer", "core.kernel.Kernel",
+    "core.scene.Scene", "experiments.recording.Recording",
+    "gym.playing.Played", "experiments.result.Result", "experiments.trajectory.Trajectory", "worlds.arena.ArenaRules",
+    "worlds.arena.ArenaState", "worlds.waterworld.Rules",
     *(f"worlds.{name}{part}" for name in ("arm.Arm", "vessel.Vessel", "water_maze.WaterMaze")
       for part in ("Rules", "State")),
     "worlds.waterworld.WaterWorldState", "worlds.world.Dynamics", "worlds.world.World")}
@@ -33,32 +29,26 @@ FOR_AUTHORS = {f"neorl.{name}" for name in (
     *(f"core.modality.{name}" for name in (
         "Modality.check_axes", "as_radians", "as_turns", "axis_parameters", "check_faults", "firsts", "integers",
         "space_of")),
-    *(f"evidence.statistics.{name}" for name in (  # called by `estimate`
-        "difference", "lead_over_best", "lead_over_sum", "least_of_most", "quotient", "rank_correlation", "ratio")),
-    "evidence.reading.additions", "evidence.reading.judge", "gym.vector.VectorWorldEnv.advance",
+    "gym.vector.VectorWorldEnv.advance",
     "agents.papers.paper_agent", "core.kernel.jit_is_off", "core.scene.checked_scene", "worlds.world.check_arrays",
     "worlds.walls.checked", "worlds.world.check_outcome", "worlds.world.check_rules")}
-NOTHING_TO_REPLACE = {"neorl.agents.papers.brownian", "neorl.drawing.style.use_style"}  # they take no arguments
+NOTHING_TO_REPLACE = {"neorl.agents.papers.brownian"}  # it takes no arguments
 
 
 def public_names():
-    """The callables that need an entry: functions and classes of `MODULES`, and methods that take arguments."""
+    """The public functions and classes of `MODULES`, and the methods that take arguments and that these define."""
     found = set()
     for module in MODULES:
         for name, value in vars(module).items():
-            ours = name in module.__all__ if module in EXPORTED else getattr(value, "__module__", "") == module.__name__
+            ours = name in module.__all__ if module is neorl else getattr(value, "__module__", "") == module.__name__
             if ours and not name.startswith("_") and callable(value) and not isinstance(value, kernel.Kernel):
                 full = f"{value.__module__}.{value.__qualname__}"
-                found.add(full)
-                if inspect.isclass(value):
-                    found |= {f"{full}.{method}" for method in methods(value)}
+                found |= {full, *(f"{full}.{method}" for method in methods(value))}
     return found - MADE_INSIDE - FOR_AUTHORS
 
 
-def methods(kind):
-    for base in kind.__mro__:
-        for name, value in vars(base).items():
-            value = getattr(value, "__func__", value)
-            if base.__module__.startswith("neorl") and not name.startswith("_") and inspect.isfunction(value):
-                if len(inspect.signature(value).parameters) > 1:
-                    yield name
+def methods(value):
+    for name, each in vars(value).items() if inspect.isclass(value) else ():
+        each = getattr(each, "__func__", each)
+        if not name.startswith("_") and inspect.isfunction(each) and len(inspect.signature(each).parameters) > 1:
+            yield name

@@ -6,12 +6,10 @@ import tempfile
 import numpy as np
 from fuzzing import entry
 from hypothesis import strategies as st
-from matplotlib import pyplot as plt
-from matplotlib.figure import Figure
 
 import neorl
-from neorl import (Agent, Arena, Arm, Axis, Condition, Desire, Learner, Learning, Modality, Node, NresMap, Policy,
-                   Result, Run, Scene, Vessel, WaterMaze, WaterWorld)
+from neorl import (Agent, Arena, Axis, Condition, Desire, Learner, Learning, Modality, Node, NresMap, Policy, Result,
+                   Run, Scene, Vessel, WaterMaze, WaterWorld)
 from neorl.core import kernel
 from neorl.description import described, restored
 from neorl.core.identity import identity
@@ -84,17 +82,6 @@ def result_of(world, runs=3, bins=40):
                   rng.integers(0, 3, (runs, bins, 2)).astype(np.int16))
 
 
-def drawn(axes):
-    """Only close the figures: drawings have tests of their own."""
-    plt.close("all")
-
-
-def drawing_of(function, **arguments):
-    also = arguments.pop("also", ())
-    axes = st.builds(lambda: Figure(figsize=(2, 2)).add_subplot())
-    return entry(function, ax=axes, then=drawn, also=also, **arguments)
-
-
 def new_run(agent=neorl.network_b([3, 5]), steps=40):
     run = Run(agent, BOARD)
     run.advance(steps)
@@ -118,11 +105,9 @@ SCENE = Scene((0.5, 0.25), (0.0, 0.1), [(0.1, 0.2), (0.3, 0.4)], ("green", None)
 SCENES = st.sampled_from([SCENE, SCENE._replace(velocity=None, met=()), Scene(
     np.array([0.5, 0.5]), np.zeros(2), np.ones((2, 2)), np.array([0, 1]), np.array([True, False]))])
 BOARD, POOL = WaterWorld(n_creeps=2), Arena()
-SPACES = {"arm": Arm(), "vessel": Vessel(), "water_maze": WaterMaze()}  # by module
+VESSEL, MAZE = Vessel(), WaterMaze()
 RESULT = result_of(WaterWorld(win_reward=5.0))
 CONDITION = Condition(neorl.place_cells([2]), BOARD, 40, 1)
-SAMPLE = np.array([0.1, 0.5, 0.2, 0.9])
-CURVES = np.random.default_rng(0).normal(size=(5, 60))
 reals = st.floats(-2, 2)
 shares = st.floats(0, 1)
 seeds = st.integers(0, 2**70)

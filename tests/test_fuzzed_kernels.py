@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from fuzzed_kernels import FIELDS, RESET, SETTINGS, THINGS, Wild, WildRules
+from programs import printed
 
 from neorl import Run, forager, network_d, simulate
 from neorl.core.kernel import jit_is_off
@@ -79,11 +80,7 @@ def told(call, world):
 
 @pytest.fixture(scope="module", params=["interpreted", "compiled"])
 def outcomes(request):
-    off = str(int(request.param == "interpreted"))
-    done = subprocess.run([sys.executable, __file__], capture_output=True, text=True, env={
-        **os.environ, "NUMBA_DISABLE_JIT": off, "PYTHONPATH": os.pathsep.join(sys.path)})
-    assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout)
+    return printed(__file__, jit=request.param == "compiled")
 
 
 @pytest.mark.parametrize("way", BROKEN)

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import neorl
-from neorl import (Actions, Agent, Arena, Arm, Axis, Condition, Contacts, Desire, Learner, Learning, Modality, Node,
-                   NresMap, Place, Policy, Result, Run, Scene, Trajectory, Vessel, WaterMaze, WaterWorld)
+from neorl import (Actions, Agent, Arena, Arm, Axis, Condition, Contacts, Desire, Learning, Node, NresMap, Place,
+                   Policy, Result, Trajectory, Vessel, WaterMaze, WaterWorld)
 from neorl.core.identity import identity
-from neorl.core.modality import LANDMARK_VECTOR_CELL, PLACE_CELL, cartesian, polar
+from neorl.core.modality import LANDMARK_VECTOR_CELL, PLACE_CELL
 
 AXIS = Axis("position", along=1, low=-1.0, high=2.0, intervals=3, name="y")
 NODE = Node("PC", PLACE_CELL, (3, 7), gain=0.5)
@@ -94,35 +94,3 @@ def test_a_kernel_maker_tells_an_integer_from_the_same_number():
     assert [exact(each).origin[1] for each in (1, 1.0, np.int32(1))] == [(1,), (1.0,), (1,)]
     assert exact(1) is exact(np.int32(1)) is not exact(1.0)
     assert type(exact(1.0).origin[1][0]) is float
-
-
-def numbers(make_int, make_float):
-    """Results of public functions and methods, for numbers made by `make_int` and `make_float`."""
-    tank = WaterWorld(n_creeps=make_int(2))
-    agent = neorl.place_cells([make_int(3), make_int(4)], make_float(1.0), make_float(-0.5),
-                              tiled_fraction=make_float(0.5))
-    run = Run(agent, tank, seed=make_int(3), run=make_int(1))
-    paid = run.advance(make_int(200))
-    q = np.zeros((4, 4, 4), np.float32)
-    neorl.learn(q, make_int(0), make_int(1), [make_float(0.5)] * 4, make_float(0.25), make_float(0.5))
-    value = neorl.superpose(q, make_int(0), [make_int(1)], [make_float(2.0)])
-    state = tank.reset(make_int(4))
-    stepped = tank.step(state, make_int(2))
-    learner = Learner(agent, make_int(1), ("green", "red"), seed=make_int(1), size=make_float(2.0), fps=make_int(50))
-    learner.begin(Scene([make_float(0.5), make_float(0.25)], None, [[make_float(1.0), make_float(0.5)]],
-                        np.array([make_int(0)])))
-    axes = [*cartesian("position", (make_float(0), make_float(1)), intervals=make_int(3)),
-            *polar("objects", make_float(1.0))]
-    result = neorl.simulate(agent, tank, steps=make_int(50), runs=make_int(2), seed=make_int(1), threads=make_int(1),
-                            changes=[(make_int(20), agent)], progress=False)
-    shares = result.rate(make_float(0.5), make_float(1.0)), result.hit_rate(make_float(0.5), make_float(1.0))
-    return [agent, paid, q, value, stepped, state.scene.things, learner.act(), learner.world, axes, result.rewards,
-            *shares, run.q(make_int(1)), run.step, NresMap(make_int(5)).encode([make_float(0.5), make_float(0.5)]),
-            Modality("m", axes[:1])]
-
-
-@pytest.mark.parametrize("make_int, make_float", [(np.int64, np.float64), (np.uint8, np.float32), (np.array, np.array)])
-def test_public_functions_take_numpys_numbers(make_int, make_float):
-    for plain, numpys in zip(numbers(int, float), numbers(make_int, make_float), strict=True):
-        np.testing.assert_equal(numpys, plain)
-        assert identity(numpys) == identity(plain)

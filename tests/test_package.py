@@ -1,4 +1,4 @@
-"""The installed package: the cost of `import neorl`, optional dependencies, and metadata."""
+"""The package as a whole: static checks, imports between its rooms, optional dependencies and the installation."""
 
 import re
 import shutil
@@ -7,6 +7,7 @@ import sys
 import tomllib
 from pathlib import Path
 
+import grimp
 import pytest
 
 import neorl
@@ -72,3 +73,37 @@ def test_an_error_inside_a_package_that_is_there_is_not_hidden(tmp_path, monkeyp
     monkeypatch.syspath_prepend(tmp_path)
     with pytest.raises(ModuleNotFoundError, match="missing_dependency"):
         require("broken_package", extra="data")
+
+
+@pytest.mark.parametrize("command", [("mypy", "--warn-unused-ignores"), ("ruff", "check")])
+def test_a_checker_finds_no_error(command):
+    """In the public modules and in typical uses of them."""
+    done = subprocess.run([sys.executable, "-m", *command], cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert (ROOT / "neorl" / "py.typed").exists()
+
+
+def test_a_room_imports_only_from_the_rooms_below_it():
+    command = [Path(sys.executable).with_name("lint-imports"), "--no-cache"]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout
+
+
+def test_every_module_lies_in_a_room():
+    assert [path.name for path in sorted((ROOT / "neorl").glob("*.py"))] == [
+        "__init__.py", "__main__.py", "checks.py", "description.py", "extras.py", "files.py"]
+
+
+def test_no_modules_import_each_other_in_a_circle():
+    graph = grimp.build_graph("neorl", "lib", cache_dir=None)
+    for module in graph.modules:
+        for imported in graph.find_modules_directly_imported_by(module):
+            assert not graph.chain_exists(importer=imported, imported=module), (module, imported)
+
+
+def test_no_name_shadows_a_module():
+    """`import neorl.core.kernel as k` gives the module, though `neorl.kernel` is a function."""
+    modules = [(name.rpartition("."), module) for name, module in sys.modules.items() if name.startswith("neorl.")]
+    assert len(modules) > 30
+    for (parent, _, name), module in modules:
+        assert getattr(sys.modules[parent], name) is module

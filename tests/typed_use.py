@@ -1,4 +1,4 @@
-"""Typical uses, which mypy checks against the annotations of the package (`test_types.py`); this file is never run."""
+"""Typical uses, which mypy checks against the annotations of the package (see `test_package.py`); never run."""
 
 from typing import assert_type
 
