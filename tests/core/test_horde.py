@@ -60,13 +60,6 @@ def test_every_goal_of_a_grid_world_is_learned_from_one_random_walk():
     np.testing.assert_allclose(q.max(axis=1)[away], discount ** (moves[away] - 1.0), rtol=1e-4)
 
 
-def test_a_goal_that_is_not_terminal_is_worth_what_follows_too():
-    q = np.zeros((2, 4, 2), np.float32)
-    q[1, 2, 1] = 0.5
-    learn(q, 0, 1, [1, 0, 0, 0], learning_rate=1.0, discount=0.8, terminal=False)
-    assert q[0, 0, 1] == pytest.approx(1.4)
-
-
 def test_superposition_is_the_weighted_sum_over_elements():
     q = np.random.default_rng(0).random((9, 4, 9)).astype(np.float32)
     goals, valences = [2, 2, 5, 7], [1.0, 0.5, -1.0, 0.25]

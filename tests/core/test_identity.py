@@ -9,7 +9,7 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-from neorl import kernel, kernel_maker, softmax
+from neorl import kernel, kernel_maker
 from neorl.core.identity import Reading, identity
 from neorl.core.kernel import execute, jit_is_off
 
@@ -65,23 +65,17 @@ def halved(x):
 ANSWER = 0.5 * (2.0 + 1.0 + 2.0 + 1.0 + 1.0 + 4.0 + 1.0) + 1.0 + 1.0 + 1.0
 FILE_EDITS = {  # what an editor changes between two processes, and the answer then
     "a constant, which is also a default": (("P, TABLE, SHADOW = 1.0", "P, TABLE, SHADOW = 3.0"), ANSWER + 3.0),
-    "a default": (("by=P", "by=3.0"), ANSWER + 2.0),
-    "an array": (("[1.0, 2.0]", "[3.0, 2.0]"), ANSWER + 1.0),
     "the order of fields": (("    one: float\n    other: float", "    other: float\n    one: float"), ANSWER + 0.5),
     "an enumeration": (("A = 4", "A = 6"), ANSWER + 1.0),
     "a closure": (("adding(1.0)", "adding(3.0)"), ANSWER + 2.0),
-    "the constant of a module in a module": (("Q, SHADOW = 1.0", "Q, SHADOW = 3.0"), ANSWER + 1.0 + 2.0),
     "a constant called as a global of another module": (("SHADOW = 1.0, 2.0", "SHADOW = 1.0, 4.0"), ANSWER + 1.0),
     "the kernel of a module in a module": (("0.5 * x + Q", "0.5 * x - Q"), ANSWER - 2.0),
     "a builtin": (("@kernel\ndef answer", "@kernel\ndef max(x, y):\n    return -x\n\n@kernel\ndef answer"), -ANSWER)}
 CELL_EDITS = {  # what a notebook's cell changes
-    "a constant": ("P = 3.0", ANSWER + 1.0),
-    "an array": ("TABLE = np.array([3.0, 0.0])", ANSWER + 1.0),
     "an array in place": ("TABLE[0] = 3.0", ANSWER + 1.0),
     "a named tuple": ("PAIR = PAIR._replace(one=3.0)", ANSWER + 1.0),
     "a closure": ("add_to(2.0)", ANSWER + 2.0),
     "a kernel with a closure": ("add, _ = adding(3.0)", ANSWER + 2.0),
-    "a default": ("getattr(raised, 'py_func', raised).__defaults__ = (3.0,)", ANSWER + 2.0),
     "a kernel": ("@kernel\ndef raised(x, by=P):\n    return x - by", ANSWER - 2.0),
     "the constant of a module": ("outer.inner.Q = 3.0", ANSWER + 1.0 + 2.0),
     "the kernel of a module": ("outer.inner.halved = raised", ANSWER + 6.0),
@@ -148,11 +142,6 @@ def test_a_maker_that_looks_up_a_changed_value_makes_another_kernel():
     assert scaled(2.0) is first is not scaled(3.0) and execute(first, 1.0) == 2.0
     scale = 5.0
     assert scaled(2.0) is not first and execute(scaled(2.0), 1.0) == 10.0
-
-
-def test_kernels_that_a_maker_made_of_other_arguments_are_not_the_same():
-    assert softmax(0.1) is softmax(0.1) is not softmax(0.2)
-    assert identity(softmax(0.1)) == identity(softmax(0.1)) != identity(softmax(0.2))
 
 
 @pytest.mark.skipif(jit_is_off(), reason="the compiler is off")

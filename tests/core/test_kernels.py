@@ -134,8 +134,3 @@ drawn = np.random.default_rng(0).random
 def test_a_kernel_that_draws_from_a_global_stream_is_refused_by_name(function, name):
     with pytest.raises(ValueError, match=rf"must draw its random numbers from a stream .*calls {re.escape(name)}, "):
         kernel(function)
-
-
-def test_a_kernel_may_draw_from_its_stream_and_have_fields_called_random():
-    kernel(lambda value, its_stream: stream.randint(its_stream, 4))
-    kernel(lambda state: np.floor(state.random))

@@ -1,7 +1,6 @@
 """The stream of random numbers against NumPy's."""
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -15,11 +14,6 @@ def test_every_draw_equals_that_of_numpy(seed, spawn_key):
     numpy = np.random.Generator(np.random.SFC64(sequence))
     stream = new_stream(sequence)
     assert [execute(uniform, stream) for _ in range(100)] == numpy.random(100).tolist()
-
-
-def test_a_seed_sequence_with_another_pool_is_refused():
-    with pytest.raises(ValueError, match="pool_size of seed_sequence must be 4, but is 8"):
-        new_stream(np.random.SeedSequence(5, pool_size=8))
 
 
 def test_randint_draws_every_integer_equally_often():
