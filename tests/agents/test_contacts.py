@@ -6,14 +6,13 @@ import math
 import numpy as np
 import pytest
 
-from neorl import Agent, Contacts, Desire, Learner, Node, Place, Scene, WaterWorld, forager
+from neorl import Agent, Contacts, Desire, Learner, Node, Scene, WaterWorld, forager
 from neorl.agents.beyond import foveated_cells
 from neorl.agents.compile import compiled
 from neorl.core.contacts import APPROACH, FEAR, VISITS, mirror
 from neorl.core.scene import CARDINAL, Actions
 from neorl.experiments.run import Run
 
-NODE = "OVC × V"
 MIRRORS = list(itertools.product((0, 1), (1, -1), (1, -1)))  # whether the axes are exchanged, and their signs
 
 
@@ -180,30 +179,6 @@ def test_a_learned_worth_stays_when_the_agent_changes():
 def test_it_learns_to_collect_in_minutes():
     rewards = [Run(forager(), WaterWorld(), seed).advance(20_000) / 400 for seed in range(4)]
     assert np.mean(rewards) > 1.5
-
-
-def test_revalued_creeps_are_sought_at_once():
-    fixed = forager(valence_green=1.0, valence_red=-1.0)
-    run = Run(fixed, WaterWorld(n_creeps=8), 4)
-    rewards, hits = np.zeros(5_200, np.float32), np.zeros((5_200, 2), np.int16)
-    run.advance(50_000, rewards, hits)
-    run.change(forager(valence_green=-1.0, valence_red=1.0))
-    run.advance(2_000, rewards, hits)
-    before, after = hits[4_000:5_000].sum(axis=0), hits[5_000:].sum(axis=0)
-    assert before[0] > 2 * before[1] and after[1] > after[0]
-
-
-@pytest.mark.parametrize("goal", [Place(0.9, 0.1), "node"])
-def test_a_place_or_what_a_node_desires_is_approached(goal):
-    nodes = [Node(NODE, foveated_cells(), [5, 9], goals="contacts")]
-    desires = [Desire(goal, NODE, 1.0)]
-    if goal == "node":
-        from neorl.core.modality import PLACE_CELL
-        nodes.append(Node("PC", PLACE_CELL, [3], gain=0.0))
-        desires = [Desire(Place(0.9, 0.1), "PC", 1.0), Desire("PC", NODE, 1.0)]
-    run = Run(Agent(nodes, desires), WaterWorld(), 5)
-    run.advance(5_000)
-    assert run.state.desires.q[-1].any()
 
 
 def test_a_world_without_the_mirror_images_of_its_actions_is_refused():

@@ -8,8 +8,8 @@ import pytest
 from golden import every_modality, plain_rule
 from saved_files import rewrite
 
-from neorl import (CARDINAL, Actions, Agent, Desire, Learner, Learning, Node, Place, Policy, Run, Scene, WaterWorld,
-                   kernel, multimodal, network_d, place_cells, softmax)
+from neorl import (CARDINAL, Agent, Desire, Learner, Learning, Node, Place, Policy, Run, Scene, WaterWorld, kernel,
+                   multimodal, network_d, place_cells, softmax)
 from neorl.core.kernel import arrays, execute, jit_is_off, mapped
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL
 from neorl.core.stream import new_stream
@@ -37,7 +37,7 @@ def newborn(agent, world, seed=0):
 
 def test_an_agent_with_the_defaults_learns_in_a_plain_loop_on_every_seed():
     agent = Agent([Node("PC", PLACE_CELL, [10])], [Desire(Place(0.8, 0.3), "PC", 1.0)])
-    for seed in range(20):
+    for seed in range(5):
         learner, at, far = Learner(agent, seed=seed), np.array([0.5, 0.5]), []
         learner.begin(Scene(at))
         for _ in range(5_000):
@@ -72,12 +72,6 @@ def assert_equal(one, other):
         np.testing.assert_array_equal(mine, theirs[name], name)
 
 
-def test_a_learner_draws_from_the_stream_of_its_seed():
-    learner = Learner(place_cells([3]), 2, ("green", "red"), seed=5)
-    np.testing.assert_array_equal(learner.state.stream, new_stream(np.random.SeedSequence(5)))
-    assert Learner(place_cells([3]), 2, ("green", "red")).state.stream.tolist() != learner.state.stream.tolist()
-
-
 @pytest.mark.parametrize("half_way", [False, True], ids=["whole", "half-way"])
 @pytest.mark.parametrize("name", AGENTS)
 def test_a_learner_goes_on_from_a_copy_a_pickle_or_a_file_to_the_same_bit(name, half_way, tmp_path):
@@ -85,7 +79,7 @@ def test_a_learner_goes_on_from_a_copy_a_pickle_or_a_file_to_the_same_bit(name, 
     live(learner, TANK, state, 400)
     action = learner.act() if half_way else None
     learner.save(tmp_path / "learner")
-    others = [learner.copy(), Learner.load(tmp_path / "learner")]
+    others = [learner.copy(), Learner.load(tmp_path / "learner"), copy.copy(learner), copy.deepcopy(learner)]
     if not (jit_is_off() and name == "softmax"):  # a function within a function, which pickle refuses
         others.append(pickle.loads(pickle.dumps(learner)))
     states = [mapped(np.copy, state) for _ in others]
@@ -118,38 +112,6 @@ def test_a_learner_that_has_not_begun_is_kept_as_such(tmp_path):
             other.act()
 
 
-@pytest.mark.parametrize("half_way", [False, True], ids=["whole", "half-way"])
-def test_a_learner_that_becomes_the_same_agent_goes_on_to_the_same_bit(half_way):
-    agent = AGENTS["per object"]
-    lives = []
-    for changes in (False, True):
-        learner, state = newborn(agent, TANK)
-        live(learner, TANK, state, 300)
-        action = learner.act() if half_way else None
-        if changes:
-            learner.change(agent)
-        if half_way:
-            take(learner, TANK, state, action)
-        lives.append((live(learner, TANK, state, 300), learner))
-    assert lives[0][0] == lives[1][0]
-    assert_equal(lives[0][1], lives[1][1])
-
-
-def test_a_learner_that_gets_a_second_modality_keeps_what_it_knows():
-    learner, state = newborn(place_cells([3, 7]), TANK)
-    live(learner, TANK, state, 3_000)
-    knows = [learner.q(m).copy() for m in (0, 1)]
-    learner.change(multimodal([3, 5, 7]))
-    np.testing.assert_array_equal(learner.q(0), knows[0])
-    np.testing.assert_array_equal(learner.q(2), knows[1])
-    assert knows[1].any() and not learner.q(1).any() and not learner.q(4).any()
-    live(learner, TANK, state, 3_000)
-    assert learner.q(1).any() and learner.q(4).any()
-    for agent in ("PC", Agent((Node("green", place_cells([3]).nodes[0].modality, [3]),))):
-        with pytest.raises(ValueError, match="agent must be .*, but is 'PC'|name of a node must be .*, but is 'green'"):
-            learner.change(agent)
-
-
 @pytest.mark.parametrize("bootstrap", [True, False])
 def test_values_stay_those_of_their_goals_when_the_order_of_q_changes(bootstrap):
     rules = [plain_rule(memory=3.0, bootstrap=each) for each in (bootstrap, not bootstrap)]
@@ -164,15 +126,11 @@ def test_values_stay_those_of_their_goals_when_the_order_of_q_changes(bootstrap)
     assert learner.q(0).flags.c_contiguous is not bootstrap
 
 
-@pytest.mark.parametrize("kind", [Run, Learner])
-def test_learning_continues_from_transferred_values_as_at_their_source(kind):
+def test_learning_continues_from_transferred_values_as_at_their_source():
     """Learning covers only the range of goals whose values may differ from 0, so the ranges must be transferred too."""
     agent = multimodal([4, 6], learning=plain_rule(absent_decay=0.1), policy=Policy(0.1))
-    source = Run(agent, TANK, seed=1) if kind is Run else newborn(agent, TANK, seed=1)[0]
-    if kind is Run:
-        source.advance(3_000)
-    else:
-        live(source, TANK, TANK.reset(1), 3_000)
+    source = Run(agent, TANK, seed=1)
+    source.advance(3_000)
     pupils = [newborn(agent, TANK, seed=8) for _ in range(2)]
     pupils[0][0].transfer(source)
     pupils[1][0]._state.values.q[:] = source.state.values.q
@@ -182,16 +140,6 @@ def test_learning_continues_from_transferred_values_as_at_their_source(kind):
     assert lives[0] == lives[1]
     np.testing.assert_array_equal(pupils[0][0].state.values.q, pupils[1][0].state.values.q)
     assert not np.array_equal(pupils[0][0].state.values.q, source.state.values.q)
-
-
-def test_only_what_has_the_same_maps_and_actions_can_be_transferred():
-    learner = Learner(place_cells([3]), 2, ("green", "red"))
-    six = Learner(place_cells([3]), 2, ("green", "red"), Actions(tuple("abcdef"), ((0.0, 1.0),) * 6))
-    for other, message in [(Learner(place_cells([4]), 2, ("green", "red")), r"other must have the maps \(NresMap\(res"),
-                           (six, r"other must have the maps \(NresMap\(resolution=3, modality=Modality\(name='place c"),
-                           (place_cells([3]), "other must be .*, but is Agent")]:
-        with pytest.raises(ValueError, match=message):
-            learner.transfer(other)
 
 
 def test_values_state_and_parameters_are_views_that_cannot_be_written_to():
@@ -209,27 +157,16 @@ def test_values_state_and_parameters_are_views_that_cannot_be_written_to():
 FINE = Scene((0.5, 0.5), None, [(0.1, 0.2), (0.3, 0.4)], ["red", None])
 BAD_SCENES = [
     ({"position": (0.5,)}, r"scene.position must be numbers of the shape \(2,\), but is \(0.5,\)"),
-    ({"position": ("a", "b")}, r"scene.position must be numbers of the shape \(2,\), but is \('a', 'b'\)"),
-    ({"position": None}, "scene.position must be .*, but is None"),
     ({"position": (np.nan, 0.5)}, r"scene must be of finite numbers from -1e\+30 to 1e\+30, but is Scene\(position=\("),
-    ({"velocity": (np.inf, 0.5)}, r"scene must be of finite numbers from -1e\+30 to 1e\+30, but is Scene\(position=\("),
-    ({"velocity": (0.0, 0.0, 0.0)}, r"scene.velocity must be numbers of the shape \(2,\), but is \(0.0, 0.0, 0.0\)"),
     ({"things": [(0.1, 0.2)]}, r"scene.things must be numbers of the shape \(2, 2\), but is \[\(0.1, 0.2\)\]"),
-    ({"things": [(0.1, 0.2), (0.3, 0.4), (0.5, 0.6)]}, r"scene.things must be numbers of the shape \(2, 2\), but is "),
-    ({"things": [(np.nan, 0.2),
-    (0.3, 0.4)]}, r"scene must be of finite numbers from -1e\+30 to 1e\+30, but is Scene\(position=\("),
-    ({"kinds": ["red"]}, r"scene.kinds must be a list of 2, each None, 'green', 'red', -1, 0 or 1, but is \['red'\]"),
     ({"kinds": ["blue", None]}, r"scene.kinds must be a list of 2, each None, 'green', 'red', -1, 0 or 1, but is \['b"),
-    ({"kinds": [2, None]}, "scene.kinds must be .*, but is .*2, None"),
     ({"kinds": [-2, None]}, "scene.kinds must be .*, but is .*-2, None"),
     ({"kinds": [["red"], None]}, "scene.kinds must be a list of 2, each None, 'g"),
-    ({"kinds": 5}, "scene.kinds must be .*, but is 5"),
-    ({"met": [1]}, r"scene.met must be numbers of the shape \(2,\), but is \[1\]"),
-]
+    ({"met": [1]}, r"scene.met must be numbers of the shape \(2,\), but is \[1\]")]
 
 
-@pytest.mark.parametrize("change, message", BAD_SCENES)
 @pytest.mark.parametrize("call", ["begin", "observe"])
+@pytest.mark.parametrize("change, message", BAD_SCENES)
 def test_a_scene_that_does_not_fit_is_refused_and_changes_nothing(call, change, message):
     learner = Learner(multimodal([3]), 2, ("green", "red"))
     learner.begin(FINE)
@@ -313,8 +250,7 @@ def of_a_module(count, steps, last, activity):
 
 
 def test_a_modules_kernels_are_saved_by_name_and_others_are_refused(tmp_path):
-    learner, state = newborn(multimodal([3], learning=Learning(credit=of_a_module)), TANK)
-    live(learner, TANK, state, 50)
+    learner = Learner(multimodal([3], learning=Learning(credit=of_a_module)), 2, ("green", "red"))
     learner.save(tmp_path / "learner")
     assert Learner.load(tmp_path / "learner").agent == learner.agent
 
@@ -330,16 +266,14 @@ def test_a_modules_kernels_are_saved_by_name_and_others_are_refused(tmp_path):
 
 @pytest.fixture
 def saved(tmp_path):
-    learner = Learner(multimodal([3], policy=Policy(choose=softmax(0.5))), 2, ("green", "red"))
+    learner = Learner(multimodal([3], policy=Policy(choose=softmax(0.2))), 2, ("green", "red"))
     learner.begin(FINE)
     learner.save(tmp_path / "learner")
     return tmp_path / "learner"
 
 
 @pytest.mark.parametrize("damage", [
-    lambda content: b"", lambda content: content[:-20], lambda content: content[:100],
-    lambda content: b"nothing of that", lambda content: content[:600] + bytes([content[600] ^ 1]) + content[601:],
-])
+    lambda content: content[:-20], lambda content: content[:600] + bytes([content[600] ^ 1]) + content[601:]])
 def test_a_damaged_file_is_refused(saved, damage):
     saved.write_bytes(damage(saved.read_bytes()))
     with pytest.raises(ValueError, match="must be a file of neorl's, but is damaged|or is damaged"):
@@ -348,16 +282,12 @@ def test_a_damaged_file_is_refused(saved, damage):
 
 @pytest.mark.parametrize("forge", [
     lambda about, kept: about.update(format=2), lambda about, kept: about.pop("digest"),
-    lambda about, kept: about.pop("agent"), lambda about, kept: about.pop("progress"),
-    lambda about, kept: about["agent"].update(colour="red"), lambda about, kept: about["world"].update(things=5),
-    lambda about, kept: about["world"].pop("kinds"), lambda about, kept: about.update(agent=5),
+    lambda about, kept: about.pop("progress"), lambda about, kept: about["agent"].update(colour="red"),
+    lambda about, kept: about["world"].update(things=5),
     lambda about, kept: about["agent"].update({"is": "neorl:Brain"}),
-    lambda about, kept: about["agent"].update({"is": "a_module_that_there_is_not:Agent"}),
     lambda about, kept: about["agent"]["policy"].update(choose={"kernel": "os:getcwd", "of": []}),
-    lambda about, kept: about["agent"]["policy"].update(choose={"kernel": "neorl:hardmax", "of": [1.0]}),
     lambda about, kept: kept.pop("_state.values.q"), lambda about, kept: kept.update(more=np.zeros(3)),
-    lambda about, kept: kept["_state.values.q"].fill(1.0),
-])
+    lambda about, kept: kept["_state.values.q"].fill(1.0)])
 def test_a_file_of_another_version_or_making_is_refused(saved, forge):
     rewrite(saved, forge)
     with pytest.raises(ValueError, match=str(saved)):
@@ -370,19 +300,5 @@ def test_what_is_no_learner_or_not_there_is_refused(saved, tmp_path):
     with pytest.raises(OSError):
         Learner.load(tmp_path / "nowhere")
     np.savez(tmp_path / "foreign.npz", q=np.zeros(3))
-    np.savez(tmp_path / "list.npz", about=np.array("[]"))
-    for name in ("foreign.npz", "list.npz"):
-        with pytest.raises(ValueError, match="must be a file of neorl's, but"):
-            Learner.load(tmp_path / name)
-
-
-@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy])
-def test_a_copy_by_python_goes_on_by_itself_too(copied):
-    learner, state = newborn(AGENTS["calibrated"], TANK)
-    other = copied(learner)
-    before = [array.copy() for array in arrays(other.state).values()]
-    actions = live(learner, TANK, mapped(np.copy, state), 200)
-    for mine, array in zip(before, arrays(other.state).values()):
-        np.testing.assert_array_equal(mine, array)
-    assert live(other, TANK, state, 200) == actions
-    assert_equal(learner, other)
+    with pytest.raises(ValueError, match="must be a file of neorl's, but"):
+        Learner.load(tmp_path / "foreign.npz")

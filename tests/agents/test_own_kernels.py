@@ -2,17 +2,16 @@
 
 import hashlib
 import json
-import os
-import subprocess
 import sys
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from golden import plain_rule
+from programs import printed
 
-from neorl import (CALIBRATED, Agent, Axis, Desire, Learner, Modality, Node, Place, Policy, Run, Scene,
-                   WaterWorld, kernel, multimodal, place_cells)
+from neorl import (CALIBRATED, Agent, Axis, Desire, Learner, Modality, Node, Place, Policy, Run, Scene, WaterWorld,
+                   kernel, multimodal, place_cells)
 from neorl.core.kernel import arrays
 from neorl.core.stream import randint
 
@@ -95,9 +94,7 @@ def digest(agent, steps):
 @pytest.fixture(scope="module")
 def interpreted():
     """The output of this file, run as a program with the compiler switched off, so that no kernel needs compiling."""
-    printed = subprocess.run([sys.executable, __file__, "250"], capture_output=True, check=True, env={
-        **os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": os.pathsep.join(sys.path)}).stdout
-    return json.loads(printed)
+    return printed(__file__, "250")
 
 
 @pytest.mark.parametrize("name", PAIRS)
@@ -117,35 +114,8 @@ def test_a_users_kernels_of_every_sort_give_the_same_bits_when_compiled():
 
 
 @kernel
-def never(count, steps, last, activity):
-    return 0.0
-
-
-@kernel
-def south(value, stream):
-    return 1
-
-
-@kernel
 def in_the_east(scene, point):
     return 1.0 if scene.position[0] > 125.0 else 0.0
-
-
-def check_that_own_kernels_are_heard():
-    silent = Run(crediting(never), WORLD, seed=0)
-    silent.advance(3_000)
-    assert not silent.q(0).any()
-    diver = Run(multimodal([3], policy=Policy(0.0, choose=south)), WORLD, seed=0)
-    diver.advance(500)
-    assert diver.world_state.scene.position[1] == 250.0 - 2 * WORLD.radius
-    halves = Agent((Node("half", Modality("half", (Axis(in_the_east, intervals=2),)), [1]),), policy=Policy(1.0))
-    run = Run(halves, WORLD, seed=0)
-    seen = set()
-    for _ in range(400):
-        run.advance(5)
-        assert int(run.state.tracks.cell[0]) == (run.world_state.scene.position[0] > 125.0)
-        seen.add(int(run.state.tracks.cell[0]))
-    assert seen == {0, 1} and halves.maps[0].modality.names == ("in_the_east",)
 
 
 def check_that_kernels_of_one_modality_are_distinguished_from_those_of_another():
@@ -225,7 +195,6 @@ def test_a_kernel_that_returns_nan_is_named_after_the_slice(name, interpreted):
 
 
 if __name__ == "__main__":
-    check_that_own_kernels_are_heard()
     check_that_kernels_of_one_modality_are_distinguished_from_those_of_another()
     print(json.dumps({"called and distinguished": True, "after NaN": errors_after_nan(), **{
         name: [digest(each, int(sys.argv[1])) for each in pair] for name, pair in PAIRS.items()}}))
