@@ -53,7 +53,7 @@ WORLDS = [Arm(), Arm((3, 2, 1), targets=2, obstacles=3, radius=0.2), Arm((1, 1),
 def test_a_life_follows_the_rules(world):
     state, plain = world.reset(5), PlainArm(world, 5)
     count, rng, hits = 2 * len(world.lengths) + 1, np.random.default_rng(0), 0
-    for action in np.repeat(rng.integers(0, count, 1_500), rng.integers(1, 6, 1_500)):
+    for action in np.repeat(rng.integers(0, count, 500), rng.integers(1, 6, 500)):
         reward, met, done = world.step(state, int(action))
         assert (reward, met.tolist(), done) == (*plain.step(action), False)
         turned = (state.scene.position - plain.angles + 0.5) % 1 - 0.5
@@ -65,32 +65,6 @@ def test_a_life_follows_the_rules(world):
     assert hits > 5
 
 
-def test_the_scene_has_the_posture_and_the_state_the_hand():
-    world = Arm((1, 1), targets=1, obstacles=1)
-    state = world.reset(0)
-    assert state.scene.position.tolist() == [0, 0] and state.hand.tolist() == [1, 0]
-    assert (world.kinds, world.things, state.scene.kinds.tolist()) == (("target", "obstacle"), 2, [0, 1])
-    np.testing.assert_allclose(state.point, [hand_in(each, [0.5, 0.5]) for each in state.scene.things], atol=1e-12)
-
-
-def test_a_fresh_point_is_two_radii_from_the_hand_or_more():
-    world = Arm(targets=32, obstacles=32)
-    away = np.concatenate([np.linalg.norm(state.point - state.hand, axis=1) for state in map(world.reset, range(30))])
-    assert 2 * world.radius <= away.min() < 2.1 * world.radius
-
-
-def test_an_action_turns_one_joint_and_idleness_none():
-    world = Arm((1, 1, 1))
-    assert world.actions.all_names == ("1+", "1−", "2+", "2−", "3+", "3−", "no-op")
-    for number, name in enumerate(world.actions.all_names):
-        state = world.reset(0)
-        world.step(state, name)
-        expected = np.zeros(3)
-        if name != "no-op":
-            expected = 0.9 * 0.05 * np.array(world.actions.pushes[number])
-        np.testing.assert_allclose(state.scene.velocity, expected)
-
-
 def test_an_angle_closes_on_itself():
     world = Arm()
     state = world.reset(0)
@@ -100,17 +74,6 @@ def test_an_angle_closes_on_itself():
     state.scene.velocity[0] = -1e-20 - arm.PUSH
     world.step(state, "1+")
     assert 0 <= state.scene.position[0] < 1
-
-
-@pytest.mark.parametrize("posture", [(0.2, 0.7), (0.9, 0.4)])
-def test_a_point_can_be_reached_in_the_other_posture_of_the_elbow(posture):
-    world = Arm((1, 1), 1, 0)
-    state = world.reset(0)
-    first, second = posture
-    state.scene.things[0] = first, second
-    state.point[0] = hand_in(posture, [0.5, 0.5])
-    state.scene.position[:] = (first + second) % 1, 1 - second
-    assert world.step(state, "no-op")[0] == 1.0
 
 
 def test_unit_vectors_are_cosine_and_sine_to_the_last_bits():

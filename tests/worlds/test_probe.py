@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from neorl import (Agent, Node, NresMap, Run, WaterWorld, multimodal, network_d, object_vector_cells,
-                   place_cells, superpose)
+from neorl import (Agent, Node, NresMap, Run, WaterWorld, multimodal, network_d, object_vector_cells, place_cells,
+                   superpose)
 from neorl.agents.compile import constants_of
 from neorl.core.kernel import arrays, execute, mapped
-from neorl.core.modality import HEAD_DIRECTION_CELL, OBJECT_VECTOR_CELL, PLACE_CELL, Axis, Modality
-from neorl.worlds.probe import HALF_SECOND, probes_with
+from neorl.core.modality import OBJECT_VECTOR_CELL, PLACE_CELL, Axis, Modality
+from neorl.worlds.probe import probes_with
 from neorl.worlds.waterworld import GREEN, RED
 
 TANK = WaterWorld(n_creeps=5)
@@ -35,20 +35,6 @@ def test_a_survey_is_the_superposition_at_every_place():
     assert expected.any() and surveyed(run, 3) == pytest.approx(expected)
 
 
-def test_a_survey_at_the_agents_own_place_is_what_it_chooses_by_next():
-    run = Run(network_d([4, 5], object_state="object"), TANK, seed=2)
-    for _ in range(20):
-        run.advance(500)
-        run.world_state.scene.position[:] = TANK.width / 2
-        for m, nres_map in enumerate(run.agent.maps):
-            cells = nres_map.encode(nres_map.modality.coordinates(run.world_state.scene, TANK.size))
-            begin, end = run.parameters.maps.first_track[m : m + 2]
-            run._state.tracks.cell[begin:end] = cells
-        values = surveyed(run, 1)
-        run.advance(1)
-        assert values.any() and np.array_equal(values[0], run.state.action_value)
-
-
 @pytest.mark.parametrize("agent", [multimodal([3, 5]), network_d([3, 5])])
 def test_a_survey_changes_nothing(agent):
     run, other = (Run(agent, TANK, seed=3) for _ in range(2))
@@ -59,14 +45,6 @@ def test_a_survey_changes_nothing(agent):
     for name in ("state", "world_state"):
         one, other_one = arrays(getattr(run, name)), arrays(getattr(other, name))
         assert all(np.array_equal(one[field], other_one[field]) for field in one)
-
-
-def test_a_direction_is_seen_where_it_takes_the_agent():
-    run = Run(Agent([Node("HD", HEAD_DIRECTION_CELL, [16])]), TANK, seed=0)
-    x, y = run.world_state.scene.position / TANK.width
-    south_east = NresMap(16, HEAD_DIRECTION_CELL).encode([np.pi / 4])
-    at = x + 0.1 * HALF_SECOND, y + 0.1 * HALF_SECOND
-    assert execute(cell_seen_at, run._parameters, run._state, run.world_state.scene, 0, *at) == south_east
 
 
 def test_a_place_is_seen_in_the_cell_that_is_as_it_lies_and_otherwise_as_the_agent_is():

@@ -58,7 +58,7 @@ WORLDS = [Vessel(), Vessel(traffic=20, current=(-0.05, 0.08), speed=0.3, turning
 def test_a_life_follows_the_rules(world):
     state, plain = world.reset(3), PlainVessel(world, 3)
     rng, hits = np.random.default_rng(1), 0
-    for action in np.repeat(rng.integers(0, 3, 800), rng.integers(1, 30, 800))[:4_000]:
+    for action in np.repeat(rng.integers(0, 3, 150), rng.integers(1, 30, 150)):
         reward, met, done = world.step(state, int(action))
         assert (reward, met.tolist(), done) == (*plain.step(action), False)
         np.testing.assert_allclose(state.scene.position, as_pairs([plain.at])[0], atol=1e-9)
@@ -66,16 +66,6 @@ def test_a_life_follows_the_rules(world):
         np.testing.assert_allclose(state.scene.things, as_pairs([at for at, _ in plain.things]), atol=1e-9)
         hits += sum(met)
     assert hits > 20 or world.traffic < 20
-
-
-def test_it_starts_in_the_middle_heading_east_and_drifts_with_the_current():
-    world = Vessel(current=(0.0, 0.05))
-    state = world.reset(0)
-    assert state.scene.position.tolist() == [0.5, 0.5] and state.scene.velocity.tolist() == [0.1, 0]
-    assert state.scene.kinds.tolist() == [0, 1, 1, 1] and world.kinds == ("waypoint", "vessel")
-    world.step(state, "amidships")
-    np.testing.assert_allclose(state.scene.position, [0.51, 0.505])
-    assert state.scene.velocity.tolist() == [0.1, 0]  # the velocity does not show the drift
 
 
 def test_starboard_is_clockwise_with_a_lag():
@@ -88,27 +78,6 @@ def test_starboard_is_clockwise_with_a_lag():
     assert states["starboard"].heading[1] > 0 > states["port"].heading[1]  # y points down
     world.step(states["starboard"], "amidships")
     assert 0.7 < states["starboard"].rate[0] < 0.9
-
-
-def test_it_is_held_up_at_the_edge_and_can_turn_away():
-    world = Vessel(traffic=0)
-    state = world.reset(0)
-    for _ in range(100):
-        world.step(state, "amidships")
-    assert state.scene.position.tolist() == [1.0, 0.5]
-    for _ in range(60):
-        world.step(state, "port")
-    assert state.scene.position[1] < 0.5
-
-
-def test_a_collision_costs_and_brings_another_vessel():
-    world = Vessel(traffic=1, current=(0, 0))
-    state = world.reset(0)
-    state.scene.things[:] = [(0.1, 0.9), (0.55, 0.5)]
-    state.course[1] = 0.0
-    reward, met, _ = world.step(state, "amidships")
-    assert (reward, met.tolist()) == (-1.0, [False, True])
-    assert math.dist(state.scene.things[1], state.scene.position) > 0.24 and state.course[1].any()
 
 
 def test_a_heading_that_is_no_direction_is_refused():

@@ -1,9 +1,6 @@
 """No motion passes a wall, however thin, and axes measure the distance to walls."""
 
-import os
-import subprocess
-import sys
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -66,16 +63,6 @@ def step_in(world, state, action):
     execute(world.dynamics.step, state, world.rules, action)
 
 
-@pytest.mark.parametrize("motion", ["inertia", "steps"])
-def test_a_fast_agent_stops_at_a_thin_wall(motion):
-    world = Arena(places=(), obstacles=((0.6, 0.2, 0.6001, 0.8),), motion=motion, step_length=0.2, fps=10,
-                  start=(0.3, 0.5), trial_seconds=1e6)
-    state = world.reset(0)
-    for _ in range(40):
-        world.step(state, "E")
-        assert state.scene.position[0] <= 0.6 and state.scene.position[1] == 0.5
-
-
 class RoomState(NamedTuple):
     scene: Scene
     stream: array("uint64", 4)
@@ -134,15 +121,6 @@ def test_nothing_passes_the_walls_of_a_users_own_world():
     assert crossing.any() and np.all(path[:-1][crossing, 1] >= 0.7) and np.abs(moves).max() < 0.061
 
 
-def test_border_cells_see_walls_and_an_agent_keeps_the_distance_that_it_wants():
-    kept = {}
-    for wish in (0.02, 0.19):
-        run = Run(seeker(wish), Room(), seed=1)
-        run.advance(20_000)
-        kept[wish] = np.mean([nearest(*place) for place in run.record(5_000).positions])
-    assert kept[0.19] > 1.5 * kept[0.02]
-
-
 def nearest(x, y, rectangles=MAZE):
     grid = [np.hypot(x - min(max(x, left), right), y - min(max(y, top), bottom))
             for left, top, right, bottom in rectangles]
@@ -168,28 +146,3 @@ def test_a_slanted_ray_meets_the_wall_where_it_should_and_an_open_side_is_infini
     away, open_side = slanted.coordinates(Scene((0.2, 0.1)), 1.0)[0]
     assert away == pytest.approx(0.5) and open_side > 1e300
     assert slanted.coordinates(Scene((0.2, 0.7)), 1.0)[0, 0] > 1e300  # it passes below the wall
-
-
-def test_an_agent_with_axes_of_walls_is_saved_and_loaded(tmp_path):
-    run = Run(replace(seeker(0.1), nodes=(Node("BC", BORDER, [3]), Node("BVC", WEST_AND_NORTH, [3]))),
-              Arena(start=(0.3, 0.5)), seed=2)
-    run.advance(500)
-    run.save(tmp_path / "run.npz")
-    loaded = Run.load(tmp_path / "run.npz")
-    assert loaded.agent == run.agent
-    np.testing.assert_array_equal(loaded.record(500).positions, run.record(500).positions)
-
-
-def positions():
-    return Run(seeker(0.1), Room(), seed=5).record(300).positions.tobytes().hex()
-
-
-def test_runs_among_walls_are_the_same_with_the_compiler_switched_off():
-    """The other process is this file run as a program, with NUMBA_DISABLE_JIT."""
-    printed = subprocess.run([sys.executable, __file__], capture_output=True, check=True, text=True, env={
-        **os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": os.pathsep.join(sys.path)}).stdout
-    assert printed.strip() == positions()
-
-
-if __name__ == "__main__":
-    print(positions())

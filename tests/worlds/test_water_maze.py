@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from neorl.core.kernel import execute
 from neorl.worlds.water_maze import WaterMaze
 
 RIM = [(0.5, 0.05), (0.5, 0.95), (0.95, 0.5), (0.05, 0.5)]
@@ -54,7 +55,7 @@ PLACES = ((0.7, 0.5), (0.3, 0.4), (0.5, 0.75))
 def test_trials_follow_the_rules(world):
     state, plain = world.reset(8), PlainMaze(world, 8)
     rng, seen = np.random.default_rng(2), {"found": 0, "failed": 0, "forgotten": 0}
-    for action in np.repeat(rng.integers(0, 5, 4_000), rng.integers(1, 20, 4_000))[:20_000]:
+    for action in np.repeat(rng.integers(0, 5, 800), rng.integers(1, 20, 800)):
         before = plain.remembered
         reward, met, done = world.step(state, int(action))
         assert (reward, done) == plain.step(action) and met.tolist() == [reward == 1]
@@ -66,7 +67,6 @@ def test_trials_follow_the_rules(world):
         seen["forgotten"] += before is not None and plain.remembered is None
         if done:
             seen["found" if reward else "failed"] += 1
-            from neorl.core.kernel import execute
             execute(world.dynamics.reset, state, world.rules)
             plain.begin()
             assert state.trial[0] == plain.trial
@@ -82,18 +82,6 @@ def test_nothing_is_remembered_before_the_first_trial_and_the_platform_after_it(
     assert world.step(state, "no-op")[::2] == (0.0, True)
     assert state.scene.kinds.tolist() == [0] and state.scene.things.tolist() == [[0.65, 0.35]]
     assert state.latency.tolist() == [0.1, 0, 0, 0]
-
-
-def test_the_animal_cannot_leave_the_pool():
-    world = WaterMaze(trial_seconds=1e6)
-    state, reached = world.reset(1), 0.0
-    rng = np.random.default_rng(0)
-    for action in np.repeat(rng.integers(0, 4, 400), rng.integers(1, 40, 400)):
-        world.step(state, int(action))
-        away = math.dist(state.scene.position, (0.5, 0.5))
-        assert away <= 0.5
-        reached = max(reached, away)
-    assert reached > 0.49
 
 
 def test_a_trial_that_has_not_begun_is_refused():
