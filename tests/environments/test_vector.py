@@ -3,10 +3,7 @@
 import copy
 import hashlib
 import json
-import os
 import pickle
-import subprocess
-import sys
 
 import gymnasium
 import numpy as np
@@ -15,6 +12,7 @@ from gymnasium.utils.env_checker import data_equivalence
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 from gymnasium.wrappers import TimeLimit
 from pond import Pond
+from programs import printed
 
 from neorl import Arena, WaterWorld
 from neorl.gym import VectorWorldEnv, WorldEnv
@@ -123,9 +121,7 @@ def digest(name):
 
 
 def test_they_are_the_same_to_the_bit_without_the_compiler():
-    printed = subprocess.run([sys.executable, __file__], capture_output=True, check=True, env={
-        **os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": os.pathsep.join(sys.path)}).stdout
-    assert json.loads(printed) == {name: digest(name) for name in WORLDS}
+    assert printed(__file__) == {name: digest(name) for name in WORLDS}
 
 
 if __name__ == "__main__":
