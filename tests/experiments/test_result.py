@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 from saved_files import rewrite
 
-from neorl import (Agent, Arena, Condition, Desire, Node, Result, Run, WaterWorld, World, brownian, kernel, network_d,
-                   place_cells, simulate)
-from neorl.agents.rules import Policy
+from neorl import (Agent, Arena, Condition, Desire, Node, Result, WaterWorld, World, brownian, network_d, place_cells,
+                   simulate)
 from neorl.core.modality import PLACE_CELL
 from neorl.experiments.run import new_bins
 
@@ -97,10 +96,7 @@ def saved(tmp_path):
 
 
 @pytest.mark.parametrize("damage", [
-    lambda content: b"", lambda content: content[:-20], lambda content: b"a letter",
-    lambda content: content[:900] + bytes([content[900] ^ 1]) + content[901:],
-    lambda content: content[: len(content) // 2] + content[-200:],
-])
+    lambda content: content[:-20], lambda content: content[:900] + bytes([content[900] ^ 1]) + content[901:]])
 def test_a_truncated_or_foreign_file_is_refused_by_name(saved, damage):
     saved.write_bytes(damage(saved.read_bytes()))
     with pytest.raises(ValueError, match=f"{saved} must be a file of neorl's, but is damaged"):
@@ -110,38 +106,11 @@ def test_a_truncated_or_foreign_file_is_refused_by_name(saved, damage):
 @pytest.mark.parametrize("forge, message", [
     (lambda about, kept: about.update(format=2), "must be of format 1, but is of 2; a newer neorl"),
     (lambda about, kept: about.update({"is": "Run"}), "must hold a Result of format 1, but holds a Run"),
-    (lambda about, kept: about.pop("agent"), ": agent must be an Agent, but is missing"),
     (lambda about, kept: about.update(steps=-5), ": steps must be .*, but is -5"),
-    (lambda about, kept: about.update(changes=[[600, about["agent"]]]),
-     ": step of a change must be an integer from 0 to 503, but is 600"),
     (lambda about, kept: about.update(runs=10**12), r"must be float32 \(10{12}, 51\), but is float32 \(3, 51\)"),
-    (lambda about, kept: about["agent"].update(colour="red"), ": a field of agent must be .*, but is 'colour'"),
-    (lambda about, kept: about["world"].update({"is": "no_such_module:Cave"}),
-     ": world.is must be .*, but is 'no_such_module:Cave'"),
     (lambda about, kept: about.update(steps=600), r": rewards must be float32 \(3, 60\), but is float32 \(3, 51\)"),
-    (lambda about, kept: kept["hits"].fill(1), "is damaged"), (lambda about, kept: kept.pop("rewards"), "is damaged"),
-])
+    (lambda about, kept: kept.pop("rewards"), "is damaged")])
 def test_a_forged_file_is_refused_by_name(saved, forge, message):
     rewrite(saved, forge)
     with pytest.raises(ValueError, match=f"{saved}.*{message}"):
         Result.load(saved)
-
-
-def test_other_files_are_refused(saved, tmp_path):
-    with pytest.raises(OSError, match="nowhere"):
-        Result.load(tmp_path / "nowhere.npz")
-    with pytest.raises(ValueError, match="must hold a Run of format 1, but holds a Result"):
-        Run.load(saved)
-
-
-def test_an_agent_with_a_local_kernel_is_not_saved_but_makes_a_frame(tmp_path):
-    @kernel
-    def of_no_module(value, stream):
-        return 0
-
-    result = made_up(place_cells([2], policy=Policy(choose=of_no_module)), WaterWorld())
-    assert len(result.to_frame())
-    for write in (result.to_xarray, lambda: result.save(tmp_path / "result.npz")):
-        with pytest.raises(ValueError, match="^agent.policy.choose must be a kernel that a module defines or that a n"):
-            write()
-    assert not list(tmp_path.iterdir())

@@ -1,13 +1,11 @@
 """Runs stay the same after what must not change them, change as planned, and refuse what they cannot do."""
 
-import itertools
 import threading
 
 import numpy as np
 import pytest
-from golden import learning, plain_rule
+from golden import plain_rule
 
-import neorl
 from neorl import Agent, Node, Policy, Run, WaterWorld, multimodal, network_c, place_cells, simulate
 from neorl.core.kernel import arrays
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
@@ -46,18 +44,6 @@ def test_an_agent_that_gets_a_second_modality_keeps_what_it_knows():
     assert run.state.values.q.size == 4 * 7**4 and run.q().any()
 
 
-def test_a_change_can_be_planned():
-    changes = [(1_000, multimodal([3, 7])), (2_500, multimodal([3, 7], place_gain=0.5))]
-    result = simulate(place_cells([3, 7]), TANK, steps=4_000, runs=2, seed=6, changes=changes, progress=False)
-    run = Run(place_cells([3, 7]), TANK, seed=6, run=1)
-    brought = run.advance(1_000)
-    for (_, agent), steps in zip(changes, (1_500, 1_500)):
-        run.change(agent)
-        brought += run.advance(steps)
-    assert brought == result.totals[1]
-    assert result.changes == tuple(changes)
-
-
 def test_the_output_of_a_node():
     run = Run(network_c([2, 5], object_gain=0.5, scale=2.0, signed=False), TANK, seed=0)
     run.advance(20_000)
@@ -88,37 +74,6 @@ def test_an_agent_of_any_modality_learns_which_way_to_go(modality, resolution, h
     nres_map = run.agent.maps[0]
     values = run.q()[nres_map.encode(here), :, nres_map.encode(goal)]
     assert TANK.actions.names[values.argmax()] == action and values.max() > 1.05 * np.sort(values)[-2]
-
-
-def test_runs_share_no_cache_line():
-    runs = [Run(place_cells([3]), TANK, run=run) for run in range(20)]
-    written = [(array.ctypes.data, array.ctypes.data + array.nbytes, run) for run in runs
-               for array in (*arrays(run._state).values(), *arrays(run.world_state).values())
-               if array.nbytes < 4_096]
-    for (_, end, one), (begin, _, other) in itertools.pairwise(sorted(written, key=lambda each: each[:2])):
-        assert begin - end >= 64 or one is other
-
-
-def test_learning_pays():
-    """N7 clearly beats Brownian motion within 20 simulated minutes: claim A2 in miniature."""
-    learner, control = (simulate(agent, TANK, steps=60_000, runs=4, progress=False).rate(0.5).mean()
-                        for agent in (place_cells([7], **learning()), neorl.brownian()))
-    assert learner > control + 0.2
-
-
-def test_a_bad_advance_is_refused_and_changes_nothing():
-    run = Run(place_cells([3]), TANK, seed=0)
-    rewards, hits = np.zeros(10, np.float32), np.zeros((10, 2), np.int16)
-    for steps, given, message in [(-1, (rewards, hits), "steps must be .*, but is -1"),
-    (101, (rewards, hits), "rewards must be .*, but is float32"),
-                                  (100, (rewards, hits[:, :1]), "hits must be .*, but is int16"),
-                                  (100, (hits, hits), "rewards must be .*, but is int16")]:
-        with pytest.raises(ValueError, match=message):
-            run.advance(steps, *given)
-    run.world_state.scene.position[:] = np.nan
-    with pytest.raises(ValueError, match=r"state.scene.position must be finite numbers from -1e\+30 to 1e\+30, but is"):
-        run.advance(1)
-    assert run.step == 0 and not run.state.values.q.any()
 
 
 def test_a_run_that_fails_ends_the_others(monkeypatch):
@@ -165,8 +120,3 @@ def test_a_function_follows_the_progress_of_all_runs_together_and_changes_nothin
     assert [total for _, total in reports] == [75_000] * 9
     assert [done for done, _ in reports] == sorted(done for done, _ in reports) and reports[-1][0] == 75_000
     assert followed == simulate(place_cells([3]), TANK, steps=25_000, runs=3, progress=False)
-
-
-def test_an_error_in_that_function_ends_the_simulation():
-    with pytest.raises(ZeroDivisionError):
-        simulate(place_cells([3]), TANK, steps=10**9, runs=2, progress=lambda done, total: 1 / 0)

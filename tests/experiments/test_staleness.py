@@ -50,7 +50,7 @@ def test_random_edits_of_compiled_kernels_are_never_missed(tmp_path):
 
 @pytest.mark.skipif(jit_is_off(), reason="the compiler is off")
 def test_a_constant_that_a_notebook_changes_changes_the_result_and_its_place_on_disk(tmp_path):
-    found = process(tmp_path / "program", FIRST, "1", "1", "action", "simulate_once", "Learner", jit=True)
+    found = process(tmp_path / "program", FIRST, "1", "1", "action", "simulate_once", jit=True)
     again = process(tmp_path / "program", found["numbers"], "1", "0", "action", "simulate_once")
     assert found["wrong"] == again["wrong"] == [] and found["numbers"]["action"] == 0
 

@@ -1,9 +1,9 @@
 """Finished runs are found again under keys of all that determines them, whole, despite kills, damage and full disks."""
 
+import functools
 import json
 import os
 import signal
-import stat
 import subprocess
 import sys
 import time
@@ -13,12 +13,10 @@ import grimp
 import numpy as np
 import pytest
 
-from neorl import (CALIBRATED, Condition, Learning, Policy, Result, WaterWorld, files, kernel, network_d, place_cells,
-                   simulate, softmax, sweep)
+from neorl import Condition, Learning, Policy, Result, WaterWorld, files, kernel, place_cells, simulate, softmax, sweep
 from neorl.experiments import condition as conditions
 from neorl.experiments import simulation, store
 from neorl.experiments.run import new_bins
-from neorl.worlds.arena import Arena
 
 LONG = Condition(place_cells([3]), WaterWorld(), simulation.TASK_STEPS, 6)
 SHORT = Condition(place_cells([3]), WaterWorld(), 500, 3)
@@ -54,12 +52,6 @@ def found(cache_folder, folder):
     return sorted(path.name for path in (cache_folder / folder).glob("[!.]*"))
 
 
-def test_a_condition_is_computed_once(lived):
-    first, second = once(SHORT), once(SHORT)
-    assert first == second and lived == [0, 1, 2]
-    assert Result.load(SHORT.path) == first
-
-
 def test_the_key_depends_on_everything_that_determines_a_result(monkeypatch):
     keys = [SHORT.key]
     keys.append(replace(SHORT, agent=place_cells([3], learning=Learning(discount=0.81))).key)
@@ -90,13 +82,10 @@ def test_the_source_digest_covers_every_module_that_a_run_imports():
 
 
 @pytest.mark.parametrize("change, message", [
-    ({"agent": "PC"}, "agent must be .*, but is 'PC'"), ({"world": 3}, "world must be .*, but is 3"),
     ({"steps": 0}, "steps must be an integer of at least 1, but is 0"),
-    ({"runs": -1}, "runs must be .*, but is -1"), ({"seed": 0.5}, "seed must be .*, but is 0.5"),
     ({"changes": 5}, "changes must be .*, but is 5"), ({"changes": [(5,)]}, r"changes must be pairs \(step, agent\)"),
     ({"changes": [(501, place_cells())]}, "step of a change must be an integer from 0 to 500, but is 501"),
-    ({"changes": [(50, place_cells()), (49, place_cells())]}, "step of a change must"),
-    ({"changes": [(5, "PC")]}, "agent of a change must be")])
+    ({"changes": [(50, place_cells()), (49, place_cells())]}, "step of a change must")])
 def test_a_condition_that_could_not_run_is_refused(change, message):
     with pytest.raises(ValueError, match=message):
         Condition(**SHORT.choices | change)
@@ -109,8 +98,7 @@ def flipped(content, place):
 
 
 @pytest.mark.parametrize("damage", [
-    lambda content: content[:-1], lambda content: b"", lambda content: content[:40], lambda content: b"\x93NUMPY",
-    lambda content: flipped(content, 200), lambda content: flipped(content, len(content) // 2)])
+    lambda content: content[:-1], lambda content: content[:40], lambda content: flipped(content, len(content) // 2)])
 def test_a_damaged_file_is_noticed_and_computed_again(cache_folder, lived, damage):
     once(SHORT)
     SHORT.path.write_bytes(damage(SHORT.path.read_bytes()))
@@ -153,30 +141,6 @@ def test_the_runs_of_an_interrupted_condition_are_not_computed_again(monkeypatch
     assert found(cache_folder, "runs") == [] and found(cache_folder, "conditions") == [LONG.key]
 
 
-def test_runs_are_written_while_others_are_computed_and_short_conditions_once(at_once, monkeypatch, cache_folder):
-    written, original = [], store.save_runs
-    monkeypatch.setattr(store, "save_runs", lambda *task: written.extend(task[1]) or original(*task))
-    assert_whole(once(LONG), LONG)
-    assert len(written) == len(set(written)) == 5  # the sixth completes the condition
-    assert found(cache_folder, "runs") == []
-    monkeypatch.setattr(store, "save_runs", None)
-    assert_whole(once(SHORT), SHORT)
-
-
-def test_runs_of_a_condition_that_fails_are_kept(monkeypatch, cache_folder):
-    original = simulation._live
-
-    def live(condition, runs, *others):
-        if 2 in runs:
-            raise MemoryError("never")
-        return original(condition, runs, *others)
-
-    with monkeypatch.context() as patch, pytest.raises(MemoryError, match="never"):
-        patch.setattr(simulation, "_live", live)
-        once(LONG)
-    assert sorted(store.load_runs(LONG)) == [0, 1, 3, 4, 5]
-
-
 @pytest.mark.parametrize("damage", [lambda content: content[:-1], lambda content: b""])
 def test_damaged_runs_are_computed_again(cache_folder, lived, damage):
     alone = simulate(**LONG.choices, progress=False)
@@ -214,24 +178,16 @@ def test_what_fits_neither_on_the_disk_nor_into_memory_is_an_error(tmp_path, mon
         once(replace(SHORT, steps=20_000))
 
 
-def test_single_runs_that_a_killed_process_left_beside_their_condition_are_removed(cache_folder):
-    result = once(SHORT)
-    store.save_runs(SHORT, {0: (result.rewards[0], result.hits[0])})
-    assert len(found(cache_folder, "runs")) == 1
-    once(SHORT)
-    assert found(cache_folder, "runs") == []
-
-
 WORK = """
 from neorl import *
 import neorl.experiments.store
 neorl.experiments.store.SECONDS = 0
-conditions = [Condition(place_cells([3]), WaterWorld(), 100_000, 20, seed) for seed in range(3)]
+conditions = [Condition(place_cells([3]), WaterWorld(), 50_000, 20, seed) for seed in range(3)]
 print("begins", flush=True)
 results = sweep(conditions, threads=2, progress=False)
 print([float(result.totals.sum()) for result in results])
 """
-WORKED_ON = [Condition(place_cells([3]), WaterWorld(), 100_000, 20, seed) for seed in range(3)]
+WORKED_ON = [Condition(place_cells([3]), WaterWorld(), 50_000, 20, seed) for seed in range(3)]
 
 
 def started():
@@ -259,6 +215,7 @@ def lived_so_far():
     return sum(20 if store.load(each) else len(store.load_runs(each)) for each in WORKED_ON)
 
 
+@functools.cache
 def of_all():
     return f"{[float(simulate(**each.choices, progress=False).totals.sum()) for each in WORKED_ON]}\n"
 
@@ -275,17 +232,6 @@ def test_a_sweep_that_is_killed_again_and_again_ends_with_equal_results(cache_fo
         assert damaged(cache_folder) == [] and lived_so_far() > had
     assert started().communicate() == (of_all(), "")
     assert found(cache_folder, "runs") == []
-
-
-def test_an_interrupted_process_ends_and_says_what_it_was_at(cache_folder):
-    process = started()
-    while not lived_so_far():
-        time.sleep(0.01)
-    process.send_signal(signal.SIGINT)
-    _, complaints = process.communicate()
-    assert process.returncode in (1, -signal.SIGINT, 130) and "\nKeyboardInterrupt" in complaints
-    assert "tasks were left, such as runs " in complaints and "finished runs are kept" in complaints
-    assert 0 < lived_so_far() < 60 and damaged(cache_folder) == []
 
 
 def test_two_sweeps_of_the_same_conditions_at_once_do_not_disturb_each_other(cache_folder):
@@ -305,17 +251,6 @@ def test_what_a_killed_process_was_writing_is_removed_when_it_is_old(tmp_path):
         os.utime(path, (0, 0))
     files.write_whole(folder / "new", b"whole")
     assert sorted(path.name for path in folder.iterdir()) == [young.name, other.name, "new"]
-
-
-@pytest.mark.skipif(os.name == "nt", reason="Windows has no file modes")
-@pytest.mark.parametrize("mask, mode", [(0o022, 0o644), (0o077, 0o600)])
-def test_a_kept_file_is_as_open_to_others_as_any_other_new_file(tmp_path, mask, mode):
-    before = os.umask(mask)
-    try:
-        files.write_whole(tmp_path / "new", b"whole")
-    finally:
-        os.umask(before)
-    assert stat.S_IMODE((tmp_path / "new").stat().st_mode) == mode
 
 
 def test_a_file_that_cannot_be_written_leaves_nothing(tmp_path, monkeypatch):
@@ -385,22 +320,6 @@ def test_conditions_and_claims_of_other_sources_are_older(full, monkeypatch):
     assert {each.path for each in store.kept() if each.is_older} >= {full["condition"], full["claims"]}
 
 
-@pytest.mark.parametrize("change, words", [
-    ({"steps": 1_500_000, "runs": 1, "seed": 2**70}, f"PC N3 in WaterWorld, 1,500,000 steps, 1 run, seed {2**70}"),
-    ({"agent": network_d([2])}, "PC N2 and OVC N2 in WaterWorld, "),
-    ({"agent": place_cells([2, 3], learning=replace(CALIBRATED, memory=10), policy=Policy(0.0, choose=softmax(0.5)),
-                           own_cell="silent")},
-     "PC N2+N3 (memory 10.0, choose softmax(0.5), own_cell silent) in"),
-    ({"world": WaterWorld(n_creeps=8, win_reward=5)}, " in WaterWorld (n_creeps 8, win_reward 5.0), "),
-    ({"world": Arena(radius=0.1)}, " in Arena (radius 0.1), "),
-    ({"changes": [(100, place_cells([9]))]}, " in WaterWorld, from step 100 on PC N9, 500 steps"),
-])
-def test_conditions_are_described_in_words(folder, change, words):
-    keep(replace(SHORT, **change))
-    (kept,) = store.kept()
-    assert words in store.in_words(kept.about) and store.conditions() == [replace(SHORT, **change)]
-
-
 def test_a_condition_with_a_local_kernel_is_kept_and_described(folder):
     @kernel
     def of_no_module(value, stream):
@@ -413,7 +332,8 @@ def test_a_condition_with_a_local_kernel_is_kept_and_described(folder):
     assert store.conditions() == []
 
 
-@pytest.mark.parametrize("about", ["[]", "{}", json.dumps({"agent": {}, "world": {}, "steps": "x"}), "{"])
+@pytest.mark.parametrize("about", [
+    "[]", json.dumps({"agent": {}, "world": {}, "steps": "x"})])
 def test_an_invalid_note_is_ignored(folder, about):
     path = folder / "conditions" / DIGEST
     path.parent.mkdir(parents=True)
@@ -421,8 +341,3 @@ def test_an_invalid_note_is_ignored(folder, about):
         np.savez(file, about=np.array(about))
     (kept,) = store.kept()
     assert kept.about is None and kept.is_older
-
-
-def test_another_choice_is_refused():
-    with pytest.raises(ValueError, match="which must be 'all', 'compiled' or 'older', but is 'some'"):
-        store.clear("some")

@@ -15,7 +15,6 @@ from types import SimpleNamespace
 
 import pytest
 from distributed import Client, LocalCluster
-from tqdm import tqdm
 
 from neorl import Condition, Result, WaterWorld, multimodal, place_cells, simulate, sweep
 from neorl.experiments import condition as conditions
@@ -65,20 +64,6 @@ def test_without_a_cache_nothing_is_kept_and_the_first_error_ends_it(cache_folde
     fails(monkeypatch, lambda condition, runs: True)
     with pytest.raises(MemoryError, match="for now"):
         simulate(**CONDITIONS[0].choices, progress=False)
-
-
-@pytest.mark.parametrize("choices, message", [
-    ({"conditions": "all"}, "conditions must be .*, but is 'all'"),
-    ({"conditions": [CONDITIONS[0], 3]}, "condition must be a Condition, but is 3"),
-    ({"executor": 4}, "executor must be an executor of concurrent.futures or None, but is 4"),
-    ({"threads": 0}, "threads must be .*, but is 0"), ({"threads": True}, "threads must be .*, but is True"),
-    ({"threads": 2, "executor": ThreadPoolExecutor(1)}, "threads must be None beside an executor, but is 2"),
-    ({"progress": "no"}, "progress must be True, False or a function that takes the steps done and their total, but"),
-    ({"cache": "no"}, "cache must be True or False, but is 'no'")])
-def test_a_bad_sweep_is_refused_before_anything_runs(choices, message, lived):
-    with pytest.raises(ValueError, match=message):
-        sweep(**{"conditions": CONDITIONS, "progress": False} | choices)
-    assert lived == []
 
 
 def test_what_is_on_disk_or_asked_for_twice_is_computed_once(lived):
@@ -161,17 +146,6 @@ def test_a_sweep_that_waits_for_a_worker_that_hangs_can_be_interrupted_and_says_
     (note,) = interruption.value.__notes__
     assert "5 tasks were left, such as runs 0 to 1 of Condition(agent=Agent(" in note
     assert all(future.cancelled() for future in executor.futures)
-
-
-@pytest.mark.parametrize("executor", [None, ThreadPoolExecutor(2)])
-def test_the_bar_moves_by_runs_and_ends_at_their_number(monkeypatch, executor):
-    """One condition with many runs is split over all workers."""
-    moves, original = [], tqdm.update
-    monkeypatch.setattr(tqdm, "update", lambda bar, steps: moves.append(steps) or original(bar, steps))
-    condition = Condition(place_cells([3]), WORLD, simulation.TASK_STEPS // 2, 10)
-    results = sweep([condition], executor)
-    assert sum(moves) == 10 * condition.steps and len(moves) >= 5
-    assert_the_same(results, [condition])
 
 
 def test_workers_are_threads_at_most_so_many(monkeypatch):
