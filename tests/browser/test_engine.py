@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from golden import STATES, learning
 
 from neorl import Arena, Explorer, Learning, NresMap, Run, WaterWorld, network_d, place_cells, simulate
 from neorl.browser import wasm
@@ -36,8 +35,6 @@ async function answers(requests) {
 PROBES = probes_with(wasm.MODULES["plane"].constants)
 TANK = WaterWorld(n_creeps=4)
 AGENT = network_d([4, 5])
-ENDS = {"per object, ends, narrow": {"object_state": "per object", "object_beyond": "none",
-                                     "object_tiled_fraction": 0.4, "object_centred": True}}
 STEPS, SEED, K = 3_000, 5, 2
 
 
@@ -171,18 +168,6 @@ def test_a_radar_finds_a_place_by_its_bearing(ask):
     assert [each["feature"] for each in found[0]["seen"]["axes"]] == ["length", "bearing"]
 
 
-RULE = {"learning_rate": 0.03, "credit": "happened", "absent_decay": 0.9, "absent_form": "away", "memory": 20.0,
-        "bootstrap": False}
-RULES = [
-    learning(memory=30.0),
-    learning(memory=12.0, discount=0.95, bootstrap=False),
-    learning(memory=0.5, absent_decay=0.1, absent_form="away", credit="activity"),
-    learning(memory=5.0, credit="count"),
-    *(learning(**RULE) | state for state in (STATES | ENDS).values()),
-    learning(memory=0.0, bootstrap=True) | STATES["self"],
-]
-
-
 def learned(run, m, goal):
     """Learned values as the engine returns them: east minus west and south minus north in each cell, in float32.
 
@@ -191,17 +176,6 @@ def learned(run, m, goal):
     q = run.q(m)
     values = q[0].T if len(q) == 1 else q[:, :, goal]
     return as_vectors(values.astype(float)).astype(np.float32).tolist()
-
-
-@pytest.mark.parametrize("rule", RULES, ids=str)
-def test_what_is_learned_with_a_memory_is_what_python_learns_to_the_last_bit(ask, rule):
-    agent, goal = network_d([4, 5], scale=2.0, signed=False, **rule), 9
-    frame = ask(advance(STEPS), {"type": "look", "map": "OVC N5", "goal": goal},
-                parameters=_parameters(agent, TANK))[-1]
-    run = Run(agent, TANK, SEED, K)
-    assert frame["reward"] == run.advance(STEPS)
-    assert np.reshape(frame["seen"]["ways"], (-1, 2)).tolist() == learned(run, 3, goal)
-    assert np.count_nonzero(frame["seen"]["ways"]) > 20
 
 
 @pytest.mark.parametrize("later", [
@@ -264,15 +238,6 @@ def test_a_place_is_found_in_the_cell_that_it_lies_in(ask):
     assert [each["seen"]["goal"] is None for each in ask(twice, twice)[1:]] == [False, True]
 
 
-def test_a_place_beyond_a_map_that_ends_is_in_no_cell(ask):
-    agent = network_d([4, 5], **ENDS["per object, ends, narrow"])
-    look = {"type": "look", "map": "OVC N4"}
-    frames = ask(*(look | {"at": {"x": 0.5 + x, "y": 0.5}} for x in (0.39, 0.41)), parameters=_parameters(agent, TANK))
-    assert [each["seen"]["goal"] for each in frames[1:]] == [2 * 5 + 4, None]
-    for axis in frames[1]["seen"]["axes"]:  # an interval is centred on the agent, and the outermost are halves
-        assert axis["borders"] == pytest.approx([-0.4, -0.3, -0.1, 0.1, 0.3, 0.4])
-
-
 def test_the_map_that_is_looked_at_stays_and_its_goal_with_it_if_it_has_the_same_cells(ask, state):
     parameters = state["_presets"]["D"]["parameters"]
     axes = parameters["axes"]
@@ -283,24 +248,3 @@ def test_the_map_that_is_looked_at_stays_and_its_goal_with_it_if_it_has_the_same
         finer, other, without)))[1:]
     assert [(each["seen"]["name"], each["seen"]["goal"]) for each in frames] == [
         ("PC N5", 24), ("PC N5", 24), ("PC N5", None), ("PC N6", None)]
-
-
-def test_a_creep_is_put_where_it_is_dragged_but_inside_the_tank(ask):
-    frames = ask({"type": "drag", "creep": 1, "x": 0.3, "y": 0.6}, {"type": "drag", "creep": 1, "x": -2, "y": 3})
-    at = [(frame["things"][1]["x"], frame["things"][1]["y"]) for frame in frames[1:]]
-    radius = TANK.radius / TANK.width
-    assert at[0] == pytest.approx((0.3, 0.6)) and at[1] == pytest.approx((radius, 1 - radius))
-
-
-def test_a_run_ends_at_its_length(ask):
-    frame = ask(advance(10**9), advance(10**9), steps=500)[-1]
-    assert frame["ended"] and frame["step"] == 500
-
-
-def test_an_impossible_request_is_answered_with_a_sentence(ask, state):
-    parameters = state["_presets"]["N90"]["parameters"]
-    nodes = parameters["nodes"] | {"first_map": [0, 4]}
-    refused, then = ask(advance(1), parameters=parameters | {"maps": {"resolution": [90] * 4}, "nodes": nodes})
-    assert refused == {"type": "failed", "message": "These maps need 3.9 GB of memory, and a page can have 3. "
-                                                    "Choose coarser ones."}
-    assert then == {"type": "failed"}  # the fault is the page's own, so there is no message for its reader

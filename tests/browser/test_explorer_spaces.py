@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from explorer_page import drop_by_keyboard, explorer_of, play_to_the_end, wait, wait_for_maps, write_page
+from explorer_page import drop_by_keyboard, explorer_of, play_to_the_end, wait, write_page
 from playwright.sync_api import expect
 
 from neorl import Arena, Desire, Explorer, Place, Run, WaterWorld, multimodal, simulate
@@ -60,14 +60,6 @@ def test_in_another_space_it_computes_the_run_of_python(opened, name):
     expect(page.locator(".board .limb")).to_be_visible(visible=name.startswith("Arm"))
     expect(page.locator(".side .space")).to_be_visible(visible=name.startswith("Arm"))
     assert play_to_the_end(page) == lived(*OTHER_SPACES[name])
-
-
-def test_a_pilot_keeps_the_maps_of_each_node_until_others_are_chosen(opened):
-    page = opened("Vessel with a radar")
-    wait_for_maps(page, ["far N8", "near N4"])
-    page.locator('[name="resolutions"]').fill("6")
-    page.locator('[name="resolutions"]').press("Enter")
-    wait_for_maps(page, ["far N6", "near N6"])
 
 
 def test_a_condition_in_another_maze_is_not_the_one_that_is_seen(open_page, tmp_path):

@@ -14,11 +14,10 @@ BAD_PAGES = {
 }
 
 
-@pytest.mark.parametrize("over", ["http", "file"])
 @pytest.mark.parametrize("script", BAD_PAGES)
-def test_what_goes_wrong_in_a_page_is_seen(open_page, tmp_path, script, over):
+def test_what_goes_wrong_in_a_page_is_seen(open_page, tmp_path, script):
     (tmp_path / "page.html").write_text(f'<!doctype html><link rel="icon" href="data:,"><script>{script}</script>')
-    page = open_page(tmp_path, "page.html", over)
+    page = open_page(tmp_path, "page.html")
     for _ in range(3_000):
         if any(BAD_PAGES[script] in complaint for complaint in open_page.complaints):
             break

@@ -34,27 +34,6 @@ def test_a_recording_holds_every_step_of_its_run(recordings):
     assert hits.sum() > 0
 
 
-def test_a_recording_starts_at_the_current_step_of_the_run():
-    run = Run(AGENT, TANK, seed=2)
-    run.advance(40)
-    assert np.array_equal(record("late", run, 10).agent, record("all", Run(AGENT, TANK, seed=2), 50).agent[40:])
-
-
-@pytest.mark.parametrize("steps", [0, -1, 2.5])
-def test_a_recording_of_no_steps_is_refused(steps):
-    with pytest.raises(ValueError, match=f"steps must be an integer of at least 1, but is {steps}"):
-        record("none", Run(AGENT, TANK), steps)
-
-
-def test_recordings_that_do_not_go_together_are_refused(recordings):
-    longer = record("longer", Run(AGENT, TANK), 101)
-    for wrong in ([], [recordings[0], longer]):
-        with pytest.raises(ValueError, match="recordings must be one or more, of the same length and steps per secon"):
-            Replay(wrong)
-    with pytest.raises(ValueError, match="recordings must be a Recording, but is 'first'"):
-        Replay(["first"])
-
-
 def scored(green, red):
     return f"Score {green - red}: {green} green, {red} red".replace("-", "−")
 

@@ -154,10 +154,3 @@ def test_modules_that_cannot_be_kept_are_built_with_a_warning(contents, tmp_path
     monkeypatch.setattr(wasm, "_built", lambda names: {name: contents[name] for name in names})
     with pytest.warns(RuntimeWarning, match="cannot be kept"):
         assert wasm.modules() == contents
-
-
-def test_a_failed_build_is_an_error(tmp_path, monkeypatch):
-    monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
-    monkeypatch.setattr(sys, "executable", "/bin/false")
-    with pytest.raises(RuntimeError, match="was not built"):
-        wasm.modules()
