@@ -7,8 +7,7 @@ import sys
 from neorl import files
 from neorl.experiments import store
 from neorl.experiments.condition import Condition
-from neorl.experiments.result import about
-from neorl.experiments.simulation import simulate
+from neorl.experiments.simulation import label, simulate
 
 LAST_FIFTH = (0.8, 1.0)
 
@@ -56,7 +55,8 @@ def run_file(path, save=None):
         result.save(save)
     late = f", {_rate(result, *LAST_FIFTH)} in the last fifth" if len(result.time) >= 5 else ""
     spread = ", ± the standard deviation over runs" if result.runs > 1 else ""
-    print(store.in_words(about(condition)))
+    print(f"{label(condition.agent)} in {type(condition.world).__name__}, {condition.steps:,} steps, "
+          f"{condition.runs} run{'s' * (condition.runs != 1)}, seed {condition.seed}")
     print(f"  reward per second: {_rate(result)}{late}{spread}")
     print(f"  kept in {save or condition.path}")
 
@@ -74,13 +74,6 @@ def list_cache():
     for kind, (words, _) in store.KINDS.items():
         some = [each for each in everything if each.kind == kind]
         print(f"{words}: {_amount(some)}" if some else f"{words}: none")
-        if kind == "conditions":
-            lines = [(store.in_words(each.about), each) for each in some if each.about]
-            for line, each in sorted(lines, key=lambda pair: pair[0]):
-                print(f"  {line}: {_bytes(each.size)}{', from older sources' * each.is_older}")
-            unknown = [each for each in some if not each.about]
-            if unknown:
-                print(f"  from versions that did not record the condition: {_amount(unknown)}")
     older = [each for each in everything if each.is_older]
     print(f"together: {_amount(everything)}, of which from older sources than these: {_amount(older)}")
 

@@ -14,6 +14,7 @@
    hanging worker, reports the task it waited for, and leaves finished runs on disk.
 """
 
+import contextlib
 import os
 import threading
 import warnings
@@ -29,7 +30,7 @@ from neorl.core.kernel import announcing
 from neorl.experiments.condition import Condition
 from neorl.experiments.result import Result
 from neorl.experiments.run import SLICE, Run, new_bins
-from neorl.experiments.store import Disk, Keeper
+from neorl.experiments.store import Keeper
 from neorl.worlds.world import World
 
 ATTEMPTS = 3
@@ -99,11 +100,8 @@ def sweep(conditions: Sequence[Condition], executor: Executor | None = None,
         if executor is not None:
             raise checks.error("threads", "None beside an executor", threads)
     cache = checks.flag("cache", cache)
-    disk, keepers = Disk() if cache else None, {}
     names = [condition.key if cache else id(condition) for condition in conditions]
-    for name, condition in zip(names, conditions):
-        if name not in keepers:
-            keepers[name] = Keeper(condition, disk)
+    keepers = {name: Keeper(condition, cache) for name, condition in dict(zip(names, conditions)).items()}
     missing = [keeper for keeper in keepers.values() if keeper.missing]
     # The largest come first, so that later runs can reuse their memory.
     missing.sort(key=lambda keeper: -n_values(keeper.condition.agent, keeper.condition.world))
@@ -270,25 +268,17 @@ def progress_bar(steps, name, shown):
 
     if callable(shown):
         return Report(shown, steps)
-    try:
-        disable = not checks.flag("progress", shown)
-    except ValueError:
-        raise ValueError("progress must be True, False or a function that takes the steps done and their total, but is "
-                         f"{checks.shown(shown)}") from None
-    return tqdm(total=steps, desc=name, unit="step", unit_scale=True, leave=False, disable=disable)
+    if not isinstance(checks.plain(shown), bool):
+        raise checks.error("progress", "True, False or a function that takes the steps done and their total", shown)
+    return tqdm(total=steps, desc=name, unit="step", unit_scale=True, leave=False, disable=not shown)
 
 
-class Report:
+class Report(contextlib.nullcontext):
     """A progress bar whose display is a function (done, total) of the user's."""
 
     def __init__(self, function, total):
+        super().__init__(self)
         self.function, self.total, self.done, self.lock = function, total, 0, threading.Lock()
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *error):
-        pass
 
     def set_description(self, text):
         """Do nothing: the function takes numbers."""

@@ -23,13 +23,8 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl import checks, files
-from neorl.agents.agent import Agent
-from neorl.agents.rules import CALIBRATED, GREEDY
-from neorl.description import described
 from neorl.experiments.condition import PARTS, source_digest
 from neorl.experiments.result import Result, about, condition_of, fitting
-from neorl.worlds.arena import Arena
-from neorl.worlds.waterworld import WaterWorld
 
 SECONDS = 5  # between two writes of a condition's runs; a write takes a hundredth of that
 DIGEST = "[0-9a-f]{64}"
@@ -37,6 +32,7 @@ KINDS = {"conditions": ("finished conditions", DIGEST),
          "runs": ("single runs of conditions that are not finished", DIGEST + r"-\d+"),
          "compiled": ("compiled kernels", DIGEST), "wasm": ("WebAssembly modules", DIGEST),
          "claims": ("claims of pages of the book", r"[a-z0-9_]+\.json")}
+RECORDED = ("conditions", "claims")  # files that name the source that made them
 WHICH = ("all", "compiled", "older")
 
 
@@ -94,39 +90,31 @@ def _parts(condition):
     return list(_part_folder().glob(f"{condition.key}-*"))
 
 
-class Disk:
-    """The cache folder, which may take no more; then it warns once."""
-
-    def __init__(self):
-        self._warned = False
-
-    def takes(self, write, *what):
-        """Whether a function could write to it."""
-        try:
-            write(*what)
-        except OSError as error:
-            if not self._warned:
-                warnings.warn(f"{files.cache_folder()} takes no results ({error.strerror}): they stay in memory, and "
-                              "are lost when this process ends", RuntimeWarning, stacklevel=2)
-            self._warned = True
-            return False
-        return True
+def _taken(write, *what):
+    """Whether the cache folder could take what a function writes; otherwise it warns."""
+    try:
+        write(*what)
+    except OSError as error:
+        warnings.warn(f"{files.cache_folder()} takes no results ({error.strerror}): they stay in memory, and are lost "
+                      "when this process ends", RuntimeWarning, stacklevel=2)
+        return False
+    return True
 
 
 class Keeper:
-    """The runs of a condition as they finish: on a `Disk`, or in memory if that takes no more or there is None.
+    """The runs of a condition as they finish: on disk if `cache`, or in memory, also if the disk takes no more.
 
     missing: the numbers of the runs that it lacked at first, a list, empty if it was complete.
     """
 
-    def __init__(self, condition, disk):
-        self.condition, self._disk, self._runs, self._whole = condition, disk, {}, None
+    def __init__(self, condition, cache):
+        self.condition, self._cache, self._runs, self._whole = condition, cache, {}, None
         self._unwritten, self._written_at = [], None  # numbers of runs that are only in memory; seconds
-        if disk and load(condition) is not None:
-            disk.takes(remove_runs, condition)  # left by a process killed before it could do so
+        if cache and load(condition) is not None:
+            _taken(remove_runs, condition)  # left by a process killed before it could do so
             self.missing = []
             return
-        self._runs = load_runs(condition) if disk else {}
+        self._runs = load_runs(condition) if cache else {}
         self.missing = [k for k in range(condition.runs) if k not in self._runs]
         self._finish_if_complete()
 
@@ -144,8 +132,8 @@ class Keeper:
 
     def write_runs(self):
         """Write the runs of an incomplete condition."""
-        if self._disk and self._unwritten and self._disk.takes(save_runs, self.condition,
-                                                               {k: self._runs[k] for k in self._unwritten}):
+        if self._cache and self._unwritten and _taken(save_runs, self.condition,
+                                                      {k: self._runs[k] for k in self._unwritten}):
             self._unwritten = []
         self._written_at = time.monotonic()
 
@@ -158,10 +146,10 @@ class Keeper:
             return False
         whole = Result(self.condition, *(np.stack([self._runs[k][part] for k in range(self.condition.runs)])
                                          for part in (0, 1)))
-        if self._disk and self._disk.takes(save, whole):
-            self._disk.takes(remove_runs, self.condition)
+        if self._cache and _taken(save, whole):
+            _taken(remove_runs, self.condition)
         else:
-            if self._disk:
+            if self._cache:
                 _check_memory(whole.rewards.nbytes + whole.hits.nbytes)
             self._whole = whole
         self._runs, self._unwritten = {}, []
@@ -195,12 +183,12 @@ def kept():
             if not re.fullmatch(pattern, path.name) or not path.is_file():
                 continue
             try:
-                about, status = NOTES[kind](path) if kind in NOTES else None, path.stat()
+                about, status = _about(kind, path) if kind in RECORDED else None, path.stat()
             except FileNotFoundError:  # removed by another process in the meantime
                 continue
-            if kind == "claims" and not about:
+            if kind == "claims" and about is None:
                 continue
-            is_older = (about or {}).get("source") != source_digest() if kind in NOTES else status.st_mtime < sources
+            is_older = (about or {}).get("source") != source_digest() if kind in RECORDED else status.st_mtime < sources
             found.append(Kept(kind, path, status.st_size, about, is_older))
     return found
 
@@ -232,64 +220,19 @@ def clear(which="all"):
     return removed
 
 
-def in_words(about):
-    """A condition described in a line, from its plain data (`neorl.experiments.result.about`)."""
-    changes = "".join(f", from step {step:,} on {_agent(agent)}" for step, agent in about["changes"])
-    return (f"{_agent(about['agent'])} in {_world(about['world'])}{changes}, {about['steps']:,} steps, "
-            f"{about['runs']} run{'s' * (about['runs'] != 1)}, seed {about['seed']}")
-
-
-def _agent(data):
-    if not isinstance(data, dict):
-        return data
-    nodes = " and ".join(f"{node['name']} {'+'.join(f'N{n}' for n in node['resolutions'])}" for node in data["nodes"])
-    usual = {**described(CALIBRATED), **described(GREEDY), "own_cell": Agent.own_cell}
-    return _departing(nodes, {**data["learning"], **data["policy"], "own_cell": data["own_cell"]}, usual)
-
-
-def _world(data):
-    if not isinstance(data, dict):
-        return data
-    chosen = {name: value for name, value in data.items() if name != "is"}
-    usual = next((described(kind()) for kind in (WaterWorld, Arena) if kind.__name__ == data["is"]), {})
-    return _departing(data["is"].rpartition(":")[2], chosen, usual)
-
-
-def _departing(name, chosen, usual):
-    """A name with its departures from the defaults, where these are known."""
-    unusual = [f"{each} {_value(value)}" for each, value in chosen.items() if value != usual.get(each)]
-    return f"{name} ({', '.join(unusual)})" if unusual else name
-
-
-def _value(value):
-    if isinstance(value, dict) and "kernel" in value:
-        name = value["kernel"].rpartition(":")[2]
-        return f"{name}({', '.join(map(str, value['of']))})" if "of" in value else name
-    return str(value)
-
-
-def _about_condition(path):
-    """The record of a condition beside its arrays, or None if it is damaged."""
+def _about(kind, path):
+    """What a file of conditions or claims says of itself, with the source that made it; None if it is not one."""
     try:
-        with np.load(path) as file:
-            about = json.loads(str(file["about"]))
-        in_words(about)
-        return about
+        if kind == "claims":
+            about = json.loads(path.read_text(encoding="utf-8"))
+        else:
+            with np.load(path) as file:
+                about = json.loads(str(file["about"]))
     except FileNotFoundError:
         raise
     except Exception:  # whatever zip, NumPy and JSON raise
         return None
-
-
-def _about_claims(path):
-    try:
-        about = json.loads(path.read_text(encoding="utf-8"))
-    except ValueError:
-        return None
-    return about if isinstance(about, dict) and {"page", "source", "claims"} <= about.keys() else None
-
-
-NOTES = {"conditions": _about_condition, "claims": _about_claims}
+    return about if isinstance(about, dict) and "source" in about else None
 
 
 def _sources_changed():
