@@ -15,8 +15,6 @@ from neorl.core.constants import Constants, features, no_credit
 from neorl.core.kernel import execute, new_tuple
 from neorl.core.modality import as_turns, axis_parameters, firsts, integers
 from neorl.core.parameters import ENTRIES, Parameters, derive, most_passed
-from neorl.worlds.arena import Arena
-from neorl.worlds.waterworld import WaterWorld
 
 TRACE_STEPS = 64  # of the trace behind a contact; the contact's value, discounted over 1.3 s, is small
 
@@ -120,10 +118,10 @@ def _check_meeting(agent, world):
         if isinstance(desire.source, Place) and len(desire.source.coordinates) != n_axes:
             raise checks.error(f"source of the desire {desire}", f"a place of {n_axes} coordinates in this world",
                                desire.source)
-        if isinstance(desire.source, Place) and isinstance(world, WaterWorld | Arena):
-            if not all(0 <= coordinate <= 1 for coordinate in desire.source.coordinates):
-                raise checks.error(f"source of the desire {desire}", "a place on the board", desire.source,
-                                   "give coordinates from 0 to 1, in units of its width")
+        if (isinstance(desire.source, Place) and getattr(world, "bounded", False)  # the surroundings of a Learner
+                and not all(0 <= coordinate <= 1 for coordinate in desire.source.coordinates)):
+            raise checks.error(f"source of the desire {desire}", "a place on the board", desire.source,
+                               "give coordinates from 0 to 1, in units of its width")
     if agent.policy.when_indifferent == "no-op" and world.actions.idle is None:
         raise checks.error("when_indifferent", "'random' in a world without an idle action",
                            agent.policy.when_indifferent)

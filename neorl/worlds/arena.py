@@ -26,7 +26,7 @@ from neorl.core.scene import CARDINAL, Scene
 from neorl.core.stream import randint
 from neorl.worlds import walls
 from neorl.worlds.waterworld import DRAG
-from neorl.worlds.world import Dynamics, World
+from neorl.worlds.world import Dynamics, World, squared_distance
 
 SHAPES = ("round", "square")
 MOTIONS = ("inertia", "steps")
@@ -62,6 +62,62 @@ class ArenaRules(NamedTuple):
     obstacle: array("float64", "obstacles", 4)  # see `neorl.worlds.walls`
 
 
+@kernel
+def reset(state: ArenaState, rules: ArenaRules) -> None:
+    """Start a trial, at rest."""
+    scene, start = state.scene, randint(state.stream, rules.n_starts)
+    for axis in range(2):
+        scene.position[axis], scene.velocity[axis] = rules.start[start, axis], 0.0
+    state.clock[0] = 0
+    for place in range(rules.place.shape[0]):
+        scene.things[place, 0], scene.things[place, 1] = rules.place[place, 0], rules.place[place, 1]
+        scene.kinds[place], scene.met[place] = rules.kind[place], 0
+        state.inside[place] = squared_distance(scene.position, rules.place[place]) < rules.radius * rules.radius
+
+
+@kernel
+def step(state: ArenaState, rules: ArenaRules, action: int):
+    """Advance the state by one step of the rules. Returns (reward, done)."""
+    scene, reward, met = state.scene, 0.0, 0
+    move(scene, rules, action)
+    for place in range(rules.place.shape[0]):
+        near = squared_distance(scene.position, rules.place[place]) < rules.radius * rules.radius
+        meets = near and not state.inside[place]
+        scene.met[place] = 1 + rules.kind[place] if meets else 0
+        state.inside[place] = near
+        if meets:
+            met += 1
+            reward += rules.pay[place]
+    state.clock[0] += 1
+    return reward, rules.ends and met > 0 or state.clock[0] >= rules.last_step
+
+
+@inlined_kernel
+def move(scene, rules, action):
+    """Move the agent, along one axis after the other."""
+    for axis in range(2):
+        if rules.stride > 0.0:
+            scene.velocity[axis] = rules.push[action, axis] * rules.stride / rules.dt
+        else:
+            scene.velocity[axis] += PUSH * rules.push[action, axis]
+        before = scene.position[axis]
+        after = before + scene.velocity[axis] * rules.dt
+        blocked = walls.block(rules.obstacle, scene.position, axis, after)
+        scene.position[axis] = after
+        if blocked or is_outside(rules, scene.position[0], scene.position[1]):
+            scene.position[axis], scene.velocity[axis] = before, 0.0
+        elif rules.stride == 0.0:
+            scene.velocity[axis] *= DRAG
+
+
+@kernel
+def is_outside(rules, x, y):
+    """Whether (x, y) is beyond the walls of the arena."""
+    if rules.round:
+        return (x - 0.5) * (x - 0.5) + (y - 0.5) * (y - 0.5) > 0.25
+    return x < 0.0 or y < 0.0 or x > 1.0 or y > 1.0
+
+
 @dataclass(frozen=True)
 class Arena(World, checks.Final):
     """An arena in the plane, see the module for its rules. Lengths are fractions of its size, its width and height.
@@ -92,6 +148,8 @@ class Arena(World, checks.Final):
 
     actions = CARDINAL
     size = 1.0
+    bounded = True
+    dynamics = Dynamics(reset, step)
 
     def __post_init__(self):
         checks.check_fields(self)
@@ -112,11 +170,6 @@ class Arena(World, checks.Final):
         if any(function_of(is_outside)(rules, x, y) or function_of(walls.contain)(rules.obstacle, x, y)
                for x, y in rules.start):
             raise checks.error("start", "outside of walls and obstacles", self.start)
-
-    @property
-    def dynamics(self) -> Dynamics:
-        """The kernels."""
-        return Dynamics(reset, step)
 
     @property
     def kinds(self) -> tuple[str, ...]:
@@ -155,66 +208,3 @@ class Arena(World, checks.Final):
             np.array([at for _, *at in self.places], float).reshape(-1, 2),
             np.array([kinds[kind] for kind, *_ in self.places], np.int64),
             np.array([pay[kind] for kind, *_ in self.places], float), obstacles)
-
-
-@kernel
-def reset(state: ArenaState, rules: ArenaRules) -> None:
-    """Start a trial, at rest."""
-    scene, start = state.scene, randint(state.stream, rules.n_starts)
-    for axis in range(2):
-        scene.position[axis], scene.velocity[axis] = rules.start[start, axis], 0.0
-    state.clock[0] = 0
-    for place in range(rules.place.shape[0]):
-        scene.things[place, 0], scene.things[place, 1] = rules.place[place, 0], rules.place[place, 1]
-        scene.kinds[place], scene.met[place] = rules.kind[place], 0
-        state.inside[place] = is_near(scene, rules, place)
-
-
-@kernel
-def step(state: ArenaState, rules: ArenaRules, action: int):
-    """Advance the state by one step of the rules. Returns (reward, done)."""
-    scene, reward, met = state.scene, 0.0, 0
-    move(scene, rules, action)
-    for place in range(rules.place.shape[0]):
-        near = is_near(scene, rules, place)
-        meets = near and not state.inside[place]
-        scene.met[place] = 1 + rules.kind[place] if meets else 0
-        state.inside[place] = near
-        if meets:
-            met += 1
-            reward += rules.pay[place]
-    state.clock[0] += 1
-    return reward, rules.ends and met > 0 or state.clock[0] >= rules.last_step
-
-
-@inlined_kernel
-def move(scene, rules, action):
-    """Move the agent, along one axis after the other."""
-    for axis in range(2):
-        if rules.stride > 0.0:
-            scene.velocity[axis] = rules.push[action, axis] * rules.stride / rules.dt
-        else:
-            scene.velocity[axis] += PUSH * rules.push[action, axis]
-        before = scene.position[axis]
-        after = before + scene.velocity[axis] * rules.dt
-        blocked = walls.block(rules.obstacle, scene.position, axis, after)
-        scene.position[axis] = after
-        if blocked or is_outside(rules, scene.position[0], scene.position[1]):
-            scene.position[axis], scene.velocity[axis] = before, 0.0
-        elif rules.stride == 0.0:
-            scene.velocity[axis] *= DRAG
-
-
-@kernel
-def is_near(scene, rules, place):
-    """Whether the agent is within the radius of a place."""
-    dx, dy = scene.position[0] - rules.place[place, 0], scene.position[1] - rules.place[place, 1]
-    return dx * dx + dy * dy < rules.radius * rules.radius
-
-
-@kernel
-def is_outside(rules, x, y):
-    """Whether (x, y) is beyond the walls of the arena."""
-    if rules.round:
-        return (x - 0.5) * (x - 0.5) + (y - 0.5) * (y - 0.5) > 0.25
-    return x < 0.0 or y < 0.0 or x > 1.0 or y > 1.0

@@ -25,7 +25,7 @@ from neorl.core.geometry import TAU
 from neorl.core.kernel import array, kernel
 from neorl.core.scene import Actions, Scene
 from neorl.core.stream import uniform
-from neorl.worlds.world import Dynamics, World
+from neorl.worlds.world import Dynamics, World, squared_distance
 
 PUSH = 0.05  # turns per second
 DRAG = 0.9  # share of the velocity that a step retains
@@ -49,59 +49,6 @@ class ArmRules(NamedTuple):
     radius: float
     targets: int
     length: array("float64", "axes")
-
-
-@dataclass(frozen=True)
-class Arm(World, checks.Final):
-    """A robot arm, see the module for its rules. Lengths are fractions of the total length of the links.
-
-    lengths: of the links, two or three numbers > 0 in any unit.
-    targets, obstacles: their numbers at any time, integers 0 … 64, one or more together.
-    radius: the distance within which a point is met, 10⁻³ … 0.2. fps: steps per second, 1 … 2³¹.
-
-    Raises ValueError for anything else.
-    """
-
-    lengths: Sequence[float] = (0.5, 0.5)
-    targets: Annotated[int, Within(0, 64)] = 1
-    obstacles: Annotated[int, Within(0, 64)] = 1
-    radius: Annotated[float, Within(1e-3, 0.2)] = 0.1
-    fps: AtLeastOne = 20
-
-    kinds = ("target", "obstacle")
-    size = 1.0
-
-    def __post_init__(self):
-        checks.check_fields(self)
-        checks.assign(self, lengths=tuple(checks.real("lengths", each, 1e-6, 1e6)
-                                          for each in checks.several("lengths", self.lengths)))
-        if not 2 <= len(self.lengths) <= 3:
-            raise checks.error("lengths", "two or three numbers, one for each link", self.lengths)
-        if self.things == 0:
-            raise ValueError("targets and obstacles must be one or more together, but are 0")
-
-    @property
-    def actions(self):
-        """An `Actions`: each joint forward and backward, "1+", "1−", "2+" and so on."""
-        joints = range(len(self.lengths))
-        return Actions([f"{joint + 1}{sign}" for joint in joints for sign in "+−"],
-                       [[sign * (axis == joint) for axis in joints] for joint in joints for sign in (1.0, -1.0)],
-                       "no-op")
-
-    @property
-    def dynamics(self) -> Dynamics:
-        """The kernels."""
-        return Dynamics(reset, step)
-
-    @property
-    def things(self) -> int:
-        """The number of targets and obstacles."""
-        return self.targets + self.obstacles
-
-    @property
-    def rules(self) -> ArmRules:
-        """The rules as the kernels take them."""
-        return ArmRules(1.0 / self.fps, self.radius, self.targets, np.array(self.lengths) / sum(self.lengths))
 
 
 @kernel
@@ -130,7 +77,7 @@ def step(state: ArmState, rules: ArmRules, action: int):
         scene.velocity[joint] *= DRAG
     find_hand(scene.position, rules.length, state.hand)
     for thing in range(scene.met.shape[0]):
-        meets = from_hand(state, thing) < rules.radius * rules.radius
+        meets = squared_distance(state.point[thing], state.hand) < rules.radius * rules.radius
         scene.met[thing] = 1 + scene.kinds[thing] if meets else 0
         if meets:
             reward += 1.0 if scene.kinds[thing] == TARGET else -1.0
@@ -147,15 +94,8 @@ def draw_point(state, rules, thing):
         for joint in range(rules.length.shape[0]):
             posture[joint] = uniform(state.stream)
         find_hand(posture, rules.length, state.point[thing])
-        if from_hand(state, thing) >= near:
+        if squared_distance(state.point[thing], state.hand) >= near:
             return
-
-
-@kernel
-def from_hand(state, thing):
-    """The squared distance of a point from the hand."""
-    dx, dy = state.point[thing, 0] - state.hand[0], state.point[thing, 1] - state.hand[1]
-    return dx * dx + dy * dy
 
 
 @kernel
@@ -188,3 +128,52 @@ def unit_vector(turns):
     if quarter == 3.0:
         return sine, -cosine
     return cosine, sine
+
+
+@dataclass(frozen=True)
+class Arm(World, checks.Final):
+    """A robot arm, see the module for its rules. Lengths are fractions of the total length of the links.
+
+    lengths: of the links, two or three numbers > 0 in any unit.
+    targets, obstacles: their numbers at any time, integers 0 … 64, one or more together.
+    radius: the distance within which a point is met, 10⁻³ … 0.2. fps: steps per second, 1 … 2³¹.
+
+    Raises ValueError for anything else.
+    """
+
+    lengths: Sequence[float] = (0.5, 0.5)
+    targets: Annotated[int, Within(0, 64)] = 1
+    obstacles: Annotated[int, Within(0, 64)] = 1
+    radius: Annotated[float, Within(1e-3, 0.2)] = 0.1
+    fps: AtLeastOne = 20
+
+    kinds = ("target", "obstacle")
+    size = 1.0
+    dynamics = Dynamics(reset, step)
+
+    def __post_init__(self):
+        checks.check_fields(self)
+        checks.assign(self, lengths=tuple(checks.real("lengths", each, 1e-6, 1e6)
+                                          for each in checks.several("lengths", self.lengths)))
+        if not 2 <= len(self.lengths) <= 3:
+            raise checks.error("lengths", "two or three numbers, one for each link", self.lengths)
+        if self.things == 0:
+            raise ValueError("targets and obstacles must be one or more together, but are 0")
+
+    @property
+    def actions(self):
+        """An `Actions`: each joint forward and backward, "1+", "1−", "2+" and so on."""
+        joints = range(len(self.lengths))
+        return Actions([f"{joint + 1}{sign}" for joint in joints for sign in "+−"],
+                       [[sign * (axis == joint) for axis in joints] for joint in joints for sign in (1.0, -1.0)],
+                       "no-op")
+
+    @property
+    def things(self) -> int:
+        """The number of targets and obstacles."""
+        return self.targets + self.obstacles
+
+    @property
+    def rules(self) -> ArmRules:
+        """The rules as the kernels take them."""
+        return ArmRules(1.0 / self.fps, self.radius, self.targets, np.array(self.lengths) / sum(self.lengths))

@@ -29,7 +29,7 @@ from neorl.checks import AtLeastOne, Within
 from neorl.core.kernel import array, kernel
 from neorl.core.scene import Actions, Scene
 from neorl.core.stream import randint, uniform
-from neorl.worlds.world import Dynamics, World
+from neorl.worlds.world import Dynamics, World, squared_distance
 
 HELM = Actions(("port", "starboard"), ((0.0, 0.0), (0.0, 0.0)), "amidships")
 CLEAR = 0.25  # widths of the area
@@ -59,61 +59,6 @@ class VesselRules(NamedTuple):
     current: array("float64", 2)
 
 
-@dataclass(frozen=True)
-class Vessel(World, checks.Final):
-    """A vessel among others, see the module for its rules. Lengths are in widths of the area.
-
-    traffic: the number of other vessels, 0 … 64.
-    current: (x, y), widths per second, each at most `speed` in magnitude.
-    speed: widths per second through the water, 10⁻³ … 1. turning: the steady rate of turn with the rudder over, radians
-        per second, 10⁻³ … 10. lag: the time constant of the rate of turn, seconds, at least one step.
-    radius: the distance within which things are met, 10⁻³ … 0.1. fps: steps per second, 1 … 2³¹.
-
-    Raises ValueError for anything else.
-    """
-
-    traffic: Annotated[int, Within(0, 64)] = 3
-    current: Sequence[float] = (0.03, 0.0)
-    speed: Annotated[float, Within(1e-3, 1)] = 0.1
-    turning: Annotated[float, Within(1e-3, 10)] = 1.0
-    lag: float = 0.5
-    radius: Annotated[float, Within(1e-3, 0.1)] = 0.05
-    fps: AtLeastOne = 10
-
-    kinds = ("waypoint", "vessel")
-    actions = HELM
-    size = 1.0
-
-    def __post_init__(self):
-        checks.check_fields(self)
-        checks.assign(self, lag=checks.real("lag", self.lag, 1 / self.fps, 1e6),
-                      current=tuple(checks.real("current", each, -self.speed, self.speed)
-                                    for each in checks.several("current", self.current)))
-        if len(self.current) != 2:
-            raise checks.error("current", "(x, y)", self.current)
-
-    @property
-    def dynamics(self) -> Dynamics:
-        """The kernels."""
-        return Dynamics(reset, step)
-
-    @property
-    def things(self) -> int:
-        """The number of things: the waypoint and the other vessels."""
-        return 1 + self.traffic
-
-    @property
-    def rules(self) -> VesselRules:
-        """The rules as the kernels take them."""
-        return VesselRules(1.0 / self.fps, self.speed, self.turning, self.lag, self.radius, np.array(self.current))
-
-    def check_state(self, state: VesselState) -> None:
-        """Raise ValueError unless a state fits this world, is finite, and has a heading of length 1."""
-        super().check_state(state)
-        if not abs(np.linalg.norm(state.heading) - 1.0) < 1e-6:
-            raise checks.error("state.heading", "a vector of length 1", state.heading)
-
-
 @kernel
 def reset(state: VesselState, rules: VesselRules) -> None:
     """Start in the middle, heading east."""
@@ -137,7 +82,7 @@ def step(state: VesselState, rules: VesselRules, action: int):
         at = scene.position[axis] + (scene.velocity[axis] + rules.current[axis]) * rules.dt
         scene.position[axis] = min(max(at, 0.0), 1.0)
     for thing in range(scene.met.shape[0]):
-        meets = from_vessel(scene, thing) < rules.radius * rules.radius
+        meets = squared_distance(scene.things[thing], scene.position) < rules.radius * rules.radius
         scene.met[thing] = 1 + scene.kinds[thing] if meets else 0
         if meets:
             reward += 1.0 if scene.kinds[thing] == WAYPOINT else -1.0
@@ -179,7 +124,7 @@ def draw_thing(state, rules, thing):
     """Put a fresh waypoint or vessel into a slot."""
     scene = state.scene
     scene.things[thing, 0], scene.things[thing, 1] = uniform(state.stream), uniform(state.stream)
-    while from_vessel(scene, thing) < CLEAR * CLEAR:
+    while squared_distance(scene.things[thing], scene.position) < CLEAR * CLEAR:
         scene.things[thing, 0], scene.things[thing, 1] = uniform(state.stream), uniform(state.stream)
     state.course[thing, 0] = state.course[thing, 1] = 0.0
     if scene.kinds[thing] == TRAFFIC:
@@ -190,8 +135,52 @@ def draw_thing(state, rules, thing):
         state.course[thing, 0], state.course[thing, 1] = speed * east, speed * south
 
 
-@kernel
-def from_vessel(scene, thing):
-    """The squared distance of a thing from the vessel."""
-    dx, dy = scene.things[thing, 0] - scene.position[0], scene.things[thing, 1] - scene.position[1]
-    return dx * dx + dy * dy
+@dataclass(frozen=True)
+class Vessel(World, checks.Final):
+    """A vessel among others, see the module for its rules. Lengths are in widths of the area.
+
+    traffic: the number of other vessels, 0 … 64.
+    current: (x, y), widths per second, each at most `speed` in magnitude.
+    speed: widths per second through the water, 10⁻³ … 1. turning: the steady rate of turn with the rudder over, radians
+        per second, 10⁻³ … 10. lag: the time constant of the rate of turn, seconds, at least one step.
+    radius: the distance within which things are met, 10⁻³ … 0.1. fps: steps per second, 1 … 2³¹.
+
+    Raises ValueError for anything else.
+    """
+
+    traffic: Annotated[int, Within(0, 64)] = 3
+    current: Sequence[float] = (0.03, 0.0)
+    speed: Annotated[float, Within(1e-3, 1)] = 0.1
+    turning: Annotated[float, Within(1e-3, 10)] = 1.0
+    lag: float = 0.5
+    radius: Annotated[float, Within(1e-3, 0.1)] = 0.05
+    fps: AtLeastOne = 10
+
+    kinds = ("waypoint", "vessel")
+    dynamics = Dynamics(reset, step)
+    actions = HELM
+    size = 1.0
+
+    def __post_init__(self):
+        checks.check_fields(self)
+        checks.assign(self, lag=checks.real("lag", self.lag, 1 / self.fps, 1e6),
+                      current=tuple(checks.real("current", each, -self.speed, self.speed)
+                                    for each in checks.several("current", self.current)))
+        if len(self.current) != 2:
+            raise checks.error("current", "(x, y)", self.current)
+
+    @property
+    def things(self) -> int:
+        """The number of things: the waypoint and the other vessels."""
+        return 1 + self.traffic
+
+    @property
+    def rules(self) -> VesselRules:
+        """The rules as the kernels take them."""
+        return VesselRules(1.0 / self.fps, self.speed, self.turning, self.lag, self.radius, np.array(self.current))
+
+    def check_state(self, state: VesselState) -> None:
+        """Raise ValueError unless a state fits this world, is finite, and has a heading of length 1."""
+        super().check_state(state)
+        if not abs(np.linalg.norm(state.heading) - 1.0) < 1e-6:
+            raise checks.error("state.heading", "a vector of length 1", state.heading)

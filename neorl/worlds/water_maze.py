@@ -28,7 +28,7 @@ from neorl.core.kernel import array, kernel
 from neorl.core.scene import ABSENT, CARDINAL, Scene
 from neorl.core.stream import randint
 from neorl.worlds.arena import RIM
-from neorl.worlds.world import Dynamics, World
+from neorl.worlds.world import Dynamics, World, squared_distance
 
 PUSH = 0.02  # diameters per second that an action adds to the velocity
 DRAG = 0.95  # share of the velocity that a step retains
@@ -58,6 +58,54 @@ class WaterMazeRules(NamedTuple):
     push: array("float64", 5, 2)
 
 
+@kernel
+def reset(state: WaterMazeState, rules: WaterMazeRules) -> None:
+    """Start a trial, at rest at the rim."""
+    scene, start = state.scene, randint(state.stream, 4)
+    if state.trial[0] == 0:
+        scene.kinds[0] = ABSENT
+    day = state.trial[0] // rules.trials_a_day % rules.place.shape[0]
+    state.trial[0] += 1
+    state.clock[0] = scene.met[0] = 0
+    for axis in range(2):
+        scene.position[axis], scene.velocity[axis] = rules.start[start, axis], 0.0
+        state.platform[axis] = rules.place[day, axis]
+
+
+@kernel
+def step(state: WaterMazeState, rules: WaterMazeRules, action: int):
+    """Advance the state by one step of the rules. Returns (reward, done)."""
+    scene = state.scene
+    swim(scene, rules, action)
+    state.clock[0] += 1
+    found = squared_distance(scene.position, state.platform) < rules.radius * rules.radius
+    done = found or state.clock[0] >= rules.last_step
+    scene.met[0] = 1 + PLATFORM if found else 0
+    if done:
+        scene.kinds[0] = PLATFORM
+        scene.things[0, 0], scene.things[0, 1] = state.platform[0], state.platform[1]
+        if state.trial[0] <= state.latency.shape[0]:
+            state.latency[state.trial[0] - 1] = state.clock[0] * rules.dt
+    elif (scene.kinds[0] == PLATFORM
+          and squared_distance(scene.position, scene.things[0]) < rules.radius * rules.radius):
+        scene.kinds[0] = ABSENT
+    return 1.0 if found else 0.0, done
+
+
+@kernel
+def swim(scene, rules, action):
+    """Move the animal, along one axis after the other."""
+    for axis in range(2):
+        scene.velocity[axis] += PUSH * rules.push[action, axis]
+        before = scene.position[axis]
+        scene.position[axis] += scene.velocity[axis] * rules.dt
+        dx, dy = scene.position[0] - 0.5, scene.position[1] - 0.5
+        if dx * dx + dy * dy > 0.25:
+            scene.position[axis], scene.velocity[axis] = before, 0.0
+        else:
+            scene.velocity[axis] *= DRAG
+
+
 @dataclass(frozen=True)
 class WaterMaze(World, checks.Final):
     """A water maze, see the module for its rules. Lengths are fractions of the pool's diameter.
@@ -76,6 +124,7 @@ class WaterMaze(World, checks.Final):
     fps: AtLeastOne = 10
 
     kinds = ("platform",)
+    dynamics = Dynamics(reset, step)
     actions = CARDINAL
     size = 1.0
     things = 1
@@ -88,11 +137,6 @@ class WaterMaze(World, checks.Final):
         if not 1 <= len(self.places) <= 1_024 or any(
                 len(each) != 2 or (each[0] - 0.5)**2 + (each[1] - 0.5)**2 > 0.25 for each in self.places):
             raise checks.error("places", "one to 1024 places (x, y) in the pool", self.places)
-
-    @property
-    def dynamics(self) -> Dynamics:
-        """The kernels."""
-        return Dynamics(reset, step)
 
     @property
     def trials(self) -> int:
@@ -117,57 +161,3 @@ class WaterMaze(World, checks.Final):
         super().check_state(state)
         if not state.trial[0] >= 1:
             raise checks.error("state.trial", "an integer of at least 1", state.trial)
-
-
-@kernel
-def reset(state: WaterMazeState, rules: WaterMazeRules) -> None:
-    """Start a trial, at rest at the rim."""
-    scene, start = state.scene, randint(state.stream, 4)
-    if state.trial[0] == 0:
-        scene.kinds[0] = ABSENT
-    day = state.trial[0] // rules.trials_a_day % rules.place.shape[0]
-    state.trial[0] += 1
-    state.clock[0] = scene.met[0] = 0
-    for axis in range(2):
-        scene.position[axis], scene.velocity[axis] = rules.start[start, axis], 0.0
-        state.platform[axis] = rules.place[day, axis]
-
-
-@kernel
-def step(state: WaterMazeState, rules: WaterMazeRules, action: int):
-    """Advance the state by one step of the rules. Returns (reward, done)."""
-    scene = state.scene
-    swim(scene, rules, action)
-    state.clock[0] += 1
-    found = is_near(scene.position, state.platform, rules.radius)
-    done = found or state.clock[0] >= rules.last_step
-    scene.met[0] = 1 + PLATFORM if found else 0
-    if done:
-        scene.kinds[0] = PLATFORM
-        scene.things[0, 0], scene.things[0, 1] = state.platform[0], state.platform[1]
-        if state.trial[0] <= state.latency.shape[0]:
-            state.latency[state.trial[0] - 1] = state.clock[0] * rules.dt
-    elif scene.kinds[0] == PLATFORM and is_near(scene.position, scene.things[0], rules.radius):
-        scene.kinds[0] = ABSENT
-    return 1.0 if found else 0.0, done
-
-
-@kernel
-def swim(scene, rules, action):
-    """Move the animal, along one axis after the other."""
-    for axis in range(2):
-        scene.velocity[axis] += PUSH * rules.push[action, axis]
-        before = scene.position[axis]
-        scene.position[axis] += scene.velocity[axis] * rules.dt
-        dx, dy = scene.position[0] - 0.5, scene.position[1] - 0.5
-        if dx * dx + dy * dy > 0.25:
-            scene.position[axis], scene.velocity[axis] = before, 0.0
-        else:
-            scene.velocity[axis] *= DRAG
-
-
-@kernel
-def is_near(one, other, radius):
-    """Whether two places are closer than a radius."""
-    dx, dy = one[0] - other[0], one[1] - other[1]
-    return dx * dx + dy * dy < radius * radius

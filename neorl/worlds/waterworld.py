@@ -54,70 +54,6 @@ class Rules(NamedTuple):
     rounding: float  # added to a coordinate before it is truncated to whole pixels
 
 
-@dataclass(frozen=True)
-class WaterWorld(World, checks.Final):
-    """The rules of one tank.
-
-    width: pixels per side, 11 … 2³¹, so that the radius of 4.7 % rounds to a pixel or more.
-    n_creeps: creeps in the tank at any time, 1 … 2²⁰.
-    fps: steps per simulated second, 1 … 2³¹. An action acts per step, so this changes the task.
-    win_reward: paid as well when the last green creep is taken: 5 in the original and in paper A, 0 in papers B and C.
-        From −10³⁰ to 10³⁰, so that the rewards of a bin do not overflow.
-    contact: whether positions are "rounded" to whole pixels before they are compared, as in pygame 2, or "truncated",
-        as in pygame 1.9.
-
-    Raises ValueError for anything else.
-    """
-
-    kinds = ("green", "red")
-    actions = CARDINAL
-
-    width: AtLeastOne = 250
-    n_creeps: Annotated[int, Within(1, 2**20)] = 3
-    fps: AtLeastOne = 50
-    win_reward: float = 0.0
-    contact: Annotated[str, OneOf(CONTACTS)] = "rounded"
-
-    def __post_init__(self):
-        checks.check_fields(self)
-        if self.radius < 1:
-            raise checks.error("width", "11 pixels or more, since a creep's radius is 4.7 % of it", self.width)
-
-    @property
-    def dynamics(self) -> Dynamics:
-        """The kernels."""
-        return Dynamics(reset, step)
-
-    @property
-    def size(self) -> int:
-        """The width, which is the unit of length for agents."""
-        return self.width
-
-    @property
-    def things(self) -> int:
-        """The number of creeps."""
-        return self.n_creeps
-
-    @property
-    def radius(self) -> int:
-        """The radius of agent and creeps in whole pixels."""
-        return round(0.047 * self.width)
-
-    @property
-    def rules(self) -> Rules:
-        """The rules as the kernels take them."""
-        return Rules(float(self.width), float(self.radius), 1.0 / self.fps, float(self.win_reward),
-                     0.5 if self.contact == "rounded" else 0.0)
-
-    def check_state(self, state: WaterWorldState) -> None:
-        """Raise ValueError unless a state fits this world and is finite."""
-        super().check_state(state)
-        if not np.all(np.abs(np.linalg.norm(state.direction, axis=1) - 1.0) < 1e-6):
-            raise checks.error("state.direction", "vectors of length 1", state.direction)
-        if not np.all((0.0 <= state.jitter) & (state.jitter <= 1.0)):
-            raise checks.error("state.jitter", "numbers from 0 to 1", state.jitter)
-
-
 @kernel
 def draw_creep(state, rules, creep):
     """Put a fresh creep into a slot: anywhere but within 1.5 pixels of the agent."""
@@ -218,3 +154,64 @@ def move_creep(state, rules, creep):
     length = math.sqrt(x * x + y * y)
     state.direction[creep, 0] = x / length
     state.direction[creep, 1] = y / length
+
+
+@dataclass(frozen=True)
+class WaterWorld(World, checks.Final):
+    """The rules of one tank.
+
+    width: pixels per side, 11 … 2³¹, so that the radius of 4.7 % rounds to a pixel or more.
+    n_creeps: creeps in the tank at any time, 1 … 2²⁰.
+    fps: steps per simulated second, 1 … 2³¹. An action acts per step, so this changes the task.
+    win_reward: paid as well when the last green creep is taken: 5 in the original and in paper A, 0 in papers B and C.
+        From −10³⁰ to 10³⁰, so that the rewards of a bin do not overflow.
+    contact: whether positions are "rounded" to whole pixels before they are compared, as in pygame 2, or "truncated",
+        as in pygame 1.9.
+
+    Raises ValueError for anything else.
+    """
+
+    kinds = ("green", "red")
+    dynamics = Dynamics(reset, step)
+    actions = CARDINAL
+    bounded = True
+
+    width: AtLeastOne = 250
+    n_creeps: Annotated[int, Within(1, 2**20)] = 3
+    fps: AtLeastOne = 50
+    win_reward: float = 0.0
+    contact: Annotated[str, OneOf(CONTACTS)] = "rounded"
+
+    def __post_init__(self):
+        checks.check_fields(self)
+        if self.radius < 1:
+            raise checks.error("width", "11 pixels or more, since a creep's radius is 4.7 % of it", self.width)
+
+    @property
+    def size(self) -> int:
+        """The width, which is the unit of length for agents."""
+        return self.width
+
+    @property
+    def things(self) -> int:
+        """The number of creeps."""
+        return self.n_creeps
+
+    @property
+    def radius(self) -> int:
+        """The radius of agent and creeps in whole pixels."""
+        return round(0.047 * self.width)
+
+    @property
+    def rules(self) -> Rules:
+        """The rules as the kernels take them."""
+        return Rules(float(self.width), float(self.radius), 1.0 / self.fps, float(self.win_reward),
+                     0.5 if self.contact == "rounded" else 0.0)
+
+    def check_state(self, state: WaterWorldState) -> None:
+        """Raise ValueError unless a state fits this world and is finite."""
+        super().check_state(state)
+        if not np.all(np.abs(np.linalg.norm(state.direction, axis=1) - 1.0) < 1e-6):
+            raise checks.error("state.direction", "vectors of length 1", state.direction)
+        if not np.all((0.0 <= state.jitter) & (state.jitter <= 1.0)):
+            raise checks.error("state.jitter", "numbers from 0 to 1", state.jitter)

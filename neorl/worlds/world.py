@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from neorl import checks
 from neorl.description import Described
-from neorl.core.kernel import Kernel, execute, fields, full_name, is_tuple, length, new_tuple
+from neorl.core.kernel import Kernel, execute, fields, full_name, is_tuple, kernel, length, new_tuple
 from neorl.core.scene import Actions
 from neorl.core.stream import new_stream
 
@@ -34,6 +34,13 @@ class Dynamics(NamedTuple):
 
     reset: Kernel  # (state, rules)
     step: Kernel  # (state, rules, action) → (reward, done)
+
+
+@kernel
+def squared_distance(one, other):
+    """The squared distance of two places in the plane."""
+    dx, dy = one[0] - other[0], one[1] - other[1]
+    return dx * dx + dy * dy
 
 
 class _Checking(type):
@@ -70,6 +77,7 @@ class World(Described, metaclass=_Checking):
     size: Any
     fps: Any
     rules: Any
+    bounded: Any = False  # whether all its places are from 0 to 1 along every axis, in units of its size
     terminal: Any = None  # for each kind, whether meeting it ends a trial that otherwise ends by a limit of time
 
     def __init_subclass__(cls, **keywords: Any) -> None:
