@@ -3,13 +3,11 @@
 >>> from neorl import drawing
 >>> axes = drawing.draw_world(neorl.WaterWorld(), neorl.WaterWorld().reset(seed=0))
 
-A figure of one panel is drawn into ``ax``, or into a new figure if that is None, and its axes are returned. A figure of
-several panels is drawn into ``figure``, which may be one of `matplotlib.figure.Figure.subfigures`, and an array of axes
-is returned.
+A figure of one panel is drawn into ``ax``, or into a new figure if that is None, and its axes are returned.
 
-- curves: `draw_accumulated`, `draw_proficiency`, `draw_smoothed`, `draw_curves`, `draw_sweep`, `draw_costs`;
-- boards: `new_board`, `new_boards`, `draw_world`, `draw_walls`, `draw_tank`, `draw_desires`, `animate`;
-- maps: `draw_cells`, `draw_values`, `draw_value_map`, `draw_receptive_fields`; `track`, `rate_map`, `draw_rate_map`;
+- curves: `draw_accumulated`, `draw_proficiency`, `draw_smoothed`, `draw_curves`, `draw_sweep`;
+- boards: `new_board`, `new_boards`, `draw_world`, `draw_walls`, `draw_tank`;
+- maps: `draw_cells`, `draw_values`, `draw_value_map`;
 - networks: `draw_network`, `neorl.drawing.draw_networks`;
 - style: `use_style`, `STYLE` and the colours.
 
@@ -21,18 +19,12 @@ from neorl.extras import require
 require("matplotlib", extra="plot")
 
 # ruff: noqa: E402
-from neorl.drawing.animation import animate
-from neorl.drawing.boards import draw_desires, draw_tank, draw_walls, draw_world, new_board, new_boards
-from neorl.drawing.curves import (draw_accumulated, draw_costs, draw_curves, draw_proficiency, draw_smoothed,
-                                  draw_sweep)
+from neorl.drawing.boards import draw_tank, draw_walls, draw_world, new_board, new_boards
+from neorl.drawing.curves import draw_accumulated, draw_curves, draw_proficiency, draw_smoothed, draw_sweep
 from neorl.drawing.network_figures import draw_network, draw_networks
-from neorl.drawing.rate_maps import Track, draw_rate_map, rate_map, track
-from neorl.drawing.receptive_fields import draw_receptive_fields
 from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, STYLE, use_style
 from neorl.drawing.value_maps import draw_cells, draw_value_map, draw_values
 
-__all__ = ["AGENT", "CURVES", "GREEN", "INK", "RED", "STYLE", "Track", "animate", "draw_accumulated",
-           "draw_cells", "draw_costs", "draw_curves", "draw_desires", "draw_network", "draw_networks",
-           "draw_proficiency", "draw_rate_map", "draw_receptive_fields", "draw_smoothed", "draw_sweep",
-           "draw_tank", "draw_value_map", "draw_values", "draw_walls", "draw_world", "new_board",
-           "new_boards", "rate_map", "track", "use_style"]
+__all__ = ["AGENT", "CURVES", "GREEN", "INK", "RED", "STYLE", "draw_accumulated", "draw_cells", "draw_curves",
+           "draw_network", "draw_networks", "draw_proficiency", "draw_smoothed", "draw_sweep", "draw_tank",
+           "draw_value_map", "draw_values", "draw_walls", "draw_world", "new_board", "new_boards", "use_style"]

@@ -13,7 +13,6 @@ from matplotlib.patches import Circle, Rectangle
 
 from neorl import checks
 from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, axes_or_new, width_of_figures
-from neorl.experiments.run import Run
 from neorl.worlds import waterworld
 from neorl.worlds.arena import Arena
 from neorl.worlds.probe import HALF_SECOND
@@ -139,38 +138,6 @@ def _draw_velocity(axes, place, velocity):
     (x, y), (dx, dy) = place, HALF_SECOND * np.asarray(velocity)
     axes.annotate("", (x + dx, y + dy), (x, y), zorder=0,
                   arrowprops={"arrowstyle": "->", "color": INK, "linewidth": 1.4, "shrinkA": 0, "shrinkB": 0})
-
-
-def draw_desires(run: Run, ax: Axes | None = None) -> Axes:
-    """Draw where the desires between nodes place their elements of interest, as arrows from the agent to squares.
-
-    An arrow without a square leads to an element beyond the margin of the board.
-
-    run: a `neorl.Run` in a world of two axes. Raises ValueError for anything else.
-
-    >>> run = neorl.Run(neorl.network_b([3, 5]), neorl.WaterWorld())
-    >>> paid = run.advance(1_000)
-    >>> axes = drawing.draw_desires(run, drawing.draw_world(run.world, run.world_state))
-    """
-    check_run_in_plane(run)
-    axes = board_or_new(ax)
-    start = run.world_state.scene.position / run.world.size
-    for desire, landing in zip(run.agent.desires, run.state.desires.target[:, :2]):
-        if run.agent.comes_from_node(desire):
-            colour = desire_colour(desire)
-            low, high = (np.array([[-MARGIN], [1 + MARGIN]]) - start)[:, landing != 0] / landing[landing != 0]
-            shown = min(1.0, np.maximum(low, high).min(initial=1.0))
-            axes.annotate("", start + shown * landing, start, annotation_clip=False, arrowprops={
-                "arrowstyle": "->", "color": colour, "linestyle": "--", "linewidth": 1.6, "shrinkA": 8, "shrinkB": 3})
-            if shown == 1:
-                axes.plot(*(start + landing), marker="s", markersize=7, color=colour, clip_on=False)
-    return axes
-
-
-def check_run_in_plane(run):
-    """Raise ValueError unless it is a `neorl.Run` in a world of two axes."""
-    if checks.instance("run", run, Run).world.actions.axes != 2:
-        raise ValueError(f"world of run must have two axes to be drawn, but has {run.world.actions.axes}")
 
 
 def desire_colour(desire):

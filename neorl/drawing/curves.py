@@ -12,7 +12,7 @@ from matplotlib.transforms import offset_copy
 from numpy.typing import ArrayLike
 
 from neorl import checks
-from neorl.drawing.style import CURVES, INK, axes_or_new, by_name, looks, name_ends, numbers
+from neorl.drawing.style import INK, axes_or_new, by_name, looks, name_ends, numbers
 from neorl.evidence.curves import CUTOFF_PERIODS, binned_rate, low_passed
 from neorl.evidence.statistics import Estimate, mean_band, tolerance_band
 from neorl.experiments.result import Result
@@ -203,27 +203,3 @@ def add_estimates(axes, xs, estimates_by_name, linewidth):
             each.set_transform(offset_copy(axes.transData, axes.figure, (rank - middle) * APART, units="points"))
         ends.append((value[-1], name, colour))
     name_ends(axes, ends)
-
-
-def draw_costs(labels: Sequence[str], measured: ArrayLike, predicted: ArrayLike,
-               ax: Axes | None = None) -> Axes:
-    """Draw the cost of an agent to which maps are added one by one, in microseconds per step, beside the sum of costs.
-
-    labels: of the maps. measured, predicted: (maps,), the microseconds with all maps so far, and the sum of the costs
-        of each.
-    Raises ValueError for anything else.
-
-    >>> axes = drawing.draw_costs(["N3", "N7"], measured=[0.2, 0.5], predicted=[0.2, 0.6])
-    """
-    labels = [str(label) for label in checks.several("labels", labels)]
-    costs, sums = checks.doubles("measured", measured), checks.doubles("predicted", predicted)
-    if not labels or not (len(labels),) == costs.shape == sums.shape:
-        raise ValueError("labels, measured and predicted must have a value for every map, but have "
-                         f"{len(labels)}, {costs.shape} and {sums.shape}")
-    axes = axes_or_new(ax)
-    axes.plot(labels, sums, color=INK, linewidth=1.2)
-    axes.plot(labels, costs, color=CURVES[0], linestyle="none", marker="o", markersize=5)
-    axes.set(ylabel="microseconds per step", ylim=(0, None))
-    axes.tick_params(axis="x", rotation=60)
-    name_ends(axes, [(costs[-1], "measured", CURVES[0]), (sums[-1], "sum", INK)])
-    return axes

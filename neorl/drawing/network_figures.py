@@ -10,8 +10,8 @@ from textwrap import wrap
 from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure, SubFigure
 from matplotlib.font_manager import FontProperties
 from matplotlib.patches import Circle, FancyArrowPatch, FancyBboxPatch
 from matplotlib.path import Path
@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from neorl import checks
 from neorl.agents.agent import Agent, Desire, Place
 from neorl.drawing.boards import desire_colour
-from neorl.drawing.style import AGENT, INK, TEXT, axes_or_new, by_name, figure_or_new, width_of_figures
+from neorl.drawing.style import AGENT, INK, TEXT, axes_or_new, by_name, width_of_figures
 
 LARGEST = 11  # points per em
 SMALL = 0.92  # of an em: all letters except those of names
@@ -118,11 +118,10 @@ def draw_network(agent: Agent, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def draw_networks(agents: Mapping[str, Agent], figure: Figure | SubFigure | None = None) -> NDArray[Any]:
-    """Draw networks one below the other, all in letters of the same size.
+def draw_networks(agents: Mapping[str, Agent]) -> NDArray[Any]:
+    """Draw networks one below the other in a new figure, all in letters of the same size.
 
-    agents: {name: `neorl.Agent`}. figure: a matplotlib figure or a part of one to fill; by default a new one.
-    Returns an array of axes, one for each. Raises ValueError for anything else.
+    agents: {name: `neorl.Agent`}. Returns an array of axes, one for each. Raises ValueError for anything else.
 
     >>> axes = drawing.draw_networks({"C": neorl.network_c(), "D": neorl.network_d()})
     """
@@ -134,11 +133,7 @@ def draw_networks(agents: Mapping[str, Agent], figure: Figure | SubFigure | None
     heights = [head + HEAD + drawing.height for drawing in drawings]
     inches = width_of_figures()
     em = min(LARGEST, 72 * inches / (width + 1))
-    if figure is not None:
-        box = figure_or_new(figure, None).bbox
-        inches = box.width / figure.dpi
-        em = min(LARGEST, 72 * inches / (width + 1), 72 / figure.dpi * box.height / sum(heights))
-    whole = figure_or_new(figure, (inches, em * sum(heights) / 72), layout="none")
+    whole = plt.figure(figsize=(inches, em * sum(heights) / 72), layout="none")
     panels = []
     for i, (name, drawing) in enumerate(zip(agents, drawings)):
         axes = whole.add_axes((0, sum(heights[i + 1 :]) / sum(heights), 1, heights[i] / sum(heights)))

@@ -14,7 +14,6 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.colors import is_color_like, to_hex, to_rgb
-from matplotlib.figure import Figure, SubFigure
 
 from neorl import checks
 
@@ -47,13 +46,6 @@ def axes_or_new(ax, figsize=None, **options):
     if ax is None:
         return plt.figure(figsize=figsize, layout="constrained").add_subplot(**options)
     return checks.instance("ax", ax, Axes)
-
-
-def figure_or_new(figure, figsize, layout="constrained"):
-    """`figure`, a figure or a part of one, or a new one if it is None. Raises ValueError for anything else."""
-    if figure is None:
-        return plt.figure(figsize=figsize, layout=layout)
-    return figure if isinstance(figure, SubFigure) else checks.instance("figure", figure, Figure)
 
 
 def width_of_figures():

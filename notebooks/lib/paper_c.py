@@ -7,6 +7,7 @@ import numpy as np
 
 from lib.shared.wording import table
 from lib.shared.thesis_figures import mark_levels
+from neorl.drawing.boards import MARGIN, desire_colour
 from neorl.drawing.curves import draw_proficiency
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.statistics import estimate
@@ -29,6 +30,23 @@ def draw_rates(results, of_paper):
     if of_paper:
         level = max(0.0, DRASTIC * results["C"].rate(*FINAL).mean())
         mark_levels(axes, {f"thesis: D beyond {DRASTIC} × C": level})
+
+
+def draw_desires(run, axes):
+    """Draw where the desires between nodes place their elements of interest, as arrows from the agent to squares.
+
+    An arrow without a square leads to an element beyond the margin of the board.
+    """
+    start = run.world_state.scene.position / run.world.size
+    for desire, landing in zip(run.agent.desires, run.state.desires.target[:, :2]):
+        if run.agent.comes_from_node(desire):
+            colour = desire_colour(desire)
+            low, high = (np.array([[-MARGIN], [1 + MARGIN]]) - start)[:, landing != 0] / landing[landing != 0]
+            shown = min(1.0, np.maximum(low, high).min(initial=1.0))
+            axes.annotate("", start + shown * landing, start, annotation_clip=False, arrowprops={
+                "arrowstyle": "->", "color": colour, "linestyle": "--", "linewidth": 1.6, "shrinkA": 8, "shrinkB": 3})
+            if shown == 1:
+                axes.plot(*(start + landing), marker="s", markersize=7, color=colour, clip_on=False)
 
 
 def final_rates(results):

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
+from lib import paper_c
+from lib.paper_b.receptive_fields import draw_receptive_fields
 from neorl import (Condition, NresMap, Result, Run, WaterWorld, brownian, network_b, object_vector_cells, place_cells,
                    simulate)
 from neorl.core.geometry import TAU
@@ -102,7 +104,7 @@ def moving_tank():
 def test_the_active_receptive_fields_are_filled(modality, resolution):
     world, state = moving_tank()
     nres_map, axes = NresMap(resolution, modality), drawing.new_board()
-    drawing.draw_receptive_fields(nres_map, world, state, axes)
+    draw_receptive_fields(nres_map, world, state, axes)
     axes.figure.draw_without_rendering()
     active = set(nres_map.encode(modality.coordinates(state.scene, world.size)))
     fills = [fill for fill in axes.collections if fill.get_alpha()]
@@ -120,7 +122,8 @@ def test_desires_are_drawn_where_they_land_or_towards_it_if_that_is_far_away():
     run = Run(network_b([3, 5]), WaterWorld(), seed=0)
     start = run.world_state.scene.position / 250
     run._state.desires.target[2:, :2] = [[0.1, -0.2], [9.0, 3.0]]
-    axes = drawing.draw_desires(run, drawing.new_board())
+    axes = drawing.new_board()
+    paper_c.draw_desires(run, axes)
     (near,) = axes.lines
     np.testing.assert_allclose(near.get_xydata()[0] - start, [0.1, -0.2])
     assert near.get_color() == drawing.GREEN

@@ -37,13 +37,11 @@ def figures_of_one_panel(run):
     return {
         drawing.draw_accumulated: ({"N2": made_up(1)},), drawing.draw_proficiency: ({"N2": made_up(1)},),
         drawing.draw_smoothed: ({"N2": made_up(1)},), drawing.draw_curves: (np.arange(4), curves),
-        drawing.draw_sweep: ([1, 2], ESTIMATES), drawing.draw_costs: (["a", "b"], [1.0, 2.1], np.array([1.0, 2.0])),
+        drawing.draw_sweep: ([1, 2], ESTIMATES),
         drawing.draw_network: (network_d(),), drawing.draw_cells: (NresMap(3),),
         drawing.draw_values: (NresMap(3), np.ones((9, 4)) * [0, 1, 0, 0]),
         drawing.draw_value_map: (run, [(0.5, 0.5)]), drawing.draw_world: (TANK, run.world_state),
-        drawing.draw_tank: (TANK, run.world_state), drawing.draw_walls: (TANK,), drawing.draw_desires: (run,),
-        drawing.draw_receptive_fields: (NresMap(3), TANK, run.world_state),
-        drawing.draw_rate_map: (drawing.Track(np.full((5, 2), 0.5), np.zeros((5, 1), int), 0.02),)}
+        drawing.draw_tank: (TANK, run.world_state), drawing.draw_walls: (TANK,)}
 
 
 def test_a_figure_of_one_panel_is_drawn_into_the_axes_that_are_given_and_into_no_other(run):
@@ -53,7 +51,7 @@ def test_a_figure_of_one_panel_is_drawn_into_the_axes_that_are_given_and_into_no
     for draw, arguments in functions.items():
         figure, (left, right) = plt.subplots(1, 2)
         assert draw(*arguments, ax=right) is right
-        assert right.has_data() or right.texts or right.patches or draw is drawing.draw_desires, draw
+        assert right.has_data() or right.texts or right.patches, draw
         assert not left.has_data() and not left.patches and plt.get_fignums() == [figure.number], draw
         plt.close(figure)
         assert draw(*arguments).figure.number == plt.gcf().number  # a figure of its own

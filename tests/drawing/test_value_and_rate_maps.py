@@ -1,13 +1,14 @@
-"""Maps of values, receptive fields and rates show the right numbers."""
+"""Maps of values and receptive fields show the right numbers."""
 
 import numpy as np
 import pytest
 from matplotlib.patches import Wedge
 from matplotlib.transforms import Affine2D
 
-from neorl import Agent, Axis, Desire, Modality, Node, NresMap, Run, WaterWorld, drawing, place_cells
+from lib.paper_b.receptive_fields import draw_receptive_fields
+from neorl import Agent, Axis, Desire, Modality, Node, NresMap, Run, WaterWorld, drawing
 from neorl.core.geometry import TAU
-from neorl.core.modality import (HEAD_DIRECTION_CELL, OBJECT_VECTOR_CELL, PLACE_CELL, polar)
+from neorl.core.modality import HEAD_DIRECTION_CELL, OBJECT_VECTOR_CELL, PLACE_CELL, polar
 
 TANK = WaterWorld()
 UNEQUAL = (0.0, 0.1, 0.25, 0.7, 1.0)
@@ -73,7 +74,7 @@ def test_receptive_fields_lie_where_their_boundaries_are(modality):
     state.scene.position[:] = np.array([0.61, 0.43]) * TANK.width
     state.scene.velocity[:] = np.array([-0.3, 0.13]) * TANK.width
     nres_map = NresMap(3, modality)
-    axes = drawing.draw_receptive_fields(nres_map, TANK, state)
+    axes = draw_receptive_fields(nres_map, TANK, state)
     agent = state.scene.position / TANK.width
 
     def encode(vectors):
@@ -89,27 +90,3 @@ def test_receptive_fields_lie_where_their_boundaries_are(modality):
     fills = [fill for fill in axes.collections if fill.get_alpha()]
     filled = np.any([[fill.get_paths()[0].contains_point(place) for place in places] for fill in fills], axis=0)
     assert np.mean(filled == np.isin(encode(seen), encode(perceived))) > 0.97  # all but where corners are rounded
-
-
-def test_a_track_holds_the_positions_and_cells_of_the_run():
-    seen, run, alone = Run(place_cells([4]), TANK), Run(place_cells([4]), TANK), []
-    track = drawing.track(seen, seconds=2)
-    for _ in range(100):
-        run.advance(1)
-        alone.append(run.world_state.scene.position / TANK.width)
-    np.testing.assert_array_equal(track.position, alone)
-    np.testing.assert_array_equal(track.cells[:, 0], NresMap(4).encode(alone))
-    assert (seen.step, track.step) == (100, 0.02)
-    few = drawing.track(Run(place_cells([4]), WaterWorld(fps=500)), seconds=2)
-    assert few.position.shape == (100, 2) and few.step == pytest.approx(0.02)
-
-
-def test_the_rate_of_a_place_cell_is_its_field_and_where_the_agent_never_was_is_empty():
-    position = np.array([[0.1, 0.1], [0.1, 0.1], [0.9, 0.1], [0.1, 0.9], [1.2, 0.9]])
-    cells = np.array([[0, 7], [3, 0], [0, 5], [3, 3], [0, 0]])
-    track = drawing.Track(position, cells, 0.02)
-    np.testing.assert_array_equal(drawing.rate_map(track, cell=0, bins=2), [[1, 1], [0, 1]])
-    np.testing.assert_array_equal(drawing.rate_map(track, cell=3, bins=2), [[0.5, 0], [1, 0]])
-    np.testing.assert_allclose(drawing.rate_map(track, bins=2), [[0.04, 0.02], [0.02, 0.02]])
-    assert np.isnan(drawing.rate_map(track, cell=0, bins=3)[1, 1])
-    assert drawing.rate_map(track, bins=7).sum() == pytest.approx(5 * 0.02)

@@ -7,6 +7,7 @@ N is a resolution, or "all" for the agent with all of them. `AGENTS` names those
 import numpy as np
 from matplotlib.patches import Circle
 
+from lib.paper_b.receptive_fields import draw_receptive_fields
 from lib.paper_b.trials import SECONDS_A_MOVE, best_values, values_for_objects
 from lib.shared.report import CALIBRATED, LETTER
 from lib.shared.wording import table
@@ -15,8 +16,7 @@ from neorl.core.maps import NresMap
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, MODALITIES
 from neorl.drawing.boards import as_board, draw_tank, new_boards
 from neorl.drawing.curves import draw_curves, draw_sweep
-from neorl.drawing.receptive_fields import draw_receptive_fields
-from neorl.drawing.style import AGENT, FILL, GREEN, INK, mark
+from neorl.drawing.style import AGENT, CURVES, FILL, GREEN, INK, axes_or_new, mark, name_ends
 from neorl.drawing.value_maps import draw_cells, draw_values
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.statistics import estimate, quotient
@@ -54,6 +54,16 @@ def draw_agents(thesis, found, xlabel):
     draw_against_thesis({LABELS[agent]: number for agent, number in thesis.items()},
                         {name: {LABELS[agent]: of_agents[agent] for agent in thesis}
                          for name, of_agents in found.items()}, xlabel)
+
+
+def draw_costs(costs):
+    """Draw microseconds per step of agents with one more map each, beside the sums of the costs of these maps."""
+    axes = axes_or_new(None)
+    axes.plot(costs.labels, costs.predicted, color=INK, linewidth=1.2)
+    axes.plot(costs.labels, costs.measured, color=CURVES[0], linestyle="none", marker="o", markersize=5)
+    axes.set(ylabel="microseconds per step", ylim=(0, None))
+    axes.tick_params(axis="x", rotation=60)
+    name_ends(axes, [(costs.measured[-1], "measured", CURVES[0]), (costs.predicted[-1], "sum", INK)])
 
 
 def draw_states():

@@ -1,41 +1,24 @@
 """Receptive fields of maps of any modality, drawn over a board for a given position of the agent."""
 
-from typing import Any
-
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.patches import Rectangle
 
-from neorl import checks
 from neorl.core.geometry import TAU
-from neorl.core.maps import NresMap
 from neorl.drawing.boards import board_or_new
 from neorl.drawing.style import AGENT, INK
 from neorl.worlds.probe import HALF_SECOND
-from neorl.worlds.world import World
 
 RASTER = 121  # places along each side at which receptive fields are evaluated
 
 
-def draw_receptive_fields(nres_map: NresMap, world: World, state: Any, ax: Axes | None = None) -> Axes:
-    """Draw the receptive fields of a map over the board, those of active cells filled, into `ax` or a new board.
+def draw_receptive_fields(nres_map, world, state, ax=None):
+    """Draw the receptive fields of a map of one vector over the board, those of active cells filled; returns the axes.
 
     By modality, a place stands for itself, for a thing there as the agent would perceive it, or for the velocity that
     takes the agent there in half a second.
-
-    nres_map: a `neorl.NresMap` of a modality of one vector.
-    world: of two axes.
-    state: of that world.
-    Returns the axes. Raises ValueError for anything else.
-
-    >>> tank = neorl.WaterWorld()
-    >>> axes = drawing.draw_receptive_fields(neorl.NresMap(5), tank, tank.reset(seed=0))
     """
-    modality = checks.instance("nres_map", nres_map, NresMap).modality
-    if checks.instance("world", world, World).actions.axes != 2:
-        raise ValueError(f"world must have two axes to be drawn, but has {world.actions.axes}")
-    world.check_state(state)
+    modality = nres_map.modality
     agent = state.scene.position / world.size
     side = np.linspace(0, 1, RASTER)
     places = np.stack(np.meshgrid(side, side), axis=-1)
@@ -43,7 +26,7 @@ def draw_receptive_fields(nres_map: NresMap, world: World, state: Any, ax: Axes 
     at = _in_intervals(nres_map, modality.tune(vectors))
     axes = board_or_new(ax)
     arena = axes.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
-    thin: dict[str, Any] = {"linewidths": 0.8, "colors": INK, "zorder": -1}
+    thin = {"linewidths": 0.8, "colors": INK, "zorder": -1}
     for i, (axis, n) in enumerate(zip(modality.axes, nres_map.intervals)):
         borders = np.arange(1, n)
         borders = borders[(at[..., i].min() < borders) & (borders < at[..., i].max())]

@@ -8,6 +8,7 @@ its axes.
 from textwrap import fill
 
 import numpy as np
+from matplotlib import pyplot as plt
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
@@ -16,7 +17,7 @@ from lib.study.calibration_results import INTERVALS, marginal, progress
 from lib.study.calibration_targets import TARGETS
 from lib.study.multiverse import binned
 from lib.study.multiverse_figures import SHADES
-from neorl.drawing.style import (AGENT, CURVES, INK, RED, SMALL, TEXT, axes_or_new, figure_or_new, name_ends,
+from neorl.drawing.style import (AGENT, CURVES, INK, RED, SMALL, TEXT, axes_or_new, name_ends,
                                  width_of_figures)
 from neorl.evidence.curves import binned_rate, low_passed
 
@@ -27,7 +28,7 @@ POINTS = 100  # of a predicted curve
 COLUMNS = 2  # of panels
 
 
-def draw_marginals(remaining, nearest, names=tuple(WITHIN), figure=None):
+def draw_marginals(remaining, nearest, names=tuple(WITHIN)):
     """Prior (outlines) and posterior (bars) of each choice, as shares of its levels.
 
     remaining: a `Posterior`, the bars. nearest: another, whose shares are drawn as points. names: of the choices.
@@ -35,7 +36,8 @@ def draw_marginals(remaining, nearest, names=tuple(WITHIN), figure=None):
     each = [marginal(name, remaining) for name in names]
     rows = [each[i : i + COLUMNS] for i in range(0, len(each), COLUMNS)]
     heights = [max(len(found.levels) for found in row) for row in rows]
-    figure = figure_or_new(figure, (width_of_figures(), sum(ROW * high + 0.42 for high in heights)))
+    figure = plt.figure(figsize=(width_of_figures(), sum(ROW * high + 0.42 for high in heights)),
+                        layout="constrained")
     grid = figure.subplots(len(rows), COLUMNS, height_ratios=heights, squeeze=False)
     for axes, name, found in zip(grid.flat, names, each):
         at = np.arange(len(found.levels))
@@ -55,13 +57,13 @@ def draw_marginals(remaining, nearest, names=tuple(WITHIN), figure=None):
     return grid
 
 
-def draw_pairs(remaining, names, figure=None):
+def draw_pairs(remaining, names):
     """The joint posterior of pairs of choices, and on the diagonal the marginal of each.
 
     remaining: a `Posterior`. names: of the choices, at least two.
     """
     size = width_of_figures()
-    grid = figure_or_new(figure, (size, size)).subplots(len(names), len(names), squeeze=False)
+    grid = plt.figure(figsize=(size, size), layout="constrained").subplots(len(names), len(names), squeeze=False)
     cut = [binned(name, remaining.readings, INTERVALS) for name in names]
     for i, (below, _, down) in enumerate(cut):
         for j, (beside, _, across) in enumerate(cut):
@@ -118,7 +120,7 @@ def draw_together(together, ax=None):
     return axes
 
 
-def draw_conflicts(found, row, figure=None):
+def draw_conflicts(found, row):
     """What each target that a row misses goes together with least: all readings that were run, by both statistics.
 
     Shaded is where both targets are met; the middle 96 % of the readings are shown, the row as a ring. A panel's
@@ -127,7 +129,7 @@ def draw_conflicts(found, row, figure=None):
     found: of `calibration_results.conflicts`, at least one. row: the `Row` that was asked about.
     """
     high = -(-len(found) // COLUMNS)
-    figure = figure_or_new(figure, (width_of_figures(), 2.1 * high))
+    figure = plt.figure(figsize=(width_of_figures(), 2.1 * high), layout="constrained")
     grid = figure.subplots(high, COLUMNS, squeeze=False)
     for axes, conflict in zip(grid.flat, found):
         names = conflict.missed, conflict.met

@@ -5,13 +5,14 @@ import re
 from textwrap import fill
 
 import numpy as np
+from matplotlib import pyplot as plt
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
 from lib.shared.priors import WITHIN
 from lib.study.multiverse import outcome
-from neorl.drawing.style import AGENT, FILL, INK, RED, SMALL, TEXT, axes_or_new, figure_or_new, mark, width_of_figures
+from neorl.drawing.style import AGENT, FILL, INK, RED, SMALL, TEXT, axes_or_new, mark, width_of_figures
 from neorl.evidence.statements import STATEMENTS
 
 COLOURS = {"reproduced": AGENT, "undecided": RED, "not reproduced": INK}
@@ -24,15 +25,15 @@ SHADES = LinearSegmentedColormap.from_list("shades", [AGENT + "10", AGENT + "ff"
 ROW = 0.2  # inches
 
 
-def draw_outcomes(claims, figure=None):
+def draw_outcomes(claims):
     """How many readings give each outcome of each claim, as bars; claims judged under as many readings share a panel.
 
-    claims: {name: [`Claim`, …]}, each claim under its readings.
-    figure: a figure or a part of one to fill, by default a new one. Returns the axes of the panels.
+    claims: {name: [`Claim`, …]}, each claim under its readings. Returns the axes of the panels.
     """
     sizes = sorted({len(found) for found in claims.values()}, reverse=True)
     panels = [[name for name, found in claims.items() if len(found) == size] for size in sizes]
-    figure = figure_or_new(figure, (width_of_figures(), 1.1 * ROW * len(claims) + 0.7 * len(sizes) + 0.3))
+    figure = plt.figure(figsize=(width_of_figures(), 1.1 * ROW * len(claims) + 0.7 * len(sizes) + 0.3),
+                        layout="constrained")
     grid = figure.subplots(len(sizes), 1, height_ratios=[len(names) for names in panels], squeeze=False).ravel()
     for axes, size, names in zip(grid, sizes, panels):
         left = np.zeros(len(names))
@@ -50,19 +51,18 @@ def draw_outcomes(claims, figure=None):
     return grid
 
 
-def draw_specification(readings, claims, name, figure=None):
+def draw_specification(readings, claims, name):
     """The specification curve of a claim: its estimate under every reading, sorted, and the choices of each below.
 
     A number outside the middle 95 % is a triangle at the edge, pointing outward; a missing number is a cross at the
     lower edge.
 
     readings: [`Reading`, …]. claims: {name: [`Claim`, …]}, each claim under the first of these readings or all. name:
-    of the claim.
-    figure: a figure or a part of one to fill, by default a new one. Returns the axes of the curve and of the choices.
+    of the claim. Returns the axes of the curve and of the choices.
     """
     shown = {key: choice for key, choice in WITHIN.items() if name[0] in choice.papers}
     below = ROW * len(shown)
-    figure = figure_or_new(figure, (width_of_figures(), 2.4 + below))
+    figure = plt.figure(figsize=(width_of_figures(), 2.4 + below), layout="constrained")
     curve, strips = panels = figure.subplots(2, 1, sharex=True, height_ratios=(1.9, below))
     order = _curve(curve, claims[name], name)
     figure.suptitle(fill(f"{name}: {STATEMENTS[name].text}", 58), size=11, color=TEXT)
