@@ -36,6 +36,7 @@ from lib.shared.opening import CLAIMS_PAGE
 from nbclient.exceptions import DeadKernelError
 from cells import of_page
 from papermill.exceptions import PapermillExecutionError, strip_color
+from programs import with_programs
 from traitlets.config import Config
 
 from neorl.files import cache_folder, write_whole
@@ -216,7 +217,7 @@ def compute(notebook, parameters):
             shown = output.get("data", {})
             if "text/markdown" in shown:
                 shown["text/markdown"] = shown["text/markdown"].replace(f'"{CLAIMS_PAGE}', '"../claims.html')
-    executed.cells = of_page(executed.cells, parameters)
+    executed.cells = with_programs(of_page(executed.cells, parameters))
     save_figures(executed, work)
     save_widgets(executed, work)
     if claims.exists():

@@ -23,8 +23,13 @@ def tags(cell):
 
 
 def with_values(source, values):
-    """The source of a cell of parameters, ``name: type = default  # comment``, with other values for the defaults."""
+    """The source of a cell of parameters, ``name: type = default  # comment``, with other values for the defaults.
+
+    Raises ValueError for a name that is not there.
+    """
     for name, value in values.items():
         shown = f"{value:_}" if isinstance(value, int) else repr(value)
-        source = re.sub(rf"^({name}: \w+ = )[^\s#]+", rf"\g<1>{shown}", source, flags=re.MULTILINE)
+        source, found = re.subn(rf"^({name}: \w+ = ).*?(?=\s*(#|$))", rf"\g<1>{shown}", source, flags=re.MULTILINE)
+        if not found:
+            raise ValueError(f"a parameter must be one of the notebook's, but is {name}")
     return source
