@@ -28,12 +28,13 @@ def main():
     everything = [(condition, k) for condition in conditions for k in range(condition.runs)]
     if not everything:
         sys.exit(f"{cache_folder()} holds no condition that was computed with the present source: make book first")
-    others = sum(each.kind == "conditions" and not each.is_older for each in store.kept()) - len(conditions)
+    others = sum(each.kind == "conditions" for each in store.kept()) - len(conditions)
     sample = random.Random(chosen.seed).sample(everything, min(chosen.sample, len(everything)))
     print(f"{len(sample)} of {len(everything)} runs of {len(conditions)} conditions in {cache_folder()}, "
           f"seed {chosen.seed}")
     if others:
-        print(f"{others} more are left out: their kernels or worlds have changed since, or no module defines them")
+        print(f"{others} more are left out: their kernels or worlds have changed since, or neorl, or no module has "
+              "them")
     began, bins, differing = time.monotonic(), 0, []
     for condition, k in sample:
         difference, compared = compare(condition, k)

@@ -25,8 +25,8 @@ def main(arguments=None):
     cache = commands.add_parser("cache", help="list the cache on disk, or clear it",
                                 description="List the contents of the folder that NEORL_CACHE names, or of the user's "
                                 "cache folder. All of it may be removed at any time, and is recreated when needed.")
-    cache.add_argument("--clear", nargs="?", const="all", choices=store.WHICH, help="remove all of it, only compiled "
-                       "code, or only files from older sources than these")
+    cache.add_argument("--clear", nargs="?", const="all", choices=store.WHICH, help="remove all of it, or only "
+                       "compiled code")
     cache.set_defaults(call=lambda given: clear_cache(given.clear) if given.clear else list_cache())
     given = parser.parse_args(arguments)
     try:
@@ -74,8 +74,7 @@ def list_cache():
     for kind, (words, _) in store.KINDS.items():
         some = [each for each in everything if each.kind == kind]
         print(f"{words}: {_amount(some)}" if some else f"{words}: none")
-    older = [each for each in everything if each.is_older]
-    print(f"together: {_amount(everything)}, of which from older sources than these: {_amount(older)}")
+    print(f"together: {_amount(everything)}")
 
 
 def clear_cache(which):

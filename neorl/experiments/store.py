@@ -9,10 +9,9 @@
 4. The files are in the folder that the environment variable ``NEORL_CACHE`` names, or in the user's cache folder; all
    of them may be deleted at any time (`neorl.files`). Those whose folder and name follow neorl's scheme are listed and
    removed, and no others; a file of claims must also describe itself.
-5. A file is *older* if it was not made by the present sources of neorl: conditions and claims record the digest of
-   theirs, and any other file is older if it was written before the sources were.
 """
 
+import contextlib
 import json
 import re
 import time
@@ -23,7 +22,6 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl import checks, files
-from neorl.experiments.condition import PARTS, source_digest
 from neorl.experiments.result import Result, about, condition_of, fitting
 
 SECONDS = 5  # between two writes of a condition's runs; a write takes a hundredth of that
@@ -32,8 +30,8 @@ KINDS = {"conditions": ("finished conditions", DIGEST),
          "runs": ("single runs of conditions that are not finished", DIGEST + r"-\d+"),
          "compiled": ("compiled kernels", DIGEST), "wasm": ("WebAssembly modules", DIGEST),
          "claims": ("claims of pages of the book", r"[a-z0-9_]+\.json")}
-RECORDED = ("conditions", "claims")  # files that name the source that made them
-WHICH = ("all", "compiled", "older")
+MARK = b'"claims":'  # in files of claims, whose names are not neorl's alone
+WHICH = ("all", "compiled")
 
 
 def load(condition):
@@ -52,8 +50,8 @@ def save(result):
         known = about(condition)
     except ValueError:  # its agent or world cannot be imported by name, but it was run, and is cached
         known = json.loads(json.dumps(condition.choices, default=repr))
-    files.write_arrays(condition.path, "Result", {"source": source_digest(), **known},
-                       {"rewards": result.rewards, "hits": result.hits}, np.savez_compressed)
+    files.write_arrays(condition.path, "Result", known, {"rewards": result.rewards, "hits": result.hits},
+                       np.savez_compressed)
 
 
 def load_runs(condition):
@@ -166,30 +164,22 @@ def _check_memory(size):
 
 
 class Kept(NamedTuple):
-    """A file of neorl's. about: its record of a condition or of claims, or None."""
+    """A file of neorl's."""
 
     kind: str
     path: Path
     size: int  # bytes
-    about: dict | None
-    is_older: bool
 
 
 def kept():
     """All files that neorl keeps: a list of `Kept`."""
-    found, sources = [], _sources_changed()
+    found = []
     for kind, (_, pattern) in KINDS.items():
         for path in sorted((files.cache_folder() / kind).glob("*")):
-            if not re.fullmatch(pattern, path.name) or not path.is_file():
-                continue
-            try:
-                about, status = _about(kind, path) if kind in RECORDED else None, path.stat()
-            except FileNotFoundError:  # removed by another process in the meantime
-                continue
-            if kind == "claims" and about is None:
-                continue
-            is_older = (about or {}).get("source") != source_digest() if kind in RECORDED else status.st_mtime < sources
-            found.append(Kept(kind, path, status.st_size, about, is_older))
+            with contextlib.suppress(FileNotFoundError):  # removed by another process in the meantime
+                if (re.fullmatch(pattern, path.name) and path.is_file()
+                        and (kind != "claims" or MARK in path.read_bytes())):
+                    found.append(Kept(kind, path, path.stat().st_size))
     return found
 
 
@@ -197,46 +187,23 @@ def conditions():
     """Every complete `Condition` on disk that was computed with the present source and can be restored: a list."""
     found = []
     for each in kept():
-        if each.kind == "conditions" and each.about and not each.is_older:
+        if each.kind == "conditions":
             try:
-                condition = condition_of(each.about)
-                found += [condition] if condition.path == each.path else []  # else a kernel or a constant has changed
-            except ValueError:  # a kernel that is not defined in a module
+                condition = condition_of(files.read_arrays(each.path, "Result")[0])
+            except (OSError, ValueError):  # damaged, of another version, or with a kernel that no module defines
                 continue
+            found += [condition] if condition.path == each.path else []  # else a source or a kernel has changed
     return found
 
 
 def clear(which="all"):
-    """Remove files that neorl keeps: "all", "compiled" code (kernels and WebAssembly), or "older" files.
+    """Remove files that neorl keeps: "all", or only "compiled" code, kernels and WebAssembly.
 
-    which: one of these three. Raises ValueError for anything else, OSError without permission.
+    which: one of these. Raises ValueError for anything else, OSError without permission.
     Returns the list of `Kept` that were removed.
     """
     checks.one_of("which", which, WHICH)
-    removed = [each for each in kept() if which == "all" or which == "older" and each.is_older
-               or which == "compiled" and each.kind in ("compiled", "wasm")]
+    removed = [each for each in kept() if which == "all" or each.kind in ("compiled", "wasm")]
     for each in removed:
         each.path.unlink(missing_ok=True)
     return removed
-
-
-def _about(kind, path):
-    """What a file of conditions or claims says of itself, with the source that made it; None if it is not one."""
-    try:
-        if kind == "claims":
-            about = json.loads(path.read_text(encoding="utf-8"))
-        else:
-            with np.load(path) as file:
-                about = json.loads(str(file["about"]))
-    except FileNotFoundError:
-        raise
-    except Exception:  # whatever zip, NumPy and JSON raise
-        return None
-    return about if isinstance(about, dict) and "source" in about else None
-
-
-def _sources_changed():
-    """When the sources that take part in a run were last written."""
-    package = Path(files.__file__).parent
-    return max(path.stat().st_mtime for part in PARTS
-               for path in [*package.glob(f"{part}.py"), *(package / part).rglob("*.py")])

@@ -278,18 +278,14 @@ def keep(condition):
 
 @pytest.fixture
 def full(folder):
-    """A cache with a file of each kind, current and older, among foreign files: {name: path}."""
-    paths = {"condition": keep(SHORT), "older condition": folder / "conditions" / DIGEST}
-    paths["older condition"].write_bytes(b"of another version")
+    """A cache with a file of each kind among foreign files: {name: path}."""
+    paths = {"condition": keep(SHORT), "another condition": folder / "conditions" / DIGEST}
+    paths["another condition"].write_bytes(b"of another version")
     for kind, name in (("compiled", DIGEST), ("wasm", DIGEST), ("runs", f"{DIGEST}-3")):
-        for age in ("", "older "):
-            path = paths[f"{age}{kind}"] = folder / kind / (name if age else name.replace("0f", "f0"))
-            files.write_checked(path, b"content")
-            if age:
-                os.utime(path, (0, 0))
+        paths[kind] = folder / kind / name
+        files.write_checked(paths[kind], b"content")
     paths["claims"] = folder / "claims" / "chapter_1.json"
-    content = {"page": "chapter_1", "source": conditions.source_digest(), "claims": {}}
-    files.write_whole(paths["claims"], json.dumps(content).encode())
+    files.write_whole(paths["claims"], json.dumps({"page": "chapter_1", "claims": {}}).encode())
     for name in ("letter.txt", "conditions/letter.txt", "claims/letter.json", "claims/list.json", "compiled/letter",
                  f"letters/{DIGEST}", f"wasm/{DIGEST}.wasm"):
         path = paths[f"other {name}"] = folder / name
@@ -298,14 +294,10 @@ def full(folder):
     return paths
 
 
-OURS = {"condition", "older condition", "compiled", "older compiled", "wasm", "older wasm", "runs", "older runs",
-        "claims"}
+OURS = {"condition", "another condition", "compiled", "wasm", "runs", "claims"}
 
 
-@pytest.mark.parametrize("which, remain", [
-    ("all", set()), ("compiled", OURS - {"compiled", "older compiled", "wasm", "older wasm"}),
-    ("older", {"condition", "compiled", "wasm", "runs", "claims"}),
-])
+@pytest.mark.parametrize("which, remain", [("all", set()), ("compiled", OURS - {"compiled", "wasm"})])
 def test_what_is_asked_for_is_removed_and_nothing_of_others(full, which, remain):
     others = {path: path.read_bytes() for name, path in full.items() if name not in OURS - remain}
     removed = store.clear(which)
@@ -315,9 +307,10 @@ def test_what_is_asked_for_is_removed_and_nothing_of_others(full, which, remain)
     assert store.clear(which) == []
 
 
-def test_conditions_and_claims_of_other_sources_are_older(full, monkeypatch):
-    monkeypatch.setattr(store, "source_digest", lambda: "another")
-    assert {each.path for each in store.kept() if each.is_older} >= {full["condition"], full["claims"]}
+def test_conditions_of_other_sources_are_not_restored(full, monkeypatch):
+    assert store.conditions() == [SHORT]
+    monkeypatch.setattr(conditions, "source_digest", lambda: "another")
+    assert store.conditions() == []
 
 
 def test_a_condition_with_a_local_kernel_is_kept(folder):
@@ -337,5 +330,9 @@ def test_an_invalid_note_is_ignored(folder, about):
     path.parent.mkdir(parents=True)
     with path.open("wb") as file:
         np.savez(file, about=np.array(about))
-    (kept,) = store.kept()
-    assert kept.about is None and kept.is_older
+    assert len(store.kept()) == 1 and store.conditions() == []
+
+
+def test_another_choice_is_refused():
+    with pytest.raises(ValueError, match="which must be 'all' or 'compiled', but is 'some'"):
+        store.clear("some")
