@@ -30,7 +30,8 @@ FOR_AUTHORS = {f"neorl.{name}" for name in (
         "Modality.check_axes", "as_radians", "as_turns", "axis_parameters", "check_faults", "firsts", "integers",
         "space_of")),
     "gym.vector.VectorWorldEnv.advance",
-    "agents.papers.paper_agent", "core.kernel.jit_is_off", "core.scene.checked_scene", "worlds.world.check_arrays",
+    "agents.papers.paper_agent", "core.kernel.announcing", "core.kernel.jit_is_off",
+    "core.scene.checked_scene", "worlds.world.check_arrays",
     "worlds.walls.checked", "worlds.world.check_outcome", "worlds.world.check_rules")}
 NOTHING_TO_REPLACE = {"neorl.agents.papers.brownian"}  # it takes no arguments
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from fuzzed_kernels import FIELDS, RESET, SETTINGS, THINGS, Wild, WildRules
-from programs import printed
+from subprograms import printed
 
 from neorl import Run, forager, network_d, simulate
 from neorl.core.kernel import jit_is_off

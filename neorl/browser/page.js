@@ -74,7 +74,7 @@ const pageOf = (id) => `<p role="alert" hidden></p>
     ${slide("n_creeps", "Creeps", 1, 12, 1)}<div class="gains"></div>
     ${number("seed", "Seed")}${number("run", "Run")}</div></details><p class="unseen told" aria-live="polite"></p>
   <section class="tour" aria-label="Guided tour" hidden><p id="${id}-tour" role="status"></p><div class="buttons">
-    <button type="button" data-action="next" aria-describedby="${id}-tour"></button>${press("end", "Stop")}</div>
+    <button type="button" data-action="next" aria-describedby="${id}-tour">Next</button>${press("end", "Stop")}</div>
     </section>`;
 
 const power = (exponent) => Number((10 ** exponent).toPrecision(2)); // as on the logarithmic sliders

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from golden import plain_rule
-from programs import printed
+from subprograms import printed
 
 from neorl import (CALIBRATED, Agent, Axis, Desire, Learner, Modality, Node, Place, Policy, Run, Scene, WaterWorld,
                    kernel, multimodal, place_cells)

@@ -9,7 +9,7 @@ import json
 import numpy as np
 import pytest
 from pond import Pond, PondRules, PondState
-from programs import printed
+from subprograms import printed
 
 from neorl import Agent, Axis, Modality, Node, Run, Scene, kernel
 from neorl.core.kernel import execute, function_of

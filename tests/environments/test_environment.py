@@ -181,6 +181,7 @@ def test_a_picture_of_an_arena_shows_walls_obstacles_and_places():
     assert wall == obstacle != floor and platform == KINDS[0] and agent == AGENT
 
 
+@pytest.mark.filterwarnings("ignore:.*You are trying to use .human. rendering")
 def test_a_window_follows_every_step(monkeypatch):
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
     import pygame

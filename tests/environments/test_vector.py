@@ -12,7 +12,7 @@ from gymnasium.utils.env_checker import data_equivalence
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 from gymnasium.wrappers import TimeLimit
 from pond import Pond
-from programs import printed
+from subprograms import printed
 
 from neorl import Arena, WaterWorld
 from neorl.gym import VectorWorldEnv, WorldEnv

@@ -29,7 +29,7 @@ def test_every_verdict_has_a_mark_whose_colour_is_legible_on_all_grounds():
     assert styled.keys() == {mark.css for mark in marks.MARKS.values()}
     for mode, colours in variables("verdict-").items():
         assert colours.keys() == set(styled.values())
-        for name, colour in {**colours, **variables("table-link")[mode]}.items():
+        for name, colour in {**colours, **variables("link")[mode]}.items():
             for ground in GROUNDS[mode]:
                 assert contrast(colour, ground) >= 4.5, (mode, name, ground)
 

@@ -8,7 +8,7 @@ import json
 
 import numpy as np
 from golden import plain_rule
-from programs import printed
+from subprograms import printed
 from test_walls import Room, seeker
 from test_world import DRIVER, SEEKER, Dive, Roundabout
 
