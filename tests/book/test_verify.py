@@ -10,7 +10,7 @@ import edited
 import pytest
 
 from neorl import Condition, Policy, WaterWorld, files, kernel, multimodal, place_cells, simulate, simulate_once
-from neorl.experiments import store
+from neorl.experiments import condition, store
 from neorl.experiments.store import conditions
 
 VERIFY = Path(__file__).parents[2] / "book" / "verify.py"
@@ -61,7 +61,7 @@ def test_files_without_a_condition_of_the_present_source_are_skipped(kept, cache
     store.save(simulate(**own.choices, progress=False))
     assert own.path.exists() and store.load(own) is not None
     assert sorted(conditions(), key=KEPT.index) == KEPT
-    monkeypatch.setattr(store, "source_digest", lambda: "another source")
+    monkeypatch.setattr(condition, "source_digest", lambda: "another source")
     assert conditions() == []
 
 
