@@ -28,6 +28,7 @@ import ledger
 import nbformat
 import papermill
 import psutil
+import rules
 import workers
 from excerpts import save_figures, save_widgets
 from jupyter_client import AsyncKernelManager
@@ -55,8 +56,8 @@ AT_ONCE, GIGABYTES_EACH = 2, 4
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1"}
 STALL_SECONDS = 300  # cells compute and never wait: one that takes no processor time for so long has hung
 ROOM = 2**20  # bytes: less than one page of the book
-CLAIMS, FRONT, SQUARES, ERRATA, PICTURES = INCLUDED = (
-    "claims-table.md", "claims-front.html", "claims-squares.html", "errata-table.md", "contents.md")
+CLAIMS, RULES, FRONT, SQUARES, ERRATA, PICTURES = INCLUDED = (
+    "claims-table.md", "claims-rules.md", "claims-front.html", "claims-squares.html", "errata-table.md", "contents.md")
 
 
 def main():
@@ -311,10 +312,10 @@ def terms():
 
 
 def write_tables():
-    """Write what pages include: the claims with the notebooks' results, their strip, errata, contents in pictures."""
+    """Write what pages include: claims with the notebooks' results, rules, the strip, errata, contents in pictures."""
     record = report.load(sorted(CHAPTERS.glob("*.claims.json")))
     toc = (ROOT / "book" / "_toc.yml").read_text(encoding="utf-8")
-    for name, table in ((CLAIMS, ledger.page(record)), (FRONT, ledger.front(record)),
+    for name, table in ((CLAIMS, ledger.page(record)), (RULES, rules.page()), (FRONT, ledger.front(record)),
                         (SQUARES, ledger.squares(record)), (ERRATA, report.errata()),
                         (PICTURES, contents.pictures(toc, CHAPTERS))):
         target = CHAPTERS / name

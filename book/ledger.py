@@ -1,8 +1,8 @@
 """The page of all claims, and what the first page says of them, from the records of `lib.shared.report`.
 
-1. A strip with a square for each claim and a tally come first, then a row for each, then the evidence for its verdict.
-2. A row has the estimates under both readings, the verdict, and the shares of readings in separate columns.
-3. Pages are MyST Markdown. The strip is HTML, since its squares are links with a shape of their own.
+1. A strip with a square for each claim and a tally come first, then a line for each claim: its number in the thesis and
+   here, and the verdict. A click opens what the verdict rests on.
+2. Pages are MyST Markdown. The strip and the lines are HTML, since they have a shape of their own.
 """
 
 from collections import Counter
@@ -14,19 +14,20 @@ from lib.shared.opening import anchor, link
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 from neorl.evidence.verdict import RUNS_FOR_A_VERDICT, VERDICTS
 
-COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict", "Agrees", "Reproduced", "Undecided")
+HEAD = ("Claim", "", "Thesis", "Here", "Verdict")
+SHARES = ("Readings that agree", "Readings that reproduce it", "Undecided")
 CHAPTERS = {"A": "Paper A: maps of one space", "B": "Paper B: modalities", "C": "Paper C: networks of desires",
             "T": "The thesis as a whole"}
 
 
 def page(record):
-    """The strip, the tally, the tables and the evidence, in MyST Markdown. record: as `report.load` returns it."""
-    parts = [strip(record), tally(record), _table(record, CLAIMS), "## Beside the claims: demonstrations",
-             _table(record, DEMONSTRATIONS), "## What each verdict rests on",
-             "The sentence that is judged, what was measured, and what was found."]
+    """The strip, the tally and the claims, in MyST Markdown. record: as `report.load` returns it."""
+    parts = [strip(record), tally(record)]
     groups = {title: [name for name in CLAIMS if name[0] == letter] for letter, title in CHAPTERS.items()}
-    for title, names in (groups | {"Demonstrations": DEMONSTRATIONS}).items():
-        parts.append("\n".join([f":::{{dropdown}} {title}", *report.evidence(record, names), ":::"]))
+    for title, names in (groups | {"Beside the claims: demonstrations": DEMONSTRATIONS}).items():
+        head = "".join(f"<span>{column}</span>" for column in HEAD)
+        parts += [f"## {title}", f'<p class="claim-head" aria-hidden="true">{head}</p>',
+                  *(_claim(record, name) for name in names)]
     return "\n\n".join(parts) + "\n"
 
 
@@ -69,7 +70,7 @@ def tally(record):
 
 
 def strip(record, address=""):
-    """An HTML list with a square for each claim, its symbol in its colour, that links to the claim's row.
+    """An HTML list with a square for each claim, its symbol in its colour, that links to the claim.
 
     address: of the page of claims, relative to the page with the strip.
     """
@@ -82,36 +83,30 @@ def strip(record, address=""):
     return f'<ul class="claims-strip" aria-label="Verdict of each claim">{"".join(squares)}</ul>'
 
 
-def _table(record, names):
-    return f":::{{div}} claims\n{wording.table(COLUMNS, [_row(record, name) for name in names])}\n:::"
+def _claim(record, name):
+    """A claim in a line, which opens to the sentence that is judged and all that its verdict rests on."""
+    statement, found, verdict = STATEMENTS[name], record["claims"].get(name), report.verdict(record, name)
+    cells = [f"<b>{name}</b>", escape(statement.text), f"<small>Thesis: </small>{escape(statement.thesis)}",
+             f"<small>Here: </small>{report.number(found)}" if found else "",
+             f"{marks.html(verdict)}\u00a0{verdict}"]
+    line = "".join(f"<span>{cell}</span>" for cell in cells)
+    return "\n\n".join([f'<details class="claim"><summary>{line}</summary>\n<div id="{anchor(name)}">',
+                        f"“{statement.quotation}” ({statement.place}).", *_evidence(record, name),
+                        "</div>\n</details>"])
 
 
-def _row(record, name):
-    statement, found, share = STATEMENTS[name], record["claims"].get(name), record["shares"].get(name)
-    verdict = report.verdict(record, name)
-    judged = f"{marks.html(verdict)}\u00a0{verdict}"
-    if found:
-        judged += f" {{ref}}`figure <{statement.figure}>`, {{ref}}`rule <{report.label(statement.rule)}>`"
-    return [f'<span id="{anchor(name)}"></span>**{name}** {statement.text} <small>{statement.statistic}</small>',
-            statement.thesis,
-            *(_marked(record[part].get(name)) for part in ("letter", "claims")), judged, *_shares(share)]
-
-
-def _marked(found):
-    """A number, after the symbol of its verdict."""
-    if not found:
-        return ""
-    mark = f"{marks.html(found['verdict'])}\u00a0" if marks.leads(found["verdict"]) else ""
-    return f"{mark}{report.number(found)}"
-
-
-def _shares(share):
-    """The shares of readings whose numbers agree at the papers' lengths, and for which the rule holds or cannot decide.
-    """
-    if not share:
-        return "", "", ""
-    agrees = _share(share["agrees"], share["measured"]) if share.get("measured") else ""
-    return agrees, _share(share["holds"], share["readings"]), _share(share["undecided"], share["readings"])
+def _evidence(record, name):
+    """What a verdict rests on: the numbers of its rule, links to its figure and rule, and the readings that agree."""
+    statement, share = STATEMENTS[name], record["shares"].get(name)
+    parts = [numbers] if (numbers := report.numbers(record, name)) else []
+    if name in record["claims"]:
+        parts.append(f"Shown in {{ref}}`this figure <{statement.figure}>`, judged by "
+                     f"{{ref}}`this rule <{report.label(statement.rule)}>`.")
+    if share:
+        agrees = _share(share["agrees"], share["measured"]) if share.get("measured") else ""
+        parts.append(wording.table(SHARES, [[agrees, *(_share(share[each], share["readings"])
+                                                       for each in ("holds", "undecided"))]]))
+    return parts
 
 
 def _share(count, total):

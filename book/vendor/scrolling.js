@@ -28,7 +28,7 @@ const nameOf = (box) => {
 // Each cell of a table that sets claims of the thesis beside findings says which column it is in, for cards.
 const label = (box) => {
   const heads = [...box.querySelectorAll("thead th")].map((cell) => cell.textContent.trim());
-  if (heads[0] !== "Claim" || !heads.includes("Thesis") || box.closest(".claims")) return;
+  if (heads[0] !== "Claim" || !heads.includes("Thesis")) return;
   box.dataset.claims = "";
   for (const row of box.querySelectorAll("tbody tr")) {
     [...row.cells].forEach((cell, at) => { cell.dataset.head = heads[at] ?? ""; });

@@ -106,19 +106,19 @@ def extract(record, names):
 
 def evidence(record, names):
     """A list item for each claim: the sentence that is judged, and a table of the numbers that its rule compares."""
-    return [f"- **{name}** “{STATEMENTS[name].quotation}” ({STATEMENTS[name].place})." + _numbers(record, name)
-            for name in names]
+    return [f"- **{name}** “{STATEMENTS[name].quotation}” ({STATEMENTS[name].place})."
+            + indent(f"\n\n{numbers(record, name)}", "  ").rstrip() for name in names]
 
 
-def _numbers(record, name):
-    """The numbers of a claim under both readings, with the bounds that its rule asks for, as an indented table."""
+def numbers(record, name):
+    """The numbers of a claim under both readings, with the bounds that its rule asks for, as a Markdown table or ""."""
     found = {reading: record[part][name] for reading, part in (("Here", "claims"), ("To the letter", "letter"))
              if name in record[part]}
     asked = {what: asks for each in found.values() for what, (_, asks) in each["numbers"].items()}
     rows = [[what, asks, *(number({"here": each["numbers"][what][0]}) if what in each["numbers"] else ""
                            for each in found.values())] for what, asks in asked.items()]
     head = ["Number", "Rule", *(f"{reading}, {each['runs']} runs" for reading, each in found.items())]
-    return "\n\n" + indent(wording.table(head, rows), "  ") if rows else ""
+    return wording.table(head, rows) if rows else ""
 
 
 def label(rule):
