@@ -14,7 +14,6 @@ from lib.shared.opening import anchor, link
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 from neorl.evidence.verdict import RUNS_FOR_A_VERDICT, VERDICTS
 
-HEAD = ("Claim", "", "Thesis", "Here", "Verdict")
 SHARES = ("Readings that agree", "Readings that reproduce it", "Undecided")
 CHAPTERS = {"A": "Paper A: maps of one space", "B": "Paper B: modalities", "C": "Paper C: networks of desires",
             "T": "The thesis as a whole"}
@@ -25,9 +24,7 @@ def page(record):
     parts = [strip(record), tally(record)]
     groups = {title: [name for name in CLAIMS if name[0] == letter] for letter, title in CHAPTERS.items()}
     for title, names in (groups | {"Beside the claims: demonstrations": DEMONSTRATIONS}).items():
-        head = "".join(f"<span>{column}</span>" for column in HEAD)
-        parts += [f"## {title}", f'<p class="claim-head" aria-hidden="true">{head}</p>',
-                  *(_claim(record, name) for name in names)]
+        parts += [f"## {title}", *(_claim(record, name) for name in names)]
     return "\n\n".join(parts) + "\n"
 
 
@@ -86,8 +83,8 @@ def strip(record, address=""):
 def _claim(record, name):
     """A claim in a line, which opens to the sentence that is judged and all that its verdict rests on."""
     statement, found, verdict = STATEMENTS[name], record["claims"].get(name), report.verdict(record, name)
-    cells = [f"<b>{name}</b>", escape(statement.text), f"<small>Thesis: </small>{escape(statement.thesis)}",
-             f"<small>Here: </small>{report.number(found)}" if found else "",
+    numbers = f"Thesis: {escape(statement.thesis)}" + (f" · Here: {report.number(found)}" if found else "")
+    cells = [f"<b>{name}</b>", f"{escape(statement.text)} <small>{numbers}</small>",
              f"{marks.html(verdict)}\u00a0{verdict}"]
     line = "".join(f"<span>{cell}</span>" for cell in cells)
     return "\n\n".join([f'<details class="claim"><summary>{line}</summary>\n<div id="{anchor(name)}">',

@@ -35,7 +35,7 @@ def claim(name, record=RECORD):
 
 def test_a_claim_is_a_line_that_opens_to_what_its_verdict_rests_on():
     line, fold = claim("C2")
-    assert line.split() == ("One desire per colour (B) beats one for all (A) Thesis: &gt; 0 Here: 0.10 [0.09, 0.11] "
+    assert line.split() == ("One desire per colour (B) beats one for all (A) Thesis: &gt; 0 · Here: 0.10 [0.09, 0.11] "
                             "● reproduced").split()
     assert STATEMENTS["C2"].quotation in fold and STATEMENTS["C2"].place in fold
     assert "| Lead of B over A | more than 0 | 0.10 [0.09, 0.11] | −0.30 [−0.31, −0.29] |" in fold
