@@ -51,7 +51,7 @@ def make_tree(tree):
     (tree / "book").mkdir(parents=True)
     shutil.copytree(ROOT / "notebooks" / "lib" / "shared", tree / "notebooks" / "lib" / "shared")
     shutil.copy(ROOT / "notebooks" / "lib" / "__init__.py", tree / "notebooks" / "lib")
-    for path in (ROOT / "book").glob("*.py"):
+    for path in [*(ROOT / "book").glob("*.py"), ROOT / "book" / "rules.toml"]:
         shutil.copy(path, tree / "book")  # links would lead the build to the real tree
     (tree / "neorl").mkdir()  # pages depend on the sources here, but import the real package
     compiled = cache_folder().resolve() / "compiled"
