@@ -23,14 +23,14 @@ RECENT = 1 / 40  # of a run: the window over which the mean reward per second co
 
 
 class Estimate(NamedTuple):
-    """A value with the bounds of its 95 % interval."""
+    """A value with the bounds of its 95 % interval. As text it has two decimals below 10, and none from there on."""
 
     value: float
     low: float
     high: float
 
     def __str__(self):
-        digits = 2 if abs(self.value) < 1000 else 0
+        digits = 2 if abs(self.value) < 10 else 0
         bounds = "" if np.isnan(self.low) else f" [{self.low:z.{digits}f}, {self.high:z.{digits}f}]"
         return f"{self.value:z.{digits}f}{bounds}".replace("-", "−")
 
