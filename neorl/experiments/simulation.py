@@ -16,6 +16,7 @@
 
 import contextlib
 import os
+import pickle
 import threading
 import warnings
 from collections.abc import Callable, Iterator, Sequence
@@ -151,8 +152,8 @@ def _run(tasks, executor, threads, cache, bar, name):
     if executor is None:
         with announcing(lambda compiles: bar.set_description(f"{name}, compiling" if compiles else name)):
             return _run_here(tasks, threads, cache, bar)
-    return _collect(tasks, lambda condition, runs: executor.submit(_live, condition, runs, condition.key), cache,
-                    lambda task: bar.update(task.steps))
+    return _collect(tasks, lambda condition, runs: executor.submit(
+        _live_there, pickle.dumps(condition), runs, condition.key), cache, lambda task: bar.update(task.steps))
 
 
 def _run_here(tasks, threads, cache, bar):
@@ -209,6 +210,19 @@ def _collect(tasks, submit, cache, finished=lambda task: None):
         for future in waiting:  # none, unless it was interrupted
             future.cancel()
     return errors
+
+
+def _live_there(pickled, runs, key):
+    """`_live` on a worker of an executor, for a pickled condition.
+
+    As an argument, a condition that a worker cannot restore would end the worker or its connection, again and again.
+    """
+    try:
+        condition = pickle.loads(pickled)
+    except (AttributeError, ImportError) as error:
+        raise RuntimeError("the kernels and worlds of a sweep must be in modules that its executor's workers can "
+                           f"import, but are not: {error}; move them to a module, or leave out the executor") from error
+    return _live(condition, runs, key)
 
 
 def _live(condition, runs, key, each_slice=lambda lived: None, room=None):

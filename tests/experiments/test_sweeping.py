@@ -9,6 +9,7 @@ import subprocess
 import sys
 import threading
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
+from dataclasses import replace
 from multiprocessing import get_context
 from pathlib import Path
 from types import SimpleNamespace
@@ -16,7 +17,7 @@ from types import SimpleNamespace
 import pytest
 from distributed import Client, LocalCluster
 
-from neorl import Condition, Result, WaterWorld, multimodal, place_cells, simulate, sweep
+from neorl import Condition, Policy, Result, WaterWorld, multimodal, place_cells, simulate, sweep
 from neorl.experiments import condition as conditions
 from neorl.experiments import simulation, store
 from neorl.experiments.run import new_bins
@@ -200,6 +201,16 @@ def test_a_killed_worker_of_a_cluster_loses_only_its_current_task(cluster, monke
         results = sweep(conditions, client.get_executor(), progress=False)
     assert len(kept_after) == len(conditions)  # each once
     assert_the_same(results, conditions)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_kernels_that_workers_cannot_import_are_refused(cluster, tmp_path, monkeypatch):
+    """They once ended the connection of one worker after the other, and the sweep never returned."""
+    (tmp_path / "only_here.py").write_text("import neorl\n\n@neorl.kernel\ndef first(value, stream):\n    return 0\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    agent = replace(place_cells([3]), policy=Policy(0.0, choose=importlib.import_module("only_here").first))
+    with Client(cluster) as client, pytest.raises(RuntimeError, match="modules that its executor's workers can import"):
+        sweep([Condition(agent, WORLD, 1_000, 1)], client.get_executor(), progress=False)
 
 
 PAGE = Path(__file__).parents[2] / "book" / "running.md"
