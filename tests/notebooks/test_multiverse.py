@@ -7,6 +7,7 @@ import pytest
 
 from lib.shared.priors import BEYOND, PINNED, TO_THE_LETTER, WITHIN, LogUniform
 from lib.study import multiverse
+from lib.study.multiverse_figures import LEADING, draw_specification
 import neorl
 from neorl import (CALIBRATED, Learning, Policy, multimodal, network_a, network_b, network_c, network_d, place_cells,
                    simulate)
@@ -207,3 +208,19 @@ def test_support_counts_the_claims_that_hold_at_each_level(made_up):
     assert len(parts) == 5 and [each.is_to_the_letter for each in parts] == [False, False, True, False, False]
     assert parts[4].held > parts[0].held == 0 and parts[0].level == "0.333 … 0.838"
     assert ("memory", "216 … 1,000") in found and "exploration" not in {name for name, _ in found}
+
+
+def test_a_specification_curve_leads_with_the_choices_that_order_it(made_up):
+    readings, claims = made_up
+    curve, strips = draw_specification(readings, {"C2": claims}, "C2")
+    labels = [text.get_text() for text in strips.texts]
+    assert labels[0] == "discount, γ: 0.333 … 1" and labels[1].startswith("credit, ")
+    assert len(set(labels)) == len(strips.images) == LEADING
+    levels = strips.images[0].get_array().ravel()
+    assert np.corrcoef(levels, np.arange(128))[0, 1] > 0.8
+
+
+def test_a_specification_curve_of_readings_without_variation_has_its_choices_in_their_order():
+    _, strips = draw_specification([TO_THE_LETTER] * 4, {"C2": [claim(np.nan)] * 4}, "C2")
+    first = [choice.label for choice in WITHIN.values() if "C" in choice.papers][:LEADING]
+    assert [text.get_text().split(": ")[0] for text in strips.texts] == first

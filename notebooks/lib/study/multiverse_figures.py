@@ -2,13 +2,13 @@
 choices that matter."""
 
 import re
-from textwrap import fill
 
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
+from scipy.stats import rankdata
 
 from lib.shared.priors import WITHIN
 from lib.study.multiverse import outcome
@@ -23,6 +23,7 @@ DIAMOND = {"color": INK, "marker": "D", "markersize": 6, "linestyle": "none", "m
 OUTCOMES = {"reproduced": "o", "undecided": "D", "not reproduced": "."}  # markers
 SHADES = LinearSegmentedColormap.from_list("shades", [AGENT + "10", AGENT + "ff"])
 ROW = 0.2  # inches
+LEADING = 6  # choices below a specification curve
 
 
 def draw_outcomes(claims):
@@ -52,39 +53,54 @@ def draw_outcomes(claims):
 
 
 def draw_specification(readings, claims, name):
-    """The specification curve of a claim: its estimate under every reading, sorted, and the choices of each below.
+    """The specification curve of a claim: its estimate under every reading, sorted, and the leading choices below.
 
     A number outside the middle 95 % is a triangle at the edge, pointing outward; a missing number is a cross at the
-    lower edge.
+    lower edge. Below are the `LEADING` choices whose levels follow the order of the readings most closely, the closest
+    first.
 
     readings: [`Reading`, …]. claims: {name: [`Claim`, …]}, each claim under the first of these readings or all. name:
     of the claim. Returns the axes of the curve and of the choices.
     """
-    shown = {key: choice for key, choice in WITHIN.items() if name[0] in choice.papers}
-    below = ROW * len(shown)
-    figure = plt.figure(figsize=(width_of_figures(), 2.4 + below), layout="constrained")
-    curve, strips = panels = figure.subplots(2, 1, sharex=True, height_ratios=(1.9, below))
+    below = 1.7 * ROW * LEADING
+    figure = plt.figure(figsize=(width_of_figures(), 2.6 + below), layout="constrained")
+    curve, strips = panels = figure.subplots(2, 1, sharex=True, height_ratios=(2.0, below))
     order = _curve(curve, claims[name], name)
-    figure.suptitle(fill(f"{name}: {STATEMENTS[name].text}", 58), size=11, color=TEXT)
     outcomes = [outcome(claim) for claim in claims[name]]
     handles = [Line2D([], [], linestyle="none", marker=OUTCOMES[kind], markersize=5, color=COLOURS[kind],
                       label=f"{kind} {outcomes.count(kind)}") for kind in COLOURS]
     curve.legend(handles=handles, frameon=False, labelcolor=TEXT, fontsize=SMALL, handlelength=0.6, ncols=3,
                  loc="lower center", bbox_to_anchor=(0.5, 1.0))
-    places = [[choice.place(getattr(readings[i], key)) for i in order] for key, choice in shown.items()]
-    strips.imshow(places, aspect="auto", cmap=SHADES, vmin=0, vmax=1, interpolation="nearest")
-    strips.set_yticks(range(len(shown)), [choice.label for choice in shown.values()], fontsize=SMALL)
-    strips.set(xlabel="readings, in order of the number above", xticks=[])
-    ends = strips.secondary_yaxis("right")
-    ends.set_yticks(range(len(shown)), [_in_brief(choice.levels) for choice in shown.values()], fontsize=SMALL)
-    for axes in (strips, ends):
-        axes.tick_params(length=0)
-        axes.spines[:].set_visible(False)
+    curve.tick_params(labelbottom=False)
+    ends = -0.5, len(order) - 0.5
+    for row, (label, places) in enumerate(_leading([readings[i] for i in order], name)):
+        strips.imshow([places], extent=(*ends, row + 0.85, row + 0.4), aspect="auto", cmap=SHADES, vmin=0, vmax=1,
+                      interpolation="nearest")
+        strips.text(ends[0], row + 0.32, label, fontsize=SMALL)
+    strips.set(xlabel="readings, in order of the number above", xticks=[], yticks=[], xlim=ends, ylim=(LEADING, -0.1))
+    strips.spines[:].set_visible(False)
     return panels
 
 
+def _leading(readings, name):
+    """The choices that lead for a claim, [(label and levels, place of the level under each reading), …].
+
+    readings: in the order of the claim's number. The measure is the rank correlation of level and order, unsigned; a
+    choice without variation has none.
+    """
+    order = np.arange(len(readings)) - (len(readings) - 1) / 2
+    found = []
+    for key, choice in WITHIN.items():
+        if name[0] in choice.papers:
+            places = [choice.place(getattr(reading, key)) for reading in readings]
+            ranks = rankdata(places) - (len(readings) + 1) / 2
+            found.append((abs(ranks @ order) / (np.linalg.norm(ranks) or 1), choice, places))
+    found.sort(key=lambda each: each[0], reverse=True)
+    return [(f"{choice.label}: {_in_brief(choice.levels)}", places) for _, choice, places in found[:LEADING]]
+
+
 def _in_brief(levels):
-    """The levels of a choice, in words: their ends if there are more than three, since lists would narrow the curve."""
+    """The levels of a choice, in words: their ends if there are more than three."""
     brief = re.sub(r"\{(\d+), [^}]*, (\d+)\}", r"{\1 … \2}", levels).split(", ")
     return f"{brief[0]} … {brief[-1]}" if len(brief) > 3 else ", ".join(brief)
 
