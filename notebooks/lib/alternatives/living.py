@@ -128,8 +128,17 @@ def learn_nothing(setting, memory, state, rules, action, reward, restarted):
     """Do nothing: a controller does not learn."""
 
 
-def of_result(result, bins=BINS):
-    """What an agent of neorl earned: `Earned`. result: a `neorl.Result` in a `WaterWorld`."""
+def bins_of(steps):
+    """The number of parts of a run on the page: one for each minute, or `BINS` if these are more."""
+    return max(BINS, steps // MINUTE)
+
+
+def of_result(result, bins=None):
+    """What an agent of neorl earned: `Earned`.
+
+    result: a `neorl.Result` in a `WaterWorld`. bins: parts of a run, by default `bins_of` its steps.
+    """
+    bins = bins or bins_of(result.steps)
     edges = np.linspace(0, result.steps, bins + 1).round()
     sums = np.pad(result.rewards.cumsum(axis=1, dtype=float), ((0, 0), (1, 0)))
     rewards = np.diff(np.array([np.interp(edges, result.edges * FPS, run) for run in sums]), axis=1)
@@ -177,10 +186,10 @@ def write(path, rows):
 def stored(rows, names, creeps, steps):
     """The first `steps` of the stored runs of some contestants: {name: `Earned`}.
 
-    rows: a list of `Row`. steps: at least `MINUTE`, cut to whole minutes. Each run is read from its shortest row that is
+    rows: a list of `Row`. steps: cut to whole minutes, but at least one. Each run is read from its shortest row that is
     long enough. The time of a step is the median over all rows of a contestant on the board that have one.
     """
-    found, minutes = {}, steps // MINUTE
+    found, minutes = {}, max(1, steps // MINUTE)
     for name in names:
         own = [row for row in rows if (row.method, row.creeps) == (name, creeps)]
         of_run = {row.run: row for row in sorted(own, key=lambda row: -row.steps) if len(row.rewards) >= minutes}
