@@ -21,7 +21,7 @@ def card(name, page, chapters):
     title = re.match(r"# (.+)", page.cells[0].source)[1]
     for cell in page.cells:
         shown = cell.metadata.get("mystnb", {})
-        figure = f"{shown.get('figure', {}).get('name')}.svg"
+        figure = f"{shown.get('figure', {}).get('name')}-small.svg"
         if (chapters / figure).exists():
             return "\n".join([":::{grid-item-card}", f":link: chapters/{name}", ":link-type: doc",
                               f":img-top: chapters/{figure}", f":img-alt: {shown['image']['alt']}", "", title, ":::"])

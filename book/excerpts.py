@@ -2,19 +2,46 @@
 
 import json
 import re
+from xml.etree import ElementTree
 
 WIDGET_STATE = "application/vnd.jupyter.widget-state+json"
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
+SVG = "http://www.w3.org/2000/svg"
+LETTERED = ("text_", "legend_", "matplotlib.axis_")  # parts of matplotlib's figures, by their ids
 
 
 def save_figures(notebook, folder):
-    """Save each named figure as a file of its own, so that other pages can show it."""
+    """Save each named figure as a file of its own, so that other pages can show it, and the first one small too."""
+    first = True
     for cell in notebook.cells:
         name = cell.metadata.get("mystnb", {}).get("figure", {}).get("name")
         for output in cell.get("outputs", []):
             image = output.get("data", {}).get("image/svg+xml")
             if name and image:
                 (folder / f"{name}.svg").write_text(image)
+                if first:
+                    (folder / f"{name}-small.svg").write_text(small(image))
+                first = False
+
+
+def small(figure):
+    """A figure of matplotlib's for a small picture: its first panel, cut at the axes, without letters.
+
+    figure: SVG. One in which no axes clip anything keeps its size.
+    """
+    root = ElementTree.fromstring(figure)
+    for parent in list(root.iter()):
+        for part in list(parent):
+            name = part.get("id", "")
+            if name.startswith(LETTERED) or name.startswith("axes_") and name != "axes_1":
+                parent.remove(part)
+    frame = root.find(f".//{{{SVG}}}clipPath/{{{SVG}}}rect")  # clips what is drawn first
+    if frame is not None:
+        x, y, width, height = (float(frame.get(each)) for each in ("x", "y", "width", "height"))
+        root.set("viewBox", f"{x:g} {y:g} {width:g} {height:g}")
+        root.attrib |= {"width": f"{width:g}pt", "height": f"{height:g}pt"}
+    ElementTree.register_namespace("", SVG)
+    return ElementTree.tostring(root, encoding="unicode")
 
 
 def save_widgets(notebook, folder):

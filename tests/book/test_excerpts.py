@@ -1,12 +1,15 @@
-"""Widgets are saved beside their page, each with the state that it needs, and run on any page."""
+"""Figures and widgets are saved beside their page, each widget with the state that it needs, and run on any page."""
 
+import io
 import json
+import re
 import shutil
 import sys
 from pathlib import Path
 
 import nbformat
 import pytest
+from matplotlib import pyplot as plt
 
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "book"))
@@ -79,3 +82,44 @@ def test_a_saved_widget_runs_on_any_page(tmp_path, open_page):
     page = open_page(tmp_path, "page.html", over="file")
     assert page.locator(".shown").inner_text() == TEXT
     assert page.locator("p").inner_text() == "The end."
+
+
+def drawn(clips):
+    """A figure of two panels with letters everywhere, as SVG. clips: whether the axes clip what they contain."""
+    figure, panels = plt.subplots(1, 2)
+    for axes in panels:
+        axes.plot([0, 1], [0, 1], label="curve", clip_on=clips)
+        axes.annotate("a mark", (0.5, 0.5))
+        axes.set(title="title", xlabel="label")
+        axes.legend()
+    file = io.StringIO()
+    figure.savefig(file, format="svg")
+    return file.getvalue()
+
+
+def ids(figure):
+    return re.findall(r'id="(axes_\d|text_|legend_|matplotlib.axis_|line2d_)', figure)
+
+
+def test_a_small_figure_is_the_first_panel_without_letters():
+    whole = drawn(clips=True)
+    made = excerpts.small(whole)
+    assert {"text_", "legend_", "matplotlib.axis_", "axes_2"} < set(ids(whole))
+    assert ids(made) == ["axes_1", "line2d_"]
+    left, _, *size = (float(each) for each in re.search('viewBox="(.*?)"', made)[1].split())
+    assert left == pytest.approx(57.6, abs=1)  # points, of matplotlib's usual 6.4 × 4.8 inches
+    assert size == pytest.approx([357.12 / 2.2, 266.112], rel=0.01)
+
+
+def test_a_small_figure_without_clipped_parts_keeps_its_size():
+    whole = drawn(clips=False)
+    view = 'viewBox="0 0 460.8 345.6"'
+    assert view in whole and view in excerpts.small(whole)
+
+
+def test_figures_are_saved_by_name_and_the_first_small_too(tmp_path):
+    cells = [nbformat.v4.new_code_cell(outputs=[nbformat.v4.new_output("display_data", {"image/svg+xml": drawn(True)})],
+                                       metadata={"mystnb": {"figure": {"name": name}}} if name else {})
+             for name in (None, "fig-one", "fig-two")]
+    excerpts.save_figures(nbformat.v4.new_notebook(cells=cells), tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["fig-one-small.svg", "fig-one.svg", "fig-two.svg"]
