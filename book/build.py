@@ -54,7 +54,8 @@ ORDER = (SHARES, "beyond_agents", "calibration", "paper_a", "paper_b", "paper_c"
 AT_ONCE, GIGABYTES_EACH = 2, 4
 # Beside another notebook, threads of linear algebra waiting for each other took fifty times as long as one thread.
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1"}
-STALL_SECONDS = 300  # cells compute and never wait: one that takes no processor time for so long has hung
+# Cells compute, or wait for modules that another page compiles, which takes minutes on a busy machine.
+STALL_SECONDS = 900  # without processor time
 ROOM = 2**20  # bytes: less than one page of the book
 CLAIMS, RULES, FRONT, SQUARES, ERRATA, PICTURES = INCLUDED = (
     "claims-table.md", "claims-rules.md", "claims-front.html", "claims-squares.html", "errata-table.md", "contents.md")
