@@ -9,19 +9,38 @@ from pathlib import Path
 import edited
 import pytest
 
-from neorl import Condition, Policy, WaterWorld, files, kernel, multimodal, place_cells, simulate, simulate_once
+from neorl import Condition, Policy, Result, WaterWorld, files, kernel, multimodal, place_cells, simulate_once
 from neorl.experiments import condition, store
+from neorl.experiments.run import new_bins
 from neorl.experiments.store import conditions
 
-VERIFY = Path(__file__).parents[2] / "book" / "verify.py"
+BOOK = Path(__file__).parents[2] / "book"
+sys.path.insert(0, str(BOOK))
+import verify  # noqa: E402
+
 KEPT = [Condition(place_cells([3]), WaterWorld(), 505, 3, 1),
         Condition(place_cells([4]), WaterWorld(n_creeps=2), 400, 2, changes=[(100, multimodal([4]))])]
 pytestmark = pytest.mark.usefixtures("cache_folder")
 
 
-def verify(*arguments):
-    return subprocess.run([sys.executable, VERIFY, *arguments], capture_output=True, text=True, env={
+def in_a_process(*arguments):
+    return subprocess.run([sys.executable, BOOK / "verify.py", *arguments], capture_output=True, text=True, env={
         **os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})
+
+
+@pytest.fixture
+def verified(monkeypatch, capsys):
+    """`verified(*arguments)` is what the script prints, and what it ends with."""
+    def verified(*arguments):
+        monkeypatch.setattr(sys, "argv", ["verify.py", *arguments])
+        try:
+            ended = verify.main()
+        except SystemExit as end:
+            ended = end.code
+        printed = capsys.readouterr()
+        return printed.out, f"{ended} {printed.err}"
+
+    return verified
 
 
 @pytest.fixture
@@ -29,23 +48,22 @@ def kept():
     return [simulate_once(**condition.choices, progress=False) for condition in KEPT]
 
 
-def test_runs_equal_to_the_cached_ones_pass(kept):
-    done = verify("--sample", "100")
+def test_runs_equal_to_the_cached_ones_pass(kept, verified):
+    done = in_a_process("--sample", "100")
     assert done.returncode == 0, done.stderr
     assert done.stdout.startswith("5 of 5 runs of 2 conditions in ")
     assert "2,315 steps in all: the rewards and hits of 233 bins of 0.2 s are the same to the last bit" in done.stdout
-    assert verify("--sample", "2", "--seed", "4").stdout.splitlines()[0].startswith("2 of 5 runs of 2 conditions")
+    assert verified("--sample", "2", "--seed", "4")[0].startswith("2 of 5 runs of 2 conditions")
 
 
 @pytest.mark.parametrize("name", ["rewards", "hits"])
-def test_a_run_that_differs_from_the_cached_one_is_named(kept, name):
+def test_a_run_that_differs_from_the_cached_one_is_named(kept, verified, name):
     values = getattr(kept[1], name).copy()
     values[1, 7] += 1
     store.save(replace(kept[1], **{name: values}))
-    done = verify("--sample", "5", "--seed", "2")
-    assert done.returncode == 1
-    assert f"run 1 of {KEPT[1]}, kept in {KEPT[1].path}: 1 of 40 bins differ, the first from 1.4 s on" in done.stdout
-    assert "1 of 5 runs are not as kept; make verify SAMPLE=5 SEED=2" in done.stderr
+    printed, ended = verified("--sample", "5", "--seed", "2")
+    assert f"run 1 of {KEPT[1]}, kept in {KEPT[1].path}: 1 of 40 bins differ, the first from 1.4 s on" in printed
+    assert "1 of 5 runs are not as kept; make verify SAMPLE=5 SEED=2" in ended
 
 
 def test_files_without_a_condition_of_the_present_source_are_skipped(kept, cache_folder, monkeypatch):
@@ -58,7 +76,7 @@ def test_files_without_a_condition_of_the_present_source_are_skipped(kept, cache
         return 0
 
     own = Condition(place_cells([3], policy=Policy(choose=first)), WaterWorld(), 50, 1)
-    store.save(simulate(**own.choices, progress=False))
+    store.save(Result(own, *new_bins(own.world, own.runs, own.steps)))
     assert own.path.exists() and store.load(own) is not None
     assert sorted(conditions(), key=KEPT.index) == KEPT
     monkeypatch.setattr(condition, "source_digest", lambda: "another source")
@@ -75,13 +93,13 @@ def test_conditions_of_a_world_that_has_changed_are_counted_and_skipped(tmp_path
     monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")
     monkeypatch.syspath_prepend(folder)
     subprocess.run([sys.executable, "-c", work], check=True, env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)})
-    assert verify("--seed", "4").stdout.splitlines()[0].startswith("2 of 2 runs of 2 conditions in ")
+    assert in_a_process("--seed", "4").stdout.startswith("2 of 2 runs of 2 conditions in ")
     edited.write(folder, first | {"rule": 10})
-    done = verify("--seed", "4")
+    done = in_a_process("--seed", "4")
     assert done.returncode == 0 and done.stdout.startswith("1 of 1 runs of 1 conditions in ")
     assert "seed 4\n1 more are left out: their kernels or worlds have changed since" in done.stdout
 
 
-def test_an_empty_cache_and_an_empty_sample_are_refused():
-    assert "holds no condition that was computed with the present source: make book first" in verify().stderr
-    assert "--sample must be an integer of at least 1, but is 0" in verify("--sample", "0").stderr
+def test_an_empty_cache_and_an_empty_sample_are_refused(verified):
+    assert "holds no condition that was computed with the present source: make book first" in verified()[1]
+    assert "--sample must be an integer of at least 1, but is 0" in verified("--sample", "0")[1]
