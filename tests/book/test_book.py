@@ -95,30 +95,21 @@ def test_a_command_names_the_repository_that_is_set(tmp_path, monkeypatch):
         assert wanted in source[0] and launch.ASKED not in source[0]
 
 
-def test_a_docstring_opens_with_a_sentence_and_lists_what_follows():
-    lines = ["Speeds: float64 (steps,). step: seconds.", "", "seed: integer ≥ 0."]
+@pytest.mark.parametrize("lines, read", [
+    (["Speeds: float64 (steps,). step: seconds.", "", "seed: integer ≥ 0."],
+     ["Speeds: float64 (steps,).", "``step``", "seconds.", "``seed``", "integer ≥ 0."]),
+    (["A walk.", "", "steps: integer ≥ 1. seed:", "integer ≥ 0."],
+     ["A walk.", "``steps``", "integer ≥ 1.", "``seed``", "integer ≥ 0."]),
+    (["A cell.", "", "1. Neighbours: its own. It may have", "   none: an edge counts."],
+     ["A cell.", "1. Neighbours: its own. It may have", "none: an edge counts."]),  # no items
+    (["A map.", "", "size: of the map. Raises ValueError otherwise.", "one, two, three, four, five: numbers."],
+     ["A map.", "``size``", "of the map.", "*Raises*", "ValueError otherwise.", "``one, two, three, four, five``",
+      "numbers."]),
+    (["A map.", "", "Returns one. Raises OSError."],
+     ["A map.", "*Returns*", "one.", "*Raises*", "OSError."])])
+def test_a_docstring_opens_with_a_sentence_and_lists_what_follows(lines, read):
     api_links.read_docstring(None, "function", "speed", None, None, lines)
-    assert lines[0] == "Speeds: float64 (steps,)." and lines.count("``step``") == lines.count("``seed``") == 1
-    lines = ["A walk.", "", "steps: integer ≥ 1. seed:", "integer ≥ 0."]
-    api_links.read_docstring(None, "function", "walk", None, None, lines)
-    assert lines[-3:] == ["", "``seed``", "    integer ≥ 0."]
-
-
-def test_a_line_in_the_middle_of_a_sentence_is_no_item_however_it_begins():
-    lines = ["A cell.", "", "1. Neighbours: its own. It may have", "   none: an edge counts."]
-    api_links.read_docstring(None, "function", "cell", None, None, lines)
-    assert lines == ["A cell.", "", "1. Neighbours: its own. It may have", "   none: an edge counts."]
-
-
-def test_what_a_function_raises_is_no_part_of_an_argument():
-    lines = ["A map.", "", "size: of the map. Raises ValueError otherwise.", "one, two, three, four, five: numbers."]
-    api_links.read_docstring(None, "function", "map", None, None, lines)
-    assert [line.strip() for line in lines if line] == [
-        "A map.", "``size``", "of the map.", "*Raises*", "ValueError otherwise.", "``one, two, three, four, five``",
-        "numbers."]
-    lines = ["A map.", "", "Returns one. Raises OSError."]
-    api_links.read_docstring(None, "function", "map", None, None, lines)
-    assert [line.strip() for line in lines if line] == ["A map.", "*Returns*", "one.", "*Raises*", "OSError."]
+    assert [line.strip() for line in lines if line] == read
 
 
 def test_a_name_links_to_its_room_or_below_and_an_argument_to_nothing(make_book):

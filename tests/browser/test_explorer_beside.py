@@ -102,18 +102,22 @@ def test_both_show_the_same_moment_step_by_step_and_of_agents_with_other_steps_p
     wait_for(page, step=str(2 * MINUTE + 1), secondStep=str(2 * MINUTE + 1))
 
 
+def wait_for_another_picture(page, before):
+    for _ in range(100):
+        if page.locator(".second canvas").screenshot() != before:
+            break
+        page.wait_for_timeout(100)
+    else:
+        pytest.fail("the second tank has not changed")
+
+
 def test_an_element_is_dropped_into_both_tanks(page):
     visit(page, "#explorer_agent-places_beside-things_minute-0")
     wait_for(page, step="0", secondStep="0", state="paused")
     before = page.locator(".second canvas").screenshot()
     drop_by_keyboard(page)
     page.wait_for_function("document.querySelector('.legend').textContent.includes('changed')")
-    for _ in range(100):
-        if page.locator(".second canvas").screenshot() != before:
-            break
-        page.wait_for_timeout(100)
-    else:
-        pytest.fail("the element is not drawn in the second tank")
+    wait_for_another_picture(page, before)
     press(page, "play")
     wait_for(page, step="20000", state="ended")
     runs = [replace(agent, desires=(*agent.desires, Desire(Place(0.5, 0.5), agent.nodes[0].name, 1.0)))
@@ -135,12 +139,7 @@ def test_the_way_to_a_cell_is_shown_in_both_tanks(page):
     page.locator(".space canvas").focus()
     page.keyboard.press("Enter")
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal !== ''")
-    for _ in range(100):
-        if page.locator(".second canvas").screenshot() != before:
-            break
-        page.wait_for_timeout(100)
-    else:
-        pytest.fail("the second tank does not show the way")
+    wait_for_another_picture(page, before)
 
 
 def test_a_comparison_ends_without_stopping_the_first_run(page):
@@ -190,17 +189,3 @@ def test_an_address_with_an_impossible_comparison_is_reported(page, beside):
     visit(page, f"#explorer_beside-{beside}")
     expect(page.locator(".refused")).to_contain_text("There is no agent “")
     wait_for(page, beside=None)
-
-
-def test_on_a_phone_the_tanks_stand_side_by_side(page):
-    visit(page, "#explorer_agent-places_beside-things_minute-0")
-    wait_for(page, secondStep="0", state="paused")
-    size = page.viewport_size
-    page.set_viewport_size({"width": 400, "height": 800})
-    page.evaluate("document.body.style.width = 'auto'")
-    first, second = (page.locator(each).first.bounding_box() for each in (".first canvas", ".second canvas"))
-    assert first["y"] == second["y"] and first["width"] == second["width"] > 150
-    assert first["x"] + first["width"] < second["x"] and second["x"] + second["width"] <= 400
-    assert page.evaluate("document.documentElement.scrollWidth") <= 400
-    page.evaluate("document.body.style.width = '700px'")
-    page.set_viewport_size(size)
