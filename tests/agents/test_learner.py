@@ -6,6 +6,7 @@ import pickle
 import numpy as np
 import pytest
 from golden import every_modality, plain_rule
+from same import assert_equal, assert_same
 from saved_files import rewrite
 
 from neorl import (CARDINAL, Agent, Desire, Learner, Learning, Node, Place, Policy, Run, Scene, WaterWorld, kernel,
@@ -66,12 +67,6 @@ def live(learner, world, state, steps):
     return actions
 
 
-def assert_equal(one, other):
-    theirs = arrays(other.state)
-    for name, mine in arrays(one.state).items():
-        np.testing.assert_array_equal(mine, theirs[name], name)
-
-
 @pytest.mark.parametrize("half_way", [False, True], ids=["whole", "half-way"])
 @pytest.mark.parametrize("name", AGENTS)
 def test_a_learner_goes_on_from_a_copy_a_pickle_or_a_file_to_the_same_bit(name, half_way, tmp_path):
@@ -93,15 +88,15 @@ def test_a_learner_goes_on_from_a_copy_a_pickle_or_a_file_to_the_same_bit(name, 
         lives.append(live(each, TANK, there, 400))
     assert all(actions == lives[0] for actions in lives)
     for other in others:
-        assert_equal(learner, other)
+        assert_equal(learner.state, other.state)
 
 
 def test_a_run_goes_on_from_a_pickle_to_the_same_bit():
     run = Run(AGENTS["calibrated"], TANK)
     run.advance(400)
     other = pickle.loads(pickle.dumps(run))
-    assert run.advance(400) == other.advance(400) and other.step == 800
-    assert_equal(run, other)
+    assert run.advance(400) == other.advance(400)
+    assert_same(run, other)
 
 
 def test_a_learner_that_has_not_begun_is_kept_as_such(tmp_path):
@@ -270,14 +265,6 @@ def saved(tmp_path):
     learner.begin(FINE)
     learner.save(tmp_path / "learner")
     return tmp_path / "learner"
-
-
-@pytest.mark.parametrize("damage", [
-    lambda content: content[:-20], lambda content: content[:600] + bytes([content[600] ^ 1]) + content[601:]])
-def test_a_damaged_file_is_refused(saved, damage):
-    saved.write_bytes(damage(saved.read_bytes()))
-    with pytest.raises(ValueError, match="must be a file of neorl's, but is damaged|or is damaged"):
-        Learner.load(saved)
 
 
 @pytest.mark.parametrize("forge", [

@@ -3,10 +3,10 @@
 import gymnasium
 import numpy as np
 import pytest
+from same import assert_equal
 
 from neorl import (CARDINAL, Actions, Agent, Arena, Axis, Desire, Learner, Learning, Modality, Node, Place, Policy, Run,
                    Scene, WaterWorld, network_d, place_cells)
-from neorl.core.kernel import arrays
 from neorl.core.stream import new_stream
 from neorl.gym import WorldEnv, play
 
@@ -33,9 +33,7 @@ def test_an_agent_in_our_environments_repeats_a_run_to_the_bit(world):
     played = play(learner, env, lambda observation, info: env.world_state.scene, steps=5_000, seed=4)
     paid = run.advance(5_000)
     assert played.learner is learner and played.rewards.sum() == paid and len(played.returns) > 0
-    theirs = arrays(run.state)
-    for name, mine in arrays(learner.state).items():
-        np.testing.assert_array_equal(mine, theirs[name], name)
+    assert_equal(learner.state, run.state)
 
 
 def test_an_agent_learns_to_walk_beside_a_cliff():

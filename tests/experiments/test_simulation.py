@@ -5,9 +5,9 @@ import threading
 import numpy as np
 import pytest
 from golden import plain_rule
+from same import assert_same
 
 from neorl import Agent, Node, Policy, Run, WaterWorld, multimodal, network_c, place_cells, simulate
-from neorl.core.kernel import arrays
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL,
                                  LANDMARK_VECTOR_CELL, OBJECT_VECTOR_CELL, PLACE_CELL)
 
@@ -21,14 +21,7 @@ def test_becoming_the_same_agent_changes_nothing():
     changed.advance(1_234)
     changed.change(agent)
     changed.advance(1_766)
-    assert_equal(whole, changed)
-
-
-def assert_equal(run, other):
-    for name in ("state", "world_state"):
-        one, other_one = arrays(getattr(run, name)), arrays(getattr(other, name))
-        for field in one:
-            np.testing.assert_array_equal(one[field], other_one[field], field)
+    assert_same(whole, changed)
 
 
 def test_an_agent_that_gets_a_second_modality_keeps_what_it_knows():
@@ -85,26 +78,20 @@ def test_a_run_that_fails_ends_the_others(monkeypatch):
         simulate(place_cells([3]), TANK, steps=10**9, runs=4, progress=False)
 
 
-@pytest.mark.parametrize("agent", [multimodal([3, 12]), multimodal([3, 4], learning=plain_rule(), object_state="self"),
-                                   place_cells([14], learning=plain_rule(memory=5.0, absent_decay=0.2))])
-def test_a_run_in_the_memory_of_another_begins_with_nothing_and_is_the_same(agent):
-    before = Run(agent, WaterWorld(), seed=0, run=3)
+BEFORE = [multimodal([3, 12]), multimodal([3, 4], learning=plain_rule(), object_state="self"),
+          place_cells([14], learning=plain_rule(memory=5.0, absent_decay=0.2))]
+
+
+@pytest.mark.parametrize("first, second", [
+    *zip(BEFORE, BEFORE), (multimodal([3, 14]), place_cells([13], learning=plain_rule(memory=5.0)))])
+def test_a_run_in_the_memory_of_another_begins_with_nothing_and_is_the_same(first, second):
+    before = Run(first, WaterWorld(), seed=0, run=3)
     before.advance(20_000)
     room = before.state.values.q
-    after, fresh = Run(agent, WaterWorld(), seed=0, run=4, after=before), Run(agent, WaterWorld(), seed=0, run=4)
+    after, fresh = Run(second, WaterWorld(), seed=0, run=4, after=before), Run(second, WaterWorld(), seed=0, run=4)
     assert np.shares_memory(after.state.values.q, room) and not after.state.values.q.any()
     assert after.advance(20_000) == fresh.advance(20_000)
-    assert_equal(after, fresh)
-
-
-def test_a_run_takes_over_the_memory_of_a_larger_agent_and_is_the_same():
-    before = Run(multimodal([3, 14]), WaterWorld())
-    before.advance(5_000)
-    smaller = place_cells([13], learning=plain_rule(memory=5.0))
-    after, fresh = Run(smaller, WaterWorld(), after=before), Run(smaller, WaterWorld())
-    assert np.shares_memory(after.state.values.q, before.state.values.q) and not after.state.values.q.any()
-    assert after.advance(5_000) == fresh.advance(5_000)
-    assert_equal(after, fresh)
+    assert_same(after, fresh)
 
 
 @pytest.mark.parametrize("cache", [False, True])

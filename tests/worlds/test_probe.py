@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
+from same import assert_same
 
 from neorl import (Agent, Node, NresMap, Run, WaterWorld, multimodal, network_d, object_vector_cells, place_cells,
                    superpose)
 from neorl.agents.compile import constants_of
-from neorl.core.kernel import arrays, execute, mapped
+from neorl.core.kernel import execute, mapped
 from neorl.core.modality import OBJECT_VECTOR_CELL, PLACE_CELL, Axis, Modality
 from neorl.worlds.probe import probes_with
 from neorl.worlds.waterworld import GREEN, RED
@@ -42,9 +43,7 @@ def test_a_survey_changes_nothing(agent):
         each.advance(2_000)
     surveyed(run, 7)
     assert run.advance(2_000) == other.advance(2_000)
-    for name in ("state", "world_state"):
-        one, other_one = arrays(getattr(run, name)), arrays(getattr(other, name))
-        assert all(np.array_equal(one[field], other_one[field]) for field in one)
+    assert_same(run, other)
 
 
 def test_a_place_is_seen_in_the_cell_that_is_as_it_lies_and_otherwise_as_the_agent_is():
