@@ -31,6 +31,13 @@ QUIET = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "-
 PATIENCE = 60_000  # milliseconds that a test waits for a page, since the machine may be busy
 expect.set_options(timeout=PATIENCE)
 
+LONGEST = ("test_survival", "test_fuzzing", "test_package", "test_fuzzed_kernels", "test_compiler_off")
+
+
+def pytest_collection_modifyitems(items):
+    """Begin with the files that take longest, lest one is left when all other workers have finished."""
+    items.sort(key=lambda item: LONGEST.index(item.path.stem) if item.path.stem in LONGEST else len(LONGEST))
+
 
 @pytest.fixture(autouse=True)
 def closed():
