@@ -61,6 +61,16 @@ def test_the_front_page_opens_with_what_it_is_about_what_was_found_and_the_race(
     assert page.evaluate("document.documentElement.scrollWidth") <= width
 
 
+@pytest.mark.parametrize("width", [400, 1200])
+def test_the_page_of_alternatives_shows_its_figure_soon_and_its_tables_whole(open_page, width):
+    page = open_page(HTML, "chapters/alternatives.html")
+    page.set_viewport_size({"width": width, "height": 800})
+    assert page.locator("#fig-alternatives-curves").bounding_box()["y"] < 1_000
+    tables = page.locator("article .pst-scrollable-table-container")
+    assert tables.count() > 3
+    assert not any(tables.evaluate_all("tables => tables.map(each => each.scrollWidth > each.clientWidth)"))
+
+
 def test_a_page_without_a_widget_asks_for_nothing(open_page):
     page = open_page(HTML, "sources.html")
     assert page.locator(".neorl-explorer").count() == 0

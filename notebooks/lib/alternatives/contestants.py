@@ -16,7 +16,7 @@ def of_thesis(readings):
         "network D": networks(each)["D"]}.items()}
 
 
-def of_others(settings, board, *, steps, runs, seed):
+def of_others(settings, board, steps, runs, seed):
     """What tabular learners and those given the physics earn on a board: {name: `Earned`}.
 
     settings: as `lib.alternatives.search.best_settings` returns them. steps: of each run; the planner, which does not
