@@ -13,6 +13,7 @@ from test_walls import BORDER, Room
 from test_world import DRIVER, SEEKER, Dive, Roundabout
 
 from neorl import Agent, Arena, Arm, Desire, Learner, Node, Run, Vessel, WaterMaze
+from neorl.agents.spaces import pilot
 from neorl.core.kernel import arrays
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL
 
@@ -29,7 +30,7 @@ LIVES = {
     "maze": wanting(Arena((("food", 0.2, 0.2), ("trap", 0.8, 0.8), ("food", 0.8, 0.2)), (1.0, -1.0),
                           ((0.4, 0.3, 0.6, 0.7),), "square", "steps", radius=0.1, ends=False, start=(0.2, 0.8),
                           trial_seconds=0.8)),
-    "arm": wanting(Arm((2, 1), radius=0.2)), "vessel": wanting(Vessel(traffic=9, radius=0.1)),
+    "arm": wanting(Arm((2, 1), radius=0.2)), "vessel": (pilot(), Vessel(traffic=9, radius=0.1)),
     "water maze": wanting(WaterMaze(((0.5, 0.3), (0.6, 0.7)), 2, 0.25, 5.0)),
     "cube": (SEEKER, Dive()), "road": (DRIVER, Roundabout())}
 
