@@ -20,7 +20,7 @@ const ask = (worker, request) => new Promise((resolve, reject) => {
   worker.onerror = ({ message }) => reject(new Error(message));
   worker.postMessage(request);
 });
-async function answers(requests) {
+async function answers([requests, last]) {
   const worker = new Worker(URL.createObjectURL(new Blob([state._engine])));
   for (const [name, layout] of Object.entries(state._layout)) {
     const wasm = Uint8Array.from(atob(state.wasm[name]), (byte) => byte.charCodeAt(0)).buffer;
@@ -29,7 +29,7 @@ async function answers(requests) {
   const all = [];
   for (const request of requests) all.push(await ask(worker, request));
   worker.terminate();
-  return JSON.parse(JSON.stringify(all, (_, value) => ArrayBuffer.isView(value) ? [...value] : value));
+  return JSON.parse(JSON.stringify(all.slice(-last), (_, value) => ArrayBuffer.isView(value) ? [...value] : value));
 }
 """
 PROBES = probes_with(wasm.MODULES["plane"].constants)
@@ -41,25 +41,28 @@ STEPS, SEED, K = 3_000, 5, 2
 @pytest.fixture(scope="module")
 def state():
     result = simulate(AGENT, TANK, steps=STEPS, runs=2, seed=SEED, progress=False)
-    large = simulate(place_cells([90]), TANK, steps=1, runs=1, progress=False)
-    state = Explorer({"D": result, "N90": large}).get_state()
+    state = Explorer({"D": result}).get_state()
     return {name: state[name] for name in ("_engine", "_layout", "_presets")} | {
         "wasm": {name: base64.b64encode(each).decode() for name, each in state["_wasm"].items()}}
 
 
-@pytest.fixture
-def ask(open_page, tmp_path, state):
-    """`ask(request, …)` begins a run and returns the engine's answers to this and to each request."""
+@pytest.fixture(scope="module")
+def ask(open_shared_page, tmp_path_factory, state):
+    """`ask(request, …)` begins a run and returns the engine's answers to this and to each request.
+
+    last: how many answers are wanted, or 0 for all; thousands take long to come back from the page.
+    """
+    folder = tmp_path_factory.mktemp("engine")
     preset = state["_presets"]["D"]
     begin = {"type": "begin", "parameters": preset["parameters"], "world": preset["world"], "seed": SEED, "run": K,
              "steps": 10 * STEPS, "bin_steps": 100}
     script = f"const state = {json.dumps(state)};{ENGINE}".replace("</", r"<\/")
-    (tmp_path / "page.html").write_text(f'<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">'
+    (folder / "page.html").write_text(f'<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,">'
                                         f'<script>{script}</script>')
-    page = open_page(tmp_path, "page.html")
+    page = open_shared_page(folder, "page.html")
 
-    def ask(*requests, **changes):
-        return page.evaluate("requests => answers(requests)", [begin | changes, *requests])
+    def ask(*requests, last=0, **changes):
+        return page.evaluate("given => answers(given)", [[begin | changes, *requests], last])
     return ask
 
 
@@ -212,7 +215,7 @@ def test_a_second_agent_obeys_commands_on_the_same_creeps(ask, object_state):
     actions = np.random.default_rng(0).integers(0, 5, 1_500).tolist()
     frame = ask(advance(STEPS), *(each for action in actions
                                   for each in ({"type": "play", "action": action}, advance(1))),
-                parameters=_parameters(agent, TANK))[-1]
+                last=1, parameters=_parameters(agent, TANK))[-1]
     run = Run(agent, TANK, SEED, K)
     run.advance(STEPS)
     second = run.world_state.scene._replace(position=np.full(2, 0.1 * TANK.width), velocity=np.zeros(2))
