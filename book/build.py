@@ -108,17 +108,24 @@ def the_only_build():
 
 
 def compute_all(notebooks):
-    """Compute notebooks, {path: parameters}, in parallel where their dependencies and memory allow."""
+    """Compute notebooks, {path: parameters}: most in parallel, then those that measure times, and the conclusion."""
     tidy(notebooks)
     restore_claims(notebooks)
-    names = {notebook.name for notebook in notebooks}
-    needs = {notebook.name: frozenset(names - {notebook.name} if notebook.stem == CONCLUSION else ())
-             for notebook in notebooks}
-    tasks = {notebook.name: workers.Task((__file__, "--notebook", notebook, "--parameters",
-                                          json.dumps(parameters)), needs[notebook.name], notebook.stem in ALONE)
-             for notebook, parameters in notebooks.items()}
+
+    def work(notebooks_now, at_once=1):
+        return workers.work({each.name: (__file__, "--notebook", each, "--parameters", json.dumps(notebooks[each]))
+                             for each in notebooks_now}, at_once, say)
+
     fit = psutil.virtual_memory().available // (GIGABYTES_EACH * 2**30)
-    failed = workers.work(tasks, max(1, min(AT_ONCE, os.cpu_count(), fit)), say)
+    last = [each for each in notebooks if each.stem == CONCLUSION]
+    alone = [each for each in notebooks if each.stem in ALONE]
+    together = [each for each in notebooks if each not in (*alone, *last)]
+    failed = work(together, max(1, min(AT_ONCE, os.cpu_count(), fit))) + work(alone)
+    if not failed:
+        failed = work(last)
+    elif last:
+        say(f"{CONCLUSION}.ipynb: left out, since it needs {', '.join(failed)}")
+        failed += [each.name for each in last]
     if failed:
         sys.exit(f"\nnot computed, see above: {', '.join(failed)}; all others are kept")
     tidy(notebooks)
@@ -238,7 +245,7 @@ def compute(notebook, parameters):
 def execute(notebook, target, parameters):
     """Run a notebook through papermill into a file."""
     at = ["its start"]
-    with tempfile.TemporaryDirectory() as sockets, workers.Watch(STALL_SECONDS) as watch:
+    with tempfile.TemporaryDirectory() as sockets, workers.watch(STALL_SECONDS) as hung:
         try:
             papermill.execute_notebook(
                 notebook, target, parameters, cwd=ROOT / "notebooks", request_save_on_cell_execute=False,
@@ -248,7 +255,7 @@ def execute(notebook, target, parameters):
                 # over TCP the kernel warns that it is not encrypted
                 config=Config(KernelManager={"transport": "ipc", "ip": f"{sockets}/kernel"}))
         except (DeadKernelError, RuntimeError) as error:
-            why = (f"has hung: no processor time in {STALL_SECONDS} s" if watch.hung else
+            why = (f"has hung: no processor time in {STALL_SECONDS} s" if hung.is_set() else
                    f"has died, perhaps for lack of memory ({error})")
             raise RuntimeError(f"its kernel {why}, in {at[-1]}") from error
 

@@ -1,9 +1,8 @@
-"""Worker processes that end with their starter, run a few at a time, each after those that it needs.
+"""Worker processes that end with their starter.
 
 A worker's standard input is a pipe that its starter holds open. When the pipe closes, however the starter has ended,
 the worker ends with all that it has started in turn. It has a session of its own, so that a keyboard interrupt reaches
-its starter alone, which then ends it. Run as a program, this file is a worker that runs a script:
-``python workers.py SCRIPT …``.
+its starter alone. Run as a program, this file is a worker that runs a script: ``python workers.py SCRIPT …``.
 """
 
 import os
@@ -11,87 +10,39 @@ import runpy
 import subprocess
 import sys
 import threading
-import time
-from dataclasses import dataclass
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from itertools import compress
 
 import psutil
 
-PATIENCE = 10  # seconds until a worker that should end is killed
 
+def work(commands, at_once, say):
+    """Run scripts, {name: (script, argument, …)}, and return the names of those that failed.
 
-@dataclass(frozen=True)
-class Task:
-    """A script to run in a worker.
-
-    command: the script and its arguments. needs: names of tasks that must be done before. alone: whether nothing may
-    run beside it, since it measures times.
+    at_once: how many may run in parallel. say: called with a line of output.
     """
+    pipe, held = os.pipe()
+    pool = ThreadPoolExecutor(at_once)
 
-    command: tuple
-    needs: frozenset = frozenset()
-    alone: bool = False
+    def fails(name):
+        code = run(commands[name], pipe)
+        if code < 0:
+            say(f"{name}: its process was killed by signal {-code}; perhaps there was not enough memory")
+        return code != 0
 
-
-def work(tasks, at_once, say):
-    """Run tasks, {name: Task} in order of preference, and return the names of those that failed.
-
-    at_once: how many may run in parallel. say: called with each line of output. A task is left out if one that it
-    needs has failed.
-    """
-    waiting, running, done, failed = dict(tasks), {}, set(), []
     try:
-        while waiting or running:
-            for name, task in list(waiting.items()):
-                missed = [each for each in failed if each in task.needs]
-                if missed:
-                    say(f"{name}: left out, since it needs {', '.join(missed)}")
-                    failed.append(name)
-                    del waiting[name]
-                elif task.needs <= done and _fits(task, [tasks[each] for each in running], at_once):
-                    running[name] = start(task.command)
-                    del waiting[name]
-            time.sleep(0.05)
-            for name, process in list(running.items()):
-                if process.poll() is not None:
-                    del running[name]
-                    process.stdin.close()
-                    if process.returncode < 0:
-                        say(f"{name}: its process was killed by signal {-process.returncode}; "
-                            "perhaps there was not enough memory")
-                    done.add(name) if process.returncode == 0 else failed.append(name)
+        return list(compress(commands, pool.map(fails, commands)))
     finally:
-        for process in running.values():  # none, unless interrupted
-            process.stdin.close()
-        for process in running.values():
-            end(process)
-    return failed
+        os.close(held)  # no worker is running, unless interrupted
+        pool.shutdown(cancel_futures=True)
+        os.close(pipe)
 
 
-def _fits(task, running, at_once):
-    return not running or not task.alone and len(running) < at_once and not any(each.alone for each in running)
-
-
-def start(command):
-    return subprocess.Popen([sys.executable, __file__, *command], stdin=subprocess.PIPE, start_new_session=True)
-
-
-def run(command):
+def run(command, pipe=subprocess.PIPE):
     """Run one worker to its end, and return its exit code."""
-    process = start(command)
-    try:
+    with subprocess.Popen([sys.executable, __file__, *command], stdin=pipe, start_new_session=True) as process:
         return process.wait()
-    finally:
-        end(process)
-
-
-def end(process):
-    """End a worker; kill it if it does not end by itself."""
-    process.stdin.close()
-    try:
-        process.wait(PATIENCE)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        process.wait()
 
 
 def end_with_starter():
@@ -118,45 +69,38 @@ def kill(processes):
             continue
 
 
-class Watch:
-    """A context that kills the processes started within it if they are idle for a number of seconds.
+@contextmanager
+def watch(seconds):
+    """Kill the processes started within this context once they take no processor time for a number of seconds.
 
-    Idle means less than a 300th of the time of one core. `hung` says whether they were killed.
+    No time means less than a 300th of the time of one core. The event in the context tells whether they were killed.
     """
+    before, over, hung = started(), threading.Event(), threading.Event()
 
-    def __init__(self, seconds):
-        self.seconds, self.hung = seconds, False
-        self._over, self._thread = threading.Event(), threading.Thread(target=self._look, daemon=True)
+    def look():
+        last = {}
+        while not over.wait(seconds):
+            now = {process.pid: used(process) for process in started(before)}
+            if now.keys() == last.keys() and sum(now.values()) - sum(last.values()) < seconds / 300:
+                hung.set()
+                return kill(started(before))
+            last = now
 
-    def __enter__(self):
-        self._before = started()
-        self._thread.start()
-        return self
+    thread = threading.Thread(target=look, daemon=True)
+    thread.start()
+    try:
+        yield hung
+    finally:
+        over.set()
+        thread.join()
 
-    def __exit__(self, *_):
-        self._over.set()
-        self._thread.join()
 
-    def _look(self):
-        last, since = self._used(), time.monotonic()
-        while not self._over.wait(min(5, self.seconds / 10)):
-            now = self._used()
-            if now.keys() != last.keys() or sum(now.values()) - sum(last.values()) > self.seconds / 300:
-                last, since = now, time.monotonic()
-            elif time.monotonic() - since > self.seconds:
-                self.hung = True
-                kill(started(self._before))
-                return
-
-    def _used(self):
-        """Seconds of processor time by process."""
-        used = {}
-        for process in started(self._before):
-            try:
-                used[process.pid] = sum(process.cpu_times()[:2])
-            except psutil.NoSuchProcess:
-                continue
-        return used
+def used(process):
+    """Seconds of processor time that a process has taken."""
+    try:
+        return sum(process.cpu_times()[:2])
+    except psutil.NoSuchProcess:
+        return 0.0
 
 
 if __name__ == "__main__":

@@ -214,6 +214,30 @@ def test_a_built_book_is_made_again_only_if_a_page_of_it_is_damaged(chapters, ma
     assert len(made_pages) == 2 and (chapters / "html" / PAGES[1]).read_text() == "new"
 
 
+@pytest.mark.parametrize("bad", ["", "paper_b"])
+def test_measurements_run_alone_and_the_conclusion_after_all_others(monkeypatch, capsys, bad):
+    stages = []
+
+    def work(commands, at_once, say):
+        stages.append((sorted(commands), at_once))
+        return [name for name in commands if name == f"{bad}.ipynb"]
+
+    monkeypatch.setattr(build.workers, "work", work)
+    monkeypatch.setattr(build, "tidy", lambda notebooks: None)
+    monkeypatch.setattr(build, "restore_claims", lambda notebooks: None)
+    monkeypatch.setattr(build.psutil, "virtual_memory", lambda: type("Memory", (), {"available": 2**40}))
+    notebooks = {Path(f"{name}.ipynb"): {} for name in ("chapter_1", "chapter_5", "paper_a", "paper_b", "performance")}
+    if bad:
+        with pytest.raises(SystemExit, match="not computed, see above: paper_b.ipynb, chapter_5.ipynb; all others"):
+            build.compute_all(notebooks)
+        assert "chapter_5.ipynb: left out, since it needs paper_b.ipynb" in capsys.readouterr().out
+    else:
+        build.compute_all(notebooks)
+    wanted = [(["chapter_1.ipynb", "paper_a.ipynb"], min(2, build.os.cpu_count())),
+              (["paper_b.ipynb", "performance.ipynb"], 1), (["chapter_5.ipynb"], 1)]
+    assert stages == (wanted[:2] if bad else wanted)
+
+
 def test_what_no_notebook_has_made_is_removed(notebook, chapters):
     for name in ("gone.ipynb", "gone.claims.json", "figure.svg", "claims-table.md", "page.ipynb", "page.inputs.json"):
         (chapters / name).write_text("{}")
