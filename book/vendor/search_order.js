@@ -9,3 +9,6 @@ var Scorer = {
   title: 30, partialTitle: 7, term: 5, partialTerm: 2, // a title's is 15 in Sphinx
   score: ([page, , , description, score]) => (page.startsWith("api_") && description === null ? score - 16 : score),
 };
+
+// A page that is read from a file cannot fetch others to show excerpts of them.
+if (location.protocol === "file:") DOCUMENTATION_OPTIONS.SHOW_SEARCH_SUMMARY = false;

@@ -12,7 +12,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "book"))
-import api_links  # noqa: E402
+import docstrings  # noqa: E402
 import launch  # noqa: E402
 PUBLIC = sorted(".".join(path.relative_to(ROOT / "neorl").with_suffix("").parts).removesuffix(".__init__")
                 for path in (ROOT / "neorl").rglob("*.py"))
@@ -26,16 +26,18 @@ def make_book(tmp_path):
         shutil.rmtree(tmp_path / "book", ignore_errors=True)
         chapters = tmp_path / "book" / "chapters"
         chapters.mkdir(parents=True)
-        for name in ("launch.py", "api_links.py", "describe.py", "weight.py", "sidebar.py", "references.bib",
-                     "vendor"):
+        for name in ("launch.py", "docstrings.py", "terms.py", "typeset.py", "references.bib", "templates", "vendor"):
             (tmp_path / "book" / name).symlink_to(ROOT / "book" / name)
         shutil.copy(ROOT / "_config.yml", tmp_path)
         (tmp_path / "pyproject.toml").write_text(f'[project.urls]\nRepository = "{url}"' if url else "[project]")
-        toc = "format: jb-book\nroot: index\nchapters:\n  - file: chapters/page\n"
+        toc = "format: jb-book\nroot: index\nchapters:\n  - file: chapters/page\n  - file: glossary\n"
         (tmp_path / "book" / "_toc.yml").write_text(toc)
         reference = "\n\n".join(f".. automodule:: {module}" for module in modules)
-        (tmp_path / "book" / "index.md").write_text(f"# Reference\n\nAll of it, and $x$.\n\n% The repository is at "
-                                                     f"<URL>.\n\n```{{eval-rst}}\n{reference}\n```\n")
+        glossary = "# Terms\n\n```{glossary}\nN7\nmap\n  Cells of a *space*.\n```\n"
+        (tmp_path / "book" / "glossary.md").write_text(glossary)
+        (tmp_path / "book" / "index.md").write_text(
+            "# Reference\n\nAll of it, and $x$.\n\n{term}`N7`\n\n% The repository is at <URL>.\n\n"
+            f"```{{eval-rst}}\n{reference}\n```\n")
         kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3"},
                   "language_info": {"name": "python", "pygments_lexer": "ipython3"}}
         cells = [nbformat.v4.new_markdown_cell("# Page"), nbformat.v4.new_code_cell("1")]
@@ -63,9 +65,22 @@ def test_a_notebook_opens_from_the_repository_that_is_set(make_book, tmp_path):
     assert "The repository is at <a" in reference
     assert '<meta name="description" content="All of it, and x." />' in reference
     assert '<meta property="og:image" content="../_static/card.png" />' in page
-    assert 'aria-label="Search"' not in page.split('class="btn search-button-field')[1].split(">")[0]
-    assert 'role="complementary" aria-label="Book"' in page
-    assert "fontawesome.js" not in page + reference and "tex-chtml.js" not in page and "tex-chtml.js" in reference
+    assert "tex-chtml.js" not in page and "tex-chtml.js" in reference
+    assert 'span class="unbroken"><span class="math notranslate nohighlight">\\(x\\)</span>.</span>' in reference
+    icons = tmp_path / "_build" / "html" / "_static" / "scripts" / "fontawesome.js"
+    assert icons.stat().st_size < 1000  # the theme's, which is not needed, has 1.5 MB
+
+
+def test_a_link_to_a_term_shows_its_definition(make_book):
+    _, reference = make_book()
+    assert re.search('<a [^>]*href="glossary.html#term-N7"[^>]* title="Cells of a space."', reference)
+
+
+def test_parts_of_a_page_have_names_and_roles(make_book, open_page, tmp_path):
+    make_book()
+    page = open_page(tmp_path / "_build" / "html", "index.html")
+    page.get_by_role("complementary", name="Book").wait_for()
+    assert page.locator(".search-button-field").first.get_attribute("aria-label") is None
 
 
 def test_without_a_repository_there_are_no_buttons_and_docstrings_become_lists_with_links(make_book, open_page,
@@ -76,7 +91,7 @@ def test_without_a_repository_there_are_no_buttons_and_docstrings_become_lists_w
     assert "mybinder" not in page and "colab" not in page and "fa-github" not in page
     text = re.sub(r"<[^>]+>", "", reference)
     assert "The repository is at" not in text and "built without the address of its repository" in text
-    assert "Raises" in text and "ValueError" in text
+    assert "Raises ValueError" in text
     of_store = reference.split('id="neorl.experiments.simulation.simulate"')[1].split("</article>")[0]
     assert re.search(r'href="#neorl.experiments.result.Result"[^>]*><code[^>]*><span class="pre">Result', of_store)
     assert "float64 (actions,): the value of each action" in text  # a comment beside a field
@@ -97,33 +112,32 @@ def test_a_command_names_the_repository_that_is_set(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("lines, read", [
     (["Speeds: float64 (steps,). step: seconds.", "", "seed: integer ≥ 0."],
-     ["Speeds: float64 (steps,).", "``step``", "seconds.", "``seed``", "integer ≥ 0."]),
-    (["A walk.", "", "steps: integer ≥ 1. seed:", "integer ≥ 0."],
-     ["A walk.", "``steps``", "integer ≥ 1.", "``seed``", "integer ≥ 0."]),
+     ["Speeds: float64 (steps,).", "* ``step``: seconds.", "* ``seed``: integer ≥ 0."]),
+    (["A walk.", "", "steps: integer ≥ 1. seed:", "integer ≥ 0.", "", "Any other text."],
+     ["A walk.", "* ``steps``: integer ≥ 1.", "* ``seed``:", "  integer ≥ 0.", "Any other text."]),
     (["A cell.", "", "1. Neighbours: its own. It may have", "   none: an edge counts."],
-     ["A cell.", "1. Neighbours: its own. It may have", "none: an edge counts."]),  # no items
+     ["A cell.", "1. Neighbours: its own. It may have", "   none: an edge counts."]),  # no items
     (["A map.", "", "size: of the map. Raises ValueError otherwise.", "one, two, three, four, five: numbers."],
-     ["A map.", "``size``", "of the map.", "*Raises*", "ValueError otherwise.", "``one, two, three, four, five``",
-      "numbers."]),
-    (["A map.", "", "Returns one. Raises OSError."],
-     ["A map.", "*Returns*", "one.", "*Raises*", "OSError."])])
+     ["A map.", "* ``size``: of the map.", "* Raises ValueError otherwise.",
+      "* ``one, two, three, four, five``: numbers."]),
+    (["A map.", "", "Returns one. Raises OSError."], ["A map.", "* Returns one.", "* Raises OSError."])])
 def test_a_docstring_opens_with_a_sentence_and_lists_what_follows(lines, read):
-    api_links.read_docstring(None, "function", "speed", None, None, lines)
-    assert [line.strip() for line in lines if line] == read
+    docstrings.read_docstring(None, "function", "speed", None, None, lines)
+    assert [line for line in lines if line] == read
 
 
 def test_a_name_links_to_its_room_or_below_and_an_argument_to_nothing(make_book):
     _, reference = make_book(modules=[f"neorl.{name}" for name in (
         "core.kernel", "core.modality", "core.maps", "core.choices", "core.scene", "worlds", "worlds.world",
         "worlds.arena", "worlds.arm", "agents.individual", "agents.learner",
-        "experiments.run")] + ["lib.chapter_3.hybrid_reward", "lib.other_spaces.trials"])
+        "experiments.run")] + ["lib.other_spaces.trials"])
     of_arm = reference.split('id="neorl.worlds.arm.Arm"')[1].split("</dl>")[0]
     assert ">lengths<" in of_arm and "#lib.other_spaces.trials.lengths" not in of_arm
     of_axis = reference.split('id="neorl.core.modality.Axis"')[1].split("</dl>")[0]
     assert "#neorl.core.maps.NresMap.intervals" not in of_axis
     assert 'href="#neorl.core.kernel.kernel" title' in of_axis  # neorl.kernel
     of_individual = reference.split('id="neorl.agents.individual.Individual"')[1].split("</dl>")[0]
-    assert "#neorl.agents.learner.Learner" in of_individual  # not the Learner of chapter 3
+    assert "#neorl.agents.learner.Learner" in of_individual  # which its module does not import
     assert 'href="#neorl.experiments.run.Run"' in of_individual
     of_room = reference.split('id="module-neorl.worlds"')[1].split('id="module-neorl.worlds.world"')[0]
     assert ">kinds<" in of_room and "Arena.kinds" not in of_room
@@ -142,12 +156,12 @@ def test_the_reference_has_types_and_defaults_as_in_code(make_book):
     signatures = " ".join(html.unescape(re.sub(r"<[^>]+>", "", signatures)).split())
     for written in ("learning: Learning = Learning(), policy: Policy = Policy(),", "choose: Callable = greedy)",
                     "statistics: dict = dict())", "read_table(path=SHIPPED)",
-                    "draw_curves(xs: ArrayLike, curves: Mapping[str, ArrayLike],", "(name: str, array: NDArray[",
-                    "→ NDArray[float64]", "modality: Modality = PLACE_CELL)", "table: NDArray[float64]",
+                    "draw_curves(xs: ArrayLike, curves: Mapping[str, ArrayLike],", "(name: str, array: NDArray, ",
+                    "→ NDArray[np.float64]", "modality: Modality = PLACE_CELL)", "property table: ndarray[",
                     "position: array('float64', 'axes')", "Replay(recordings, playing=True, speed=1)",
                     "resolutions: Sequence[int] = (2, 3, 5, 7, 11, 13),", "at_least: float = -1e+30,"):
         assert written in signatures
-    assert not re.search(r"[~<]|Path\(|_Buffer|ndarray", signatures)
+    assert not re.search(r"[~<]|Path\(|_Buffer", signatures)
     assert "−`" not in reference
     of_page = " ".join(re.sub(r"<[^>]+>", "", reference.split('id="module-lib.study.multiverse"')[1]).split())
     assert "estimated from ENOUGH = 32 readings or more" in of_page  # a constant without an entry

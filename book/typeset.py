@@ -1,0 +1,42 @@
+"""Sphinx extension: pages stand still while they load, load no script in vain, and break lines in the right places."""
+
+from pathlib import Path
+
+from docutils import nodes
+from sphinx.util.images import get_image_size
+
+MARKS = ".,;:?!)’"
+
+
+def setup(app):
+    app.add_node(nodes.image, override=True, html=(visit_image, None))
+    app.connect("doctree-resolved", keep_marks)
+    app.connect("html-page-context", lighten, priority=900)  # after all others have added their scripts
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
+
+
+def visit_image(translator, node):
+    """Load an image when it is about to be seen, into a place of its size."""
+    path = Path(translator.builder.srcdir, node["uri"])
+    type(translator).visit_image(translator, node)
+    size = path.is_file() and "width" not in node and get_image_size(path)
+    given = 'width="{}" height="{}" '.format(*size) if size else ""
+    translator.body[-1] = translator.body[-1].replace("<img ", f'<img loading="lazy" {given}', 1)
+
+
+def keep_marks(app, doctree, page):
+    """Put each formula in the text and the marks behind it into one element, which does not break (book.css)."""
+    for formula in list(doctree.findall(nodes.math)):
+        text = formula.next_node(descend=False, siblings=True)
+        marks = text[:len(text) - len(text.lstrip(MARKS))] if isinstance(text, nodes.Text) else ""
+        if marks:
+            formula.parent.replace(text, nodes.Text(text.removeprefix(marks)))
+            unbroken = nodes.inline(classes=["unbroken"])
+            formula.replace_self(unbroken)
+            unbroken += [formula, nodes.Text(marks)]
+
+
+def lighten(app, page, template, context, doctree):
+    """Remove the script for formulas from a page without any; Sphinx leaves it where a page below has some."""
+    if doctree is None or not any(doctree.findall(lambda node: isinstance(node, nodes.math | nodes.math_block))):
+        context["script_files"] = [each for each in context["script_files"] if "mathjax" not in str(each)]
