@@ -17,9 +17,9 @@ NOTEBOOKS = Path(__file__).resolve().parents[1] / "notebooks"
 IMPORT = ast.Import | ast.ImportFrom
 ALWAYS = "notebook"  # its `begin` checks the parameters, and sets the style of figures
 SAVE = 'from matplotlib import pyplot as plt\nplt.savefig("{name}.svg")'
-HEAD = """# This draws the figure, in the folder notebooks. In the root of a clone, one line does:
-#     .venv/bin/python book/programs.py {name} -p runs 4
-"""
+LINE = "#     .venv/bin/python book/programs.py {name} -p runs 4\n"
+HEAD = "# This draws the figure, in the folder notebooks. In the root of a clone, one line does:\n" + LINE
+FOLDED = "# In the root of a clone, one line draws just this figure:\n" + LINE
 
 
 def main():
@@ -40,12 +40,15 @@ def main():
 def with_programs(cells):
     """The cells of a page, with the whole program of each figure in the fold of the cell that draws it.
 
-    What a cell shows without a fold stays in a cell of its own before it.
+    What a cell shows without a fold stays in a cell of its own before it. A figure that is itself folded has only the
+    line that runs its program, since the program would stand between the fold's title and the figure.
     """
     found, programs = [], {name: program(cells, name) for name in map(figure_of, cells) if name}
     for cell in cells:
         name = figure_of(cell)
-        if name:
+        if name and "hide-cell" in tags(cell):
+            cell.source = FOLDED.format(name=name) + cell.source
+        elif name:
             if not tags(cell):
                 found.append(nbformat.v4.new_code_cell(cell.source, id=f"{cell.id}-shown"))
                 cell.metadata["tags"] = ["hide-input"]
