@@ -5,7 +5,7 @@ The results under one reading are {name: `Result`}, of networks "A" to "D" and o
 
 import numpy as np
 
-from lib.shared.wording import table
+from lib.shared.wording import number, table
 from lib.shared.thesis_figures import mark_levels
 from neorl.drawing.boards import MARGIN, desire_colour
 from neorl.drawing.curves import draw_proficiency
@@ -50,12 +50,19 @@ def draw_desires(run, axes):
 
 
 def final_rates(results):
-    """Reward and hits in the last fifth of a run, as a Markdown table. results: {reading: {name: `Result`}}."""
+    """Reward and hits in the last fifth of a run, as a Markdown table. results: {reading: {name: `Result`}}.
+
+    An agent that is the same under all readings has one row.
+    """
     rows = []
     for name in next(iter(results.values())):
-        for reading, each in results.items():
-            green, red = 60 * each[name].hit_rate(*FINAL).mean(axis=0)
-            rows.append([name, reading, estimate(np.mean, each[name].rate(*FINAL)), f"{green:.1f}", f"{red:.1f}"])
+        of_name = {reading: each[name] for reading, each in results.items()}
+        if len({result.condition for result in of_name.values()}) == 1:
+            of_name = {"any": next(iter(of_name.values()))}
+        for reading, result in of_name.items():
+            met = 60 * result.hit_rate(*FINAL).mean(axis=0)
+            rows.append([name, reading, estimate(np.mean, result.rate(*FINAL)),
+                         *(number(each, 1 if each < 10 else 0) for each in met)])
     return table(["Agent", "Reading", "Reward per second", "Green per minute", "Red per minute"], rows)
 
 
