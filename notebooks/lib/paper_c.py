@@ -60,10 +60,10 @@ def final_rates(results):
         if len({result.condition for result in of_name.values()}) == 1:
             of_name = {"any": next(iter(of_name.values()))}
         for reading, result in of_name.items():
-            met = 60 * result.hit_rate(*FINAL).mean(axis=0)
+            met = 3_600 * result.hit_rate(*FINAL).mean(axis=0)
             rows.append([name, reading, estimate(np.mean, result.rate(*FINAL)),
-                         *(number(each, 1 if each < 10 else 0) for each in met)])
-    return table(["Agent", "Reading", "Reward per second", "Green per minute", "Red per minute"], rows)
+                         *(number(each, 0) for each in met)])
+    return table(["Agent", "Reading", "Reward per second", "Green per hour", "Red per hour"], rows)
 
 
 def moment_of_desire(network, world, steps, seed=0):
