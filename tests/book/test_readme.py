@@ -28,7 +28,8 @@ def test_the_tables_have_every_claim_as_it_is_stated_now_and_a_verdict_from_the_
     for _, _, claims in rows:
         for claim in claims.split("; **"):
             name = re.match(r"[*]*(\w+)", claim)[1]
-            found = re.search(r"here −?\d+\.\d\d \[−?\d+\.\d\d, −?\d+\.\d\d\]\)$", claim)
+            number = r"−?\d+(\.\d\d)?"
+            found = re.search(rf"here {number} \[{number}, {number}\]\)$", claim)
             assert bool(found) == (STATEMENTS[name].bounds.number is not None), claim
 
 
