@@ -43,10 +43,11 @@ def with_programs(cells):
     What a cell shows without a fold stays in a cell of its own before it. A figure that is itself folded has only the
     line that runs its program, since the program would stand between the fold's title and the figure.
     """
-    found, programs = [], {name: program(cells, name) for name in map(figure_of, cells) if name}
+    found, programs = [], {figure_of(cell): program(cells, figure_of(cell)) for cell in cells
+                           if figure_of(cell) and "hide-cell" not in tags(cell)}
     for cell in cells:
         name = figure_of(cell)
-        if name and "hide-cell" in tags(cell):
+        if name and name not in programs:
             cell.source = FOLDED.format(name=name) + cell.source
         elif name:
             if not tags(cell):

@@ -73,7 +73,7 @@ def kill(processes):
 def watch(seconds):
     """Kill the processes started within this context once they take no processor time for a number of seconds.
 
-    No time means less than a 300th of the time of one core. The event in the context tells whether they were killed.
+    No time means less than a 300th of the time of one core. The event in the context says whether they were killed.
     """
     before, over, hung = started(), threading.Event(), threading.Event()
 

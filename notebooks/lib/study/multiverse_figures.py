@@ -8,7 +8,7 @@ from matplotlib import pyplot as plt
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
-from scipy.stats import rankdata
+from scipy.stats import spearmanr
 
 from lib.shared.priors import WITHIN
 from lib.study.multiverse import outcome
@@ -88,13 +88,12 @@ def _leading(readings, name):
     readings: in the order of the claim's number. The measure is the rank correlation of level and order, unsigned; a
     choice without variation has none.
     """
-    order = np.arange(len(readings)) - (len(readings) - 1) / 2
     found = []
     for key, choice in WITHIN.items():
         if name[0] in choice.papers:
             places = [choice.place(getattr(reading, key)) for reading in readings]
-            ranks = rankdata(places) - (len(readings) + 1) / 2
-            found.append((abs(ranks @ order) / (np.linalg.norm(ranks) or 1), choice, places))
+            varies = len(set(places)) > 1
+            found.append((abs(spearmanr(places, range(len(places))).statistic) if varies else 0.0, choice, places))
     found.sort(key=lambda each: each[0], reverse=True)
     return [(f"{choice.label}: {_in_brief(choice.levels)}", places) for _, choice, places in found[:LEADING]]
 
