@@ -18,6 +18,7 @@ import sys
 import textwrap
 
 from docutils import nodes
+from sphinx.ext.autodoc import PropertyDocumenter
 from sphinx.util.nodes import make_refnode
 
 from neorl.core.kernel import Kernel
@@ -27,8 +28,18 @@ ENDS = (".", ".)", ";", ":")  # of the line before an item: in the middle of a s
 SENTENCE = re.compile(r"(?<=\.) (?=(?:Raises|Returns) |[a-z_]\w*(?:, \w+)*:(?: |$))")
 
 
+class Property(PropertyDocumenter):
+    """A property, with its type as in the source."""
+
+    def add_line(self, line, source, *lineno):
+        before, mark, _ = line.partition(":type: ")
+        super().add_line(f"{before}{mark}{ast.unparse(syntax(self.object.fget).returns)}" if mark else line, source,
+                         *lineno)
+
+
 def setup(app):
     app.setup_extension("sphinx.ext.autodoc")
+    app.add_autodocumenter(Property, override=True)
     app.connect("autodoc-skip-member", skip_member)
     app.connect("autodoc-process-signature", read_signature)
     app.connect("autodoc-process-docstring", read_docstring)
