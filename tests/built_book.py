@@ -61,6 +61,15 @@ def test_the_front_page_opens_with_what_it_is_about_what_was_found_and_the_race(
     assert page.evaluate("document.documentElement.scrollWidth") <= width
 
 
+def test_letters_of_figures_have_nine_pixels_on_a_phone():
+    column, pixels = 368, 96 / 72  # the column of a page 400 pixels wide; pixels per point
+    for path in sorted((HTML / "_images").glob("*.svg")):
+        text = path.read_text(encoding="utf-8")
+        width = float(re.search(r'<svg [^>]*?width="([\d.]+)pt"', text)[1]) * pixels
+        sizes = [100 * float(scale) for scale in re.findall(r"scale\(([\d.]+) -[\d.]+\)", text)]  # letters are paths
+        assert min(sizes, default=9) * pixels * min(1, column / width) >= 8.9, path.name
+
+
 @pytest.mark.parametrize("width", [400, 1200])
 def test_the_page_of_alternatives_shows_its_figure_soon_and_its_tables_whole(open_page, width):
     page = open_page(HTML, "chapters/alternatives.html")

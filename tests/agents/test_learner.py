@@ -267,6 +267,14 @@ def saved(tmp_path):
     return tmp_path / "learner"
 
 
+@pytest.mark.parametrize("damage", [
+    lambda content: content[:-20], lambda content: content[:600] + bytes([content[600] ^ 1]) + content[601:]])
+def test_a_damaged_file_is_refused(saved, damage):
+    saved.write_bytes(damage(saved.read_bytes()))
+    with pytest.raises(ValueError, match="must be a file of neorl's, but is damaged|or is damaged"):
+        Learner.load(saved)
+
+
 @pytest.mark.parametrize("forge", [
     lambda about, kept: about.update(format=2), lambda about, kept: about.pop("digest"),
     lambda about, kept: about.pop("progress"), lambda about, kept: about["agent"].update(colour="red"),

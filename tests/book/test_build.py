@@ -3,6 +3,7 @@
 import base64
 import json
 import shutil
+import subprocess
 import sys
 from pathlib import Path
 
@@ -104,12 +105,11 @@ counter"""
 
 
 @pytest.mark.parametrize("runs", ["0", "-3", "many", "2.5"])
-def test_bad_runs_are_refused(runs, monkeypatch, capsys):
-    monkeypatch.setattr(sys, "argv", ["build.py", "--runs", runs])
-    with pytest.raises(SystemExit):
-        build.parse_arguments()
-    said = capsys.readouterr().err
-    assert "--runs" in said and "must be an integer of at least 1" in said
+def test_bad_runs_are_refused_before_anything_runs(runs):
+    command = [sys.executable, ROOT / "book" / "build.py", "--runs", runs]
+    refused = subprocess.run(command, capture_output=True, text=True)
+    assert refused.returncode != 0
+    assert "--runs" in refused.stderr and "must be an integer of at least 1" in refused.stderr
 
 
 @pytest.mark.filterwarnings("ignore")

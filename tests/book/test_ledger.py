@@ -6,6 +6,7 @@ import tomllib
 from dataclasses import replace
 from pathlib import Path
 
+import pytest
 from lib.shared import report
 
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS, Bounds
@@ -22,6 +23,7 @@ RECORD = {"claims": {"C2": FOUND, "A6": FOUND | {"here": [0.19, None, None], "ru
                                          "numbers": {"Lead of B over A": [[-0.3, -0.31, -0.29], "more than 0"]}}},
           "shares": {"C2": {"holds": 64, "undecided": 26, "readings": 256, "agrees": 2, "measured": 40},
                      "A6": {"holds": 1, "undecided": 0, "readings": 4}}}
+EMPTY = {"claims": {}, "letter": {}, "shares": {}}
 
 
 def claim(name, record=RECORD):
@@ -60,6 +62,14 @@ def test_every_square_of_the_strip_leads_to_its_claim():
     assert all(page.count(f'<div id="{place}">') == 1 for _, place, *_ in squares)
     assert ("verdict-reproduced", "claim-c2", "C2", "reproduced") in squares
     assert ("verdict-none", "claim-a1", "A1", "not computed in this build") in squares
+
+
+@pytest.mark.parametrize("record, words", [
+    (RECORD, f"Of its {len(CLAIMS)} claims we found 1 reproduced (C2); 1 not reproduced (B1); {len(CLAIMS) - 2} not "
+             "judged."),
+    (EMPTY, "Verdicts need 10 runs of each condition, and this build has fewer.")])
+def test_the_book_opens_with_what_was_found_or_why_nothing_is_known(record, words):
+    assert words in re.sub("<[^>]+>", "", ledger.front(record))
 
 
 def test_every_rule_says_which_commits_fixed_and_changed_it_and_shows_its_code():

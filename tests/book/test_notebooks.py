@@ -17,6 +17,8 @@ import build  # noqa: E402
 
 NOTEBOOKS = {path.stem: nbformat.read(path, 4) for path in sorted((ROOT / "notebooks").glob("*.ipynb"))}
 
+CHAPTERS = [f"chapter_{number}" for number in range(1, 6)]
+
 
 def tags(cell):
     return set(cell.metadata.get("tags", []))
@@ -38,6 +40,10 @@ def test_a_page_shows_its_experiment_in_one_cell(cells):
     assert cells.index(experiment) < min(drawn)
 
 
+def test_there_are_notebooks():
+    assert {"paper_a", "paper_b", "paper_c", *CHAPTERS} <= set(NOTEBOOKS)
+
+
 def test_a_notebook_is_without_outputs(cells):
     assert all(not cell.outputs and cell.execution_count is None for cell in cells if cell.cell_type == "code")
 
@@ -55,6 +61,14 @@ def test_every_figure_has_alt_text_and_a_caption(cells):
         if cell.cell_type == "code" and re.search(r"(figures|drawing)\.(draw|new)_", cell.source):
             assert len(cell.metadata["mystnb"]["image"]["alt"]) > 40
             assert len(cell.metadata["mystnb"]["figure"]["caption"]) > 40
+
+
+def test_a_cell_that_ends_with_a_drawing_puts_out_nothing_but_the_figure(cells):
+    for cell in cells:
+        if cell.cell_type == "code" and cell.source:
+            last = ast.get_source_segment(cell.source, ast.parse(cell.source).body[-1])
+            if re.match(r"(drawing|figures|multiverse_figures)\.(draw|mark)_", last):
+                assert cell.source.endswith(";"), "the returned axes would be part of the output"
 
 
 def labels(page):
@@ -86,6 +100,19 @@ def test_links_lead_somewhere(cells):
                 assert not place or target == "../book/glossary.md" and place in build.terms(), place
         else:  # the build rewrites the links of Markdown cells only
             assert "](../book/" not in cell.source
+
+
+@pytest.mark.parametrize("chapter", CHAPTERS)
+def test_a_chapter_shows_little_code_and_ends_with_exercises(chapter):
+    cells = NOTEBOOKS[chapter].cells
+    shown = [cell for cell in cells
+             if cell.cell_type == "code" and "remove-input" not in cell.metadata.get("tags", [])]
+    assert sum(len(cell.source.splitlines()) for cell in shown) <= 300
+    prose = "\n".join(cell.source for cell in cells if cell.cell_type == "markdown")
+    assert "../book/glossary.md#" in prose
+    _, exercises = prose.split("\n## Exercises\n")
+    folded = [cell for cell in cells[-4:] if "hide-cell" in cell.metadata.get("tags", [])]
+    assert "<details><summary>Solution</summary>" in exercises or folded
 
 
 @pytest.mark.parametrize("change, message", [
@@ -125,3 +152,13 @@ def test_a_parameter_that_the_notebook_does_not_have_is_refused(monkeypatch):
     monkeypatch.setattr(notebook, "get_ipython", Shell)
     with pytest.raises(ValueError, match="a parameter must be one of runs, steps, seed.*, but is runz"):
         notebook.begin(runs=4, steps=1, seed=0)
+
+
+def test_what_a_notebook_begins_with_is_hidden_and_says_how_long_it_takes(cells):
+    parameters, imports = [cell for cell in cells if cell.cell_type == "code"][:2]
+    assert parameters.metadata.tags == ["parameters"]
+    assert re.match(r"# .*\b(seconds|minutes?)\b", parameters.source)
+    assert HIDDEN & set(imports.metadata.tags)
+    *imported, begun = ast.parse(imports.source).body
+    assert all(isinstance(each, (ast.Import, ast.ImportFrom)) for each in imported)
+    assert ast.unparse(begun).startswith("notebook.begin(")

@@ -28,8 +28,8 @@ def test_the_tables_have_every_claim_as_it_is_stated_now_and_a_verdict_from_the_
     for _, _, claims in rows:
         for claim in claims.split("; **"):
             name = re.match(r"[*]*(\w+)", claim)[1]
-            number = r"−?\d+(\.\d\d)?"
-            found = re.search(rf"here {number} \[{number}, {number}\]\)$", claim)
+            forms = [rf"{each} \[{each}, {each}\]" for each in (r"−?\d+\.\d\d", r"−?\d+")]  # `Estimate`
+            found = re.search(rf"here ({'|'.join(forms)})\)$", claim)
             assert bool(found) == (STATEMENTS[name].bounds.number is not None), claim
 
 

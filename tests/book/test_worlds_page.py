@@ -28,24 +28,10 @@ def promised(code):
     return re.findall(r"print\(.*# → (.*)", code)
 
 
-def test_the_world_prints_what_stands_behind_its_arrow(tmp_path):
-    done = run(tmp_path, MAZE, **WITHOUT_COMPILER)
+@pytest.mark.parametrize("environment", [{}, WITHOUT_COMPILER], ids=["compiled", "not compiled"])
+def test_the_world_prints_what_stands_behind_its_arrow(tmp_path, environment):
+    done = run(tmp_path, MAZE, **environment)
     assert done.stdout.splitlines() == promised(MAZE) != [], done.stderr
-
-
-WALK = """
-state = Maze().reset(0)
-for action in "EEESSSSEEENNN" * 3:
-    Maze().step(state, action)
-    print(*state.scene.position, *place_and_border.coordinates(state.scene, 1.0)[0])
-"""
-
-
-def test_its_kernels_compute_the_same_when_compiled(tmp_path):
-    """Without an agent's life around them, which other tests compile with a user's own kernels."""
-    walk = MAZE.partition("run = Run(")[0] + WALK
-    compiled, interpreted = run(tmp_path, walk), run(tmp_path, walk, **WITHOUT_COMPILER)
-    assert compiled.stdout == interpreted.stdout != "", compiled.stderr
 
 
 def test_the_circle_prints_what_stands_behind_its_arrows(tmp_path):

@@ -189,3 +189,17 @@ def test_an_address_with_an_impossible_comparison_is_reported(page, beside):
     visit(page, f"#explorer_beside-{beside}")
     expect(page.locator(".refused")).to_contain_text("There is no agent “")
     wait_for(page, beside=None)
+
+
+def test_on_a_phone_the_tanks_stand_side_by_side(page):
+    visit(page, "#explorer_agent-places_beside-things_minute-0")
+    wait_for(page, secondStep="0", state="paused")
+    size = page.viewport_size
+    page.set_viewport_size({"width": 400, "height": 800})
+    page.evaluate("document.body.style.width = 'auto'")
+    first, second = (page.locator(each).first.bounding_box() for each in (".first canvas", ".second canvas"))
+    assert first["y"] == second["y"] and first["width"] == second["width"] > 150
+    assert first["x"] + first["width"] < second["x"] and second["x"] + second["width"] <= 400
+    assert page.evaluate("document.documentElement.scrollWidth") <= 400
+    page.evaluate("document.body.style.width = '700px'")
+    page.set_viewport_size(size)

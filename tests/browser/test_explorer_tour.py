@@ -87,3 +87,21 @@ def test_it_can_be_left_at_any_stop(page, leave):
         page.keyboard.press("Escape")
     expect(page.locator(".tour")).to_be_hidden()
     expect(page.locator('[data-action="tour"]')).to_be_focused()
+
+
+@pytest.mark.parametrize("width", [400, 1200])
+def test_what_a_stop_points_at_is_on_the_screen_and_not_below_the_tour(page, width):
+    page.set_viewport_size({"width": width, "height": 800})
+    page.evaluate("document.body.style.cssText = 'max-width: 1000px'")  # about the width of the book's pages
+    press(page, "tour")
+    for stop in range(1, 7):
+        expect(page.locator(".tour [role=status]")).to_contain_text(f"{stop} of 6")
+        page.wait_for_function("""() => {
+            const { top } = document.querySelector(".tour").getBoundingClientRect();
+            const pointed = document.querySelector(".pointed").getBoundingClientRect();
+            return pointed.height > 0 && pointed.top >= 0 && pointed.bottom <= top;
+        }""")
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+        wait_for(page, "state !== 'loading'")
+        page.locator('[data-action="next"]').click()
+    expect(page.locator(".tour")).to_be_hidden()

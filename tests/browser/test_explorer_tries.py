@@ -216,6 +216,24 @@ def test_the_address_follows_a_run_that_goes_on(visit):
     page.wait_for_function("location.hash === '#explorer_agent-network-d_run-0'")
 
 
+def test_screen_readers_hear_whole_sentences(visit):
+    page = visit("#explorer_minute-2")
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step === '6000'")
+    press(page, "play")
+    wait(page, "ended")
+    told = page.locator(".told")
+    expect(told).to_contain_text("Run 0 is over: its score is")
+    expect(told).not_to_contain_text("..")
+
+
+def test_the_score_of_a_game_stands_above_the_tank(visit):
+    page = visit()
+    press(page, "game")
+    score = page.get_by_text(re.compile("You: [−\\d]+"))
+    expect(score).to_contain_text("neoRL: ")
+    assert score.bounding_box()["y"] < page.locator(".arena").bounding_box()["y"]
+
+
 def test_a_link_within_the_page_brings_the_tank_into_view(visit):
     page = visit("", viewport={"width": 400, "height": 800})
     page.evaluate("""() => {

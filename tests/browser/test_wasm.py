@@ -18,7 +18,7 @@ from neorl.core.kernel import arrays, new_tuple
 from neorl.core.parameters import Parameters
 from neorl.core.state import State
 
-STEPS = 20_000
+STEPS = 50_000
 RUNS = [name for name in golden.RUNS if name != "softmax"]  # a choice of actions that is not compiled for the page
 
 

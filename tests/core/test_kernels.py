@@ -18,21 +18,22 @@ from neorl.core.steps import steps_with
 from neorl.worlds import arena, probe, waterworld
 from neorl.worlds.rollout import rollout_in
 
-TANK, CHOOSE = WaterWorld(), softmax(0.2)
-AGENT = Agent((Node("HD", HEAD_DIRECTION_CELL, [8]),), policy=Policy(choose=CHOOSE))
+TANK, POOL = WaterWorld(), Arena()
+AGENTS = {TANK: place_cells([3]),
+          POOL: Agent((Node("HD", HEAD_DIRECTION_CELL, [8]),), policy=Policy(choose=softmax(0.5)))}
 MODULES = (arena, geometry, learning, life, maps, network, parameters, policy, probe, state, stream, waterworld)
 KERNELS = {f"{value.__module__}.{value.__name__}": value for module in MODULES
            for value in vars(module).values() if isinstance(value, Kernel)}
-CONSTANTS = constants_of(AGENT, TANK)
-MADE = {made.__name__: made for made in (rollout_in(TANK.dynamics, CONSTANTS), *steps_with(CONSTANTS))}
-MADE["softmax"] = CHOOSE
+MADE = {f"{type(world).__name__}: {made.__name__}": made for world, agent in AGENTS.items()
+        for made in (rollout_in(world.dynamics, constants_of(agent, world)), *steps_with(constants_of(agent, world)))}
+MADE["softmax"] = softmax(0.5)
 
 
 @pytest.fixture(scope="module", autouse=True)
 def compiled():
     """Compile every kernel by short runs, and recompile those loaded from disk, whose code cannot be inspected."""
-    Run(AGENT, TANK, seed=0).advance(10)
-    for world in (TANK, Arena()):
+    for world, agent in AGENTS.items():
+        Run(agent, world, seed=0).advance(10)
         world.step(world.reset(0), 0)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(CompileCache, "load_overload", lambda *_: None)
@@ -44,7 +45,8 @@ def compiled():
 def test_the_kernels_are_found():
     assert {"neorl.core.learning.learn_all_goals", "neorl.core.stream.uniform", "neorl.worlds.waterworld.step",
             "neorl.worlds.arena.step"} <= set(KERNELS)
-    assert set(MADE) == {"rollout", "begin", "act", "observe", "softmax"} and MADE["rollout"].for_python.signatures
+    assert {"WaterWorld: rollout", "Arena: rollout", "WaterWorld: observe", "softmax"} <= set(MADE)
+    assert all(rollout.for_python.signatures for name, rollout in MADE.items() if name.endswith("rollout"))
 
 
 @pytest.mark.parametrize("name", [*KERNELS, *MADE])

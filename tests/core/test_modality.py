@@ -25,6 +25,13 @@ def turns_apart(a, b):
     return abs((a - b + 0.5) % 1.0 - 0.5)
 
 
+def test_a_turn_equals_the_arctangent_of_numpy():
+    x, y = np.random.default_rng(0).normal(size=(2, 20_000))
+    turns = np.array([execute(turn, *pair) for pair in zip(x, y)])
+    assert turns_apart(turns, np.arctan2(y, x) / TAU).max() < 1e-15
+    assert np.all((0 <= turns) & (turns < 1))
+
+
 @given(finite, finite)
 def test_any_finite_vector_has_a_turn_from_0_to_1(x, y):
     assert 0 <= execute(turn, x, y) < 1

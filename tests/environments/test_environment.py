@@ -46,7 +46,7 @@ def test_gymnasium_finds_nothing_to_warn_about(name, mode, rules):
     env.close()
 
 
-@pytest.mark.parametrize("world", [TANK, POOL], ids=["tank", "pool"])
+@pytest.mark.parametrize("world", [TANK, POOL, Pond()], ids=["tank", "pool", "pond"])
 def test_an_environment_is_the_world_of_a_run_to_the_bit(world):
     run, env, restarts = Run(WALKER, world, seed=3, run=2), WorldEnv(world, continuing=True), 0
     env.reset(seed=3, options={"run": 2})

@@ -20,6 +20,10 @@ def test_the_probability_of_improvement_counts_pairs():
     assert probability_of_improvement([1, 3], [2, 3]).value == pytest.approx(1.5 / 4)  # 3 > 2; 3 = 3 counts half
 
 
+def test_the_interval_of_a_constant_has_no_width():
+    assert estimate(np.mean, np.full(10, 2.5)) == (2.5, 2.5, 2.5)
+
+
 def test_a_single_run_has_no_interval():
     single = estimate(np.mean, np.array([1.0]))
     assert single.value == 1.0 and math.isnan(single.low) and math.isnan(single.high)

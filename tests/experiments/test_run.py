@@ -97,17 +97,13 @@ POOL = Arena(trial_seconds=4.0, pay=(0.1,), radius=0.2)
 SWIMMER = Agent((Node("PC", PLACE_CELL, [5]),), (Desire("platform", "PC", 1.0),), Learning(0.3), Policy(0.3))
 
 
-SMALL = WaterWorld(width=100, n_creeps=1, win_reward=5.0)  # so that episodes end often
-WANDERER = place_cells([5], learning=Learning(0.3), policy=Policy(0.3))
-
-
 @pytest.mark.parametrize("every", [1, 7, 400])
 def test_a_recording_changes_nothing_and_holds_what_the_run_did(every):
-    recorded, plain = (Run(WANDERER, SMALL, seed=4) for _ in range(2))
+    recorded, plain = (Run(SWIMMER, POOL, seed=4) for _ in range(2))
     recorded.advance(1_003)
     path = recorded.record(11_000, every)
     plain.advance(1_003)
-    hits = np.zeros((1_201, 2), np.int16)
+    hits = np.zeros((1_201, 1), np.int16)
     positions, rewards = [plain.world_state.scene.position.copy()], []
     for end in range(every, 11_000 + every, every):
         rewards.append(plain.advance(min(every, 11_000 + every - end), hits=hits))
@@ -116,19 +112,19 @@ def test_a_recording_changes_nothing_and_holds_what_the_run_did(every):
     np.testing.assert_array_equal(path.steps, [*range(1_003, 12_003, every), 12_003])
     np.testing.assert_allclose(path.rewards, rewards, rtol=1e-12)
     assert path.hits.sum() == hits.sum() > 5 and path.actions.shape == path.rewards.shape
-    ended = np.isin(path.steps, path.ends)  # where it has the last place of an episode, not the next start
+    ended = np.isin(path.steps, path.ends)  # where a trial ended, the recording has its last place, not the next start
     np.testing.assert_array_equal(path.positions[~ended], np.array(positions)[~ended])
     assert path.returns.sum() == pytest.approx(path.rewards.sum()) and len(path.returns) == len(path.ends) > 50
 
 
-def test_a_return_adds_up_the_rewards_of_an_episode_and_an_action_pushes_the_way_it_says():
-    path = Run(WANDERER, SMALL, seed=1).record(11_000)
-    begins = [0, *path.ends[:-1]]
-    np.testing.assert_allclose(path.returns, np.add.reduceat(path.rewards[: path.ends[-1]], begins), atol=1e-12)
-    ended = np.isin(path.steps, path.ends)
-    for action, push in enumerate(SMALL.actions.pushes):
+def test_a_trial_without_success_returns_0_and_ends_when_its_time_is_up():
+    path = Run(Agent(SWIMMER.nodes), POOL, seed=1).record(2_000)
+    lengths = np.diff([0, *path.ends])
+    assert np.all(lengths[path.returns == 0] == 200) and np.all(lengths <= 200)
+    np.testing.assert_allclose(path.returns[lengths < 200], 0.1)
+    for action, push in enumerate(POOL.actions.pushes):  # an action pushes the agent the way it says
         taken = np.flatnonzero(path.actions[1:] == action) + 1
-        taken = taken[~(ended[taken] | ended[taken - 1])]
+        taken = taken[~np.isin(path.steps[taken], path.ends) & ~np.isin(path.steps[taken + 1], path.ends)]
         bends = np.diff(path.positions, axis=0)[taken] - np.diff(path.positions, axis=0)[taken - 1]
         assert (bends @ push).mean() > 0 and len(taken) > 50
 

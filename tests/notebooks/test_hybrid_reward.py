@@ -85,6 +85,13 @@ def test_the_game_and_its_learners_are_what_the_rules_say(game, kind):
     assert played.known[1] == known > 0
 
 
+def test_a_run_is_the_same_alone_and_among_others():
+    learner = Learner("heads")
+    alone, among = (play(SMALL, learner, steps=1_000, runs=runs, seed=2) for runs in (1, 3))
+    np.testing.assert_array_equal(alone.rewards[0], among.rewards[0])
+    assert np.any(among.rewards[1] != among.rewards[0])
+
+
 def test_states_are_counted():
     cells, sets = 8, [each for n in range(3) for each in combinations(SMALL.places, n)]
     assert SMALL.states("one learner") == cells * cells * len(sets)

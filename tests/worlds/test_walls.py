@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from neorl import (CARDINAL, Arena, Axis, Dynamics, Modality, Scene, World, array, execute, kernel, uniform, walls)
+from neorl import (CARDINAL, Agent, Arena, Axis, Desire, Dynamics, Learning, Modality, Node, Policy, Run, Scene, World,
+                   array, execute, kernel, uniform, walls)
 from neorl.core.kernel import function_of
 
 UNIT = st.floats(0, 1)
@@ -107,13 +108,13 @@ WEST_AND_NORTH = Modality("boundary-vector cell", [Axis(walls.distance_along(MAZ
                                                    for name, push in (("west", (-2, 0)), ("north", (0, -3)))])
 
 
+def seeker(distance):
+    """An agent that wants to be at a distance from walls."""
+    return Agent((Node("BC", BORDER, [6]),), (Desire((distance,), "BC", 1.0),), Learning(0.3), Policy(0.2))
+
+
 def test_nothing_passes_the_walls_of_a_users_own_world():
-    world, path, rng = Room(), [], np.random.default_rng(1)
-    state = world.reset(1)
-    for action in np.repeat(rng.integers(0, 4, 1_000), 5):
-        path.append(state.scene.position.copy())
-        step_in(world, state, action)
-    path = np.array(path)
+    path = Run(seeker(0.1), Room(), seed=1).record(5_000).positions
     assert np.all((0 <= path) & (path <= 1))
     moves = np.diff(path, axis=0)
     crossing = (path[:-1, 0] < 0.455) != (path[1:, 0] < 0.455)
