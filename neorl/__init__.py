@@ -24,9 +24,10 @@ from neorl.agents.papers import (brownian, multimodal, network_a, network_b, net
                                  place_cells)
 from neorl.agents.rules import CALIBRATED, GREEDY, TO_THE_LETTER, Contacts, Learning, Policy
 from neorl.core import modality
+from neorl.core.calls import execute
 from neorl.core.geometry import heading, turn
 from neorl.core.horde import learn, superpose
-from neorl.core.kernel import array, execute, kernel, kernel_maker
+from neorl.core.kernel import array, kernel, kernel_maker
 from neorl.core.maps import NresMap
 from neorl.core.modality import Axis, Modality, cartesian, polar
 from neorl.core.policy import greedy, softmax

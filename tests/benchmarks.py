@@ -9,7 +9,8 @@ from explorer_page import write_page
 
 from lib.performance.bound import drawn_steps
 from neorl import Explorer, Run, WaterWorld, multimodal, place_cells, simulate
-from neorl.core.kernel import execute, kernel
+from neorl.core.calls import execute
+from neorl.core.kernel import kernel
 from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
 from neorl.core.stream import new_stream
 

@@ -23,7 +23,8 @@ import golden
 import numpy as np
 
 from neorl import Learner, Run, simulate
-from neorl.core.kernel import execute, is_tuple
+from neorl.core.calls import execute
+from neorl.core.kernel import is_tuple
 from neorl.core.stream import new_stream
 from neorl.experiments import simulation
 from neorl.files import cache_folder

@@ -14,7 +14,7 @@ MODULES = (neorl, agent, beyond, individual, learner, papers, horde, kernel, map
 # Classes that only kernels or the package itself instantiate; kernels refuse to be called.
 MADE_INSIDE = {f"neorl.{name}" for name in (
     "agents.individual.Individual", "agents.individual.Output", "agents.learner.Offer", "core.kernel.Kernel",
-    "core.scene.Scene", "experiments.recording.Recording",
+    "core.kernel.Compiled", "core.scene.Scene", "experiments.recording.Recording",
     "gym.playing.Played", "experiments.result.Result", "experiments.trajectory.Trajectory", "worlds.arena.ArenaRules",
     "worlds.arena.ArenaState", "worlds.waterworld.Rules",
     *(f"worlds.{name}{part}" for name in ("arm.Arm", "vessel.Vessel", "water_maze.WaterMaze")
@@ -24,13 +24,13 @@ MADE_INSIDE = {f"neorl.{name}" for name in (
 # called often or at import.
 FOR_AUTHORS = {f"neorl.{name}" for name in (
     *(f"core.kernel.{name}" for name in (
-        "array", "arrays", "check_kernel", "execute", "fields", "full_name", "function_of", "inlined",
+        "Kernel.compiled_for", "array", "arrays", "check_kernel", "fields", "full_name", "function_of", "inlined",
         "inlined_kernel", "is_tuple", "length", "mapped", "new_tuple")),
     *(f"core.modality.{name}" for name in (
         "Modality.check_axes", "as_radians", "as_turns", "axis_parameters", "check_faults", "firsts", "integers",
         "space_of")),
     "gym.vector.VectorWorldEnv.advance",
-    "agents.papers.paper_agent", "core.kernel.announcing", "core.kernel.jit_is_off",
+    "agents.papers.paper_agent", "core.calls.execute", "core.kernel.announcing", "core.kernel.jit_is_off",
     "core.scene.checked_scene", "worlds.world.check_arrays",
     "worlds.walls.checked", "worlds.world.check_outcome", "worlds.world.check_rules")}
 NOTHING_TO_REPLACE = {"neorl.agents.papers.brownian"}  # it takes no arguments

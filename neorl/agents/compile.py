@@ -10,11 +10,14 @@ import numpy as np
 
 from neorl import checks
 from neorl.agents.agent import FIRST_WORTH, LEARNED, Place
+from neorl.core import contacts, life
+from neorl.core.calls import execute
 from neorl.core.choices import Credit, MapState, Source, UpdateOn, Weighting
-from neorl.core.constants import Constants, features, no_credit
-from neorl.core.kernel import execute, new_tuple
+from neorl.core.constants import Constants, choice, features, no_credit
+from neorl.core.kernel import new_tuple
 from neorl.core.modality import as_turns, axis_parameters, firsts, integers
 from neorl.core.parameters import ENTRIES, Parameters, derive, most_passed
+from neorl.core.policy import greedy
 
 TRACE_STEPS = 64  # of the trace behind a contact; the contact's value, discounted over 1.3 s, is small
 
@@ -32,10 +35,22 @@ def compiled(agent, world):
 
 def constants_of(agent, world):
     """The `Constants` of an agent in a world."""
+    whole = whole_constants(agent, world)
+    needed = {"feature": own_axes(agent), "credit": callable(agent.learning.credit),
+              "choose": agent.policy.choose is not greedy,
+              "self": any(node.state != "object" for node in agent.nodes),
+              "contacts": any(node.goals == "contacts" for node in agent.nodes)}
+    return whole._replace(**{name: None for name in whole._fields if not needed.get(name.rpartition("_")[2], True)})
+
+
+def whole_constants(agent, world):
+    """The same, with all kernels."""
     credit = agent.learning.credit if callable(agent.learning.credit) else no_credit
-    return Constants(features(*own_axes(agent)), credit, agent.policy.choose,
-                     tuple(range(len(world.actions.names))), tuple(range(world.actions.axes)),
-                     len(world.actions.all_names) - 1)
+    return Constants(tuple(range(len(world.actions.names))), tuple(range(world.actions.axes)),
+                     len(world.actions.all_names) - 1, features(*own_axes(agent)), credit,
+                     choice(agent.policy.choose), life.begin, life.act, life.observe, life.begin_self,
+                     life.observe_self, contacts.begin_contacts, contacts.observe_contacts,
+                     contacts.evaluate_contacts)
 
 
 def own_axes(agent):
@@ -94,7 +109,8 @@ def chosen(agent, world):
         "desires": _desires(agent, world, coordinates),
         "learning": _learning(agent.learning, world.fps), "contacts": _contacts(agent, world.fps),
         "policy": {"exploration": agent.policy.exploration,
-                   "indifferent_is_no_op": agent.policy.when_indifferent == "no-op"}}
+                   "indifferent_is_no_op": agent.policy.when_indifferent == "no-op",
+                   "is_greedy": agent.policy.choose is greedy}}
     return choices, sizes | {
         "frames": len(frames), "maps": len(agent.maps),
         "map_axes": sum(len(nres_map.intervals) for nres_map in agent.maps),

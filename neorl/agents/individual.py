@@ -14,13 +14,14 @@ from neorl import checks
 from neorl.agents.agent import LEARNED, Agent
 from neorl.agents.compile import compiled, constants_of, n_values, own_axes
 from neorl.agents.memory import fitting_runs, kept_apart, read_only
-from neorl.description import described, restored
+from neorl.core import life
+from neorl.core.calls import execute
 from neorl.core.horde import as_vectors
-from neorl.core.kernel import arrays, execute, mapped
+from neorl.core.kernel import arrays, mapped
 from neorl.core.modality import check_faults
 from neorl.core.parameters import ENTRIES, Parameters
 from neorl.core.state import State, new_state
-from neorl.core.steps import steps_with
+from neorl.description import described, restored
 from neorl.files import read_arrays, write_arrays
 
 # The arrays of `State` that have a part for each map, by the array of where each part begins.
@@ -116,7 +117,7 @@ class Individual:
         fitting_runs(checks.instance("agent", agent, Agent), self.world)
         parameters = kept_apart(compiled(agent, self.world))
         state = kept_apart(new_state(parameters, self._state.stream, self.world.things))
-        execute(steps_with(constants_of(agent, self.world)).begin, parameters, state, self._scene)
+        execute(life.begin, parameters, constants_of(agent, self.world), state, self._scene)
         old, new = arrays(self._state), arrays(state)
         old_maps = {key: m for m, key in enumerate(_map_keys(self.agent))}
         for m, key in enumerate(_map_keys(agent)):

@@ -11,10 +11,10 @@ from neorl.agents.agent import Agent
 from neorl.agents.compile import constants_of
 from neorl.agents.individual import Individual
 from neorl.agents.memory import kept_apart
-from neorl.core.binding import bound
+from neorl.core import life
+from neorl.core.calls import bound
 from neorl.core.kernel import kernel, mapped, new_tuple
 from neorl.core.scene import ABSENT, CARDINAL, Actions, Scene
-from neorl.core.steps import steps_with
 from neorl.core.stream import new_stream
 
 LARGEST = checks.LARGEST
@@ -74,8 +74,9 @@ class Learner(Individual):
 
     def _bind(self):
         self._offered = mapped(np.copy, self._scene)
-        steps = steps_with(constants_of(self.agent, self.world))
-        self._calls = [bound(each, self._parameters, self._state, self._scene) for each in steps]
+        constants = constants_of(self.agent, self.world)
+        self._calls = [bound(each, self._parameters, constants, self._state, self._scene)
+                       for each in (life.begin, life.act, life.observe)]
         self._accept = bound(accept, Offer(len(self.world.kinds), self._offered), self._scene)
         self._numbers = {None: ABSENT, **{name: number for number, name in enumerate(self.world.kinds)},
                          **{number: number for number in range(ABSENT, len(self.world.kinds))}}

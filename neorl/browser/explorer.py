@@ -21,7 +21,7 @@ import numpy as np
 from neorl import checks
 from neorl.agents import beyond, papers, spaces
 from neorl.agents.agent import LEARNED, STATES, Agent, Desire, Node
-from neorl.agents.compile import chosen, constants_of
+from neorl.agents.compile import chosen, whole_constants
 from neorl.agents.rules import Learning, Policy
 from neorl.browser import wasm
 from neorl.browser.worlds import IN_THE_PLANE, NAMES, rules_of, sizes_of
@@ -227,7 +227,7 @@ def _check_condition(name, result):
         raise checks.error(f"world of condition {name}", "one of the package's, to be shown in the Explorer",
                            result.world)
     for each in (agent, *(later for _, later in result.changes)):
-        if constants_of(each, result.world) != wasm.MODULES[_module_of(result.world)].constants:
+        if whole_constants(each, result.world) != wasm.MODULES[_module_of(result.world)].constants:
             raise ValueError(f"condition {name} must have the kernels that are compiled for the page, with the greedy "
                              "choice, but has its own, for an axis, the credit or the choice of an action")
 

@@ -33,7 +33,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from neorl import files
-from neorl.agents.compile import constants_of
+from neorl.agents.compile import whole_constants
 from neorl.agents.individual import OF_A_MAP
 from neorl.agents.papers import brownian
 from neorl.agents.spaces import pilot
@@ -43,12 +43,11 @@ from neorl.core.choices import Action, Cut, Feature, MapState, Source, Vector
 from neorl.core.kernel import fields, is_tuple
 from neorl.core.parameters import Parameters, derive
 from neorl.core.state import State, begin_values
-from neorl.core.steps import steps_with
 from neorl.core.stream import start_stream
 from neorl.experiments.condition import source_digest
 from neorl.extras import require
 from neorl.worlds import arena, arm, vessel, water_maze, waterworld
-from neorl.worlds.probe import probes_with
+from neorl.worlds.probe import cell_seen_at, step_second, survey
 from neorl.worlds.rollout import rollout_in
 from neorl.worlds.vessel import Vessel
 from neorl.worlds.waterworld import WaterWorld, WaterWorldState
@@ -65,9 +64,8 @@ class Module(NamedTuple):
 
 
 def _module(dynamics, constants, with_second):
-    survey, cell_seen_at, step_second = probes_with(constants)
-    exports = (start_stream, derive, begin_values, dynamics.reset, steps_with(constants).begin,
-               rollout_in(dynamics, constants), survey, cell_seen_at)
+    exports = (start_stream, derive, begin_values, dynamics.reset, life.begin,
+               rollout_in(dynamics), survey, cell_seen_at)
     tuples = Parameters, State, fields(dynamics.reset)["state"], fields(dynamics.reset)["rules"]
     if with_second:
         exports, tuples = (*exports, step_second), (*tuples, WaterWorldState)
@@ -75,13 +73,15 @@ def _module(dynamics, constants, with_second):
 
 
 MODULES = {  # by the name under which a page requests it
-    "plane": _module(PLANE, constants_of(brownian(), WaterWorld()), True),  # agents without kernels of the user's own
-    "helm": _module(Vessel().dynamics, constants_of(pilot(), Vessel()), False)}  # for the two actions of a rudder
+    # agents without kernels of the user's own
+    "plane": _module(PLANE, whole_constants(brownian(), WaterWorld()), True),
+    "helm": _module(Vessel().dynamics, whole_constants(pilot(), Vessel()), False)}  # for the two actions of a rudder
 ENUMERATIONS = (Action, Cut, Feature, MapState, Source, Vector)
 SCALARS = {bool: "bool", int: "int64", float: "float64", np.float32: "float32"}
 HOT = "rollout"  # the other exports are called at most once per picture
 RARE = (life.begin, waterworld.reset, waterworld.draw_creep, arena.reset, arm.reset, arm.draw_point, water_maze.reset,
         vessel.reset, vessel.draw_thing, parameters.cut_axes, parameters.find_inputs, contacts.begin_contacts)
+EVERY_STEP = life.act, life.observe, life.observe_self
 # Optimised for speed, but not inlined.
 APART = (contacts.observe_contacts, contacts.evaluate_contacts, displacement.learn_displacement)
 SHIPPED = {name: Path(__file__).with_name(f"{name}.wasm") for name in MODULES}  # in a wheel
@@ -183,7 +183,7 @@ def _described(field):
 
 
 def _arguments(kernel):
-    return {name: field for name, field in fields(kernel).items() if name != "return"}
+    return {name: field for name, field in fields(kernel).items() if name not in ("return", "constants")}
 
 
 def _flat(name, field):
@@ -225,13 +225,15 @@ def _build(name):
     """Compile and link a module from the code that numba generates in this process."""
     import llvmlite.binding as llvm
 
-    exports = MODULES[name].exports
+    _, constants, exports, _ = MODULES[name]
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
     for kernel in RARE + APART:
         kernel.dispatcher.targetoptions.pop("forceinline", None)
+    for kernel in EVERY_STEP:
+        kernel.dispatcher.targetoptions["forceinline"] = True
     target = llvm.Target.from_triple(TRIPLE).create_target_machine(features="+simd128,+bulk-memory", opt=3)
-    together = _together({kernel.__name__: _code(kernel) for kernel in exports})
+    together = _together({kernel.__name__: _code(kernel, constants) for kernel in exports})
     passes = llvm.create_pass_builder(target, llvm.create_pipeline_tuning_options(speed_level=3))
     passes.getModulePassManager().run(together, passes)
     with tempfile.TemporaryDirectory() as folder:
@@ -269,9 +271,9 @@ def _mangled(kernel):
     return "".join(f"{len(each)}{each}" for each in f"{kernel.__module__}.{kernel.__name__}".split("."))
 
 
-def _code(kernel):
+def _code(kernel, constants):
     """The LLVM code of a kernel under its own name, with everything it calls."""
-    entry = _entry(kernel)
+    entry = _entry(kernel, constants)
     code = entry.inspect_llvm()
     code = re.sub(r"target datalayout = .*", f'target datalayout = "{LAYOUT}"', code)
     code = re.sub(r"target triple = .*", f'target triple = "{TRIPLE}"', code)
@@ -294,18 +296,19 @@ def _without(code, symbol):
     return code
 
 
-def _entry(kernel):
+def _entry(kernel, constants):
     """The entry point of a kernel: a function of pointers and sizes that calls it with arrays."""
     from numba import carray, cfunc, types
 
-    sizes, arguments = _sizes(kernel), _arguments(kernel).items()
-    flat = [each for argument in arguments for each in _flat(*argument)]
+    sizes, arguments = _sizes(kernel), _arguments(kernel)
+    flat = [each for argument in arguments.items() for each in _flat(*argument)]
     names = [f"size_{name}" for name in sizes] + [name for name, *_ in flat]
-    taken = ", ".join(_taken(*argument) for argument in arguments)
+    taken = ", ".join("constants" if name == "constants" else _taken(name, arguments[name])
+                      for name in fields(kernel) if name != "return")
     source = f"def entry({', '.join(names)}):\n    return kernel({taken})"
     kinds = [each for module in MODULES.values() for each in module.tuples]
     tuples = {kind.__name__: kind for each in kinds for kind in _with_those_within(each)}
-    scope = {"kernel": kernel, "carray": carray, "np": np, **tuples}
+    scope = {"kernel": kernel, "constants": constants, "carray": carray, "np": np, **tuples}
     exec(source, scope)
     kinds = [types.int32] * len(sizes) + [_passed(dtype, shape) for _, dtype, shape in flat]
     result = getattr(types, SCALARS.get(fields(kernel)["return"], "void"))

@@ -1,30 +1,59 @@
-"""The constants of an agent's compiled code: user-defined kernels, and the numbers of actions and axes.
+"""The constants of an agent's compiled code: what it calls by address, and the numbers of actions and axes.
 
-As constants, they let the loops of every step be unrolled and user-defined functions be called at no cost.
+Kernels are compiled for numbers of actions and axes, so that the loops of every step are unrolled, and not for an agent
+or its user-defined functions: those of `Constants` are compiled one by one, once an agent needs them.
 """
 
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
 
-from neorl.core.kernel import Kernel, kernel, kernel_maker
+from neorl.core.calls import function, tabled
+from neorl.core.kernel import kernel, kernel_maker
+from neorl.core.parameters import Parameters
+from neorl.core.scene import Scene
+from neorl.core.state import State
+
+LIVING = Parameters, Self, State, Scene
 
 
+@tabled
 class Constants(NamedTuple):
-    """What is compiled into an agent's kernels."""
+    """What the kernels of an agent call, and the numbers that they are compiled for.
 
-    feature: Kernel  # (number, scene, point) → the coordinate along a user-defined axis
-    credit: Kernel  # (count, steps, last, activity) → ψ of an event, if the credit is `choices.Credit.own`
-    choose: Kernel  # (value, stream) → the action
+    A kernel that the agent does not need is None.
+    """
+
     actions: tuple  # their numbers; a tuple's length is part of its type, so it is known when loops are compiled
     axes: tuple  # the numbers of the world's axes
     last: int  # the highest number that may be chosen: that of idleness, if the agent can be idle
+    feature: function(int, Scene, int, returns=float)  # (number, scene, point) → the coordinate along a user's axis
+    credit: function(int, int, bool, np.float32, returns=float) = None  # (count, steps, last, activity) → ψ of an event
+    choose: function(State, returns=int) = None  # → the action
+    begin: function(*LIVING, returns=None) = None  # the first three of `neorl.core.life`
+    act: function(*LIVING, returns=int) = None
+    observe: function(*LIVING, returns=None) = None
+    begin_self: function(*LIVING, int, int, returns=None) = None  # two more, for the self as the state
+    observe_self: function(*LIVING, int, int, returns=None) = None
+    begin_contacts: function(*LIVING, int, int, returns=None) = None  # the three of `neorl.core.contacts`
+    observe_contacts: function(*LIVING, int, int, returns=None) = None
+    evaluate_contacts: function(*LIVING, int, returns=None) = None
 
 
 @kernel
 def no_credit(count, steps, last, activity):
     """The placeholder for agents without a user-defined credit rule."""
     return 0.0
+
+
+@kernel_maker
+def choice(choose):
+    """The kernel (state) of a policy (value, stream): one pointer is passed faster than two arrays."""
+    @kernel
+    def chosen(state):
+        return 0 | choose(state.action_value, state.stream)  # which only an integer allows
+
+    return chosen
 
 
 @kernel_maker
@@ -40,7 +69,7 @@ def features(*kernels):
         @kernel
         def feature(number, scene, point):
             if number == 0:
-                return first(scene, point)
+                return first(Scene(scene.position, scene.velocity, scene.things, scene.kinds, scene.met), point)
             return others(number - 1, scene, point)
 
     return feature

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from neorl import checks
-from neorl.core.kernel import execute
+from neorl.core.calls import execute
 from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
 from neorl.core.scene import CARDINAL, Actions
 

@@ -11,7 +11,8 @@ the same to the last bit on any machine, on any number of threads, and with the 
   NumPy.
 
 A kernel trusts its arguments: an index out of range or a shape that does not fit would crash the interpreter. So it
-cannot be called from Python directly; public functions check every argument and pass them on by `execute`.
+cannot be called from Python directly; public functions check every argument and pass them on by
+`neorl.core.calls.execute`.
 
 Annotations give the types of the arrays in a named tuple, and of the arguments of kernels that are called from outside
 Python (`neorl.browser.wasm`); numba does not read them.
@@ -27,14 +28,14 @@ import os
 import sys
 import threading
 from collections.abc import Callable
-from typing import Annotated, Any, get_args, get_type_hints
+from typing import Annotated, Any, NamedTuple, get_args, get_type_hints
 
 import numpy as np
 
 from neorl import checks
 from neorl.core.global_random import global_random_in
 from neorl.core.identity import Reading
-from neorl.core.kernel_errors import not_compiled, raise_named
+from neorl.core.kernel_errors import not_compiled
 
 # Without numba's memory runtime (_nrt) a kernel cannot allocate, and does not count references to its arrays.
 OPTIONS = {"error_model": "numpy", "nogil": True, "_nrt": False}
@@ -43,7 +44,7 @@ _making = threading.RLock()
 
 
 class Kernel:
-    """A compiled function that only other kernels and `execute` can call.
+    """A compiled function that only other kernels and `neorl.core.calls.execute` can call.
 
     numba is the slowest package to import, so it is imported when a kernel is first compiled.
     """
@@ -65,7 +66,7 @@ class Kernel:
 
     def __call__(self, *arguments):
         raise TypeError(f"{self.__module__}.{self.__name__} is a kernel, which checks nothing: call it by "
-                        "neorl.core.kernel.execute, with arrays that fit")
+                        "neorl.core.calls.execute, with arrays that fit")
 
     @property
     def dispatcher(self):
@@ -73,11 +74,9 @@ class Kernel:
         return self._made("_dispatcher", self._new_dispatcher)
 
     def _new_dispatcher(self, reading):
-        import numba
+        from neorl.core.linking import linked
 
-        from neorl.core.linking import LinkedCompiler
-
-        return numba.njit(**self.options, pipeline_class=LinkedCompiler)(self.py_func)
+        return linked(self)
 
     @property
     def _numba_type_(self):
@@ -94,10 +93,25 @@ class Kernel:
 
         from neorl.core.compile_cache import CompileCache
 
-        dispatcher = numba.njit(**self.options)(self.py_func)
+        dispatcher = numba.njit(**self.options | {"no_cfunc_wrapper": True})(self.py_func)
         dispatcher._cache = CompileCache(self, reading)
         dispatcher._compile_for_args = self._compile
         return dispatcher
+
+    @property
+    def is_users(self):
+        """Whether the kernel depends on code of the user's."""
+        return bool(Reading(self).functions)
+
+    def compiled_for(self, arguments, returns=None):
+        """The code for arguments of these numba types, as `Compiled`. returns: the type of its result, if given."""
+        dispatcher = self.for_python
+        if arguments not in dispatcher.overloads:
+            with self._blamed():
+                dispatcher.compile(returns(*arguments) if returns else arguments)
+        made = dispatcher.overloads[arguments]
+        address = made.library.get_pointer_to_function(made.fndesc.llvm_func_name)
+        return Compiled(dispatcher, address, made.entry_point)
 
     def _made(self, name, make):
         """What `make` returns, made again when anything that the kernel depends on has changed: numba freezes it."""
@@ -110,12 +124,25 @@ class Kernel:
             return made
 
     def _compile(self, *arguments, **by_name):
+        with self._blamed():
+            return type(self.for_python)._compile_for_args(self.for_python, *arguments, **by_name)
+
+    @contextlib.contextmanager
+    def _blamed(self):
         from numba.core.errors import NumbaError, UnsupportedBytecodeError
 
         try:
-            return type(self.for_python)._compile_for_args(self.for_python, *arguments, **by_name)
+            yield
         except (NumbaError, UnsupportedBytecodeError) as error:
             raise not_compiled(self, error) from error
+
+
+class Compiled(NamedTuple):
+    """A kernel's code for certain types of its arguments."""
+
+    dispatcher: Any  # numba's, which keeps the code
+    address: int
+    entry: Callable  # for calls from Python with arguments of just these types
 
 
 def kernel(function: Callable) -> Any:
@@ -234,24 +261,6 @@ def kernel_maker(function: Callable) -> Any:
 
     make.makes_kernels = True  # type: ignore[attr-defined]
     return make
-
-
-def execute(kernel, *arguments):
-    """Call a kernel from Python.
-
-    Raises TypeError for one that is only inlined into others, or that numba cannot compile, ValueError for one of the
-    user's that raises. Both name the kernel that is to blame.
-    """
-    if "no_cpython_wrapper" in getattr(kernel, "options", ()):
-        raise TypeError(f"{kernel.__module__}.{kernel.__name__} must be called by kernels, into which it is inlined, "
-                        "not by execute")
-    try:
-        if isinstance(kernel, Kernel):
-            return kernel.for_python(*arguments)
-        with np.errstate(all="ignore"):  # as in compiled code, where random streams overflow
-            return kernel(*arguments)
-    except Exception as error:
-        raise_named(kernel, error)
 
 
 def array(dtype, *shape):

@@ -25,10 +25,10 @@ def not_compiled(kernel, error):
                      f"{text[:MOST_CHARACTERS]}")
 
 
-def raise_named(kernel, error):
-    """Raise the error for a user's kernel that has raised one; any other error unchanged."""
+def raise_named(kernels, error):
+    """Raise the error for the user's kernel among those called that has raised one; any other error unchanged."""
     for frame in reversed(traceback.extract_tb(error.__traceback__)):
-        for function in _users(kernel):
+        for function in _users(tuple(kernels)):
             if frame.filename == function.__code__.co_filename and frame.name in (function.__name__,
                                                                                    function.__qualname__):
                 raise ValueError(f"the kernel {_where(function, frame.lineno)} must not raise, but has raised "

@@ -18,17 +18,20 @@
 import numpy as np
 
 from neorl.core.choices import Credit, MapState, UpdateOn, Vector
-from neorl.core.contacts import begin_contacts, learn_worth, observe_contacts
+from neorl.core.constants import Constants
+from neorl.core.contacts import learn_worth
 from neorl.core.displacement import has_left_centre, learn_displacement, start_self
 from neorl.core.geometry import cell_within, component, contact_cell, locate, maps_of, with_kept_directions
-from neorl.core.kernel import inlined_kernel
+from neorl.core.kernel import inlined_kernel, kernel
 from neorl.core.learning import UNIT, ZERO, enter, learn_transition, start_track
 from neorl.core.network import choose
-from neorl.core.scene import ABSENT
+from neorl.core.parameters import Parameters
+from neorl.core.scene import ABSENT, Scene
+from neorl.core.state import State
 
 
-@inlined_kernel
-def act(parameters, constants, state, scene):
+@kernel
+def act(parameters: Parameters, constants: Constants, state: State, scene: Scene) -> int:
     """Choose an action, and record it as an event in the active cell of every track."""
     action = choose(parameters, constants, state, scene)
     for track in range(state.tracks.cell.shape[0]):
@@ -42,15 +45,15 @@ def act(parameters, constants, state, scene):
     return action
 
 
-@inlined_kernel
-def observe(parameters, constants, state, scene):
+@kernel
+def observe(parameters: Parameters, constants: Constants, state: State, scene: Scene) -> None:
     """Perceive the outcome of an action, and learn from it."""
     for n in range(parameters.nodes.points.shape[0]):
         for point in range(parameters.nodes.points[n]):
             if parameters.nodes.learns_contacts[n]:
-                observe_contacts(parameters, constants, state, scene, n, point)
+                constants.observe_contacts(parameters, constants, state, scene, n, point)
             elif parameters.nodes.state[n] != MapState.object:
-                perceive_self(parameters, constants, state, scene, n, point)
+                constants.observe_self(parameters, constants, state, scene, n, point)
             else:
                 perceive(parameters, constants, state, scene, n, point)
     learn_worth(parameters, state, scene)
@@ -83,8 +86,8 @@ def perceive(parameters, constants, state, scene, n, point):
             start_track(parameters, constants, tracks, m, point, cell)
 
 
-@inlined_kernel
-def perceive_self(parameters, constants, state, scene, n, point):
+@kernel
+def observe_self(parameters, constants, state, scene, n, point):
     """Follow the agent, or the agent as seen from a thing, and learn in every map whose centre it has left."""
     of_thing, tracks = parameters.nodes.state[n] == MapState.per_object, state.tracks
     starts = of_thing and (scene.met[point] != 0 or scene.kinds[point] < 0)
@@ -97,6 +100,14 @@ def perceive_self(parameters, constants, state, scene, n, point):
             cell = cell_within(parameters, state.offset, n, m)
             learn_displacement(parameters, constants, state, n, m, point, cell)
             enter(constants, tracks, track, parameters.maps.contact[m])
+
+
+@kernel
+def begin_self(parameters, constants, state, scene, n, point):
+    """Start the tracks of the agent, or of the agent as seen from a thing, at its present place."""
+    locate_self(parameters, constants, state, scene, n, point)
+    for m in maps_of(parameters.nodes, n):
+        start_self(parameters, constants, state, m, point, centre_cell(parameters, scene, n, m, point))
 
 
 @inlined_kernel
@@ -117,8 +128,8 @@ def centre_cell(parameters, scene, n, m, point):
     return ABSENT if absent else parameters.maps.contact[m]
 
 
-@inlined_kernel
-def begin(parameters, constants, state, scene):
+@kernel
+def begin(parameters: Parameters, constants: Constants, state: State, scene: Scene) -> None:
     """Start all tracks in their present cells, without a history, and clear the desires."""
     for n in range(parameters.nodes.points.shape[0]):
         for point in range(parameters.nodes.points[n]):
@@ -135,12 +146,10 @@ def begin(parameters, constants, state, scene):
 def begin_point(parameters, constants, state, scene, n, point):
     """Start the tracks of a point at its present place."""
     if parameters.nodes.learns_contacts[n]:
-        begin_contacts(parameters, constants, state, scene, n, point)
+        constants.begin_contacts(parameters, constants, state, scene, n, point)
         return
     if parameters.nodes.state[n] != MapState.object:
-        locate_self(parameters, constants, state, scene, n, point)
-        for m in maps_of(parameters.nodes, n):
-            start_self(parameters, constants, state, m, point, centre_cell(parameters, scene, n, m, point))
+        constants.begin_self(parameters, constants, state, scene, n, point)
         return
     locate(parameters, constants, scene, n, point, False, state.offset, state.coordinates, state.faults)
     absent = parameters.nodes.follows[n] == Vector.objects and scene.kinds[point] < 0

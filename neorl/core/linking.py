@@ -4,6 +4,8 @@ By default numba optimises every function that it compiles and generates machine
 For kernels within kernels that took a third of the time, and made what is called from Python no faster.
 """
 
+import numba
+from numba import types
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
 
@@ -37,3 +39,13 @@ class LinkedCompiler(Compiler):
     def __init__(self, typing_context, target_context, library, *rest):
         library = LinkedLibrary(target_context.codegen(), "kernel")
         super().__init__(typing_context, target_context, library, *rest)
+
+
+def linked(kernel):
+    """The numba dispatcher that compiles a kernel for other kernels, once whether or not an argument is a constant."""
+    dispatcher = numba.njit(**kernel.options | {"no_cpython_wrapper": True, "no_cfunc_wrapper": True},
+                            pipeline_class=LinkedCompiler)(kernel.py_func)
+    template = dispatcher.get_call_template
+    dispatcher.get_call_template = lambda args, by_name: template(
+        tuple(map(types.unliteral, args)), {name: types.unliteral(each) for name, each in by_name.items()})
+    return dispatcher

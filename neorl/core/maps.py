@@ -14,8 +14,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from neorl import checks
+from neorl.core.calls import execute
 from neorl.core.geometry import cell_of, in_range
-from neorl.core.kernel import array, execute, kernel
+from neorl.core.kernel import array, kernel
 from neorl.core.modality import MOST_CELLS, PLACE_CELL, Modality, as_turns, space_of
 from neorl.core.parameters import SpaceParameters
 

@@ -19,7 +19,6 @@ Axes of several vectors make *conjunctive* cells, such as those of place and hea
 HEAD_DIRECTION_CELL.axes`.
 """
 
-import functools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated
@@ -29,10 +28,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from neorl import checks
 from neorl.checks import OneOf, Within
+from neorl.core.calls import execute
 from neorl.core.choices import Cut, Feature, MapState, Vector
+from neorl.core.constants import Constants, features
 from neorl.core.geometry import TAU, locate
-from neorl.core.constants import Constants, features, no_credit
-from neorl.core.kernel import array, check_kernel, execute, full_name, kernel, new_tuple
+from neorl.core.kernel import array, check_kernel, full_name, kernel, new_tuple
 from neorl.core.parameters import SpaceParameters, cut_axes
 from neorl.core.scene import MOST_AXES, Scene, checked_scene
 
@@ -258,9 +258,9 @@ class Modality(checks.Final):
         """Write the coordinates of all points into `found`; given: from their vectors instead of the scene."""
         uncut = replace(self, axes=[replace(axis, boundaries=()) for axis in self.axes])
         axes = tuple(range(len(scene.position)))
-        constants = Constants(features(*self.functions), no_credit, no_credit, (0,), axes, 0)
+        constants = Constants((0,), axes, 0, features(*self.functions))
         faults = np.zeros(2, np.int64)
-        execute(_locate_with(constants), space_of(uncut, 1, len(axes), size), scene, given, vectors, found, faults)
+        execute(locate_all, space_of(uncut, 1, len(axes), size), constants, scene, given, vectors, found, faults)
         check_faults(faults, self.functions)
 
     def check_axes(self, n_axes: int) -> None:
@@ -357,15 +357,13 @@ def firsts(counts):
     return np.concatenate([[0], np.cumsum(integers(counts))]).astype(np.int64)
 
 
-@functools.cache
-def _locate_with(constants):
-    @kernel
-    def locate_all(space: SpaceParameters, scene: Scene, given: bool, vectors: array("float64", "points", "axes"),
-                   found: array("float64", "points", "coordinates"), faults: array("int64", 2)) -> None:
-        for point in range(found.shape[0]):
-            locate(space, constants, scene, 0, point, given, vectors[point], found[point], faults)
-
-    return locate_all
+@kernel
+def locate_all(space: SpaceParameters, constants: Constants, scene: Scene, given: bool,
+               vectors: array("float64", "points", "axes"), found: array("float64", "points", "coordinates"),
+               faults: array("int64", 2)) -> None:
+    """Write the coordinates of points of the space's only node into `found`, see `neorl.core.geometry.locate`."""
+    for point in range(found.shape[0]):
+        locate(space, constants, scene, 0, point, given, vectors[point], found[point], faults)
 
 
 # O'Keefe and Dostrovsky 1971; Solstad et al. 2008; Høydal et al. 2019 and, in its Cartesian emulation, paper B,

@@ -18,10 +18,10 @@
 import numpy as np
 
 from neorl.core.choices import MapState, Source, Vector
-from neorl.core.contacts import evaluate_contacts
 from neorl.core.geometry import STRIDE, cell_within, contact_cell, interval_at, locate, maps_of
 from neorl.core.kernel import inlined_kernel
 from neorl.core.learning import order_of, place_of, values_of
+from neorl.core.policy import greedy
 from neorl.core.stream import randint, uniform
 
 
@@ -38,7 +38,7 @@ def choose(parameters, constants, state, scene):
             wanted += value[action] != 0.0
         if wanted == 0:
             return len(constants.actions)
-    action = constants.choose(value, state.stream)
+    action = greedy(value, state.stream) if policy.is_greedy else constants.choose(state)
     return min(max(action, 0), constants.last)  # a user-defined policy may return any number
 
 
@@ -53,11 +53,12 @@ def evaluate(parameters, constants, state, scene):
     for place in range(nodes.order.shape[0]):
         n = nodes.order[place]
         inputs = nodes.inputs[nodes.first_input[n] : nodes.first_input[n + 1]]
-        for i in range(inputs.shape[0]):  # all before any is updated, since recursion uses those of the last step
+        # All before any is updated, since recursion uses those of the last step.
+        for i in range(inputs.shape[0] if nodes.receives[n] else 0):
             if parameters.desires.source[inputs[i]] == Source.node:
                 project(parameters, constants, desires, np.uint64(inputs[i]))
         if nodes.learns_contacts[n]:
-            evaluate_contacts(parameters, constants, state, scene, n)
+            constants.evaluate_contacts(parameters, constants, state, scene, n)
         for i in range(inputs.shape[0]):
             e = np.uint64(inputs[i])
             if not nodes.learns_contacts[n]:

@@ -11,9 +11,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl.core.choices import Cut, Feature, MapState, Vector
+from neorl.core.choices import Cut, Feature, MapState, Source, Vector
 from neorl.core.geometry import (ALONG, BEYOND, CUT, FEATURE, INTERVALS, LAST, LOW, SCALE, STRIDE, VECTOR,
                                  AxisParameters, in_range, interval_at)
+from neorl.core.calls import tabled
 from neorl.core.kernel import array, inlined_kernel, kernel
 
 
@@ -63,6 +64,7 @@ class NodeParameters(NamedTuple):
     is_cartesian: array("bool", "nodes")  # whether its coordinates are the components of the vector it follows
     first_input: array("int64", "nodes + 1")  # where in `inputs` its desires begin
     inputs: array("int64", "desires")  # desires, node by node
+    receives: array("bool", "nodes")  # whether any of them comes from a node
 
 
 class DesireParameters(NamedTuple):
@@ -116,8 +118,10 @@ class PolicyParameters(NamedTuple):
 
     exploration: float
     indifferent_is_no_op: bool
+    is_greedy: bool  # the usual policy, which is compiled into the kernels instead of being called
 
 
+@tabled
 class SpaceParameters(NamedTuple):
     """The parameters of a modality without an agent: the part of `Parameters` that finds cells."""
 
@@ -128,6 +132,7 @@ class SpaceParameters(NamedTuple):
     axes: AxisParameters
 
 
+@tabled
 class Parameters(NamedTuple):
     """The parameters of an agent for one world."""
 
@@ -199,7 +204,7 @@ def most_passed(retained):
 
 
 @kernel
-def cut_axes(parameters, n, m):
+def cut_axes(parameters: SpaceParameters, n: int, m: int) -> None:
     """Cut the axes of a node into the intervals of a map."""
     maps, grid, axes, nodes = parameters.maps, parameters.grid, parameters.axes, parameters.nodes
     g = maps.first_grid[m]
@@ -242,9 +247,11 @@ def find_inputs(parameters, n):
     """List the desires of a node, and find the goals of those for a point."""
     nodes, desires, maps = parameters.nodes, parameters.desires, parameters.maps
     end, first_axis = nodes.first_input[n], nodes.first_axis[n]
+    nodes.receives[n] = False
     for e in range(desires.target.shape[0]):
         if desires.target[e] == n:
             nodes.inputs[end] = e
+            nodes.receives[n] = nodes.receives[n] or desires.source[e] == Source.node
             end += 1
             for m in range(nodes.first_map[n], nodes.first_map[n + 1]):
                 desires.goal[e, m] = 0

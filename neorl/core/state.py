@@ -4,7 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl.core.kernel import array, execute, kernel, new_tuple
+from neorl.core.calls import tabled
+from neorl.core.calls import execute
+from neorl.core.kernel import array, kernel, new_tuple
 from neorl.core.learning import order_of, place_of, values_of
 from neorl.core.parameters import ENTRIES, Parameters
 
@@ -51,6 +53,7 @@ class DesireState(NamedTuple):
     meetings: array("int64", "desires")  # from which the worth was learned
 
 
+@tabled
 class State(NamedTuple):
     """The state of an agent."""
 

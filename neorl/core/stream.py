@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from neorl import checks
-from neorl.core.kernel import array, execute, kernel
+from neorl.core.calls import execute
+from neorl.core.kernel import array, kernel
 
 NOTHING, ONE, U3, U11, U16, U24, U32, U40 = (np.uint64(value) for value in (0, 1, 3, 11, 16, 24, 32, 40))
 TO_UNIT = 2.0**-53

@@ -17,8 +17,9 @@ from neorl.agents.agent import Agent
 from neorl.agents.compile import constants_of
 from neorl.agents.individual import Individual
 from neorl.agents.memory import kept_apart, on_lines_of_its_own
-from neorl.core.kernel import arrays, execute
-from neorl.core.steps import steps_with
+from neorl.core import life
+from neorl.core.calls import execute, in_table
+from neorl.core.kernel import arrays
 from neorl.core.stream import new_stream
 from neorl.experiments.trajectory import Trajectory
 from neorl.worlds.rollout import recorded_in, rollout_in
@@ -50,7 +51,7 @@ class Run(Individual):
         self._world_state = kept_apart(world.reset(sequence))
         self._live(agent, world, new_stream(sequence.spawn(1)[0]), after)
         self._progress = 0
-        execute(steps_with(constants_of(agent, world)).begin, self._parameters, self._state, self._scene)
+        execute(life.begin, self._parameters, constants_of(agent, world), self._state, self._scene)
         self._bind()
 
     @classmethod
@@ -62,7 +63,8 @@ class Run(Individual):
         return self._world_state.scene
 
     def _bind(self):
-        self._rollout = rollout_in(self.world.dynamics, constants_of(self.agent, self.world))
+        self._life = [in_table(each) for each in
+                      (self._parameters, constants_of(self.agent, self.world), self._state, self._scene)]
 
     @property
     def world_state(self) -> Any:
@@ -113,7 +115,8 @@ class Run(Individual):
         hits = _bins("hits", hits, np.int16, bins, len(self.world.kinds))
         paid, due = 0.0, self.step + every
         while self.step < last:
-            paid = self._take(self._rollout, min(last, due, self.step + SLICE), paid, bin_length, rewards, hits)
+            paid = self._take(rollout_in(self.world.dynamics), min(last, due, self.step + SLICE), paid, bin_length,
+                              rewards, hits)
             self._check(paid)
             if self.step == due or self.step == last:
                 due += every
@@ -141,7 +144,7 @@ class Run(Individual):
         positions[0] = self._scene.position
         actions, rewards, hits = np.zeros(frames, np.int64), np.zeros(frames), np.zeros((frames, kinds), np.int64)
         paid, episodes = np.zeros(2), [(np.zeros(0, np.int64), np.zeros(0))]
-        kernel = recorded_in(self.world.dynamics, constants_of(self.agent, self.world))
+        kernel = recorded_in(self.world.dynamics)
         while self.step < last:
             until = min(last, self.step + SLICE)
             ends, returns = np.zeros(until - self.step, np.int64), np.zeros(until - self.step)
@@ -154,8 +157,7 @@ class Run(Individual):
         """Take the steps up to `last` by a kernel; returns what it returns."""
         clock = on_lines_of_its_own(np.array([self.step]))
         try:
-            return execute(kernel, self._parameters, self._state, self._world_state, self.world.rules, clock, last,
-                           *into)
+            return execute(kernel, *self._life, self._world_state, self.world.rules, clock, last, *into)
         finally:
             self._progress = int(clock[0])  # also if interrupted: Python handles that once the kernel returns
 

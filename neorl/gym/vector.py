@@ -13,7 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from neorl import checks
 from neorl.agents.memory import read_only
-from neorl.core.kernel import arrays, execute, mapped, new_tuple
+from neorl.core.calls import execute
+from neorl.core.kernel import arrays, mapped, new_tuple
 from neorl.core.stream import new_stream
 from neorl.description import restored
 from neorl.extras import require

@@ -3,8 +3,8 @@
 There are two: `rollout` only adds up rewards and contacts, and `recorded` writes down where the agent was as well. Both
 end early after a step that broke a rule of worlds.
 
-The kernels of the world and the agent's user-defined functions are constants of the compiled code, so a user-defined
-world or policy runs as fast as those of the package. Each combination is compiled once (`neorl.core.compile_cache`).
+The kernels of the world are compiled into the rollout, so a user-defined world runs as fast as those of the package.
+Those of the agent are called (`neorl.core.constants`), so they are compiled once for all worlds.
 """
 
 import functools
@@ -12,10 +12,10 @@ import functools
 import numpy as np
 
 from neorl.checks import LARGEST
-from neorl.core import life
+from neorl.core.constants import Constants
 from neorl.core.kernel import array, fields, inlined, inlined_kernel, kernel
 from neorl.core.parameters import Parameters
-from neorl.core.scene import ABSENT
+from neorl.core.scene import ABSENT, Scene
 from neorl.core.state import State
 
 
@@ -31,7 +31,7 @@ def observed(parameters, constants, state, scene, reward, hits, interval, most):
     at the first that does not.
     """
     state.reward[0] = reward
-    life.observe(parameters, constants, state, scene)
+    constants.observe(parameters, constants, state, scene)
     for axis in range(len(constants.axes)):  # at once, since a later step may put the agent back
         if not (abs(scene.position[axis]) <= LARGEST and abs(scene.velocity[axis]) <= LARGEST):
             return False
@@ -45,23 +45,22 @@ def observed(parameters, constants, state, scene, reward, hits, interval, most):
 
 
 @functools.cache
-def rollout_in(dynamics, constants):
-    """The kernel `rollout` of agents with given `neorl.core.constants.Constants` in a world of given `Dynamics`."""
+def rollout_in(dynamics):
+    """The kernel `rollout` of agents in a world of given `Dynamics`."""
     reset, step = dynamics.reset, inlined(dynamics.step)
     world_type, rules_type = fields(reset)["state"], fields(reset)["rules"]
 
     @kernel
-    def rollout(parameters: Parameters, state: State, world_state: world_type, rules: rules_type,
-                clock: array("int64", 1), last_step: int, total: float, bin_steps: int,
-                rewards: array("float32", "bins"), hits: array("int16", "bins", "kinds")) -> float:
+    def rollout(parameters: Parameters, constants: Constants, state: State, scene: Scene,
+                world_state: world_type, rules: rules_type, clock: array("int64", 1), last_step: int, total: float,
+                bin_steps: int, rewards: array("float32", "bins"), hits: array("int16", "bins", "kinds")) -> float:
         """Take the steps clock[0] … last_step − 1, adding rewards and contacts to the bins of `rewards` and `hits`.
 
         total: the reward so far; the new total is returned. hits: things met of each kind, up to `MOST_HITS`.
         Stops early after a step that broke a rule of worlds; a reward that did is returned in place of the total.
         """
-        scene = world_state.scene
         for now in range(clock[0], last_step):
-            action = life.act(parameters, constants, state, scene)
+            action = constants.act(parameters, constants, state, scene)
             reward, done = step(world_state, rules, action)
             if not abs(reward) <= LARGEST:
                 clock[0] = now + 1
@@ -74,7 +73,7 @@ def rollout_in(dynamics, constants):
                 return total
             if done:
                 reset(world_state, rules)
-                life.begin(parameters, constants, state, scene)
+                constants.begin(parameters, constants, state, scene)
         clock[0] = last_step
         return total
 
@@ -82,15 +81,15 @@ def rollout_in(dynamics, constants):
 
 
 @functools.cache
-def recorded_in(dynamics, constants):
+def recorded_in(dynamics):
     """The kernel `recorded`, which takes the same steps as that of `rollout_in`, and records them."""
     reset, step = dynamics.reset, inlined(dynamics.step)
     world_type, rules_type = fields(reset)["state"], fields(reset)["rules"]
 
     @kernel
-    def recorded(parameters: Parameters, state: State, world_state: world_type, rules: rules_type,
-                 clock: array("int64", 1), last_step: int, first_step: int, every: int,
-                 paid: array("float64", 2), positions: array("float64", "frames", "axes"),
+    def recorded(parameters: Parameters, constants: Constants, state: State, scene: Scene,
+                 world_state: world_type, rules: rules_type, clock: array("int64", 1), last_step: int,
+                 first_step: int, every: int, paid: array("float64", 2), positions: array("float64", "frames", "axes"),
                  actions: array("int64", "frames"), rewards: array("float64", "frames"),
                  hits: array("int64", "frames", "kinds"), ends: array("int64", "episodes"),
                  returns: array("float64", "episodes")) -> int:
@@ -99,10 +98,10 @@ def recorded_in(dynamics, constants):
         paid: the reward so far, in all and in this episode. Returns the number of episodes that have ended.
         Stops early as `rollout` does, with a reward that broke a rule in paid[0].
         """
-        scene, episodes = world_state.scene, 0
+        episodes = 0
         for now in range(clock[0], last_step):
             frame = (now - first_step) // every
-            actions[frame] = life.act(parameters, constants, state, scene)
+            actions[frame] = constants.act(parameters, constants, state, scene)
             reward, done = step(world_state, rules, actions[frame])
             if not abs(reward) <= LARGEST:
                 clock[0], paid[0] = now + 1, reward
@@ -119,7 +118,7 @@ def recorded_in(dynamics, constants):
                 ends[episodes], returns[episodes], paid[1] = now + 1, paid[1], 0.0
                 episodes += 1
                 reset(world_state, rules)
-                life.begin(parameters, constants, state, scene)
+                constants.begin(parameters, constants, state, scene)
         clock[0] = last_step
         return episodes
 

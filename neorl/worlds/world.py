@@ -23,10 +23,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from neorl import checks
-from neorl.description import Described
-from neorl.core.kernel import Kernel, execute, fields, full_name, is_tuple, kernel, length, new_tuple
+from neorl.core.calls import execute
+from neorl.core.kernel import Kernel, fields, full_name, is_tuple, kernel, length, new_tuple
 from neorl.core.scene import Actions
 from neorl.core.stream import new_stream
+from neorl.description import Described
 
 
 class Dynamics(NamedTuple):

@@ -11,7 +11,8 @@ from saved_files import rewrite
 
 from neorl import (CARDINAL, Agent, Desire, Learner, Learning, Node, Place, Policy, Run, Scene, WaterWorld, kernel,
                    multimodal, network_d, place_cells, softmax)
-from neorl.core.kernel import arrays, execute, jit_is_off, mapped
+from neorl.core.calls import execute
+from neorl.core.kernel import arrays, jit_is_off, mapped
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL
 from neorl.core.stream import new_stream
 

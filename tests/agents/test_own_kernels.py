@@ -130,6 +130,15 @@ def check_that_kernels_of_one_modality_are_distinguished_from_those_of_another()
         assert (one % 5, one // 5) == (other // 2, other % 2)
 
 
+def test_a_policy_must_return_a_whole_number():
+    @kernel
+    def halfway(value, stream):
+        return 0.5
+
+    with pytest.raises(TypeError):
+        Run(replace(place_cells([3]), policy=Policy(choose=halfway)), WORLD).advance(1)
+
+
 def test_a_users_kernels_are_called_and_distinguished(interpreted):
     assert interpreted["called and distinguished"]
 

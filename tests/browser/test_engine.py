@@ -10,9 +10,10 @@ import pytest
 from neorl import Arena, Explorer, Learning, NresMap, Run, WaterWorld, network_d, place_cells, simulate
 from neorl.browser import wasm
 from neorl.browser.explorer import OTHER_SPACES, _parameters, _world
+from neorl.core.calls import execute
 from neorl.core.horde import as_vectors
-from neorl.core.kernel import execute, mapped
-from neorl.worlds.probe import probes_with
+from neorl.core.kernel import mapped
+from neorl.worlds.probe import step_second, survey
 
 ENGINE = """
 const ask = (worker, request) => new Promise((resolve, reject) => {
@@ -32,7 +33,7 @@ async function answers([requests, last]) {
   return JSON.parse(JSON.stringify(all.slice(-last), (_, value) => ArrayBuffer.isView(value) ? [...value] : value));
 }
 """
-PROBES = probes_with(wasm.MODULES["plane"].constants)
+CONSTANTS = wasm.MODULES["plane"].constants
 TANK = WaterWorld(n_creeps=4)
 AGENT = network_d([4, 5])
 STEPS, SEED, K = 3_000, 5, 2
@@ -104,7 +105,7 @@ def test_a_frame_reports_the_state_of_the_run(ask):
 
     assert np.array(frame["seen"]["ways"]).reshape(-1, 2) == pytest.approx(as_vectors(run.q(3)[0].T))
     values = np.zeros((81, 4))
-    execute(PROBES.survey, run._parameters, run._state, mapped(np.copy, run._state),
+    execute(survey, run._parameters, CONSTANTS, run._state, mapped(np.copy, run._state),
             scene._replace(position=np.zeros(2)), 9, values)
     assert np.array(frame["field"]).reshape(-1, 2) == pytest.approx(as_vectors(values), rel=1e-6)
     assert frame["heat"] == pytest.approx(values.max(axis=1), rel=1e-6)
@@ -222,7 +223,9 @@ def test_a_second_agent_obeys_commands_on_the_same_creeps(ask, object_state):
     paid, touched = 0.0, 0
     for action in actions:
         run.advance(1)
-        paid += execute(PROBES.step_second, run._parameters, run._state, run.world_state, TANK.rules, second, action)
+        board = run.world_state
+        paid += execute(step_second, run._parameters, CONSTANTS, run._state, board.scene, board, TANK.rules, second,
+                        action)
         touched += np.count_nonzero(second.met)
     assert touched > 2 and frame["player"]["reward"] == paid
     assert [frame["player"][name] for name in "xy"] == pytest.approx(second.position / TANK.width)

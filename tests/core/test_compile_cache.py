@@ -8,7 +8,8 @@ import sys
 import pytest
 
 from neorl import files
-from neorl.core.kernel import announcing, execute, kernel
+from neorl.core.calls import execute
+from neorl.core.kernel import announcing, kernel
 
 SOURCE = """
 from neorl import kernel
@@ -99,7 +100,7 @@ def test_a_folder_that_cannot_be_written_to_costs_time_alone(module, tmp_path, m
 
 def test_processes_that_start_at_once_do_not_disturb_each_other(module, tmp_path):
     module()
-    command = [sys.executable, "-c", "import own; from neorl.core.kernel import execute\n"
+    command = [sys.executable, "-c", "import own; from neorl.core.calls import execute\n"
                "print(execute(own.answer, 1.0))"]
     environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(tmp_path), *sys.path])}
     processes = [subprocess.Popen(command, env=environment, stdout=subprocess.PIPE) for _ in range(2)]

@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 from neorl import kernel, kernel_maker
+from neorl.core.calls import execute
 from neorl.core.identity import Reading, identity
-from neorl.core.kernel import execute, jit_is_off
+from neorl.core.kernel import jit_is_off
 
 OUTER = """
 from enum import IntEnum

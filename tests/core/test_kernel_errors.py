@@ -12,7 +12,8 @@ from pond import Pond, PondRules, PondState
 from subprograms import printed
 
 from neorl import Agent, Axis, Modality, Node, Run, Scene, kernel
-from neorl.core.kernel import execute, function_of
+from neorl.core.calls import execute
+from neorl.core.kernel import function_of
 from neorl.core.modality import PLACE_CELL
 from neorl.worlds.world import Dynamics
 

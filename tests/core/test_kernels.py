@@ -1,5 +1,6 @@
 """The rules that every kernel follows, so that a run is the same everywhere."""
 
+import contextlib
 import random
 import re
 from random import randrange
@@ -7,14 +8,14 @@ from random import randrange
 import numpy as np
 import pytest
 from numba import njit
+from numba.core import event
 
-from neorl import Agent, Arena, Node, Policy, Run, WaterWorld, network_d, place_cells, softmax
-from neorl.agents.compile import constants_of
+from neorl import Agent, Arena, Learning, Node, Policy, Run, WaterWorld, network_d, place_cells, softmax
 from neorl.core import geometry, learning, life, maps, network, parameters, policy, state, stream
+from neorl.core.calls import execute
 from neorl.core.compile_cache import CompileCache
-from neorl.core.kernel import Kernel, execute, inlined_kernel, kernel
-from neorl.core.modality import HEAD_DIRECTION_CELL
-from neorl.core.steps import steps_with
+from neorl.core.kernel import Kernel, inlined_kernel, kernel
+from neorl.core.modality import HEAD_DIRECTION_CELL, Axis, Modality
 from neorl.worlds import arena, probe, waterworld
 from neorl.worlds.rollout import rollout_in
 
@@ -24,8 +25,7 @@ AGENTS = {TANK: place_cells([3]),
 MODULES = (arena, geometry, learning, life, maps, network, parameters, policy, probe, state, stream, waterworld)
 KERNELS = {f"{value.__module__}.{value.__name__}": value for module in MODULES
            for value in vars(module).values() if isinstance(value, Kernel)}
-MADE = {f"{type(world).__name__}: {made.__name__}": made for world, agent in AGENTS.items()
-        for made in (rollout_in(world.dynamics, constants_of(agent, world)), *steps_with(constants_of(agent, world)))}
+MADE = {f"{type(world).__name__}: rollout": rollout_in(world.dynamics) for world in AGENTS}
 MADE["softmax"] = softmax(0.5)
 
 
@@ -44,8 +44,8 @@ def compiled():
 
 def test_the_kernels_are_found():
     assert {"neorl.core.learning.learn_all_goals", "neorl.core.stream.uniform", "neorl.worlds.waterworld.step",
-            "neorl.worlds.arena.step"} <= set(KERNELS)
-    assert {"WaterWorld: rollout", "Arena: rollout", "WaterWorld: observe", "softmax"} <= set(MADE)
+            "neorl.worlds.arena.step", "neorl.core.life.observe"} <= set(KERNELS)
+    assert {"WaterWorld: rollout", "Arena: rollout", "softmax"} <= set(MADE)
     assert all(rollout.for_python.signatures for name, rollout in MADE.items() if name.endswith("rollout"))
 
 
@@ -90,9 +90,56 @@ def test_agents_of_any_network_share_one_compilation():
     for agent in (place_cells([3]), network_d([2, 5]), Agent((Node("HD", HEAD_DIRECTION_CELL, [8]),))):
         for world in (TANK, WaterWorld(width=100, n_creeps=5)):
             Run(agent, world, seed=0).advance(10)
-            rollouts.add(rollout_in(world.dynamics, constants_of(agent, world)))
+            rollouts.add(rollout_in(world.dynamics))
     (rollout,) = rollouts
     assert len(rollout.for_python.signatures) == 1
+
+
+def test_what_is_the_users_own_compiles_nothing_of_the_package(monkeypatch):
+    monkeypatch.setattr(CompileCache, "load_overload", lambda *_: None)
+
+    @kernel
+    def first(value, stream):
+        return 0
+
+    @kernel
+    def share(count, steps, last, activity):
+        return count / steps
+
+    @kernel
+    def eastwards(scene, point):
+        return scene.position[0] / 250.0
+
+    agent = place_cells([3])
+    Run(agent, TANK, seed=0).advance(10)
+    own = Agent([Node("east", Modality("own", [Axis(eastwards)]), [3])], learning=Learning(credit=share),
+                policy=Policy(choose=first))
+    with compilations() as compiled:
+        Run(own, TANK, seed=0).advance(10)
+    assert compiled == {"first", "chosen", "share", "eastwards", "feature"}
+
+
+@contextlib.contextmanager
+def compilations():
+    """The names of the functions that numba compiles in this context."""
+    class Listener(event.Listener):
+        def on_start(self, started):
+            names.add(started.data["dispatcher"].py_func.__name__)
+
+        def on_end(self, _):
+            pass
+
+    names = set()
+    with event.install_listener("numba:compile", Listener()):
+        yield names
+
+
+@pytest.mark.parametrize("dtype, order", [(np.float32, "C"), (float, "F")])
+def test_an_array_that_kernels_would_misread_is_refused(dtype, order):
+    run = Run(place_cells([3]), TANK)
+    things = np.asarray(run.world_state.scene.things, dtype=dtype, order=order)
+    with pytest.raises(ValueError, match="^things must be a contiguous array of float64 with 2 axes, but is "):
+        execute(life.begin, *run._life[:3], run.world_state.scene._replace(things=things))
 
 
 @pytest.mark.parametrize("name", KERNELS)

@@ -8,7 +8,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from neorl import Agent, Desire, Node, Policy, Run, WaterWorld, greedy, softmax
-from neorl.core.kernel import execute
+from neorl.core.calls import execute
 from neorl.core.modality import PLACE_CELL
 from neorl.core.policy import exponential
 from neorl.core.stream import new_stream

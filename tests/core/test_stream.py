@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from neorl.core.kernel import execute
+from neorl.core.calls import execute
 from neorl.core.stream import new_stream, randint, uniform
 
 

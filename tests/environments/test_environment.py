@@ -9,7 +9,8 @@ from pond import Pond
 from same import assert_equal
 
 from neorl import Agent, Arena, Run, Scene, WaterWorld, brownian
-from neorl.core.kernel import execute, mapped
+from neorl.core.calls import execute
+from neorl.core.kernel import mapped
 from neorl.core.scene import ABSENT
 from neorl.gym import WorldEnv
 from neorl.gym.observation import observe

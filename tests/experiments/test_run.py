@@ -14,7 +14,6 @@ import pytest
 from same import assert_same
 
 from neorl import Agent, Arena, Desire, Learning, Node, Policy, Run, WaterWorld, multimodal, network_d, place_cells
-from neorl.agents.compile import constants_of
 from neorl.core.modality import PLACE_CELL
 from neorl.worlds.rollout import rollout_in
 
@@ -88,9 +87,8 @@ def test_a_number_of_another_type_compiles_nothing_again():
     rule = Learning(np.float32(0.5), memory=np.float64(2.0), bootstrap=np.bool_(True))
     agent, world = place_cells([3], learning=rule), WaterWorld(np.int16(250), win_reward=np.int64(1))
     Run(agent, world).advance(1)
-    assert rollout_in(world.dynamics, constants_of(agent, world)) is rollout_in(
-        TANK.dynamics, constants_of(place_cells([3]), TANK))
-    assert len(rollout_in(TANK.dynamics, constants_of(agent, TANK)).for_python.signatures) == 1
+    assert rollout_in(world.dynamics) is rollout_in(TANK.dynamics)
+    assert len(rollout_in(TANK.dynamics).for_python.signatures) == 1
 
 
 POOL = Arena(trial_seconds=4.0, pay=(0.1,), radius=0.2)

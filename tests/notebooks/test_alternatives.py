@@ -7,7 +7,8 @@ import pytest
 from lib.alternatives import controllers, living, search, tabular_learners
 from lib.alternatives.living import BOARDS, Earned
 from neorl import Run, WaterWorld, brownian, multimodal, place_cells, simulate
-from neorl.core.kernel import arrays, execute
+from neorl.core.calls import execute
+from neorl.core.kernel import arrays
 from neorl.core.stream import new_stream
 from neorl.evidence.reading import PRIMES, Reading
 from neorl.worlds.waterworld import GREEN, RED

@@ -14,8 +14,8 @@ from lib.chapter_4.noise import expected_squared_displacement, mean_squared_disp
 from lib.chapter_4.superposition import fit_ridges, plan
 from lib.shared.grid import Grid
 from neorl.agents.rules import CALIBRATED
+from neorl.core.calls import execute
 from neorl.core.horde import learn
-from neorl.core.kernel import execute
 from neorl.core.stream import new_stream, randint, uniform
 from neorl.evidence.reading import TO_THE_LETTER, Reading, conditions
 

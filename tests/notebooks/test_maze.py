@@ -8,7 +8,8 @@ from lib.chapter_2.maze import (DAYS, GROUPS, LEARNERS, Animal, Maze, Record, Ri
                                 simulate)
 from lib.shared.grid import MOVES
 from lib.shared.tabular import Rates
-from neorl.core.kernel import execute, new_tuple
+from neorl.core.calls import execute
+from neorl.core.kernel import new_tuple
 from neorl.core.stream import new_stream
 from neorl.evidence import claims
 

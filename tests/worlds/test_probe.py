@@ -6,20 +6,21 @@ from same import assert_same
 
 from neorl import (Agent, Node, NresMap, Run, WaterWorld, multimodal, network_d, object_vector_cells, place_cells,
                    superpose)
-from neorl.agents.compile import constants_of
-from neorl.core.kernel import execute, mapped
+from neorl.agents.compile import whole_constants
+from neorl.core.calls import execute
+from neorl.core.kernel import mapped
 from neorl.core.modality import OBJECT_VECTOR_CELL, PLACE_CELL, Axis, Modality
-from neorl.worlds.probe import probes_with
+from neorl.worlds.probe import cell_seen_at, step_second, survey
 from neorl.worlds.waterworld import GREEN, RED
 
 TANK = WaterWorld(n_creeps=5)
-survey, cell_seen_at, step_second = probes_with(constants_of(place_cells(), TANK))
+CONSTANTS = whole_constants(place_cells(), TANK)
 
 
 def surveyed(run, side):
     values = np.zeros((side * side, 4))
     there = run.world_state.scene._replace(position=np.zeros(2))
-    execute(survey, run._parameters, run._state, mapped(np.copy, run._state), there, side, values)
+    execute(survey, run._parameters, CONSTANTS, run._state, mapped(np.copy, run._state), there, side, values)
     return values
 
 
@@ -54,7 +55,7 @@ def test_a_place_is_seen_in_the_cell_that_is_as_it_lies_and_otherwise_as_the_age
     from_agent = np.array([x, y]) - scene.position / TANK.width
     expected = [*(NresMap(n, OBJECT_VECTOR_CELL).encode(OBJECT_VECTOR_CELL.tune(from_agent)) for n in (3, 5)),
                 NresMap(4, conjunctive).encode([x, y, np.hypot(*scene.velocity) / TANK.width])]
-    assert expected == [execute(cell_seen_at, run._parameters, run._state, scene, m, x, y) for m in range(3)]
+    assert expected == [execute(cell_seen_at, run._parameters, CONSTANTS, run._state, scene, m, x, y) for m in range(3)]
 
 
 def test_a_creep_that_somebody_else_takes_is_gone_and_nothing_is_learned_from_it():
@@ -63,7 +64,7 @@ def test_a_creep_that_somebody_else_takes_is_gone_and_nothing_is_learned_from_it
     run.world_state.scene.kinds[:] = [GREEN, GREEN, RED, GREEN, RED]
     before, board = mapped(np.copy, run.state), run.world_state
     second = board.scene._replace(position=board.scene.things[2].copy(), velocity=np.zeros(2))
-    paid = execute(step_second, run._parameters, run._state, board, TANK.rules, second, 4)
+    paid = execute(step_second, run._parameters, CONSTANTS, run._state, board.scene, board, TANK.rules, second, 4)
     taken = second.met != 0
     assert second.met[2] == 1 + RED and paid == sum(second.met == 1 + GREEN) - sum(second.met == 1 + RED)
     assert np.array_equal(run.state.values.q, before.values.q)
@@ -83,7 +84,8 @@ def test_when_somebody_else_takes_the_last_green_creep_the_tank_starts_afresh():
     paid = 0.0
     for _ in range(50):  # until the fresh creep is red, which ends the episode
         second = board.scene._replace(position=board.scene.things[0].copy(), velocity=np.zeros(2))
-        paid = execute(step_second, run._parameters, run._state, board, run.world.rules, second, 4)
+        paid = execute(step_second, run._parameters, CONSTANTS, run._state, board.scene, board, run.world.rules,
+                       second, 4)
         if np.array_equal(board.scene.position, [125.0, 125.0]):
             break
     assert np.array_equal(board.scene.position, [125.0, 125.0]) and board.scene.kinds[0] == GREEN and paid == 1

@@ -8,7 +8,8 @@ import pytest
 
 from neorl import (CARDINAL, Actions, Agent, Axis, Condition, Desire, Learning, Modality, Node, Place, Policy, Run,
                    Scene, World, brownian, kernel, simulate)
-from neorl.core.kernel import array, execute
+from neorl.core.calls import execute
+from neorl.core.kernel import array
 from neorl.core.modality import LANDMARK_VECTOR_CELL, PLACE_CELL, cartesian
 from neorl.core.stream import uniform
 from neorl.worlds.world import Dynamics

@@ -20,7 +20,8 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl.agents.compile import n_bytes
-from neorl.core.kernel import arrays, execute, inlined, kernel
+from neorl.core.calls import execute
+from neorl.core.kernel import arrays, inlined, kernel
 from neorl.core.stream import new_stream
 from neorl.experiments.run import Run
 from neorl.files import write_whole

@@ -18,7 +18,7 @@ left from right or one order of turns from another: a turn is only a label of an
 """
 
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -30,11 +30,13 @@ from neorl.agents.agent import Agent, Desire, Node
 from neorl.agents.compile import compiled, constants_of
 from neorl.agents.learner import Surroundings
 from neorl.agents.rules import Learning, Policy
-from neorl.core.kernel import array, execute, kernel, new_tuple
+from neorl.core.calls import execute
+from neorl.core.constants import Constants
+from neorl.core.kernel import array, kernel, new_tuple
 from neorl.core.modality import Axis, Modality
+from neorl.core.parameters import Parameters
 from neorl.core.scene import ABSENT, Actions, Scene
-from neorl.core.state import new_state
-from neorl.core.steps import steps_with
+from neorl.core.state import State, new_state
 from neorl.core.stream import new_stream
 from neorl.evidence.statistics import Estimate, difference, estimate
 
@@ -206,7 +208,7 @@ def live(animal, maze, first_meal, stream):
         state = new_state(parameters, stream, KNOWN.things)
         scene = new_tuple(Scene, {"axes": 1, "things": 1}, {"things": np.array([[maze.goal + 0.5]]),
                                                             "kinds": np.array([ABSENT])})
-        day = _day_of(constants_of(agent, KNOWN)), parameters, state, scene
+        day = live_a_day, parameters, constants_of(agent, KNOWN), state, scene
         worth = state.values.q.reshape(maze.states, 4, maze.states)[:, :, maze.goal]
     else:
         rates = Rates(animal.learning_rate, animal.discount, animal.exploration)
@@ -267,29 +269,23 @@ def findings(groups, first_meal):
     }
 
 
-@cache
-def _day_of(constants):
-    """The kernel that runs an agent through the maze once, and returns its errors. fed: whether there is food."""
-    begin, act, observe = steps_with(constants)
-
-    @kernel
-    def live_a_day(parameters, state, scene, next_state, goal, fed):
-        place, errors = 0, 0
-        scene.position[0] = 0.5
-        begin(parameters, state, scene)
-        for _ in range(LONGEST_TRIAL):
-            place_tm1 = place
-            place = next_state[place_tm1, act(parameters, state, scene)]
-            errors += place > goal and place != place_tm1
-            scene.position[0] = place + 0.5
-            observe(parameters, state, scene)
-            if place == goal:
-                break
-        if place == goal and fed:
-            scene.kinds[0] = 0  # from now on the animal knows where the food is
-        return errors
-
-    return live_a_day
+@kernel
+def live_a_day(parameters: Parameters, constants: Constants, state: State, scene: Scene, next_state, goal, fed):
+    """Run an agent through the maze once, and return its errors. fed: whether there is food."""
+    place, errors = 0, 0
+    scene.position[0] = 0.5
+    constants.begin(parameters, constants, state, scene)
+    for _ in range(LONGEST_TRIAL):
+        place_tm1 = place
+        place = next_state[place_tm1, constants.act(parameters, constants, state, scene)]
+        errors += place > goal and place != place_tm1
+        scene.position[0] = place + 0.5
+        constants.observe(parameters, constants, state, scene)
+        if place == goal:
+            break
+    if place == goal and fed:
+        scene.kinds[0] = 0  # from now on the animal knows where the food is
+    return errors
 
 
 class Rival(NamedTuple):

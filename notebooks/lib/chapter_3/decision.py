@@ -15,7 +15,8 @@ import numpy as np
 
 from lib.shared.tabular import Rates, exploring_action, learn_q
 from neorl import checks
-from neorl.core.kernel import execute, kernel
+from neorl.core.calls import execute
+from neorl.core.kernel import kernel
 from neorl.core.stream import new_stream, randint, uniform
 
 

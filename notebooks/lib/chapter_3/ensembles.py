@@ -26,7 +26,8 @@ import numpy as np
 from lib.shared.grid import Grid
 from lib.shared.tabular import greedy_action, learn_q
 from neorl import checks
-from neorl.core.kernel import execute, kernel
+from neorl.core.calls import execute
+from neorl.core.kernel import kernel
 from neorl.core.stream import randint, new_stream, uniform
 
 LEARNERS = ("Q-learning", "Sarsa", "actor–critic", "QV-learning", "ACLA")

@@ -25,7 +25,8 @@ from scipy.sparse import csgraph
 from lib.shared.grid import Grid
 from lib.shared.tabular import Rates, exploring_action, learn_q
 from neorl import checks
-from neorl.core.kernel import execute, kernel
+from neorl.core.calls import execute
+from neorl.core.kernel import kernel
 from neorl.core.stream import randint, new_stream, uniform
 
 KINDS = ("one learner", "heads", "latent heads")

@@ -19,8 +19,9 @@ import numpy as np
 
 from neorl import checks
 from neorl.agents.rules import CALIBRATED, Learning
+from neorl.core.calls import execute
 from neorl.core.choices import Credit
-from neorl.core.kernel import execute, kernel
+from neorl.core.kernel import kernel
 from neorl.core.learning import UNIT, ZERO, MapValues, Order, Rule, learn_all_goals, learn_one_goal
 from neorl.core.stream import randint, new_stream, uniform
 

@@ -12,7 +12,8 @@ import math
 import numpy as np
 
 from lib.shared.tabular import Rates, exploring_action, learn_q
-from neorl.core.kernel import array, execute, fields, kernel, mapped
+from neorl.core.calls import execute
+from neorl.core.kernel import array, fields, kernel, mapped
 from neorl.core.stream import new_stream
 from neorl.experiments.run import Run
 

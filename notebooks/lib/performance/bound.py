@@ -24,7 +24,8 @@ from typing import NamedTuple
 import numpy as np
 
 from lib.performance.timing import LINE, always
-from neorl.core.kernel import array, execute, kernel
+from neorl.core.calls import execute
+from neorl.core.kernel import array, kernel
 from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
 from neorl.core.stream import new_stream, randint
 from neorl.worlds.waterworld import Rules, WaterWorldState, reset, step

@@ -22,7 +22,8 @@ import numpy as np
 
 from neorl.agents.papers import place_cells
 from neorl.agents.rules import Learning
-from neorl.core.kernel import array, execute, kernel
+from neorl.core.calls import execute
+from neorl.core.kernel import array, kernel
 from neorl.core.learning import ZERO, MapValues, Rule, learn_all_goals
 from neorl.experiments.run import Run
 from neorl.worlds.waterworld import GREEN, WaterWorld

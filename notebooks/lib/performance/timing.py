@@ -12,7 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy import stats
 
-from neorl.core.kernel import array, execute, kernel
+from neorl.core.calls import execute
+from neorl.core.kernel import array, kernel
 from neorl.evidence.statistics import Estimate, estimate
 
 LINE = 64  # bytes
