@@ -14,14 +14,13 @@ from neorl.core.parameters import Parameters
 from neorl.core.scene import Scene
 from neorl.core.state import State
 
-LIVING = Parameters, Self, State, Scene
-
 
 @tabled
 class Constants(NamedTuple):
     """What the kernels of an agent call, and the numbers that they are compiled for.
 
-    A kernel that the agent does not need is None.
+    A kernel that the agent does not need is None. Those for nodes of which the self is the state, and for nodes with
+    contacts as goals, take the number of the node, and of one of its points.
     """
 
     actions: tuple  # their numbers; a tuple's length is part of its type, so it is known when loops are compiled
@@ -30,14 +29,14 @@ class Constants(NamedTuple):
     feature: function(int, Scene, int, returns=float)  # (number, scene, point) → the coordinate along a user's axis
     credit: function(int, int, bool, np.float32, returns=float) = None  # (count, steps, last, activity) → ψ of an event
     choose: function(State, returns=int) = None  # → the action
-    begin: function(*LIVING, returns=None) = None  # the first three of `neorl.core.life`
-    act: function(*LIVING, returns=int) = None
-    observe: function(*LIVING, returns=None) = None
-    begin_self: function(*LIVING, int, int, returns=None) = None  # two more, for the self as the state
-    observe_self: function(*LIVING, int, int, returns=None) = None
-    begin_contacts: function(*LIVING, int, int, returns=None) = None  # the three of `neorl.core.contacts`
-    observe_contacts: function(*LIVING, int, int, returns=None) = None
-    evaluate_contacts: function(*LIVING, int, returns=None) = None
+    begin: function(Parameters, Self, State, Scene, returns=None) = None
+    act: function(Parameters, Self, State, Scene, returns=int) = None
+    observe: function(Parameters, Self, State, Scene, returns=None) = None
+    begin_self: function(Parameters, Self, State, Scene, int, int, returns=None) = None
+    observe_self: function(Parameters, Self, State, Scene, int, int, returns=None) = None
+    begin_contacts: function(Parameters, Self, State, Scene, int, int, returns=None) = None
+    observe_contacts: function(Parameters, Self, State, Scene, int, int, returns=None) = None
+    evaluate_contacts: function(Parameters, Self, State, Scene, int, returns=None) = None
 
 
 @kernel
