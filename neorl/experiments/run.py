@@ -63,8 +63,7 @@ class Run(Individual):
         return self._world_state.scene
 
     def _bind(self):
-        self._life = [in_table(each) for each in
-                      (self._parameters, constants_of(self.agent, self.world), self._state, self._scene)]
+        self._life = [in_table(each) for each in (self._parameters, constants_of(self.agent, self.world), self._state)]
 
     @property
     def world_state(self) -> Any:
@@ -157,7 +156,7 @@ class Run(Individual):
         """Take the steps up to `last` by a kernel; returns what it returns."""
         clock = on_lines_of_its_own(np.array([self.step]))
         try:
-            return execute(kernel, *self._life, self._world_state, self.world.rules, clock, last, *into)
+            return execute(kernel, *self._life, self._scene, self._world_state, self.world.rules, clock, last, *into)
         finally:
             self._progress = int(clock[0])  # also if interrupted: Python handles that once the kernel returns
 

@@ -139,7 +139,7 @@ def test_an_array_that_kernels_would_misread_is_refused(dtype, order):
     run = Run(place_cells([3]), TANK)
     things = np.asarray(run.world_state.scene.things, dtype=dtype, order=order)
     with pytest.raises(ValueError, match="^things must be a contiguous array of float64 with 2 axes, but is "):
-        execute(life.begin, *run._life[:3], run.world_state.scene._replace(things=things))
+        execute(life.begin, *run._life, run.world_state.scene._replace(things=things))
 
 
 @pytest.mark.parametrize("name", KERNELS)
