@@ -36,11 +36,12 @@ def compiled(agent, world):
 def constants_of(agent, world):
     """The `Constants` of an agent in a world."""
     whole = whole_constants(agent, world)
+    of_self = any(node.state != "object" for node in agent.nodes)
+    of_contacts = any(node.goals == "contacts" for node in agent.nodes)
     needed = {"feature": own_axes(agent), "credit": callable(agent.learning.credit),
-              "choose": agent.policy.choose is not greedy,
-              "self": any(node.state != "object" for node in agent.nodes),
-              "contacts": any(node.goals == "contacts" for node in agent.nodes)}
-    return whole._replace(**{name: None for name in whole._fields if not needed.get(name.rpartition("_")[2], True)})
+              "choose": agent.policy.choose is not greedy, "begin_self": of_self, "observe_self": of_self,
+              "begin_contacts": of_contacts, "observe_contacts": of_contacts, "evaluate_contacts": of_contacts}
+    return whole._replace(**{name: None for name, is_needed in needed.items() if not is_needed})
 
 
 def whole_constants(agent, world):

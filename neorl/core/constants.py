@@ -1,7 +1,7 @@
 """The constants of an agent's compiled code: what it calls by address, and the numbers of actions and axes.
 
 Kernels are compiled for numbers of actions and axes, so that the loops of every step are unrolled, and not for an agent
-or its user-defined functions: those of `Constants` are compiled one by one, once an agent needs them.
+or its user-defined functions: the kernels in `Constants` are compiled one by one, once an agent needs them.
 """
 
 from typing import NamedTuple, Self
@@ -19,8 +19,8 @@ from neorl.core.state import State
 class Constants(NamedTuple):
     """What the kernels of an agent call, and the numbers that they are compiled for.
 
-    A kernel that the agent does not need is None. Those for nodes of which the self is the state, and for nodes with
-    contacts as goals, take the number of the node, and of one of its points.
+    A kernel that the agent does not need is None. The kernels whose names end in "self" and "contacts" take the number
+    of a node with the self as its state, or with contacts as its goals; most also take the number of one of its points.
     """
 
     actions: tuple  # their numbers; a tuple's length is part of its type, so it is known when loops are compiled

@@ -14,8 +14,8 @@ A kernel trusts its arguments: an index out of range or a shape that does not fi
 cannot be called from Python directly; public functions check every argument and pass them on by
 `neorl.core.calls.execute`.
 
-Annotations give the types of the arrays in a named tuple, and of the arguments of kernels that are called from outside
-Python (`neorl.browser.wasm`); numba does not read them.
+Annotations give the types of the arrays in a named tuple, and of the arguments that are passed as tables
+(`neorl.core.calls`) or from outside Python (`neorl.browser.wasm`); numba does not read them.
 
 Code compiled for calls from Python is cached on disk (`neorl.core.compile_cache`). numba takes globals and closures for
 constants, so a kernel is compiled again once any that it reads, or that a kernel it calls reads, has another value.
@@ -101,7 +101,8 @@ class Kernel:
     @property
     def is_users(self):
         """Whether the kernel depends on code of the user's."""
-        return bool(Reading(self).functions)
+        self._made("_for_python", self._new_for_python)
+        return bool(vars(self)["_for_python"][0].functions)
 
     def compiled_for(self, arguments, returns=None):
         """The code for arguments of these numba types, as `Compiled`. returns: the type of its result, if given."""

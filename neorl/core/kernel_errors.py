@@ -27,8 +27,9 @@ def not_compiled(kernel, error):
 
 def raise_named(kernels, error):
     """Raise the error for the user's kernel among those called that has raised one; any other error unchanged."""
+    users = _users(tuple(kernels))
     for frame in reversed(traceback.extract_tb(error.__traceback__)):
-        for function in _users(tuple(kernels)):
+        for function in users:
             if frame.filename == function.__code__.co_filename and frame.name in (function.__name__,
                                                                                    function.__qualname__):
                 raise ValueError(f"the kernel {_where(function, frame.lineno)} must not raise, but has raised "

@@ -4,8 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl.core.calls import tabled
-from neorl.core.calls import execute
+from neorl.core.calls import execute, tabled
 from neorl.core.kernel import array, kernel, new_tuple
 from neorl.core.learning import order_of, place_of, values_of
 from neorl.core.parameters import ENTRIES, Parameters

@@ -108,14 +108,14 @@ class ViewAttributes(AttributeTemplate):
 @lower_getattr_generic(View)
 def _attribute(context, builder, view, pointer, name):
     place, kind = view.member(name)
-    slots = [builder.gep(pointer, [ir.Constant(WORD, place + i)]) for i in range(max(_words(kind), 1))]
-    if isinstance(kind, View):
-        return slots[0]
     if isinstance(kind, types.UniTuple):
         return context.make_tuple(builder, kind, [ir.Constant(WORD, i) for i in range(kind.count)])
+    slot = builder.gep(pointer, [ir.Constant(WORD, place)])
+    if isinstance(kind, View):
+        return slot
     if isinstance(kind, types.Array):
-        return _array(context, builder, kind, *slots)
-    word = _loaded(builder, slots[0])
+        return _array(context, builder, kind, slot)
+    word = _loaded(builder, slot)
     if kind == types.boolean:
         return builder.trunc(word, ir.IntType(1))
     if kind in (types.float32, types.float64):
@@ -137,10 +137,11 @@ def _loaded(builder, slot):
     return word
 
 
-def _array(context, builder, kind, address, *lengths):
+def _array(context, builder, kind, address):
     data_type = context.get_data_type(kind.dtype)
     array, size = make_array(kind)(context, builder), context.get_abi_sizeof(data_type)
-    shape, strides = [_loaded(builder, each) for each in lengths], [ir.Constant(WORD, size)]
+    shape = [_loaded(builder, builder.gep(address, [ir.Constant(WORD, 1 + axis)])) for axis in range(kind.ndim)]
+    strides = [ir.Constant(WORD, size)]
     for length in reversed(shape[1:]):
         strides.insert(0, builder.mul(strides[0], length, flags=["nsw"]))
     data = _loaded(builder, builder.bitcast(address, data_type.as_pointer().as_pointer()))

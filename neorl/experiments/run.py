@@ -51,8 +51,8 @@ class Run(Individual):
         self._world_state = kept_apart(world.reset(sequence))
         self._live(agent, world, new_stream(sequence.spawn(1)[0]), after)
         self._progress = 0
-        execute(life.begin, self._parameters, constants_of(agent, world), self._state, self._scene)
         self._bind()
+        execute(life.begin, *self._life, self._scene)
 
     @classmethod
     def _of(cls, agent, world):

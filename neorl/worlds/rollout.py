@@ -4,7 +4,7 @@ There are two: `rollout` only adds up rewards and contacts, and `recorded` write
 end early after a step that broke a rule of worlds.
 
 The kernels of the world are compiled into the rollout, so a user-defined world runs as fast as those of the package.
-Those of the agent are called (`neorl.core.constants`), so they are compiled once for all worlds.
+The agent's kernels are called (`neorl.core.constants`), so they are compiled once for all worlds.
 """
 
 import functools
