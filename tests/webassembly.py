@@ -55,24 +55,24 @@ class Machine:
     def call(self, name, sizes, **arguments):
         """Call an export by its layout; arrays are given as (address, view) pairs."""
         export = self.layout["exports"][name]
-        values = [int(sizes[each]) for each in export["sizes"]]
-        for argument, kind in export["arguments"]:
-            values += self.passed(arguments[argument], kind, sizes, argument)
+        table, _ = self.put(np.array(list(self.words(arguments, export["arguments"], sizes)), np.int64))
         result, view = self.put(np.zeros(1, export["result"] or "int64"))
-        assert self.exports[name](self.store, result, 0, *values) == 0
+        assert self.exports[name](self.store, result, 0, table) == 0
         return view[0]
 
-    def passed(self, value, kind, sizes, name):
-        """An argument as the numbers that the module takes."""
-        if isinstance(kind, str):
-            return [number for field, inner in self.layout["tuples"][kind]
-                    for number in self.passed(getattr(value, field), inner, sizes, f"{name}.{field}")]
-        dtype, shape = kind
-        if shape is None:
-            return [float(value) if dtype.startswith("float") else int(value)]
-        address, view = value
-        assert view.dtype == dtype and view.shape == tuple(length(each, sizes) for each in shape), name
-        return [address]
+    def words(self, values, kinds, sizes):
+        """The words of a table."""
+        for name, kind in kinds:
+            if isinstance(kind, str):
+                yield from self.words(values[name]._asdict(), self.layout["tuples"][kind], sizes)
+                continue
+            dtype, shape = kind
+            if shape is None:
+                yield np.array(values[name], float if dtype.startswith("float") else int).view(np.int64)
+                continue
+            address, view = values[name]
+            assert view.dtype == dtype and view.shape == tuple(length(each, sizes) for each in shape), name
+            yield from (address, *view.shape)
 
 
 def sizes_of(run):

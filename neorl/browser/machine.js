@@ -33,9 +33,14 @@ class Machine {
     this.result = this.put("float64", [1]);
   }
 
+  /** The first free address. */
+  free() {
+    return Math.ceil(this.end / 64) * 64;
+  }
+
   put(dtype, shape, values) {
     const count = shape.reduce((product, each) => product * each, 1);
-    const at = Math.ceil(this.end / 64) * 64;
+    const at = this.free();
     this.end = at + count * ARRAYS[dtype].BYTES_PER_ELEMENT;
     const array = new ARRAYS[dtype](this.memory.buffer, at, count);
     if (values) fill(array, values);
@@ -52,21 +57,31 @@ class Machine {
     }));
   }
 
+  /** Call a kernel with a table of its arguments, which is written behind all arrays. */
   call(name, sizes, given) {
-    const { sizes: wanted, arguments: kinds, result } = layout.exports[name];
-    const passed = wanted.map((each) => sizes[each]);
-    for (const [argument, kind] of kinds) passed.push(...flat(kind, given[argument]));
-    if (this.exports[name](this.result.byteOffset, 0, ...passed) !== 0) throw new Error(`The kernel ${name} failed.`);
+    const { arguments: kinds, result } = layout.exports[name];
     const { buffer, byteOffset } = this.result;
+    const [words, table] = [wordsOf(kinds, given, sizes), this.free()];
+    const [numbers, integers] = [Float64Array, BigInt64Array].map((type) => new type(buffer, table, words.length));
+    words.forEach(([dtype, value], place) => {
+      if (dtype.startsWith("float")) numbers[place] = value;
+      else integers[place] = BigInt(value);
+    });
+    if (this.exports[name](byteOffset, 0, table) !== 0) throw new Error(`The kernel ${name} failed.`);
     return result === "int64" ? Number(new BigInt64Array(buffer, byteOffset, 1)[0]) : this.result[0];
   }
 }
 
-/** An argument as the module's numbers: a tuple field by field, an array as its address. */
-function flat(kind, value) {
-  if (value === undefined) throw new Error(`Something of kind ${kind} is missing.`);
-  if (typeof kind === "string") return layout.tuples[kind].flatMap(([name, field]) => flat(field, value[name]));
-  return [ArrayBuffer.isView(value) ? value.byteOffset : Number(value)];
+/** The words of a table, [type, value]: a number as it is, an array as its address and lengths, a tuple as its fields. */
+function wordsOf(kinds, given, sizes) {
+  return kinds.flatMap(([name, field]) => {
+    const value = given[name];
+    if (value === undefined) throw new Error(`The argument ${name} is missing.`);
+    if (typeof field === "string") return wordsOf(layout.tuples[field], value, sizes);
+    const [dtype, shape] = field;
+    if (shape === null) return [[dtype, value]];
+    return [["int64", value.byteOffset], ...shape.map((each) => ["int64", lengthOf(each, sizes)])];
+  });
 }
 
 function lengthOf(dimension, sizes) {

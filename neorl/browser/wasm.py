@@ -2,15 +2,11 @@
 
 There is one for each of `MODULES`, since the numbers of actions and axes are compile-time constants. Numba's LLVM code
 of a module's kernels is compiled for WebAssembly by llvmlite as a whole, so that shared functions occur once, and
-linked by LLD. No interface is written by hand: the arguments of an exported function follow from the annotations of
-its kernel. After a pointer to the result, and 0, they are, in order,
-
-1. the sizes of its arrays, by name, as int32;
-2. each argument, with named tuples, also nested ones, field by field: a pointer for an array, int32 for integers and
-   flags, else a number.
-
-The function itself returns 0. Memory is the only import; the caller's part of it begins at the exported global
-__heap_base.
+linked by LLD. No interface is written by hand: what an exported function takes follows from the annotations of its
+kernel. Its arguments are a pointer to the result, 0, and a pointer to a table of the kernel's arguments, as that of
+`neorl.core.calls.Table`: eight bytes for a number, and for an array its address and its lengths; named tuples, also
+nested ones, field by field. It returns 0. Memory is the only import; the caller's part of it begins at the exported
+global __heap_base.
 
 A module ships with the wheel that `make wheel` builds, together with a digest of all its sources; elsewhere it is built
 on first use and kept on disk. It is built in a separate process, for a generic processor, so that it does not depend on
@@ -19,6 +15,7 @@ are optimised for size.
 """
 
 import contextlib
+import functools
 import hashlib
 import os
 import re
@@ -40,7 +37,7 @@ from neorl.agents.spaces import pilot
 from neorl.browser.worlds import PLANE
 from neorl.core import contacts, displacement, life, parameters
 from neorl.core.choices import Action, Cut, Feature, MapState, Source, Vector
-from neorl.core.kernel import fields, is_tuple
+from neorl.core.kernel import OPTIONS, fields, is_tuple
 from neorl.core.parameters import Parameters, derive
 from neorl.core.state import State, begin_values
 from neorl.core.stream import start_stream
@@ -94,7 +91,7 @@ LINK = ("--no-entry", "--allow-undefined", "--import-memory", "--gc-sections", "
 def modules():
     """The WebAssembly modules, {name of `MODULES`: bytes}.
 
-    Modules that are neither shipped nor on disk are built side by side, which takes about a minute. Of several
+    Modules that are neither shipped nor on disk are built side by side, which takes less than a minute. Of several
     processes one builds them, and the others wait.
 
     Raises ImportError if a package needed to build them is not installed, RuntimeError if a build fails.
@@ -156,17 +153,15 @@ def layout(name="plane"):
     """The interface of a module for its callers, ready for JSON, with lists where the order matters.
 
     "tuples": for each named tuple its fields, [name, kind]; a kind is [dtype, shape], with the shape None for a scalar,
-    or the name of a nested tuple. "exports": for each function its "sizes", its "arguments", [name, kind], and the
-    dtype of its "result". "state" and "rules": the names of the world's tuples. "enumerations": {name: {member:
-    number}}. "of_a_map": the arrays of an agent's state that have a part for each map, by the field of its parameters
-    that holds where each part begins.
+    or the name of a nested tuple. "exports": for each function its "arguments", [name, kind], and the dtype of its
+    "result". "state" and "rules": the names of the world's tuples. "enumerations": {name: {member: number}}.
+    "of_a_map": the arrays of an agent's state that have a part for each map, by the field of its parameters that holds
+    where each part begins.
     """
     _, _, exports, tuples = MODULES[name]
     return {"state": tuples[2].__name__, "rules": tuples[3].__name__,
-            "tuples": {kind.__name__: [[name, _described(each)] for name, each in fields(kind).items()]
-                       for each in tuples for kind in _with_those_within(each)},
-            "exports": {each.__name__: {"sizes": _sizes(each), "arguments": [[name, _described(field)] for name, field
-                                                                            in _arguments(each).items()],
+            "tuples": {kind.__name__: _described_all(kind) for each in tuples for kind in _with_those_within(each)},
+            "exports": {each.__name__: {"arguments": _described_all(_passed(each)),
                                         "result": SCALARS.get(fields(each)["return"])} for each in exports},
             "enumerations": {kind.__name__: {each.name: int(each) for each in kind} for kind in ENUMERATIONS},
             "of_a_map": OF_A_MAP}
@@ -176,27 +171,21 @@ def _with_those_within(kind):
     return [kind, *(inner for each in fields(kind).values() if is_tuple(each) for inner in _with_those_within(each))]
 
 
+def _described_all(kind):
+    return [[name, _described(field)] for name, field in fields(kind).items()]
+
+
 def _described(field):
     if is_tuple(field):
         return field.__name__
     return [field[0], list(field[1])] if isinstance(field, tuple) else [SCALARS[field], None]
 
 
-def _arguments(kernel):
-    return {name: field for name, field in fields(kernel).items() if name not in ("return", "constants")}
-
-
-def _flat(name, field):
-    """An argument of a kernel as arguments of the exported function: [(name, dtype, shape or None), …]."""
-    if is_tuple(field):
-        return [flat for inner, each in fields(field).items() for flat in _flat(f"{name}_{inner}", each)]
-    return [(name, *_described(field))]
-
-
-def _sizes(kernel):
-    names = {dimension.partition(" ")[0] for each in _arguments(kernel).items() for *_, shape in _flat(*each)
-             for dimension in shape or () if isinstance(dimension, str)}
-    return sorted(names)
+@functools.cache
+def _passed(kernel):
+    """The named tuple of a kernel's arguments, which the exported function takes as a table."""
+    return NamedTuple(kernel.__name__, [(name, each) for name, each in kernel.__annotations__.items()
+                                      if name not in ("constants", "return")])
 
 
 def _digest(name):
@@ -273,67 +262,27 @@ def _mangled(kernel):
 
 def _code(kernel, constants):
     """The LLVM code of a kernel under its own name, with everything it calls."""
-    entry = _entry(kernel, constants)
-    code = entry.inspect_llvm()
+    dispatcher = _entry(kernel, constants)
+    (compiled,) = dispatcher.overloads.values()
+    code = compiled.library.get_llvm_str()
     code = re.sub(r"target datalayout = .*", f'target datalayout = "{LAYOUT}"', code)
     code = re.sub(r"target triple = .*", f'target triple = "{TRIPLE}"', code)
     code = re.sub(r'"target-(cpu|features)"="[^"]*"', "", code)
     code = code.replace("= common ", "= internal ")
-    # The first is a C callback that may raise in Python, the others count references, which arrays of carray lack.
-    for symbol in ("@cfunc.", "@NRT_incref(", "@NRT_decref("):
-        code = _without(code, symbol)
-    code += "".join(f"\ndefine internal void @NRT_{name}(ptr %array) {{ ret void }}\n" for name in ("incref", "decref"))
-    return code.replace(f"@{entry.native_name.removeprefix('cfunc.')}(", f"@{kernel.__name__}(")
-
-
-def _without(code, symbol):
-    """LLVM code without the definition of a function, or its declaration."""
-    lines = [line for line in code.splitlines() if line.startswith(("define ", "declare ")) and symbol in line]
-    for line in lines:
-        begin = code.index(line)
-        end = code.index("\n}\n", begin) + 3 if line.startswith("define ") else begin + len(line)
-        code = code[:begin] + code[end:]
-    return code
+    return code.replace(f"@{compiled.fndesc.llvm_func_name}(", f"@{kernel.__name__}(")
 
 
 def _entry(kernel, constants):
-    """The entry point of a kernel: a function of pointers and sizes that calls it with arrays."""
-    from numba import carray, cfunc, types
+    """The entry point of a kernel: a function of a table of its arguments."""
+    import numba
 
-    sizes, arguments = _sizes(kernel), _arguments(kernel)
-    flat = [each for argument in arguments.items() for each in _flat(*argument)]
-    names = [f"size_{name}" for name in sizes] + [name for name, *_ in flat]
-    taken = ", ".join("constants" if name == "constants" else _taken(name, arguments[name])
-                      for name in fields(kernel) if name != "return")
-    source = f"def entry({', '.join(names)}):\n    return kernel({taken})"
-    kinds = [each for module in MODULES.values() for each in module.tuples]
-    tuples = {kind.__name__: kind for each in kinds for kind in _with_those_within(each)}
-    scope = {"kernel": kernel, "constants": constants, "carray": carray, "np": np, **tuples}
-    exec(source, scope)
-    kinds = [types.int32] * len(sizes) + [_passed(dtype, shape) for _, dtype, shape in flat]
-    result = getattr(types, SCALARS.get(fields(kernel)["return"], "void"))
-    return cfunc(result(*kinds), error_model="numpy", nogil=True)(scope["entry"])
+    from neorl.core.views import SCALARS as TYPES
+    from neorl.core.views import View
 
-
-def _passed(dtype, shape):
-    """The type of a value in the signature of an exported function."""
-    from numba import from_dtype, types
-
-    if shape is not None:
-        return types.CPointer(from_dtype(np.dtype(dtype)))
-    return types.int32 if dtype in ("bool", "int64") else getattr(types, dtype)
-
-
-def _taken(name, field):
-    """The expression that builds an argument of a kernel."""
-    if is_tuple(field):
-        inner = ", ".join(_taken(f"{name}_{each}", kind) for each, kind in fields(field).items())
-        return f"{field.__name__}({inner})"
-    dtype, shape = _described(field)
-    if shape is None:
-        return {"bool": f"{name} != 0", "int64": f"np.int64({name})"}.get(dtype, name)
-    lengths = [f"np.int64({f'size_{each}' if isinstance(each, str) else each})" for each in shape]
-    return f"carray({name}, ({', '.join(lengths)},))"
+    taken = [name if name == "constants" else f"passed.{name}" for name in fields(kernel) if name != "return"]
+    entry = eval(f"lambda passed: kernel({', '.join(taken)})", {"kernel": kernel, "constants": constants})
+    result = TYPES[kernel.__annotations__["return"]]
+    return numba.njit(result(View(_passed(kernel))), **OPTIONS, no_cpython_wrapper=True, no_cfunc_wrapper=True)(entry)
 
 
 if __name__ == "__main__":
