@@ -4,6 +4,7 @@ import functools
 import http.server
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import threading
@@ -21,9 +22,10 @@ from neorl import files
 settings.register_profile("neorl", deadline=None, derandomize=True)
 settings.load_profile("neorl")
 matplotlib.use("agg")
-# Interpreters that tests start find the pages' modules, as the kernels of notebooks do.
-os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [str(Path(__file__).parents[1] / "notebooks"),
-                                                          os.environ.get("PYTHONPATH")]))
+# Interpreters that tests start find the package and the pages' modules, as the kernels of notebooks do, and the tests'.
+ROOT = Path(__file__).parents[1]
+os.environ["PYTHONPATH"] = os.pathsep.join([*map(str, (ROOT, ROOT / "notebooks", ROOT / "tests")),
+                                            *filter(None, [os.environ.get("PYTHONPATH")])])
 
 BROWSERS = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"]
 QUIET = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
@@ -54,6 +56,14 @@ def cache_folder(tmp_path, monkeypatch):
     (tmp_path / "compiled").symlink_to(compiled)
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
     return tmp_path
+
+
+@pytest.fixture
+def interruptible():
+    """Make Ctrl-C raise KeyboardInterrupt, since a process started in the background may ignore it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 @pytest.fixture

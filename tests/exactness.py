@@ -20,12 +20,11 @@ from pathlib import Path
 from unittest.mock import patch
 
 import golden
-import numpy as np
+from same import newborn
 
-from neorl import Learner, Run, simulate
+from neorl import Run, simulate
 from neorl.core.calls import execute
 from neorl.core.kernel import is_tuple
-from neorl.core.stream import new_stream
 from neorl.experiments import simulation
 from neorl.files import cache_folder
 
@@ -96,11 +95,7 @@ def among_others(name, steps, runs, threads):
 def by_a_learner(name, steps):
     """By a `Learner` in a Python loop."""
     world, changes = golden.world_of(name), dict(golden.changes_of(name))
-    sequence = np.random.SeedSequence(golden.SEED, spawn_key=(golden.RUN,))
-    state, reward = world.reset(sequence), 0.0
-    learner = Learner(golden.agent_of(name), world.things, world.kinds, world.actions, size=world.size, fps=world.fps)
-    learner._state.stream[:] = new_stream(sequence.spawn(1)[0])
-    learner.begin(state.scene)
+    (learner, state), reward = newborn(golden.agent_of(name), world, golden.SEED, golden.RUN), 0.0
     for step in range(steps):
         if step in changes:
             learner.change(changes[step])

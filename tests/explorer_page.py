@@ -1,14 +1,12 @@
 """A page with nothing but Explorers and the host that runs them, and what its reader does."""
 
 import json
-import sys
 from pathlib import Path
 
+from excerpts import WIDGET_STATE, WIDGET_VIEW, script
 from ipywidgets.embed import embed_data
 
 BOOK = Path(__file__).parent.parent / "book"
-sys.path.insert(0, str(BOOK))
-from excerpts import WIDGET_STATE, WIDGET_VIEW, script  # noqa: E402
 
 
 def write_page(folder, explorers, change=None):

@@ -1,8 +1,14 @@
 """Runs that are the same to the last bit."""
 
+import hashlib
+
 import numpy as np
 
+from neorl import Learner, Result
 from neorl.core.kernel import arrays
+from neorl.core.stream import new_stream
+from neorl.experiments import simulation
+from neorl.experiments.run import new_bins
 
 
 def assert_equal(one, other):
@@ -17,3 +23,28 @@ def assert_same(one, other):
     assert one.step == other.step
     assert_equal(one.state, other.state)
     assert_equal(one.world_state, other.world_state)
+
+
+def digest(run, steps):
+    """A run's reward in a number of steps, and a digest of its values and its world after them."""
+    paid = run.advance(steps)
+    content = [run.state.values.q, *arrays(run.world_state).values()]
+    return f"{paid} {hashlib.sha256(b''.join(each.tobytes() for each in content)).hexdigest()}"
+
+
+def newborn(agent, world, seed=0, run=0):
+    """A learner that has begun in a world, with the random stream of a run's choices, and the world's state."""
+    sequence = np.random.SeedSequence(seed, spawn_key=(run,))
+    state = world.reset(sequence)
+    learner = Learner(agent, world.things, world.kinds, world.actions, size=world.size, fps=world.fps)
+    learner._state.stream[:] = new_stream(sequence.spawn(1)[0])
+    learner.begin(state.scene)
+    return learner, state
+
+
+def alone(condition):
+    """The result of a condition, run by run."""
+    rewards, hits = new_bins(condition.world, condition.runs, condition.steps)
+    for k in range(condition.runs):
+        simulation.live(condition, k, rewards[k], hits[k])
+    return Result(condition, rewards, hits)

@@ -8,7 +8,7 @@ import sys
 
 def printed(file, *arguments, jit=False):
     """What a test file prints when it runs as a program, read as JSON."""
-    done = subprocess.run([sys.executable, file, *arguments], capture_output=True, text=True, env={
-        **os.environ, "NUMBA_DISABLE_JIT": str(int(not jit)), "PYTHONPATH": os.pathsep.join(sys.path)})
+    done = subprocess.run([sys.executable, file, *arguments], capture_output=True, text=True,
+                          env=os.environ | {"NUMBA_DISABLE_JIT": str(int(not jit))})
     assert done.returncode == 0, done.stdout[-3_000:] + done.stderr[-3_000:]
     return json.loads(done.stdout)
