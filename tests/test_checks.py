@@ -22,16 +22,6 @@ def scene(**fields):
     return Scene((0.5, 0.5), None, [(0.1, 0.2)], ("green",), (0,))._replace(**fields)
 
 
-def values_with(number):
-    q = np.zeros((4, 2, 4), np.float32)
-    q[1, 0, 2] = number
-    return q
-
-
-def state_with(**fields):
-    return WORLD.reset(0)._replace(**fields)
-
-
 @pytest.mark.parametrize("call, message", [
     (lambda: checks.real("x", 10**400), r"x must be a finite number from -1e\+30 to 1e\+30, but is 100000000000000000"),
     (lambda: checks.integer("x", 10**5000, 0, 9), "x must be an integer from 0 to 9, but is a value of type int"),
@@ -52,13 +42,15 @@ def state_with(**fields):
     (lambda: Modality("x", polar("landmarks", 1), [(0.5,)]), "landmarks must be places of 2 coordinates or more, but"),
     (lambda: PLACE_CELL.coordinates(Scene((0.5,)), 1), "the world of place cells must have 2 axes or more, but has 1"),
     (lambda: Actions(("a",), ((1,) * 9,)), r"pushes must be of 8 axes and 1024 actions or fewer, but is \(\(1, 1, 1, "),
-    (lambda: learn(values_with(np.nan), 0, 1, (1, 1)), r"q must be finite numbers from -1e\+30 to 1e\+30, but is arra"),
+    (lambda: learn(np.float32([[[0, 0]], [[0, np.nan]]]), 0, 1, [1]),
+     r"q must be finite numbers from -1e\+30 to 1e\+30, but is arra"),
     (lambda: kernel(3), "function must be .*, but is 3"),
     (lambda: kernel_maker(lambda: 3)(), "what <lambda>.<locals>.<lambda> returns must be a function that is decorate"),
     (lambda: learner().begin(None), "scene must be a neorl.Scene, or have its fields, but is None"),
     (lambda: learner().begin(scene(position=range(10**12))), r"scene.position must be numbers of the shape \(2,\), bu"),
     (lambda: learner().begin(scene(met=np.array([2**70, 0], object))), r"scene.met must be numbers of the shape \(1,"),
-    (lambda: WORLD.step(state_with(direction=np.full((2, 2), 2.0)), 0), "state.direction must be vectors of length 1"),
+    (lambda: WORLD.step(WORLD.reset(0)._replace(direction=np.full((2, 2), 2.0)), 0),
+     "state.direction must be vectors of length 1"),
     (lambda: statistics.estimate(np.mean, []), r"samples must be a number for each run, .*, but is \[\]"),
     (lambda: statistics.estimate(np.mean, [1, np.nan]), r"samples must be finite numbers from -1e\+30 to 1e\+30, but "),
     (lambda: statistics.tolerance_band(np.zeros((0, 3))), "curves must have the shape .*, but has .0, 3."),

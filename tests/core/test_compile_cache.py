@@ -1,7 +1,6 @@
 """Compiled kernels on disk are reused if everything that they were compiled from is unchanged, and only then."""
 
 import importlib.util
-import os
 import subprocess
 import sys
 
@@ -9,7 +8,9 @@ import pytest
 
 from neorl import files
 from neorl.core.calls import execute
-from neorl.core.kernel import announcing, kernel
+from neorl.core.kernel import announcing, jit_is_off, kernel
+
+pytestmark = pytest.mark.skipif(jit_is_off(), reason="the compiler is off")
 
 SOURCE = """
 from neorl import kernel
@@ -44,12 +45,6 @@ def module(tmp_path, monkeypatch):
 class Loader(importlib.machinery.SourceFileLoader):
     def get_code(self, fullname):
         return compile(self.get_data(self.path), self.path, "exec")
-
-
-@pytest.fixture(autouse=True)
-def only_when_compiled():
-    if os.environ.get("NUMBA_DISABLE_JIT") == "1":
-        pytest.skip("the compiler is off")
 
 
 def called(own):
@@ -102,8 +97,7 @@ def test_processes_that_start_at_once_do_not_disturb_each_other(module, tmp_path
     module()
     command = [sys.executable, "-c", "import own; from neorl.core.calls import execute\n"
                "print(execute(own.answer, 1.0))"]
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(tmp_path), *sys.path])}
-    processes = [subprocess.Popen(command, env=environment, stdout=subprocess.PIPE) for _ in range(2)]
+    processes = [subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE) for _ in range(2)]
     assert [process.communicate()[0].strip() for process in processes] == [b"6.0"] * 2
     assert len(kept()) == 1 and called(module()) == (6.0, True)
 
@@ -114,7 +108,8 @@ def test_a_kernel_that_no_module_defines_is_compiled_and_not_kept(module):
     assert execute(own["answer"], 2.0) == 2.0 and not kept()
 
 
-def test_compilation_is_announced_once_and_reading_from_disk_is_not(cache_folder):
+def test_compilation_is_announced_once_and_reading_from_disk_is_not(tmp_path, monkeypatch):
+    monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
     told = []
     for _ in range(2):
         @kernel

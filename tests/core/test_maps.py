@@ -11,7 +11,6 @@ from neorl import Agent, Axis, Desire, Modality, Node, NresMap, Place, Run, Wate
 from neorl.core.modality import (HEAD_DIRECTION_CELL, MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL, TAU,
                                  cartesian)
 
-of_any_modality = pytest.mark.parametrize("modality", MODALITIES, ids=lambda modality: modality.name)
 closed = pytest.mark.parametrize("modality", [each for each in MODALITIES if each.axes[-1].is_direction],
                                  ids=lambda modality: modality.name)
 near_and_far = st.floats(-3, 3) | st.floats(-1e6, 1e6)
@@ -147,7 +146,7 @@ def test_an_element_has_a_place_along_the_axes_of_what_is_followed_and_is_everyw
     np.testing.assert_allclose(run.state.action_value, 2.0 * run.q()[before][:, goals].sum(axis=1), rtol=1e-5)
 
 
-@of_any_modality
+@pytest.mark.parametrize("modality", MODALITIES, ids=lambda modality: modality.name)
 def test_a_boundary_belongs_to_the_cell_after_it_and_the_rim_to_the_last(modality):
     nres_map, point = NresMap(4, modality), np.zeros(len(modality.axes))
     for axis, (low, high) in enumerate((each.low, each.high) for each in modality.axes if not each.is_direction):

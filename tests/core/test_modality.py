@@ -26,13 +26,6 @@ def turns_apart(a, b):
     return abs((a - b + 0.5) % 1.0 - 0.5)
 
 
-def test_a_turn_equals_the_arctangent_of_numpy():
-    x, y = np.random.default_rng(0).normal(size=(2, 20_000))
-    turns = np.array([execute(turn, *pair) for pair in zip(x, y)])
-    assert turns_apart(turns, np.arctan2(y, x) / TAU).max() < 1e-15
-    assert np.all((0 <= turns) & (turns < 1))
-
-
 @given(finite, finite)
 def test_any_finite_vector_has_a_turn_from_0_to_1(x, y):
     assert 0 <= execute(turn, x, y) < 1
@@ -124,12 +117,6 @@ def test_coordinates_are_those_worked_out_by_hand(modality, expected):
     coordinates = modality.coordinates(scene_of((20, 190), (-30, 40), [(80, 110), (20, 190)]), WORLD.size)
     assert coordinates.dtype == float and coordinates.shape == (len(expected), len(modality.axes))
     np.testing.assert_allclose(coordinates, expected, atol=1e-12)
-
-
-def test_an_agent_at_rest_heads_east_at_speed_0():
-    scene = scene_of((100, 100), (0.0, -0.0), [(0, 0), (200, 200)])
-    assert HEAD_DIRECTION_CELL.coordinates(scene, WORLD.size).tolist() == [[EAST]]
-    assert SPEED_CELL.coordinates(scene, WORLD.size).tolist() == [[0.0]]
 
 
 @kernel

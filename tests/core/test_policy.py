@@ -7,9 +7,8 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from neorl import Agent, Desire, Node, Policy, Run, WaterWorld, greedy, softmax
+from neorl import greedy, softmax
 from neorl.core.calls import execute
-from neorl.core.modality import PLACE_CELL
 from neorl.core.policy import exponential
 from neorl.core.stream import new_stream
 
@@ -69,15 +68,3 @@ def test_greedy_draws_no_number_without_need():
     before = stream.copy()
     execute(greedy, np.array([0.5, 0.25]), stream)
     np.testing.assert_array_equal(stream, before)
-
-
-def test_an_agent_with_a_policy_of_softmax_prefers_what_is_better():
-    agent = Agent((Node("PC", PLACE_CELL, [1]),), (Desire((0.5, 0.5), "PC", 1.0),),
-                  policy=Policy(0.0, choose=softmax(0.2)))
-    run, actions = Run(agent, WaterWorld(), seed=0), []
-    run._state.values.q[:] = [0.0, 0.4, 0.2, 0.0]
-    for _ in range(3_000):
-        run.advance(1)
-        actions.append(int(run.state.last_event[0]))
-    expected = np.exp([0.0, 2.0, 1.0, 0.0])
-    np.testing.assert_allclose(np.bincount(actions, minlength=4) / 3_000, expected / expected.sum(), atol=0.05)
