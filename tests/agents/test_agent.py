@@ -7,10 +7,9 @@ import pytest
 
 from neorl import (CALIBRATED, GREEDY, Agent, Desire, Node, NresMap, Place, Policy, Run, WaterWorld, brownian,
                    multimodal, network_a, network_b, network_c, network_d, object_vector_cells, place_cells)
-from neorl.core.modality import (CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL, LANDMARK_VECTOR_CELL, PLACE_CELL,
-                                 SPEED_CELL)
 from neorl.agents.compile import compiled, n_values
-from neorl.core.modality import cartesian
+from neorl.core.modality import (CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL, LANDMARK_VECTOR_CELL, PLACE_CELL,
+                                 SPEED_CELL, cartesian)
 
 PC, OVC = Node("PC", PLACE_CELL, (2, 3)), Node("OVC", CARTESIAN_OBJECT_VECTOR_CELL, (3,))
 HD, SPEED = Node("HD", HEAD_DIRECTION_CELL, (4,)), Node("speed", SPEED_CELL, (3,))
@@ -57,11 +56,6 @@ def test_an_agent_and_a_world_that_do_not_go_together_are_refused_when_they_meet
             meet(agent, WaterWorld())
     with pytest.raises(ValueError, match=message):
         Run(place_cells([3]), WaterWorld()).change(agent)
-
-
-def test_recursion_to_itself_and_points_of_a_nodes_own_space_are_allowed():
-    Agent((PC, SPEED), (Desire("green", "PC", 1.0), Desire("PC", "PC", -1.0, of=("PC", "green")),
-                        Desire((0.5,), "speed", 1.0), Desire((0.1, 0.2), "PC", 1.0)))
 
 
 @pytest.mark.parametrize("make", PAPERS)

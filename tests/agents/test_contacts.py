@@ -8,8 +8,7 @@ import pytest
 
 from neorl import Agent, Contacts, Desire, Learner, Node, Scene, WaterWorld, forager
 from neorl.agents.beyond import foveated_cells
-from neorl.agents.compile import compiled
-from neorl.core.contacts import APPROACH, FEAR, VISITS, mirror
+from neorl.core.contacts import APPROACH, FEAR, VISITS
 from neorl.core.scene import CARDINAL, Actions
 from neorl.experiments.run import Run
 
@@ -125,35 +124,6 @@ def test_the_maps_learn_as_the_rules_say(contacts):
     assert compared > 100
 
 
-def test_mirror_images_are_one_cell_and_its_actions_follow():
-    parameters = compiled(forager([9]), WaterWorld())
-    rng = np.random.default_rng(0)
-    for _ in range(50):
-        thing, velocity = rng.uniform(-1, 1, 2), rng.uniform(-2, 2, 2)
-        found = []
-        for each in MIRRORS:
-            coordinates = np.array([*image(thing, *each), *image(velocity, *each)])
-            frame = execute_mirror(parameters, coordinates)
-            found.append(coordinates)
-            for action, push in enumerate(CARDINAL.pushes):  # it leads as far towards the thing in every image
-                turned = np.array([*push, *push], float)
-                towards = np.dot(push, image(thing, *each))
-                mirrored = CARDINAL.pushes[parameters.frames[frame, action]]
-                assert np.isclose(np.dot(mirrored, coordinates[:2]), towards), turned
-        assert np.allclose(found, found[0])
-        assert found[0][0] >= found[0][1] >= 0
-
-
-def execute_mirror(parameters, coordinates):
-    """The frame, by the kernel run as Python; mirrors the coordinates in place."""
-    class Plane:
-        axes = (0, 1)
-
-    kernel = getattr(mirror, "py_func", mirror)
-    kernel = getattr(kernel, "function", kernel)
-    return kernel(parameters, Plane, 0, coordinates)
-
-
 def test_the_worth_of_things_is_learned_from_reward_and_unlearned():
     agent = forager([3])
     learner = Learner(agent, things=2, kinds=("green", "red"), seed=1)
@@ -174,11 +144,6 @@ def test_a_learned_worth_stays_when_the_agent_changes():
     run.change(Agent([*run.agent.nodes, Node("more", foveated_cells(), [3], goals="contacts")],
                      [*run.agent.desires, Desire("red", "more", 1.0)], contacts=run.agent.contacts))
     assert worth.tolist() == [1.0, -1.0] and run.state.desires.worth.tolist() == [1.0, -1.0, 1.0]
-
-
-def test_it_learns_to_collect_in_minutes():
-    rewards = [Run(forager(), WaterWorld(), seed).advance(20_000) / 400 for seed in range(4)]
-    assert np.mean(rewards) > 1.5
 
 
 def test_a_world_without_the_mirror_images_of_its_actions_is_refused():

@@ -9,7 +9,6 @@ from lib.one_file import simulate
 
 from neorl import (Agent, Desire, Node, Place, Policy, Run, WaterWorld, multimodal, network_a, network_b, network_c,
                    network_d, object_vector_cells, place_cells)
-from neorl.core.horde import as_vectors
 from neorl.core.modality import (BORDER_CELL, BOUNDARY_VECTOR_CELL, HEAD_DIRECTION_CELL, LANDMARK_VECTOR_CELL,
                                  OBJECT_VECTOR_CELL, PLACE_CELL, SPEED_CELL)
 
@@ -23,9 +22,7 @@ DESIRES = (Desire("green", "polar", 1.0), Desire("red", "polar", -0.5), Desire("
           Desire(Place(0.2, 0.7), "PC", 0.5), Desire(Place(0.6, 0.1), "polar", -0.4),
           Desire(Place(0.9, 0.9), "HD", 0.3),
           Desire("PC", "landmark", signed=True), Desire("polar", "polar", -0.5, of=("green", "polar")))
-A_THAT_RECURS = replace(network_a([3, 5]), desires=(
-    *network_a().desires, Desire("OVC", "OVC", valence=0.5, scale=2.0, signed=False),
-    Desire("OVC", "OVC", valence=-0.7, of=("PC", "OVC"), scale=2.0, signed=False)))
+FAR = {"scale": 30.0, "signed": False}  # far enough for desires of the step before to land elsewhere
 READINGS = {
     "default": place_cells([3, 7]),
     "several": place_cells([2, 5, 9], weighting="cells", policy=Policy(exploration=0.3, when_indifferent="no-op")),
@@ -58,12 +55,14 @@ READINGS = {
                                         object_centred=True),
     "per object, ends": object_vector_cells([4], object_state="per object", object_beyond="none",
                                             object_tiled_fraction=0.3, learning=plain_rule(memory=3.0)),
-    "D of the self": network_d([2, 5], object_state="self", scale=30.0, signed=False),
+    "D of the self": network_d([2, 5], object_state="self", **FAR),
     "A": network_a([2, 3]),
     "B": network_b([3, 5], signed=True),
     "C": network_c([3], object_gain=0.5),
     "D": network_d([2, 5], policy=Policy(exploration=0.05)),
-    "A that recurs": A_THAT_RECURS,
+    "A that recurs": replace(network_a([3, 5], object_state="object"), desires=(
+        *network_a(**FAR).desires, Desire("OVC", "OVC", valence=0.5, **FAR),
+        Desire("OVC", "OVC", valence=-0.7, of=("PC", "OVC"), **FAR))),
     "all senses": Agent(SENSES, DESIRES),
     "compass": Agent((Node("PC", PLACE_CELL, (7,), gain=0.0), Node("HD", HEAD_DIRECTION_CELL, (4,))),
                      (Desire("green", "PC", 1.0), Desire("PC", "HD"))),
@@ -80,16 +79,3 @@ def test_a_run_equals_the_rules_in_plain_python(name):
     for m, table in enumerate(q):
         np.testing.assert_array_equal(run.q(m), table)
         assert table.any() or agent.maps[m].cells < 10
-
-
-def test_recursion_takes_vectors_and_valences_of_the_step_before():
-    run = Run(A_THAT_RECURS, WaterWorld(), seed=0)
-    run.advance(2_000)
-    while not run.state.desires.q[2:].any(axis=1).all():
-        run.advance(1)
-    run._state.desires.valence[2:] *= -1  # as if the valences of the previous step had the opposite sign
-    pull, worth = run.state.desires.q[2:].copy(), run.state.desires.valence[2:].copy()
-    run.advance(1)
-    expected = 2.0 * np.where(worth > 0, 1.0, -1.0) @ as_vectors(pull)
-    assert expected.all()
-    np.testing.assert_allclose(run.state.desires.target[3:, :2], [expected, expected])

@@ -4,20 +4,18 @@ import importlib
 import json
 import os
 import random
-import subprocess
 import sys
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
-from pathlib import Path
 
 import edited
 import pytest
+from subprograms import printed
 
 from neorl import Condition, Policy, WaterWorld, kernel, place_cells, simulate_once, sweep
 from neorl.core.kernel import jit_is_off
 from neorl.experiments import simulation
 
-EDITED = Path(edited.__file__)
 QUICK = ("Learner", "World", "environment", "Modality")  # to compile
 WAYS = ("simulate_once", "sweep", "simulate", "Run", *QUICK)
 FIRST = dict.fromkeys(edited.PARTS, 1)
@@ -29,15 +27,12 @@ def process(folder, numbers, *arguments, jit=False):
     folder.mkdir(exist_ok=True)
     edited.write(folder, numbers)
     (folder / "numbers.json").write_text(json.dumps(numbers))
-    done = subprocess.run([sys.executable, EDITED, folder, *arguments], capture_output=True, text=True, env={
-        **os.environ, "NUMBA_DISABLE_JIT": str(int(not jit)), "PYTHONPATH": os.pathsep.join(sys.path)})
-    assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout)
+    return printed(edited.__file__, folder, *arguments, jit=jit)
 
 
 def test_random_edits_between_processes_and_within_them_are_never_missed(tmp_path):
     rng, numbers = random.Random(int(os.environ.get("SEED", 0))), FIRST
-    for seed in range(8):
+    for seed in range(5):
         found = process(tmp_path / "program", numbers, str(rng.random()), "25", "all", *WAYS)
         assert found["wrong"] == []
         _, numbers = edited.redrawn(rng, rng.choice([numbers, found["numbers"]]))

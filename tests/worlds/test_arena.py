@@ -2,13 +2,10 @@
 
 import numpy as np
 import pytest
-from golden import plain_rule
 
-from neorl import Agent, Arena, Desire, Node, Policy, Run
-from neorl.core.modality import PLACE_CELL
+from neorl import Arena
 
 RIM = {(0.5, 0.05), (0.5, 0.95), (0.05, 0.5), (0.95, 0.5)}
-AIMLESS = Agent((Node("PC", PLACE_CELL, [3]),))  # without desires all actions are equally good
 FREE = {"places": (), "start": (0.5, 0.5), "trial_seconds": 1e6}
 
 
@@ -115,23 +112,3 @@ def test_a_trial_without_success_ends_without_pay(seconds, fps, last):
     came = steps_along(world, ["no-op"] * last)
     assert [done for _, _, done, _ in came] == [False] * (last - 1) + [True]
     assert not any(reward for reward, *_ in came)
-
-
-def test_a_trial_begins_anew_after_its_end():
-    world = Arena(trial_seconds=0.1, motion="steps", fps=50)
-    run = Run(AIMLESS, world, seed=2)
-    starts = set()
-    for _ in range(60):
-        run.advance(5)
-        assert run.world_state.clock[0] == 0
-        starts.add(tuple(run.world_state.scene.position.tolist()))
-    assert starts == RIM
-
-
-def test_an_agent_learns_to_find_the_platform():
-    rule = plain_rule(learning_rate=0.1, discount=0.9)
-    agent = Agent((Node("PC", PLACE_CELL, [7]),), (Desire("platform", "PC", 1.0),), rule, Policy(0.3))
-    learner, control = (Run(each, Arena(trial_seconds=20.0), seed=1) for each in (agent, AIMLESS))
-    for run in (learner, control):
-        run.advance(60_000)
-    assert learner.advance(60_000) > 3 * control.advance(60_000) > 0

@@ -74,16 +74,6 @@ def test_trials_follow_the_rules(world):
     assert seen["found"] > 5 and (len(world.places) == 1 or seen["forgotten"] > 3)
 
 
-def test_nothing_is_remembered_before_the_first_trial_and_the_platform_after_it():
-    world = WaterMaze(trial_seconds=0.1)
-    state = world.reset(0)
-    assert state.scene.kinds.tolist() == [-1] and tuple(state.scene.position) in RIM
-    assert not state.scene.velocity.any() and state.latency.tolist() == [0] * 4
-    assert world.step(state, "no-op")[::2] == (0.0, True)
-    assert state.scene.kinds.tolist() == [0] and state.scene.things.tolist() == [[0.65, 0.35]]
-    assert state.latency.tolist() == [0.1, 0, 0, 0]
-
-
 def test_a_trial_that_has_not_begun_is_refused():
     state = WaterMaze().reset(0)
     state.trial[0] = 0

@@ -104,13 +104,6 @@ def test_the_last_green_creep_ends_the_episode_and_pays_the_win():
     assert 8 < sum(ends) < 32  # a fair coin decides the colour of the fresh creep
 
 
-def test_met_is_of_this_step_alone():
-    world, state = lonely(position=[100.0, 100.0], things=[110.0, 100.0])
-    assert world.step(state, "no-op")[1].all() and state.scene.met.all()
-    state.scene.things[:] = 200.0
-    assert not world.step(state, "no-op")[1].any() and not state.scene.met.any()
-
-
 def test_a_bad_step_is_refused_and_changes_nothing():
     world = WaterWorld()
     state = world.reset(0)

@@ -8,7 +8,6 @@ import pytest
 
 from neorl import (CARDINAL, Actions, Agent, Axis, Condition, Desire, Learning, Modality, Node, Place, Policy, Run,
                    Scene, World, brownian, kernel, simulate)
-from neorl.core.calls import execute
 from neorl.core.kernel import array
 from neorl.core.modality import LANDMARK_VECTOR_CELL, PLACE_CELL, cartesian
 from neorl.core.stream import uniform
@@ -223,11 +222,3 @@ def test_rules_that_are_not_as_annotated_are_refused_when_a_world_is_made(change
 
 def test_a_dimension_of_rules_that_the_world_has_no_size_for_may_have_any_length():
     assert garden().rules.stones.weight.shape == (3,) and garden((7, 2), 7).rules.stones.weight.shape == (7,)
-
-
-def test_a_world_draws_from_its_stream_alone():
-    one, other = (Dive().reset(seed) for seed in (5, 5))
-    execute(hide, one, Dive().rules)
-    Dive().step(other, 0)
-    execute(hide, other, Dive().rules)
-    np.testing.assert_array_equal(one.scene.things, other.scene.things)
