@@ -2,18 +2,13 @@
 
 import io
 import json
-import re
 import shutil
-import sys
 from pathlib import Path
 
+import excerpts
 import nbformat
 import pytest
 from matplotlib import pyplot as plt
-
-ROOT = Path(__file__).parents[2]
-sys.path.insert(0, str(ROOT / "book"))
-import excerpts  # noqa: E402
 
 TEXT = "</script><!-- <script> </SCRIPT >"  # must not end the tag that contains it
 
@@ -76,7 +71,7 @@ def test_a_named_cell_shows_one_widget(tmp_path, models):
 
 def test_a_saved_widget_runs_on_any_page(tmp_path, open_page):
     excerpts.save_widgets(page_of_widgets(("first", ["one"])), tmp_path)
-    shutil.copy(ROOT / "book" / "vendor" / "widgets.js", tmp_path)
+    shutil.copy(Path(excerpts.__file__).parent / "vendor" / "widgets.js", tmp_path)
     head = '<!doctype html><link rel="icon" href="data:,"><script defer src="widgets.js"></script><body>'
     (tmp_path / "page.html").write_text(f"{head}{(tmp_path / 'first.html').read_text()}<p>The end.</p>")
     page = open_page(tmp_path, "page.html", over="file")
@@ -84,42 +79,12 @@ def test_a_saved_widget_runs_on_any_page(tmp_path, open_page):
     assert page.locator("p").inner_text() == "The end."
 
 
-def drawn(clips):
-    """A figure of two panels with letters everywhere, as SVG. clips: whether the axes clip what they contain."""
-    figure, panels = plt.subplots(1, 2)
-    for axes in panels:
-        axes.plot([0, 1], [0, 1], label="curve", clip_on=clips)
-        axes.annotate("a mark", (0.5, 0.5))
-        axes.set(title="title", xlabel="label")
-        axes.legend()
-    file = io.StringIO()
-    figure.savefig(file, format="svg")
-    return file.getvalue()
-
-
-def ids(figure):
-    return re.findall(r'id="(axes_\d|text_|legend_|matplotlib.axis_|line2d_)', figure)
-
-
-def test_a_small_figure_is_the_first_panel_without_letters():
-    whole = drawn(clips=True)
-    made = excerpts.small(whole)
-    assert {"text_", "legend_", "matplotlib.axis_", "axes_2"} < set(ids(whole))
-    assert ids(made) == ["axes_1", "line2d_"]
-    left, _, *size = (float(each) for each in re.search('viewBox="(.*?)"', made)[1].split())
-    assert left == pytest.approx(57.6, abs=1)  # points, of matplotlib's usual 6.4 × 4.8 inches
-    assert size == pytest.approx([357.12 / 2.2, 266.112], rel=0.01)
-
-
-def test_a_small_figure_without_clipped_parts_keeps_its_size():
-    whole = drawn(clips=False)
-    view = 'viewBox="0 0 460.8 345.6"'
-    assert view in whole and view in excerpts.small(whole)
-
-
-def test_figures_are_saved_by_name_and_the_first_small_too(tmp_path):
-    cells = [nbformat.v4.new_code_cell(outputs=[nbformat.v4.new_output("display_data", {"image/svg+xml": drawn(True)})],
-                                       metadata={"mystnb": {"figure": {"name": name}}} if name else {})
-             for name in (None, "fig-one", "fig-two")]
+def test_figures_are_saved_by_name_and_the_first_small_without_letters_too(tmp_path):
+    plt.title("title")
+    plt.savefig(drawn := io.StringIO(), format="svg")
+    output = nbformat.v4.new_output("display_data", {"image/svg+xml": drawn.getvalue()})
+    cells = [nbformat.v4.new_code_cell(outputs=[output], metadata={"mystnb": {"figure": figure}})
+             for figure in ({}, {"name": "fig-one"}, {"name": "fig-two"})]
     excerpts.save_figures(nbformat.v4.new_notebook(cells=cells), tmp_path)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["fig-one-small.svg", "fig-one.svg", "fig-two.svg"]
+    assert ['id="text_' in (tmp_path / f"fig-one{which}.svg").read_text() for which in ("", "-small")] == [True, False]

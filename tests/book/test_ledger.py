@@ -1,19 +1,15 @@
 """The page of claims and the strip on the front page have every claim once, and every rule its history."""
 
 import re
-import sys
 import tomllib
 from dataclasses import replace
-from pathlib import Path
 
+import ledger
 import pytest
+import rules
 from lib.shared import report
 
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS, Bounds
-
-sys.path.insert(0, str(Path(__file__).parents[2] / "book"))
-import ledger  # noqa: E402
-import rules  # noqa: E402
 
 FOUND = {"here": [0.1, 0.09, 0.11], "runs": 20, "verdict": "reproduced",
          "numbers": {"Lead of B over A": [[0.1, 0.09, 0.11], "more than 0"]}}
@@ -23,7 +19,6 @@ RECORD = {"claims": {"C2": FOUND, "A6": FOUND | {"here": [0.19, None, None], "ru
                                          "numbers": {"Lead of B over A": [[-0.3, -0.31, -0.29], "more than 0"]}}},
           "shares": {"C2": {"holds": 64, "undecided": 26, "readings": 256, "agrees": 2, "measured": 40},
                      "A6": {"holds": 1, "undecided": 0, "readings": 4}}}
-EMPTY = {"claims": {}, "letter": {}, "shares": {}}
 
 
 def claim(name, record=RECORD):
@@ -67,7 +62,7 @@ def test_every_square_of_the_strip_leads_to_its_claim():
 @pytest.mark.parametrize("record, words", [
     (RECORD, f"Of its {len(CLAIMS)} claims we found 1 reproduced (C2); 1 not reproduced (B1); {len(CLAIMS) - 2} not "
              "judged."),
-    (EMPTY, "Verdicts need 10 runs of each condition, and this build has fewer.")])
+    ({"claims": {}, "letter": {}, "shares": {}}, "Verdicts need 10 runs of each condition, and this build has fewer.")])
 def test_the_book_opens_with_what_was_found_or_why_nothing_is_known(record, words):
     assert words in re.sub("<[^>]+>", "", ledger.front(record))
 

@@ -2,22 +2,16 @@
 
 import ast
 import re
-import sys
-from pathlib import Path
 
+import build
 import nbformat
 import pytest
+from page_cells import NOTEBOOKS as FOLDER
 
 from lib.shared import notebook
 from neorl.evidence.statements import STATEMENTS
 
-ROOT = Path(__file__).parents[2]
-sys.path.insert(0, str(ROOT / "book"))
-import build  # noqa: E402
-
-NOTEBOOKS = {path.stem: nbformat.read(path, 4) for path in sorted((ROOT / "notebooks").glob("*.ipynb"))}
-
-CHAPTERS = [f"chapter_{number}" for number in range(1, 6)]
+NOTEBOOKS = {path.stem: nbformat.read(path, 4) for path in sorted(FOLDER.glob("*.ipynb"))}
 
 
 def tags(cell):
@@ -40,20 +34,8 @@ def test_a_page_shows_its_experiment_in_one_cell(cells):
     assert cells.index(experiment) < min(drawn)
 
 
-def test_there_are_notebooks():
-    assert {"paper_a", "paper_b", "paper_c", *CHAPTERS} <= set(NOTEBOOKS)
-
-
 def test_a_notebook_is_without_outputs(cells):
     assert all(not cell.outputs and cell.execution_count is None for cell in cells if cell.cell_type == "code")
-
-
-def test_a_notebook_has_one_cell_of_typed_parameters(cells):
-    (tagged,) = [cell for cell in cells if "parameters" in cell.metadata.get("tags", [])]
-    statements = ast.parse(tagged.source).body
-    assert all(isinstance(statement, ast.AnnAssign) for statement in statements)
-    names = [statement.target.id for statement in statements]
-    assert {"runs", "steps", "seed"} <= set(names)
 
 
 def test_every_figure_has_alt_text_and_a_caption(cells):
@@ -96,23 +78,10 @@ def test_links_lead_somewhere(cells):
     for cell in cells:
         if cell.cell_type == "markdown":
             for target, place in re.findall(r"\]\(([^)#:]+)(?:#([^)]*))?\)", cell.source):
-                assert (ROOT / "notebooks" / target).exists(), target
+                assert (FOLDER / target).exists(), target
                 assert not place or target == "../book/glossary.md" and place in build.terms(), place
         else:  # the build rewrites the links of Markdown cells only
             assert "](../book/" not in cell.source
-
-
-@pytest.mark.parametrize("chapter", CHAPTERS)
-def test_a_chapter_shows_little_code_and_ends_with_exercises(chapter):
-    cells = NOTEBOOKS[chapter].cells
-    shown = [cell for cell in cells
-             if cell.cell_type == "code" and "remove-input" not in cell.metadata.get("tags", [])]
-    assert sum(len(cell.source.splitlines()) for cell in shown) <= 300
-    prose = "\n".join(cell.source for cell in cells if cell.cell_type == "markdown")
-    assert "../book/glossary.md#" in prose
-    _, exercises = prose.split("\n## Exercises\n")
-    folded = [cell for cell in cells[-4:] if "hide-cell" in cell.metadata.get("tags", [])]
-    assert "<details><summary>Solution</summary>" in exercises or folded
 
 
 @pytest.mark.parametrize("change, message", [
@@ -154,11 +123,14 @@ def test_a_parameter_that_the_notebook_does_not_have_is_refused(monkeypatch):
         notebook.begin(runs=4, steps=1, seed=0)
 
 
-def test_what_a_notebook_begins_with_is_hidden_and_says_how_long_it_takes(cells):
+def test_a_notebook_begins_with_typed_parameters_and_hidden_imports(cells):
     parameters, imports = [cell for cell in cells if cell.cell_type == "code"][:2]
-    assert parameters.metadata.tags == ["parameters"]
+    assert [cell for cell in cells if "parameters" in tags(cell)] == [parameters]
+    statements = ast.parse(parameters.source).body
+    assert all(isinstance(statement, ast.AnnAssign) for statement in statements)
+    assert {"runs", "steps", "seed"} <= {statement.target.id for statement in statements}
     assert re.match(r"# .*\b(seconds|minutes?)\b", parameters.source)
-    assert HIDDEN & set(imports.metadata.tags)
+    assert HIDDEN & tags(imports)
     *imported, begun = ast.parse(imports.source).body
     assert all(isinstance(each, (ast.Import, ast.ImportFrom)) for each in imported)
     assert ast.unparse(begun).startswith("notebook.begin(")

@@ -1,11 +1,11 @@
 """The README: a build wrote its table of claims, and its examples print what it says."""
 
 import re
-import sys
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import pytest
+import readme
 
 from neorl import Agent, Desire, Node, Policy
 from neorl.core import modality
@@ -13,14 +13,12 @@ from neorl.evidence.claims import VERDICTS
 from lib.shared.report import NOT_COMPUTED
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 
-EXAMPLES = re.compile(r"```python\n(.*?)```", re.DOTALL)
-ROOT = Path(__file__).parents[2]
-sys.path.insert(0, str(ROOT / "book"))
-import readme  # noqa: E402
+README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+EXAMPLES = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
 
 
 def test_the_tables_have_every_claim_as_it_is_stated_now_and_a_verdict_from_the_rules():
-    (written,) = readme.BETWEEN.findall((ROOT / "README.md").read_text(encoding="utf-8"))
+    (written,) = readme.BETWEEN.findall(README)
     for name in (*CLAIMS, *DEMONSTRATIONS):
         assert written.count(f"**{name}** {STATEMENTS[name].text}") == 1
     rows = re.findall(r"^\| ([●◐○◇])\u00a0(.*?) \| (.*) \|$", written, re.MULTILINE)
@@ -47,18 +45,17 @@ def test_claims_are_written_between_the_marks_and_nothing_else_is_touched():
 def test_every_example_prints_what_stands_behind_its_arrow(tmp_path, monkeypatch, capsys):
     names = {}
     monkeypatch.chdir(tmp_path)
-    examples = EXAMPLES.findall((ROOT / "README.md").read_text(encoding="utf-8"))
-    for example in examples:
+    for example in EXAMPLES:
         exec(example, names)
     plt.close("all")
-    promised = re.findall(r"print\(.*# → (.*)", "\n".join(examples))
+    promised = re.findall(r"print\(.*# → (.*)", "\n".join(EXAMPLES))
     assert capsys.readouterr().out.splitlines() == promised
-    assert len(promised) == "\n".join(examples).count("print(")
+    assert len(promised) == "\n".join(EXAMPLES).count("print(")
 
 
 def test_the_loop_of_a_learner_takes_an_agent_that_is_idle_while_it_knows_nothing(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    (loop,) = [each for each in EXAMPLES.findall((ROOT / "README.md").read_text(encoding="utf-8")) if ".act()" in each]
+    (loop,) = [each for each in EXAMPLES if ".act()" in each]
     names = {"Agent": lambda *parts: Agent(*parts, policy=Policy(0.0, "no-op")), "Desire": Desire,
              "Node": Node, "modality": modality}
     exec(loop.replace("5_000", "3"), names)

@@ -8,10 +8,7 @@ from pathlib import Path
 
 import psutil
 import pytest
-
-BOOK = Path(__file__).parents[2] / "book"
-sys.path.insert(0, str(BOOK))
-import workers  # noqa: E402
+import workers
 
 
 @pytest.fixture
@@ -59,7 +56,7 @@ def test_workers_and_what_they_have_started_end_with_their_starter(tmp_path, how
 code = "import time; print('up', flush=True); time.sleep(1000)"
 subprocess.run([sys.executable, "-c", code], start_new_session=True)
 """)
-    program = (f"import sys; sys.path.insert(0, {str(BOOK)!r}); import workers\n"
+    program = (f"import sys; sys.path.insert(0, {str(Path(workers.__file__).parent)!r}); import workers\n"
                f"workers.work({{'w': ({str(tmp_path / 'worker.py')!r},)}}, 1, print)")
     starter = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
                                preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))

@@ -11,8 +11,8 @@ import pytest
 
 from neorl import Run, walls
 
-ROOT = Path(__file__).parents[2]
-EXAMPLES = re.findall(r"```python\n(.*?)```", (ROOT / "book" / "api_worlds.md").read_text(encoding="utf-8"), re.DOTALL)
+PAGE = Path(__file__).parents[2] / "book" / "api_worlds.md"
+EXAMPLES = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
 MAZE, *CIRCLE = EXAMPLES
 WITHOUT_COMPILER = {"NUMBA_DISABLE_JIT": "1"}
 
@@ -20,8 +20,8 @@ WITHOUT_COMPILER = {"NUMBA_DISABLE_JIT": "1"}
 def run(folder, code, typed="", **environment):
     """What a file with this code prints, and the process."""
     (folder / "example.py").write_text(code, encoding="utf-8")
-    return subprocess.run([sys.executable, "example.py"], cwd=folder, input=typed, capture_output=True, text=True, env={
-        **os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path]), **environment})
+    return subprocess.run([sys.executable, "example.py"], cwd=folder, input=typed, capture_output=True, text=True,
+                          env=os.environ | environment)
 
 
 def promised(code):
