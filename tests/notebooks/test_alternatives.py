@@ -1,6 +1,5 @@
 """The page on alternatives: its learners, controllers and stored runs."""
 
-
 import numpy as np
 import pytest
 

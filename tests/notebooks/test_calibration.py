@@ -128,7 +128,7 @@ def small(monkeypatch):
     clock = iter(range(10**6))
     monkeypatch.setattr(time, "monotonic", lambda: float(next(clock)))
     monkeypatch.setattr(calibration_table, "run", made_up)
-    for name, value in {"DESIGN": 64, "CHUNK": 16, "POOL": 400, "TREES": 30,
+    for name, value in {"DESIGN": 64, "CHUNK": 16, "POOL": 400, "TREES": 10,
                         "WAVE": {"places": 32, "layers": 32} | dict.fromkeys(tuple(GROUPS)[2:], 16)}.items():
         monkeypatch.setattr(calibration, name, value)
 

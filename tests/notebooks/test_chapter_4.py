@@ -9,13 +9,12 @@ import pytest
 from page_cells import planned, source
 
 from lib.chapter_4 import noise, superposition
-from lib.chapter_4.credit import DEFAULT, DIFFERENCE, INVERSION, Chamber, learn_in
+from lib.chapter_4.credit import DEFAULT, INVERSION, Chamber, learn_in
 from lib.chapter_4.noise import expected_squared_displacement, mean_squared_displacement, walk
 from lib.chapter_4.superposition import fit_ridges, plan
 from lib.shared.grid import Grid
 from neorl.agents.rules import CALIBRATED
 from neorl.core.calls import execute
-from neorl.core.horde import learn
 from neorl.core.stream import new_stream, randint, uniform
 from neorl.evidence.reading import TO_THE_LETTER, Reading, conditions
 
@@ -60,8 +59,7 @@ def test_only_the_agents_and_stays_of_the_thesis_are_judged():
 class Clock:
     """A clock that advances only by sleep and work; only work uses the processor."""
 
-    def __init__(self):
-        self.now, self.used, self.step = 100.0, 7.0, 0
+    now, used, step = 100.0, 7.0, 0
 
     def monotonic(self):
         return self.now
@@ -69,12 +67,11 @@ class Clock:
     def process_time(self):
         return self.used
 
-    def perf_counter(self):
-        return self.now
-
     def sleep(self, seconds):
         assert seconds >= 0
         self.now += seconds
+
+    perf_counter = monotonic
 
 
 def keep_pace(seconds, runs):
@@ -219,21 +216,6 @@ def test_a_sum_misleads_where_one_of_its_best_actions_is_not_best_by_the_plan():
     assert superposition.misled(added, planned, elements={}) == [2, 3]
 
 
-def test_the_horde_learns_towards_each_goal_what_planning_finds():
-    """On a random walk with one step per cell, equal up to the factor for entering the goal again and again."""
-    rng, q, state = np.random.default_rng(0), np.zeros((9, 4, 9), np.float32), 0
-    n3 = Grid(("...",) * 3)
-    for _ in range(4_000):
-        action = rng.integers(4)
-        following = n3.next_state[state, action]
-        if following != state:
-            learn(q, state, following, np.eye(4)[action], learning_rate=0.5)
-        state = following
-    exact = plan(n3, np.eye(9)).transpose(1, 2, 0) * (1 - 0.8**2)
-    moves = (n3.next_state != np.arange(9)[:, None])[:, :, None]
-    np.testing.assert_allclose(np.where(moves, q, 0), np.where(moves, exact, 0), atol=1e-3)
-
-
 def test_a_comparison_is_that_of_superposed_and_planned_actions():
     comparison = superposition.compare(N5, [1, 1, 1, -1], placements=1, seed=5, discount=0.7)
     states = np.random.default_rng(5).choice(25, 4, replace=False)
@@ -298,23 +280,6 @@ def restated(chamber, learning, visits, seed=0, run=0):
 def test_the_kernel_does_what_the_rules_say(chamber, learning):
     values = learn_in(chamber, learning, visits=20, runs=2, seed=5)
     np.testing.assert_allclose(values[1], restated(chamber, learning, 20, seed=5, run=1), atol=2e-5)
-
-
-def test_with_one_step_a_visit_both_rules_are_the_same():
-    chamber = Chamber(effort=1, hold=3.0)
-    np.testing.assert_array_equal(learn_in(chamber, INVERSION, 50, 3), learn_in(chamber, DIFFERENCE, 50, 3))
-
-
-def test_a_held_lever_has_the_closed_form_values_of_inversion_and_temporal_difference():
-    """A lever held throughout a visit of T steps is worth 1 to inversion, and to temporal difference the solution
-    of q = 1 / T + (1 − 1 / T) γ q."""
-    chamber, steps = Chamber(effort=8, hold=10_000.0, light=0.0, bell=0.0), 8
-    rules = replace(INVERSION, learning_rate=0.1), replace(DIFFERENCE, learning_rate=0.01)
-    (inverted,), (stepwise,) = (learn_in(chamber, rule, 600, 1) for rule in rules)
-    lever = int(inverted[-1, 1].sum() > inverted[-1, 0].sum())
-    assert inverted[-1, lever, lever] == pytest.approx(1.0, abs=1e-3)
-    expected = 1 / steps / (1 - 0.8 * (1 - 1 / steps))
-    assert stepwise[-1, lever, lever] == pytest.approx(expected, rel=0.05)
 
 
 def test_the_rule_of_the_agents_remembers_no_earlier_cell_when_put_back():

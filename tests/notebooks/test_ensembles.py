@@ -108,12 +108,6 @@ def test_a_walk_that_does_not_arrive_starts_over():
                                made.reshape(20, -1).mean(axis=1))
 
 
-def test_a_life_is_the_same_alone_and_among_others():
-    alone, among = (run_ensemble(SMALL, "Sarsa", steps=1_000, runs=runs, seed=2) for runs in (1, 3))
-    np.testing.assert_array_equal(alone[0], among[0])
-    assert np.any(among[1] != among[0])
-
-
 def test_the_best_reward_in_a_corridor_is_known():
     """With one way to go, 85 % of steps lead ahead and 5 % back; 10 %, and any step out of the corridor, hit a wall."""
     assert best_reward(Grid(("SG",))) == pytest.approx(0.85 * 100 - 0.15 * 2)

@@ -9,7 +9,6 @@ import pytest
 from lib.chapter_3 import hybrid_reward
 from lib.chapter_3.hybrid_reward import KINDS, Game, Learner, play, settled_values
 from lib.shared.grid import Grid
-from neorl.evidence.statistics import probability_of_improvement
 
 JUNCTION = Grid(("o.....o", "###.###", "###.###", "###o###"))
 SMALL = Game(rows=("ao.", ".#.", "o.g"), fruits=1, chase=0.5, limit=9)
@@ -85,13 +84,6 @@ def test_the_game_and_its_learners_are_what_the_rules_say(game, kind):
     assert played.known[1] == known > 0
 
 
-def test_a_run_is_the_same_alone_and_among_others():
-    learner = Learner("heads")
-    alone, among = (play(SMALL, learner, steps=1_000, runs=runs, seed=2) for runs in (1, 3))
-    np.testing.assert_array_equal(alone.rewards[0], among.rewards[0])
-    assert np.any(among.rewards[1] != among.rewards[0])
-
-
 def test_states_are_counted():
     cells, sets = 8, [each for n in range(3) for each in combinations(SMALL.places, n)]
     assert SMALL.states("one learner") == cells * cells * len(sets)
@@ -127,9 +119,3 @@ def test_three_fruits_equally_far_hold_the_agent_above_a_discount_of_one_half(di
     values = sum(settled_values(JUNCTION, fruit, discount) for fruit in JUNCTION.marked("o"))
     assert (values[3].argmax() == 0) == (discount > 0.5)
     np.testing.assert_allclose(values[3], [3 * discount**3, *3 * [discount**2 + 2 * discount**4]])
-
-
-def test_heads_learn_faster_than_one_learner():
-    final = {kind: play(Game(), Learner(kind), steps=30_000, runs=10).final for kind in KINDS}
-    assert probability_of_improvement(final["heads"], final["one learner"]).low > 0.9
-    assert probability_of_improvement(final["latent heads"], final["one learner"]).low > 0.9

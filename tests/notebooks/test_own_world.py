@@ -60,9 +60,8 @@ def session(tmp_path, cache_folder):
     """
     def session(*cells):
         done = subprocess.run([sys.executable, "-c", SHELL, json.dumps(cells)], cwd=tmp_path, capture_output=True,
-                              text=True, env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path),
-                                              "IPYTHONDIR": str(tmp_path / "ipython"),
-                                              "NUMBA_DISABLE_JIT": "1"})
+                              text=True, env=os.environ | {"IPYTHONDIR": str(tmp_path / "ipython"),
+                                                           "NUMBA_DISABLE_JIT": "1"})
         assert done.returncode == 0, done.stdout + done.stderr
         return [json.loads(line) for line in done.stdout.splitlines() if line.startswith("[")]
 

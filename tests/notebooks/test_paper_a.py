@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from matplotlib import pyplot as plt
 from page_cells import planned, source
 
 from lib import paper_a
@@ -110,20 +109,3 @@ def test_squares_are_counted_once_ten_times_a_second():
     assert set(np.diff(squares).ravel()) == {0, 1}
     assert np.array_equal(squares, paper_a.squares_entered(brownian(), WORLD, 400, 2)[:, :40])
     assert paper_a.squares_entered(brownian(), WORLD, 3, 1).shape == (1, 1)  # of a short run
-
-
-def steady(rate, n_creeps=8):
-    """A result in which every run earns `rate` per second throughout."""
-    rewards = np.full((2, 500), 0.2 * rate, np.float32)
-    hits = np.zeros((2, 500, 2), np.int16)
-    return Result(Condition(place_cells([2]), WaterWorld(n_creeps=n_creeps), 5_000, 2), rewards, hits)
-
-
-def test_maps_together_are_drawn_beside_each_alone_their_sum_and_the_level_of_the_thesis():
-    results = {("layer", n): steady(rate) for n, rate in zip(LAYERS, (0.1, 0.2, 0.3))} | {"layers": steady(0.9)}
-    paper_a.draw_together(results)
-    axes = plt.gca()
-    np.testing.assert_allclose([line.get_ydata()[-1] for line in axes.lines[:5]], [0.1, 0.2, 0.3, 0.9, 0.6], rtol=1e-5)
-    assert axes.lines[-1].get_ydata()[0] == pytest.approx(3.5 * 0.2)
-    assert {text.get_text() for text in axes.texts} == {"N3", "N7", "N23", "all three", "sum of the three",
-                                                        "thesis: 3.5 × N7"}

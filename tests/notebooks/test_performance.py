@@ -48,15 +48,10 @@ def test_jax_computes_the_same_where_it_is_installed(stretch):
     assert (np.asarray(by_jax) == best).mean() > 0.99
 
 
-def lived(resolution, **rule):
-    indifferent = place_cells([resolution], 0.0, 0.0, learning=replace(CALIBRATED, **rule))  # it moves all the same
-    run = Run(indifferent, WaterWorld())
-    run.advance(10_000)
-    return run
-
-
 def test_all_goals_move_the_rows_of_two_cells_and_one_of_them_twice():
-    run = lived(2, bootstrap=True, memory=0.0)
+    rule = replace(CALIBRATED, bootstrap=True, memory=0.0)
+    run = Run(place_cells([2], 0.0, 0.0, learning=rule), WaterWorld())  # indifferent, it moves all the same
+    run.advance(10_000)
     found = bound.moved(run, 500)
     assert found.ordered / found.changes == pytest.approx(4 * 4 * 4 * 3)  # 4 bytes, 4 goals, 4 actions
     assert found.scattered == found.remembered == 0 and found.working_set == 4 * 4 * 4 * 4

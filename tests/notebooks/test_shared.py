@@ -9,7 +9,6 @@ from contrast import GROUNDS, STYLE_SHEET, contrast, variables
 from lib.shared import marks, opening, provenance, report, side_by_side
 from lib.shared.fields import superposed_field
 from lib.shared.priors import BEYOND
-from lib.shared.thesis_figures import draw_against_thesis
 from lib.shared.wording import number, scientific, table
 from neorl import GREEDY, WaterWorld, superpose
 from neorl.evidence.reading import TO_THE_LETTER, Reading
@@ -71,15 +70,3 @@ def test_a_field_has_the_superposition_of_every_cell():
     q = np.random.default_rng(0).random((9, 4, 9), np.float32)
     field = superposed_field(q, [2, 7], [1.0, -0.5])
     np.testing.assert_array_equal(field, [superpose(q, state, [2, 7], [1.0, -0.5]) for state in range(9)])
-
-
-def test_the_number_of_the_thesis_stands_beside_what_was_found():
-    found = {"to the letter": {"both": Estimate(0.1, 0.05, 0.15), "place cells": Estimate(0.2, 0.1, 0.3)},
-             "calibrated": {"place cells": Estimate(0.3, 0.25, 0.35), "both": Estimate(0.5, np.nan, np.nan)}}
-    axes = draw_against_thesis({"place cells": 0.29, "both": 0.55}, found, "reward per second")
-    assert [label.get_text() for label in axes.get_yticklabels()] == ["place cells", "both"]
-    numbers, to_the_letter, calibrated = (lines.get_segments() for lines in axes.collections)
-    np.testing.assert_allclose(np.array(numbers)[:, :, 0], [[0.29, 0.29], [0.55, 0.55]])
-    assert [list(line.get_xdata()) for line in axes.lines] == [[0.2, 0.1], [0.3, 0.5]]
-    np.testing.assert_allclose(np.array(to_the_letter)[:, :, 0], [[0.1, 0.3], [0.05, 0.15]])
-    np.testing.assert_allclose(calibrated[0][:, 0], [0.25, 0.35])
