@@ -5,11 +5,9 @@ import pytest
 from matplotlib import pyplot as plt
 
 from lib import paper_c
-from lib.paper_b.receptive_fields import draw_receptive_fields
 from neorl import (Condition, NresMap, Result, Run, WaterWorld, brownian, network_b, object_vector_cells, place_cells,
                    simulate)
 from neorl.core.geometry import TAU
-from neorl.core.modality import MODALITIES
 from neorl import drawing
 from neorl.evidence.curves import binned_rate, low_passed
 
@@ -42,13 +40,6 @@ def test_proficiency_draws_the_sum_of_the_parts(results):
     np.testing.assert_allclose(total, n3 + n7, rtol=1e-5, atol=1e-12)
 
 
-def made_up(rate, runs, steps, seed=0):
-    """A result in which every run earns `rate` per second, with noise in each bin."""
-    rewards = np.random.default_rng(seed).normal(0.2 * rate, 0.3, (runs, -(-steps // 10))).astype(np.float32)
-    return Result(Condition(place_cells([2]), WaterWorld(), steps, runs), rewards,
-                  np.zeros((*rewards.shape, 2), np.int16))
-
-
 def test_the_filter_keeps_what_is_slow():
     time = np.linspace(0, 1, 400)
     straight = np.stack([np.full(400, 0.3), 0.5 * time - 0.1])
@@ -64,8 +55,8 @@ def test_the_filter_takes_out_what_is_fast():
 
 
 def test_a_last_bin_that_is_short_counts_as_short():
-    result = made_up(1.0, 1, 95)
-    result.rewards[:] = [0.2] * 9 + [0.1]
+    rewards = np.array([[0.2] * 9 + [0.1]], np.float32)
+    result = Result(Condition(place_cells([2]), WaterWorld(), 95, 1), rewards, np.zeros((1, 10, 2), np.int16))
     np.testing.assert_allclose(binned_rate(result, 5), 1.0, rtol=1e-6)
 
 
@@ -89,33 +80,6 @@ def test_the_outermost_cells_of_a_map_reach_as_far_as_things_can_be():
     assert boxes[4:] == [[-1, -1, 0, 0], [0, -1, 1, 0], [-1, 0, 0, 1], [0, 0, 1, 1]]
     drawing.draw_cells(place_cells([5], tiled_fraction=0.5).maps[0], ax=axes)
     assert sorted({round(patch.get_width(), 9) for patch in axes.patches[8:]}) == [0.1, 0.35]
-
-
-def moving_tank():
-    world = WaterWorld(n_creeps=3)
-    state = world.reset(3)
-    state.scene.position[:] = np.array([0.61, 0.43]) * world.width
-    state.scene.velocity[:] = np.array([-0.3, 0.13]) * world.width
-    return world, state
-
-
-@pytest.mark.parametrize("resolution", [1, 2, 5])
-@pytest.mark.parametrize("modality", MODALITIES, ids=lambda modality: modality.name)
-def test_the_active_receptive_fields_are_filled(modality, resolution):
-    world, state = moving_tank()
-    nres_map, axes = NresMap(resolution, modality), drawing.new_board()
-    draw_receptive_fields(nres_map, world, state, axes)
-    axes.figure.draw_without_rendering()
-    active = set(nres_map.encode(modality.coordinates(state.scene, world.size)))
-    fills = [fill for fill in axes.collections if fill.get_alpha()]
-    assert len(fills) == len(active)
-
-    places = np.random.default_rng(0).random((300, 2))
-    agent = state.scene.position / world.size
-    seen = {"position": places, "velocity": (places - agent) / 0.5}.get(modality.follows, places - agent)
-    filled = np.any([[fill.get_paths()[0].contains_point(place) for place in places] for fill in fills], axis=0)
-    expected = np.isin(nres_map.encode(modality.tune(seen)), list(active))
-    assert np.mean(filled == expected) > 0.98  # all but where corners are rounded
 
 
 def test_desires_are_drawn_where_they_land_or_towards_it_if_that_is_far_away():

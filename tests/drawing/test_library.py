@@ -90,11 +90,6 @@ OF_THE_BOOK = ("IPython", "ipykernel", "ipywidgets", "anywidget", "traitlets", "
                "sklearn", "ziglang", "gymnasium", "distributed", "papermill", "nbformat")
 
 
-def python(code, hidden, folder):
-    return subprocess.run([sys.executable, "-c", HIDE.format(hidden=hidden) + code], capture_output=True, text=True,
-                          env=None, cwd=folder)
-
-
 def test_matplotlib_is_enough(tmp_path, monkeypatch):
     monkeypatch.setenv("MPLBACKEND", "agg")
     code = """
@@ -106,6 +101,7 @@ for each in pkgutil.iter_modules(drawing.__path__):
 drawing.use_style()
 drawing.draw_network(neorl.network_d()).figure.savefig("network.svg")
 """
-    done = python(code, OF_THE_BOOK, tmp_path)
+    done = subprocess.run([sys.executable, "-c", HIDE.format(hidden=OF_THE_BOOK) + code], capture_output=True,
+                          text=True, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "network.svg").read_text().startswith("<?xml")

@@ -8,13 +8,14 @@ from matplotlib.transforms import Affine2D
 from lib.paper_b.receptive_fields import draw_receptive_fields
 from neorl import Agent, Axis, Desire, Modality, Node, NresMap, Run, WaterWorld, drawing
 from neorl.core.geometry import TAU
-from neorl.core.modality import HEAD_DIRECTION_CELL, OBJECT_VECTOR_CELL, PLACE_CELL, polar
+from neorl.core.modality import HEAD_DIRECTION_CELL, MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, polar
 
 TANK = WaterWorld()
-UNEQUAL = (0.0, 0.1, 0.25, 0.7, 1.0)
-UNEQUAL_POLAR = Modality("", [Axis("objects", "length", boundaries=(0, 0.1, 0.3, 0.8)),
-                              Axis("objects", "direction", intervals=5)])
-UNEQUAL_PLACES = Modality("", [Axis("position", along=0, boundaries=UNEQUAL), Axis("position", along=1)])
+UNEQUAL_POLAR = Modality("polar", [Axis("objects", "length", boundaries=(0, 0.1, 0.3, 0.8)),
+                                   Axis("objects", "direction", intervals=5)])
+UNEQUAL_PLACES = Modality("places", [Axis("position", boundaries=(0, 0.1, 0.25, 0.7, 1)), Axis("position", along=1)])
+UNEQUAL_VELOCITIES = Modality("velocities", [Axis("velocity", boundaries=(-1, -0.2, 0.1, 1)),
+                                             Axis("velocity", along=1, low=-1)])
 
 
 def wedges(axes):
@@ -67,26 +68,22 @@ def test_a_value_map_is_the_more_opaque_the_more_the_best_action_is_worth(modali
         tuple(int(drawing.RED[i : i + 2], 16) / 255 for i in (1, 3, 5))}
 
 
-@pytest.mark.parametrize("modality", [UNEQUAL_PLACES, UNEQUAL_POLAR, Modality("", [
-    Axis("velocity", "component", 0, boundaries=(-1, -0.2, 0.1, 1)), Axis("velocity", "component", 1, -1, 1)])])
-def test_receptive_fields_lie_where_their_boundaries_are(modality):
-    state = TANK.reset(3)
+@pytest.mark.parametrize("resolution", [1, 2, 5])
+@pytest.mark.parametrize("modality", [*MODALITIES, UNEQUAL_PLACES, UNEQUAL_POLAR, UNEQUAL_VELOCITIES],
+                         ids=lambda modality: modality.name)
+def test_the_active_receptive_fields_are_filled(modality, resolution):
+    state, nres_map = TANK.reset(3), NresMap(resolution, modality)
     state.scene.position[:] = np.array([0.61, 0.43]) * TANK.width
     state.scene.velocity[:] = np.array([-0.3, 0.13]) * TANK.width
-    nres_map = NresMap(3, modality)
     axes = draw_receptive_fields(nres_map, TANK, state)
-    agent = state.scene.position / TANK.width
-
-    def encode(vectors):
-        """Encode vectors independently of `Modality.tune`."""
-        if modality is UNEQUAL_POLAR:
-            vectors = np.stack([np.hypot(*vectors.T), np.arctan2(vectors[:, 1], vectors[:, 0])], axis=1)
-        return nres_map.encode(vectors)
+    axes.figure.draw_without_rendering()
+    active = set(nres_map.encode(modality.coordinates(state.scene, TANK.size)))
+    fills = [fill for fill in axes.collections if fill.get_alpha()]
+    assert len(fills) == len(active)
 
     places = np.random.default_rng(0).random((300, 2))
+    agent = state.scene.position / TANK.size
     seen = {"position": places, "velocity": (places - agent) / 0.5}.get(modality.follows, places - agent)
-    perceived = {"position": agent[None], "velocity": state.scene.velocity[None] / TANK.width}.get(
-        modality.follows, state.scene.things / TANK.width - agent)
-    fills = [fill for fill in axes.collections if fill.get_alpha()]
     filled = np.any([[fill.get_paths()[0].contains_point(place) for place in places] for fill in fills], axis=0)
-    assert np.mean(filled == np.isin(encode(seen), encode(perceived))) > 0.97  # all but where corners are rounded
+    expected = np.isin(nres_map.encode(modality.tune(seen)), list(active))
+    assert np.mean(filled == expected) > 0.97  # all but where corners are rounded

@@ -1,6 +1,5 @@
 """Worlds as Gymnasium environments pass Gymnasium's checks, and equal the worlds of runs to the bit."""
 
-
 import gymnasium
 import numpy as np
 import pytest
