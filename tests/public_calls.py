@@ -161,8 +161,8 @@ TABLE = {
         also=("kind", "axes")),
     "neorl.agents.learner.Learner.begin": entry(method(Learner.begin, new_learner), scene=SCENES),
     "neorl.agents.learner.Learner.begin, fields": entry(
-        scene_then(Learner.begin, new_learner), **SCENE._asdict() and {name: [each] for name, each in
-                                                                       SCENE._asdict().items()}, also="scene"),
+        scene_then(Learner.begin, new_learner), **{name: [each] for name, each in SCENE._asdict().items()},
+        also="scene"),
     "neorl.agents.learner.Learner.observe": entry(method(Learner.observe, acted), scene=SCENES),
     "neorl.agents.learner.Learner.observe, fields": entry(
         scene_then(Learner.observe, acted), **{name: [each] for name, each in SCENE._asdict().items()}, also="scene"),

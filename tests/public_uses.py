@@ -75,16 +75,9 @@ def acted():
     return one
 
 
-def result_of(world, runs=3, bins=40):
-    rng = np.random.default_rng(0)
-    return Result(Condition(neorl.place_cells([3]), world, 10 * bins, runs),
-                  rng.normal(size=(runs, bins)).astype(np.float32),
-                  rng.integers(0, 3, (runs, bins, 2)).astype(np.int16))
-
-
-def new_run(agent=neorl.network_b([3, 5]), steps=40):
-    run = Run(agent, BOARD)
-    run.advance(steps)
+def new_run():
+    run = Run(neorl.network_b([3, 5]), BOARD)
+    run.advance(40)
     return run
 
 
@@ -106,7 +99,8 @@ SCENES = st.sampled_from([SCENE, SCENE._replace(velocity=None, met=()), Scene(
     np.array([0.5, 0.5]), np.zeros(2), np.ones((2, 2)), np.array([0, 1]), np.array([True, False]))])
 BOARD, POOL = WaterWorld(n_creeps=2), Arena()
 VESSEL, MAZE = Vessel(), WaterMaze()
-RESULT = result_of(WaterWorld(win_reward=5.0))
+RESULT = Result(Condition(neorl.place_cells([3]), WaterWorld(), 400, 3),
+                np.linspace(-1, 1, 120, dtype=np.float32).reshape(3, 40), np.ones((3, 40, 2), np.int16))
 CONDITION = Condition(neorl.place_cells([2]), BOARD, 40, 1)
 reals = st.floats(-2, 2)
 shares = st.floats(0, 1)
@@ -138,13 +132,9 @@ def scene_then(function, subject):
     def call(**fields):
         one = subject()
         function(one, Scene(**fields))
-        return in_the_scene(one)
+        one.act()
+        return list(arrays(one.state).values()), list(arrays(one._scene).values())
     return call
-
-
-def in_the_scene(one):
-    one.act()
-    return list(arrays(one.state).values()), list(arrays(one._scene).values())
 
 
 def step_with(**fields):

@@ -15,20 +15,16 @@ from neorl.extras import require
 
 ROOT = Path(__file__).parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-WHEN_USED = ("anywidget", "distributed", "gymnasium", "IPython", "matplotlib", "numba", "pandas", "psutil", "scipy",
-             "tqdm", "xarray")
 
 
-def test_import_neorl_imports_nothing_that_takes_long():
-    listed = subprocess.run([sys.executable, "-c", "import neorl, sys; print(*sys.modules)"], capture_output=True,
-                            text=True, check=True)
-    assert not set(WHEN_USED) & set(listed.stdout.split())
-
-
-def test_figures_and_statistics_import_no_part_of_scipy_before_they_use_it():
-    listed = subprocess.run([sys.executable, "-c", "import neorl.drawing, neorl.evidence.reading, sys; "
-                             "print(*sys.modules)"], capture_output=True, text=True, check=True)
-    assert not {"scipy.optimize", "scipy.signal", "scipy.stats"} & set(listed.stdout.split())
+@pytest.mark.parametrize("imported, when_used", [
+    ("neorl", ("anywidget", "distributed", "gymnasium", "IPython", "matplotlib", "numba", "pandas", "psutil", "scipy",
+               "tqdm", "xarray")),
+    ("neorl.drawing, neorl.evidence.reading", ("scipy.optimize", "scipy.signal", "scipy.stats"))])
+def test_what_takes_long_is_imported_when_it_is_used(imported, when_used):
+    listed = subprocess.run([sys.executable, "-c", f"import {imported}, sys; print(*sys.modules)"],
+                            capture_output=True, text=True, check=True)
+    assert not set(when_used) & set(listed.stdout.split())
 
 
 def test_the_version_is_the_same_everywhere():
@@ -75,18 +71,14 @@ def test_an_error_inside_a_package_that_is_there_is_not_hidden(tmp_path, monkeyp
         require("broken_package", extra="data")
 
 
-@pytest.mark.parametrize("command", [("mypy", "--warn-unused-ignores"), ("ruff", "check")])
+@pytest.mark.parametrize("command", [("mypy", "--warn-unused-ignores"), ("ruff", "check"),
+                                     ("lint-imports", "--no-cache")], ids=lambda command: command[0])
 def test_a_checker_finds_no_error(command):
-    """In the public modules and in typical uses of them."""
-    done = subprocess.run([sys.executable, "-m", *command], cwd=ROOT, capture_output=True, text=True)
+    """In the public modules and in typical uses of them, and no room imports but from the rooms below it."""
+    program = Path(sys.executable).with_name(command[0])
+    done = subprocess.run([program, *command[1:]], cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
     assert (ROOT / "neorl" / "py.typed").exists()
-
-
-def test_a_room_imports_only_from_the_rooms_below_it():
-    command = [Path(sys.executable).with_name("lint-imports"), "--no-cache"]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout
 
 
 def test_every_module_lies_in_a_room():
