@@ -6,14 +6,13 @@ import numpy as np
 import pytest
 
 from neorl import (CALIBRATED, GREEDY, Agent, Desire, Node, NresMap, Place, Policy, Run, WaterWorld, brownian,
-                   multimodal, network_a, network_b, network_c, network_d, object_vector_cells, place_cells)
+                   multimodal, network_d, object_vector_cells, place_cells)
 from neorl.agents.compile import compiled, n_values
 from neorl.core.modality import (CARTESIAN_OBJECT_VECTOR_CELL, HEAD_DIRECTION_CELL, LANDMARK_VECTOR_CELL, PLACE_CELL,
                                  SPEED_CELL, cartesian)
 
 PC, OVC = Node("PC", PLACE_CELL, (2, 3)), Node("OVC", CARTESIAN_OBJECT_VECTOR_CELL, (3,))
 HD, SPEED = Node("HD", HEAD_DIRECTION_CELL, (4,)), Node("speed", SPEED_CELL, (3,))
-PAPERS = (place_cells, brownian, object_vector_cells, multimodal, network_a, network_b, network_c, network_d)
 
 
 def test_what_is_no_choice_of_an_agent_is_refused_and_resolutions_must_be_several():
@@ -56,12 +55,6 @@ def test_an_agent_and_a_world_that_do_not_go_together_are_refused_when_they_meet
             meet(agent, WaterWorld())
     with pytest.raises(ValueError, match=message):
         Run(place_cells([3]), WaterWorld()).change(agent)
-
-
-@pytest.mark.parametrize("make", PAPERS)
-def test_an_agent_is_a_value(make):
-    assert make() == make() and hash(make()) == hash(make())
-    assert [make() == other() for other in PAPERS] == [make is other for other in PAPERS]
 
 
 def test_the_agent_of_paper_a_is_one_node_and_two_desires():

@@ -59,8 +59,9 @@ def test_without_the_compiler_an_index_out_of_range_is_an_error_in_its_line(tmp_
     assert "IndexError" in done.stderr and "after = scene.position[axis] + 0.1 * rules.push[action + 5" in done.stderr
 
 
-@pytest.mark.parametrize("function", [walls.distance, walls.distance_along, Run.record, Run.advance])
-def test_the_example_of_a_docstring_runs(tmp_path, function):
-    lines = [each.source for each in doctest.DocTestParser().get_examples(function.__doc__)]
-    done = run(tmp_path, "".join(["import neorl\n", *lines]), **WITHOUT_COMPILER)
-    assert lines and done.returncode == 0, done.stderr
+def test_the_examples_of_docstrings_run(tmp_path):
+    examples = [doctest.DocTestParser().get_examples(function.__doc__)
+                for function in (walls.distance, walls.distance_along, Run.record, Run.advance)]
+    code = "".join(["import neorl\n", *(each.source for those in examples for each in those)])
+    done = run(tmp_path, code, **WITHOUT_COMPILER)
+    assert all(examples) and done.returncode == 0, done.stderr
