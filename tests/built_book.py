@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
+from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import expect
 
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS
@@ -127,3 +128,16 @@ def test_a_term_leads_to_the_glossary_and_from_there_to_the_function(open_page, 
     assert len(places) > 15
     reference = "".join(path.read_text(encoding="utf-8") for path in HTML.glob("api_*.html"))
     assert not [place for place in places if f'id="{place}"' not in reference]
+
+
+@pytest.mark.parametrize("name", [  # one of each kind: axe takes minutes for all
+    "index.html", "explorer.html", "claims.html", "glossary.html", "api_gym.html", "chapters/chapter_1.html",
+    "chapters/paper_c.html"])
+def test_axe_finds_nothing_that_keeps_readers_out(open_page, name):
+    page = open_page(HTML, name)
+    for width, scheme in ((1200, "light"), (400, "dark")):
+        page.set_viewport_size({"width": width, "height": 800})
+        page.emulate_media(color_scheme=scheme)
+        page.wait_for_selector(f"html[data-theme={scheme}]")
+        found = Axe().run(page, options={"preload": False})  # which would request style sheets by wrong addresses
+        assert found.violations_count == 0, found.generate_report()
