@@ -13,8 +13,8 @@ from numpy.typing import ArrayLike
 
 from neorl import checks
 from neorl.drawing.style import INK, axes_or_new, by_name, looks, name_ends, numbers
-from neorl.evidence.curves import CUTOFF_PERIODS, binned_rate, low_passed
-from neorl.evidence.statistics import Estimate, mean_band, tolerance_band
+from neorl.evidence.statistics import (CUTOFF_PERIODS, Estimate, binned_rate, low_passed, mean_band,
+                                       tolerance_band)
 from neorl.experiments.result import Result
 
 POINTS = 400  # per curve; more would not be visible

@@ -1,22 +1,13 @@
 """The rules that judge the claims of the thesis by the book's numbers, written down before the numbers.
 
-`neorl.evidence.verdict` defines verdicts, and `neorl.evidence.statements` lists the claims. The rules are in
-`neorl.evidence.rules_paper_a`, `neorl.evidence.rules_paper_b`, `neorl.evidence.rules_paper_c`,
-`neorl.evidence.rules_chapters` and `neorl.evidence.rules_spaces`; this module gathers them.
+`neorl.evidence.verdict` defines verdicts, and `neorl.evidence.statements` lists the claims.
 """
 
-from neorl.evidence.rules_chapters import (judge_changes, judge_cost, judge_latent_learning, judge_more_maps,
+# ruff: noqa: F401
+from neorl.evidence.rules_chapters import (judge_changes, judge_composition, judge_cost, judge_efficiency,
+                                           judge_extension, judge_generality, judge_latent_learning, judge_more_maps,
                                            judge_persistence, judge_real_time, judge_tables, judge_temporality,
                                            judge_time_scale)
-from neorl.evidence.rules_paper_a import judge_exploration, judge_margin, judge_multiple_layers, judge_single_layer
-from neorl.evidence.rules_paper_b import judge_joining, judge_modalities, judge_pace, judge_points, judge_resolutions
-from neorl.evidence.rules_paper_c import judge_alternatives, judge_networks
-from neorl.evidence.rules_spaces import judge_composition, judge_efficiency, judge_extension, judge_generality
-from neorl.evidence.verdict import EARLY, FINAL, RUNS_FOR_A_VERDICT, VERDICTS, Claim
-
-__all__ = ["EARLY", "FINAL", "RUNS_FOR_A_VERDICT", "VERDICTS", "Claim", "judge_alternatives", "judge_changes",
-           "judge_composition", "judge_cost", "judge_efficiency", "judge_exploration", "judge_extension",
-           "judge_generality", "judge_joining", "judge_latent_learning", "judge_margin", "judge_modalities",
-           "judge_more_maps", "judge_multiple_layers", "judge_networks", "judge_pace", "judge_persistence",
-           "judge_points", "judge_real_time", "judge_resolutions", "judge_single_layer", "judge_tables",
-           "judge_temporality", "judge_time_scale"]
+from neorl.evidence.rules_papers import (judge_alternatives, judge_exploration, judge_joining, judge_margin,
+                                         judge_modalities, judge_multiple_layers, judge_networks, judge_pace,
+                                         judge_points, judge_resolutions, judge_single_layer)

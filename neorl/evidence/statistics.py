@@ -1,7 +1,7 @@
 """Statistics over runs: a run (a seed) is the unit, an interval is 95 % unless stated otherwise.
 
-Intervals are percentile bootstraps of `scipy.stats`, tolerance bands are pairs of order statistics. `rng` is the
-bootstrap's random generator, a `numpy.random.Generator` or the seed of one; by default the draws are always the same.
+Intervals are percentile bootstraps of `scipy.stats`, whose draws are always the same; tolerance bands are pairs of
+order statistics.
 """
 
 from collections.abc import Callable, Sequence
@@ -17,8 +17,10 @@ from neorl.worlds.waterworld import WaterWorld
 
 RESAMPLES = 1_000
 Results = Result | Sequence[Result]
-Rng = int | np.random.Generator
 MOST_RUNS = 2**31
+# Paper B smooths its curves "by a Butterworth low-pass filter" (section 3). The thesis states neither of these.
+FILTER_ORDER = 4
+CUTOFF_PERIODS = 20  # per run: the filter removes higher frequencies
 RECENT = 1 / 40  # of a run: the window over which the mean reward per second counts as reaching a level
 
 
@@ -35,22 +37,22 @@ class Estimate(NamedTuple):
         return f"{self.value:z.{digits}f}{bounds}".replace("-", "−")
 
 
-def estimate(statistic: Callable, *samples: ArrayLike, rng: Rng = 0) -> Estimate:
+def estimate(statistic: Callable, *samples: ArrayLike) -> Estimate:
     """A statistic of one or several independent samples (each (runs,)), with its bootstrap interval.
 
     A sample of a single run has no interval: its bounds are NaN.
 
-    statistic: takes the samples, and `axis`, the axis of the runs. rng: see the module. Raises ValueError for a sample
-    that is empty or not finite.
+    statistic: takes the samples, and `axis`, the axis of the runs. Raises ValueError for a sample that is empty or not
+    finite.
     """
     if not callable(statistic) or not samples:
         raise ValueError(f"statistic must be a function of one sample or more, but is {checks.shown(statistic)} of "
                          f"{len(samples)}")
-    checked, rng = [_sample("samples", each) for each in samples], _generator(rng)
+    checked = [_sample("samples", each) for each in samples]
     value = float(statistic(*checked, axis=-1))
     if min(map(len, checked)) < 2:
         return Estimate(value, np.nan, np.nan)
-    low, high = _bootstrapped(checked, statistic, rng)
+    low, high = _bootstrapped(checked, statistic)
     return Estimate(value, float(low), float(high))
 
 
@@ -91,14 +93,13 @@ def rank_correlation(*samples, axis):
     return quotient((off * place).sum(axis), spread)
 
 
-def probability_of_improvement(better: ArrayLike, worse: ArrayLike, rng: Rng = 0) -> Estimate:
+def probability_of_improvement(better: ArrayLike, worse: ArrayLike) -> Estimate:
     """The probability that a run of `better` beats one of `worse`, a tie counting half, as an `Estimate`.
 
     Mann-Whitney's U per pair of runs (Agarwal et al. 2021, Deep reinforcement learning at the edge of the statistical
-    precipice). better, worse: (runs,). rng: see the module. Raises ValueError for a sample that is empty or not finite.
+    precipice). better, worse: (runs,). Raises ValueError for a sample that is empty or not finite.
     """
-    better, worse = _sample("better", better), _sample("worse", worse)
-    return estimate(_share_of_pairs, better, worse, rng=rng)
+    return estimate(_share_of_pairs, _sample("better", better), _sample("worse", worse))
 
 
 def _share_of_pairs(better, worse, axis):
@@ -256,15 +257,49 @@ def _minutes_to_own_level(result, share):
     return minutes
 
 
-def mean_band(curves: ArrayLike, rng: Rng = 0) -> Any:
+def mean_band(curves: ArrayLike) -> Any:
     """The interval of the mean over runs at each point of curves (runs, points): (low, high), as in `estimate`.
 
-    rng: see the module. Raises ValueError for curves that are not finite or have no runs.
+    Raises ValueError for curves that are not finite or have no runs.
     """
-    checked, rng = _curves(curves), _generator(rng)
+    checked = _curves(curves)
     if len(checked) < 2:
         return np.full((2, checked.shape[1]), np.nan)
-    return _bootstrapped((checked,), np.mean, rng, axis=0)
+    return _bootstrapped((checked,), np.mean, axis=0)
+
+
+def binned_rate(result: Result, points: int) -> NDArray[np.float64]:
+    """Reward per second over equal intervals of the run: float64 (runs, points).
+
+    result: a `Result`. points: integer, from 1 to the number of its bins. Raises ValueError for anything else.
+    """
+    bins = checks.instance("result", result, Result).rewards.shape[1]
+    points = checks.integer("points", points, at_least=1, at_most=bins)
+    edges = np.linspace(0, bins, points + 1).astype(int)
+    sums = np.add.reduceat(result.rewards, edges[:-1], axis=1)
+    return sums / np.diff(result.edges[edges])
+
+
+def low_passed(rates: ArrayLike) -> NDArray[np.float64]:
+    """Low-pass filter curves (runs, points) forwards and backwards, so that nothing shifts in time.
+
+    At either end a curve is extended by its point reflection, in the end point of a straight line fitted to its first
+    or last cutoff period: its own end point is as noisy as an unfiltered curve.
+    rates: (runs, points). Raises ValueError for anything but finite numbers, or if there are no more points than
+    twice `CUTOFF_PERIODS`.
+    """
+    rates = checks.doubles("rates", rates)
+    if rates.ndim != 2 or rates.shape[1] <= 2 * CUTOFF_PERIODS or not len(rates):
+        raise ValueError(f"rates must have the shape (runs, points), with more than {2 * CUTOFF_PERIODS} points, but "
+                         f"has {rates.shape}")
+    points = rates.shape[1]
+    sections = scipy.signal.butter(FILTER_ORDER, 2 * CUTOFF_PERIODS / points, output="sos")
+    near = points // CUTOFF_PERIODS
+    first, last = (np.polynomial.polynomial.polyfit(np.arange(near) + 0.5, end.T, 1)[0][:, None]
+                   for end in (rates[:, :near], rates[:, : -near - 1 : -1]))
+    mirrored = rates[:, ::-1]
+    longer = np.concatenate([2 * first - mirrored, rates, 2 * last - mirrored], axis=1)
+    return scipy.signal.sosfiltfilt(sections, longer, axis=1)[:, points : 2 * points]
 
 
 def _sample(name, values):
@@ -281,14 +316,10 @@ def _curves(values):
     return curves
 
 
-def _generator(rng):
-    return rng if isinstance(rng, np.random.Generator) else checks.integer("rng", rng, at_least=0)
-
-
 def _in_waterworld(result):
     return checks.instance("world of result", checks.instance("result", result, Result).world, WaterWorld)
 
 
-def _bootstrapped(samples, statistic, rng, axis=-1):
+def _bootstrapped(samples, statistic, axis=-1):
     return scipy.stats.bootstrap(samples, statistic, n_resamples=RESAMPLES, confidence_level=0.95, method="percentile",
-                                 vectorized=True, axis=axis, rng=np.random.default_rng(rng)).confidence_interval
+                                 vectorized=True, axis=axis, rng=np.random.default_rng(0)).confidence_interval

@@ -9,7 +9,7 @@ import readme
 
 from neorl import Agent, Desire, Node, Policy
 from neorl.core import modality
-from neorl.evidence.claims import VERDICTS
+from neorl.evidence.verdict import VERDICTS
 from lib.shared.report import NOT_COMPUTED
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 

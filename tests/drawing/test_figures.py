@@ -9,7 +9,7 @@ from neorl import (Condition, NresMap, Result, Run, WaterWorld, brownian, networ
                    simulate)
 from neorl.core.geometry import TAU
 from neorl import drawing
-from neorl.evidence.curves import binned_rate, low_passed
+from neorl.evidence.statistics import binned_rate, low_passed
 
 
 @pytest.fixture(scope="module")

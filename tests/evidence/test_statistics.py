@@ -43,14 +43,6 @@ def test_an_interval_covers_the_truth_as_often_as_it_says(estimated, by, spread,
     assert 0.88 <= covered / trials <= 0.99
 
 
-def test_a_bootstrap_draws_from_the_generator_that_it_is_given():
-    sample = np.random.default_rng(0).normal(size=20)
-    generator = np.random.default_rng(7)
-    first, second = (estimate(np.mean, sample, rng=generator) for _ in range(2))
-    assert first != second
-    assert estimate(np.mean, sample, rng=7) == first
-
-
 def test_the_tolerated_share_is_wilks():
     """The share between the extremes of 93 and of 46 runs, from tables of Wilks's formula."""
     assert tolerated_share(93) == pytest.approx(0.95, abs=5e-4)  # two-sided 95 % / 95 %

@@ -12,7 +12,7 @@ import neorl
 from neorl import (CALIBRATED, Learning, Policy, multimodal, network_a, network_b, network_c, network_d, place_cells,
                    simulate)
 from neorl.agents.rules import AT_EVERY_STEP
-from neorl.evidence.claims import Claim
+from neorl.evidence.verdict import Claim
 from neorl.evidence.reading import GROUPS, Reading, conditions, judge
 from neorl.evidence.statistics import Estimate
 

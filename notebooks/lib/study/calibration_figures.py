@@ -19,7 +19,7 @@ from lib.study.multiverse import binned
 from lib.study.multiverse_figures import SHADES
 from neorl.drawing.style import (AGENT, CURVES, INK, RED, SMALL, TEXT, axes_or_new, name_ends,
                                  width_of_figures)
-from neorl.evidence.curves import binned_rate, low_passed
+from neorl.evidence.statistics import binned_rate, low_passed
 
 ROW = 0.15  # inches, for a bar with its name
 NARROW = 12  # letters per line

@@ -21,7 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl import checks
-from neorl.evidence.claims import EARLY, FINAL
+from neorl.evidence.verdict import EARLY, FINAL
 from neorl.evidence.statements import STATEMENTS, Bounds
 from neorl.evidence.statistics import time_to_final_level
 
