@@ -35,9 +35,8 @@ from neorl.core.scene import ABSENT, CARDINAL, Actions, Scene
 from neorl.core.stream import randint, uniform
 from neorl.experiments.condition import Condition
 from neorl.experiments.result import Result
-from neorl.experiments.run import Run
-from neorl.experiments.simulation import simulate, simulate_once, sweep
-from neorl.experiments.trajectory import Trajectory
+from neorl.experiments.run import Run, Trajectory
+from neorl.experiments.simulation import simulate, sweep
 from neorl.worlds import walls
 from neorl.worlds.arena import Arena
 from neorl.worlds.arm import Arm
@@ -51,7 +50,7 @@ __all__ = ["ABSENT", "Actions", "Agent", "Arena", "Arm", "Axis", "CALIBRATED", "
            "Desire", "Dynamics", "GREEDY", "Learner", "Learning", "Modality", "Node", "NresMap", "Place", "Policy",
            "Result", "Run", "Scene", "TO_THE_LETTER", "Trajectory", "Vessel", "WaterMaze", "WaterWorld", "World",
            "array", "cartesian", "execute", "greedy", "heading", "kernel", "kernel_maker", "learn", "modality", "polar",
-           "randint", "simulate", "simulate_once", "softmax", "superpose", "sweep", "turn", "uniform", "walls",
+           "randint", "simulate", "softmax", "superpose", "sweep", "turn", "uniform", "walls",
            "brownian", "forager", "multimodal", "network_a", "network_b", "network_c", "network_d",
            "object_vector_cells", "place_cells"]
 

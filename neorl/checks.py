@@ -85,8 +85,8 @@ def one_of(name: str, value: Any, options: Iterable[Kind]) -> Kind:
 
 def several(name: str, values: Any) -> tuple[Any, ...]:
     """`values` as a tuple, if they are a list, a tuple, a range or an array of at most 2²⁰ values."""
+    values = as_array(name, values) if isinstance(values, np.ndarray) else values
     if isinstance(values, list | tuple | range) or isinstance(values, np.ndarray) and values.ndim:
-        unmasked(name, values)
         with contextlib.suppress(OverflowError):  # a range may be too long for its length
             if len(values) <= MOST:
                 return tuple(values)
@@ -108,24 +108,24 @@ def finite(name: str, array: NDArray, at_most: float = LARGEST) -> NDArray:
 
 def doubles(name: str, values: Any, at_most: float = LARGEST) -> NDArray[np.float64]:
     """`values` as a new array of doubles, if they are finite numbers, in lists of equal lengths."""
-    unmasked(name, values)
-    try:
-        array = np.asarray(several(name, values) if isinstance(values, range) else values)
-        if array.dtype.kind == "O" and all(isinstance(each, numbers.Real) for each in array.flat):
+    array = as_array(name, values)
+    if array.dtype.kind == "O" and all(isinstance(each, numbers.Real) for each in array.flat):
+        with contextlib.suppress(TypeError, ValueError, OverflowError):
             array = array.astype(float)
-    except (TypeError, ValueError, OverflowError):
-        array = np.array(None)
     if array.dtype.kind not in "fiub":
         raise error(name, "numbers, in lists of equal lengths", values)
     with np.errstate(over="ignore"):  # wider floats than doubles, which may become infinite
         return finite(name, np.array(array, float, order="C"), at_most)
 
 
-def unmasked(name: str, values: Kind) -> Kind:
-    """`values`, unless they are a masked array with a value that is masked."""
+def as_array(name: str, values: Any) -> NDArray:
+    """`values` as an array of any type, that of None if they are lists of unequal lengths; none may be masked."""
     if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
         raise error(name, "free of masked values", values, "fill them in, or leave them out")
-    return values
+    try:
+        return np.asarray(several(name, values) if isinstance(values, range) else values)
+    except (TypeError, ValueError, OverflowError):
+        return np.array(None)
 
 
 def points(name: str, values: Any, axes: Sequence[str]) -> NDArray[np.float64]:

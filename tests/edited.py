@@ -133,7 +133,7 @@ def lasting(kind, *made_of):
 
 def paid(how, program, numbers):
     """The reward of a step, by one of the ways to run an agent or a world."""
-    from neorl import Condition, Learner, Run, Scene, gym, simulate, simulate_once, sweep
+    from neorl import Condition, Learner, Run, Scene, gym, simulate, sweep
 
     agent, world, size = program.agent(), program.Mine(), {"steps": 2, "runs": 1}
     action = sum(numbers[part] for part in ACTION)
@@ -156,7 +156,7 @@ def paid(how, program, numbers):
         with ProcessPoolExecutor(1, get_context("spawn")) if how == "pool" else nullcontext() as pool:
             result, = sweep([Condition(agent, world, **size)], pool, progress=False)
     else:
-        result = {"simulate": simulate, "simulate_once": simulate_once}[how](agent, world, **size, progress=False)
+        result = simulate(agent, world, **size, cache=how == "cached", progress=False)
     return float(result.totals[0]) / 2
 
 

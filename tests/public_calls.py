@@ -16,12 +16,12 @@ from neorl import (CARDINAL, Actions, Agent, Arena, Arm, Axis, Condition, Contac
 from neorl.agents import learner
 from neorl.agents.beyond import forager, foveated_cells
 from neorl.agents.individual import Individual
+from neorl.browser import replay
 from neorl.core import horde, kernel
 from neorl.core.identity import identity
 from neorl.core.kernel import arrays
 from neorl.core.modality import MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, cartesian, polar
 from neorl.core.stream import new_stream
-from neorl.experiments import recording
 from neorl.gym import environment, playing, vector
 from neorl.worlds import walls, world
 
@@ -200,9 +200,6 @@ TABLE = {
         steps=st.integers(1, 60), runs=st.integers(1, 2), seed=seeds,
         changes=[(), [(20, neorl.place_cells([2]))]], threads=[None, 1],
         cache=[False, True], also=("change",)),
-    "neorl.experiments.simulation.simulate_once": entry(
-        partial(neorl.simulate_once, progress=False), long=("steps", "runs"), agent=agents, world=[BOARD], steps=[60],
-        runs=[1], seed=[0], changes=[()]),
     "neorl.experiments.condition.Condition": entry(
         Condition, agent=agents, world=[BOARD], steps=st.integers(1, 60), runs=st.integers(1, 2), seed=seeds,
         changes=[(), [(20, neorl.place_cells([2]))]], also=("change",),
@@ -222,8 +219,11 @@ TABLE = {
                                            place_gain=reals, object_gain=reals),
     "neorl.agents.papers.network_d": paper(neorl.network_d, recursion=reals, scale=st.floats(0, 2),
                                            signed=[True, False], place_gain=reals, object_gain=reals),
-    "neorl.experiments.recording.record": entry(
-        recording.record, name=["Newborn"], run=st.builds(new_run), steps=st.integers(1, 5), long=("steps",)),
+    "neorl.browser.replay.record": entry(
+        replay.record, name=["Newborn"], run=st.builds(new_run), steps=st.integers(1, 5), long=("steps",)),
+    "neorl.browser.replay.Replay": entry(
+        lambda **each: replay.Replay(**each).speed, recordings=[[replay.record("Newborn", new_run(), 1)]],
+        playing=[True, False], speed=st.integers(1, 9)),
     "neorl.gym.environment.WorldEnv.reset": entry(
         lambda **each: new_env().reset(**each)[0], seed=[None, 0, 5], options=[None], also="run"),
     "neorl.gym.environment.WorldEnv.step": entry(

@@ -1,4 +1,1 @@
-"""Agents as data (nodes, desires, learning, policy), the papers' agents, and the arrays that kernels take of them.
-
-The room uses `neorl.core` and `neorl.worlds`.
-"""
+"""Agents as data (nodes, desires, learning, policy), the papers' agents, and the arrays that kernels take of them."""

@@ -191,11 +191,7 @@ def _is_empty(given):
 
 
 def _put(name, mine, given):
-    checks.unmasked(f"scene.{name}", given)
-    try:
-        values = np.asarray(checks.several(name, given) if isinstance(given, range) else given)
-    except ValueError:  # lists of unequal lengths
-        values = np.array(None)
+    values = checks.as_array(f"scene.{name}", given)
     if values.shape != mine.shape or values.dtype.kind not in "fiub":
         raise checks.error(f"scene.{name}", f"numbers of the shape {mine.shape}", given)
     if values.dtype.itemsize > 8:

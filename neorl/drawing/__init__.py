@@ -10,8 +10,6 @@ A figure of one panel is drawn into ``ax``, or into a new figure if that is None
 - maps: `draw_cells`, `draw_values`, `draw_value_map`;
 - networks: `draw_network`, `neorl.drawing.draw_networks`;
 - style: `use_style`, `STYLE` and the colours.
-
-The room uses `neorl.evidence` and the rooms below it.
 """
 
 from neorl.extras import require

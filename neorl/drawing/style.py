@@ -63,11 +63,7 @@ def by_name(name, values):
 
 def numbers(name, values):
     """`values` as an array of doubles within ±1e30, or NaN for gaps. Raises ValueError otherwise."""
-    checks.unmasked(name, values)
-    try:
-        array = np.asarray(values)
-    except (TypeError, ValueError, OverflowError):
-        array = np.array(None)
+    array = checks.as_array(name, values)
     if array.dtype.kind not in "fiub" or not np.all(np.isnan(array) | (np.abs(array) <= checks.LARGEST)):
         raise checks.error(name, f"numbers up to {checks.LARGEST:g}, in lists of equal lengths", values)
     return array.astype(float)

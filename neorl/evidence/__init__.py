@@ -1,4 +1,1 @@
-"""Statistics, claims with their rules and verdicts, readings of the text, and their calibration.
-
-The room uses `neorl.experiments` and the rooms below it, and draws nothing.
-"""
+"""Statistics, claims with their rules and verdicts, readings of the text, and what the text fixes."""

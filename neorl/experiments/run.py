@@ -7,6 +7,7 @@ The state of the world is writable, and is validated at every `Run.advance`.
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any, Self
 
 import numpy as np
@@ -21,12 +22,37 @@ from neorl.core import life
 from neorl.core.calls import execute, in_table
 from neorl.core.kernel import arrays
 from neorl.core.stream import new_stream
-from neorl.experiments.trajectory import Trajectory
 from neorl.worlds.rollout import recorded_in, rollout_in
 from neorl.worlds.world import World, check_outcome
 
 BIN_SECONDS = 0.2
 SLICE = 10_000  # steps between two checks for an interruption
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """What `Run.record` has recorded of a run, in frames of several steps.
+
+    steps: int64 (frames + 1,), how many steps the run had taken at the beginning and at the end of each frame.
+    positions: float64 (frames + 1, axes), of the agent then, in the world's units; where an episode ends, the place
+        where it ended.
+    actions: int64 (frames,), the number of the last action of each frame.
+    rewards: float64 (frames,), summed over each frame.
+    hits: int64 (frames, kinds), the number of things of each kind that were met in each frame.
+    ends: int64 (episodes,), how many steps the run had taken when each episode ended.
+    returns: float64 (episodes,), the total reward of each of these episodes; the first counts from where the recording
+        began.
+    """
+
+    steps: NDArray[np.int64]
+    positions: NDArray[np.float64]
+    actions: NDArray[np.int64]
+    rewards: NDArray[np.float64]
+    hits: NDArray[np.int64]
+    ends: NDArray[np.int64]
+    returns: NDArray[np.float64]
+
+    __eq__ = checks.equal_fields
 
 
 class Run(Individual):

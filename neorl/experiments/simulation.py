@@ -64,13 +64,6 @@ def simulate(agent: Agent, world: World, *, steps: int, runs: int, seed: int = 0
         raise failure.__cause__ or failure
 
 
-def simulate_once(agent: Agent, world: World, *, steps: int, runs: int, seed: int = 0,
-                  changes: tuple[tuple[int, Agent], ...] = (),
-                  progress: bool | Callable[[int, int], object] = True) -> Result:
-    """`simulate` with ``cache=True``. The arguments are those of `simulate`."""
-    return simulate(agent, world, steps=steps, runs=runs, seed=seed, changes=changes, cache=True, progress=progress)
-
-
 def sweep(conditions: Sequence[Condition], executor: Executor | None = None,
           progress: bool | Callable[[int, int], object] = True, *, cache: bool = True,
           threads: int | None = None) -> Iterator[Result]:

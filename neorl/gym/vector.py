@@ -120,11 +120,7 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
         """
         if not self._begun:
             raise gymnasium.error.ResetNeeded("step() must follow reset(), but came before it")
-        checks.unmasked("actions", actions)
-        try:
-            given = np.asarray(actions)
-        except ValueError:  # lists of unequal lengths
-            given = np.array(None)
+        given = checks.as_array("actions", actions)
         if (given.shape != (self.num_envs,) or given.dtype.kind not in "iu"
                 or not 0 <= given.min() <= given.max() < self.single_action_space.n):
             raise checks.error("actions", f"integers ({self.num_envs},) from 0 to {self.single_action_space.n - 1}",

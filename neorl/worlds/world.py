@@ -1,9 +1,12 @@
-"""The interface of worlds.
+"""The interface of worlds, and how to write one.
 
-A world is a frozen dataclass, whose fields users choose, with a `State`, rules, and two kernels:
+A world is one file, for which `neorl` has everything: ``from neorl import CARDINAL, Dynamics, Scene, World, array,
+kernel, randint, uniform, walls``. It is a frozen dataclass, whose fields users choose, with a `State`, rules, and two
+kernels:
 
 1. ``State``, a named tuple of arrays (`neorl.core.kernel.array`), holds everything that changes. It has a field
-   ``scene``, the `neorl.core.scene.Scene` that agents perceive, and a field ``stream`` of random numbers, uint64 (4,).
+   ``scene``, the `neorl.core.scene.Scene` that agents perceive, and a field ``stream``, uint64 (4,), from which random
+   numbers are drawn (`neorl.uniform`, `neorl.randint`).
 2. ``rules``, a named tuple of numbers and arrays, holds everything that stays constant, as the kernels take it.
 3. ``reset(state, rules)`` starts an episode; ``step(state, rules, action)`` takes a step, and returns the reward and
    whether the episode is over. Both have annotated arguments. For each thing, a step sets ``scene.met`` to 0, or to 1 +
@@ -11,6 +14,10 @@ A world is a frozen dataclass, whose fields users choose, with a `State`, rules,
 4. ``kinds`` names the kinds of its things, the one that agents want by default first; ``actions`` are its `Actions`,
    whose numbers ``step`` takes. ``size`` is its unit of length, such as its width; ``fps`` is its number of steps per
    second; ``things`` is its number of things.
+
+`neorl.Run`, `neorl.simulate`, `neorl.sweep` and the cache accept it as it is. `notebooks/own_world.ipynb` has a small
+example, `neorl.worlds.arena` is a larger one. `neorl.heading` and `neorl.turn` stand in for cosine, sine and the
+arctangent.
 
 With ``NUMBA_DISABLE_JIT=1`` in the environment, the kernels are the Python functions that they were written as, with
 the same bits: `breakpoint` and `print` work in them, and an index out of range raises IndexError instead of crashing.

@@ -29,7 +29,7 @@ def cells(request):
 def test_a_page_shows_its_experiment_in_one_cell(cells):
     (experiment,) = [cell for cell in cells if "experiment" in tags(cell)]
     assert not HIDDEN & tags(experiment) and 8 <= len(experiment.source.splitlines()) <= 20
-    assert re.search(r"\b(sweep|simulate|simulate_once)\(|\bLearner\(", experiment.source)
+    assert re.search(r"\b(sweep|simulate)\(|\bLearner\(", experiment.source)
     drawn = [cells.index(cell) for cell in cells if "figure" in cell.metadata.get("mystnb", {})]
     assert cells.index(experiment) < min(drawn)
 

@@ -9,7 +9,7 @@ import edited
 import pytest
 import verify
 
-from neorl import Condition, WaterWorld, multimodal, place_cells, simulate_once
+from neorl import Condition, WaterWorld, multimodal, place_cells, simulate
 from neorl.experiments import store
 
 KEPT = [Condition(place_cells([3]), WaterWorld(), 505, 3, 1),
@@ -38,7 +38,7 @@ def verified(monkeypatch, capsys):
 
 @pytest.fixture
 def kept():
-    return [simulate_once(**condition.choices, progress=False) for condition in KEPT]
+    return [simulate(**condition.choices, cache=True, progress=False) for condition in KEPT]
 
 
 def test_runs_equal_to_the_cached_ones_pass(kept, verified):
@@ -63,7 +63,7 @@ def test_conditions_of_a_world_that_has_changed_are_counted_and_skipped(tmp_path
     first, work = dict.fromkeys(edited.PARTS, 1), "\n".join([
         "import program", "from neorl import *",
         "for life in ((program.agent(), program.Mine()), (place_cells([2]), WaterWorld())):",
-        "    simulate_once(*life, steps=2, runs=1, progress=False)"])
+        "    simulate(*life, steps=2, runs=1, cache=True, progress=False)"])
     (folder := tmp_path / "program").mkdir()
     edited.write(folder, first)
     monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")

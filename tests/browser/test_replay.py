@@ -6,8 +6,7 @@ from explorer_page import write_page
 from playwright.sync_api import expect
 
 from neorl import Run, WaterWorld, place_cells
-from neorl.browser.replay import Replay
-from neorl.experiments.recording import record
+from neorl.browser.replay import Replay, record
 from neorl.worlds.waterworld import GREEN
 
 AGENT, TANK = place_cells([3]), WaterWorld(n_creeps=12)

@@ -12,12 +12,12 @@ import edited
 import pytest
 from subprograms import printed
 
-from neorl import Condition, Policy, WaterWorld, kernel, place_cells, simulate_once, sweep
+from neorl import Condition, Policy, WaterWorld, kernel, place_cells, simulate, sweep
 from neorl.core.kernel import jit_is_off
 from neorl.experiments import simulation
 
 QUICK = ("Learner", "World", "environment", "Modality")  # to compile
-WAYS = ("simulate_once", "sweep", "simulate", "Run", *QUICK)
+WAYS = ("cached", "sweep", "simulate", "Run", *QUICK)
 FIRST = dict.fromkeys(edited.PARTS, 1)
 pytestmark = pytest.mark.usefixtures("cache_folder")
 
@@ -45,8 +45,8 @@ def test_random_edits_of_compiled_kernels_are_never_missed(tmp_path):
 
 @pytest.mark.skipif(jit_is_off(), reason="the compiler is off")
 def test_a_constant_that_a_notebook_changes_changes_the_result_and_its_place_on_disk(tmp_path):
-    found = process(tmp_path / "program", FIRST, "1", "1", "action", "simulate_once", jit=True)
-    again = process(tmp_path / "program", found["numbers"], "1", "0", "action", "simulate_once")
+    found = process(tmp_path / "program", FIRST, "1", "1", "action", "cached", jit=True)
+    again = process(tmp_path / "program", found["numbers"], "1", "0", "action", "cached")
     assert found["wrong"] == again["wrong"] == [] and found["numbers"]["action"] == 0
 
 
@@ -74,7 +74,7 @@ def test_a_kernel_that_changes_while_it_runs_leaves_nothing_on_disk(cache_folder
     monkeypatch.setattr(simulation, "live", lambda *run: monkeypatch.setattr(sys.modules[__name__], "BIAS", 1))
     monkeypatch.setattr(simulation, "ATTEMPTS", 1)
     with pytest.raises(RuntimeError, match="change nothing while it runs"):
-        simulate_once(agent, WaterWorld(), steps=1, runs=1, progress=False)
+        simulate(agent, WaterWorld(), steps=1, runs=1, cache=True, progress=False)
     assert not list((cache_folder / "conditions").glob("*"))
 
 

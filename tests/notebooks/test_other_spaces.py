@@ -23,7 +23,7 @@ def cells(*names, **given):
         "runs": RUNS, "steps": STEPS, "seed": 0, "decisions": 200, **given}))
 
 
-def made_up(agent, world, *, steps, runs, seed, changes=()):
+def made_up(agent, world, *, steps, runs, seed, changes=(), cache):
     rewards, hits = new_bins(world, runs, steps)
     return Result(Condition(agent, world, steps, runs, seed, changes), rewards, hits)
 
@@ -33,7 +33,7 @@ def page():
     """The page down to its judgement, with short runs in the water maze and with birds, and no others."""
     driven = dict.fromkeys(["neoRL", "Q-learning", "random"], np.full((RUNS, trials.POINTS), 200.0))
     return cells("spaces-3", "pool-run", "birds", "birds-run", "car", "spaces-4", "judging",
-                 simulate_once=made_up, driven=driven)
+                 simulate=made_up, driven=driven)
 
 
 def test_all_agents_have_one_rule_and_one_policy(page):

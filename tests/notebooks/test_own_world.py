@@ -33,7 +33,7 @@ def agent():
 def look():
     condition = Condition(agent(), Pond(), 600, 2)
     known = condition.path.exists()
-    reward = simulate_once(**condition.choices, progress=False).rewards.sum()
+    reward = simulate(**condition.choices, cache=True, progress=False).rewards.sum()
     print(json.dumps([condition.key, float(reward), known]))
 """
 SAVED = """

@@ -68,8 +68,8 @@ def test_points_are_taken_from_the_same_runs(cache_folder):
     counted = page["boards"]["calibrated"]
     assert {name: each.steps for name, each in counted.items()} == {
         "PC": 10_000, "OVC": 10_000, "PC + OVC": 40_000, "Brownian motion": 10_000}
-    both, paying = (neorl.simulate_once(**each.choices) for each in (page["made"]["calibrated"]["both"],
-                                                                     counted["PC + OVC"]))
+    both, paying = (neorl.simulate(**each.choices, cache=True)
+                    for each in (page["made"]["calibrated"]["both"], counted["PC + OVC"]))
     np.testing.assert_array_equal(both.hits, paying.hits)
     assert paying.totals[0] > both.totals[0]
 

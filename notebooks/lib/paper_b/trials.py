@@ -16,7 +16,7 @@ from neorl.agents.agent import Desire, Node, Place
 from neorl.agents.rules import Policy
 from neorl.core.modality import PLACE_CELL
 from neorl.experiments.run import Run, bin_steps
-from neorl.experiments.simulation import simulate_once, usable_threads
+from neorl.experiments.simulation import simulate, usable_threads
 
 PLACES = (Place(0.3, 0.3), Place(0.65, 0.65))  # desired in turn, for the agent's position
 MOVES, SECONDS_A_MOVE = 6, 30
@@ -79,8 +79,8 @@ def live_with_moving_desire(agent, world, steps, runs, seed=0):
     """The first two moves of experienced agents, as the `Result` of a condition that can be replayed."""
     desires = [desiring(agent, at) for at in PLACES]
     lived, move = steps // 4, SECONDS_A_MOVE * world.fps
-    return simulate_once(agent, world, steps=lived + 2 * move, runs=runs, seed=seed,
-                         changes=[(lived, desires[0]), (lived + move, desires[1])])
+    return simulate(agent, world, steps=lived + 2 * move, runs=runs, seed=seed, cache=True,
+                    changes=[(lived, desires[0]), (lived + move, desires[1])])
 
 
 def mean_stays(agent, world, steps, runs, seed=0, watched=15_000):
