@@ -54,8 +54,6 @@ TABLE = {
         then=lambda nres_map: nres_map.encode(np.zeros(len(nres_map.intervals)))),
     "neorl.core.maps.NresMap.encode": entry(
         NresMap(5).encode, points=[np.full((2, 3, 2), 0.5), [0.1, 0.9], [(0, 0), (-1, 2)], np.zeros((0, 2))]),
-    "neorl.core.maps.NresMap.covers": entry(
-        NresMap(5).covers, points=[np.full((2, 3, 2), 0.5), [0.1, 0.9], [(0, 0), (-1, 2)], np.zeros((0, 2))]),
     "neorl.core.horde.learn": entry(
         lambda **each: (horde.learn(**each), each["q"][each["cell_tm1"]]), q=q, cell_tm1=st.integers(0, 3),
         cell_t=st.integers(0, 3),

@@ -46,7 +46,7 @@ def use_modality(cells):
     assert restored(described(cells)) == cells
     board = WaterWorld(n_creeps=2)
     return (NresMap(3, cells).encode(np.full((2, len(cells.axes)), 0.3)),
-            cells.coordinates(board.reset(0).scene, board.size) if cells.least_axes <= 2 else None, cells.frame)
+            cells.coordinates(board.reset(0).scene, board.size) if cells.least_axes <= 2 else None)
 
 
 def want_it(desire):

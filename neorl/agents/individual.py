@@ -179,8 +179,8 @@ class Individual:
     def save(self, path: str | PathLike[str]) -> None:
         """Save everything to a file, from which `load` continues bit for bit the same.
 
-        path: of the file, a string or a `pathlib.Path`; an existing file is replaced. Raises OSError if it cannot be
-        written, ValueError for anything else, and for an agent with a kernel that is not defined in a module.
+        An existing file is replaced. Raises OSError if it cannot be written, ValueError for anything but a path, and
+        for an agent with a kernel that is not defined in a module.
         """
         about = {"agent": described(self.agent, Agent), "world": described(self.world), "progress": self._progress}
         write_arrays(checks.path("path", path), type(self).__name__, about, {
@@ -190,8 +190,7 @@ class Individual:
     def load(cls, path: str | PathLike[str]) -> Self:
         """Load a `Learner` or `Run` that `save` has written.
 
-        path: of the file, a string or a `pathlib.Path`. Raises OSError if there is no such file, ValueError if it is
-        damaged, or of another kind or version.
+        Raises OSError if there is no such file, ValueError if it is damaged, or of another kind or version.
         """
         path = checks.path("path", path)
         about, kept = read_arrays(path, cls.__name__)

@@ -30,11 +30,6 @@ class CompileCache(NullCache):
     def __init__(self, kernel, reading):
         self._kernel, self._reading = kernel, reading
 
-    @property
-    def cache_path(self):
-        """The folder of all compiled kernels."""
-        return str(files.cache_folder() / "compiled")
-
     def load_overload(self, sig, target_context):
         """The compiled code for a signature, or None."""
         target_context.refresh()

@@ -47,14 +47,6 @@ class AxisParameters(NamedTuple):
 LOW, SCALE, LAST, BEYOND, STRIDE = range(5)
 
 
-@inlined_kernel
-def into_margin(x, reach):
-    """How far a component in 0 … 1 reaches into the margin along either wall, negative along the first."""
-    if x < 0.5:
-        return min(x - reach, 0.0)
-    return max(x - (1.0 - reach), 0.0)
-
-
 @kernel
 def turn(x, y):
     """The direction of a vector in turns, 0 ≤ turn < 1: 0 along +x, a quarter along +y."""
@@ -145,7 +137,8 @@ def locate(parameters, constants, scene, n, point, given, offset, coordinates, f
                 root = math.sqrt(abs(coordinate))  # abs() avoids a library call for negative arguments
                 coordinate = root if coordinate > 0.0 else -root
             elif feature == Feature.margin:
-                coordinate = into_margin(coordinate, axes.high[axis])
+                reach = axes.high[axis]  # into the margin along either wall, negative along the first
+                coordinate = min(coordinate - reach, 0.0) if coordinate < 0.5 else max(coordinate - (1.0 - reach), 0.0)
         else:
             coordinate, x, y = 0.0, 0.0, 0.0
             for each in range(len(constants.axes)):

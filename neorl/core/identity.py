@@ -119,7 +119,9 @@ class Reading:
                              "numba.jit, which would keep the values that its globals had then")
         self.functions.append(function)
         code, of_globals, attributes = _read(function.__code__)
-        found = closure + [(each, self._global(function, each)) for each in of_globals]
+        scope = function.__globals__
+        self._names += [(scope, each) for each in of_globals]
+        found = closure + [(each, scope.get(each, getattr(builtins, each, None))) for each in of_globals]
         modules = [(each, module) for each, module in found if isinstance(module, ModuleType)]
         for path, module in modules:  # which grows
             if _is_known(module.__name__):
@@ -132,10 +134,6 @@ class Reading:
                         modules.append((f"{path}.{each}", attribute))
         defaults = self._of((function.__defaults__, *(function.__kwdefaults__ or {}).items()))
         return f"{code}{defaults}({self._named(found)})"
-
-    def _global(self, function, name):
-        self._names.append((function.__globals__, name))
-        return function.__globals__.get(name, getattr(builtins, name, None))
 
     def _named(self, found):
         return ", ".join(f"{name}={self._of(each)}" for name, each in found)

@@ -62,16 +62,6 @@ class NresMap(checks.Final):
         execute(encode, space_of(self.modality, self.resolution), as_turns(self.modality, points), cells.reshape(-1))
         return cells
 
-    def covers(self, points: ArrayLike) -> NDArray[np.bool]:
-        """Whether each point lies in the range of the map, so that encoding does not clamp it: bool (…).
-
-        points: float (…, axes), coordinates of the modality. Raises ValueError for anything else.
-        """
-        points = checks.points("points", points, self.modality.names)
-        open_axes = [i for i, axis in enumerate(self.modality.axes) if not axis.closed]
-        low, high = (np.array([getattr(self.modality.axes[i], end) for i in open_axes]) for end in ("low", "high"))
-        return np.all((low <= points[..., open_axes]) & (points[..., open_axes] <= high), axis=-1)
-
 
 @kernel
 def encode(space: SpaceParameters, points: array("float64", "points", "coordinates"),

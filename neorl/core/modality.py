@@ -41,8 +41,6 @@ SEVERAL = ("objects", "boundaries", "landmarks")  # there may be several of each
 MOST_CELLS = 2**31 - 1  # of a map
 MOST_MIRRORED = 3  # axes of a world; one of n axes has 2ⁿ n! mirror images
 FEATURES = tuple(Feature.__members__)
-SEEN_FROM_AGENT = "centred on the agent, allocentric direction"
-FRAMES = {"position": "allocentric", "velocity": "allocentric direction"}
 
 
 @dataclass(frozen=True)
@@ -206,12 +204,6 @@ class Modality(checks.Final):
     def names(self) -> tuple[str, ...]:
         """The names of the coordinates; a direction is in radians."""
         return tuple(axis.name for axis in self.axes)
-
-    @property
-    def frame(self) -> str:
-        """The reference frame; a length alone has none."""
-        lengths = {axis.feature for axis in self.axes} == {"length"}
-        return "–" if lengths else FRAMES.get(self.follows, SEEN_FROM_AGENT)
 
     @property
     def takes_places(self) -> bool:

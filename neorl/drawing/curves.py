@@ -13,8 +13,7 @@ from numpy.typing import ArrayLike
 
 from neorl import checks
 from neorl.drawing.style import INK, axes_or_new, by_name, looks, name_ends, numbers
-from neorl.evidence.statistics import (CUTOFF_PERIODS, Estimate, binned_rate, low_passed, mean_band,
-                                       tolerance_band)
+from neorl.evidence.statistics import Estimate, binned_rate, mean_band, tolerance_band
 from neorl.experiments.result import Result
 
 POINTS = 400  # per curve; more would not be visible
@@ -68,32 +67,6 @@ def draw_proficiency(results: Mapping[str, Result], total: tuple[str, Sequence[R
         curves[name] = rates[0][0], sum(rate for _, rate in rates)
     longest = max([*results.values(), *(parts if total is not None else ())], key=lambda result: result.seconds)
     return _draw_rates(curves, longest.seconds, _looks(results, curves.keys() - results.keys()), ax)
-
-
-def draw_smoothed(results: Mapping[str, Result], ax: Axes | None = None) -> Axes:
-    """Draw mean reward per second over the run, low-passed as in paper B, with the 95 % interval of the mean.
-
-    The unfiltered mean is a thin line behind the curve, clipped to the axes.
-
-    results: {name: `neorl.Result`}.
-    Raises ValueError for anything else, and for runs of 40 bins (8 s) or fewer, which are too short to smooth.
-
-    >>> results = {"N7": neorl.simulate(neorl.place_cells([7]), neorl.WaterWorld(), steps=5_000, runs=4)}
-    >>> axes = drawing.draw_smoothed(results)
-    """
-    for name, result in _checked(results).items():
-        if result.rewards.shape[1] <= 2 * CUTOFF_PERIODS:
-            raise ValueError(f"results[{name!r}] must have more than {2 * CUTOFF_PERIODS} bins, but has "
-                             f"{result.rewards.shape[1]}; smoothing takes longer runs")
-    curves = {name: _rates(result, POINTS) for name, result in results.items()}
-    styles = looks(len(curves))
-    longest = max(result.seconds for result in results.values())
-    axes = _draw_rates({name: (minutes, low_passed(rate)) for name, (minutes, rate) in curves.items()}, longest, styles,
-                       ax)
-    axes.set_ylim(axes.get_ylim())
-    for (minutes, rate), (colour, _) in zip(curves.values(), styles):
-        axes.plot(minutes, rate.mean(axis=0), color=colour, linewidth=0.5, alpha=0.4, zorder=1)
-    return axes
 
 
 def _checked(results, what="results"):

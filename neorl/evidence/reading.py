@@ -7,12 +7,13 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Annotated, Any
 
 from neorl import checks
 from neorl.agents import papers, rules
 from neorl.agents.agent import Agent, Node
 from neorl.agents.rules import CALIBRATED, GREEDY, Learning, Policy
+from neorl.checks import AtLeastOne, OneOf, Share
 from neorl.evidence import claims
 from neorl.evidence.pins import agreement
 from neorl.experiments.condition import Condition
@@ -72,24 +73,20 @@ class Reading:
     object_beyond: str = papers.OF_OBJECTS["object_beyond"]  # type: ignore[assignment]
     object_centred: bool = papers.OF_OBJECTS["object_centred"]  # type: ignore[assignment]
     weighting: str = Node.weighting
-    exploration: float = GREEDY.exploration
+    exploration: Share = GREEDY.exploration
     when_indifferent: str = GREEDY.when_indifferent
     place_gain: float = papers.PLACE_GAIN
     network_gain: float = 1.0
-    vectors: str = "by size"
+    vectors: Annotated[str, OneOf(VECTORS)] = "by size"
     scale: float = papers.SCALE
     recursion: float = -1.0
     network_resolutions: tuple[int, ...] = LAYERS
-    fps: int = WaterWorld.fps
+    fps: AtLeastOne = WaterWorld.fps
     contact: str = WaterWorld.contact
 
     def __post_init__(self):
-        checks.one_of("vectors", self.vectors, VECTORS)
-        resolutions = checks.several("network_resolutions", self.network_resolutions)
-        checks.assign(self, network_resolutions=resolutions,
-                      exploration=checks.real("exploration", self.exploration, 0, 1),
-                      recursion=checks.real("recursion", self.recursion),
-                      fps=checks.integer("fps", self.fps, at_least=1))
+        checks.check_fields(self)
+        checks.assign(self, network_resolutions=checks.several("network_resolutions", self.network_resolutions))
 
     @property
     def within_the_text(self):

@@ -63,11 +63,6 @@ class Statement:
     also: Mapping[str, Bounds] = field(default_factory=dict)  # of other numbers that the rule compares, by name
     demonstration: bool = False  # an experiment of this book, shown beside the claims and not counted among them
 
-    @property
-    def borders(self):
-        """The finite ends of the bounds of our number."""
-        return tuple(end for end in (self.bounds.low, self.bounds.high) if math.isfinite(end))
-
 
 ONE_MAP, MAPS = "paper A, Results, Single layer", "paper A, Results, Multiple resolutions"
 GENERAL, BOTH = "paper B, section 3.1", "paper B, section 3.2"

@@ -17,10 +17,7 @@ from neorl.worlds.waterworld import WaterWorld
 
 RESAMPLES = 1_000
 Results = Result | Sequence[Result]
-MOST_RUNS = 2**31
-# Paper B smooths its curves "by a Butterworth low-pass filter" (section 3). The thesis states neither of these.
-FILTER_ORDER = 4
-CUTOFF_PERIODS = 20  # per run: the filter removes higher frequencies
+TOLERATED = 0.75  # the share of all possible runs that a tolerance band contains
 RECENT = 1 / 40  # of a run: the window over which the mean reward per second counts as reaching a level
 
 
@@ -128,34 +125,25 @@ def resets(result: Result) -> NDArray[np.float64]:
     return np.rint((result.totals - points(result)) / win_reward)
 
 
-def tolerance_band(curves: ArrayLike, share: float = 0.75, confidence: float = 0.95) -> NDArray[np.float64]:
-    """The band between two order statistics that contains a share of all possible runs, at each point: (low, high).
+def tolerance_band(curves: ArrayLike) -> NDArray[np.float64]:
+    """The band between two order statistics that contains 75 % of all possible runs, at each point: (low, high).
 
-    It is the narrowest band, with as many runs above as below, that contains `share` of them with `confidence`,
-    whatever their distribution (Wilks 1941). With too few runs, fewer than 18 by default, it is their whole range and
-    contains less, by as much as `tolerated_share` says.
+    It is the narrowest band, with as many runs above as below, that contains them with a confidence of 95 %, whatever
+    their distribution (Wilks 1941). With fewer than 18 runs, it is their whole range and contains less, by as much as
+    `tolerated_share` says.
 
-    curves: (runs, points). share, confidence: numbers from 0 to 1. Returns float64 (2, points).
-    Raises ValueError unless both are numbers from 0 to 1, and the curves finite, of one run or more.
+    curves: (runs, points). Returns float64 (2, points). Raises ValueError unless they are finite, of one run or more.
     """
-    share, confidence = checks.real("share", share, 0, 1), checks.real("confidence", confidence, 0, 1)
-    checked = _curves(curves)
-    runs = len(checked)
-    beyond = 1
-    while 2 * (beyond + 1) <= runs and tolerated_share(runs, beyond + 1, confidence) >= share:
+    ordered, beyond = np.sort(_curves(curves), axis=0), 1
+    while tolerated_share(len(ordered), beyond + 1) >= TOLERATED:
         beyond += 1
-    ordered = np.sort(checked, axis=0)
     return ordered[[beyond - 1, -beyond]]
 
 
-def tolerated_share(runs: int, beyond: int = 1, confidence: float = 0.95) -> float:
-    """The share of all possible runs that, with `confidence`, lies between the `beyond`-th runs from the ends.
-
-    runs: integer ≥ 0. beyond: integer ≥ 1. confidence: a number from 0 to 1. Raises ValueError for anything else.
+def tolerated_share(runs, beyond=1):
+    """The share of all possible runs that, with a confidence of 95 %, lies between the `beyond`-th runs from the ends.
     """
-    runs, beyond = checks.integer("runs", runs, 0, MOST_RUNS), checks.integer("beyond", beyond, 1, MOST_RUNS)
-    confidence = checks.real("confidence", confidence, 0, 1)
-    return float(scipy.stats.beta.ppf(1 - confidence, runs + 1 - 2 * beyond, 2 * beyond)) if runs >= 2 * beyond else 0.0
+    return float(scipy.stats.beta.ppf(0.05, runs + 1 - 2 * beyond, 2 * beyond)) if runs >= 2 * beyond else 0.0
 
 
 def _recent_rates(result):
@@ -278,28 +266,6 @@ def binned_rate(result: Result, points: int) -> NDArray[np.float64]:
     edges = np.linspace(0, bins, points + 1).astype(int)
     sums = np.add.reduceat(result.rewards, edges[:-1], axis=1)
     return sums / np.diff(result.edges[edges])
-
-
-def low_passed(rates: ArrayLike) -> NDArray[np.float64]:
-    """Low-pass filter curves (runs, points) forwards and backwards, so that nothing shifts in time.
-
-    At either end a curve is extended by its point reflection, in the end point of a straight line fitted to its first
-    or last cutoff period: its own end point is as noisy as an unfiltered curve.
-    rates: (runs, points). Raises ValueError for anything but finite numbers, or if there are no more points than
-    twice `CUTOFF_PERIODS`.
-    """
-    rates = checks.doubles("rates", rates)
-    if rates.ndim != 2 or rates.shape[1] <= 2 * CUTOFF_PERIODS or not len(rates):
-        raise ValueError(f"rates must have the shape (runs, points), with more than {2 * CUTOFF_PERIODS} points, but "
-                         f"has {rates.shape}")
-    points = rates.shape[1]
-    sections = scipy.signal.butter(FILTER_ORDER, 2 * CUTOFF_PERIODS / points, output="sos")
-    near = points // CUTOFF_PERIODS
-    first, last = (np.polynomial.polynomial.polyfit(np.arange(near) + 0.5, end.T, 1)[0][:, None]
-                   for end in (rates[:, :near], rates[:, : -near - 1 : -1]))
-    mirrored = rates[:, ::-1]
-    longer = np.concatenate([2 * first - mirrored, rates, 2 * last - mirrored], axis=1)
-    return scipy.signal.sosfiltfilt(sections, longer, axis=1)[:, points : 2 * points]
 
 
 def _sample(name, values):

@@ -35,11 +35,6 @@ class Claim:
     undecided: bool  # not reproduced, but the intervals leave room for it, so that more runs might show it
 
     @property
-    def statement(self):
-        """The claim as stated, a `Statement`."""
-        return STATEMENTS[self.name]
-
-    @property
     def verdict(self):
         """The outcome, if there are enough runs for a verdict."""
         return self.outcome if self.runs >= RUNS_FOR_A_VERDICT else "no verdict"

@@ -120,9 +120,8 @@ class Result:
     def save(self, path: str | PathLike[str]) -> None:
         """Save to a NumPy npz file: the arrays rewards and hits, and the text about, a table in JSON.
 
-        path: of the file, a string or a `pathlib.Path`; an existing file is replaced.
-        Raises OSError if it cannot be written, ValueError for an agent or a world that cannot be imported by name
-        (`neorl.description`).
+        An existing file is replaced. Raises OSError if it cannot be written, ValueError for an agent or a world that
+        cannot be imported by name (`neorl.description`).
         """
         arrays = {"rewards": self.rewards, "hits": self.hits}
         write_arrays(checks.path("path", path), "Result", about(self.condition), arrays, np.savez_compressed)
@@ -131,7 +130,6 @@ class Result:
     def load(cls, path: str | PathLike[str]) -> Self:
         """Load a result that `save` has written.
 
-        path: of the file, a string or a `pathlib.Path`.
         Raises OSError if there is no such file, ValueError if it is damaged, of another kind or from a newer neorl, or
         if its agent or world cannot be imported.
         """

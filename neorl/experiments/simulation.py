@@ -78,11 +78,9 @@ def sweep(conditions: Sequence[Condition], executor: Executor | None = None,
     cache: as in `simulate`; without it, all results are in memory.
     threads: as in `simulate`. Not with an executor, which has workers of its own.
 
-    Results that cannot be written to disk stay in memory, with a warning.
-
     Raises ValueError for a bad argument, MemoryError if a single run, or results that cannot be written, do not fit
     into the free memory of this machine, RuntimeError for conditions that have failed three times, once all others are
-    kept; the next call resumes there.
+    kept; the next call resumes there. Warns if results cannot be written to disk.
     """
     conditions = checks.several("conditions", conditions)
     for condition in conditions:

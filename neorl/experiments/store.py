@@ -6,9 +6,8 @@
 2. The runs of a long condition are written every few seconds, and the whole condition once it is complete; then the
    single runs are removed. A short condition is written only once, so it has no overhead.
 3. If the disk cannot be written to, results stay in memory, with a warning.
-4. The files are in the folder that the environment variable ``NEORL_CACHE`` names, or in the user's cache folder; all
-   of them may be deleted at any time (`neorl.files`). Those whose folder and name follow neorl's scheme are listed and
-   removed, and no others; a file of claims must also describe itself.
+4. Files in the cache folder (`neorl.files`) whose folder and name follow neorl's scheme are listed and removed, and no
+   others; a file of claims must also describe itself.
 """
 
 import contextlib

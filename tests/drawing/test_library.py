@@ -36,8 +36,7 @@ def figures_of_one_panel(run):
     curves = {"one": np.ones((3, 4))}
     return {
         drawing.draw_accumulated: ({"N2": made_up(1)},), drawing.draw_proficiency: ({"N2": made_up(1)},),
-        drawing.draw_smoothed: ({"N2": made_up(1)},), drawing.draw_curves: (np.arange(4), curves),
-        drawing.draw_sweep: ([1, 2], ESTIMATES),
+        drawing.draw_curves: (np.arange(4), curves), drawing.draw_sweep: ([1, 2], ESTIMATES),
         drawing.draw_network: (network_d(),), drawing.draw_cells: (NresMap(3),),
         drawing.draw_values: (NresMap(3), np.ones((9, 4)) * [0, 1, 0, 0]),
         drawing.draw_value_map: (run, [(0.5, 0.5)]), drawing.draw_world: (TANK, run.world_state),
@@ -68,7 +67,7 @@ def test_the_examples_in_docstrings_run(module, tmp_path, monkeypatch):
             plt.close("all")
 
 
-@pytest.mark.parametrize("draw", [drawing.draw_accumulated, drawing.draw_proficiency, drawing.draw_smoothed])
+@pytest.mark.parametrize("draw", [drawing.draw_accumulated, drawing.draw_proficiency])
 def test_runs_of_different_lengths_are_drawn_to_scale(draw):
     for results in ({"long": made_up(20), "short": made_up(2)}, {"short": made_up(2), "long": made_up(20)}):
         axes = draw(results)

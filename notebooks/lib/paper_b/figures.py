@@ -32,6 +32,7 @@ THESIS_LEVELS = {"PC": PC, "OVC": PC, "PC + OVC": B3.bounds.number}
 THESIS_MINUTES = {"PC": B4.also["place cells"].number, "PC + OVC": B4.bounds.number}
 TUNINGS = {("component", "component"): "cartesian", ("margin", "margin"): "proximal", ("length", "direction"): "polar",
            ("direction",): "angle", ("length",): "length"}
+FRAMES = {"position": "allocentric", "velocity": "allocentric direction"}
 STRETCHES = 100  # intervals of a run in which red creeps are counted
 
 
@@ -158,8 +159,14 @@ def draw_time_scale(resolutions, stays):
 def modalities_table():
     """The modalities that the thesis names, as a Markdown table."""
     return table(["Cell", "Reference frame", "Tuned to", "Map"], [
-        [each.name, each.frame, f"{' × '.join(each.names)} ({TUNINGS[tuple(axis.feature for axis in each.axes)]})",
+        [each.name, _frame(each), f"{' × '.join(each.names)} ({TUNINGS[tuple(axis.feature for axis in each.axes)]})",
          f"{len(each.axes)}-D"] for each in MODALITIES])
+
+
+def _frame(modality):
+    """The reference frame of a modality; a length alone has none."""
+    lengths = {axis.feature for axis in modality.axes} == {"length"}
+    return "–" if lengths else FRAMES.get(modality.follows, "centred on the agent, allocentric direction")
 
 
 def values_table(values):

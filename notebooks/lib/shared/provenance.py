@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from lib.shared import wording
 from lib.shared.priors import BEYOND, WITHIN
-from neorl.evidence.statistics import CUTOFF_PERIODS, FILTER_ORDER
+from lib.shared.smoothing import CUTOFF_PERIODS, FILTER_ORDER
 from neorl.evidence.pins import PINS
 from neorl.evidence.reading import LAYERS, LENGTHS, PRIMES, SINGLE, Reading, conditions
 from neorl.evidence.statements import STATEMENTS

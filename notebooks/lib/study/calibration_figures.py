@@ -13,13 +13,14 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
 from lib.shared.priors import WITHIN
+from lib.shared.smoothing import low_passed
 from lib.study.calibration_results import INTERVALS, marginal, progress
 from lib.study.calibration_targets import TARGETS
 from lib.study.multiverse import binned
 from lib.study.multiverse_figures import SHADES
 from neorl.drawing.style import (AGENT, CURVES, INK, RED, SMALL, TEXT, axes_or_new, name_ends,
                                  width_of_figures)
-from neorl.evidence.statistics import binned_rate, low_passed
+from neorl.evidence.statistics import binned_rate
 
 ROW = 0.15  # inches, for a bar with its name
 NARROW = 12  # letters per line

@@ -21,9 +21,9 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl import checks
-from neorl.evidence.verdict import EARLY, FINAL
 from neorl.evidence.statements import STATEMENTS, Bounds
 from neorl.evidence.statistics import time_to_final_level
+from neorl.evidence.verdict import EARLY, FINAL
 
 BROWNIAN_A, BROWNIAN_B = 0.03, 0.1  # what Brownian motion earns per second with 8 creeps and with 3
 NOISE = 0.03  # reward per second: spread of the mean of a few runs, in trials before the targets were stated

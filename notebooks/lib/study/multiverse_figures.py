@@ -111,7 +111,8 @@ def _curve(axes, claims, name):
     """
     here = np.array([claim.here for claim in claims])
     order = np.argsort(np.nan_to_num(here[:, 0], nan=-np.inf), kind="stable")
-    low, high = _limits(here[:, 0], STATEMENTS[name].borders)
+    borders = [end for end in (STATEMENTS[name].bounds.low, STATEMENTS[name].bounds.high) if np.isfinite(end)]
+    low, high = _limits(here[:, 0], borders)
     at, value = np.arange(len(order)), here[order, 0]
     bottom, top = np.clip(np.nan_to_num(here[order, 1:], nan=low, posinf=high, neginf=low), low, high).T
     outcomes = np.array([outcome(claims[i]) for i in order])
@@ -126,7 +127,7 @@ def _curve(axes, claims, name):
             if places.any():  # an empty unclipped artist would be as large as the figure
                 axes.plot(at[places], heights[places], linestyle="none", marker=marker, color=colour, clip_on=False,
                           markersize=2.5 if marker in OUTCOMES.values() else 4)
-    for border in STATEMENTS[name].borders:
+    for border in borders:
         axes.axhline(border, color=INK, linewidth=0.8, linestyle="--")
     margin = 0.06 * (high - low)
     axes.set_ylim(low - margin, high + margin)
