@@ -64,7 +64,15 @@ class Described:
         path: a name that ends in .toml, which needs the package tomli-w, or .json.
         Raises ValueError for any other name, and for values that `to_dict` refuses.
         """
-        write_data(path, self.to_dict())
+        suffix, data = _suffix(path), self.to_dict()
+        if suffix == ".json":
+            text = json.dumps(data, indent=1, ensure_ascii=False, allow_nan=False)
+        else:
+            try:
+                text = require("tomli_w", extra="data").dumps(data)
+            except TypeError as error:  # None
+                raise ValueError(f"{path} cannot be written: {error}; choose a name that ends in .json") from error
+        write_whole(path, text.encode())
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Self:
@@ -73,38 +81,20 @@ class Described:
         path: a name that ends in .toml or .json.
         Raises OSError if there is no such file, ValueError for data that `from_dict` refuses.
         """
-        data = read_data(path)
+        import tomllib  # here, so that importing the package stays fast
+
+        suffix = _suffix(path)
+        try:
+            text = Path(path).read_text(encoding="utf-8")
+            data = tomllib.loads(text) if suffix == ".toml" else json.loads(text)
+        except (ValueError, RecursionError) as error:
+            raise ValueError(f"{path} must be written in {suffix[1:].upper()}, but is not: {error}") from error
+        if not isinstance(data, dict):
+            raise checks.error(str(path), "a table of fields", data)
         try:
             return cls.from_dict(data)
         except ValueError as error:
             raise ValueError(f"{path}: {error}") from error
-
-
-def read_data(path):
-    """The table in a TOML or JSON file: a dict. Raises OSError if the file is missing, ValueError for anything else."""
-    import tomllib  # here, so that importing the package stays fast
-
-    suffix = _suffix(path)
-    try:
-        text = Path(path).read_text(encoding="utf-8")
-        data = tomllib.loads(text) if suffix == ".toml" else json.loads(text)
-    except (ValueError, RecursionError) as error:
-        raise ValueError(f"{path} must be written in {suffix[1:].upper()}, but is not: {error}") from error
-    if isinstance(data, dict):
-        return data
-    raise checks.error(str(path), "a table of fields", data)
-
-
-def write_data(path, data):
-    """Write a table to a TOML or JSON file. Raises ValueError for other names, and for values they cannot hold."""
-    if _suffix(path) == ".json":
-        text = json.dumps(data, indent=1, ensure_ascii=False, allow_nan=False)
-    else:
-        try:
-            text = require("tomli_w", extra="data").dumps(data)
-        except TypeError as error:  # None
-            raise ValueError(f"{path} cannot be written: {error}; choose a name that ends in .json") from error
-    write_whole(path, text.encode())
 
 
 def _suffix(path):

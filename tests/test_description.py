@@ -14,7 +14,7 @@ from neorl import (Agent, Arena, Axis, Condition, Desire, Learning, Modality, No
                    brownian, kernel, multimodal, network_a, network_b, network_c, network_d, object_vector_cells,
                    place_cells, softmax)
 from neorl.core.modality import HEAD_DIRECTION_CELL, LANDMARK_VECTOR_CELL, MODALITIES, PLACE_CELL
-from neorl.description import described, read_data, restored
+from neorl.description import described, restored
 
 PAPERS = (place_cells, object_vector_cells, multimodal, network_a, network_b, network_c, network_d)
 SHARES = st.floats(0, 1)
@@ -165,9 +165,9 @@ def test_data_that_contain_themselves_are_refused():
 def test_other_files_are_refused_by_name(tmp_path, name, content, message):
     (tmp_path / name).write_bytes(content)
     with pytest.raises(ValueError, match=f"(?=.*{tmp_path / name}).*{message}"):
-        read_data(tmp_path / name)
+        Agent.load(tmp_path / name)
     with pytest.raises(OSError, match="nowhere"):
-        read_data(tmp_path / "nowhere.toml")
+        Agent.load(tmp_path / "nowhere.toml")
 
 
 def test_what_cannot_be_found_again_is_not_written(tmp_path):

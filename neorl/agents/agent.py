@@ -21,11 +21,8 @@ from neorl.core.maps import NresMap
 from neorl.core.modality import Modality
 from neorl.description import Described
 
-WEIGHTINGS = tuple(Weighting.__members__)
 MOST_PARTS = 4_096  # nodes, or desires; time and memory are quadratic in their number
-GOALS = ("cells", "contacts")
 STATES = tuple(name.replace("_", " ") for name in MapState.__members__)
-BEYOND_RANGE = ("outermost", "none")
 LEARNED, FIRST_WORTH = "learned", 1.0  # optimistic, so that unknown things are approached
 
 
@@ -56,12 +53,12 @@ class Node(checks.Final):
     name: str
     modality: Modality
     resolutions: Sequence[int]
-    weighting: Annotated[str, OneOf(WEIGHTINGS)] = "cells"
+    weighting: Annotated[str, OneOf(tuple(Weighting.__members__))] = "cells"
     gain: float = 1.0
-    goals: Annotated[str, OneOf(GOALS)] = "cells"
+    goals: Annotated[str, OneOf(("cells", "contacts"))] = "cells"
     state: Annotated[str, OneOf(STATES)] = "object"
     reach: NotNegative = 0.0
-    beyond: Annotated[str, OneOf(BEYOND_RANGE)] = "outermost"
+    beyond: Annotated[str, OneOf(("outermost", "none"))] = "outermost"
 
     def __post_init__(self):
         checks.instance("modality", self.modality, Modality)

@@ -11,13 +11,12 @@ from neorl.agents.agent import Agent
 from neorl.agents.compile import constants_of
 from neorl.agents.individual import Individual
 from neorl.agents.memory import kept_apart
+from neorl.checks import LARGEST
 from neorl.core import life
 from neorl.core.calls import bound
 from neorl.core.kernel import kernel, mapped, new_tuple
 from neorl.core.scene import ABSENT, CARDINAL, Actions, Scene
 from neorl.core.stream import new_stream
-
-LARGEST = checks.LARGEST
 
 
 @dataclass(frozen=True)
@@ -152,7 +151,7 @@ class Learner(Individual):
             else:
                 _put("met", offered.met, met)
         if not self._accept():
-            raise checks.error("scene", f"of finite numbers from {-checks.LARGEST:g} to {checks.LARGEST:g}", scene)
+            raise checks.error("scene", f"of finite numbers from {-LARGEST:g} to {LARGEST:g}", scene)
 
 
 class Offer(NamedTuple):

@@ -15,11 +15,7 @@ from neorl.core.choices import Credit, UpdateOn
 from neorl.core.kernel import check_kernel
 from neorl.core.policy import greedy
 
-UPDATES_ON = tuple(UpdateOn.__members__)
 CREDITS = tuple(name for name in Credit.__members__ if name != "own")
-ABSENT_FORMS = ("decay", "away")
-FEARS = ("avoidance", "approach")
-RIVALS = ("highest", "add")
 WHEN_INDIFFERENT = ("random", "no-op")
 
 
@@ -54,11 +50,11 @@ class Learning(checks.Final):
 
     learning_rate: Share = 0.1
     discount: Share = 0.9
-    update_on: Annotated[str, OneOf(UPDATES_ON)] = "cell"
+    update_on: Annotated[str, OneOf(tuple(UpdateOn.__members__))] = "cell"
     credit: str | Callable = "last"
     activity: NotNegative = 0.5
     absent_decay: Share = 0.0
-    absent_form: Annotated[str, OneOf(ABSENT_FORMS)] = "decay"
+    absent_form: Annotated[str, OneOf(("decay", "away"))] = "decay"
     terminal: bool = True
     memory: NotNegative = 0.0
     bootstrap: bool = True
@@ -103,8 +99,8 @@ class Contacts(checks.Final):
     first_value: Share = 0.31
     trace_rate: Share = 0.215
     caution: NotNegative = 0.309
-    fear: Annotated[str, OneOf(FEARS)] = "avoidance"
-    rivals: Annotated[str, OneOf(RIVALS)] = "highest"
+    fear: Annotated[str, OneOf(("avoidance", "approach"))] = "avoidance"
+    rivals: Annotated[str, OneOf(("highest", "add"))] = "highest"
 
     def __post_init__(self):
         checks.check_fields(self)

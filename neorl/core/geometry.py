@@ -77,10 +77,16 @@ def heading(turns):
 
     It stands in for cosine and sine, whose last bits differ between platforms.
     """
+    return circle(turns, CIRCLE_TERMS)
+
+
+@kernel
+def circle(turns, terms):
+    """Cosine and sine of an angle in turns, by so many terms of their series."""
     quarters = np.floor(4.0 * (turns - np.floor(turns)) + 0.5)
     angle = TAU * (turns - np.floor(turns) - 0.25 * quarters)  # within an eighth of a turn from the nearest axis
     square, cosine, sine = angle * angle, 1.0, 1.0
-    for n in range(CIRCLE_TERMS - 1, -1, -1):
+    for n in range(terms - 1, -1, -1):
         cosine = 1.0 - square / ((2 * n + 1) * (2 * n + 2)) * cosine
         sine = 1.0 - square / ((2 * n + 2) * (2 * n + 3)) * sine
     sine *= angle

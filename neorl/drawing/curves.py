@@ -59,26 +59,26 @@ def draw_proficiency(results: Mapping[str, Result], total: tuple[str, Sequence[R
     points = checks.integer("points", points, at_least=1)
     curves = {name: _rates(result, points) for name, result in _checked(results).items()}
     if total is not None:
-        name, parts = _checked_sum(total)
+        if not isinstance(total, tuple | list) or len(total) != 2 or not isinstance(total[0], str):
+            raise checks.error("total", "a pair of a name and a list of results", total)
+        name, parts = total[0], [checks.instance("total", each, Result) for each in checks.several("total", total[1])]
         if len({(part.seconds, part.rewards.shape) for part in parts}) != 1:
             raise ValueError("results of total must be one or more, all of as many runs and seconds, but are of "
                              f"{', '.join(f'{part.runs} × {part.seconds:g} s' for part in parts)}")
         rates = [_rates(part, points) for part in parts]
         curves[name] = rates[0][0], sum(rate for _, rate in rates)
     longest = max([*results.values(), *(parts if total is not None else ())], key=lambda result: result.seconds)
-    return _draw_rates(curves, longest.seconds, _looks(results, curves.keys() - results.keys()), ax)
+    styles = _looks(results, curves.keys() - results.keys())
+    axes = _draw_means(curves, "simulated minutes", "reward per second", styles, ax)
+    axes.set_xlim(0, longest.seconds / 60)
+    axes.axhline(0, color=INK, linewidth=0.7, zorder=1)
+    return axes
 
 
 def _checked(results, what="results"):
     for name, result in by_name(what, results).items():
         checks.instance(f"{what}[{name!r}]", result, Result)
     return results
-
-
-def _checked_sum(total):
-    if not isinstance(total, tuple | list) or len(total) != 2 or not isinstance(total[0], str):
-        raise checks.error("total", "a pair of a name and a list of results", total)
-    return total[0], [checks.instance("total", part, Result) for part in checks.several("total", total[1])]
 
 
 def _looks(results, grey):
@@ -90,13 +90,6 @@ def _rates(result, points):
     """Minutes (points,) and reward per second (runs, points), with at most as many points as bins."""
     points = min(points, result.rewards.shape[1])
     return (np.arange(points) + 0.5) / points * result.seconds / 60, binned_rate(result, points)
-
-
-def _draw_rates(curves, seconds, styles, ax):
-    axes = _draw_means(curves, "simulated minutes", "reward per second", styles, ax)
-    axes.set_xlim(0, seconds / 60)
-    axes.axhline(0, color=INK, linewidth=0.7, zorder=1)
-    return axes
 
 
 def draw_curves(xs: ArrayLike, curves: Mapping[str, ArrayLike], xlabel: str = "", ylabel: str = "",

@@ -9,8 +9,6 @@ from neorl.experiments import store
 from neorl.experiments.condition import Condition
 from neorl.experiments.simulation import label, simulate
 
-LAST_FIFTH = (0.8, 1.0)
-
 
 def main(arguments=None):
     """Run a command from its arguments, by default those of this process. Returns the exit status."""
@@ -53,7 +51,7 @@ def run_file(path, save=None):
     result = simulate(**condition.choices, cache=True, progress=sys.stderr.isatty())
     if save:
         result.save(save)
-    late = f", {_rate(result, *LAST_FIFTH)} in the last fifth" if len(result.time) >= 5 else ""
+    late = f", {_rate(result, 0.8)} in the last fifth" if len(result.time) >= 5 else ""
     spread = ", ± the standard deviation over runs" if result.runs > 1 else ""
     print(f"{label(condition.agent)} in {type(condition.world).__name__}, {condition.steps:,} steps, "
           f"{condition.runs} run{'s' * (condition.runs != 1)}, seed {condition.seed}")
@@ -61,9 +59,9 @@ def run_file(path, save=None):
     print(f"  kept in {save or condition.path}")
 
 
-def _rate(result, *shares):
+def _rate(result, begin=0.0):
     """The rate of reward as text, with its standard deviation over runs if there are several."""
-    rate = result.rate(*shares)
+    rate = result.rate(begin)
     return f"{rate.mean():.3f} ± {rate.std(ddof=1):.3f}" if result.runs > 1 else f"{rate.mean():.3f}"
 
 

@@ -140,14 +140,9 @@ def _tasks(keeper):
 
 def _run(tasks, executor, threads, cache, bar, name):
     """Compute tasks, and return the failed ones, [(task, exception), ...]."""
-    if executor is None:
-        with announcing(lambda compiles: bar.set_description(f"{name}, compiling" if compiles else name)):
-            return _run_here(tasks, threads, cache, bar)
-    return _collect(tasks, lambda condition, runs: executor.submit(
-        _live_there, pickle.dumps(condition), runs, condition.key), cache, lambda task: bar.update(task.steps))
-
-
-def _run_here(tasks, threads, cache, bar):
+    if executor is not None:
+        return _collect(tasks, lambda condition, runs: executor.submit(
+            _live_there, pickle.dumps(condition), runs, condition.key), cache, lambda task: bar.update(task.steps))
     conditions = {id(task.keeper): task.keeper.condition for task in tasks}.values()
     lives = [(agent, each.world) for each in conditions
              for agent in (each.agent, *(later for _, later in each.changes))]
@@ -161,8 +156,9 @@ def _run_here(tasks, threads, cache, bar):
         bar.update(lived)
 
     try:
-        return _collect(tasks, lambda condition, runs: pool.submit(
-            _live, condition, runs, condition.key if cache else None, each_slice, room), cache)
+        with announcing(lambda compiles: bar.set_description(f"{name}, compiling" if compiles else name)):
+            return _collect(tasks, lambda condition, runs: pool.submit(
+                _live, condition, runs, condition.key if cache else None, each_slice, room), cache)
     except BaseException:
         stop.set()
         raise

@@ -28,9 +28,7 @@ from neorl.worlds import walls
 from neorl.worlds.waterworld import DRAG
 from neorl.worlds.world import Dynamics, World, squared_distance
 
-SHAPES = ("round", "square")
-MOTIONS = ("inertia", "steps")
-RIM = 0.05  # distance from the wall at which a trial starts, in sizes
+STARTS = (0.5, 0.05), (0.5, 0.95), (0.95, 0.5), (0.05, 0.5)  # of trials, at the rim
 PUSH = 0.25  # sizes per second that an action adds to the velocity
 
 
@@ -137,8 +135,8 @@ class Arena(World, checks.Final):
     places: Sequence[tuple[str, float, float]] = (("platform", 0.65, 0.35),)
     pay: Sequence[float] = ()
     obstacles: Sequence[tuple[float, float, float, float]] = ()
-    shape: Annotated[str, OneOf(SHAPES)] = "round"
-    motion: Annotated[str, OneOf(MOTIONS)] = "inertia"
+    shape: Annotated[str, OneOf(("round", "square"))] = "round"
+    motion: Annotated[str, OneOf(("inertia", "steps"))] = "inertia"
     step_length: Annotated[float, Within(1e-9, 1)] = 0.02
     radius: Annotated[float, Within(1e-9, LARGEST)] = 0.06
     ends: bool = True
@@ -196,15 +194,13 @@ class Arena(World, checks.Final):
         """The rules as the kernels take them."""
         kinds = {kind: number for number, kind in enumerate(self.kinds)}
         pay = dict(zip(kinds, (*self.pay, *[1.0] * len(kinds))))
-        near, far = RIM, 1.0 - RIM
         obstacles = walls.table(self.obstacles)
         obstacles[:, :2] -= obstacles[:, :2] == 0.0  # those at a side reach beyond it, or an agent at
         obstacles[:, 2:] += obstacles[:, 2:] == 1.0  # the side could pass along their edge
-        starts = [self.start] * 4 if self.start else [(0.5, near), (0.5, far), (far, 0.5), (near, 0.5)]
         return ArenaRules(
             self.size, 1.0 / self.fps, self.shape == "round", self.step_length if self.motion == "steps" else 0.0,
             self.radius, self.ends, max(1, round(self.trial_seconds * self.fps)), 1 if self.start else 4,
-            np.array(starts, float), self.actions.table,
+            np.array([self.start] * 4 if self.start else STARTS, float), self.actions.table,
             np.array([at for _, *at in self.places], float).reshape(-1, 2),
             np.array([kinds[kind] for kind, *_ in self.places], np.int64),
             np.array([pay[kind] for kind, *_ in self.places], float), obstacles)

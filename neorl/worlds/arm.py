@@ -21,7 +21,7 @@ import numpy as np
 
 from neorl import checks
 from neorl.checks import AtLeastOne, Within
-from neorl.core.geometry import TAU
+from neorl.core.geometry import circle
 from neorl.core.kernel import array, kernel
 from neorl.core.scene import Actions, Scene
 from neorl.core.stream import uniform
@@ -104,30 +104,10 @@ def find_hand(posture, length, hand):
     along_x, along_y = 1.0, 0.0  # the direction of the link
     hand[0] = hand[1] = 0.0
     for joint in range(length.shape[0]):
-        cosine, sine = unit_vector(posture[joint])
+        cosine, sine = circle(posture[joint], TERMS)
         along_x, along_y = along_x * cosine - along_y * sine, along_x * sine + along_y * cosine
         hand[0] += length[joint] * along_x
         hand[1] += length[joint] * along_y
-
-
-@kernel
-def unit_vector(turns):
-    """Cosine and sine of an angle in turns, by their series within an eighth of a turn of the nearest quarter."""
-    quarter = np.floor(4.0 * turns + 0.5)
-    angle = (turns - 0.25 * quarter) * TAU
-    cosine = sine = 1.0
-    for n in range(TERMS, 0, -1):
-        cosine = 1.0 - angle * angle / ((2 * n - 1) * (2 * n)) * cosine
-        sine = 1.0 - angle * angle / ((2 * n) * (2 * n + 1)) * sine
-    sine *= angle
-    quarter -= 4.0 * np.floor(0.25 * quarter)
-    if quarter == 1.0:
-        return -sine, cosine
-    if quarter == 2.0:
-        return -cosine, -sine
-    if quarter == 3.0:
-        return sine, -cosine
-    return cosine, sine
 
 
 @dataclass(frozen=True)

@@ -27,7 +27,7 @@ from neorl.checks import AtLeastOne, Within
 from neorl.core.kernel import array, kernel
 from neorl.core.scene import ABSENT, CARDINAL, Scene
 from neorl.core.stream import randint
-from neorl.worlds.arena import RIM
+from neorl.worlds.arena import STARTS
 from neorl.worlds.world import Dynamics, World, squared_distance
 
 PUSH = 0.02  # diameters per second that an action adds to the velocity
@@ -151,10 +151,9 @@ class WaterMaze(World, checks.Final):
     @property
     def rules(self) -> WaterMazeRules:
         """The rules as the kernels take them."""
-        near, far = RIM, 1.0 - RIM
         return WaterMazeRules(
             1.0 / self.fps, self.radius, max(1, round(self.trial_seconds * self.fps)), self.trials_a_day,
-            np.array(self.places), np.array([(0.5, near), (0.5, far), (far, 0.5), (near, 0.5)]), self.actions.table)
+            np.array(self.places), np.array(STARTS), self.actions.table)
 
     def check_state(self, state: WaterMazeState) -> None:
         """Raise ValueError unless a state fits this world, is finite, and its trial has begun."""

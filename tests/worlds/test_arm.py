@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from neorl.core.geometry import circle
 from neorl.core.kernel import function_of
 from neorl.worlds import arm
 from neorl.worlds.arm import Arm
@@ -79,4 +80,4 @@ def test_an_angle_closes_on_itself():
 def test_unit_vectors_are_cosine_and_sine_to_the_last_bits():
     for turns in [*np.random.default_rng(0).uniform(-2, 2, 2_000), 0.0, 0.125, 0.25, 0.5, 0.75, 1.0]:
         angle = 2 * math.pi * turns
-        assert function_of(arm.unit_vector)(turns) == pytest.approx((math.cos(angle), math.sin(angle)), abs=4e-15)
+        assert function_of(circle)(turns, arm.TERMS) == pytest.approx((math.cos(angle), math.sin(angle)), abs=4e-15)
