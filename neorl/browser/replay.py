@@ -7,6 +7,7 @@ style.
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from neorl import checks
 from neorl.browser.explorer import AnyWidget, _text, traitlets
@@ -24,10 +25,10 @@ class Recording:
     name: str
     fps: int
     radius: float
-    agent: np.ndarray  # float32 (steps + 1, 4): position and velocity
-    creeps: np.ndarray  # float32 (steps + 1, creeps, 4)
-    green: np.ndarray  # bool (steps + 1, creeps)
-    hits: np.ndarray  # int64 (steps + 1, 2): green and red creeps taken so far
+    agent: NDArray[np.float32]  # (steps + 1, 4): position and velocity
+    creeps: NDArray[np.float32]  # (steps + 1, creeps, 4)
+    green: NDArray[np.bool]  # (steps + 1, creeps)
+    hits: NDArray[np.int64]  # (steps + 1, 2): green and red creeps taken so far
 
     __eq__ = checks.equal_fields
 

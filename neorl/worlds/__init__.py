@@ -2,5 +2,5 @@
 
 `WaterWorld` is the world of the papers; an `Arena` has walls and places of interest. Three more have other spaces: the
 joints of an `Arm`, the waters of a `Vessel` with a rudder, and the pool of a `WaterMaze`. `neorl.walls` has walls that
-any world can hold, and `neorl.worlds.world` says how to write a world.
+any world can hold. `neorl.worlds.world` says how to write a world, with `kinds` of things, `actions` and `rules`.
 """
