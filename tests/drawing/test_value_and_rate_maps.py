@@ -86,4 +86,4 @@ def test_the_active_receptive_fields_are_filled(modality, resolution):
     seen = {"position": places, "velocity": (places - agent) / 0.5}.get(modality.follows, places - agent)
     filled = np.any([[fill.get_paths()[0].contains_point(place) for place in places] for fill in fills], axis=0)
     expected = np.isin(nres_map.encode(modality.tune(seen)), list(active))
-    assert np.mean(filled == expected) > 0.97  # all but where corners are rounded
+    assert np.mean(filled == expected) > 0.98  # all but where corners are rounded

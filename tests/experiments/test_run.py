@@ -1,6 +1,8 @@
 """A run refuses what would crash the interpreter or corrupt its values, and can be interrupted."""
 
 import _thread
+import subprocess
+import sys
 import threading
 import time
 
@@ -126,6 +128,29 @@ def test_an_error_in_that_function_ends_the_call_at_its_step_and_a_bad_one_is_re
                                ({"every": 0}, "every must be an integer of at least 1, but is 0")]:
         with pytest.raises(ValueError, match=message):
             run.advance(10, **arguments)
+
+
+KILLED = """
+import os, signal, sys
+from neorl import Run
+def checkpoint(run):
+    run.save("run.npz")
+    if run.step == 6_000:
+        os.kill(os.getpid(), getattr(signal, "SIGKILL", signal.SIGTERM))
+Run.load("start.npz").advance(1_000_000, each=checkpoint, every=2_000)
+"""
+
+
+def test_a_run_that_was_killed_goes_on_from_its_checkpoint(tmp_path):
+    whole = Run(SWIMMER, POOL, seed=4)
+    whole.save(tmp_path / "start.npz")
+    done = subprocess.run([sys.executable, "-c", KILLED], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode < 0, done.stderr
+    resumed = Run.load(tmp_path / "run.npz")
+    assert resumed.step == 6_000
+    resumed.advance(3_333)
+    whole.advance(9_333)
+    assert_same(resumed, whole)
 
 
 def test_the_memory_of_an_agent_of_twelve_maps_does_not_grow_with_its_steps():

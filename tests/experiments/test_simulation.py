@@ -52,3 +52,12 @@ def test_a_function_follows_the_progress_of_all_runs_together_and_changes_nothin
     assert [total for _, total in reports] == [75_000] * 9
     assert [done for done, _ in reports] == sorted(done for done, _ in reports) and reports[-1][0] == 75_000
     assert followed == simulate(place_cells([3]), TANK, steps=25_000, runs=3, progress=False)
+
+
+def test_a_run_that_fails_ends_the_others(monkeypatch):
+    def fail(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("neorl.experiments.run.Run.advance", fail)
+    with pytest.raises(KeyboardInterrupt):
+        simulate(place_cells([3]), TANK, steps=10**9, runs=4, progress=False)
