@@ -91,7 +91,7 @@ LINK = ("--no-entry", "--allow-undefined", "--import-memory", "--gc-sections", "
 def modules():
     """The WebAssembly modules, {name of `MODULES`: bytes}.
 
-    Modules that are neither shipped nor on disk are built side by side, which takes less than a minute. Of several
+    Modules that are neither shipped nor on disk are built side by side, which takes about a minute. Of several
     processes one builds them, and the others wait.
 
     Raises ImportError if a package needed to build them is not installed, RuntimeError if a build fails.

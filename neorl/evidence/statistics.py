@@ -17,6 +17,7 @@ from neorl.worlds.waterworld import WaterWorld
 
 RESAMPLES = 1_000
 Results = Result | Sequence[Result]
+MOST_RUNS = 2**31
 TOLERATED = 0.75  # the share of all possible runs that a tolerance band contains
 RECENT = 1 / 40  # of a run: the window over which the mean reward per second counts as reaching a level
 
@@ -140,9 +141,12 @@ def tolerance_band(curves: ArrayLike) -> NDArray[np.float64]:
     return ordered[[beyond - 1, -beyond]]
 
 
-def tolerated_share(runs, beyond=1):
+def tolerated_share(runs: int, beyond: int = 1) -> float:
     """The share of all possible runs that, with a confidence of 95 %, lies between the `beyond`-th runs from the ends.
+
+    runs: integer ≥ 0. beyond: integer ≥ 1. Raises ValueError for anything else.
     """
+    runs, beyond = checks.integer("runs", runs, 0, MOST_RUNS), checks.integer("beyond", beyond, 1, MOST_RUNS)
     return float(scipy.stats.beta.ppf(0.05, runs + 1 - 2 * beyond, 2 * beyond)) if runs >= 2 * beyond else 0.0
 
 

@@ -4,13 +4,13 @@ import numpy as np
 import scipy
 
 from neorl import drawing
+from neorl.drawing.curves import POINTS
 from neorl.drawing.style import INK, looks
 from neorl.evidence.statistics import binned_rate
 
 # The thesis states neither of these.
 FILTER_ORDER = 4
 CUTOFF_PERIODS = 20  # per run: the filter removes higher frequencies
-POINTS = 400  # per curve; more would not be visible
 
 
 def low_passed(rates):
