@@ -117,7 +117,8 @@ class Reading:
 
 # What the text prints or pins, and where it leaves more the plainest, or the middle of a prior (`neorl.evidence.pins`).
 TO_THE_LETTER = Reading(**{name: value for name, value in vars(rules.TO_THE_LETTER).items() if name in vars(Reading)},
-                        weighting="resolution", place_gain=1.0, scale=10.0)
+                        object_state="self", object_reach=0.0, object_tiled_fraction=1.0, object_beyond="outermost",
+                        object_centred=False, weighting="resolution", place_gain=1.0, scale=10.0)
 
 
 def conditions(reading: Reading, steps: int, runs: int, seed: int = 0,
