@@ -43,10 +43,8 @@ def squares_entered(agent, world, steps, runs, seed=0):
     """
     squares, found, interval = NresMap(FINEST), [], max(1, round(world.fps / 10))
     for k in range(runs):
-        run, path = Run(agent, world, seed, k), np.empty((max(1, steps // interval), 2))
-        for moment in range(len(path)):
-            run.advance(interval)
-            path[moment] = run.world_state.scene.position / world.size
+        recorded = Run(agent, world, seed, k).record(max(interval, steps // interval * interval), every=interval)
+        path = recorded.positions[1:] / world.size
         new = np.zeros(len(path), int)
         new[np.unique(squares.encode(path), return_index=True)[1]] = 1
         found.append(new.cumsum())

@@ -20,9 +20,8 @@ def test_a_stay_is_the_time_from_one_change_of_cell_to_the_next_but_for_resets()
     (found,) = trials.mean_stays(PLACE, TANK, 8_000, 1)
     run, changes = neorl.Run(PLACE, neorl.WaterWorld(win_reward=100.0), 0), np.zeros(2)
     run.advance(2_000)
-    run.advance(1)
     resets = 0
-    for _ in range(1_999):
+    for _ in range(2_000):
         before = run.state.tracks.cell.copy()
         reset = run.advance(1) > 50
         resets += reset

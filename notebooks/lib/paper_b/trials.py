@@ -90,13 +90,14 @@ def mean_stays(agent, world, steps, runs, seed=0, watched=15_000):
     which puts an agent elsewhere, does not count as a change of cell; without any change, a stay is the time measured.
     """
     lived = round(LIVED * steps)
-    path_steps = max(2, min(lived, watched))
+    path_steps = max(1, min(lived, watched))
 
     def of_run(k):
         run = Run(agent, world, seed, k)
         run.advance(lived)
-        path, moved = _path(run, world, path_steps)
-        changes = [((np.diff(each.encode(path)) != 0) & moved[1:]).sum() for each in agent.maps]
+        path = run.record(path_steps)
+        moved = ~np.isin(path.steps[:-1], path.ends)
+        changes = [((np.diff(each.encode(path.positions / world.size)) != 0) & moved).sum() for each in agent.maps]
         return path_steps / world.fps / np.maximum(changes, 1)
 
     return _of_runs(of_run, agent, world, runs)
@@ -113,10 +114,11 @@ def roaming(revalued, seconds=100):
     def of_run(k):
         run = Run(revalued.agent, world, revalued.seed, k)
         run.advance(turn - path_steps)
-        before, _ = _path(run, world, path_steps)
+        before = run.record(path_steps)
         run.change(agent)
         run.advance(revalued.steps - turn - path_steps)
-        return [np.sqrt(path.var(axis=0).sum()) for path in (before, _path(run, world, path_steps)[0])]
+        return [np.sqrt(path.positions[1:].var(axis=0).sum()) / world.size
+                for path in (before, run.record(path_steps))]
 
     return _of_runs(of_run, revalued.agent, world, revalued.runs).T
 
@@ -217,20 +219,6 @@ def maps_kept(before, after, world, steps, seed=0):
     knew = [run.q(m).copy() for m in maps]
     run.change(after)
     return sum(np.array_equal(run.q(m), knew[m]) for m in maps)
-
-
-def _path(run, world, steps):
-    """Advance a run: its positions in board widths, (steps, 2), and whether each step moved it there, (steps,).
-
-    A board's reset puts an agent in the middle, at rest, without moving it.
-    """
-    path, moved = np.empty((steps, 2)), np.empty(steps, bool)
-    for step in range(steps):
-        run.advance(1)
-        scene = run.world_state.scene
-        path[step] = scene.position / world.size
-        moved[step] = scene.velocity.any() or (path[step] != 0.5).any()
-    return path, moved
 
 
 def _with_maps(agent, chosen):
