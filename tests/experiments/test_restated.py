@@ -50,7 +50,7 @@ READINGS = {
     "self, centred": object_vector_cells([2, 4], object_state="self", object_centred=True),
     "self, ends": object_vector_cells([5], object_state="self", object_beyond="none", object_tiled_fraction=0.2,
                                       own_cell="silent"),
-    "object, reach": object_vector_cells([2, 5, 6], object_state="object", object_reach=0.2),
+    "object, reach": object_vector_cells([2, 5, 6], object_state="object", object_reach=0.2, learning=plain_rule()),
     "object, ends": object_vector_cells([4], object_state="object", object_beyond="none", object_tiled_fraction=0.3,
                                         object_centred=True),
     "per object, ends": object_vector_cells([4], object_state="per object", object_beyond="none",
