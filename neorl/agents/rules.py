@@ -129,7 +129,7 @@ class Policy(checks.Final):
         check_kernel("choose", self.choose)
 
 
-# Of the confirmed readings within the text, the one for which most claims hold (`notebooks/lib/study`).
+# Of the confirmed readings within the text, the one for which most claims agree (`notebooks/lib/study`).
 CALIBRATED = Learning(
     learning_rate=0.01711, discount=1.0, credit="happened", activity=0.6926, absent_decay=0.8339,
     absent_form="away", terminal=False, memory=24.78, bootstrap=False)
