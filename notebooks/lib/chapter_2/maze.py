@@ -56,17 +56,15 @@ class Maze:
     """A maze of T-shaped units, one after the other.
 
     turns: the side of each unit, "L" or "R", on which the true path continues; the blind is on the other. The path may
-    not cross itself. alley: the number of places between two choice points.
+    not cross itself, which raises ValueError. alley: the number of places between two choice points.
 
     Doors close behind the animal: there is no way back to a choice point that has been left along the true path.
-    Raises ValueError for anything else.
     """
 
     turns: str = TURNS
     alley: int = 0
 
     def __post_init__(self):
-        checks.integer("alley", self.alley, at_least=0)
         if not self.turns or set(self.turns) - set("LR") or len({*map(tuple, self._path)}) < len(self._path):
             raise checks.error("turns", "L and R, on a way that does not cross itself", self.turns)
 
@@ -91,12 +89,12 @@ class Maze:
 
     @property
     def choice_points(self):
-        """The states at which the animal chooses, one per unit: int64 (units,)."""
+        """The states at which the animal chooses: int64 (units,)."""
         return (self.alley + 1) * np.arange(1, len(self.turns) + 1)
 
     @property
     def blinds(self):
-        """The states of the blind alleys: int64 (units,)."""
+        """The states of the blind alleys, one per unit: int64 (units,)."""
         return self.goal + 1 + np.arange(len(self.turns))
 
     @property
@@ -128,15 +126,12 @@ def _action(move):
     return int(np.flatnonzero((MOVES == move).all(axis=1))[0])
 
 
-def random_maze(rng, units=14, alley=0):
-    """A `Maze` with random turns, uniform over the paths of ``units`` units that do not cross themselves.
-
-    rng: a `numpy.random.Generator`, or the seed of one.
-    """
-    rng = np.random.default_rng(rng)
+def random_maze(seed):
+    """A `Maze` of 14 units with random turns, uniform over the paths that do not cross themselves."""
+    rng = np.random.default_rng(seed)
     while True:
         try:
-            return Maze("".join(rng.choice(["L", "R"], units)), alley)
+            return Maze("".join(rng.choice(["L", "R"], len(TURNS))))
         except ValueError:
             continue
 
@@ -145,8 +140,8 @@ def random_maze(rng, units=14, alley=0):
 class Animal:
     """How an animal learns and explores.
 
-    learner: one of `LEARNERS`. learning_rate α, discount γ, exploration ε, trace λ (of Sarsa(λ) only): from 0 to 1.
-    Raises ValueError for anything else.
+    learner: one of `LEARNERS`. learning_rate α, discount γ, exploration ε, trace λ (of Sarsa(λ) only): from 0 to 1,
+    otherwise ValueError is raised.
     """
 
     learner: str = "neoRL"
@@ -156,7 +151,6 @@ class Animal:
     trace: float = 0.9
 
     def __post_init__(self):
-        checks.one_of("learner", self.learner, LEARNERS)
         for name in ("learning_rate", "discount", "exploration", "trace"):
             checks.real(name, getattr(self, name), 0, 1)
 
@@ -164,27 +158,23 @@ class Animal:
 class Record(NamedTuple):
     """The errors and the knowledge of the animals of a group.
 
-    errors: int64 (runs, days), entries into blinds. known: float64 (runs, days), the share of choice points at which,
-    at the end of the day, the one best action for reaching the goal box is the true one.
+    Known is the share of choice points at which, at the end of the day, the one best action for reaching the goal box
+    is the true one.
     """
 
-    errors: np.ndarray
-    known: np.ndarray
+    errors: np.ndarray  # int64 (runs, days), entries into blinds
+    known: np.ndarray  # float64 (runs, days)
 
 
 def simulate(animal, maze, first_meal, runs, seed=0, group=0):
     """A group of animals, which find food in the goal box from the day `first_meal` on: a `Record`.
 
-    first_meal: integer ≥ 1; after `DAYS` there is never any. runs: animals in the group, each with a random stream of
-    its own, which depends on the number of its `group` and not on its kind. Raises ValueError for anything else.
+    first_meal: after `DAYS` there is never any. runs: animals in the group, each with a random stream of its own, which
+    depends on the number of its `group` and not on its kind.
     """
-    checks.instance("animal", animal, Animal)
-    checks.instance("maze", maze, Maze)
-    checks.integer("first_meal", first_meal, at_least=1)
-    errors = np.zeros((checks.integer("runs", runs, at_least=1), DAYS), np.int64)
-    known = np.zeros((runs, DAYS))
+    errors, known = np.zeros((runs, DAYS), np.int64), np.zeros((runs, DAYS))
     for run in range(runs):
-        stream = new_stream(np.random.SeedSequence(checks.integer("seed", seed, at_least=0), spawn_key=(run, group)))
+        stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run, group)))
         for day, (errors[run, day], worth) in enumerate(live(animal, maze, first_meal, stream)):
             known[run, day] = _known(maze, worth[maze.choice_points])
     return Record(errors, known)
@@ -198,10 +188,7 @@ def _known(maze, worth):
 
 
 def live(animal, maze, first_meal, stream):
-    """For each day in turn, an animal's errors and the values of its actions for reaching the goal box.
-
-    The values are float (states, 4). stream: of the animal's random numbers.
-    """
+    """For each day in turn, an animal's errors and its values of actions for reaching the goal box, (states, 4)."""
     if animal.learner == "neoRL":
         agent = neorl_animal(animal, maze)
         parameters = compiled(agent, KNOWN)
@@ -240,9 +227,8 @@ def findings(groups, first_meal):
     The statistics are differences in errors per day: the last three days less the first three, a day less the day
     before, or one group less another. Two groups are level if the interval of their difference stays within a tenth of
     the effect of food, which is "never" less "throughout", over the days after ``first_meal``.
-    first_meal: the day of the delayed group's first meal. Raises ValueError unless it precedes the last day.
+    first_meal: the day of the delayed group's first meal, before the last one.
     """
-    checks.integer("first_meal", first_meal, at_least=1, at_most=DAYS - 1)
     errors = {group: groups[group].errors for group in GROUPS}
     before = {group: each[:, :first_meal].mean(axis=1) for group, each in errors.items()}
     after = {group: each[:, first_meal:].mean(axis=1) for group, each in errors.items()}

@@ -17,9 +17,7 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d
 from scipy.signal import lfilter
 
-from neorl import checks
 from neorl.core.geometry import TAU
-from neorl.core.maps import NresMap
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, MODALITIES
 
 SHIFTS = 99  # random shifts of the spikes in time
@@ -74,15 +72,12 @@ class Trajectory(NamedTuple):
 def roam(steps, seed=0, step=0.02, speed=0.2, persistence=0.7):
     """Let an animal roam the box: a `Trajectory`.
 
-    steps: integer ≥ 1. seed: of ``numpy.random.default_rng``. step: seconds, above 0.
-    speed: its mean, box widths per second. persistence: seconds, above 0, after which the velocity's autocorrelation is
-    1/e.
-    Raises ValueError for anything else.
+    step: seconds. speed: its mean, box widths per second. persistence: seconds after which the velocity's
+    autocorrelation is 1/e.
     """
-    checks.integer("steps", steps, at_least=1)
-    kept = np.exp(-checks.real("step", step, 1e-9) / checks.real("persistence", persistence, 1e-9))
+    kept = np.exp(-step / persistence)
     rng = np.random.default_rng(seed)
-    deviation = checks.real("speed", speed, 0) / np.sqrt(np.pi / 2)  # of each component: the speed is Rayleigh
+    deviation = speed / np.sqrt(np.pi / 2)  # of each component: the speed is Rayleigh
     noise = rng.normal(0, deviation, (steps, 2))
     noise[1:] *= np.sqrt(1 - kept**2)
     velocity = lfilter([1.0], [1.0, -kept], noise, axis=0)
@@ -96,16 +91,14 @@ def in_field(nres_map, cell, trajectory, objects=()):
     """Whether a cell of a map is active, at each step of a trajectory: bool (steps,).
 
     If its modality follows several things, a cell is active while any of them is in its field.
-    cell: 0 … cells − 1. objects: (x, y) of each in the box, used only if the modality follows objects.
-    Raises ValueError for anything else.
+    objects: (x, y) of each in the box, used only if the modality follows objects.
     """
-    modality = checks.instance("nres_map", nres_map, NresMap).modality
-    checks.integer("cell", cell, at_least=0, at_most=nres_map.cells - 1)
+    modality = nres_map.modality
     if modality.follows == "boundaries":
         vectors = [(wall - trajectory.position) * axis for wall in (0.0, 1.0) for axis in np.eye(2)]
     elif modality.follows in ("objects", "landmarks"):
         places = objects if modality.follows == "objects" else modality.landmarks
-        vectors = [checks.points("objects", place, "xy") - trajectory.position for place in places]
+        vectors = [place - trajectory.position for place in places]
     else:
         vectors = [getattr(trajectory, modality.follows)]
     active = [nres_map.encode(modality.tune(each)) == cell for each in vectors]
@@ -115,11 +108,9 @@ def in_field(nres_map, cell, trajectory, objects=()):
 def spikes(active, step, seed=0, inside=20.0, outside=0.2):
     """The number of spikes of a cell at each step: int16 (steps,), drawn from a Poisson distribution.
 
-    active: bool (steps,), see `in_field`. step: seconds. inside, outside: spikes per second while active and otherwise,
-    ≥ 0. Raises ValueError for anything else.
+    active: bool (steps,), see `in_field`. step: seconds. inside, outside: spikes per second while active and otherwise.
     """
-    rates = np.where(active, checks.real("inside", inside, 0), checks.real("outside", outside, 0))
-    return np.random.default_rng(seed).poisson(rates * checks.real("step", step, 1e-9)).astype(np.int16)
+    return np.random.default_rng(seed).poisson(np.where(active, inside, outside) * step).astype(np.int16)
 
 
 class TuningCurve(NamedTuple):
@@ -135,13 +126,10 @@ def tuning_curve(counts, values, step, high, bins, smoothing=1.0, closed=False):
     counts: spikes at each step, (steps,), or several trains (…, steps). values: of the variable, (steps,) or
     (steps, 2). step: seconds. high: each axis has ``bins`` bins from 0 to ``high``; values beyond are left out.
     smoothing: of spikes and of time, the standard deviation in bins, ≥ 0. closed: whether the axis is circular.
-    Raises ValueError for anything else.
     """
-    checks.integer("bins", bins, at_least=1)
-    checks.real("smoothing", smoothing, 0)
     counts = np.asarray(counts)
-    values = checks.finite("values", np.asarray(values, float)).reshape(counts.shape[-1], -1)
-    at = np.floor(values / checks.real("high", high, 1e-9) * bins).astype(int)
+    values = np.reshape(values, (counts.shape[-1], -1))
+    at = np.floor(values / high * bins).astype(int)
     at[values == high] = bins - 1
     inside = np.all((0 <= at) & (at < bins), axis=1)
     shape = (bins,) * at.shape[1]
@@ -237,10 +225,8 @@ def lose_track(steps, seed, noise=0.05, reach=0.1):
 def egocentric(vectors, heading):
     """Vectors (North, East) in the animal's frame (Forward, Starboard): float64 (…, 2).
 
-    vectors: (…, 2), north first. heading: radians from north by way of east, one for all or one for each vector.
-    Raises ValueError unless all are finite (thesis figure 2.4).
+    heading: radians from north by way of east, one for all or one for each vector (thesis figure 2.4).
     """
-    north, east = np.moveaxis(checks.points("vectors", vectors, ("north", "east")), -1, 0)
-    heading = checks.finite("heading", np.asarray(heading, float))
+    north, east = np.moveaxis(vectors, -1, 0)
     cosine, sine = np.cos(heading), np.sin(heading)
     return np.stack([cosine * north + sine * east, cosine * east - sine * north], axis=-1)
