@@ -23,9 +23,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lib.shared.grid import Grid
 from lib.shared.tabular import greedy_action, learn_q
-from neorl import checks
 from neorl.core.calls import execute
 from neorl.core.kernel import kernel
 from neorl.core.stream import randint, new_stream, uniform
@@ -45,11 +43,8 @@ SQUARINGS = 10  # of exp(x / 1024)
 
 
 def best_reward(maze):
-    """The highest reward per step of any policy in the long run, by policy iteration (Howard 1960).
-
-    maze: as in `run_ensemble`. Raises ValueError for anything else.
-    """
-    (start, goal), n = _ends(maze), maze.states
+    """The highest reward per step of any policy in the long run, by policy iteration (Howard 1960)."""
+    (start,), (goal,), n = maze.marked("S"), maze.marked("G"), maze.states
     following = maze.transitions(SLIP)
     bumps = np.einsum("sas->sa", following)  # the probability of staying
     reward = STEP + (BUMP - STEP) * bumps + (GOAL - STEP) * following[:, :, goal]
@@ -80,18 +75,11 @@ def run_ensemble(maze, chooser, *, steps, runs, seed=0, doublings=0):
     """Reward per step in each twentieth of ``runs`` runs of ``steps`` steps: float64 (runs, 20).
 
     maze: a `Grid` that marks one start, "S", and one goal, "G". chooser: of actions, one of `CHOOSERS`: a learner
-    alone, a rule for all five, or chance. steps: ≥ 20. doublings: how often the chooser's greediness is doubled, or
-    halved if negative, from −5 to 5. Run k is the same for any number of runs.
-    Raises ValueError for a bad argument.
+    alone, a rule for all five, or chance. doublings: how often the chooser's greediness is doubled, or halved if
+    negative. Run k is the same for any number of runs.
     """
-    start, goal = _ends(maze)
-    checks.one_of("chooser", chooser, CHOOSERS)
-    checks.integer("steps", steps, at_least=BINS)
-    checks.integer("runs", runs, at_least=1)
-    checks.integer("seed", seed, at_least=0)
-    checks.integer("doublings", doublings, at_least=-5, at_most=5)
-    edges = np.linspace(0, steps, BINS + 1).astype(int)
-    table, rewards = Maze(maze.next_state, start, goal), np.zeros((runs, BINS))
+    edges, rewards = np.linspace(0, steps, BINS + 1).astype(int), np.zeros((runs, BINS))
+    table = Maze(maze.next_state, *maze.marked("S"), *maze.marked("G"))
 
     def run_one(run):
         preferences = np.zeros((len(LEARNERS), maze.states, 4))
@@ -103,15 +91,6 @@ def run_ensemble(maze, chooser, *, steps, runs, seed=0, doublings=0):
     with ThreadPoolExecutor(2) as pool:
         list(pool.map(run_one, range(runs)))
     return rewards / np.diff(edges)
-
-
-def _ends(maze):
-    """The start and the goal of a maze."""
-    marked = [checks.instance("maze", maze, Grid).marked(mark) for mark in "SG"]
-    if [len(states) for states in marked] != [1, 1]:
-        raise checks.error("maze", "a grid with one S and one G", maze.rows)
-    (start,), (goal,) = marked
-    return start, goal
 
 
 @kernel
