@@ -12,12 +12,11 @@
    remembers no earlier cell, so that a rule with a memory learns as it would without.
 """
 
-from dataclasses import astuple, dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
-from neorl import checks
 from neorl.agents.rules import CALIBRATED, Learning
 from neorl.core.calls import execute
 from neorl.core.choices import Credit
@@ -35,14 +34,11 @@ DIFFERENCE = replace(INVERSION, update_on="step")
 DEFAULT = replace(CALIBRATED, learning_rate=INVERSION.learning_rate, discount=INVERSION.discount)
 
 
-@dataclass(frozen=True)
-class Chamber:
+class Chamber(NamedTuple):
     """A chamber with two levers.
 
-    effort: steps for which a lever has to be pressed, ≥ 1. delay: steps from then until the exit opens, ≥ 0.
-    hold: mean length of a bout in steps, ≥ 1. light, bell: probability that it is on during a bout, from 0 to 1.
-
-    Raises ValueError for anything else.
+    effort: steps for which a lever has to be pressed, ≥ 1. delay: steps from then until the exit opens.
+    hold: mean length of a bout in steps, ≥ 1. light, bell: probability that it is on during a bout.
     """
 
     effort: int = 10
@@ -51,46 +47,25 @@ class Chamber:
     light: float = 0.5
     bell: float = 0.1
 
-    def __post_init__(self):
-        checks.assign(self, effort=checks.integer("effort", self.effort, at_least=1),
-                     delay=checks.integer("delay", self.delay, at_least=0),
-                     hold=checks.real("hold", self.hold, at_least=1), light=checks.real("light", self.light, 0, 1),
-                     bell=checks.real("bell", self.bell, 0, 1))
-
-
-class ChamberRules(NamedTuple):
-    """A `Chamber` in the form that the kernel takes."""
-
-    effort: int
-    delay: int
-    hold: float
-    light: float
-    bell: float
-
 
 def learn_in(chamber, learning, visits, runs, seed=0):
     """Learn the values of a chamber's events for either exit: float32 (runs, visits, 4, 2), after each visit.
 
     The four events are the levers of the two exits, the light and the bell.
-    learning: a `Learning` whose credit is one of `CREDITS`. visits, runs: integers ≥ 1. seed: integer ≥ 0; run k is
-    the same for any number of runs, and has the same stream of events under any ``learning``.
-    Raises ValueError for anything else.
+    learning: a `Learning` whose credit is one of `CREDITS`. Run k is the same for any number of runs, and has the same
+    stream of events under any ``learning``.
     """
-    checks.instance("chamber", chamber, Chamber)
-    checks.instance("learning", learning, Learning)
-    checks.one_of("credit", learning.credit, CREDITS)
-    checks.integer("visits", visits, at_least=1)
-    values = np.zeros((checks.integer("runs", runs, at_least=1), visits, N_EVENTS, 2), np.float32)
+    values = np.zeros((runs, visits, N_EVENTS, 2), np.float32)
     by_step, credit = learning.update_on == "step", int(Credit[learning.credit])
     rate = np.float32(learning.learning_rate)
     absent_rate = ZERO if by_step else rate * np.float32(learning.absent_decay)
     rule = Rule(np.float32(learning.discount), learning.terminal, absent_rate, learning.absent_form == "away")
     for run in range(runs):
-        sequence = np.random.SeedSequence(checks.integer("seed", seed, at_least=0), spawn_key=(run,))
+        stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run,)))
         learned = MapValues(np.zeros(CELLS * N_EVENTS * CELLS, np.float32), 0, CELLS, N_EVENTS,
                             np.tile([0, CELLS], (CELLS, 1)), np.zeros(CELLS, np.float32))
-        execute(_live_in, ChamberRules(*astuple(chamber)), new_stream(sequence), by_step, learning.bootstrap, credit,
-                rate, rule, learned, np.zeros(N_EVENTS, np.int64), np.zeros(N_EVENTS, np.bool_),
+        execute(_live_in, chamber._replace(hold=float(chamber.hold)), stream, by_step, learning.bootstrap, credit, rate,
+                rule, learned, np.zeros(N_EVENTS, np.int64), np.zeros(N_EVENTS, np.bool_),
                 np.zeros(N_EVENTS, np.float32), values[run])
     return values
 

@@ -17,8 +17,6 @@ from typing import NamedTuple
 import numpy as np
 from scipy import linalg, optimize, signal
 
-from neorl import checks
-
 NEAR = 5  # units within which a walk has reached a goal
 DIRECTIONS = np.concatenate([np.eye(3, dtype=np.int32), -np.eye(3, dtype=np.int32)])
 PAST = 20  # values of the past that predict the next one
@@ -28,18 +26,10 @@ LENGTHS = (300, 1_000, 3_000, 10_000, 30_000)  # of the series that `errors` dec
 def walk(strength, goal, steps, runs, seed=0):
     """Walks from the origin: int32 (runs, steps + 1, 3).
 
-    strength: β, from 0 to 1. goal: three numbers, infinite ones allowed, but not NaN. steps, runs: integers ≥ 1. seed:
-    integer ≥ 0; walk k is the same for any number of runs, and draws the same numbers for any strength and goal.
-    Raises ValueError for anything else.
+    strength: β. goal: three numbers, which may be infinite. Walk k is the same for any number of runs, and draws the
+    same numbers for any strength and goal.
     """
-    checks.real("strength", strength, 0, 1)
-    goal = np.asarray(goal, float)
-    if goal.shape != (3,) or np.isnan(goal).any():
-        raise ValueError(f"goal must be three numbers, but is {goal}")
-    checks.integer("steps", steps, at_least=1)
-    checks.integer("runs", runs, at_least=1)
-    sequences = [np.random.SeedSequence(checks.integer("seed", seed, at_least=0), spawn_key=(run,))
-                 for run in range(runs)]
+    goal, sequences = np.array(goal, float), (np.random.SeedSequence(seed, spawn_key=(run,)) for run in range(runs))
     biased, drawn = np.empty((steps, runs), bool), np.empty((steps, runs), np.int8)
     for run, rng in enumerate(map(np.random.default_rng, sequences)):
         biased[:, run], drawn[:, run] = rng.random(steps) < strength, rng.integers(6, size=steps)
@@ -58,9 +48,7 @@ def walk(strength, goal, steps, runs, seed=0):
 
 
 def _towards(to_goal):
-    """Index of the direction towards a goal, along the axis on which it is furthest: int64 (walkers,).
-
-    Of several such axes, the first is taken.
+    """Index of the direction towards a goal, along the first axis on which it is furthest: int64 (walkers,).
 
     to_goal: (walkers, 3), from the walker to its goal.
     """
@@ -70,19 +58,13 @@ def _towards(to_goal):
 
 
 def first_arrivals(paths, goal):
-    """First step at which each walk is within `NEAR` units of a goal: float64 (runs,), infinite if it never is.
-
-    paths: (runs, steps + 1, 3). goal: three numbers.
-    """
+    """First step at which each walk is within `NEAR` units of a goal: float64 (runs,), infinite if it never is."""
     near = np.linalg.norm(paths - np.array(goal), axis=2) < NEAR
     return np.where(near.any(axis=1), near.argmax(axis=1), np.inf)
 
 
 def mean_squared_displacement(paths, lags):
-    """Mean squared displacement of walks over lags, averaged over all starting steps: float64 (runs, lags).
-
-    paths: (runs, steps + 1, 3). lags: integers from 1 to steps.
-    """
+    """Mean squared displacement of walks over lags, averaged over all starting steps: float64 (runs, lags)."""
     paths = paths.astype(float)  # squares of 32-bit integers would soon be too large
     moved = (paths[:, lag:] - paths[:, :-lag] for lag in lags)
     return np.stack([np.einsum("rtx,rtx->r", each, each) / each.shape[1] for each in moved], axis=1)
@@ -118,34 +100,19 @@ class Parts(NamedTuple):
 def generate(coefficients, amplitude, period, steps, run=0, seed=0):
     """A series and its parts, the parts without the first `PAST` values: (float64 (steps,), `Parts`).
 
-    coefficients: b_1, b_2, … of noise with a standard deviation of 1. amplitude: of the oscillation, ≥ 0. period: of
-    the oscillation, in steps, ≥ 2. steps: integer, more than twice `PAST`. run, seed: integers ≥ 0.
-    Raises ValueError for anything else.
+    coefficients: b_1, b_2, … of noise with a standard deviation of 1. amplitude, period: of the oscillation, which has
+    two steps a period or more. steps: more than twice `PAST`.
     """
-    coefficients = checks.finite("coefficients", np.asarray(coefficients, float))
-    checks.real("amplitude", amplitude, 0)
-    checks.real("period", period, 2)
-    checks.integer("steps", steps, at_least=2 * PAST + 1)
-    sequence = np.random.SeedSequence(checks.integer("seed", seed, at_least=0),
-                                      spawn_key=(checks.integer("run", run, at_least=0),))
-    rng = np.random.default_rng(sequence)
+    rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(run,)))
     oscillation = amplitude * np.cos(2 * np.pi * (np.arange(steps) / period + rng.random()))
     noise = rng.normal(size=steps + len(coefficients))
     filtered = signal.lfilter([1, *coefficients], 1, noise)[len(coefficients):]
     parts = (each[PAST:] for each in (oscillation, filtered, noise[len(coefficients):]))
-    return filtered + oscillation, Parts(*parts, coefficients)
+    return filtered + oscillation, Parts(*parts, np.array(coefficients))
 
 
 def decompose(series, order):
-    """Decompose a series into `Parts`, with b_1 … b_order. series: float64 (steps,), more than twice `PAST`.
-
-    Raises ValueError for anything else.
-    """
-    series = checks.finite("series", np.asarray(series, float))
-    if series.ndim != 1 or len(series) <= 2 * PAST:
-        raise ValueError(f"series must have the shape (steps,), with more than {2 * PAST} steps, but has "
-                         f"{series.shape}")
-    checks.integer("order", order, at_least=1, at_most=PAST)
+    """Decompose a series into `Parts`, with b_1 … b_order. series: float64 (steps,), more than twice `PAST`."""
     spectrum = np.abs(np.fft.rfft(series))
     peak = 1 + spectrum[1:-1].argmax()
     frequency = optimize.minimize_scalar(_left_over, args=(series,), bounds=(peak - 1, peak + 1), method="bounded",

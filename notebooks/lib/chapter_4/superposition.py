@@ -16,8 +16,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl import checks
-
 DEGREE = 10  # of the outer functions
 ANGLES = np.pi * np.arange(60) / 60
 CONVERGED = 1e-12  # remaining share of the initial error of a plan
@@ -44,14 +42,9 @@ class Comparison(NamedTuple):
 def fit_ridges(values, terms, angles=ANGLES):
     """Fit `Ridges` to a function on the square from −1 to 1.
 
-    values: float64 (side, side), not all equal, at evenly spaced points; the first axis is y. terms: integer ≥ 1.
-    angles: candidates, in radians; by default 60, spread evenly over half a turn.
-    Raises ValueError for anything else.
+    values: float64 (side, side), not all equal, at evenly spaced points; the first axis is y. angles: candidates, in
+    radians; by default 60, spread evenly over half a turn.
     """
-    values = checks.finite("values", np.asarray(values, float))
-    if values.ndim != 2 or values.shape[0] != values.shape[1] or np.ptp(values) == 0:
-        raise ValueError(f"values must be a square (side, side), not all equal, but has the shape {values.shape}")
-    checks.integer("terms", terms, at_least=1)
     side = np.linspace(-1, 1, len(values))
     x, y = (each.ravel() for each in np.meshgrid(side, side))
     outer = [np.linalg.qr(np.vander((x * np.cos(angle) + y * np.sin(angle)) / 2, DEGREE + 1))[0] for angle in angles]
@@ -72,13 +65,11 @@ def fit_ridges(values, terms, angles=ANGLES):
 def plan(grid, rewards, discount=0.8):
     """Best action values, by value iteration: float64 (…, states, 4).
 
-    grid: a `Grid`. rewards: (…, states), paid on entering. discount: γ per step, from 0 to 0.99.
-    Raises ValueError for anything else.
+    grid: a `Grid`. rewards: (…, states), paid on entering. discount: γ per step, above 0.
     """
     paid = _paid(grid, rewards)
-    sweeps = 1 if checks.real("discount", discount, 0, 0.99) == 0 else math.log(CONVERGED) / math.log(discount)
     q = np.zeros_like(paid)
-    for _ in range(math.ceil(sweeps)):
+    for _ in range(math.ceil(math.log(CONVERGED) / math.log(discount))):
         q = paid + discount * q.max(axis=-1)[..., grid.next_state]
     return q
 
@@ -118,15 +109,9 @@ def misled(q, planned, elements):
 def compare(grid, valences, placements, seed=0, discount=0.8):
     """Compare superposition with the plan, for elements in states drawn for each placement: a `Comparison`.
 
-    valences: of the elements, fewer than the states, at least one of them positive. placements: integer ≥ 1.
-    seed: integer ≥ 0. Other arguments as in `plan`.
-    Raises ValueError for anything else.
+    valences: of the elements, fewer than the states, at least one of them positive. Other arguments as in `plan`.
     """
-    valences = checks.finite("valences", np.asarray(valences, float))
-    if valences.ndim != 1 or not 0 < len(valences) < grid.states or valences.max() <= 0:
-        raise ValueError(f"valences must be fewer than {grid.states} numbers, at least one above 0, but is {valences}")
-    rng = np.random.default_rng(checks.integer("seed", seed, at_least=0))
-    rewards = np.zeros((checks.integer("placements", placements, at_least=1), grid.states))
+    rng, rewards = np.random.default_rng(seed), np.zeros((placements, grid.states))
     for reward in rewards:
         reward[rng.choice(grid.states, len(valences), replace=False)] = valences
     superposed = greedy(np.tensordot(rewards, plan(grid, np.eye(grid.states), discount), axes=1))
@@ -150,7 +135,4 @@ def cosines(vectors):
 
 def _paid(grid, rewards):
     """The reward of each action in each state: float64 (…, states, 4)."""
-    rewards = checks.finite("rewards", np.asarray(rewards, float))
-    if rewards.shape[-1:] != (grid.states,):
-        raise ValueError(f"rewards must have the shape (…, {grid.states}), but has {rewards.shape}")
     return rewards[..., grid.next_state] * (grid.next_state != np.arange(grid.states)[:, None])
