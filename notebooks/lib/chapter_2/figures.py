@@ -7,6 +7,7 @@ from matplotlib.ticker import MaxNLocator
 
 from lib.chapter_2.tuning import egocentric
 from lib.shared.grid_figures import draw_grid, draw_policy, new_grids
+from lib.shared.panels import add_arrow, add_curves
 from neorl.drawing.boards import new_boards
 from neorl.drawing.curves import draw_curves
 from neorl.drawing.style import AGENT, CURVES, GREEN, INK, LOW_PANEL, RED, TEXT, letters, name_ends
@@ -113,7 +114,7 @@ def draw_motives(grid, values, marks):
 
 
 def draw_action_potential(axon, reversals):
-    """The potential of an axon over time, with the reversal potentials {name: mV}, and below its gates m, h and n.
+    """The potential of an axon, with the reversal potentials {name: mV}, and below its gates m, h and n.
 
     axon: (5, points), the time, the potential and the gates.
     """
@@ -125,12 +126,8 @@ def draw_action_potential(axon, reversals):
     top.plot(time, potential, color=AGENT)
     top.set(ylabel="millivolts", ylim=(-90, 60))
     name_ends(top, [(level, name, INK) for name, level in reversals.items()])
-    ends = []
-    for name, gate, colour in zip(("m: Na⁺ opens", "h: Na⁺ not shut", "n: K⁺ opens"), gates, CURVES):
-        bottom.plot(time, gate, color=colour)
-        ends.append((gate[-1], name, colour))
-    bottom.set(xlabel="milliseconds", ylabel="share open", ylim=(0, 1), xlim=(0, time[-1]))
-    name_ends(bottom, ends)
+    add_curves(bottom, time, dict(zip(("m: Na⁺ opens", "h: Na⁺ not shut", "n: K⁺ opens"), gates)),
+               xlabel="milliseconds", ylabel="share open", ylim=(0, 1), xlim=(0, time[-1]))
 
 
 def draw_firing_rates(currents, counted, fine, expected):
@@ -143,11 +140,7 @@ def draw_firing_rates(currents, counted, fine, expected):
 
 
 def draw_parts(time, inflow, potential, spikes, answers, threshold):
-    """The signals in the four parts of a neuron over time, one panel each.
-
-    inflow: the current into the dendrite. potential: of the soma, with its threshold. spikes: on the axon.
-    answers: the postsynaptic potential {name: (steps,)}.
-    """
+    """The signals in the four parts of a neuron over time, one panel each. answers: postsynaptic {name: (steps,)}."""
     width, _ = plt.rcParams["figure.figsize"]
     _, panels = plt.subplots(4, sharex=True, figsize=(width, 1.35 * width), height_ratios=(3, 3, 1, 3))
     dendrite, soma, axon, synapse = panels
@@ -157,11 +150,7 @@ def draw_parts(time, inflow, potential, spikes, answers, threshold):
     soma.axhline(threshold, color=INK, linewidth=0.8, linestyle=":")
     axon.vlines(time[spikes], 0, 1, color=RED, linewidth=1.4)
     axon.set(ylim=(0, 1.1), yticks=[])
-    ends = []
-    for (name, answer), colour in zip(answers.items(), (GREEN, CURVES[4])):
-        synapse.plot(time, answer, color=colour, linewidth=1.0)
-        ends.append((answer[-1], name, colour))
-    name_ends(synapse, ends, line=LOW_PANEL)
+    add_curves(synapse, time, answers, (GREEN, CURVES[4]), LOW_PANEL, linewidth=1.0)
     name_ends(soma, [(threshold, "threshold", INK)])
     titles = ("dendrite: current in, nA", "soma: potential, mV", "axon: spikes", "synapse: the next neuron, mV")
     for axes, title in zip(panels, titles):
@@ -171,20 +160,14 @@ def draw_parts(time, inflow, potential, spikes, answers, threshold):
 
 def draw_efficacies(minutes, efficacies):
     """The efficacy of a synapse over time after shocks to the animal: {name: (minutes,)}."""
-    axes = plt.figure().add_subplot()
-    ends = []
-    for (name, efficacy), colour in zip(efficacies.items(), CURVES):
-        axes.plot(minutes, efficacy, color=colour)
-        ends.append((efficacy[-1], name, colour))
-    axes.set(xlabel="minutes", ylabel="efficacy of the synapse", ylim=(0, None), xlim=(0, minutes[-1]))
-    name_ends(axes, ends)
+    add_curves(plt.figure().add_subplot(), minutes, efficacies, xlabel="minutes", ylabel="efficacy of the synapse",
+               ylim=(0, None), xlim=(0, minutes[-1]))
 
 
 def draw_frames(point, heading, distance, bearing):
-    """A point in Cartesian coordinates of two frames, and one in polar coordinates (compare thesis figure 2.4).
+    """A point (north, east) in Cartesian coordinates of two frames, and one in polar coordinates (thesis figure 2.4).
 
-    point: (north, east) from the animal. heading: radians from north by way of east. distance, bearing: of the other
-    point, the bearing in radians from the axis to the right, counter-clockwise.
+    heading: radians from north by way of east. bearing: radians from the axis to the right, counter-clockwise.
     """
     width, _ = plt.rcParams["figure.figsize"]
     _, (left, right) = plt.subplots(1, 2, figsize=(width, 0.62 * width))
@@ -194,20 +177,20 @@ def draw_frames(point, heading, distance, bearing):
         axes.axis("off")
     north, east = point
     for tip, name, sides in (((0, reach), "North", ("center", "bottom")), ((reach, 0), "East", ("center", "top"))):
-        _arrow(left, (0, 0), tip, INK)
+        add_arrow(left, (0, 0), tip, INK)
         left.annotate(name, tip, (0, 3 if tip[1] else -5), textcoords="offset points", ha=sides[0], va=sides[1])
     left.plot([0, east, east], [north, north, 0], color=INK, linestyle=":", linewidth=1.2)
     forward, starboard = egocentric(np.array(point, float), heading)
     ahead, aside = (np.array([np.sin(heading + turn), np.cos(heading + turn)]) for turn in (0, np.pi / 2))
     for axis, name in ((ahead, "Forward"), (aside, "Starboard")):
-        _arrow(left, (0, 0), 0.8 * reach * axis, AGENT)
+        add_arrow(left, (0, 0), 0.8 * reach * axis, AGENT)
         left.annotate(name, 0.8 * reach * axis, (0, 3 if axis[1] > 0 else -5), textcoords="offset points",
                       color=letters(AGENT), ha="center", va="bottom" if axis[1] > 0 else "top")
     for part in (forward * ahead, starboard * aside):
         left.plot(*np.transpose([part, (east, north)]), color=AGENT, linestyle=":", linewidth=1.2)
     left.plot(east, north, marker="o", color=RED)
     tip = distance * np.array([np.cos(bearing), np.sin(bearing)])
-    _arrow(right, (0, 0), (reach, 0), INK)
+    add_arrow(right, (0, 0), (reach, 0), INK)
     right.plot(*np.transpose([(0, 0), tip]), color=AGENT)
     right.plot(*tip, marker="o", color=RED)
     right.add_patch(Arc((0, 0), 0.5 * reach, 0.5 * reach, theta1=0, theta2=np.degrees(bearing), color=INK))
@@ -215,16 +198,10 @@ def draw_frames(point, heading, distance, bearing):
     right.text(*(tip / 2), f"{distance:g} ", color=AGENT, ha="right", va="bottom")
 
 
-def _arrow(axes, start, end, colour):
-    axes.annotate("", end, start, arrowprops={"arrowstyle": "->", "color": colour, "linewidth": 1.4,
-                                              "shrinkA": 0, "shrinkB": 0})
-
-
 def draw_landmark(seconds, places, heading, landmark, allocentric, seen):
     """An animal's path past a landmark, and the components of the landmark's vector in both frames over time.
 
-    seconds: (steps,). places: (steps, 2), north first. heading: (steps,), radians from north by way of east.
-    landmark: its place. allocentric: (steps, 2), north and east. seen: (steps, 2), forward and starboard.
+    places, allocentric: (steps, 2), north first. heading: as in `draw_frames`. seen: forward and starboard.
     """
     width, _ = plt.rcParams["figure.figsize"]
     figure = plt.figure(figsize=(width, 1.25 * width))
@@ -239,12 +216,8 @@ def draw_landmark(seconds, places, heading, landmark, allocentric, seen):
     scene.margins(0.25)
     for axes, vectors, names, title in ((outer, allocentric, ("north", "east"), "allocentric"),
                                         (inner, seen, ("forward", "starboard"), "egocentric")):
-        for component, colour in zip(vectors.T, CURVES):
-            axes.plot(seconds, component, color=colour)
         axes.set_title(title, fontsize=11, loc="left")
-        axes.set_xlim(0, seconds[-1])
-        ends = [(component[-1], name, colour) for component, name, colour in zip(vectors.T, names, CURVES)]
-        name_ends(axes, ends, line=LOW_PANEL)
+        add_curves(axes, seconds, dict(zip(names, vectors.T)), line=LOW_PANEL, xlim=(0, seconds[-1]))
     outer.tick_params(labelbottom=False)
     inner.set_xlabel("seconds")
 
@@ -259,10 +232,9 @@ def draw_rate_maps(trajectory, spikes, maps, objects):
     path.plot(*trajectory.position[spikes > 0].T, color=RED, linestyle="none", marker=".", markersize=3)
     path.set_title(f"path, spikes of {next(iter(maps))}", fontsize=11)
     for axes, (name, rate) in zip(panels, maps.items()):
-        axes.imshow(rate.T, extent=(0, 1, 1, 0), cmap="viridis", vmin=0)
-        axes.set_title(f"{name}, {np.nanmax(rate):.0f} Hz", fontsize=11)
+        _draw_rate(axes, rate.T, f"{name}, {np.nanmax(rate):.0f} Hz")
+    path.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
     for axes in (path, *panels):
-        axes.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
         for x, y in objects:
             axes.plot(x, y, marker="s", markersize=7, markerfacecolor="white", markeredgecolor=RED, markeredgewidth=2)
 
@@ -270,7 +242,7 @@ def draw_rate_maps(trajectory, spikes, maps, objects):
 def draw_grid_cells(maps):
     """Rate maps of grid cells, {title: rate (bins, bins)}, x first, side by side."""
     for axes, (title, rate) in zip(new_boards(len(maps), 1), maps.items()):
-        _draw_rate(axes, rate.T, (0, 1, 1, 0), title)
+        _draw_rate(axes, rate.T, title)
 
 
 def draw_object_maps(maps):
@@ -282,12 +254,12 @@ def draw_object_maps(maps):
     for cell, frames in maps.items():
         for frame, rate in frames.items():
             axes = next(panels)
-            _draw_rate(axes, rate[::-1], (0, 1, 1, 0), f"{cell},\n{frame} map")
+            _draw_rate(axes, rate[::-1], f"{cell},\n{frame} map")
             axes.plot(0.5, 0.5, marker="+", color="white", markersize=10, markeredgewidth=2)
 
 
-def _draw_rate(axes, image, extent, title):
-    axes.imshow(image, extent=extent, cmap="viridis", vmin=0)
+def _draw_rate(axes, image, title):
+    axes.imshow(image, extent=(0, 1, 1, 0), cmap="viridis", vmin=0)
     axes.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
     axes.set_title(title, fontsize=11)
 
@@ -315,10 +287,6 @@ def draw_tuning_curves(direction, speed, fastest):
     around.set_rmax(rim)
     around.grid(color=INK, alpha=0.4)
     around.spines["polar"].set_color(INK)
-    ends = []
-    for (name, rate), colour in zip(speed.items(), (GREEN, INK)):
-        middles = fastest * (np.arange(len(rate)) + 0.5) / len(rate)
-        along.plot(middles, rate, color=colour)
-        ends.append((rate[~np.isnan(rate)][-1], name, colour))
-    along.set(xlabel="speed, box widths per second", ylabel="spikes per second", ylim=(0, None), xlim=(0, fastest))
-    name_ends(along, ends)
+    bins = len(next(iter(speed.values())))
+    add_curves(along, fastest * (np.arange(bins) + 0.5) / bins, speed, (GREEN, INK), ylim=(0, None), xlim=(0, fastest),
+               xlabel="speed, box widths per second", ylabel="spikes per second")

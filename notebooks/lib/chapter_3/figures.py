@@ -9,6 +9,7 @@ from lib.chapter_3.ensembles import LEARNERS
 from lib.chapter_3.hybrid_reward import settled_values
 from lib.shared.grid import WALL
 from lib.shared.grid_figures import draw_grid, draw_policy, new_grids
+from lib.shared.panels import add_arrow
 from neorl.drawing.style import AGENT, CURVES, FILL, GREEN, INK, RED, TEXT, letters, mark, name_ends
 from neorl.evidence.statistics import estimate, mean_band
 
@@ -49,8 +50,7 @@ def draw_loop():
         axes.text(2.5, y + 0.3, name, color=letters(colour), ha="center", va="center", weight="bold")
     for begin, turn, end, low, high in ((3.27, 3.65, 3.3, 2.25, 0.45), (1.73, 1.35, 1.7, 0.45, 2.25)):
         axes.plot([begin, turn, turn, end], [low, low, high, high], color=INK)
-        axes.annotate("", (end, high), (turn, high), arrowprops={"arrowstyle": "-|>", "color": INK, "linewidth": 1.8,
-                                                                 "shrinkA": 0, "shrinkB": 0})
+        add_arrow(axes, (turn, high), (end, high), INK, 1.8, "-|>")
     axes.text(3.75, 1.35, "action $a_t$", va="center")
     axes.text(1.25, 1.35, "state $s_{t+1}$\nreward $R_{t+1}$", va="center", ha="right")
 

@@ -9,6 +9,7 @@ from lib.chapter_4.credit import ROLES
 from lib.chapter_4.noise import expected_squared_displacement
 from lib.chapter_4.superposition import misled
 from lib.shared.grid_figures import draw_grid, draw_policy, new_grids
+from lib.shared.panels import add_curves
 from neorl.drawing.curves import add_estimates
 from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, UNDER_WHITE, letters, name_ends
 from neorl.evidence.statistics import mean_band
@@ -124,14 +125,9 @@ def draw_roles(values_by_rule):
     width, _ = plt.rcParams["figure.figsize"]
     figure, grid = plt.subplots(len(values_by_rule), 1, sharex=True, figsize=(width, 3.1 * len(values_by_rule)))
     for axes, (title, values) in zip(grid, values_by_rule.items()):
-        visits, ends = 1 + np.arange(values.shape[1]), []
-        for role, (name, colour) in enumerate(zip(ROLES, CURVES)):
-            curve = values[..., role]
-            axes.plot(visits, curve.mean(axis=0), color=colour)
-            axes.fill_between(visits, *mean_band(curve), color=colour, alpha=0.2, linewidth=0)
-            ends.append((curve[:, -1].mean(), name, colour))
-        axes.set(title=title, ylabel="value", xscale="log", xlim=(1, visits[-1]), ylim=(0, None))
-        name_ends(axes, ends)
+        visits = 1 + np.arange(values.shape[1])
+        add_curves(axes, visits, {role: values[..., at] for at, role in enumerate(ROLES)}, title=title, ylabel="value",
+                   xscale="log", xlim=(1, visits[-1]), ylim=(0, None))
     grid[-1].set_xlabel("visits")
 
 

@@ -1,7 +1,6 @@
 """Figures of the page "Is it general?": what an agent does in each world, and learning curves.
 
-Functions that draw a world take `ax`, or make a new board; those that draw a pair of panels return both. What an agent
-does is `seen` as `lib.other_spaces.trials.watch` records it.
+What an agent does is `seen` as `lib.other_spaces.trials.watch` records it.
 """
 
 import numpy as np
@@ -9,7 +8,7 @@ from matplotlib import pyplot as plt
 from matplotlib.patches import Circle, Rectangle
 
 from neorl.core.geometry import TAU
-from neorl.drawing.boards import as_board, board_or_new
+from neorl.drawing.boards import as_board
 from neorl.drawing.curves import draw_curves
 from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, TEXT, axes_or_new, letters, mark, width_of_figures
 from neorl.evidence.statistics import estimate, probability_of_improvement
@@ -43,7 +42,6 @@ def draw_arms(reached, seen):
     curves = {f"{links} links{name}": curve(reached[links, key])[1]
               for links in (2, 3) for key, name in (("agent", ""), ("random", ", random"))}
     draw_curves(minutes, curves, "simulated minutes", "reward per second", below)
-    return above, below
 
 
 def curve(result):
@@ -53,12 +51,11 @@ def curve(result):
     return shares[1:] * result.seconds / 60, np.stack(rates, axis=1)
 
 
-def draw_reaching(seen, radius, ax=None, targets=2):
-    """Postures of an arm until it has met `targets` targets, earlier ones fainter, with the targets and obstacles."""
-    axes = board_or_new(ax)
-    ends = [at for at, (_, met) in enumerate(seen) if met][: targets + 1]
+def draw_reaching(seen, radius, axes):
+    """Postures of an arm until it has met two targets, earlier ones fainter, with the targets and obstacles."""
+    ends = [at for at, (_, met) in enumerate(seen) if met][:3]
     begin, end = (ends[0] + 1, ends[-1]) if len(ends) > 1 else (0, len(seen))
-    shown = np.linspace(begin, end - 1, SEEN * targets).astype(int)
+    shown = np.linspace(begin, end - 1, 2 * SEEN).astype(int)
     for rank, at in enumerate(shown):
         joints = joints_of(seen[at][0].scene.position)
         axes.plot(*joints.T, color=AGENT, alpha=0.15 + 0.6 * rank / len(shown), linewidth=1.8)
@@ -73,7 +70,6 @@ def draw_reaching(seen, radius, ax=None, targets=2):
     places = np.concatenate([place for state, _ in (seen[at] for at in shown)
                              for place in (joints_of(state.scene.position), state.point)])
     axes.set(xlim=(-1.15, 1.15), ylim=(places[:, 1].max() + MARGIN, places[:, 1].min() - MARGIN))
-    return axes
 
 
 def joints_of(posture):
@@ -93,12 +89,10 @@ def draw_vessel(sailed, seen):
     minutes = curve(sailed["radar"])[0]
     draw_curves(minutes, {name: 60 * curve(result)[1] for name, result in sailed.items()}, "simulated minutes",
                 "reward per minute", below)
-    return above, below
 
 
-def draw_track(seen, radius, ax=None):
+def draw_track(seen, radius, axes):
     """The track of a vessel, the waypoints that it reaches, and the tracks of the others."""
-    axes = board_or_new(ax)
     axes.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
     things = np.array([state.scene.things for state, _ in seen])
     for track in things[:, 1:].swapaxes(0, 1):
@@ -113,7 +107,6 @@ def draw_track(seen, radius, ax=None):
         place = seen[at - 1][0].scene.things[0]
         axes.add_patch(Circle(place, radius, facecolor=GREEN, alpha=0.5))
         mark(axes, place, str(number), ha="center", va="center")
-    return axes
 
 
 def draw_pool(swum, paths, maze):
@@ -131,12 +124,10 @@ def draw_pool(swum, paths, maze):
     below.set_ylim(0, None)
     for day in range(1, len(maze.places)):
         below.axvline(day, color=INK, linewidth=0.8)
-    return above, below
 
 
-def draw_paths(paths, maze, ax=None):
+def draw_paths(paths, maze, axes):
     """The pool with the paths of trials, from the rim to the platform where the last one ends."""
-    axes = board_or_new(ax)
     axes.add_patch(Circle((0.5, 0.5), 0.5, fill=False, edgecolor=INK, linewidth=1.4))
     for number, (path, colour) in enumerate(zip(paths, (INK, AGENT)), 1):
         axes.plot(*path.T, color=colour, linewidth=1.0 if number == 1 else 2.0)
@@ -144,7 +135,6 @@ def draw_paths(paths, maze, ax=None):
         aside = path[0] + ASIDE_OF_PATH * np.array([ahead[1], -ahead[0]]) / max(np.hypot(*ahead), 1e-9)
         axes.text(*aside, str(number), color=letters(colour), weight="bold", ha="center", va="center")
     axes.add_patch(Circle(maze.places[-1], maze.radius, facecolor=GREEN, alpha=0.6))
-    return axes
 
 
 def draw_birds(asked, paths, named, nameless):
@@ -161,12 +151,10 @@ def draw_birds(asked, paths, named, nameless):
     below.set_xticks(MULTIPLES, MULTIPLES)
     below.minorticks_off()
     below.axvline(1, color=INK, linewidth=0.7)
-    return above, below
 
 
-def draw_space(paths, named, nameless, ax=None):
+def draw_space(paths, named, nameless, axes):
     """The space of birds: those with a name, some others, and paths between them."""
-    axes = board_or_new(ax)
     axes.add_patch(Rectangle((0, 0), 1, 1, fill=False, edgecolor=INK, linewidth=1.4))
     for path in paths:
         axes.plot(*path.T, color=AGENT, linewidth=1.2)
@@ -178,7 +166,6 @@ def draw_space(paths, named, nameless, ax=None):
         draw_bird(bird, axes, INK)
     axes.text(0.5, 1.03, "neck →", color=TEXT, ha="center", va="top")
     axes.text(-0.03, 0.5, "legs →", color=TEXT, ha="right", va="center", rotation=270)
-    return axes
 
 
 def draw_bird(bird, axes, colour):
@@ -201,12 +188,11 @@ def draw_car(driven, learner, decisions):
     draw_pushes(learner, above)
     points = driven["neoRL"].shape[1]
     draw_curves((np.arange(points) + 1) * decisions / points, driven, "decisions", "steps per episode", below)
-    return above, below
 
 
-def draw_pushes(learner, ax=None):
+def draw_pushes(learner, axes):
     """Whether a driver pushes left or right, by cell of place (rightward) and velocity (upward); empty if unknown."""
-    axes, (places, velocities) = axes_or_new(ax), learner.agent.nodes[0].modality.axes
+    places, velocities = learner.agent.nodes[0].modality.axes
     columns, rows = places.intervals, velocities.intervals
     goals = [columns - 1 + columns * row for row in range(rows)]
     value = learner.q(0)[:, :, goals].sum(axis=2)
@@ -219,19 +205,17 @@ def draw_pushes(learner, ax=None):
         x = places.low + (column + 0.5) * (places.high - places.low) / columns
         y = velocities.low + (row + 0.5) * (velocities.high - velocities.low) / rows
         axes.plot(x, y, marker=">" if right else "<", markersize=5, color=CURVES[0] if right else CURVES[1])
-    return axes
 
 
-def draw_worlds(scores, ax=None):
+def draw_worlds(scores):
     """Probability that a run of the agent beats a random agent's, by world.
 
     scores: {world: (float64 (runs,) of the agent, the same of the random agent)}.
     """
     axes = draw_rows({world: probability_of_improvement(*each) for world, each in scores.items()},
-                     "probability of beating a random agent", ax)
+                     "probability of beating a random agent")
     axes.set_xlim(0, 1.04)
     axes.axvline(0.5, color=INK, linewidth=0.7)
-    return axes
 
 
 def draw_rows(estimates, label, ax=None):

@@ -9,6 +9,7 @@ from matplotlib.patches import Circle
 
 from lib.paper_b.receptive_fields import draw_receptive_fields
 from lib.paper_b.trials import SECONDS_A_MOVE, best_values, values_for_objects
+from lib.shared.panels import add_arrow
 from lib.shared.report import CALIBRATED, LETTER
 from lib.shared.wording import table
 from lib.shared.thesis_figures import draw_against_thesis
@@ -48,10 +49,7 @@ def of_figure_5(results):
 
 
 def draw_agents(thesis, found, xlabel):
-    """Draw results of figure 5's agents beside the thesis's numbers, a row for each agent with such a number.
-
-    thesis: {agent: number}. found: {reading: {agent: Estimate}}.
-    """
+    """Draw results {reading: {agent: Estimate}} beside the thesis's numbers {agent: number}, a row for each number."""
     draw_against_thesis({LABELS[agent]: number for agent, number in thesis.items()},
                         {name: {LABELS[agent]: of_agents[agent] for agent in thesis}
                          for name, of_agents in found.items()}, xlabel)
@@ -79,8 +77,7 @@ def draw_states():
         for place, colour, name in (((0, 0), AGENT, of_centre), (OBJECT, GREEN, of_cell)):
             axes.add_patch(Circle(place, DISC, facecolor=colour, edgecolor="none"))
             mark(axes, (place[0], place[1] + 0.31), name, ha="center", va="center")
-        axes.annotate("", end, start, arrowprops={"arrowstyle": "->", "color": INK, "linewidth": 1.8, "shrinkA": 0,
-                                                  "shrinkB": 0})
+        add_arrow(axes, start, end, INK, 1.8)
         axes.set_title(title)
 
 
@@ -126,10 +123,7 @@ def draw_revaluing(revalued):
 
 
 def red_a_minute(revalued):
-    """The midpoints of equal stretches of a run, in minutes, and red creeps taken per minute in each.
-
-    revalued: {name: `Result`}, of the same length. Returns (stretches,) and {name: (runs, stretches)}.
-    """
+    """The midpoints of `STRETCHES` of a run, in minutes, and red creeps taken per minute in each, {name: (runs, …)}."""
     edges = np.linspace(0, 1, STRETCHES + 1)
     curves = {name: np.stack([60 * result.hit_rate(*pair)[:, 1] for pair in zip(edges[:-1], edges[1:])], axis=1)
               for name, result in revalued.items()}
@@ -144,10 +138,7 @@ def draw_distances(moved, seconds):
 
 
 def draw_time_scale(resolutions, stays):
-    """Draw seconds in a cell over the width of its receptive field, on logarithmic axes.
-
-    resolutions: of the maps, in ascending order. stays: {reading: (runs, maps)}, see `trials.mean_stays`.
-    """
+    """Draw seconds in a cell, {reading: (runs, maps)}, over the width of its receptive field, on logarithmic axes."""
     widths = [1 / n for n in resolutions[::-1]]
     means = {name: [estimate(np.mean, stay) for stay in each.T[::-1]] for name, each in stays.items()}
     axes = draw_sweep(widths, means, "width of a receptive field, share of the range", "seconds in a cell")
@@ -198,7 +189,7 @@ def change_table(revalued, roamed):
 def explorer_conditions(results, paper, others):
     """The conditions that the page's Explorer offers: {name: `Result`}, the first with both modalities.
 
-    results: {reading: {key: `Result`}}. paper: begins their names, such as "Paper B". others: more, {what: `Result`}.
+    paper: begins their names, such as "Paper B". others: more, {what: `Result`}.
     """
     calibrated, letter = results[CALIBRATED], results[LETTER]
     offered = {f"{paper}, figure 5: place + object-vector cells": calibrated["both"]}
