@@ -27,7 +27,6 @@ from lib.shared.priors import TO_THE_LETTER, WITHIN
 from lib.study import calibration_table
 from lib.study.calibration_table import Row
 from lib.study.calibration_targets import GROUPS, TARGETS
-from neorl import checks
 from neorl.extras import require
 
 RUNS, STEPS = 2, 600_000  # of a reading: the papers' own lengths
@@ -45,40 +44,33 @@ FAR = 8.0  # scales: the emulator clips values that lie farther than this outsid
 DIGITS = 4  # significant digits of a chosen number
 
 
-def calibrate(minutes, table=(), executor=None, seed=0, runs=RUNS, steps=STEPS, keep=None):
+def calibrate(minutes, table=(), seed=0, runs=RUNS, steps=STEPS, keep=None):
     """Run readings for a number of minutes, and return the table that includes them: a list of `Row`.
 
-    table: rows to continue from. executor: see `neorl.sweep`. seed: of the design and of the candidates; row i of the
-    table is run with the seed 1000 · seed + i. runs, steps: of each reading, see `reading.conditions`.
-    keep: called with the table whenever it has grown, for instance to save it.
+    table: rows to continue from. seed: of the design and of the candidates; row i of the table is run with the seed
+    1000 · seed + i. runs, steps: of each reading, see `reading.conditions`. keep: called with the table whenever it has
+    grown, for instance to save it.
 
     The clock is checked between chunks of 32 readings, so the call may take up to a chunk longer.
-    Raises ValueError for a bad argument.
     """
-    end = time.monotonic() + 60 * checks.real("minutes", minutes, 0)
-    checks.integer("seed", seed, at_least=0)
-    checks.integer("runs", runs, at_least=2)
-    table = list(table)
+    end, table = time.monotonic() + 60 * minutes, list(table)
     work = _work(table, seed, runs, steps)
     while time.monotonic() < end:
         group, chosen = next(work)
-        for place, row in zip(chosen, calibration_table.run([table[i] for i in chosen], group, executor)):
+        for place, row in zip(chosen, calibration_table.run([table[i] for i in chosen], group)):
             table[place] = row
         if keep:
             keep([row for row in table if row.statistics])
     return [row for row in table if row.statistics]
 
 
-def refine(minutes, table, parents, runs, executor=None, seed=0, keep=None):
+def refine(minutes, table, parents, runs, seed, keep):
     """Search near given readings for a number of minutes, and return the table that includes the rows.
 
     parents: readings, to which the nearest 12 complete rows of more than 2 runs are added. runs: of each condition.
-    executor, seed, keep: as in `calibrate`. A round is not interrupted, so the call may take longer.
-    Raises ValueError for a bad argument.
+    seed, keep: as in `calibrate`. A round is not interrupted, so the call may take longer.
     """
-    end = time.monotonic() + 60 * checks.real("minutes", minutes, 0)
-    checks.integer("runs", runs, at_least=2)
-    table = list(table)
+    end, table = time.monotonic() + 60 * minutes, list(table)
     while time.monotonic() < end:
         rng = np.random.default_rng([seed, _next_wave(table)])
         found = sorted((row for row in table if row.complete and row.runs > RUNS), key=lambda row: row.distance)
@@ -88,21 +80,18 @@ def refine(minutes, table, parents, runs, executor=None, seed=0, keep=None):
         order = list(range(len(rows)))
         for group, n in ROUND.items():
             order = sorted(order, key=lambda i: rows[i].distance)[:n]
-            for i, row in zip(order, calibration_table.run([rows[i] for i in order], group, executor)):
+            for i, row in zip(order, calibration_table.run([rows[i] for i in order], group)):
                 rows[i] = row
         table += rows
-        if keep:
-            keep(table)
+        keep(table)
     return table
 
 
-def narrow(table, refined_runs, n, runs, executor=None, seed=0):
+def narrow(table, refined_runs, n, runs, seed):
     """Run n readings between two in every group, and return the table that includes their rows.
 
-    The two are those of the complete rows of `refined_runs` runs for which most claims hold, or else the nearest. Each
-    number lies between theirs, and all other choices are the first one's.
-    runs: of each condition. executor, seed: as in `calibrate`.
-    Raises ValueError for a bad argument, and if there are not two such rows.
+    The two are those of the complete rows of `refined_runs` runs for which most claims hold, or else the nearest.
+    Raises ValueError if there are not two such rows.
     """
     found = sorted((row for row in table if row.complete and row.runs == refined_runs),
                    key=lambda row: (-len(row.held), row.distance))
@@ -111,36 +100,34 @@ def narrow(table, refined_runs, n, runs, executor=None, seed=0):
                          "with as many runs first")
     nearest, other = (row.reading for row in found[:2])
     rng = np.random.default_rng([seed, _next_wave(table)])
-    rows = _new_rows(table, [_between(nearest, other, rng) for _ in range(checks.integer("n", n, at_least=1))], runs,
-                     seed)
+    rows = _new_rows(table, [_between(nearest, other, rng) for _ in range(n)], runs, seed)
     for group in GROUPS:
-        rows = calibration_table.run(rows, group, executor)
+        rows = calibration_table.run(rows, group)
     return [*table, *rows]
 
 
-def rescale(table, n, scales, runs, executor=None, seed=0):
+def rescale(table, n, scales, runs, seed):
     """Run the n leading of the most-run readings in paper C with other scales of desires.
 
     Returns the table that includes the new rows, n for each scale, which have been run in that group alone.
-    runs: of each condition. executor, seed: as in `calibrate`. Raises ValueError for a bad argument.
     """
     most = max(row.runs for row in calibration_table.nearest(table))
-    first = [row for row in calibration_table.leading(table) if row.runs == most][: checks.integer("n", n, at_least=1)]
+    first = [row for row in calibration_table.leading(table) if row.runs == most][:n]
     readings = [replace(row.reading, scale=float(scale)) for scale in scales for row in first]
-    return [*table, *calibration_table.run(_new_rows(table, readings, runs, seed), "networks", executor)]
+    return [*table, *calibration_table.run(_new_rows(table, readings, runs, seed), "networks")]
 
 
-def confirm(table, n, runs, executor=None, seed=0):
+def confirm(table, n, runs, seed=0):
     """Run the n leading readings of a table again, with fresh seeds, and return the table that includes the new rows.
 
-    See `calibration_table.leading`; readings that have been run only twice come last.
-    runs: of each condition. seed: as in `calibrate`. Raises ValueError for a bad argument, and if no row is complete.
+    See `calibration_table.leading`; readings that have been run only twice come last. Raises ValueError if no row is
+    complete.
     """
-    first = sorted(calibration_table.leading(table), key=lambda row: row.runs <= RUNS)[: checks.integer("n", n, 1)]
+    first = sorted(calibration_table.leading(table), key=lambda row: row.runs <= RUNS)[:n]
     again = [replace(new, steps=row.steps)
              for new, row in zip(_new_rows(table, [row.reading for row in first], runs, seed), first)]
     for group in GROUPS:
-        again = calibration_table.run(again, group, executor)
+        again = calibration_table.run(again, group)
     return [*table, *again]
 
 
@@ -150,7 +137,7 @@ def _next_wave(table):
 
 def _new_rows(table, readings, runs, seed):
     """Rows of the next wave, which have not been run, with the seeds of the next places in the table."""
-    runs, begin = checks.integer("runs", runs, at_least=2), 1_000 * seed + len(table)
+    begin = 1_000 * seed + len(table)
     return [Row(_next_wave(table), begin + i, runs, STEPS, reading) for i, reading in enumerate(readings)]
 
 
@@ -211,10 +198,9 @@ def _short(value):
 
 
 class Emulator:
-    """Random forests that predict the statistics of a reading from its choices, one forest for each group.
+    """Random forests that predict the statistics of a reading from its choices, one for each group with enough rows.
 
     A prediction's uncertainty combines the disagreement of the trees and the noise of a few runs.
-    table: rows. A group in which fewer than 24 of them have been run is not predicted.
     """
 
     def __init__(self, table, seed=0):

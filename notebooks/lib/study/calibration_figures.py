@@ -1,8 +1,5 @@
 """The figures of the calibration: the thesis's figures as predicted by readings, which claims hold together, the
 posterior of each choice and of pairs, and how the search converged.
-
-A figure of one panel is drawn into `ax`, one of several into `figure`; by default into a new one. Each function returns
-its axes.
 """
 
 from textwrap import fill
@@ -29,18 +26,18 @@ POINTS = 100  # of a predicted curve
 COLUMNS = 2  # of panels
 
 
-def draw_marginals(remaining, nearest, names=tuple(WITHIN)):
+def draw_marginals(remaining, nearest):
     """Prior (outlines) and posterior (bars) of each choice, as shares of its levels.
 
-    remaining: a `Posterior`, the bars. nearest: another, whose shares are drawn as points. names: of the choices.
+    remaining: a `Posterior`, the bars. nearest: another, whose shares are drawn as points.
     """
-    each = [marginal(name, remaining) for name in names]
+    each = [marginal(name, remaining) for name in WITHIN]
     rows = [each[i : i + COLUMNS] for i in range(0, len(each), COLUMNS)]
     heights = [max(len(found.levels) for found in row) for row in rows]
     figure = plt.figure(figsize=(width_of_figures(), sum(ROW * high + 0.42 for high in heights)),
                         layout="constrained")
     grid = figure.subplots(len(rows), COLUMNS, height_ratios=heights, squeeze=False)
-    for axes, name, found in zip(grid.flat, names, each):
+    for axes, name, found in zip(grid.flat, WITHIN, each):
         at = np.arange(len(found.levels))
         axes.barh(at, found.posterior, 0.8, color=AGENT, alpha=0.75)
         axes.barh(at, found.prior, 0.8, fill=False, edgecolor=INK, linewidth=0.8)
@@ -54,8 +51,8 @@ def draw_marginals(remaining, nearest, names=tuple(WITHIN)):
         axes.set_visible(False)
     handles = [Patch(facecolor="none", edgecolor=INK), Patch(color=AGENT, alpha=0.75),
                Line2D([], [], linestyle="none", marker="o", markersize=3, color=RED)]
-    figure.legend(handles, ["before", "after", "nearest readings"], loc="outside upper center", ncols=3, frameon=False, fontsize=SMALL)
-    return grid
+    figure.legend(handles, ["before", "after", "nearest readings"], loc="outside upper center", ncols=3, frameon=False,
+                  fontsize=SMALL)
 
 
 def draw_pairs(remaining, names):
@@ -87,7 +84,6 @@ def draw_pairs(remaining, names):
                 axes.set_xticks(*_spaced(beside), fontsize=SMALL, rotation=90)
                 axes.set_xlabel(fill(WITHIN[names[j]].label, NARROW), fontsize=SMALL)
             axes.tick_params(length=0)
-    return grid
 
 
 def _spaced(levels):
@@ -96,15 +92,13 @@ def _spaced(levels):
     return range(len(levels))[every], [level.split(" … ")[0] for level in levels[every]]
 
 
-def draw_together(together, ax=None):
+def draw_together(together):
     """Which claims hold together: % of the readings with both measured in which both hold, on the diagonal each alone.
-    A bar below each number has that length.
 
-    A cross marks pairs that never hold together, although by chance some readings would.
-
-    together: a `Together`.
+    A bar below each number has that length. A cross marks pairs that never hold together, although by chance some
+    readings would.
     """
-    axes = axes_or_new(ax, figsize=(width_of_figures(), width_of_figures()))
+    axes = axes_or_new(None, figsize=(width_of_figures(), width_of_figures()))
     share = np.divide(together.both, together.rows, out=np.zeros(together.both.shape), where=together.rows > 0)
     never = set(together.never)
     for i, below in enumerate(together.claims):
@@ -118,7 +112,6 @@ def draw_together(together, ax=None):
     axes.set(xlim=(-0.5, len(share) - 0.5), ylim=(len(share) - 0.4, -0.5))
     axes.tick_params(length=0)
     axes.spines[:].set_visible(False)
-    return axes
 
 
 def draw_conflicts(found, row):
@@ -127,7 +120,7 @@ def draw_conflicts(found, row):
     Shaded is where both targets are met; the middle 96 % of the readings are shown, the row as a ring. A panel's
     heading says how many readings meet both, and how many would by chance.
 
-    found: of `calibration_results.conflicts`, at least one. row: the `Row` that was asked about.
+    found: of `calibration_results.conflicts` for the row.
     """
     high = -(-len(found) // COLUMNS)
     figure = plt.figure(figsize=(width_of_figures(), 2.1 * high), layout="constrained")
@@ -157,15 +150,11 @@ def draw_conflicts(found, row):
         axes.tick_params(labelsize=SMALL)
     for axes in grid.flat[len(found):]:
         axes.set_visible(False)
-    return grid
 
 
-def draw_distances(table, ax=None):
-    """The distance of readings to all targets, wave by wave: those with all groups measured, and the nearest so far.
-
-    table: a list of `Row`.
-    """
-    axes = axes_or_new(ax)
+def draw_distances(table):
+    """The distance of readings to all targets, wave by wave: those with all groups measured, and the nearest so far."""
+    axes = axes_or_new(None)
     complete = [row for row in table if row.complete]
     shift = np.random.default_rng(0).uniform(-0.3, 0.3, len(complete))  # so that points do not overlap
     axes.plot([row.wave for row in complete] + shift, [row.distance for row in complete], linestyle="none", marker="o",
@@ -175,22 +164,20 @@ def draw_distances(table, ax=None):
     axes.set(xlabel="wave", ylabel="distance to all targets", ylim=(0, None))
     axes.xaxis.get_major_locator().set_params(integer=True)
     name_ends(axes, [(list(nearest.values())[-1], "nearest", RED)])
-    return axes
 
 
-def draw_accumulated(results, keys, ax=None):
+def draw_accumulated(results, keys):
     """Accumulated reward of conditions, the mean over runs. results, keys: see `draw_rates`."""
     def accumulated(result):
         edges = np.linspace(0, result.rewards.shape[1] - 1, POINTS).astype(int)
         return result.rewards.mean(axis=0).cumsum(dtype=float)[edges]
 
     axes = _draw_curves({name: [accumulated(each[key]) for each in results] for name, key in keys.items()},
-                        _minutes(results, keys), ax)
+                        _minutes(results, keys))
     axes.set_ylabel("accumulated reward")
-    return axes
 
 
-def draw_rates(results, keys, total=(), ax=None):
+def draw_rates(results, keys, total=()):
     """Reward per second of conditions under several readings, low-passed means over runs.
 
     results: {key of the condition: `Result`} of each reading, the first of which is drawn thick. keys: {name: key}.
@@ -201,7 +188,7 @@ def draw_rates(results, keys, total=(), ax=None):
     colours = CURVES[:len(curves)]
     if total:
         curves["sum"], colours = [sum(alone) for alone in zip(*(curves[name] for name in total))], (*colours, INK)
-    return _draw_curves(curves, _minutes(results, keys), ax, colours)
+    return _draw_curves(curves, _minutes(results, keys), colours)
 
 
 def mark_minutes(axes, minutes):
@@ -219,9 +206,9 @@ def _minutes(results, keys):
     return [each[key].seconds / 60 for each in results]
 
 
-def _draw_curves(curves, lengths, ax, colours=CURVES):
+def _draw_curves(curves, lengths, colours=CURVES):
     """Axes with curves {name: [(POINTS,) of each reading]}, the first of each thick. lengths: in minutes, of each."""
-    axes, ends = axes_or_new(ax), []
+    axes, ends = axes_or_new(None), []
     middles = (np.arange(POINTS) + 0.5) / POINTS
     for (name, (first, *others)), colour in zip(curves.items(), colours):
         for other, minutes in zip(others, lengths[1:]):

@@ -16,7 +16,6 @@ from lib.study.calibration import IN_FULL, Emulator, reading_at
 from lib.study.calibration_table import leading, nearest
 from lib.study.calibration_targets import CLAIMS, TARGETS, distance
 from lib.study.multiverse import binned
-from neorl import checks
 
 NEAREST = 25  # rows that stand for the posterior where none agrees with all targets
 DRAWS = 10_000
@@ -37,9 +36,7 @@ class Posterior(NamedTuple):
 
 
 def accepted(table):
-    """The complete rows that agree with all targets; if none does, the 25 nearest. Raises ValueError if no row is
-    complete.
-    """
+    """The complete rows that agree with all targets; if none does, the 25 nearest."""
     complete = nearest(table)
     return [row for row in complete if row.distance == 0] or complete[:NEAREST]
 
@@ -51,7 +48,7 @@ def posterior(table, draws=DRAWS, seed=0):
     table share parents, so a choice that does not matter may look decided among them; here it does not.
     """
     rng = np.random.default_rng(seed)
-    readings = [reading_at(shares) for shares in rng.random((checks.integer("draws", draws, 1), len(WITHIN)))]
+    readings = [reading_at(shares) for shares in rng.random((draws, len(WITHIN)))]
     each = np.array(list(Emulator(table, seed).implausibility(readings).values()))
     logs = -0.5 * np.sum(each**2, axis=0)
     weights = np.exp(logs - logs.max())
@@ -89,8 +86,7 @@ def most_informative(remaining, n):
 
 
 class Together(NamedTuple):
-    """The numbers of rows in which claims hold together. Arrays are (claims, claims), each claim alone on the diagonal.
-    """
+    """The numbers of rows in which claims hold together, (claims, claims), each claim alone on the diagonal."""
 
     claims: tuple[str, ...]
     rows: np.ndarray  # in which both were measured
@@ -100,9 +96,7 @@ class Together(NamedTuple):
 
     @property
     def pairs(self):
-        """Pairs of claims: [(name, name, rows in which both hold, rows expected), …], those that go together least
-        first.
-        """
+        """Pairs of claims, those that go together least first: [(name, name, rows in which both hold, expected), …]."""
         pairs = [(self.claims[i], self.claims[j], int(self.both[i, j]), float(self.expected[i, j]))
                  for i, j in combinations(range(len(self.claims)), 2)]
         return sorted(pairs, key=lambda pair: (pair[2] + 1) / (pair[3] + 1))
@@ -114,11 +108,7 @@ class Together(NamedTuple):
 
 
 def claims_together(table):
-    """Count the rows in which claims hold together, a `Together`: pairs in all rows with both measured, sets in
-    complete rows.
-
-    A set is listed unless it is a subset of another.
-    """
+    """Count the rows in which pairs and sets of claims hold together: a `Together`, without subsets of its sets."""
     tested = np.array([[name in row.tested for name in CLAIMS] for row in table], float)
     held = np.array([[name in row.held for name in CLAIMS] for row in table], float)
     rows, both = tested.T @ tested, held.T @ held
@@ -132,9 +122,9 @@ def claims_together(table):
 
 
 def evenly(table):
-    """How often the numbers agree with the thesis among readings that were drawn evenly from the priors.
+    """How often numbers agree with the thesis in rows of the design, where results selected none.
 
-    Returns {claim: {"agrees", "measured"}}, counts of those rows of the design that were not selected by results.
+    Returns {claim: {"agrees", "measured"}}, counts of rows.
     """
     design = [row for row in table if row.wave == 0]
     found = {}
@@ -146,10 +136,7 @@ def evenly(table):
 
 
 def best(table):
-    """The row for which most claims hold among those with the most runs, which are the confirmed ones: see `leading`.
-
-    Raises ValueError if no row is complete.
-    """
+    """The row for which most claims hold among those with the most runs, which are the confirmed ones: see `leading`."""
     complete = leading(table)
     most = max(row.runs for row in complete)
     return next(row for row in complete if row.runs == most)
@@ -167,17 +154,13 @@ def giving(table):
 
 
 class Conflict(NamedTuple):
-    """A target that a row misses, and of those that it meets the one with which it goes together least.
-
-    both: rows that meet both. expected: rows that would if the two were independent. found: the values of all rows,
-    (rows, 2), those of the missed target first.
-    """
+    """A target that a row misses, and of those that it meets the one with which it goes together least."""
 
     missed: str
     met: str
-    both: int
-    expected: float
-    found: np.ndarray
+    both: int  # rows that meet both
+    expected: float  # rows that would if the two were independent
+    found: np.ndarray  # the values of all rows, (rows, 2), those of the missed target first
 
 
 def conflicts(table, row):

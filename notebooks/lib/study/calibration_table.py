@@ -24,18 +24,14 @@ OWN = ("wave", "seed", "runs", "steps")
 
 @dataclass(frozen=True)
 class Row:
-    """One reading that has been run.
+    """One reading that has been run."""
 
-    wave: in which it was chosen, 0 for the design. seed, runs: of all its conditions. steps: of a run at most, see
-    `reading.conditions`. statistics: {name of the target: `Measure`}, of the groups in which it has been run.
-    """
-
-    wave: int
+    wave: int  # in which it was chosen, 0 for the design
     seed: int
-    runs: int
-    steps: int
+    runs: int  # of each condition
+    steps: int  # of a run at most, see `reading.conditions`
     reading: Reading
-    statistics: dict = field(default_factory=dict)
+    statistics: dict = field(default_factory=dict)  # {target: `Measure`}, of the groups in which it has been run
 
     @property
     def groups(self):
@@ -70,10 +66,10 @@ def conditions(row, group):
     return {key: found[key] for key in GROUPS[group].keys}
 
 
-def run(rows, group, executor=None):
+def run(rows, group):
     """Run the conditions of rows in a group by `sweep`, and return the rows with its statistics: a list."""
     wanted = [conditions(row, group) for row in rows]
-    results = sweep([each for of_row in wanted for each in of_row.values()], executor, progress=False)
+    results = sweep([each for of_row in wanted for each in of_row.values()], progress=False)
     return [replace(row, statistics=row.statistics | measure(group, {key: next(results) for key in of_row}))
             for row, of_row in zip(rows, wanted)]
 
@@ -87,8 +83,7 @@ def measured(row, results):
 def rerun(table, n, group, seed=0):
     """Recompute n rows of a table in a group: [(row as stored, row as recomputed), …], which should be equal.
 
-    Rows are drawn without replacement among those that were run in the group.
-    Raises ValueError if n is not an integer from 1 to their number.
+    Raises ValueError if n is not an integer from 1 to the number of rows that were run in the group.
     """
     rows = [replace(row, statistics={name: row.statistics[name] for name in GROUPS[group].targets})
             for row in table if group in row.groups]
@@ -98,10 +93,7 @@ def rerun(table, n, group, seed=0):
 
 
 def nearest(table):
-    """The complete rows, the nearest first; of rows with the same reading, the one with the most runs.
-
-    Raises ValueError if no row is complete.
-    """
+    """The complete rows, nearest first, with the most runs for each reading; ValueError is raised if there is none."""
     by_reading = {}
     for row in table:
         if row.complete and (row.reading not in by_reading or by_reading[row.reading].runs < row.runs):
@@ -122,23 +114,19 @@ def leading(table):
 
 def write_table(table, path):
     """Write rows to a file of comma-separated values, one line each below a header."""
-    content = io.StringIO()
+    content, choices = io.StringIO(), [each.name for each in fields(Reading)]
     writer = csv.writer(content, lineterminator="\n")
-    choices = [each.name for each in fields(Reading)]
     writer.writerow([*OWN, *choices, *TARGETS, *(f"error of {name}" for name in TARGETS)])
     for row in table:
         measured = [row.statistics.get(name, ("", "")) for name in TARGETS]
         writer.writerow([*(getattr(row, name) for name in OWN),
-                         *(_written(getattr(row.reading, name)) for name in choices),
+                         *(getattr(row.reading, name) for name in choices),
                          *(value for value, _ in measured), *(error for _, error in measured)])
     path.write_text(content.getvalue(), encoding="utf-8")
 
 
 def read_table(path=SHIPPED):
-    """Read the rows of a file written by `write_table`, by default the one in this package: a list of `Row`.
-
-    Raises ValueError if its columns are not those of this version.
-    """
+    """Read the rows of a file written by `write_table`: a list of `Row`. Raises ValueError if its columns differ."""
     kinds = {each.name: type(each.default) for each in fields(Reading)}
     expected = {*OWN, *kinds, *TARGETS, *(f"error of {name}" for name in TARGETS)}
     lines = csv.DictReader(io.StringIO(path.read_text(encoding="utf-8")))
@@ -153,7 +141,3 @@ def read_table(path=SHIPPED):
                       for name in TARGETS if line[name]}
         table.append(Row(*(int(line[name]) for name in OWN), reading, statistics))
     return table
-
-
-def _written(value):
-    return value if isinstance(value, str) else repr(value)

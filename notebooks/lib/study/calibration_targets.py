@@ -40,21 +40,16 @@ class Measure(NamedTuple):
 
 @dataclass(frozen=True)
 class Target:
-    """A statistic, and the interval in which it agrees with the thesis.
+    """A statistic, and the interval in which it agrees with the thesis."""
 
-    claim: a name of `neorl.evidence.statements`. statistic: a function of {key of the condition: `Result`}.
-    low, high: the interval; a bound may be infinite. scale: how far outside counts as a distance of 1.
-    thesis: what is printed. reason: why the interval is as wide as it is.
-    """
-
-    claim: str
+    claim: str  # a name of `neorl.evidence.statements`
     label: str
-    statistic: Callable
-    low: float
+    statistic: Callable  # of {key of the condition: `Result`}
+    low: float  # or infinite, as high
     high: float
-    scale: float
-    thesis: str
-    reason: str
+    scale: float  # how far outside counts as a distance of 1
+    thesis: str  # what is printed
+    reason: str  # why the interval is as wide as it is
 
     def holds(self, value):
         """Whether a value agrees with the thesis."""
@@ -214,11 +209,11 @@ CLAIMS = tuple(sorted({target.claim for target in TARGETS.values()}))
 
 
 def measure(group, results):
-    """The statistics of a group: {name of the target: `Measure`}, rounded to 5 significant digits.
+    """The statistics of one of `GROUPS`: {name of the target: `Measure`}, rounded to 5 significant digits.
 
-    group: a name in `GROUPS`. results: {key of the condition: `Result`}, of the same number of runs, at least two.
+    results: {key of the condition: `Result`}, of the same number of runs, at least two; one raises ValueError.
     """
-    chosen = GROUPS[checks.one_of("group", group, tuple(GROUPS))]
+    chosen = GROUPS[group]
     results = {key: results[key] for key in chosen.keys}
     runs = checks.integer("runs", min(result.runs for result in results.values()), at_least=2)
     without = [{key: _without(result, run) for key, result in results.items()} for run in range(runs)]
@@ -240,9 +235,9 @@ def _rounded(value):
 
 
 def distance(statistics):
-    """The distance of a reading, {name: `Measure`}, from all measured targets: the root mean square over these.
+    """The distance of a reading, {name: `Measure`}, from all measured targets: the root mean square, infinite if none.
 
-    Each distance counts as 4 at most. 0 means that all agree with the thesis; infinite, that none is measured.
+    Each distance counts as 4 at most.
     """
     if not statistics:
         return math.inf

@@ -7,7 +7,6 @@
 4. The importance of choices for a claim is estimated from `ENOUGH` readings or more.
 """
 
-from collections.abc import Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -26,18 +25,15 @@ ENOUGH = 32  # readings
 PREDICTED = 0.1  # the least R² at which choices count as predicting the number of a claim
 
 
-def design(points: int, seed: int = 0, choices: Mapping[str, Choice] = WITHIN) -> list[Reading]:
+def design(points, seed=0, choices=WITHIN):
     """Plausible readings, spread evenly through the priors: a list of `Reading`.
 
-    points: their number, a power of two; a design is the first part of every larger one. seed: integer ≥ 0, of the
-    sequence. choices: the fields that vary, {field of `Reading`: `Choice`}: `WITHIN`, `BEYOND`, or any other. The
-    other fields are those of the reading to the letter.
-    Raises ValueError for anything else.
+    points: their number, a power of two, or ValueError is raised; a design is the first part of every larger one.
+    choices: the fields that vary, {field of `Reading`: `Choice`}; the others are those of the reading to the letter.
     """
     checks.integer("points", points, at_least=2)
     if points & (points - 1):
         raise checks.error("points", "a power of two", points)
-    seed = checks.integer("seed", seed, at_least=0)
     shares = scipy.stats.qmc.Sobol(len(choices), rng=np.random.default_rng(seed)).random(points)
     return [replace(TO_THE_LETTER, **{name: choice.at(share) for (name, choice), share in zip(choices.items(), row)})
             for row in shares]
@@ -49,19 +45,13 @@ def outcome(claim):
 
 
 def by_claim(*sweeps):
-    """Claims by name, each under all its readings: {name: [`Claim`, …]}, in the order of the claims.
-
-    sweeps: each a list of {name: `Claim`}, one for each reading.
-    """
+    """Claims by name, {name: [`Claim`, …]}, from sweeps, each a list of {name: `Claim`} for each reading."""
     found = {name: [claims[name] for claims in judged] for judged in sweeps for name in judged[0]}
     return {name: found[name] for name in STATEMENTS if name in found}
 
 
 def shares(claims):
-    """How often each claim holds: {name: {"holds", "undecided", "untestable", "readings"}}, counts of readings.
-
-    claims: as `by_claim` returns them.
-    """
+    """How often each claim holds: {name: {"holds", "undecided", "untestable", "readings"}}, counts of readings."""
     counts = {}
     for name, found in claims.items():
         outcomes = [outcome(claim) for claim in found]
@@ -122,21 +112,18 @@ def binned(name, readings, parts):
 def importances(readings, claims):
     """The importance of each choice for the number of each claim: ({claim: {choice: importance}}, {claim: R²}).
 
-    readings: [`Reading`, …]. claims: as `by_claim` returns them, each under the first of these readings or all. A claim
-    judged under fewer than `ENOUGH` readings is left out.
+    claims: each under the first of these readings or all. One judged under fewer than `ENOUGH` is left out.
     """
     found = {name: importance(readings[:len(each)], each) for name, each in claims.items() if len(each) >= ENOUGH}
     return {name: shares for name, (shares, _) in found.items()}, {name: share for name, (_, share) in found.items()}
 
 
-def importance(readings, claims, seed=0):
+def importance(readings, claims):
     """The importance of each choice for the number of a claim: ({name of the choice: importance}, R²).
 
     A random forest predicts the rank of the number among all readings. The importance of a choice is the loss of R² on
     held-out readings when its values are shuffled (Breiman 2001), the mean over four folds of the readings (fewer if
     there are not two in each); the R² returned is that before shuffling.
-
-    readings: [`Reading`, …]. claims: one and the same under each of them, [`Claim`, …].
     """
     chosen = {key: choice for key, choice in WITHIN.items() if claims[0].name[0] in choice.papers}
     places = np.array([[choice.place(getattr(reading, key)) for key, choice in chosen.items()] for reading in readings])
@@ -144,9 +131,9 @@ def importance(readings, claims, seed=0):
     lost, explained = [], []
     ensemble, inspection, selection = (require(f"sklearn.{each}", extra="book")
                                        for each in ("ensemble", "inspection", "model_selection"))
-    for learned, unseen in selection.KFold(min(4, len(readings) // 2), shuffle=True, random_state=seed).split(places):
-        forest = ensemble.RandomForestRegressor(50, random_state=seed).fit(places[learned], ranks[learned])
-        found = inspection.permutation_importance(forest, places[unseen], ranks[unseen], n_repeats=3, random_state=seed)
+    for learned, unseen in selection.KFold(min(4, len(readings) // 2), shuffle=True, random_state=0).split(places):
+        forest = ensemble.RandomForestRegressor(50, random_state=0).fit(places[learned], ranks[learned])
+        found = inspection.permutation_importance(forest, places[unseen], ranks[unseen], n_repeats=3, random_state=0)
         lost.append(found.importances_mean)
         explained.append(forest.score(places[unseen], ranks[unseen]))
     return dict(zip(chosen, np.mean(lost, axis=0))), float(np.mean(explained))

@@ -29,7 +29,7 @@ LEADING = 6  # choices below a specification curve
 def draw_outcomes(claims):
     """How many readings give each outcome of each claim, as bars; claims judged under as many readings share a panel.
 
-    claims: {name: [`Claim`, …]}, each claim under its readings. Returns the axes of the panels.
+    claims: {name: [`Claim`, …]}, each claim under its readings.
     """
     sizes = sorted({len(found) for found in claims.values()}, reverse=True)
     panels = [[name for name, found in claims.items() if len(found) == size] for size in sizes]
@@ -49,7 +49,6 @@ def draw_outcomes(claims):
         axes.spines["left"].set_visible(False)
     figure.legend(*grid[0].get_legend_handles_labels(), loc="outside upper center", ncols=3, frameon=False,
                   fontsize=SMALL, labelcolor=TEXT)
-    return grid
 
 
 def draw_specification(readings, claims, name):
@@ -85,8 +84,7 @@ def draw_specification(readings, claims, name):
 def _leading(readings, name):
     """The choices that lead for a claim, [(label and levels, place of the level under each reading), …].
 
-    readings: in the order of the claim's number. The measure is the rank correlation of level and order, unsigned; a
-    choice without variation has none.
+    readings: in the order of the claim's number, with which levels are correlated by ranks, unsigned.
     """
     found = []
     for key, choice in WITHIN.items():
@@ -142,16 +140,15 @@ def _limits(values, borders):
     return (low, high) if low < high else (low - 0.5, high + 0.5)
 
 
-def draw_standing(record, names, ax=None):
+def draw_standing(record, names):
     """The verdicts of claims, and the share of readings under which they hold.
 
     Bars are from short runs: the undecided share follows the one that holds, in another colour. Points are from runs as
     long as the papers', where there are any.
 
     record: as `lib.shared.report.load` returns it. names: of the claims, from the top.
-    Returns the axes, `ax` or those of a new figure.
     """
-    axes = axes_or_new(ax, figsize=(width_of_figures(), 1.3 * ROW * len(names) + 0.7))
+    axes = axes_or_new(None, figsize=(width_of_figures(), 1.3 * ROW * len(names) + 0.7))
     for row, name in enumerate(names):
         share = record["shares"].get(name)
         if share:
@@ -172,15 +169,11 @@ def draw_standing(record, names, ax=None):
     handles.append(Line2D([], [], **DIAMOND))
     axes.legend(handles, ["reproduced", "undecided", "agrees, in long runs"], frameon=False, fontsize=SMALL, ncols=3,
                 labelcolor=TEXT, loc="lower right", bbox_to_anchor=(1, 1.0), borderpad=0)  # beyond 100 % is no room
-    return axes
 
 
-def draw_importance(importance, ax=None):
-    """Which choices matter for which claim, as areas of discs.
-
-    importance: {name of the claim: {name of the choice: importance}}. Returns the axes, `ax` or those of a new figure.
-    """
-    axes = axes_or_new(ax, figsize=(width_of_figures(), ROW * 1.25 * len(WITHIN) + 0.5))
+def draw_importance(importance):
+    """Which choices matter, as areas of discs: {name of the claim: {name of the choice: importance}}."""
+    axes = axes_or_new(None, figsize=(width_of_figures(), ROW * 1.25 * len(WITHIN) + 0.5))
     keys = list(WITHIN)
     for column, shares in enumerate(importance.values()):
         for key, share in shares.items():
@@ -195,4 +188,3 @@ def draw_importance(importance, ax=None):
     axes.grid(color=INK, alpha=0.2, linewidth=0.5)
     axes.set_axisbelow(True)
     axes.spines[:].set_visible(False)
-    return axes
