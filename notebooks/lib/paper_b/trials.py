@@ -51,9 +51,8 @@ def desiring(agent, place):
 def distances(agent, world, steps, runs, seed=0):
     """Distance of agents from a desired place that moves to and fro, in board widths: (moved, seconds).
 
-    agent: of place cells. moved: {"experienced": (runs, moves, samples), "ignorant": the same}, of agents that have
-    lived a quarter of `steps` among creeps before, and of untrained ones. seconds: from the move to each sample,
-    (samples,).
+    moved: {"experienced": (runs, moves, samples), "ignorant": the same}, of agents that have lived a quarter of `steps`
+    among creeps before, and of untrained ones. seconds: from the move to each sample, (samples,).
     """
     desires = [desiring(agent, at) for at in PLACES]
     interval = bin_steps(world)
@@ -83,14 +82,14 @@ def live_with_moving_desire(agent, world, steps, runs, seed=0):
                     changes=[(lived, desires[0]), (lived + move, desires[1])])
 
 
-def mean_stays(agent, world, steps, runs, seed=0, watched=15_000):
+def mean_stays(agent, world, steps, runs, seed=0):
     """Mean time that agents stay in a cell, in seconds, for each map of place cells: (runs, maps).
 
-    They live a quarter of `steps` first and are then measured for as long, at most `watched` steps. A board's reset,
+    They live a quarter of `steps` first and are then measured for as long, at most 15,000 steps. A board's reset,
     which puts an agent elsewhere, does not count as a change of cell; without any change, a stay is the time measured.
     """
     lived = round(LIVED * steps)
-    path_steps = max(1, min(lived, watched))
+    path_steps = max(1, min(lived, 15_000))
 
     def of_run(k):
         run = Run(agent, world, seed, k)
@@ -156,7 +155,6 @@ def values_for_objects(run, index):
     """The values of the actions for an object in each cell of a map of object vectors, (cells, actions).
 
     The object's cell is the goal if the state is the self; otherwise it is the state, and the goal is the contact.
-    run: a `Run`. index: of the map in `Agent.maps`.
     """
     q = run.q(index)
     return q[0].T if len(q) == 1 else q[:, :, run.parameters.maps.contact[index]]
@@ -189,7 +187,7 @@ def size_and_cost(learned, steps, repetitions=5):
             for name, run in runs.items()}
 
 
-def measure_costs(agent, world, steps, repetitions, seed=0):
+def measure_costs(agent, world, steps, repetitions, seed):
     """Measure the cost of an agent as its maps are added one by one: a `Costs`.
 
     Its nodes get a gain of 0 and do not explore, so it evaluates and learns everything but draws every action.

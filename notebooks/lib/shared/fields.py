@@ -9,6 +9,5 @@ def superposed_field(q, goals, valences):
     """The superposed value of each action in every cell of a map: float64 (cells, 4).
 
     q: float32 (cells, 4, cells). goals: the cells of the elements of interest. valences: their weights, one each.
-    Raises ValueError for anything else.
     """
     return np.array([superpose(q, cell, goals, valences) for cell in range(len(q))])

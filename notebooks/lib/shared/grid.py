@@ -9,27 +9,15 @@ from functools import cached_property
 
 import numpy as np
 
-from neorl import checks
-
 WALL = "#"
 MOVES = np.array([(0, -1), (0, 1), (1, 0), (-1, 0)])  # N, S, E, W as (x, y), y downward
 
 
 @dataclass(frozen=True)
 class Grid:
-    """A grid world.
-
-    rows: strings of equal length, from the top; at least one of their characters is not a wall.
-
-    Raises ValueError for anything else.
-    """
+    """A grid world. rows: strings of equal length, from the top."""
 
     rows: tuple[str, ...]
-
-    def __post_init__(self):
-        object.__setattr__(self, "rows", checks.several("rows", self.rows))
-        if len({len(row) for row in self.rows}) != 1 or not set("".join(self.rows)) - {WALL}:
-            raise ValueError(f"rows must be strings of equal length that are not all wall, but is {self.rows!r}")
 
     @cached_property
     def places(self):
@@ -52,13 +40,11 @@ class Grid:
         """The states that a character marks, as a list of integers."""
         return [state for state, (x, y) in enumerate(self.places) if self.rows[y][x] == mark]
 
-    def transitions(self, slip=0.0):
+    def transitions(self, slip):
         """The probability of each next state: float64 (states, 4, states).
 
-        slip: the probability that a step goes in a direction drawn from all four instead, from 0 to 1.
-        Raises ValueError for anything else.
+        slip: the probability that a step goes in a direction drawn from all four instead.
         """
-        checks.real("slip", slip, 0, 1)
         probability = np.zeros((self.states, 4, self.states))
         each = np.arange(self.states)
         for action in range(4):

@@ -34,10 +34,10 @@ def draw_grid(axes, grid, fills=None):
         axes.add_patch(Rectangle(grid.places[state] - 0.5, 1, 1, facecolor=colour, alpha=opacity, edgecolor="none"))
 
 
-def draw_policy(axes, grid, q, colour=AGENT):
+def draw_policy(axes, grid, q):
     """Arrows for the best actions of q (states, 4), ties included; none in states where all four are equal."""
     best = np.isclose(q, q.max(axis=1, keepdims=True), rtol=1e-9, atol=1e-12)
     state, action = np.nonzero(best & ~best.all(axis=1, keepdims=True))
     start, step = grid.places[state], 0.38 * MOVES[action]
-    axes.quiver(*start.T, *step.T, color=colour, angles="xy", scale_units="xy", scale=1, units="xy", width=0.05,
+    axes.quiver(*start.T, *step.T, color=AGENT, angles="xy", scale_units="xy", scale=1, units="xy", width=0.05,
                 headwidth=4.5)

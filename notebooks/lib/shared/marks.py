@@ -5,7 +5,6 @@ The colours are set by classes in the book's style sheet, for light pages and fo
 
 from typing import NamedTuple
 
-from neorl import checks
 from neorl.evidence.verdict import VERDICTS
 
 NOT_COMPUTED = "not computed in this build"
@@ -24,25 +23,16 @@ MARKS = dict(zip(VERDICTS, (Mark("●", "verdict-reproduced"), Mark("◐", "verd
 
 
 def symbol(verdict: str) -> str:
-    """The symbol of a verdict: ● reproduced, ◐ partly, ○ not reproduced, ◇ anything else.
-
-    verdict: a key of `MARKS`. Raises ValueError for anything else.
-    """
-    return MARKS[checks.one_of("verdict", verdict, MARKS)].symbol
+    """The symbol of a verdict: ● reproduced, ◐ partly, ○ not reproduced, ◇ anything else."""
+    return MARKS[verdict].symbol
 
 
 def leads(verdict: str) -> bool:
-    """Whether a verdict's symbol stands before a number: with too few runs, the number stands alone.
-
-    verdict: a key of `MARKS`. Raises ValueError for anything else.
-    """
-    return checks.one_of("verdict", verdict, MARKS) not in ("no verdict", NOT_COMPUTED)
+    """Whether a verdict's symbol stands before a number: with too few runs, the number stands alone."""
+    return verdict not in ("no verdict", NOT_COMPUTED)
 
 
 def html(verdict: str) -> str:
-    """The symbol in its colour, as inline HTML for Markdown; the verdict is its name for screen readers.
-
-    verdict: a key of `MARKS`. Raises ValueError for anything else.
-    """
-    return (f'<span class="verdict {MARKS[checks.one_of("verdict", verdict, MARKS)].css}" role="img" '
+    """The symbol in its colour, as inline HTML for Markdown; the verdict is its name for screen readers."""
+    return (f'<span class="verdict {MARKS[verdict].css}" role="img" '
             f'aria-label="{verdict}" title="{verdict}">{symbol(verdict)}</span>')

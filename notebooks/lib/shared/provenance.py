@@ -77,14 +77,14 @@ def table():
     return wording.table(["Constant", "Value", "From"], constants())
 
 
-def of_pins(labels=None):
+def of_pins(labels):
     """All pins as two Markdown tables, of pinned choices and of open ones, each below its status.
 
     labels: {field of `Reading`: the name that other tables and figures give to it}, added to the choice if it differs.
     """
     parts = []
     for status in ("pinned", "open"):
-        rows = [[_called(pin, labels or {}), f"“{pin.quotation}” ({pin.place})" if pin.quotation else "–", pin.follows]
+        rows = [[_called(pin, labels), f"“{pin.quotation}” ({pin.place})" if pin.quotation else "–", pin.follows]
                 for pin in PINS if pin.status == status]
         parts += [f"**{status.capitalize()}**", wording.table(["Choice", "What the text says", "What follows"], rows)]
     raised = re.sub(r"\^(\w+)", r"<sup>\1</sup>", "\n\n".join(parts))

@@ -3,15 +3,10 @@
 The thesis's numbers are in grey and labelled with their value; results have a colour and a marker for each reading.
 """
 
-from collections.abc import Mapping
-
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.text import Annotation
 
-from neorl import checks
-from neorl.drawing.style import CURVES, INK, SMALL, axes_or_new, by_name, mark, name_ends, numbers, width_of_figures
-from neorl.evidence.statistics import Estimate
+from neorl.drawing.style import CURVES, INK, SMALL, axes_or_new, mark, name_ends, width_of_figures
 
 MARKERS = "osD^vP*"  # of readings, one for each colour
 ROW = 0.62  # inches
@@ -21,33 +16,21 @@ CLEAR = 3  # points between the vertical axis and a name beside it
 REACH = 0.5  # of the range of the numbers: intervals are cut off that far beyond them
 
 
-def draw_against_thesis(thesis: Mapping[str, float], readings: Mapping[str, Mapping[str, Estimate]], xlabel: str = "",
-                        ax: Axes | None = None) -> Axes:
+def draw_against_thesis(thesis, readings, xlabel):
     """Draw numbers of the thesis beside the results, a row for each, with dots and 95 % intervals.
 
     thesis: {label: number}, all in one unit, that of `xlabel`. readings: {name: {label: Estimate}}, with the same
     labels, at most 7; an estimate without bounds (NaN) is a dot alone. An interval that reaches far beyond all numbers
-    is cut off, with an arrow at the edge. Returns the axes, `ax` or those of a new figure.
-    Raises ValueError for no labels, for labels that differ, and for more readings.
+    is cut off, with an arrow at the edge.
     """
-    for label, number in by_name("thesis", thesis).items():
-        checks.real(f"thesis[{label!r}]", number)
-    if len(checks.instance("readings", readings, dict)) > len(CURVES):
-        raise ValueError(f"readings must be at most {len(CURVES)}, but are {len(readings)}")
-    for name, found in readings.items():
-        if set(checks.instance(f"readings[{name!r}]", found, dict)) != set(thesis):
-            raise ValueError(f"readings[{name!r}] must have the labels of thesis, {', '.join(thesis)}, but has "
-                             f"{', '.join(found)}")
-        if numbers(f"readings[{name!r}]", list(found.values())).shape != (len(thesis), 3):
-            raise checks.error(f"readings[{name!r}]", "an Estimate for each label", found)
     rows = np.arange(len(thesis))
-    axes = axes_or_new(ax, figsize=(width_of_figures(), 1.1 + ROW * len(rows)))
+    axes = axes_or_new(None, figsize=(width_of_figures(), 1.1 + ROW * len(rows)))
     printed = [*thesis.values()]
     axes.vlines(printed, rows - 0.36, rows + 0.36, color=INK, linewidth=2.2)
     names = [axes.annotate(f"thesis {number:g}".replace("-", "−"), (number, row - 0.38), xytext=(0, 0),
                            textcoords="offset points", fontsize=SMALL, ha="center", va="bottom")
              for row, number in zip(rows, printed)]
-    intervals: list[tuple[float, float, float, str]] = []
+    intervals = []
     shifts = 0.5 * (np.arange(len(readings)) - (len(readings) - 1) / 2) / max(len(readings), 1)
     for (name, found), shift, colour, marker in zip(readings.items(), shifts, CURVES, MARKERS):
         value, low, high = np.array([found[label] for label in thesis]).T
@@ -79,14 +62,12 @@ def _keep_right_of_the_axis(axes, names):
             name.set_x(missing / point)
 
 
-def mark_levels(axes: Axes, levels: Mapping[str, float]) -> Axes:
+def mark_levels(axes, levels):
     """Draw levels of the thesis into a figure of curves, as dashed lines with their names: levels {name: height}.
 
-    The axes are extended to the levels, and the names at the ends of curves are spaced again. Returns the axes.
-    Raises ValueError for anything else.
+    The axes are extended to the levels, and the names at the ends of curves are spaced again.
     """
-    checks.instance("axes", axes, Axes)
-    heights = [checks.real(f"levels[{name!r}]", height) for name, height in by_name("levels", levels).items()]
+    heights = [*levels.values()]
     bottom, top = axes.get_ylim()
     room = ROOM * (max([top, *heights]) - min([bottom, *heights]))
     axes.set_ylim(min([bottom, *(height - room for height in heights)]),
@@ -98,7 +79,6 @@ def mark_levels(axes: Axes, levels: Mapping[str, float]) -> Axes:
     for text in names:
         text.remove()
     name_ends(axes, [(text.xy[1], text.get_text(), text.get_color()) for text in names])
-    return axes
 
 
 def name_level(axes, height, name):
