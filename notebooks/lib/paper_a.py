@@ -52,20 +52,13 @@ def squares_entered(agent, world, steps, runs, seed=0):
 
 
 def rates(results, names, share=(0.0, 1.0)):
-    """Mean reward per second with its interval, as a Markdown table: a row for each reading, a column for each agent.
-
-    results: {reading: {key: `Result`}}. names: {key: name of the agent}. share: the part of the run, as in
-    `Result.rate`.
-    """
+    """Mean reward per second in a share of the run, as a Markdown table."""
     return table(["Reading", *names.values()], [
         [reading, *(estimate(np.mean, each[key].rate(*share)) for key in names)] for reading, each in results.items()])
 
 
 def choices(readings):
-    """What readings choose for agents of place cells, and whether they are within the text, as a Markdown table.
-
-    readings: {name: Reading}.
-    """
+    """What readings choose for agents of place cells, as a Markdown table."""
     listed = side_by_side.choices(readings, [field for field, choice in BEYOND.items() if "A" in choice.papers])
     broken = ([pin.choice for pin in reading.within_the_text.broken] for reading in readings.values())
     agreements = (f"breaks: {', '.join(dict.fromkeys(pins))}" if pins else "within the text" for pins in broken)
@@ -99,8 +92,7 @@ def _as_in(figure, result, of_paper=True):
 def draw_together(results):
     """Draw reward per second of each layer alone, of all together, and summed. results: of one reading.
 
-    With the paper's layers and creeps, a dashed line marks the thesis's level for all three together, a multiple of
-    what N7 finally earns here.
+    With the paper's layers and creeps, a dashed line marks the thesis's level, a multiple of what N7 finally earns.
     """
     layers = _resolutions(results, "layer")
     alone, together = {f"N{n}": results["layer", n] for n in layers}, results["layers"]
@@ -112,10 +104,7 @@ def draw_together(results):
 
 
 def draw_elements(nres_map, places, valences, values):
-    """Draw elements of interest in a map, their valences in corners that no arrow crosses, and the action values.
-
-    places: (elements, 2), in board widths. valences: (elements,). values: (cells, 4), of the map for these elements.
-    """
+    """Draw elements of interest, with valences in free corners, and the action values."""
     fills = {goal: (GREEN if valence > 0 else RED, FILL * abs(valence))
              for goal, valence in zip(nres_map.encode(places), valences)}
     axes = draw_cells(nres_map, fills=fills)

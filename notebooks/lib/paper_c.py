@@ -22,10 +22,7 @@ PATIENCE = 5_000  # steps
 
 
 def draw_rates(results, of_paper):
-    """Draw reward per second of networks and of Brownian motion. results: under one reading.
-
-    of_paper: whether the claims of the thesis are about these networks; then a dashed line marks what D has to exceed.
-    """
+    """Draw reward per second of networks, and for the paper's what D has to exceed."""
     axes = draw_proficiency(results)
     if of_paper:
         level = max(0.0, DRASTIC * results["C"].rate(*FINAL).mean())
@@ -33,10 +30,7 @@ def draw_rates(results, of_paper):
 
 
 def draw_desires(run, axes):
-    """Draw where the desires between nodes place their elements of interest, as arrows from the agent to squares.
-
-    An arrow without a square leads to an element beyond the margin of the board.
-    """
+    """Draw desires between nodes as arrows to the squares of their elements of interest."""
     start = run.world_state.scene.position / run.world.size
     for desire, landing in zip(run.agent.desires, run.state.desires.target[:, :2]):
         if run.agent.comes_from_node(desire):
@@ -50,10 +44,7 @@ def draw_desires(run, axes):
 
 
 def final_rates(results):
-    """Reward and hits in the last fifth of a run, as a Markdown table. results: {reading: {name: `Result`}}.
-
-    An agent that is the same under all readings has one row.
-    """
+    """Reward and hits in the last fifth of a run, as a Markdown table."""
     rows = []
     for name in next(iter(results.values())):
         of_name = {reading: each[name] for reading, each in results.items()}
@@ -67,10 +58,7 @@ def final_rates(results):
 
 
 def moment_of_desire(network, world, steps, seed=0):
-    """A `Run` at a moment when the agent is well inside the board and a node's desire lands far from it.
-
-    It takes ``steps`` steps, and then at most `PATIENCE` more until such a moment.
-    """
+    """A `Run` at a moment when the agent is well inside the board and a node's desire lands far from it."""
     run = Run(network, world, seed)
     run.advance(steps)
     while run.step < steps + PATIENCE and not (_is_inside(run) and _reach(run) > FAR):
@@ -105,9 +93,8 @@ def landings(run):
 def distances(condition, runs):
     """How far from the agent desires between nodes land in the second half of runs, and how often in its own cell.
 
-    condition: a `Condition` of a network. runs: how many of its runs, integer ≥ 1. Returns (board widths, share),
-    float64 (runs,) each: the median of the farthest desire, and the share of `LOOKS` moments at which all are in the
-    cell of distance 0 of the finest map.
+    Returns the median of the farthest desire, in board widths, and the share of moments at which all are in the cell of
+    distance 0 of the finest map: float64 (2, runs).
     """
     return np.array([_distances(Run(condition.agent, condition.world, condition.seed, k), condition.steps)
                      for k in range(runs)]).T

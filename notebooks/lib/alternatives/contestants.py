@@ -17,11 +17,7 @@ def of_thesis(readings):
 
 
 def of_others(settings, board, steps, runs, seed):
-    """What tabular learners and those given the physics earn on a board: {name: `Earned`}.
-
-    settings: as `lib.alternatives.search.best_settings` returns them. steps: of each run; the planner, which does not
-    learn, has `PLANNED` of them.
-    """
+    """What contestants that are not agents of neoRL earn on a board: {name: `Earned`}."""
     others = {name: make(settings[name]) for name, make in TABULAR.items()}
     others |= {name: make(settings["PD"]) for name, make in INFORMED.items()}
     length = {"planner": max(bins_of(steps), round(PLANNED * steps))}

@@ -75,11 +75,7 @@ def pd(gains):
 
 
 def planner(gains, horizon=100, discount=0.99, captures=100, moving=True, avoiding=True):
-    """The `Contestant` that plans with the exact model, and follows a PD controller in its plans.
-
-    captures: number of green creeps after which a plan ends. moving, avoiding: whether creeps move and red ones
-        exist in its model.
-    """
+    """The `Contestant` that plans with the exact model, see `Plan`."""
     plan = Plan(gains, horizon, discount, captures, moving, avoiding)
     return Contestant(act_planner, learn_nothing, plan, lambda world, stream: Copy(world.reset(0)))
 
@@ -184,10 +180,7 @@ def leave(world, thing):
 
 @inlined_kernel
 def value_of_plan(plan, world, state, rules, action, hold, target):
-    """Simulate a plan in a copy of the world: (discounted reward, first action).
-
-    The plan holds an action for some steps, pursues a creep until something is met, and then follows the PD controller.
-    """
+    """Simulate a plan in a copy of the world: (discounted reward, first action)."""
     copy_world(state, world, plan.moving, plan.avoiding)
     total, weight, first, captured = 0.0, 1.0, action, 0
     for now in range(plan.horizon):

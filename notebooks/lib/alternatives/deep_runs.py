@@ -40,8 +40,7 @@ PLAN = ((3, 150_000, 10), (8, 150_000, 10), (3, 600_000, 10), (8, 600_000, 10))
 class Sight(gymnasium.Wrapper):
     """The environment with creeps' velocities in its observations, and a record of the reward of each minute.
 
-    env: WaterWorld, egocentric. steps: of the run. seed, run: of its world, which is that of
-    ``neorl.Run(agent, world, seed, run)``. scale: factor on creeps' positions relative to the agent, in board widths.
+    Its world is that of ``neorl.Run(agent, world, seed, run)``. scale: factor on creeps' positions.
     """
 
     def __init__(self, env, steps, seed, run, scale=1.0):
@@ -77,10 +76,7 @@ class Sight(gymnasium.Wrapper):
 
 
 def live(method, settings, creeps, steps, seed, run):
-    """Train a deep learner for `steps` steps: (reward of each minute, float64; processor seconds; kB).
-
-    The kilobytes are those of its networks, of their optimiser's state, and of stored experience.
-    """
+    """Train a deep learner: (reward of each minute; processor seconds; kB of networks, optimiser and experience)."""
     import torch
     torch.set_num_threads(1)
     env = gymnasium.make("neorl.gym:neorl/WaterWorld-v0", n_creeps=creeps, max_episode_steps=-1)

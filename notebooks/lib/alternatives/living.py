@@ -85,8 +85,7 @@ class Earned(NamedTuple):
 def live(contestant, world, *, steps, runs, bins=BINS, seed=0):
     """Run a contestant in a `WaterWorld`: `Earned`.
 
-    steps: of each run. bins: parts of a run, as equal as whole steps allow. Run k has the world of
-    ``neorl.Run(agent, world, seed, k)``; the contestant draws from a random stream of its own.
+    Run k has the world of ``neorl.Run(agent, world, seed, k)``; the contestant has a random stream of its own.
     """
     kernel_of_life = _life_of(contestant.act, contestant.learn)
     edges = np.linspace(0, steps, bins + 1).round().astype(int)
@@ -135,10 +134,7 @@ def bins_of(steps):
 
 
 def of_result(result, bins=None):
-    """What an agent of neorl earned: `Earned`.
-
-    result: a `neorl.Result` in a `WaterWorld`. bins: parts of a run, by default `bins_of` its steps.
-    """
+    """What an agent of neorl earned in a `WaterWorld`: `Earned`."""
     bins = bins or bins_of(result.steps)
     edges = np.linspace(0, result.steps, bins + 1).round()
     sums = np.pad(result.rewards.cumsum(axis=1, dtype=float), ((0, 0), (1, 0)))
@@ -187,8 +183,8 @@ def write(path, rows):
 def stored(rows, names, creeps, steps):
     """The first `steps` of the stored runs of some contestants: {name: `Earned`}.
 
-    rows: a list of `Row`. steps: cut to whole minutes, but at least one. Each run is read from its shortest row that is
-    long enough. The time of a step is the median over all rows of a contestant on the board that have one.
+    Each run is read from its shortest row that is long enough, in whole minutes. The time of a step is the median over
+    all rows of a contestant on the board that have one.
     """
     found, minutes = {}, max(1, steps // MINUTE)
     for name in names:

@@ -25,10 +25,7 @@ def draw_parts(way, without):
 
 
 def draw_oracles(boards):
-    """Draw reward per second of foragers and planners: a row for each, a colour per board.
-
-    boards: {creeps: {name: rates}}.
-    """
+    """Draw reward per second of foragers and planners: {creeps: {name: rates}}."""
     axes = axes_or_new(None, figsize=(4.9, 3.6))
     for (colour, shape), (creeps, rates) in zip(((CURVES[0], "o"), (CURVES[5], "D")), boards.items()):
         found = [estimate(np.mean, each) for each in rates.values()]
@@ -79,10 +76,7 @@ def hits_per_second(result, stretches=30):
 
 
 def draw_adapting(rewards, seconds):
-    """Draw reward per second by simulated minutes, averaged over at most ten groups of segments.
-
-    rewards: {way: float64 (runs, segments)}, per second. seconds: of a segment.
-    """
+    """Draw reward per second over the run: {way: float64 (runs, segments)}."""
     segments = next(iter(rewards.values())).shape[1]
     groups = np.array_split(np.arange(segments), min(10, segments))
     minutes = [seconds * (group.mean() + 0.5) / 60 for group in groups]

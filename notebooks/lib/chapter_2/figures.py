@@ -101,10 +101,7 @@ def draw_sessions(curves, phases, ylabel):
 
 
 def draw_motives(grid, values, marks):
-    """The best actions in a grid under each of several desires, {name: values (states, 4)}.
-
-    marks: {state: text}, written in place of an action.
-    """
+    """The best actions in a grid under several desires, {name: values (states, 4)}."""
     for axes, (name, q) in zip(new_grids(grid, columns=len(values)), values.items()):
         draw_grid(axes, grid)
         draw_policy(axes, grid, np.where(np.isin(np.arange(grid.states), [*marks])[:, None], 0.0, q))
@@ -114,10 +111,7 @@ def draw_motives(grid, values, marks):
 
 
 def draw_action_potential(axon, reversals):
-    """The potential of an axon, with the reversal potentials {name: mV}, and below its gates m, h and n.
-
-    axon: (5, points), the time, the potential and the gates.
-    """
+    """The potential of an axon, with reversal potentials {name: mV}, and its gates."""
     time, potential, *gates = axon
     width, _ = plt.rcParams["figure.figsize"]
     _, (top, bottom) = plt.subplots(2, sharex=True, figsize=(width, 1.05 * width), height_ratios=(3, 2))
@@ -140,7 +134,7 @@ def draw_firing_rates(currents, counted, fine, expected):
 
 
 def draw_parts(time, inflow, potential, spikes, answers, threshold):
-    """The signals in the four parts of a neuron over time, one panel each. answers: postsynaptic {name: (steps,)}."""
+    """The signals in the four parts of a neuron over time, one panel each."""
     width, _ = plt.rcParams["figure.figsize"]
     _, panels = plt.subplots(4, sharex=True, figsize=(width, 1.35 * width), height_ratios=(3, 3, 1, 3))
     dendrite, soma, axon, synapse = panels
@@ -199,10 +193,7 @@ def draw_frames(point, heading, distance, bearing):
 
 
 def draw_landmark(seconds, places, heading, landmark, allocentric, seen):
-    """An animal's path past a landmark, and the components of the landmark's vector in both frames over time.
-
-    places, allocentric: (steps, 2), north first. heading: as in `draw_frames`. seen: forward and starboard.
-    """
+    """An animal's path past a landmark, and the landmark's vector in both frames."""
     width, _ = plt.rcParams["figure.figsize"]
     figure = plt.figure(figsize=(width, 1.25 * width))
     scene, outer, inner = figure.subplots(3, height_ratios=(4, 3, 3))
@@ -223,10 +214,7 @@ def draw_landmark(seconds, places, heading, landmark, allocentric, seen):
 
 
 def draw_rate_maps(trajectory, spikes, maps, objects):
-    """An animal's path with the spikes of one cell, and rate maps of several {name: rate (bins, bins)}, x first.
-
-    spikes: at each step of the trajectory. objects: their places in the box, drawn as squares.
-    """
+    """An animal's path with the spikes of one cell, and rate maps {name: rate}, x first."""
     path, *panels = new_boards(2, (len(maps) + 2) // 2)
     path.plot(*trajectory.position.T, color=INK, linewidth=0.4, alpha=0.6)
     path.plot(*trajectory.position[spikes > 0].T, color=RED, linestyle="none", marker=".", markersize=3)
@@ -246,10 +234,7 @@ def draw_grid_cells(maps):
 
 
 def draw_object_maps(maps):
-    """Rates of cells over the vector to an object, {cell: {frame: rate (bins, bins)}}, a row for each cell.
-
-    A cross marks the animal; the first axis of a rate is upwards.
-    """
+    """Rates of cells over the vector to an object, {cell: {frame: rate}}, upwards first."""
     panels = iter(new_boards(2, len(maps)))
     for cell, frames in maps.items():
         for frame, rate in frames.items():

@@ -156,23 +156,19 @@ class Animal:
 
 
 class Record(NamedTuple):
-    """The errors and the knowledge of the animals of a group.
-
-    Known is the share of choice points at which, at the end of the day, the one best action for reaching the goal box
-    is the true one.
-    """
+    """The errors and the knowledge of the animals of a group."""
 
     errors: np.ndarray  # int64 (runs, days), entries into blinds
-    known: np.ndarray  # float64 (runs, days)
+    known: np.ndarray  # float64 (runs, days), the share of choice points known in the evening, see `_known`
 
 
 def simulate(animal, maze, first_meal, runs, seed=0, group=0):
     """A group of animals, which find food in the goal box from the day `first_meal` on: a `Record`.
 
-    first_meal: after `DAYS` there is never any. runs: animals in the group, each with a random stream of its own, which
-    depends on the number of its `group` and not on its kind.
+    Animals have random streams of their own, which depend on the number of their `group` and not on their kind.
     """
-    errors, known = np.zeros((runs, DAYS), np.int64), np.zeros((runs, DAYS))
+    errors = np.zeros((runs, DAYS), np.int64)
+    known = np.zeros((runs, DAYS))
     for run in range(runs):
         stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run, group)))
         for day, (errors[run, day], worth) in enumerate(live(animal, maze, first_meal, stream)):
@@ -227,7 +223,6 @@ def findings(groups, first_meal):
     The statistics are differences in errors per day: the last three days less the first three, a day less the day
     before, or one group less another. Two groups are level if the interval of their difference stays within a tenth of
     the effect of food, which is "never" less "throughout", over the days after ``first_meal``.
-    first_meal: the day of the delayed group's first meal, before the last one.
     """
     errors = {group: groups[group].errors for group in GROUPS}
     before = {group: each[:, :first_meal].mean(axis=1) for group, each in errors.items()}

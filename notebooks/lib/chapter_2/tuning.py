@@ -36,10 +36,7 @@ VARIABLES = {"position": (1.0, 20, False), "direction": (TAU, 18, True), "speed"
 
 
 def kinds():
-    """The entries of `THESIS` for each modality of the book: {kind: (locality, direction, concern)}.
-
-    The emulation of paper B is left out.
-    """
+    """The entries of `THESIS` for each modality of the book but paper B's: {kind: entries}."""
     return {each.name: (_locality(each), "allocentric" if "direction" in each.names else "–",
                         CONCERNS.get((each.follows, each.axes[0].feature), f"location of {each.follows}"))
             for each in MODALITIES if each != CARTESIAN_OBJECT_VECTOR_CELL}
@@ -72,8 +69,7 @@ class Trajectory(NamedTuple):
 def roam(steps, seed=0, step=0.02, speed=0.2, persistence=0.7):
     """Let an animal roam the box: a `Trajectory`.
 
-    step: seconds. speed: its mean, box widths per second. persistence: seconds after which the velocity's
-    autocorrelation is 1/e.
+    speed: mean, box widths per second. persistence: seconds until the velocity's autocorrelation is 1/e.
     """
     kept = np.exp(-step / persistence)
     rng = np.random.default_rng(seed)
@@ -106,10 +102,7 @@ def in_field(nres_map, cell, trajectory, objects=()):
 
 
 def spikes(active, step, seed=0, inside=20.0, outside=0.2):
-    """The number of spikes of a cell at each step: int16 (steps,), drawn from a Poisson distribution.
-
-    active: bool (steps,), see `in_field`. step: seconds. inside, outside: spikes per second while active and otherwise.
-    """
+    """The number of Poisson spikes of a cell at each step: int16 (steps,)."""
     return np.random.default_rng(seed).poisson(np.where(active, inside, outside) * step).astype(np.int16)
 
 
@@ -123,8 +116,7 @@ class TuningCurve(NamedTuple):
 def tuning_curve(counts, values, step, high, bins, smoothing=1.0, closed=False):
     """The tuning of a cell to a variable: a `TuningCurve`.
 
-    counts: spikes at each step, (steps,), or several trains (…, steps). values: of the variable, (steps,) or
-    (steps, 2). step: seconds. high: each axis has ``bins`` bins from 0 to ``high``; values beyond are left out.
+    counts: (…, steps). values: (steps,) or (steps, 2), in bins from 0 to ``high``; those beyond are left out.
     smoothing: of spikes and of time, the standard deviation in bins, ≥ 0. closed: whether the axis is circular.
     """
     counts = np.asarray(counts)
@@ -172,8 +164,7 @@ class Information(NamedTuple):
 def information_in_spikes(trains, trajectory, seed=0):
     """The information in spikes about an animal's position, direction and speed: {cell: {variable: `Information`}}.
 
-    trains: {cell: spikes at each step}, (steps,) each. Shifts are circular, by 1,000 steps or more either way,
-    or by a tenth or more of a recording of fewer than 10,000.
+    Shifts are circular, by 1,000 steps or more either way, or by a tenth of a shorter recording.
     """
     steps = len(trajectory.position)
     margin = min(1_000, steps // 10)
@@ -192,9 +183,8 @@ def information_in_spikes(trains, trajectory, seed=0):
 def mistaken(places, phases, tolerance=0.1, far=0.15):
     """The share of places that modules of grid cells do not distinguish from some distant place.
 
-    places: (places, 2), in box widths. phases: of each module at these places, (modules, places, 2), in periods. Two
-    places are indistinguishable if their phases differ by at most ``tolerance`` in every module, and distant if they
-    are more than ``far`` apart.
+    Two places, (places, 2), are indistinguishable if their phases, (modules, places, 2), differ by at most
+    ``tolerance`` periods in every module, and distant if they are more than ``far`` apart.
     """
     alike = np.linalg.norm(places[:, None] - places, axis=-1) > far
     for at in phases:
@@ -209,7 +199,6 @@ def lose_track(steps, seed, noise=0.05, reach=0.1):
     An animal that knows where it begins roams the box and sums its displacements. Each second adds an error with the
     standard deviation ``noise``, in box widths, to either coordinate. At most ``reach`` from a wall, a corrected
     coordinate becomes that of the middle of this strip, as border cells would allow (Hardcastle et al. 2015).
-    seed: a sequence of integers.
     """
     walk = roam(steps, seed)
     drift = np.random.default_rng([*seed, 1]).normal(0, noise * np.sqrt(walk.step), (steps, 2))
@@ -223,10 +212,7 @@ def lose_track(steps, seed, noise=0.05, reach=0.1):
 
 
 def egocentric(vectors, heading):
-    """Vectors (North, East) in the animal's frame (Forward, Starboard): float64 (…, 2).
-
-    heading: radians from north by way of east, one for all or one for each vector (thesis figure 2.4).
-    """
+    """Vectors (North, East) in the animal's frame (Forward, Starboard): float64 (…, 2)."""
     north, east = np.moveaxis(vectors, -1, 0)
     cosine, sine = np.cos(heading), np.sin(heading)
     return np.stack([cosine * north + sine * east, cosine * east - sine * north], axis=-1)

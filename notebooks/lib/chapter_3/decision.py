@@ -22,18 +22,13 @@ from neorl.core.stream import new_stream, randint, uniform
 
 @dataclass(frozen=True, eq=False)
 class Process:
-    """A Markov decision process.
+    """A Markov decision process."""
 
-    successors: int64 (states, actions, outcomes), the next states. chances: (outcomes,), which add up to 1.
-    rewards: (states, actions, outcomes). ends: bool (states,), whether a state ends the episode. starts: the states in
-    which an episode may begin, each equally likely.
-    """
-
-    successors: np.ndarray
-    chances: np.ndarray
-    rewards: np.ndarray
-    ends: np.ndarray
-    starts: np.ndarray
+    successors: np.ndarray  # int64 (states, actions, outcomes), the next states
+    chances: np.ndarray  # (outcomes,), which add up to 1
+    rewards: np.ndarray  # (states, actions, outcomes)
+    ends: np.ndarray  # bool (states,), whether a state ends the episode
+    starts: np.ndarray  # the states in which an episode may begin, each equally likely
 
     @property
     def states(self):
@@ -60,9 +55,8 @@ class Process:
 def reaching(next_state, worth, slip=0.0, starts=None):
     """A `Process` that pays a reward at certain states and ends there.
 
-    next_state: int64 (states, actions), as `lib.shared.grid.Grid.next_state`. worth: {state: reward}.
-    slip: the probability that a step takes a random action instead. starts: list of states; by default all that do not
-    end an episode.
+    worth: {state: reward}. slip: the probability that a step takes a random action instead. starts: list of states; by
+    default all that do not end an episode.
     """
     states, actions = next_state.shape
     value, ends = np.zeros(states), np.isin(np.arange(states), list(worth))
@@ -76,8 +70,7 @@ def reaching(next_state, worth, slip=0.0, starts=None):
 def lattice(side, dimensions):
     """The next state after each action on a grid of any dimension: int64 (side ** dimensions, 2 * dimensions).
 
-    The actions go up and down each axis in turn; a step over the border leaves the state unchanged. The first state is
-    one corner, the last the opposite one.
+    The actions go up and down each axis in turn; a step over the border leaves the state unchanged.
     """
     shape = (side,) * dimensions
     places = np.indices(shape).reshape(dimensions, -1)
@@ -96,10 +89,7 @@ def action_values(probability, reward, values, discount):
 
 
 def policy_values(process, policy, discount):
-    """The value of each state under a policy: the solution of eq. 3.7 to ten digits, float64 (…, states).
-
-    policy: the action in each state, integers (…, states); one policy, or several of the same process.
-    """
+    """The value of each state under policies, (…, states): the solution of eq. 3.7."""
     policies = policy.reshape(-1, process.states)
     each, goes_on = np.arange(process.states), ~process.ends
     following = process.successors[each, policies].reshape(len(policies), -1)
@@ -143,8 +133,7 @@ def policy_iteration(probability, reward, discount, sweeps):
 def plan(probability, reward, discount, sweeps=200):
     """The best action values, by sweeps of the Bellman optimality equation: float64 (…, states, actions).
 
-    Value iteration (Sutton and Barto 2018, section 4.4). Arguments as in `action_values`; the error at the start
-    shrinks to discount ** sweeps of its size.
+    Value iteration (Sutton and Barto 2018, section 4.4), with arguments as in `action_values`.
     """
     q = np.zeros(reward.shape)
     for _ in range(sweeps):
@@ -153,10 +142,7 @@ def plan(probability, reward, discount, sweeps=200):
 
 
 class Experience(NamedTuple):
-    """The steps and the action values of learners, with states as they see them (``seen`` of `simulate`).
-
-    A step leads from states_tm1 by actions to states_t, and pays rewards, each (runs, steps).
-    """
+    """The steps of learners, (runs, steps), with states as they see them."""
 
     states_tm1: np.ndarray
     actions: np.ndarray
@@ -243,11 +229,7 @@ def count_transitions(experience, steps):
 
 
 def learned_model(experience, steps):
-    """The model of a process learned from its first `steps` steps, as `Process.expected` has it, for each run.
-
-    The shares of each next state, float64 (runs, states, actions, states), and the mean rewards, (runs, states,
-    actions). Both are 0 for actions never tried.
-    """
+    """The model of a process from the first steps of each run, as `Process.expected` has it."""
     counts = count_transitions(experience, steps)
     tried = np.maximum(counts.sum(axis=-1), 1)
     paid = np.bincount(_pairs(experience, steps), weights=experience.rewards[:, :steps].ravel(), minlength=tried.size)
@@ -255,7 +237,7 @@ def learned_model(experience, steps):
 
 
 def first_visits(experience):
-    """The step, from 1, at which runs first take each action in each state, or 0: int64 (runs, states, actions)."""
+    """The step at which each action is first taken in each state, or 0: int64 (runs, states, actions)."""
     runs, steps = experience.actions.shape
     first = np.zeros((runs, *experience.q.shape[2:]), int)
     backwards = _pairs(experience, steps)[::-1]  # of several visits the last one written remains
@@ -271,5 +253,5 @@ def _pairs(experience, steps):
 
 
 def time_to(good, checkpoints):
-    """The first checkpoint at which each run is good, the last if it never is: (runs,). good: (runs, checkpoints)."""
+    """The first checkpoint at which each run is good, the last if it never is: (runs,)."""
     return np.asarray(checkpoints)[np.where(good.any(axis=1), good.argmax(axis=1), -1)]

@@ -44,7 +44,8 @@ SQUARINGS = 10  # of exp(x / 1024)
 
 def best_reward(maze):
     """The highest reward per step of any policy in the long run, by policy iteration (Howard 1960)."""
-    (start,), (goal,), n = maze.marked("S"), maze.marked("G"), maze.states
+    (start,), (goal,) = maze.marked("S"), maze.marked("G")
+    n = maze.states
     following = maze.transitions(SLIP)
     bumps = np.einsum("sas->sa", following)  # the probability of staying
     reward = STEP + (BUMP - STEP) * bumps + (GOAL - STEP) * following[:, :, goal]
@@ -74,11 +75,11 @@ class Maze(NamedTuple):
 def run_ensemble(maze, chooser, *, steps, runs, seed=0, doublings=0):
     """Reward per step in each twentieth of ``runs`` runs of ``steps`` steps: float64 (runs, 20).
 
-    maze: a `Grid` that marks one start, "S", and one goal, "G". chooser: of actions, one of `CHOOSERS`: a learner
-    alone, a rule for all five, or chance. doublings: how often the chooser's greediness is doubled, or halved if
-    negative. Run k is the same for any number of runs.
+    maze: a `Grid` that marks one start, "S", and one goal, "G". chooser: one of `CHOOSERS`. doublings: of the
+    chooser's greediness, halved if negative. Run k is the same for any number of runs.
     """
-    edges, rewards = np.linspace(0, steps, BINS + 1).astype(int), np.zeros((runs, BINS))
+    edges = np.linspace(0, steps, BINS + 1).astype(int)
+    rewards = np.zeros((runs, BINS))
     table = Maze(maze.next_state, *maze.marked("S"), *maze.marked("G"))
 
     def run_one(run):

@@ -58,8 +58,7 @@ def draw_loop():
 def draw_plans(panels, grid, plans):
     """The value of each state as the opacity of its fill, the best actions, and the marks of the grid.
 
-    panels: axes, as many as plans. plans: {title: (values, q)}. values: (states,), shaded relative to the largest of
-    all. q: (states, 4), whose best actions are drawn; None draws none.
+    plans: {title: (values (states,), q (states, 4) or None)}, the values shaded relative to the largest of all.
     """
     largest = max(max(values.max() for values, _ in plans.values()), 1e-9)
     for axes, (title, (values, q)) in zip(panels, plans.items()):
@@ -73,10 +72,7 @@ def draw_plans(panels, grid, plans):
 
 
 def draw_alternation(value_errors, policy_losses):
-    """Policy iteration by stage: how far the values are from the policy's own, and the policy from greedy.
-
-    Distances are drawn as their fourth roots, so that small ones are visible.
-    """
+    """Policy iteration by stage; fourth roots of distances make small ones visible."""
     axes = plt.figure(figsize=(4.9, 3.6)).add_subplot()
     xs, ys = np.power(value_errors, 0.25), np.power(policy_losses, 0.25)
     axes.plot(xs, ys, color=INK, linewidth=0.9)
@@ -95,8 +91,7 @@ def draw_alternation(value_errors, policy_losses):
 def draw_means(series, xlabel, ylabel, logs="", marks=False, guides=()):
     """Means over runs with their 95 % intervals, of series {name: (xs (points,), values (runs, points))}.
 
-    logs: the axes that are logarithmic, a string of "x" and "y". marks: whether points are marked and joined by thin
-    lines. guides: (xs, ys) of thin lines for comparison. Names are beside the axes, or above ends that lie apart.
+    logs: the logarithmic axes, a string of "x" and "y". guides: (xs, ys) of thin lines for comparison.
     """
     axes = plt.figure().add_subplot()
     shown = {axis: np.log10 if axis in logs else np.asarray for axis in "xy"}
@@ -150,10 +145,7 @@ def draw_game(game):
 
 
 def draw_scores(played):
-    """Reward per 100 steps against steps on a logarithmic axis, with the interval of the mean: {name: `Played`}.
-
-    Each curve has its name at its end: the first above it, the others below, the one that goes furthest beside it.
-    """
+    """Reward per 100 steps over steps on a logarithmic axis: {name: `Played`}."""
     axes = plt.figure().add_subplot()
     furthest = max(each.edges[-1] for each in played.values())
     for i, ((name, each), colour) in enumerate(zip(played.items(), CURVES)):
@@ -183,8 +175,7 @@ def draw_junction(grid, discounts):
 def draw_finals(rewards, best):
     """Final reward per step of each chooser, a dot with its interval, a panel for each maze.
 
-    rewards: {maze: {chooser: (runs, parts)}}, of which the last part is drawn. best: {maze: the highest possible},
-    a dashed line. Learners are grey, rules are blue.
+    A dashed line is the highest possible; learners are grey, rules are blue.
     """
     names = list(next(iter(rewards.values())))
     width, _ = plt.rcParams["figure.figsize"]

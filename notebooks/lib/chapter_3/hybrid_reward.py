@@ -43,11 +43,7 @@ MAZE = ("o..#..o",
 
 @dataclass(frozen=True)
 class Game:
-    """The game on a grid whose characters mark where the agent ("a") and the ghost ("g") start, and places ("o").
-
-    rows: of the grid, with one "a" and one "g". fruits: the number of places that hold one. chase: probability. limit:
-    of steps.
-    """
+    """The game on a grid that marks the agent, "a", the ghost, "g", and places for fruits, "o"."""
 
     rows: tuple[str, ...] = MAZE
     fruits: int = 5
@@ -82,17 +78,12 @@ class Learner:
 
 @dataclass(frozen=True)
 class Played:
-    """The results of runs of the game.
+    """The results of runs of the game."""
 
-    edges: int64 (bins + 1,), the steps at which bins begin and end, each bin but the first a quarter as long as all
-    before it. rewards: float64 (runs, bins), reward per 100 steps. ends: int64 (runs, bins, 3), the number of games
-    with each of `ENDS`. known: int64 (runs,), the number of states about which anything has been learned.
-    """
-
-    edges: np.ndarray
-    rewards: np.ndarray
-    ends: np.ndarray
-    known: np.ndarray
+    edges: np.ndarray  # int64 (bins + 1,), steps
+    rewards: np.ndarray  # float64 (runs, bins), per 100 steps
+    ends: np.ndarray  # int64 (runs, bins, 3), the number of games with each of `ENDS`
+    known: np.ndarray  # int64 (runs,), states about which anything has been learned
 
     @property
     def final(self):
@@ -106,10 +97,7 @@ class Played:
 
 
 def play(game, learner, *, steps, runs, seed=0):
-    """Let ``runs`` learners play for ``steps`` steps each, one game after the other: `Played`.
-
-    Run k is the same for any number of runs.
-    """
+    """Let learners play, one game after the other: `Played`."""
     edges = np.concatenate([[0], np.round(steps * SHARE ** np.arange(BINS - 1, -1, -1))]).astype(int)
     rewards, ends, known = np.zeros((runs, BINS)), np.zeros((runs, BINS, len(ENDS)), int), np.zeros(runs, int)
     board, rates = _board(game), Rates(learner.learning_rate, learner.discount, learner.exploration)
@@ -127,10 +115,7 @@ def play(game, learner, *, steps, runs, seed=0):
 
 
 def settled_values(grid, place, discount):
-    """The values of a place's head after learning: γ to the power of the steps still to go, float64 (states, 4).
-
-    place: a state of the `Grid` that can be reached from all others.
-    """
+    """The values of a place's head after learning: float64 (states, 4)."""
     distance, _ = _shortest_ways(grid)
     return discount ** distance[place][grid.next_state]
 

@@ -22,10 +22,7 @@ RULES = {
 
 
 def symbols(alphabet, memory):
-    """The symbols of each history, the newest last: int64 (alphabet ** memory, memory).
-
-    Raises ValueError unless memory is an integer ≥ 1.
-    """
+    """The symbols of each history, the newest last: int64 (alphabet ** memory, memory)."""
     checks.integer("memory", memory, at_least=1)
     return np.indices((alphabet,) * memory).reshape(memory, -1).T
 
@@ -37,7 +34,7 @@ def next_histories(alphabet, memory):
 
 
 def outcomes(alphabet, memory, rule, seed=0):
-    """The outcome of each history: int64 (alphabet ** memory,). rule: one of `RULES`. seed: of the rule "table"."""
+    """The outcome of each history by one of `RULES`: int64 (alphabet ** memory,)."""
     digits = symbols(alphabet, memory)
     if rule == "sum":
         return digits.sum(axis=1) % alphabet
@@ -51,9 +48,8 @@ def outcomes(alphabet, memory, rule, seed=0):
 def states_needed(following, outcome):
     """The number of states needed to predict all outcomes: the size of the smallest equivalent machine.
 
-    following: int64 (histories, symbols), as `next_histories`. outcome: (histories,). Two histories are one state if
-    they have the same outcome now, and after every sequence of symbols. Histories are split until no symbol leads from
-    one class to two (Moore 1956).
+    Two histories are one state if they have the same outcome now, and after every sequence of symbols. Histories are
+    split until no symbol leads from one class to two (Moore 1956).
     """
     label = np.unique(outcome, return_inverse=True)[1]
     while True:
@@ -65,10 +61,7 @@ def states_needed(following, outcome):
 
 
 def mechanism(alphabet, memory, rule, seed=0):
-    """A `Process` whose states are histories; the action is the outcome that the agent names. It never ends.
-
-    alphabet: Ψ. memory: L. rule, seed: as in `outcomes`.
-    """
+    """A `Process` whose states are histories and whose action names the outcome."""
     outcome = outcomes(alphabet, memory, rule, seed)
     histories, shape = len(outcome), (len(outcome), alphabet, alphabet)
     right = outcome[:, None, None] == np.arange(alphabet)[:, None]
@@ -78,7 +71,7 @@ def mechanism(alphabet, memory, rule, seed=0):
 
 
 def window(alphabet, memory, length):
-    """What an agent that remembers the last `length` symbols sees of each history: int64 (alphabet ** memory,)."""
+    """What an agent that remembers `length` symbols sees of each history."""
     return np.arange(alphabet**memory) % alphabet**length
 
 

@@ -52,8 +52,7 @@ def learn_in(chamber, learning, visits, runs, seed=0):
     """Learn the values of a chamber's events for either exit: float32 (runs, visits, 4, 2), after each visit.
 
     The four events are the levers of the two exits, the light and the bell.
-    learning: a `Learning` whose credit is one of `CREDITS`. Run k is the same for any number of runs, and has the same
-    stream of events under any ``learning``.
+    Run k is the same for any number of runs, and has the same stream of events under any ``learning``.
     """
     values = np.zeros((runs, visits, N_EVENTS, 2), np.float32)
     by_step, credit = learning.update_on == "step", int(Credit[learning.credit])
@@ -71,20 +70,14 @@ def learn_in(chamber, learning, visits, runs, seed=0):
 
 
 def by_role(values):
-    """Values by the role of an event for an exit, see `ROLES`, averaged over both exits: float32 (…, 4).
-
-    values: (…, 4, 2), as `learn_in` returns them.
-    """
+    """Values by the role of an event for an exit, see `ROLES`: float32 (…, 4)."""
     cause = values[..., 0, 0] + values[..., 1, 1]
     other = values[..., 1, 0] + values[..., 0, 1]
     return np.stack([cause, other, values[..., 2, :].sum(axis=-1), values[..., 3, :].sum(axis=-1)], axis=-1) / 2
 
 
 def lead_of_cause(values):
-    """Value of an exit's cause less that of the best other role, each averaged over both exits: float32 (…).
-
-    values: (…, 4, 2), as `learn_in` returns them. The lead is positive where a choice by value would be right.
-    """
+    """Value of an exit's cause less that of the best other role: float32 (…)."""
     roles = by_role(values)
     return roles[..., 0] - roles[..., 1:].max(axis=-1)
 

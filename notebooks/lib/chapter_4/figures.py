@@ -118,10 +118,7 @@ def draw_policies(grid, q_by_title, valences):
 
 
 def draw_roles(values_by_rule):
-    """Draw the values of events over visits, a panel for each rule: {title: (runs, visits, roles)}.
-
-    Means over runs with their 95 % intervals, on a logarithmic axis of visits.
-    """
+    """Draw the values of events, a panel for each rule: {title: (runs, visits, roles)}."""
     width, _ = plt.rcParams["figure.figsize"]
     figure, grid = plt.subplots(len(values_by_rule), 1, sharex=True, figsize=(width, 3.1 * len(values_by_rule)))
     for axes, (title, values) in zip(grid, values_by_rule.items()):

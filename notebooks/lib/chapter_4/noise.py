@@ -26,10 +26,10 @@ LENGTHS = (300, 1_000, 3_000, 10_000, 30_000)  # of the series that `errors` dec
 def walk(strength, goal, steps, runs, seed=0):
     """Walks from the origin: int32 (runs, steps + 1, 3).
 
-    strength: β. goal: three numbers, which may be infinite. Walk k is the same for any number of runs, and draws the
-    same numbers for any strength and goal.
+    strength: β. goal: three numbers, which may be infinite. Walk k is the same for any number of runs.
     """
-    goal, sequences = np.array(goal, float), (np.random.SeedSequence(seed, spawn_key=(run,)) for run in range(runs))
+    goal = np.array(goal, float)
+    sequences = (np.random.SeedSequence(seed, spawn_key=(run,)) for run in range(runs))
     biased, drawn = np.empty((steps, runs), bool), np.empty((steps, runs), np.int8)
     for run, rng in enumerate(map(np.random.default_rng, sequences)):
         biased[:, run], drawn[:, run] = rng.random(steps) < strength, rng.integers(6, size=steps)
@@ -48,10 +48,7 @@ def walk(strength, goal, steps, runs, seed=0):
 
 
 def _towards(to_goal):
-    """Index of the direction towards a goal, along the first axis on which it is furthest: int64 (walkers,).
-
-    to_goal: (walkers, 3), from the walker to its goal.
-    """
+    """Index of the direction towards a goal, on the axis where it is furthest: int64 (walkers,)."""
     axis = np.abs(to_goal).argmax(axis=1)
     behind = np.take_along_axis(to_goal, axis[:, None], axis=1)[:, 0] < 0
     return axis + 3 * behind
@@ -80,10 +77,7 @@ def expected_squared_displacement(strength, lags):
 
 
 def powers_of_time(squared, lags):
-    """Power of time with which distance grows, at the shortest lags and at the longest: float64 (2, runs).
-
-    squared: as `mean_squared_displacement` returns it, for at least four lags.
-    """
+    """Power of time with which distance grows, at first and at last: float64 (2, runs)."""
     return np.array([np.log(squared[:, j] / squared[:, i]) / np.log(lags[j] / lags[i]) / 2
                      for i, j in ((0, 2), (-4, -1))])
 
@@ -100,8 +94,7 @@ class Parts(NamedTuple):
 def generate(coefficients, amplitude, period, steps, run=0, seed=0):
     """A series and its parts, the parts without the first `PAST` values: (float64 (steps,), `Parts`).
 
-    coefficients: b_1, b_2, … of noise with a standard deviation of 1. amplitude, period: of the oscillation, which has
-    two steps a period or more. steps: more than twice `PAST`.
+    coefficients: b_1, b_2, … of noise with a standard deviation of 1. steps: more than twice `PAST`.
     """
     rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(run,)))
     oscillation = amplitude * np.cos(2 * np.pi * (np.arange(steps) / period + rng.random()))
@@ -130,9 +123,7 @@ def errors(coefficients, period, longest, runs, seed=0):
     """Errors of `decompose` on series of `generate`, by length: {steps: float64 (3, runs)}.
 
     They are the root mean square errors of u_t and of y_t, and the largest error of b_1, b_2, …; the oscillation has an
-    amplitude of 1.
-    longest: steps of the longest series; greater `LENGTHS` are left out. runs: of each length. Other arguments as in
-    `generate`.
+    amplitude of 1. `LENGTHS` greater than the longest are left out.
     """
     return {steps: np.transpose([_error(coefficients, period, steps, run, seed) for run in range(runs)])
             for steps in LENGTHS if steps <= longest}

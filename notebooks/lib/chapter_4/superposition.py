@@ -40,11 +40,7 @@ class Comparison(NamedTuple):
 
 
 def fit_ridges(values, terms, angles=ANGLES):
-    """Fit `Ridges` to a function on the square from −1 to 1.
-
-    values: float64 (side, side), not all equal, at evenly spaced points; the first axis is y. angles: candidates, in
-    radians; by default 60, spread evenly over half a turn.
-    """
+    """Fit `Ridges` to a function on the square from −1 to 1: (side, side), y first."""
     side = np.linspace(-1, 1, len(values))
     x, y = (each.ravel() for each in np.meshgrid(side, side))
     outer = [np.linalg.qr(np.vander((x * np.cos(angle) + y * np.sin(angle)) / 2, DEGREE + 1))[0] for angle in angles]
@@ -63,10 +59,7 @@ def fit_ridges(values, terms, angles=ANGLES):
 
 
 def plan(grid, rewards, discount=0.8):
-    """Best action values, by value iteration: float64 (…, states, 4).
-
-    grid: a `Grid`. rewards: (…, states), paid on entering. discount: γ per step, above 0.
-    """
+    """Best action values for rewards on entering states, by value iteration: float64 (…, states, 4)."""
     paid = _paid(grid, rewards)
     q = np.zeros_like(paid)
     for _ in range(math.ceil(math.log(CONVERGED) / math.log(discount))):
@@ -75,10 +68,7 @@ def plan(grid, rewards, discount=0.8):
 
 
 def evaluate(grid, policy, rewards, discount=0.8):
-    """Value of each state under a policy, by solving its linear equations: float64 (…, states).
-
-    policy: (…, states, 4), the probability of each action. Other arguments as in `plan`.
-    """
+    """Value of each state under a policy (…, states, 4): float64 (…, states)."""
     moves = np.zeros((*policy.shape[:-1], grid.states))
     for action in range(4):
         moves[..., np.arange(grid.states), grid.next_state[:, action]] += policy[..., action]
@@ -98,10 +88,7 @@ def greedy(q):
 
 
 def misled(q, planned, elements):
-    """States without an element in which an action is best by q but not by the plan: a list of integers.
-
-    q, planned: (states, 4). elements: a collection of states.
-    """
+    """States without an element where an action is best by q but not by the plan."""
     wrong = (best_actions(q) & ~best_actions(planned)).any(axis=1)
     return [state for state in np.flatnonzero(wrong) if state not in elements]
 
@@ -111,7 +98,8 @@ def compare(grid, valences, placements, seed=0, discount=0.8):
 
     valences: of the elements, fewer than the states, at least one of them positive. Other arguments as in `plan`.
     """
-    rng, rewards = np.random.default_rng(seed), np.zeros((placements, grid.states))
+    rng = np.random.default_rng(seed)
+    rewards = np.zeros((placements, grid.states))
     for reward in rewards:
         reward[rng.choice(grid.states, len(valences), replace=False)] = valences
     superposed = greedy(np.tensordot(rewards, plan(grid, np.eye(grid.states), discount), axes=1))

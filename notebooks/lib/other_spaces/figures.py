@@ -32,10 +32,7 @@ def pair(heights=(1, 0.8)):
 
 
 def draw_arms(reached, seen):
-    """An arm of two links on its way to two targets, and the reward per second of both arms over their runs.
-
-    reached: {(links, "agent" or "random"): `Result`}. seen: of an arm of two links.
-    """
+    """An arm of two links on its way to two targets, and the reward per second of arms."""
     above, below = pair((0.6, 0.8))  # an arm on its way moves within a low part of its circle
     draw_reaching(seen, reached[2, "agent"].world.radius, above)
     minutes = curve(reached[2, "agent"])[0]
@@ -80,10 +77,7 @@ def joints_of(posture):
 
 
 def draw_vessel(sailed, seen):
-    """A vessel's track among others, and the reward per minute of pilots over their runs.
-
-    sailed: {pilot: `Result`}. seen: of a vessel.
-    """
+    """A vessel's track among others, and the reward per minute of pilots."""
     above, below = pair()
     draw_track(seen, sailed["radar"].world.radius, above)
     minutes = curve(sailed["radar"])[0]
@@ -110,10 +104,9 @@ def draw_track(seen, radius, axes):
 
 
 def draw_pool(swum, paths, maze):
-    """Paths of a swimmer's first and second trial of a day, and seconds to the platform over the days.
+    """Paths of a swimmer's first trials on the last day, and seconds to the platform over the days.
 
-    swum: {"moved" or "fixed": {swimmer: float64 (runs, days, trials a day)}}. paths: (first, second), float64
-    (steps, 2) each, on the last day of the `maze`.
+    swum: {"moved" or "fixed": {swimmer: float64 (runs, days, trials a day)}}.
     """
     above, below = pair()
     draw_paths(paths, maze, above)
@@ -138,11 +131,7 @@ def draw_paths(paths, maze, axes):
 
 
 def draw_birds(asked, paths, named, nameless):
-    """The space of birds with paths to some of them, and the steps of questions as multiples of the fewest.
-
-    asked: {agent: float64 (runs, birds)}. paths: float64 (steps, 2) each. named: {name: (neck, legs)}. nameless: (neck,
-    legs) each.
-    """
+    """The space of birds with paths to some of them, and the steps of questions."""
     above, below = pair((1, 0.5))
     draw_space(paths, named, nameless, above)
     draw_rows({name: estimate(np.mean, each.mean(axis=1)) for name, each in asked.items()},
@@ -179,11 +168,7 @@ def draw_bird(bird, axes, colour):
 
 
 def draw_car(driven, learner, decisions):
-    """The pushes that a driver has learned, by place and velocity, and steps per episode as drivers learn.
-
-    driven: {driver: float64 (runs, points)} over so many `decisions`. learner: a driver that has learned, a
-    `neorl.Learner`.
-    """
+    """The pushes that a learner has learned, and steps per episode as drivers learn."""
     above, below = pair()
     draw_pushes(learner, above)
     points = driven["neoRL"].shape[1]
@@ -208,10 +193,7 @@ def draw_pushes(learner, axes):
 
 
 def draw_worlds(scores):
-    """Probability that a run of the agent beats a random agent's, by world.
-
-    scores: {world: (float64 (runs,) of the agent, the same of the random agent)}.
-    """
+    """Probability that a run of the agent beats a random agent's, by world."""
     axes = draw_rows({world: probability_of_improvement(*each) for world, each in scores.items()},
                      "probability of beating a random agent")
     axes.set_xlim(0, 1.04)

@@ -80,10 +80,7 @@ def drive_by_table(env, nres_map, rates, decisions, seed):
 
 
 def lengths(rewards, ends):
-    """Mean steps of the episodes that end in each stretch of the decisions: (POINTS,).
-
-    rewards: of each decision, less 1 for every step. ends: whether an episode ends with it.
-    """
+    """Mean steps of the episodes that end in each stretch of decisions: (POINTS,)."""
     last = np.flatnonzero(ends)
     steps = -np.diff(np.cumsum(rewards)[last], prepend=0.0)
     stretch = last * POINTS // len(ends)

@@ -49,7 +49,7 @@ def of_figure_5(results):
 
 
 def draw_agents(thesis, found, xlabel):
-    """Draw results {reading: {agent: Estimate}} beside the thesis's numbers {agent: number}, a row for each number."""
+    """Draw results {reading: {agent: Estimate}} beside the thesis's numbers {agent: number}."""
     draw_against_thesis({LABELS[agent]: number for agent, number in thesis.items()},
                         {name: {LABELS[agent]: of_agents[agent] for agent in thesis}
                          for name, of_agents in found.items()}, xlabel)
@@ -82,10 +82,7 @@ def draw_states():
 
 
 def draw_object_values(learned):
-    """Draw which way the values for an object would take the agent, in the middle and the finest map of first runs.
-
-    learned: of agents of object-vector cells alone with the same maps, {name: [`Run`, …]}.
-    """
+    """Draw where values for an object would take agents: {name: [`Run`, …]}."""
     maps = _resolutions(learned)
     drawn = dict.fromkeys((maps[len(maps) // 2], maps[-1]))
     boards = iter(new_boards(len(learned), len(drawn)))
@@ -123,7 +120,7 @@ def draw_revaluing(revalued):
 
 
 def red_a_minute(revalued):
-    """The midpoints of `STRETCHES` of a run, in minutes, and red creeps taken per minute in each, {name: (runs, …)}."""
+    """The midpoints of `STRETCHES` of a run, in minutes, and red creeps taken per minute."""
     edges = np.linspace(0, 1, STRETCHES + 1)
     curves = {name: np.stack([60 * result.hit_rate(*pair)[:, 1] for pair in zip(edges[:-1], edges[1:])], axis=1)
               for name, result in revalued.items()}
@@ -138,7 +135,7 @@ def draw_distances(moved, seconds):
 
 
 def draw_time_scale(resolutions, stays):
-    """Draw seconds in a cell, {reading: (runs, maps)}, over the width of its receptive field, on logarithmic axes."""
+    """Draw seconds in a cell, {reading: (runs, maps)}, over the width of its receptive field."""
     widths = [1 / n for n in resolutions[::-1]]
     means = {name: [estimate(np.mean, stay) for stay in each.T[::-1]] for name, each in stays.items()}
     axes = draw_sweep(widths, means, "width of a receptive field, share of the range", "seconds in a cell")
@@ -174,10 +171,7 @@ def sizes_table(sizes):
 
 
 def change_table(revalued, roamed):
-    """Green creeps per minute, and distances roamed, before red ones are revalued and at the end, as a Markdown table.
-
-    revalued: {name: `Result`}. roamed: {name: (2, runs)}, of some of them, see `trials.roaming`.
-    """
+    """Green creeps per minute and distances roamed, before and after revaluing, as a table."""
     rows = []
     for name, result in revalued.items():
         green = (60 * result.hit_rate(*part)[:, 0] for part in ((0.3, 0.5), (0.8, 1)))
@@ -187,10 +181,7 @@ def change_table(revalued, roamed):
 
 
 def explorer_conditions(results, paper, others):
-    """The conditions that the page's Explorer offers: {name: `Result`}, the first with both modalities.
-
-    paper: begins their names, such as "Paper B". others: more, {what: `Result`}.
-    """
+    """The conditions that the page's Explorer offers: {name: `Result`}."""
     calibrated, letter = results[CALIBRATED], results[LETTER]
     offered = {f"{paper}, figure 5: place + object-vector cells": calibrated["both"]}
     for figure, modality in (("4A: place", "place"), ("4B: object-vector", "objects")):

@@ -52,7 +52,7 @@ def distances(agent, world, steps, runs, seed=0):
     """Distance of agents from a desired place that moves to and fro, in board widths: (moved, seconds).
 
     moved: {"experienced": (runs, moves, samples), "ignorant": the same}, of agents that have lived a quarter of `steps`
-    among creeps before, and of untrained ones. seconds: from the move to each sample, (samples,).
+    among creeps before, and of untrained ones. seconds: from the move to each sample.
     """
     desires = [desiring(agent, at) for at in PLACES]
     interval = bin_steps(world)
@@ -105,7 +105,7 @@ def mean_stays(agent, world, steps, runs, seed=0):
 def roaming(revalued, seconds=100):
     """How far agents roam before a result's only change and at its end, in board widths: (2, runs).
 
-    It is the root mean square distance of an agent from its mean position, over up to `seconds` of simulated time.
+    It is the root mean square distance of an agent from its mean position.
     """
     world, ((turn, agent),) = revalued.world, revalued.changes
     path_steps = min(seconds * world.fps, turn, revalued.steps - turn)
@@ -208,10 +208,7 @@ def measure_costs(agent, world, steps, repetitions, seed):
 
 
 def maps_kept(before, after, world, steps, seed=0):
-    """How many maps of an agent hold the same values, to the last bit, when it changes to another after some steps.
-
-    after: an agent whose first maps are those of `before`.
-    """
+    """How many maps of an agent hold the same values, to the last bit, when it changes to one with more."""
     run, maps = Run(before, world, seed), range(len(before.maps))
     run.advance(steps)
     knew = [run.q(m).copy() for m in maps]

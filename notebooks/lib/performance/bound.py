@@ -115,10 +115,7 @@ def moved(run, steps):
 
 
 def learning_all_goals(resolution, changes, seed=0):
-    """A preparation for `in_turns`, to time learning all goals along a random walk through cells that know all of them.
-
-    changes: of cell, the number of times that it learns.
-    """
+    """A preparation for `in_turns`, to time learning all goals along a random walk."""
     cells, rng = resolution**2, np.random.default_rng(seed)
     moves = rng.choice([-1, 1, -resolution, resolution], changes + 1)
     path = np.clip(np.cumsum(moves) + cells // 2, 0, cells - 1)

@@ -24,8 +24,7 @@ A_TIME = 2**25  # bytes moved in one measurement, at least
 def in_turns(preparations, rounds, clock=process_time):
     """Time several functions in turns, in seconds: {name: float64 (rounds,)}.
 
-    preparations: {name: function without arguments}, which returns the function to time; all take a first round that
-    does not count. clock: a function that returns seconds.
+    preparations: {name: function that returns the one to time}. A first round does not count.
     """
     seconds = {name: np.empty(rounds) for name in preparations}
     for turn in range(-1, rounds):
@@ -60,8 +59,7 @@ def times_as_long(one, other):
 def exponent(xs, costs):
     """Exponent p of costs ∝ x^p by least squares on logarithms: an `Estimate`, with the interval of the line's slope.
 
-    xs: (points,), > 0. costs: (points,); those that disturbances have made 0 or less are left out. With fewer than
-    three, value and bounds are NaN.
+    Costs that disturbances have made 0 or less are left out; with fewer than three others, all is NaN.
     """
     known = np.greater(costs, 0)
     if known.sum() < 3:

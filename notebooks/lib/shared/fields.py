@@ -6,8 +6,5 @@ from neorl.core.horde import superpose
 
 
 def superposed_field(q, goals, valences):
-    """The superposed value of each action in every cell of a map: float64 (cells, 4).
-
-    q: float32 (cells, 4, cells). goals: the cells of the elements of interest. valences: their weights, one each.
-    """
+    """The superposed value of each action in every cell of a map: float64 (cells, 4)."""
     return np.array([superpose(q, cell, goals, valences) for cell in range(len(q))])

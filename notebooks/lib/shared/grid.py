@@ -41,10 +41,7 @@ class Grid:
         return [state for state, (x, y) in enumerate(self.places) if self.rows[y][x] == mark]
 
     def transitions(self, slip):
-        """The probability of each next state: float64 (states, 4, states).
-
-        slip: the probability that a step goes in a direction drawn from all four instead.
-        """
+        """The probability of each next state, with random slips: float64 (states, 4, states)."""
         probability = np.zeros((self.states, 4, self.states))
         each = np.arange(self.states)
         for action in range(4):

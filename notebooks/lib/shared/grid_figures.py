@@ -9,10 +9,7 @@ from neorl.drawing.style import AGENT, INK
 
 
 def new_grids(grid, columns=1, rows=1, size=None):
-    """Axes for rows × columns drawings of a grid: a list, row by row, with y downward and one unit per state.
-
-    size: the width of one drawing in inches; by default they fill the usual width of a figure.
-    """
+    """Axes for drawings of a grid, each `size` inches wide or as a figure: a list."""
     wide, high = len(grid.rows[0]), len(grid.rows)
     width = columns * size if size else plt.rcParams["figure.figsize"][0]
     figure, axes = plt.subplots(rows, columns, figsize=(width, width / columns * high / wide * rows + 0.3 * rows),

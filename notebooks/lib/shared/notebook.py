@@ -18,7 +18,6 @@ FINEST = 90  # intervals per axis, of the finest map in the thesis
 def begin(runs, steps, seed, fewest_steps=1, **others):
     """Check the parameters of a notebook, and set the style of its figures.
 
-    runs: integer ≥ 1. steps: integer ≥ `fewest_steps`, so that there is something to draw. seed: integer ≥ 0.
     others: further parameters of the notebook, which it checks itself.
     Raises ValueError for anything else, and for a parameter that papermill has injected but the notebook does not have.
     """
@@ -45,8 +44,7 @@ def injected_names():
 def resolutions(name, given, fewest=1):
     """The resolutions in a parameter of a page: a tuple of integers.
 
-    name: of the parameter. given: `fewest` integers or more from 1 to 90, all different, in a list or, as the option
-    -p of papermill passes it, in text.
+    given: `fewest` different integers or more from 1 to 90, in a list or, as papermill's option -p passes it, in text.
     Raises ValueError for anything else.
     """
     try:

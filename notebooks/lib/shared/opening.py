@@ -14,10 +14,7 @@ REASONS = {"not testable": ", because the agents learned too little"}
 
 
 def found(judged, runs):
-    """The box of a page: a line for each reading.
-
-    judged: {reading: [Claim, …]}; a reading's name may be empty. runs: of each condition, the parameter of the page.
-    """
+    """The box of a page, a line for each reading: judged {reading: [Claim, …]}."""
     lines = [f"**Quick look: no verdicts.** A verdict needs {RUNS_FOR_A_VERDICT} runs of each condition; this page was "
              f"computed with {runs}."]
     if runs >= RUNS_FOR_A_VERDICT:

@@ -30,15 +30,14 @@ MEASURES = {"": (lambda value: value, lambda measure: measure),
 class LogUniform:
     """A distribution of numbers that is uniform in the logarithm of their `measure`.
 
-    low, high: the ends of that measure, which is the number itself or one of `MEASURES`. apart: a number at one of the
-    ends or beyond, if it has a probability of its own. chance: that probability.
+    A number at one of the ends or beyond may be apart, with a probability of its own.
     """
 
-    low: float
+    low: float  # of the measure
     high: float
-    measure: str = ""
+    measure: str = ""  # one of `MEASURES`
     apart: float | None = None
-    chance: float = 0.0
+    chance: float = 0.0  # of the number apart
 
     @property
     def _apart_is_highest(self):
@@ -90,11 +89,6 @@ class Choice(NamedTuple):
     def stated(self):
         """The whole prior, in words."""
         return self.levels if isinstance(self.prior, tuple) else f"{self.levels}, {self.prior}"
-
-    @property
-    def plainest(self):
-        """The first of the levels, or the middle of the prior."""
-        return self.at(0.0 if isinstance(self.prior, tuple) else 0.5)
 
     @staticmethod
     def words(value):

@@ -78,10 +78,7 @@ def table():
 
 
 def of_pins(labels):
-    """All pins as two Markdown tables, of pinned choices and of open ones, each below its status.
-
-    labels: {field of `Reading`: the name that other tables and figures give to it}, added to the choice if it differs.
-    """
+    """All pins as two Markdown tables, with other labels of fields, {field: name}."""
     parts = []
     for status in ("pinned", "open"):
         rows = [[_called(pin, labels), f"“{pin.quotation}” ({pin.place})" if pin.quotation else "–", pin.follows]

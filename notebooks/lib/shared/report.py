@@ -32,10 +32,7 @@ PARTS = ("claims", "letter", "shares")  # of a record
 
 
 def table(claims, letter=()):
-    """Claims as a Markdown table, then demonstrations; without claims to the letter there is no choice of a reading.
-
-    claims: a sequence of `Claim`, under the book's reading. letter: the same, under that to the letter.
-    """
+    """Claims as a Markdown table, then demonstrations."""
     record = {"claims": _kept(claims), "letter": _kept(letter)}
     some, others = ([claim.name for claim in claims if claim.name in kind] for kind in (CLAIMS, DEMONSTRATIONS))
     parts = [extract(record, some)] if some else []
@@ -43,10 +40,7 @@ def table(claims, letter=()):
 
 
 def comparison(judged):
-    """Verdicts under several readings as a Markdown table, `LETTER` first: judged {reading: [Claim, …]}.
-
-    Claims judged under half of the readings or fewer are left out.
-    """
+    """Verdicts under readings, {reading: [Claim, …]}, on claims judged under most of them."""
     counts = Counter(claim.name for claims in judged.values() for claim in claims)
     names = sorted(name for name, count in counts.items() if 2 * count > len(judged))
     rows = []
@@ -65,11 +59,8 @@ def errata(place=""):
 def save(page, claims=(), shares=None, letter=()):
     """Save the findings of a page as JSON, with the digest of the source that computed them.
 
-    A missing bound, as with a single run, is null.
-
-    page: its name. claims, letter: sequences of `Claim`, under the book's reading and under that to the letter.
     shares: {name of a claim: {"holds", "undecided", "readings"}}, counts of readings within the text in short runs,
-        with "agrees" and "measured" if there are counts at the papers' lengths too.
+    with "agrees" and "measured" if there are counts at the papers' lengths too. A missing bound is null.
     """
     content = {"page": page, "source": source_digest(), "claims": _kept(claims), "letter": _kept(letter),
                "shares": shares or {}}

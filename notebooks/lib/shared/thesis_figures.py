@@ -19,9 +19,8 @@ REACH = 0.5  # of the range of the numbers: intervals are cut off that far beyon
 def draw_against_thesis(thesis, readings, xlabel):
     """Draw numbers of the thesis beside the results, a row for each, with dots and 95 % intervals.
 
-    thesis: {label: number}, all in one unit, that of `xlabel`. readings: {name: {label: Estimate}}, with the same
-    labels, at most 7; an estimate without bounds (NaN) is a dot alone. An interval that reaches far beyond all numbers
-    is cut off, with an arrow at the edge.
+    thesis: {label: number}. readings: {name: {label: Estimate}}, with the same labels. An interval that reaches far
+    beyond all numbers is cut off, with an arrow at the edge.
     """
     rows = np.arange(len(thesis))
     axes = axes_or_new(None, figsize=(width_of_figures(), 1.1 + ROW * len(rows)))

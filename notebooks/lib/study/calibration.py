@@ -47,13 +47,11 @@ DIGITS = 4  # significant digits of a chosen number
 def calibrate(minutes, table=(), seed=0, runs=RUNS, steps=STEPS, keep=None):
     """Run readings for a number of minutes, and return the table that includes them: a list of `Row`.
 
-    table: rows to continue from. seed: of the design and of the candidates; row i of the table is run with the seed
-    1000 · seed + i. runs, steps: of each reading, see `reading.conditions`. keep: called with the table whenever it has
-    grown, for instance to save it.
-
-    The clock is checked between chunks of 32 readings, so the call may take up to a chunk longer.
+    table: rows to continue from. seed: of the design and of the candidates; row i is run with the seed
+    1000 · seed + i. keep: called with the table whenever it has grown. The clock is checked between chunks.
     """
-    end, table = time.monotonic() + 60 * minutes, list(table)
+    end = time.monotonic() + 60 * minutes
+    table = list(table)
     work = _work(table, seed, runs, steps)
     while time.monotonic() < end:
         group, chosen = next(work)
@@ -67,10 +65,10 @@ def calibrate(minutes, table=(), seed=0, runs=RUNS, steps=STEPS, keep=None):
 def refine(minutes, table, parents, runs, seed, keep):
     """Search near given readings for a number of minutes, and return the table that includes the rows.
 
-    parents: readings, to which the nearest 12 complete rows of more than 2 runs are added. runs: of each condition.
-    seed, keep: as in `calibrate`. A round is not interrupted, so the call may take longer.
+    parents: readings, to which the nearest 12 complete rows of more than 2 runs are added.
     """
-    end, table = time.monotonic() + 60 * minutes, list(table)
+    end = time.monotonic() + 60 * minutes
+    table = list(table)
     while time.monotonic() < end:
         rng = np.random.default_rng([seed, _next_wave(table)])
         found = sorted((row for row in table if row.complete and row.runs > RUNS), key=lambda row: row.distance)
@@ -107,10 +105,7 @@ def narrow(table, refined_runs, n, runs, seed):
 
 
 def rescale(table, n, scales, runs, seed):
-    """Run the n leading of the most-run readings in paper C with other scales of desires.
-
-    Returns the table that includes the new rows, n for each scale, which have been run in that group alone.
-    """
+    """Run the n leading of the most-run readings in paper C with other scales of desires."""
     most = max(row.runs for row in calibration_table.nearest(table))
     first = [row for row in calibration_table.leading(table) if row.runs == most][:n]
     readings = [replace(row.reading, scale=float(scale)) for scale in scales for row in first]
@@ -120,8 +115,7 @@ def rescale(table, n, scales, runs, seed):
 def confirm(table, n, runs, seed=0):
     """Run the n leading readings of a table again, with fresh seeds, and return the table that includes the new rows.
 
-    See `calibration_table.leading`; readings that have been run only twice come last. Raises ValueError if no row is
-    complete.
+    Readings that have been run only twice come last. Raises ValueError if no row is complete.
     """
     first = sorted(calibration_table.leading(table), key=lambda row: row.runs <= RUNS)[:n]
     again = [replace(new, steps=row.steps)
@@ -185,10 +179,7 @@ def design(points, seed=0):
 
 
 def reading_at(shares):
-    """The reading with each choice at a quantile of its prior; numbers have 4 significant digits.
-
-    shares: in [0, 1), one for each choice in `WITHIN`. The other choices are those of `TO_THE_LETTER`.
-    """
+    """The reading with each choice in `WITHIN` at a quantile of its prior, rounded; others are to the letter."""
     chosen = {name: _short(choice.at(share)) for (name, choice), share in zip(WITHIN.items(), shares)}
     return replace(TO_THE_LETTER, **chosen)
 
@@ -255,10 +246,7 @@ def features(readings):
 
 
 def prospects(rows, emulator, papers="ABC"):
-    """How far rows are from the targets of some papers, as measured or else as predicted: float64 (rows,).
-
-    It is the root mean square over targets, each counted as 4 at most.
-    """
+    """How far rows are from the targets of papers, as measured or predicted."""
     if not rows:
         return np.zeros(0)
     each = emulator.implausibility([row.reading for row in rows])

@@ -27,10 +27,7 @@ COLUMNS = 2  # of panels
 
 
 def draw_marginals(remaining, nearest):
-    """Prior (outlines) and posterior (bars) of each choice, as shares of its levels.
-
-    remaining: a `Posterior`, the bars. nearest: another, whose shares are drawn as points.
-    """
+    """Each choice before (outlines), after (bars) and in the nearest readings (points)."""
     each = [marginal(name, remaining) for name in WITHIN]
     rows = [each[i : i + COLUMNS] for i in range(0, len(each), COLUMNS)]
     heights = [max(len(found.levels) for found in row) for row in rows]
@@ -56,10 +53,7 @@ def draw_marginals(remaining, nearest):
 
 
 def draw_pairs(remaining, names):
-    """The joint posterior of pairs of choices, and on the diagonal the marginal of each.
-
-    remaining: a `Posterior`. names: of the choices, at least two.
-    """
+    """The joint posterior of pairs of choices, and on the diagonal the marginal of each."""
     size = width_of_figures()
     grid = plt.figure(figsize=(size, size), layout="constrained").subplots(len(names), len(names), squeeze=False)
     cut = [binned(name, remaining.readings, INTERVALS) for name in names]
@@ -95,8 +89,7 @@ def _spaced(levels):
 def draw_together(together):
     """Which claims hold together: % of the readings with both measured in which both hold, on the diagonal each alone.
 
-    A bar below each number has that length. A cross marks pairs that never hold together, although by chance some
-    readings would.
+    A cross marks pairs that never hold together, although by chance some readings would.
     """
     axes = axes_or_new(None, figsize=(width_of_figures(), width_of_figures()))
     share = np.divide(together.both, together.rows, out=np.zeros(together.both.shape), where=together.rows > 0)
@@ -117,10 +110,7 @@ def draw_together(together):
 def draw_conflicts(found, row):
     """What each target that a row misses goes together with least: all readings that were run, by both statistics.
 
-    Shaded is where both targets are met; the middle 96 % of the readings are shown, the row as a ring. A panel's
-    heading says how many readings meet both, and how many would by chance.
-
-    found: of `calibration_results.conflicts` for the row.
+    Shaded is where both targets are met; the row is a ring, and 96 % of the readings are shown.
     """
     high = -(-len(found) // COLUMNS)
     figure = plt.figure(figsize=(width_of_figures(), 2.1 * high), layout="constrained")
@@ -180,8 +170,7 @@ def draw_accumulated(results, keys):
 def draw_rates(results, keys, total=()):
     """Reward per second of conditions under several readings, low-passed means over runs.
 
-    results: {key of the condition: `Result`} of each reading, the first of which is drawn thick. keys: {name: key}.
-    total: names whose sum is drawn, too, in grey.
+    results: {key: `Result`} of each reading, the first drawn thick. total: names whose sum is grey.
     """
     curves = {name: [low_passed(binned_rate(each[key], POINTS).mean(axis=0, keepdims=True))[0] for each in results]
               for name, key in keys.items()}

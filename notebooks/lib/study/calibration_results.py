@@ -44,8 +44,7 @@ def accepted(table):
 def posterior(table, draws=DRAWS, seed=0):
     """Fresh draws from the priors, weighted by how well the emulator expects them to agree with all targets.
 
-    The weights are exp(−½ Σ distance²) over targets, with the emulator's own uncertainty. The nearest rows of the
-    table share parents, so a choice that does not matter may look decided among them; here it does not.
+    The weights are exp(−½ Σ distance²) over targets, with the emulator's own uncertainty.
     """
     rng = np.random.default_rng(seed)
     readings = [reading_at(shares) for shares in rng.random((draws, len(WITHIN)))]
@@ -86,7 +85,7 @@ def most_informative(remaining, n):
 
 
 class Together(NamedTuple):
-    """The numbers of rows in which claims hold together, (claims, claims), each claim alone on the diagonal."""
+    """The numbers of rows in which claims hold together: (claims, claims)."""
 
     claims: tuple[str, ...]
     rows: np.ndarray  # in which both were measured
@@ -96,7 +95,7 @@ class Together(NamedTuple):
 
     @property
     def pairs(self):
-        """Pairs of claims, those that go together least first: [(name, name, rows in which both hold, expected), …]."""
+        """Pairs of claims: (name, name, rows in which both hold, expected), the least first."""
         pairs = [(self.claims[i], self.claims[j], int(self.both[i, j]), float(self.expected[i, j]))
                  for i, j in combinations(range(len(self.claims)), 2)]
         return sorted(pairs, key=lambda pair: (pair[2] + 1) / (pair[3] + 1))
@@ -108,7 +107,7 @@ class Together(NamedTuple):
 
 
 def claims_together(table):
-    """Count the rows in which pairs and sets of claims hold together: a `Together`, without subsets of its sets."""
+    """Count the rows in which pairs and sets of claims hold together."""
     tested = np.array([[name in row.tested for name in CLAIMS] for row in table], float)
     held = np.array([[name in row.held for name in CLAIMS] for row in table], float)
     rows, both = tested.T @ tested, held.T @ held
@@ -136,7 +135,7 @@ def evenly(table):
 
 
 def best(table):
-    """The row for which most claims hold among those with the most runs, which are the confirmed ones: see `leading`."""
+    """The row for which most claims hold among those with the most runs: see `leading`."""
     complete = leading(table)
     most = max(row.runs for row in complete)
     return next(row for row in complete if row.runs == most)
@@ -166,7 +165,7 @@ class Conflict(NamedTuple):
 def conflicts(table, row):
     """What meeting each target that a row misses would cost: a list of `Conflict`, in the order of the targets.
 
-    Counted are all rows in which both targets were measured, the most telling pair having the least both / expected.
+    The most telling pair has the least both / expected, in rows with both measured.
     """
     meets = {name: target.holds(row.statistics[name].value) for name, target in TARGETS.items()}
     return [min((_conflict(table, missed, met) for met in meets if meets[met]),

@@ -93,7 +93,7 @@ def rerun(table, n, group, seed=0):
 
 
 def nearest(table):
-    """The complete rows, nearest first, with the most runs for each reading; ValueError is raised if there is none."""
+    """The complete rows, the nearest first, without repeated readings."""
     by_reading = {}
     for row in table:
         if row.complete and (row.reading not in by_reading or by_reading[row.reading].runs < row.runs):
@@ -104,18 +104,15 @@ def nearest(table):
 
 
 def leading(table):
-    """The complete rows as in `nearest`, but those for which most claims hold first, and of equal ones the nearest.
-
-    A distance weighs one number that is missed by far like several that are missed by little, so the reading that is
-    nearest is not the one that reproduces most.
-    """
+    """The complete rows, those for which most claims hold first: the nearest reading does not reproduce most."""
     return sorted(nearest(table), key=lambda row: -len(row.held))
 
 
 def write_table(table, path):
     """Write rows to a file of comma-separated values, one line each below a header."""
-    content, choices = io.StringIO(), [each.name for each in fields(Reading)]
+    content = io.StringIO()
     writer = csv.writer(content, lineterminator="\n")
+    choices = [each.name for each in fields(Reading)]
     writer.writerow([*OWN, *choices, *TARGETS, *(f"error of {name}" for name in TARGETS)])
     for row in table:
         measured = [row.statistics.get(name, ("", "")) for name in TARGETS]
@@ -126,7 +123,7 @@ def write_table(table, path):
 
 
 def read_table(path=SHIPPED):
-    """Read the rows of a file written by `write_table`: a list of `Row`. Raises ValueError if its columns differ."""
+    """Read the rows of a file written by `write_table`, or raise ValueError."""
     kinds = {each.name: type(each.default) for each in fields(Reading)}
     expected = {*OWN, *kinds, *TARGETS, *(f"error of {name}" for name in TARGETS)}
     lines = csv.DictReader(io.StringIO(path.read_text(encoding="utf-8")))

@@ -211,7 +211,7 @@ CLAIMS = tuple(sorted({target.claim for target in TARGETS.values()}))
 def measure(group, results):
     """The statistics of one of `GROUPS`: {name of the target: `Measure`}, rounded to 5 significant digits.
 
-    results: {key of the condition: `Result`}, of the same number of runs, at least two; one raises ValueError.
+    results: {key of the condition: `Result`}, of two runs or more, or ValueError is raised.
     """
     chosen = GROUPS[group]
     results = {key: results[key] for key in chosen.keys}
@@ -235,10 +235,7 @@ def _rounded(value):
 
 
 def distance(statistics):
-    """The distance of a reading, {name: `Measure`}, from all measured targets: the root mean square, infinite if none.
-
-    Each distance counts as 4 at most.
-    """
+    """The root mean square distance of {name: `Measure`} from their targets, each 4 at most."""
     if not statistics:
         return math.inf
     each = [min(TARGETS[name].distance(*found), 4.0) for name, found in statistics.items()]

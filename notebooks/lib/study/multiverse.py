@@ -45,7 +45,7 @@ def outcome(claim):
 
 
 def by_claim(*sweeps):
-    """Claims by name, {name: [`Claim`, …]}, from sweeps, each a list of {name: `Claim`} for each reading."""
+    """Claims by name, {name: [`Claim`, …]}, from sweeps, lists of {name: `Claim`}."""
     found = {name: [claims[name] for claims in judged] for judged in sweeps for name in judged[0]}
     return {name: found[name] for name in STATEMENTS if name in found}
 
@@ -93,10 +93,7 @@ def support(readings, judged):
 
 
 def binned(name, readings, parts):
-    """A choice of `WITHIN` in levels: (levels, their shares of the prior (levels,), that of each reading (readings,)).
-
-    parts: of equal probability, into which the prior of a number is cut.
-    """
+    """A choice in levels: (levels, shares of the prior, level of each reading)."""
     choice = WITHIN[name]
     values = [getattr(reading, name) for reading in readings]
     if isinstance(choice.prior, tuple):
@@ -110,10 +107,7 @@ def binned(name, readings, parts):
 
 
 def importances(readings, claims):
-    """The importance of each choice for the number of each claim: ({claim: {choice: importance}}, {claim: R²}).
-
-    claims: each under the first of these readings or all. One judged under fewer than `ENOUGH` is left out.
-    """
+    """The importance of each choice for claims: ({claim: {choice: importance}}, {claim: R²})."""
     found = {name: importance(readings[:len(each)], each) for name, each in claims.items() if len(each) >= ENOUGH}
     return {name: shares for name, (shares, _) in found.items()}, {name: share for name, (_, share) in found.items()}
 

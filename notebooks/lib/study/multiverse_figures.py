@@ -27,10 +27,7 @@ LEADING = 6  # choices below a specification curve
 
 
 def draw_outcomes(claims):
-    """How many readings give each outcome of each claim, as bars; claims judged under as many readings share a panel.
-
-    claims: {name: [`Claim`, …]}, each claim under its readings.
-    """
+    """How many readings give each outcome of each claim, as bars."""
     sizes = sorted({len(found) for found in claims.values()}, reverse=True)
     panels = [[name for name, found in claims.items() if len(found) == size] for size in sizes]
     figure = plt.figure(figsize=(width_of_figures(), 1.1 * ROW * len(claims) + 0.7 * len(sizes) + 0.3),
@@ -58,8 +55,7 @@ def draw_specification(readings, claims, name):
     lower edge. Below are the `LEADING` choices whose levels follow the order of the readings most closely, the closest
     first.
 
-    readings: [`Reading`, …]. claims: {name: [`Claim`, …]}, each claim under the first of these readings or all. name:
-    of the claim. Returns the axes of the curve and of the choices.
+    Returns the axes of the curve and of the choices.
     """
     below = 1.7 * ROW * LEADING
     figure = plt.figure(figsize=(width_of_figures(), 2.6 + below), layout="constrained")
@@ -82,10 +78,7 @@ def draw_specification(readings, claims, name):
 
 
 def _leading(readings, name):
-    """The choices that lead for a claim, [(label and levels, place of the level under each reading), …].
-
-    readings: in the order of the claim's number, with which levels are correlated by ranks, unsigned.
-    """
+    """The choices that lead for a claim: [(label and levels, places of levels), …]."""
     found = []
     for key, choice in WITHIN.items():
         if name[0] in choice.papers:
@@ -103,10 +96,7 @@ def _in_brief(levels):
 
 
 def _curve(axes, claims, name):
-    """Draw the number of a claim under every reading, sorted, and return the order.
-
-    A number beyond the axis is a triangle at its edge, a missing number a cross at the lower edge.
-    """
+    """Draw the number of a claim under every reading, sorted, and return the order."""
     here = np.array([claim.here for claim in claims])
     order = np.argsort(np.nan_to_num(here[:, 0], nan=-np.inf), kind="stable")
     borders = [end for end in (STATEMENTS[name].bounds.low, STATEMENTS[name].bounds.high) if np.isfinite(end)]
@@ -143,10 +133,7 @@ def _limits(values, borders):
 def draw_standing(record, names):
     """The verdicts of claims, and the share of readings under which they hold.
 
-    Bars are from short runs: the undecided share follows the one that holds, in another colour. Points are from runs as
-    long as the papers', where there are any.
-
-    record: as `lib.shared.report.load` returns it. names: of the claims, from the top.
+    Bars are from short runs, points from runs as long as the papers', where there are any.
     """
     axes = axes_or_new(None, figsize=(width_of_figures(), 1.3 * ROW * len(names) + 0.7))
     for row, name in enumerate(names):
@@ -172,7 +159,7 @@ def draw_standing(record, names):
 
 
 def draw_importance(importance):
-    """Which choices matter, as areas of discs: {name of the claim: {name of the choice: importance}}."""
+    """Which choices matter, as areas of discs: {claim: {choice: importance}}."""
     axes = axes_or_new(None, figsize=(width_of_figures(), ROW * 1.25 * len(WITHIN) + 0.5))
     keys = list(WITHIN)
     for column, shares in enumerate(importance.values()):
