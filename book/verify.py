@@ -15,16 +15,17 @@ from pathlib import Path
 import numpy as np
 
 from neorl.experiments import store
+from neorl.experiments.result import condition_of
 from neorl.experiments.run import new_bins
 from neorl.experiments.simulation import live
-from neorl.files import cache_folder
+from neorl.files import cache_folder, read_arrays
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "notebooks"))  # pages define worlds and kernels there
 
 
 def main():
     chosen = parse_arguments()
-    conditions = store.conditions()
+    conditions = conditions_kept()
     everything = [(condition, k) for condition in conditions for k in range(condition.runs)]
     if not everything:
         sys.exit(f"{cache_folder()} holds no condition that was computed with the present source: make book first")
@@ -58,6 +59,19 @@ def parse_arguments():
     if chosen.sample < 1:
         parser.error(f"--sample must be an integer of at least 1, but is {chosen.sample}")
     return chosen
+
+
+def conditions_kept():
+    """Every complete `Condition` on disk that was computed with the present source and can be restored: a list."""
+    found = []
+    for each in store.kept():
+        if each.kind == "conditions":
+            try:
+                condition = condition_of(read_arrays(each.path, "Result")[0])
+            except (OSError, ValueError):  # damaged, of another version, or with a kernel that no module defines
+                continue
+            found += [condition] if condition.path == each.path else []  # else a source or a kernel has changed
+    return found
 
 
 def compare(condition, k):

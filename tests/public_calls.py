@@ -7,7 +7,7 @@ from fuzzing import entry
 from hypothesis import strategies as st
 from public_uses import (BOARD, CONDITION, MAZE, POOL, RESULT, SCENE, SCENES, VESSEL, acted, agents, begun,
                          described_paths, fields_of, in_a_loop, live, live_in, live_in_state, make_with, method,
-                         new_env, new_learner, new_run, paper, paths, q, reals, resolutions, saved, saved_as, scene_of,
+                         new_env, new_learner, paper, paths, q, reals, resolutions, saved, saved_as, scene_of,
                          scene_then, seeds, sense, shares, states, step_with, tile, use_modality, want_it)
 
 import neorl
@@ -16,7 +16,6 @@ from neorl import (CARDINAL, Actions, Agent, Arena, Arm, Axis, Condition, Contac
 from neorl.agents import learner
 from neorl.agents.beyond import forager, foveated_cells
 from neorl.agents.individual import Individual
-from neorl.browser import replay
 from neorl.core import horde, kernel
 from neorl.core.identity import identity
 from neorl.core.kernel import arrays
@@ -217,11 +216,6 @@ TABLE = {
                                            place_gain=reals, object_gain=reals),
     "neorl.agents.papers.network_d": paper(neorl.network_d, recursion=reals, scale=st.floats(0, 2),
                                            signed=[True, False], place_gain=reals, object_gain=reals),
-    "neorl.browser.replay.record": entry(
-        replay.record, name=["Newborn"], run=st.builds(new_run), steps=st.integers(1, 5), long=("steps",)),
-    "neorl.browser.replay.Replay": entry(
-        lambda **each: replay.Replay(**each).speed, recordings=[[replay.record("Newborn", new_run(), 1)]],
-        playing=[True, False], speed=st.integers(1, 9)),
     "neorl.gym.environment.WorldEnv.reset": entry(
         lambda **each: new_env().reset(**each)[0], seed=[None, 0, 5], options=[None], also="run"),
     "neorl.gym.environment.WorldEnv.step": entry(

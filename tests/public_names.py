@@ -4,17 +4,16 @@ import inspect
 
 import neorl
 from neorl.agents import agent, beyond, individual, learner, papers
-from neorl.browser import replay
 from neorl.core import horde, kernel, maps, modality, policy, scene, stream
 from neorl.gym import environment, playing, vector
 from neorl.worlds import arena, arm, vessel, walls, water_maze, waterworld, world
 
-MODULES = (neorl, agent, beyond, individual, learner, papers, replay, horde, kernel, maps, modality, policy, scene,
+MODULES = (neorl, agent, beyond, individual, learner, papers, horde, kernel, maps, modality, policy, scene,
            stream, arena, arm, vessel, walls, water_maze, waterworld, world, environment, playing, vector)
 # Classes that only kernels or the package itself instantiate; kernels refuse to be called.
 MADE_INSIDE = {f"neorl.{name}" for name in (
     "agents.individual.Individual", "agents.individual.Output", "agents.learner.Offer", "core.kernel.Kernel",
-    "core.kernel.Compiled", "core.scene.Scene", "browser.replay.Recording",
+    "core.kernel.Compiled", "core.scene.Scene",
     "gym.playing.Played", "experiments.result.Result", "experiments.run.Trajectory", "worlds.arena.ArenaRules",
     "worlds.arena.ArenaState", "worlds.waterworld.Rules",
     *(f"worlds.{name}{part}" for name in ("arm.Arm", "vessel.Vessel", "water_maze.WaterMaze")

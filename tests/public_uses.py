@@ -75,12 +75,6 @@ def acted():
     return one
 
 
-def new_run():
-    run = Run(neorl.network_b([3, 5]), BOARD)
-    run.advance(40)
-    return run
-
-
 def new_env():
     return environment.WorldEnv(BOARD)
 

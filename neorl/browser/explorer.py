@@ -72,7 +72,8 @@ SCRIPTS = ("settings.js", "simulator.js", "drawing.js", "movers.js", "curve.js",
            "hands.js", "starters.js", "beside.js", "tour.js", "address.js", "widget.js")
 
 
-def _text(*names):
+def text_of(*names):
+    """The content of text files beside this one, one after the other."""
     return "\n".join((Path(__file__).parent / name).read_text(encoding="utf-8") for name in names)
 
 
@@ -102,9 +103,9 @@ class Explorer(AnyWidget):
     module cannot be built.
     """
 
-    _esm = _text(*SCRIPTS)
-    _css = _text("widget.css")
-    _engine = traitlets.Unicode(_text("machine.js", "views.js", "engine.js")).tag(sync=True)
+    _esm = text_of(*SCRIPTS)
+    _css = text_of("widget.css")
+    _engine = traitlets.Unicode(text_of("machine.js", "views.js", "engine.js")).tag(sync=True)
     _wasm = traitlets.Dict().tag(sync=True)
     _layout = traitlets.Dict().tag(sync=True)
     _presets = traitlets.Dict().tag(sync=True)

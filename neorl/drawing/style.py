@@ -18,14 +18,11 @@ from matplotlib.colors import is_color_like, to_hex, to_rgb
 from neorl import checks
 
 INK, TEXT = "#808080", "#6e6e6e"  # lines, letters
-FILL = 0.3  # the greatest opacity of a fill that arrows cross
-UNDER_WHITE = "#5a5a5a"  # the background of white letters, which need more contrast than a sign such as +
 AGENT, GREEN, RED = "#3175b9", "#0e825f", "#ba5323"
 CURVES = ("#3d6ad1", "#ae2c47", "#b68f0c", "#00a1c0", "#85498f", "#ae6411", "#af77ff")
 LIGHT_OF_LETTERS = 0.165  # relative luminance
 DASHES = ("-", "--", ":", "-.")  # of curves: one for each cycle through the colours
 LEADER = 0.08  # the width of the lines that lead to names, as a share of the width of the axes
-LOW_PANEL = 0.17  # the room for a curve's name, as a share of the height of a low panel
 SMALL, CROWDED = 9, 6  # points: the least size of letters, and the size of the names of more than a dozen curves
 STYLE: dict[Any, Any] = {
     "figure.facecolor": "none", "axes.facecolor": "none", "savefig.facecolor": "none", "figure.figsize": (4.9, 3.5),
@@ -86,15 +83,6 @@ def letters(colour):
     else:
         linear = linear + (1 - linear) * (LIGHT_OF_LETTERS - light) / (1 - light)
     return to_hex(np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055))
-
-
-def mark(axes, place, text, **options):
-    """Write a few letters in white on a dark background, legible on any fill and over curves.
-
-    place, options: as in `Axes.annotate`, whose annotation is returned.
-    """
-    ground = {"boxstyle": "round,pad=0.12", "facecolor": UNDER_WHITE, "edgecolor": "none"}
-    return axes.annotate(text, place, color="white", fontsize=SMALL, bbox=ground, zorder=5, **options)
 
 
 def looks(count):

@@ -150,7 +150,7 @@ def tolerated_share(runs: int, beyond: int = 1) -> float:
     return float(scipy.stats.beta.ppf(0.05, runs + 1 - 2 * beyond, 2 * beyond)) if runs >= 2 * beyond else 0.0
 
 
-def _recent_rates(result):
+def recent_rates(result):
     """Reward per second over the preceding fortieth of the run, (runs, windows), and the end of each such window."""
     bins = result.rewards.shape[1]
     width = max(1, bins // round(1 / RECENT))
@@ -159,7 +159,8 @@ def _recent_rates(result):
     return (sums[:, width:] - sums[:, :-width]) / (edges[width:] - edges[:-width]), edges[width:]
 
 
-def _first(made, ends, never):
+def first_time(made, ends, never):
+    """The end of the first window in which a level is made, bool (…, windows), or `never`: (…)."""
     return np.where(made.any(axis=-1), ends[made.argmax(axis=-1)], never)
 
 
@@ -178,13 +179,13 @@ def minutes_sooner(quick: Results, slow: Results, level: float) -> Estimate:
             checks.instance(name, result, Result)
         if len({(result.steps, result.world.fps) for result in group}) != 1:
             raise ValueError(f"{name} must be one result or more, all of runs of one length, but has {len(group)}")
-    thinned = [[_thinned(*_recent_rates(result)) for result in group] for group in groups]
+    thinned = [[_thinned(*recent_rates(result)) for result in group] for group in groups]
 
     def lead(*chosen, axis):
         chosen, times = iter(chosen), []
         for group, of_group in zip(groups, thinned):
             mean = sum(_mean_of_runs(rates, next(chosen)) for rates, _ in of_group)
-            times.append(_first(mean >= level, of_group[0][1], group[0].seconds))
+            times.append(first_time(mean >= level, of_group[0][1], group[0].seconds))
         return (times[1] - times[0]) / 60
 
     return estimate(lead, *(np.arange(result.runs) for group in groups for result in group))
@@ -200,20 +201,6 @@ def _mean_of_runs(rates, chosen):
     runs = len(rates)
     counts = np.array([np.bincount(each, minlength=runs) for each in chosen.reshape(-1, runs)])
     return (counts @ rates / runs).reshape(*chosen.shape[:-1], -1)
-
-
-def time_to_final_level(result: Result, share: float = 0.9) -> NDArray[np.float64]:
-    """When each run first reaches `share` of its final level: float64 (runs,), in simulated seconds.
-
-    The final level is a run's own reward per second in its last fifth. A run reaches it when the mean over the
-    preceding fortieth of the run does; where it is never reached, or not positive, the time is the whole run.
-
-    result: a `Result`. share: from 0 to 1. Raises ValueError for anything else.
-    """
-    final, share = checks.instance("result", result, Result).rate(0.8, 1.0), checks.real("share", share, 0, 1)
-    rates, ends = _recent_rates(result)
-    level = np.where(final > 0, share * final, np.inf)
-    return _first(rates >= level[:, None], ends, result.seconds)
 
 
 def minutes_to_own_level(*results: Result, share: float = 0.9, of: Callable | None = None) -> Estimate:
@@ -240,11 +227,11 @@ def minutes_to_own_level(*results: Result, share: float = 0.9, of: Callable | No
 
 def _minutes_to_own_level(result, share):
     """A function of the runs of each resample, int (…, runs), for `minutes_to_own_level`."""
-    (rates, ends), final = _thinned(*_recent_rates(result)), result.rate(0.8, 1.0)[:, None]
+    (rates, ends), final = _thinned(*recent_rates(result)), result.rate(0.8, 1.0)[:, None]
 
     def minutes(chosen):
         level = share * _mean_of_runs(final, chosen)
-        return _first((_mean_of_runs(rates, chosen) >= level) & (level > 0), ends, result.seconds) / 60
+        return first_time((_mean_of_runs(rates, chosen) >= level) & (level > 0), ends, result.seconds) / 60
 
     return minutes
 

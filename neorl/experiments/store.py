@@ -21,7 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl import checks, files
-from neorl.experiments.result import Result, about, condition_of, fitting
+from neorl.experiments.result import Result, about, fitting
 
 SECONDS = 5  # between two writes of a condition's runs; a write takes a hundredth of that
 DIGEST = "[0-9a-f]{64}"
@@ -179,19 +179,6 @@ def kept():
                 if (re.fullmatch(pattern, path.name) and path.is_file()
                         and (kind != "claims" or MARK in path.read_bytes())):
                     found.append(Kept(kind, path, path.stat().st_size))
-    return found
-
-
-def conditions():
-    """Every complete `Condition` on disk that was computed with the present source and can be restored: a list."""
-    found = []
-    for each in kept():
-        if each.kind == "conditions":
-            try:
-                condition = condition_of(files.read_arrays(each.path, "Result")[0])
-            except (OSError, ValueError):  # damaged, of another version, or with a kernel that no module defines
-                continue
-            found += [condition] if condition.path == each.path else []  # else a source or a kernel has changed
     return found
 
 

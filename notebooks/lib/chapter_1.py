@@ -4,8 +4,9 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.patches import Circle
 
+from lib.shared.style import UNDER_WHITE
 from neorl.drawing.boards import inside, new_boards
-from neorl.drawing.style import AGENT, GREEN, INK, RED, UNDER_WHITE
+from neorl.drawing.style import AGENT, GREEN, INK, RED
 
 
 def draw_walls(axes):

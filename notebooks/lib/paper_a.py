@@ -12,6 +12,7 @@ from lib.shared import side_by_side
 from lib.shared.notebook import FINEST
 from lib.shared.priors import BEYOND
 from lib.shared.report import CALIBRATED, LETTER
+from lib.shared.style import FILL, mark
 from lib.shared.wording import table
 from lib.shared.thesis_figures import mark_levels
 from neorl.core.horde import as_vectors
@@ -19,7 +20,7 @@ from neorl.core.maps import NresMap
 from neorl.core.scene import CARDINAL
 from neorl.drawing.boards import new_board
 from neorl.drawing.curves import draw_proficiency
-from neorl.drawing.style import AGENT, FILL, GREEN, INK, RED, mark
+from neorl.drawing.style import AGENT, GREEN, INK, RED
 from neorl.drawing.value_maps import draw_cells, draw_values
 from neorl.evidence.reading import LAYERS, SINGLE
 from neorl.evidence.statements import STATEMENTS

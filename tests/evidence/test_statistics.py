@@ -5,13 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from lib.study.calibration_targets import time_to_final_level
 from scipy import stats
 
 from neorl import Condition, Result, WaterWorld, place_cells
-from neorl.evidence.statistics import (estimate, lead_over_best, lead_over_sum, mean_band,
-                                       minutes_sooner, minutes_to_own_level, points, probability_of_improvement,
-                                       rank_correlation, ratio, resets, time_to_final_level,
-                                       tolerance_band, tolerated_share)
+from neorl.evidence.statistics import (estimate, lead_over_best, lead_over_sum, mean_band, minutes_sooner,
+                                       minutes_to_own_level, points, probability_of_improvement, rank_correlation,
+                                       ratio, resets, tolerance_band, tolerated_share)
 
 
 def test_the_probability_of_improvement_counts_pairs():

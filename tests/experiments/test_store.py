@@ -12,6 +12,7 @@ from dataclasses import replace
 import grimp
 import numpy as np
 import pytest
+import verify
 from same import alone
 
 from neorl import Condition, Learning, Policy, Result, WaterWorld, files, kernel, place_cells, simulate, softmax, sweep
@@ -293,9 +294,9 @@ def test_what_is_asked_for_is_removed_and_nothing_of_others(full, which, remain)
 
 
 def test_conditions_of_other_sources_are_not_restored(full, monkeypatch):
-    assert store.conditions() == [SHORT]
+    assert verify.conditions_kept() == [SHORT]
     monkeypatch.setattr(conditions, "source_digest", lambda: "another")
-    assert store.conditions() == []
+    assert verify.conditions_kept() == []
 
 
 def test_a_condition_with_a_local_kernel_is_kept(folder):
@@ -305,7 +306,7 @@ def test_a_condition_with_a_local_kernel_is_kept(folder):
 
     condition = replace(SHORT, agent=place_cells([2], policy=Policy(choose=of_no_module)))
     keep(condition)
-    assert store.load(condition).agent == condition.agent and store.conditions() == []
+    assert store.load(condition).agent == condition.agent and verify.conditions_kept() == []
 
 
 @pytest.mark.parametrize("about", [
@@ -315,7 +316,7 @@ def test_an_invalid_note_is_ignored(folder, about):
     path.parent.mkdir(parents=True)
     with path.open("wb") as file:
         np.savez(file, about=np.array(about))
-    assert len(store.kept()) == 1 and store.conditions() == []
+    assert len(store.kept()) == 1 and verify.conditions_kept() == []
 
 
 def test_another_choice_is_refused():

@@ -10,9 +10,10 @@ from lib.shared.grid_figures import draw_grid, draw_policy, new_grids
 from lib.shared.panels import add_arrow, add_curves
 from neorl.drawing.boards import new_boards
 from neorl.drawing.curves import draw_curves
-from neorl.drawing.style import AGENT, CURVES, GREEN, INK, LOW_PANEL, RED, TEXT, letters, name_ends
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, TEXT, letters, name_ends
 from neorl.evidence.statistics import mean_band
 
+LOW_PANEL = 0.17  # the room for a curve's name, as a share of the height of a low panel
 NAMES = {"throughout": "throughout", "never": "never", "delayed": "from day {}"}
 
 

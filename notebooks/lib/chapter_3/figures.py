@@ -10,7 +10,8 @@ from lib.chapter_3.hybrid_reward import settled_values
 from lib.shared.grid import WALL
 from lib.shared.grid_figures import draw_grid, draw_policy, new_grids
 from lib.shared.panels import add_arrow
-from neorl.drawing.style import AGENT, CURVES, FILL, GREEN, INK, RED, TEXT, letters, mark, name_ends
+from lib.shared.style import FILL, mark
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, TEXT, letters, name_ends
 from neorl.evidence.statistics import estimate, mean_band
 
 

@@ -10,8 +10,9 @@ from lib.chapter_4.noise import expected_squared_displacement
 from lib.chapter_4.superposition import misled
 from lib.shared.grid_figures import draw_grid, draw_policy, new_grids
 from lib.shared.panels import add_curves
+from lib.shared.style import UNDER_WHITE
 from neorl.drawing.curves import add_estimates
-from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, UNDER_WHITE, letters, name_ends
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, letters, name_ends
 from neorl.evidence.statistics import mean_band
 
 

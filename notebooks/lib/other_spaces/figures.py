@@ -7,10 +7,11 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.patches import Circle, Rectangle
 
+from lib.shared.style import mark
 from neorl.core.geometry import TAU
 from neorl.drawing.boards import as_board
 from neorl.drawing.curves import draw_curves
-from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, TEXT, axes_or_new, letters, mark, width_of_figures
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, TEXT, axes_or_new, letters, width_of_figures
 from neorl.evidence.statistics import estimate, probability_of_improvement
 
 SEEN = 12  # postures drawn on an arm's way to a target

@@ -11,13 +11,14 @@ from lib.paper_b.receptive_fields import draw_receptive_fields
 from lib.paper_b.trials import SECONDS_A_MOVE, best_values, values_for_objects
 from lib.shared.panels import add_arrow
 from lib.shared.report import CALIBRATED, LETTER
+from lib.shared.style import FILL, mark
 from lib.shared.wording import table
 from lib.shared.thesis_figures import draw_against_thesis
 from neorl.core.maps import NresMap
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, MODALITIES
 from neorl.drawing.boards import as_board, draw_tank, new_boards
 from neorl.drawing.curves import draw_curves, draw_sweep
-from neorl.drawing.style import AGENT, CURVES, FILL, GREEN, INK, axes_or_new, mark, name_ends
+from neorl.drawing.style import AGENT, CURVES, GREEN, INK, axes_or_new, name_ends
 from neorl.drawing.value_maps import draw_cells, draw_values
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.statistics import estimate, quotient

@@ -6,7 +6,8 @@ The thesis's numbers are in grey and labelled with their value; results have a c
 import numpy as np
 from matplotlib.text import Annotation
 
-from neorl.drawing.style import CURVES, INK, SMALL, axes_or_new, mark, name_ends, width_of_figures
+from lib.shared.style import mark
+from neorl.drawing.style import CURVES, INK, SMALL, axes_or_new, name_ends, width_of_figures
 
 MARKERS = "osD^vP*"  # of readings, one for each colour
 ROW = 0.62  # inches

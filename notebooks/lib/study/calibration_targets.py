@@ -22,7 +22,7 @@ import numpy as np
 
 from neorl import checks
 from neorl.evidence.statements import STATEMENTS, Bounds
-from neorl.evidence.statistics import time_to_final_level
+from neorl.evidence.statistics import first_time, recent_rates
 from neorl.evidence.verdict import EARLY, FINAL
 
 BROWNIAN_A, BROWNIAN_B = 0.03, 0.1  # what Brownian motion earns per second with 8 creeps and with 3
@@ -82,6 +82,17 @@ def _minutes(result, share=0.9):
     alone = replace(result.condition, runs=1)
     mean = replace(result, condition=alone, rewards=result.rewards.mean(axis=0, keepdims=True))
     return float(time_to_final_level(mean, share)[0]) / 60
+
+
+def time_to_final_level(result, share=0.9):
+    """When each run first reaches `share` of its final level: float64 (runs,), in simulated seconds.
+
+    The final level is a run's own reward per second in its last fifth. A run reaches it when the mean over the
+    preceding fortieth of the run does; where it is never reached, or not positive, the time is the whole run.
+    """
+    final, (rates, ends) = result.rate(0.8, 1.0), recent_rates(result)
+    level = np.where(final > 0, share * final, np.inf)
+    return first_time(rates >= level[:, None], ends, result.seconds)
 
 
 def _surplus(results, rate):

@@ -11,8 +11,9 @@ from matplotlib.patches import Rectangle
 from scipy.stats import spearmanr
 
 from lib.shared.priors import WITHIN
+from lib.shared.style import FILL, mark
 from lib.study.multiverse import outcome
-from neorl.drawing.style import AGENT, FILL, INK, RED, SMALL, TEXT, axes_or_new, mark, width_of_figures
+from neorl.drawing.style import AGENT, INK, RED, SMALL, TEXT, axes_or_new, width_of_figures
 from neorl.evidence.statements import STATEMENTS
 
 COLOURS = {"reproduced": AGENT, "undecided": RED, "not reproduced": INK}

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 from explorer_page import write_page
+from lib.shared.replay import Replay, record
 from playwright.sync_api import expect
 
 from neorl import Run, WaterWorld, place_cells
-from neorl.browser.replay import Replay, record
 from neorl.worlds.waterworld import GREEN
 
 AGENT, TANK = place_cells([3]), WaterWorld(n_creeps=12)

@@ -5,12 +5,13 @@ style.
 """
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from neorl import checks
-from neorl.browser.explorer import AnyWidget, _text, traitlets
+from neorl.browser.explorer import AnyWidget, text_of, traitlets
 from neorl.experiments.run import Run, new_bins
 from neorl.worlds.waterworld import GREEN, WaterWorld
 
@@ -67,8 +68,8 @@ class Replay(AnyWidget):
     Raises ValueError for anything else.
     """
 
-    _esm = _text("drawing.js", "movers.js", "replay.js")
-    _css = _text("widget.css")
+    _esm = text_of("drawing.js", "movers.js", Path(__file__).with_name("replay.js"))
+    _css = text_of("widget.css")
     _recordings = traitlets.List().tag(sync=True)
 
     playing = traitlets.Bool(True).tag(sync=True)
