@@ -198,8 +198,8 @@ AtLeastOne = Annotated[int, Within(1, 2**31)]
 def check_fields(instance: Any) -> None:
     """Set the fields of a frozen dataclass to their checked values, as far as their annotations are rules.
 
-    Rules are ``bool``, ``float``, ``str``, and ``Annotated`` with `Within` or `OneOf`. Raises ValueError for a field
-    that breaks its rule.
+    Rules are ``bool``, ``float``, ``str``, a dataclass, and ``Annotated`` with `Within` or `OneOf`. Raises ValueError
+    for a field that breaks its rule.
     """
     kind: Any = type(instance)
     assign(instance, **{name: check(name, getattr(instance, name)) for name, check in _rules(kind).items()})
@@ -219,6 +219,8 @@ def _rules(kind: Any) -> dict[str, Callable[[str, Any], Any]]:
                 found[name] = functools.partial(one_of, options=rule.options)
             elif rule in simple:
                 found[name] = simple[rule]
+            elif isinstance(rule, type) and dataclasses.is_dataclass(rule):
+                found[name] = functools.partial(instance, kind=rule)
     return found
 
 

@@ -61,7 +61,6 @@ class Node(checks.Final):
     beyond: Annotated[str, OneOf(("outermost", "none"))] = "outermost"
 
     def __post_init__(self):
-        checks.instance("modality", self.modality, Modality)
         checks.check_fields(self)
         checks.assign(self, resolutions=checks.several("resolutions", self.resolutions))
         if not self.resolutions:
@@ -196,9 +195,6 @@ class Agent(Described, checks.Final):
         names = [node.name for node in self.nodes]
         if len(set(names)) < len(names):
             raise ValueError(f"nodes must have different names, but have {', '.join(map(repr, names))}")
-        checks.instance("learning", self.learning, Learning)
-        checks.instance("policy", self.policy, Policy)
-        checks.instance("contacts", self.contacts, Contacts)
         checks.check_fields(self)
         for node in self.nodes:
             if node.state != "object" and self.learning.update_on == "step":

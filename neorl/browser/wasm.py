@@ -100,7 +100,13 @@ def modules():
     if len(found) < len(MODULES):
         with _one_process_at_a_time():
             found = _on_disk()  # another process may have built them
-            found |= _kept(_built([name for name in MODULES if name not in found]))
+            for name, content in _built([name for name in MODULES if name not in found]).items():
+                found[name] = content
+                try:
+                    files.write_checked(_path(name), content)
+                except OSError as error:
+                    warnings.warn(f"the WebAssembly module cannot be kept in {_path(name).parent}, and will be built "
+                                  f"again: {error}", RuntimeWarning, stacklevel=3)
     return found
 
 
@@ -129,17 +135,6 @@ def _one_process_at_a_time():
             lock = stack.enter_context(open(files.cache_folder() / "wasm.lock", "w"))
             fcntl.flock(lock, fcntl.LOCK_EX)
         yield
-
-
-def _kept(contents):
-    """The same modules, after writing them to disk."""
-    for name, content in contents.items():
-        try:
-            files.write_checked(_path(name), content)
-        except OSError as error:
-            warnings.warn(f"the WebAssembly module cannot be kept in {_path(name).parent}, and will be built again: "
-                          f"{error}", RuntimeWarning, stacklevel=4)
-    return contents
 
 
 def ship(package):
@@ -242,7 +237,9 @@ def _together(codes):
     module, *others = map(llvm.parse_assembly, codes.values())
     for other in others:
         module.link_in(other)
-    rare, apart = ([_mangled(kernel) for kernel in kernels] for kernels in (RARE, RARE + APART))
+    # What the names of numba's symbols for a kernel contain.
+    rare, apart = (["".join(f"{len(each)}{each}" for each in f"{kernel.__module__}.{kernel.__name__}".split("."))
+                    for kernel in kernels] for kernels in (RARE, RARE + APART))
     for function in module.functions:
         is_rare = any(name in function.name for name in rare)
         if function.name not in exports and not function.is_declaration:
@@ -253,11 +250,6 @@ def _together(codes):
             function.add_function_attribute("optsize")
     module.verify()
     return module
-
-
-def _mangled(kernel):
-    """The part that the names of numba's symbols for a kernel contain."""
-    return "".join(f"{len(each)}{each}" for each in f"{kernel.__module__}.{kernel.__name__}".split("."))
 
 
 def _code(kernel, constants):

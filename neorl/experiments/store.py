@@ -146,20 +146,14 @@ class Keeper:
         if self._cache and _taken(save, whole):
             _taken(remove_runs, self.condition)
         else:
-            if self._cache:
-                _check_memory(whole.rewards.nbytes + whole.hits.nbytes)
+            import psutil
+
+            if self._cache and psutil.virtual_memory().available < whole.rewards.nbytes + whole.hits.nbytes:
+                raise MemoryError(f"{files.cache_folder()} takes no results, and no more of them fit into the free "
+                                  "memory; name another folder in NEORL_CACHE")
             self._whole = whole
         self._runs, self._unwritten = {}, []
         return True
-
-
-def _check_memory(size):
-    """Raise MemoryError unless so many bytes of memory are free."""
-    import psutil
-
-    if psutil.virtual_memory().available < size:
-        raise MemoryError(f"{files.cache_folder()} takes no results, and no more of them fit into the free memory; "
-                          "name another folder in NEORL_CACHE")
 
 
 class Kept(NamedTuple):
