@@ -46,16 +46,11 @@ def bearing(scene, point):
     return turn(ahead * x + aside * y, ahead * y - aside * x)
 
 
-def radar_node(name: str, reach: float, rings: int) -> Node:
-    """A node of cells for the distance of a thing, up to `reach`, and its bearing, in `rings` × 8 cells.
-
-    name: as in `Node`. reach: in widths of the area, > 0. rings: integer ≥ 1. Raises ValueError for anything else.
-    """
-    return Node(name, Modality("radar cell", [Axis("objects", "length", high=reach),
-                                              Axis(bearing, closed=True, intervals=8)]), [rings])
-
-
-FAR_RADAR, NEAR_RADAR = radar_node("far", FARTHEST, 8), radar_node("near", NEAR, 4)
+# Nodes of cells for the distance of a thing, in 8 rings and in 4, and its bearing, in eight sectors.
+FAR_RADAR, NEAR_RADAR = (
+    Node(name, Modality("radar cell", [Axis("objects", "length", high=reach),
+                                       Axis(bearing, closed=True, intervals=8)]), [rings])
+    for name, reach, rings in (("far", FARTHEST, 8), ("near", NEAR, 4)))
 
 
 def pilot() -> Agent:

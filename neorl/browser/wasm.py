@@ -253,19 +253,7 @@ def _together(codes):
 
 
 def _code(kernel, constants):
-    """The LLVM code of a kernel under its own name, with everything it calls."""
-    dispatcher = _entry(kernel, constants)
-    (compiled,) = dispatcher.overloads.values()
-    code = compiled.library.get_llvm_str()
-    code = re.sub(r"target datalayout = .*", f'target datalayout = "{LAYOUT}"', code)
-    code = re.sub(r"target triple = .*", f'target triple = "{TRIPLE}"', code)
-    code = re.sub(r'"target-(cpu|features)"="[^"]*"', "", code)
-    code = code.replace("= common ", "= internal ")
-    return code.replace(f"@{compiled.fndesc.llvm_func_name}(", f"@{kernel.__name__}(")
-
-
-def _entry(kernel, constants):
-    """The entry point of a kernel: a function of a table of its arguments."""
+    """The LLVM code, with everything it calls, of a function of a table of a kernel's arguments, by its name."""
     import numba
 
     from neorl.core.views import SCALARS as TYPES
@@ -274,7 +262,15 @@ def _entry(kernel, constants):
     taken = [name if name == "constants" else f"passed.{name}" for name in fields(kernel) if name != "return"]
     entry = eval(f"lambda passed: kernel({', '.join(taken)})", {"kernel": kernel, "constants": constants})
     result = TYPES[kernel.__annotations__["return"]]
-    return numba.njit(result(View(_passed(kernel))), **OPTIONS, no_cpython_wrapper=True, no_cfunc_wrapper=True)(entry)
+    dispatcher = numba.njit(result(View(_passed(kernel))), **OPTIONS, no_cpython_wrapper=True,
+                            no_cfunc_wrapper=True)(entry)
+    (compiled,) = dispatcher.overloads.values()
+    code = compiled.library.get_llvm_str()
+    code = re.sub(r"target datalayout = .*", f'target datalayout = "{LAYOUT}"', code)
+    code = re.sub(r"target triple = .*", f'target triple = "{TRIPLE}"', code)
+    code = re.sub(r'"target-(cpu|features)"="[^"]*"', "", code)
+    code = code.replace("= common ", "= internal ")
+    return code.replace(f"@{compiled.fndesc.llvm_func_name}(", f"@{kernel.__name__}(")
 
 
 if __name__ == "__main__":

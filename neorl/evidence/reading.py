@@ -6,7 +6,7 @@
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Annotated, Any
 
 from neorl import checks
@@ -98,21 +98,17 @@ class Reading:
         """Its `Learning`."""
         if self.credit == "step":
             return Learning(self.learning_rate, self.discount, update_on="step", terminal=self.terminal)
-        return Learning(self.learning_rate, self.discount, credit=self.credit, absent_decay=self.absent_decay,
-                        absent_form=self.absent_form, terminal=self.terminal, memory=self.memory,
-                        activity=self.activity, bootstrap=self.bootstrap)
+        names = {each.name for each in fields(Learning)} & vars(self).keys()
+        return Learning(**{name: getattr(self, name) for name in names})
 
     @property
     def agents(self):
         """The arguments that are common to all its agents, for the functions that make them."""
         policy = Policy(self.exploration, self.when_indifferent if self.exploration else "random")
-        of_step = self.credit == "step"
+        state = "object" if self.credit == "step" else self.object_state
         return {"learning": self.learning, "policy": policy, "own_cell": self.own_cell,
-                "tiled_fraction": self.tiled_fraction, "weighting": self.weighting,
-                "object_state": "object" if of_step else self.object_state,
-                "object_reach": self.object_reach if of_step or self.object_state == "object" else 0.0,
-                "object_tiled_fraction": self.object_tiled_fraction, "object_beyond": self.object_beyond,
-                "object_centred": self.object_centred}
+                **{name: getattr(self, name) for name in papers.OF_NODES}, "object_state": state,
+                "object_reach": self.object_reach if state == "object" else 0.0}
 
 
 # What the text prints or pins, and where it leaves more the plainest, or the middle of a prior (`neorl.evidence.pins`).

@@ -69,7 +69,7 @@ def load_runs(condition):
 def save_runs(condition, runs):
     """Write some runs of a condition to a file of their own. Raises OSError if there is no room or no permission."""
     rewards, hits = map(np.stack, zip(*runs.values()))
-    files.write_arrays(_part_folder() / f"{condition.key}-{min(runs)}", "runs", {},
+    files.write_arrays(files.cache_folder() / "runs" / f"{condition.key}-{min(runs)}", "runs", {},
                        {"runs": np.array(list(runs)), "rewards": rewards, "hits": hits})
 
 
@@ -79,12 +79,8 @@ def remove_runs(condition):
         path.unlink(missing_ok=True)
 
 
-def _part_folder():
-    return files.cache_folder() / "runs"
-
-
 def _parts(condition):
-    return list(_part_folder().glob(f"{condition.key}-*"))
+    return list((files.cache_folder() / "runs").glob(f"{condition.key}-*"))
 
 
 def _taken(write, *what):
