@@ -6,10 +6,8 @@ The state of the batch is the `State` of the world with an additional first dime
 import functools
 from typing import NamedTuple
 
-import numpy as np
-
 from neorl.checks import LARGEST
-from neorl.core.kernel import fields, inlined, inlined_kernel, is_tuple, kernel, kernel_maker
+from neorl.core.kernel import array, fields, inlined, inlined_kernel, is_tuple, kernel, kernel_maker
 from neorl.gym.observation import observe
 
 
@@ -27,17 +25,17 @@ class Task(NamedTuple):
 class Slots(NamedTuple):
     """The inputs and outputs of a batch of environments."""
 
-    action: np.ndarray  # int64 (environments,), ignored if the episode was over
-    clock: np.ndarray  # int64 (environments,): steps since the episode began
-    observation: np.ndarray  # float32 (environments, numbers)
-    reward: np.ndarray  # float64 (environments,)
-    terminated: np.ndarray  # bool (environments,)
-    truncated: np.ndarray  # bool (environments,)
-    met: np.ndarray  # int64 (environments, kinds): things met in this step
-    restarted: np.ndarray  # bool (environments,): whether the world has begun an episode in this step
-    terminal: np.ndarray  # bool (kinds,): see `World.terminal`
-    distance: np.ndarray  # float64 (things,), working memory
-    order: np.ndarray  # int64 (things,), working memory
+    action: array("int64", "environments")  # ignored if the episode was over
+    clock: array("int64", "environments")  # steps since the episode began
+    observation: array("float32", "environments", "numbers")
+    reward: array("float64", "environments")
+    terminated: array("bool", "environments")
+    truncated: array("bool", "environments")
+    met: array("int64", "environments", "kinds")  # things met in this step
+    restarted: array("bool", "environments")  # whether the world has begun an episode in this step
+    terminal: array("bool", "kinds")  # see `World.terminal`
+    distance: array("float64", "things")  # working memory
+    order: array("int64", "things")  # working memory
 
 
 @kernel_maker

@@ -66,10 +66,8 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
         self._step = batch_step(world.dynamics)
         self._states = mapped(lambda each: np.zeros((n, *each.shape), each.dtype),
                               new_tuple(world.State, world.sizes, {}))
-        self.slots = Slots(np.zeros(n, np.int64), np.zeros(n, np.int64), np.zeros((n, numbers), np.float32),
-                           np.zeros(n), np.zeros(n, bool), np.zeros(n, bool), np.zeros((n, kinds), np.int64),
-                           np.zeros(n, bool), np.zeros(kinds, bool), np.zeros(world.things),
-                           np.zeros(world.things, np.int64))
+        sizes = {"environments": n, "numbers": numbers, "kinds": kinds, "things": world.things}
+        self.slots = new_tuple(Slots, sizes, {})
         self.slots.terminal[:] = world.terminal or False
         self._begun = False
 
