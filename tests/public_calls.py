@@ -14,7 +14,7 @@ import neorl
 from neorl import (CARDINAL, Actions, Agent, Arena, Arm, Axis, Condition, Contacts, Desire, Learner, Learning, Modality,
                    Node, NresMap, Place, Policy, Result, Run, Scene, Vessel, WaterMaze, WaterWorld, greedy, softmax)
 from neorl.agents import learner
-from neorl.agents.beyond import forager, foveated_cells
+from neorl.agents.beyond import forager
 from neorl.agents.individual import Individual
 from neorl.core import horde, kernel
 from neorl.core.identity import identity
@@ -122,9 +122,6 @@ TABLE = {
     "neorl.agents.beyond.forager": entry(
         forager, resolutions=[(3,), (3, 5)], valence_green=[1.0, "learned"], valence_red=[-1.0, "learned"],
         contacts=[Contacts()], then=live, also=("resolution", "valence", "modality")),
-    "neorl.agents.beyond.foveated_cells": entry(
-        foveated_cells, foveated=[True, False], velocity=[True, False], mirrored=[True, False],
-        also=("feature", "low", "axes")),
     "neorl.agents.rules.Policy": entry(
         Policy, exploration=shares, when_indifferent=["random", "no-op"],
         choose=st.sampled_from([greedy, softmax(1.0)]),

@@ -31,46 +31,39 @@ def draw_accumulated(results: Mapping[str, Result], control: Mapping[str, Result
     >>> axes = drawing.draw_accumulated(results)
     """
     results, control = _checked(results), {} if control is None else _checked(control, "control")
-    axes, ends, last = axes_or_new(ax), [], 0.0
-    for (name, result), (colour, dashes) in zip([*results.items(), *control.items()], _looks(results, control)):
+    curves = []
+    for name, result in (*results.items(), *control.items()):
         points = np.linspace(0, result.rewards.shape[1] - 1, POINTS).astype(int)
-        curves = result.rewards.cumsum(axis=1, dtype=float)[:, points]
         steps = result.time[points] * result.world.fps / 1000
-        axes.plot(steps, curves.mean(axis=0), color=colour, linestyle=dashes)
-        axes.fill_between(steps, *tolerance_band(curves), color=colour, alpha=0.18, linewidth=0)
-        ends.append((curves[:, -1].mean(), name, colour))
-        last = max(last, steps[-1])
-    axes.set(xlabel="steps, in thousands", ylabel="accumulated reward", xlim=(0, last))
-    name_ends(axes, ends)
-    return axes
+        curves.append((name, steps, result.rewards.cumsum(axis=1, dtype=float)[:, points]))
+    styles = looks(len(results)) + [(INK, "-")] * len(control)
+    return _draw(curves, "steps, in thousands", "accumulated reward", styles, ax, tolerance_band, opacity=0.18)
 
 
-def draw_proficiency(results: Mapping[str, Result], total: tuple[str, Sequence[Result]] | None = None, points: int = 50,
-                     ax: Axes | None = None) -> Axes:
+def draw_proficiency(results: Mapping[str, Result], points: int = 50, ax: Axes | None = None) -> Axes:
     """Draw mean reward per second over the run with the 95 % interval of the mean.
 
-    results: {name: `neorl.Result`}. points: per curve, integer ≥ 1.
-    total: (name, [Result, …]), drawn as the sum of the rewards of its results, run by run.
-    Raises ValueError for anything else, or for a sum of results of different lengths.
+    results: {name: `neorl.Result`}. points: per curve, integer ≥ 1. Raises ValueError for anything else.
 
     >>> results = {"N7": neorl.simulate(neorl.place_cells([7]), neorl.WaterWorld(), steps=5_000, runs=4)}
     >>> axes = drawing.draw_proficiency(results, points=10)
     """
     points = checks.integer("points", points, at_least=1)
-    curves = {name: _rates(result, points) for name, result in _checked(results).items()}
-    if total is not None:
-        if not isinstance(total, tuple | list) or len(total) != 2 or not isinstance(total[0], str):
-            raise checks.error("total", "a pair of a name and a list of results", total)
-        name, parts = total[0], [checks.instance("total", each, Result) for each in checks.several("total", total[1])]
-        if len({(part.seconds, part.rewards.shape) for part in parts}) != 1:
-            raise ValueError("results of total must be one or more, all of as many runs and seconds, but are of "
-                             f"{', '.join(f'{part.runs} × {part.seconds:g} s' for part in parts)}")
-        rates = [_rates(part, points) for part in parts]
-        curves[name] = rates[0][0], sum(rate for _, rate in rates)
-    longest = max([*results.values(), *(parts if total is not None else ())], key=lambda result: result.seconds)
-    styles = _looks(results, curves.keys() - results.keys())
-    axes = _draw_means(curves, "simulated minutes", "reward per second", styles, ax)
-    axes.set_xlim(0, longest.seconds / 60)
+    return draw_sums([(name, [result]) for name, result in _checked(results).items()], looks(len(results)), points, ax)
+
+
+def draw_sums(sums, styles, points=50, ax=None):
+    """As `draw_proficiency`, for the sums of results, run by run: [(name, [`Result`, …]), …].
+
+    styles: the colour and the dashes of each. Results of a sum are of as many runs and steps.
+    """
+    curves = []
+    for name, results in sums:
+        number = min(points, results[0].rewards.shape[1])
+        minutes = (np.arange(number) + 0.5) / number * results[0].seconds / 60
+        curves.append((name, minutes, sum(binned_rate(result, number) for result in results)))
+    axes = _draw(curves, "simulated minutes", "reward per second", styles, ax)
+    axes.set_xlim(0, max(results[0].seconds for _, results in sums) / 60)
     axes.axhline(0, color=INK, linewidth=0.7, zorder=1)
     return axes
 
@@ -79,17 +72,6 @@ def _checked(results, what="results"):
     for name, result in by_name(what, results).items():
         checks.instance(f"{what}[{name!r}]", result, Result)
     return results
-
-
-def _looks(results, grey):
-    """Colours and dashes of results, followed by grey for each of the others."""
-    return looks(len(results)) + [(INK, "-")] * len(grey)
-
-
-def _rates(result, points):
-    """Minutes (points,) and reward per second (runs, points), with at most as many points as bins."""
-    points = min(points, result.rewards.shape[1])
-    return (np.arange(points) + 0.5) / points * result.seconds / 60, binned_rate(result, points)
 
 
 def draw_curves(xs: ArrayLike, curves: Mapping[str, ArrayLike], xlabel: str = "", ylabel: str = "",
@@ -103,29 +85,29 @@ def draw_curves(xs: ArrayLike, curves: Mapping[str, ArrayLike], xlabel: str = ""
     >>> rng = np.random.default_rng(0)
     >>> axes = drawing.draw_curves(np.arange(20), {"luck": rng.random((8, 20)).cumsum(axis=1)}, "days", "gold")
     """
-    xs, checked = checks.doubles("xs", xs), {}
+    xs, checked = checks.doubles("xs", xs), []
     for name, curve in by_name("curves", curves).items():
         curve = numbers(f"curves[{name!r}]", curve)
-        checked[name] = xs, curve
+        checked.append((name, xs, curve))
         if xs.ndim != 1 or curve.ndim != 2 or not curve.size or curve.shape[1] != len(xs):
             raise ValueError(f"curves[{name!r}] must have the shape (runs, points), over xs of the shape {xs.shape}, "
                              f"but has {curve.shape}")
-    return _draw_means(checked, xlabel, ylabel, looks(len(checked)), ax)
+    return _draw(checked, xlabel, ylabel, looks(len(checked)), ax)
 
 
-def _draw_means(curves, xlabel, ylabel, styles, ax):
-    """Axes with curves {name: (xs (points,), ys (runs, points))}."""
+def _draw(curves, xlabel, ylabel, styles, ax, band=mean_band, opacity=0.2):
+    """Axes with the means of curves, [(name, xs (points,), ys (runs, points))], and their bands."""
     axes, ends = axes_or_new(ax), []
-    for (name, (xs, curve)), (colour, dashes) in zip(curves.items(), styles):
+    for (name, xs, curve), (colour, dashes) in zip(curves, styles):
         mean = curve.mean(axis=0)
         numbers = mean[np.isfinite(mean)]
         if not len(numbers):
             raise ValueError(f"curves[{name!r}] must have a finite number or more, but has none")
         axes.plot(xs, mean, color=colour, linestyle=dashes)
         if len(curve) > 1:
-            axes.fill_between(xs, *mean_band(curve), color=colour, alpha=0.2, linewidth=0)
+            axes.fill_between(xs, *band(curve), color=colour, alpha=opacity, linewidth=0)
         ends.append((numbers[-1], name, colour))
-    axes.set(xlabel=xlabel, ylabel=ylabel, xlim=(0, max(xs[-1] for xs, _ in curves.values())))
+    axes.set(xlabel=xlabel, ylabel=ylabel, xlim=(0, max(xs[-1] for _, xs, _ in curves)))
     name_ends(axes, ends)
     return axes
 

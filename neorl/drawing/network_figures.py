@@ -4,10 +4,9 @@ Lengths are in ems, the height of a letter, and y runs downward. Every node has 
 node downward in a lane that later nodes leave free, so no line runs through a node.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from textwrap import wrap
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib import pyplot as plt
@@ -16,12 +15,11 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.patches import Circle, FancyArrowPatch, FancyBboxPatch
 from matplotlib.path import Path
 from matplotlib.textpath import TextPath
-from numpy.typing import NDArray
 
 from neorl import checks
 from neorl.agents.agent import Agent, Desire, Place
 from neorl.drawing.boards import desire_colour
-from neorl.drawing.style import AGENT, INK, TEXT, axes_or_new, by_name, width_of_figures
+from neorl.drawing.style import AGENT, INK, TEXT, axes_or_new, width_of_figures
 
 LARGEST = 11  # points per em
 SMALL = 0.92  # of an em: all letters except those of names
@@ -106,52 +104,52 @@ def draw_network(agent: Agent, ax: Axes | None = None) -> Axes:
 
     >>> axes = drawing.draw_network(neorl.network_d())
     """
+    drawing = laid_out(checks.instance("agent", agent, Agent))
     if ax is None:
-        (axes,) = draw_networks({"": agent})
-        return axes
-    drawing = _laid_out(checks.instance("agent", agent, Agent))
+        inches, high = width_of_figures(), drawing.height + 2 * HEAD
+        em = min(LARGEST, 72 * inches / (drawing.width + 1))
+        figure = plt.figure(figsize=(inches, em * high / 72), layout="none")
+        return draw_into(figure.add_axes((0, 0, 1, 1)), em, drawing, 72 * inches / em, high, HEAD)
     axes_or_new(ax).axis("off")
     ax.figure.canvas.figure.draw_without_rendering()  # so that the axes get their final size
     wide, high = 72 / ax.figure.dpi * np.array(ax.get_window_extent().size)
     em = min(LARGEST, wide / (drawing.width + 1), high / (drawing.height + 2 * HEAD))
-    _draw_into(ax, em, drawing, "", wide / em, high / em, head=(high / em - drawing.height) / 2)
-    return ax
+    return draw_into(ax, em, drawing, wide / em, high / em, head=(high / em - drawing.height) / 2)
 
 
-def draw_networks(agents: Mapping[str, Agent]) -> NDArray[Any]:
-    """Draw networks one below the other in a new figure, all in letters of the same size.
+def draw_into(axes, em, drawing, width, height, head):
+    """Draw a laid-out network into the middle of axes of this width and height in ems, `head` of them above it.
 
-    agents: {name: `neorl.Agent`}. Returns an array of axes, one for each. Raises ValueError for anything else.
-
-    >>> axes = drawing.draw_networks({"C": neorl.network_c(), "D": neorl.network_d()})
+    em: in points. Returns the axes.
     """
-    for name, agent in by_name("agents", agents).items():
-        checks.instance(f"agents[{name!r}]", agent, Agent)
-    drawings = [_laid_out(agent) for agent in agents.values()]
-    head = 2.0 if any(agents) else HEAD
-    width = max(drawing.width for drawing in drawings)
-    heights = [head + HEAD + drawing.height for drawing in drawings]
-    inches = width_of_figures()
-    em = min(LARGEST, 72 * inches / (width + 1))
-    whole = plt.figure(figsize=(inches, em * sum(heights) / 72), layout="none")
-    panels = []
-    for i, (name, drawing) in enumerate(zip(agents, drawings)):
-        axes = whole.add_axes((0, sum(heights[i + 1 :]) / sum(heights), 1, heights[i] / sum(heights)))
-        _draw_into(axes, em, drawing, name, 72 * inches / em, heights[i], head)
-        panels.append(axes)
-    return np.array(panels)
-
-
-def _draw_into(axes, em, drawing, name, width, height, head):
-    """Draw a network into the middle of axes of this width and height in ems, `head` of them above it."""
     margin = (width - drawing.width) / 2
     axes.set(xlim=(-margin, drawing.width + margin), ylim=(height - head, -head))
     axes.axis("off")
-    _write(axes, em, 0, -1.1, name, ha="left", weight="bold")
-    _draw(axes, em, drawing)
+    for name, box in drawing.boxes.items():
+        _draw_box(axes, em, box.left, box.top, box.width, box.height)
+        for i, line in enumerate(box.lines):
+            y = box.middle + LINE * (i - (len(box.lines) - 1) / 2)
+            write(axes, em, box.left + box.width / 2, y, line, weight="normal" if i else "bold")
+        for desire in box.inputs:
+            _draw_input(axes, em, desire, box, drawing.boxes)
+        for i, desire in enumerate(box.loops):
+            inset, top = 0.6 + 0.5 * (len(box.loops) - 1 - i), box.top - LOOP * (i + 1)
+            end, start = box.left + inset, box.right - inset
+            _draw_arrow(axes, em, [(start, box.top), (start, top), (end, top), (end, box.top)], desire_colour(desire))
+            write(axes, em, (start + end) / 2, top + LOOP / 2, _label(desire), desire_colour(desire))
+    heights = [drawing.boxes[name].middle for name in drawing.gains] or [drawing.height / 2]
+    top, bottom = min(heights) - 1.2, max(heights) + 1.2
+    _draw_box(axes, em, drawing.q_left, top, Q_WIDTH, bottom - top)
+    write(axes, em, drawing.q_left + Q_WIDTH / 2, (top + bottom) / 2, "Q", weight="bold")
+    for name, label in drawing.gains.items():
+        box = drawing.boxes[name]
+        _draw_arrow(axes, em, [(box.right, box.middle), (drawing.q_left, box.middle)], INK)
+        write(axes, em, drawing.q_left - 1.0, box.middle - 0.65, label, ha="right")
+    return axes
 
 
-def _laid_out(agent):
+def laid_out(agent):
+    """Where the parts of a network lie, with their labels, for `draw_into`."""
     nodes = {node.name: node for node in agent.nodes}
     depth = {}
     for name in agent.evaluation_order:
@@ -184,42 +182,18 @@ def _laid_out(agent):
     return _Drawing(boxes, {node.name: f"× {_number(node.gain)}" for node in agent.nodes if node.gain})
 
 
-def _draw(axes, em, drawing):
-    """Draw a laid-out network. em: in points."""
-    for name, box in drawing.boxes.items():
-        _draw_box(axes, em, box.left, box.top, box.width, box.height)
-        for i, line in enumerate(box.lines):
-            y = box.middle + LINE * (i - (len(box.lines) - 1) / 2)
-            _write(axes, em, box.left + box.width / 2, y, line, weight="normal" if i else "bold")
-        for desire in box.inputs:
-            _draw_input(axes, em, desire, box, drawing.boxes)
-        for i, desire in enumerate(box.loops):
-            inset, top = 0.6 + 0.5 * (len(box.loops) - 1 - i), box.top - LOOP * (i + 1)
-            end, start = box.left + inset, box.right - inset
-            _draw_arrow(axes, em, [(start, box.top), (start, top), (end, top), (end, box.top)], desire_colour(desire))
-            _write(axes, em, (start + end) / 2, top + LOOP / 2, _label(desire), desire_colour(desire))
-    heights = [drawing.boxes[name].middle for name in drawing.gains] or [drawing.height / 2]
-    top, bottom = min(heights) - 1.2, max(heights) + 1.2
-    _draw_box(axes, em, drawing.q_left, top, Q_WIDTH, bottom - top)
-    _write(axes, em, drawing.q_left + Q_WIDTH / 2, (top + bottom) / 2, "Q", weight="bold")
-    for name, label in drawing.gains.items():
-        box = drawing.boxes[name]
-        _draw_arrow(axes, em, [(box.right, box.middle), (drawing.q_left, box.middle)], INK)
-        _write(axes, em, drawing.q_left - 1.0, box.middle - 0.65, label, ha="right")
-
-
 def _draw_input(axes, em, desire, box, boxes):
     """Draw the input at one port of a node: an element from outside, or the desire of another node."""
     y, label, colour = box.port(desire), _label(desire), desire_colour(desire)
     if desire.source in boxes:
         x = boxes[desire.source].lane(desire)
         _draw_arrow(axes, em, [(x, boxes[desire.source].bottom), (x, y), (box.left, y)], colour)
-        _write(axes, em, box.left - 0.9, y - 0.65, label, colour, ha="right")
+        write(axes, em, box.left - 0.9, y - 0.65, label, colour, ha="right")
     else:
         axes.add_patch(Circle((RADIUS, y), RADIUS, facecolor=colour, edgecolor="none"))
-        _write(axes, em, RADIUS, y, {"green": "+", "red": "−"}.get(desire.source, "×"), "white", weight="bold")
+        write(axes, em, RADIUS, y, {"green": "+", "red": "−"}.get(desire.source, "×"), "white", weight="bold")
         _draw_arrow(axes, em, [(2 * RADIUS, y), (box.left, y)], colour)
-        _write(axes, em, 2 * RADIUS + 0.4, y - 0.65, label, colour, ha="left")
+        write(axes, em, 2 * RADIUS + 0.4, y - 0.65, label, colour, ha="left")
 
 
 def _draw_box(axes, em, left, top, width, height):
@@ -244,7 +218,8 @@ def _near(corner, point):
     return tuple(at + share * (to - at) for at, to in zip(corner, point))
 
 
-def _write(axes, em, x, y, text, colour=TEXT, ha="center", weight="normal"):
+def write(axes, em, x, y, text, colour=TEXT, ha="center", weight="normal"):
+    """Write a text at a place, in letters of `em` points if they are bold, and a little smaller otherwise."""
     axes.text(x, y, text, color=TEXT if colour == INK else colour, ha=ha, va="center_baseline", weight=weight,
               fontsize=em if weight == "bold" else SMALL * em)
 

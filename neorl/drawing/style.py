@@ -12,7 +12,6 @@ import numpy as np
 import scipy
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
 from matplotlib.colors import is_color_like, to_hex, to_rgb
 
 from neorl import checks
@@ -22,7 +21,6 @@ AGENT, GREEN, RED = "#3175b9", "#0e825f", "#ba5323"
 CURVES = ("#3d6ad1", "#ae2c47", "#b68f0c", "#00a1c0", "#85498f", "#ae6411", "#af77ff")
 LIGHT_OF_LETTERS = 0.165  # relative luminance
 DASHES = ("-", "--", ":", "-.")  # of curves: one for each cycle through the colours
-LEADER = 0.08  # the width of the lines that lead to names, as a share of the width of the axes
 SMALL, CROWDED = 9, 6  # points: the least size of letters, and the size of the names of more than a dozen curves
 STYLE: dict[Any, Any] = {
     "figure.facecolor": "none", "axes.facecolor": "none", "savefig.facecolor": "none", "figure.figsize": (4.9, 3.5),
@@ -90,11 +88,12 @@ def looks(count):
     return [(CURVES[i % len(CURVES)], DASHES[i // len(CURVES) % len(DASHES)]) for i in range(count)]
 
 
-def name_ends(axes, ends, line=0.075, leaders=False):
+def name_ends(axes, ends, line=0.075, beside=1.02):
     """Write the names of curves beside their ends (height, name, colour), moved apart within the height of the axes.
 
     line: the room that a name needs, as a share of the height of the axes; more in a low panel. Many names are written
-    in smaller letters to fit. leaders: whether a thin line leads from each end to its name, which may be far from it.
+    in smaller letters to fit. beside: where they begin, as a share of the width of the axes. Returns their heights,
+    from the lowest end to the highest.
     """
     scale = axes.yaxis.get_transform()  # names are spread on the page, so on a logarithmic axis by logarithms
     low, high = scale.transform(np.array(axes.get_ylim(), float))
@@ -104,12 +103,7 @@ def name_ends(axes, ends, line=0.075, leaders=False):
     lowest = scipy.optimize.isotonic_regression(scale.transform(np.array([height for height, *_ in ends])) - apart).x
     heights = scale.inverted().transform(apart + np.clip(lowest, low, high - apart.max(initial=0.0)))
     size = max(CROWDED, share * plt.rcParams["font.size"])
-    beside = 1.02
-    if leaders:
-        beside = 1.02 + LEADER
-        lines = [[(1.01, height), (1 + LEADER, at)] for at, (height, *_) in zip(heights, ends)]
-        axes.add_collection(LineCollection(lines, colors=[letters(colour) for *_, colour in ends], linewidths=0.7,
-                                           transform=axes.get_yaxis_transform(), clip_on=False), autolim=False)
     for at, (_, name, colour) in zip(heights, ends):
         axes.annotate(name, (beside, at), xycoords=("axes fraction", "data"), color=letters(colour), va="center",
                       fontsize=size, annotation_clip=False)
+    return heights

@@ -19,8 +19,8 @@ from neorl.core.horde import as_vectors
 from neorl.core.maps import NresMap
 from neorl.core.scene import CARDINAL
 from neorl.drawing.boards import new_board
-from neorl.drawing.curves import draw_proficiency
-from neorl.drawing.style import AGENT, GREEN, INK, RED
+from neorl.drawing.curves import draw_sums
+from neorl.drawing.style import AGENT, GREEN, INK, RED, looks
 from neorl.drawing.value_maps import draw_cells, draw_values
 from neorl.evidence.reading import LAYERS, SINGLE
 from neorl.evidence.statements import STATEMENTS
@@ -98,7 +98,9 @@ def draw_together(results):
     layers = _resolutions(results, "layer")
     alone, together = {f"N{n}": results["layer", n] for n in layers}, results["layers"]
     total = {2: "sum of both", 3: "sum of the three"}.get(len(layers), "sum of all")
-    axes = draw_proficiency(alone | {all_of(layers): together}, (total, [*alone.values()]))
+    sums = [*((name, [result]) for name, result in alone.items()), (all_of(layers), [together]),
+            (total, [*alone.values()])]
+    axes = draw_sums(sums, [*looks(len(layers) + 1), (INK, "-")])
     if set(layers) == set(LAYERS) and together.world.n_creeps == N_CREEPS:
         factor = STATEMENTS["A7"].bounds.number
         mark_levels(axes, {f"thesis: {factor} × N7": factor * results["layer", 7].rate(*FINAL).mean()})

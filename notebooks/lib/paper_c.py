@@ -4,11 +4,14 @@ The results under one reading are {name: `Result`}, of networks "A" to "D" and o
 """
 
 import numpy as np
+from matplotlib import pyplot as plt
 
 from lib.shared.wording import number, table
 from lib.shared.thesis_figures import mark_levels
 from neorl.drawing.boards import MARGIN, desire_colour
 from neorl.drawing.curves import draw_proficiency
+from neorl.drawing.network_figures import HEAD, LARGEST, draw_into, laid_out, write
+from neorl.drawing.style import width_of_figures
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.statistics import estimate
 from neorl.evidence.verdict import FINAL
@@ -19,6 +22,19 @@ LOOKS = 500  # samples of each run, in its second half
 WELL_INSIDE = 0.2  # board widths from the middle
 FAR = 0.1  # board widths from the agent
 PATIENCE = 5_000  # steps
+
+
+def draw_networks(agents):
+    """Draw networks one below the other in a new figure, all in letters of the same size. agents: {name: `Agent`}."""
+    drawings, inches, head = [laid_out(agent) for agent in agents.values()], width_of_figures(), 2.0
+    width = max(drawing.width for drawing in drawings)
+    heights = [head + HEAD + drawing.height for drawing in drawings]
+    em = min(LARGEST, 72 * inches / (width + 1))
+    whole = plt.figure(figsize=(inches, em * sum(heights) / 72), layout="none")
+    for i, (name, drawing) in enumerate(zip(agents, drawings)):
+        axes = whole.add_axes((0, sum(heights[i + 1 :]) / sum(heights), 1, heights[i] / sum(heights)))
+        write(axes, em, 0, -1.1, name, ha="left", weight="bold")
+        draw_into(axes, em, drawing, 72 * inches / em, heights[i], head)
 
 
 def draw_rates(results, of_paper):

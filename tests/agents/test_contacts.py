@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from neorl import Agent, Contacts, Desire, Learner, Node, Scene, WaterWorld, forager
-from neorl.agents.beyond import foveated_cells
+from neorl.agents.beyond import FOVEATED_CELL
 from neorl.core.contacts import APPROACH, FEAR, VISITS
 from neorl.core.scene import CARDINAL, Actions
 from neorl.experiments.run import Run
@@ -141,7 +141,7 @@ def test_a_learned_worth_stays_when_the_agent_changes():
     run = Run(forager(), WaterWorld(), 2)
     run.advance(3_000)
     worth = run.state.desires.worth.copy()
-    run.change(Agent([*run.agent.nodes, Node("more", foveated_cells(), [3], goals="contacts")],
+    run.change(Agent([*run.agent.nodes, Node("more", FOVEATED_CELL, [3], goals="contacts")],
                      [*run.agent.desires, Desire("red", "more", 1.0)], contacts=run.agent.contacts))
     assert worth.tolist() == [1.0, -1.0] and run.state.desires.worth.tolist() == [1.0, -1.0, 1.0]
 

@@ -10,6 +10,8 @@ from neorl import (Condition, NresMap, Result, Run, WaterWorld, brownian, networ
                    simulate)
 from neorl.core.geometry import TAU
 from neorl import drawing
+from neorl.drawing.curves import draw_sums
+from neorl.drawing.style import looks
 from neorl.evidence.statistics import binned_rate
 
 
@@ -36,7 +38,8 @@ def test_accumulated_curves_end_at_the_mean_total(results):
 
 
 def test_proficiency_draws_the_sum_of_the_parts(results):
-    drawing.draw_proficiency(results, total=("sum", list(results.values())), points=10)
+    sums = [*((name, [result]) for name, result in results.items()), ("sum", list(results.values()))]
+    draw_sums(sums, looks(3), points=10)
     n3, n7, total, _ = (line.get_ydata() for line in plt.gca().lines)
     np.testing.assert_allclose(total, n3 + n7, rtol=1e-5, atol=1e-12)
 

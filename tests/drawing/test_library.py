@@ -46,7 +46,7 @@ def figures_of_one_panel(run):
 def test_a_figure_of_one_panel_is_drawn_into_the_axes_that_are_given_and_into_no_other(run):
     functions = figures_of_one_panel(run)
     assert {each.__name__ for each in functions} == {
-        name for name in drawing.__all__ if name.startswith("draw_")} - {"draw_networks"}
+        name for name in drawing.__all__ if name.startswith("draw_")}
     for draw, arguments in functions.items():
         figure, (left, right) = plt.subplots(1, 2)
         assert draw(*arguments, ax=right) is right
