@@ -232,6 +232,27 @@ def test_the_best_is_a_confirmed_row_and_a_reading_counts_as_it_was_confirmed():
                                                                            key=lambda row: row.distance)
 
 
+def test_confirmations_of_a_reading_are_pooled_and_the_best_is_one_confirmed_most_often():
+    found, once = rows(set(CLAIMS), set(CLAIMS))
+    first, second = (replace(found, seed=seed, runs=20, statistics={name: Measure(value, error) for name in TARGETS})
+                     for seed, value, error in ((8, 1.0, 0.3), (9, 2.0, 0.4)))
+    pooled, left = sorted(calibration_table.nearest([found, first, once, second]), key=lambda row: -row.runs)
+    assert pooled == replace(second, runs=40, statistics={name: Measure(1.5, 0.25) for name in TARGETS})
+    once = replace(once, runs=20)
+    assert left.reading == once.reading and calibration_results.best([first, once]) == once
+    assert calibration_results.best([first, second, once]) == pooled
+
+
+def test_among_equals_the_book_keeps_its_reading_or_else_the_nearest_is_best():
+    near, far, other = (replace(row, runs=20) for row in rows({"A6", "A7"}, {"B3", "B4"}, {"A6"}))
+    near, far = sorted([near, far], key=lambda row: row.distance)
+    assert near.distance < far.distance and calibration_results.equals([far, other, near]) == [near, far]
+    assert calibration_results.best([far, other, near]) == near
+    kept = replace(far, reading=Reading())
+    assert calibration_results.best([kept, other, near]) == kept
+    assert calibration_results.best([replace(other, reading=Reading()), near]) == near
+
+
 def test_shares_at_the_papers_lengths_are_of_readings_that_nothing_has_chosen():
     table = rows(*[{"A6"}] * 8, *[set()] * 8)
     table += [replace(row, wave=1) for row in rows(*[{"A6"}] * 4)]

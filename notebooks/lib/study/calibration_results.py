@@ -16,6 +16,7 @@ from lib.study.calibration import IN_FULL, Emulator, reading_at
 from lib.study.calibration_table import leading, nearest
 from lib.study.calibration_targets import CLAIMS, TARGETS, distance
 from lib.study.multiverse import binned
+from neorl.evidence.reading import Reading
 
 NEAREST = 25  # rows that stand for the posterior where none agrees with all targets
 DRAWS = 10_000
@@ -135,10 +136,17 @@ def evenly(table):
 
 
 def best(table):
-    """The row for which most claims hold among those with the most runs: see `leading`."""
+    """The row of `equals` with the reading of the book, so that agents keep their runs, or else the nearest."""
+    rows = equals(table)
+    return next((row for row in rows if row.reading == Reading()), rows[0])
+
+
+def equals(table):
+    """The rows for which most claims hold among those with the most runs, the nearest first: see `leading`."""
     complete = leading(table)
     most = max(row.runs for row in complete)
-    return next(row for row in complete if row.runs == most)
+    confirmed = [row for row in complete if row.runs == most]
+    return [row for row in confirmed if len(row.held) == len(confirmed[0].held)]
 
 
 def giving(table):

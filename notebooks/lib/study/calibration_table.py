@@ -93,14 +93,26 @@ def rerun(table, n, group, seed=0):
 
 
 def nearest(table):
-    """The complete rows, the nearest first, without repeated readings."""
+    """The complete rows, the nearest first; those of the same reading are `pooled`. Raises ValueError for none."""
     by_reading = {}
     for row in table:
-        if row.complete and (row.reading not in by_reading or by_reading[row.reading].runs < row.runs):
-            by_reading[row.reading] = row
+        if row.complete:
+            by_reading.setdefault(row.reading, []).append(row)
     if not by_reading:
         raise ValueError(f"table has {len(table)} rows, none of them with all groups measured")
-    return sorted(by_reading.values(), key=lambda row: row.distance)
+    return sorted(map(pooled, by_reading.values()), key=lambda row: row.distance)
+
+
+def pooled(rows):
+    """Complete rows of the same reading in one, with the means of those that have most runs and the sum of their runs.
+
+    The others were run before the reading was chosen to be confirmed, and had to be lucky for that.
+    """
+    most = max(row.runs for row in rows)
+    rows = [row for row in rows if row.runs == most]
+    found = {name: np.array([row.statistics[name] for row in rows]).T for name in TARGETS}
+    return replace(rows[-1], runs=most * len(rows), statistics={
+        name: Measure(values.mean(), np.hypot.reduce(errors) / len(rows)) for name, (values, errors) in found.items()})
 
 
 def leading(table):
