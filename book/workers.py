@@ -50,6 +50,8 @@ def end_with_starter():
     def wait():
         while os.read(sys.stdin.fileno(), 1):
             pass
+        for stream in (1, 2):  # the script would report its processes that end
+            os.dup2(os.open(os.devnull, os.O_WRONLY), stream)
         kill(started())
         os._exit(1)
 
