@@ -61,11 +61,13 @@ def own_axes(agent):
 
 def n_values(agent, world):
     """The number of values that an agent holds in a world, of four bytes each."""
-    total = 0
-    for node in agent.nodes:
-        for cells in (nres_map.cells for nres_map in node.maps):
-            total += cells * (ENTRIES if node.goals == "contacts" else cells if node.state == "object" else 1)
-    return len(world.actions.names) * total
+    return sum(len(world.actions.names) * nres_map.cells * goals_of(node, nres_map)
+               for node in agent.nodes for nres_map in node.maps)
+
+
+def goals_of(node, nres_map):
+    """The number of values of an action in a cell of a map."""
+    return ENTRIES if node.goals == "contacts" else nres_map.cells if node.state == "object" else 1
 
 
 def n_bytes(agent, world):
@@ -152,9 +154,7 @@ def _desires(agent, world, coordinates):
             at[e, : world.actions.axes] = desire.source.coordinates
         elif not isinstance(desire.source, str):
             at[e, : len(desire.source)] = as_turns(agent.nodes[names.index(desire.target)].modality, desire.source)[0]
-    return {"source": integers(Source.place if isinstance(desire.source, Place) else
-                               Source.node if desire.source in names else
-                               Source.kind if isinstance(desire.source, str) else Source.point for desire in desires),
+    return {"source": integers(_source(agent, desire) for desire in desires),
             "kind": integers(world.kinds.index(desire.source) if desire.source in world.kinds else -1
                              for desire in desires),
             "target": integers(names.index(desire.target) for desire in desires),
@@ -166,6 +166,14 @@ def _desires(agent, world, coordinates):
             "signed": np.array([desire.signed for desire in desires], np.bool_),
             "elements": np.array(elements, np.bool_).reshape(len(desires), len(desires)),
             "at": at}
+
+
+def _source(agent, desire):
+    if isinstance(desire.source, Place):
+        return Source.place
+    if not isinstance(desire.source, str):
+        return Source.point
+    return Source.node if agent.comes_from_node(desire) else Source.kind
 
 
 def _learning(learning, fps):
@@ -197,13 +205,16 @@ def _frames(actions, name):
         pushes = np.array(actions.pushes) * flips[::-1]
         for axis, other in enumerate(reversed(far)):
             pushes[:, [axis, axis + other]] = pushes[:, [axis + other, axis]]
-        images = [tuple(map(float, push)) for push in pushes]
-        for push in images:
-            if push not in actions.pushes:
-                raise ValueError(f"{name}s must not be mirrored in this world: none of its actions pushes by {push}, "
-                                 "the mirror image of one that does")
-        frames.append([actions.pushes.index(push) for push in images])
+        frames.append([_action_of(actions, push, name) for push in pushes])
     return np.array(frames, np.int64)
+
+
+def _action_of(actions, push, name):
+    for action, its_push in enumerate(actions.pushes):
+        if tuple(push) == its_push:
+            return action
+    raise ValueError(f"{name}s must not be mirrored in this world: none of its actions pushes by "
+                     f"{tuple(map(float, push))}, the mirror image of one that does")
 
 
 def _retained(constant):

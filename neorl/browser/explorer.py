@@ -255,9 +255,7 @@ def _preset(name, agent, world, result):
     modality = agent.nodes[0].modality
     learning = agent.learning
     stated = _stated(agent.nodes, learning, world)
-    in_menu = ""
-    if len(names) == 1 and _without_ranges(modality) in map(_without_ranges, MODALITIES):
-        in_menu = modality.name
+    in_menu = _named(modality) if len(names) == 1 else ""
     could_be = in_menu and agent.nodes[0].goals == "cells" and learning.update_on == "cell"
     return {
         "label": LABELS.get(name, name), "nodes": names,
@@ -293,6 +291,11 @@ def _world(world):
 
 def _module_of(world):
     return "plane" if isinstance(world, IN_THE_PLANE) else "helm"
+
+
+def _named(modality):
+    """The name of a modality if it is one of `MODALITIES`, apart from its ranges, else ""."""
+    return modality.name if _without_ranges(modality) in map(_without_ranges, MODALITIES) else ""
 
 
 def _without_ranges(modality):

@@ -100,13 +100,7 @@ def modules():
     if len(found) < len(MODULES):
         with _one_process_at_a_time():
             found = _on_disk()  # another process may have built them
-            for name, content in _built([name for name in MODULES if name not in found]).items():
-                found[name] = content
-                try:
-                    files.write_checked(_path(name), content)
-                except OSError as error:
-                    warnings.warn(f"the WebAssembly module cannot be kept in {_path(name).parent}, and will be built "
-                                  f"again: {error}", RuntimeWarning, stacklevel=3)
+            found |= _kept(_built([name for name in MODULES if name not in found]))
     return found
 
 
@@ -135,6 +129,17 @@ def _one_process_at_a_time():
             lock = stack.enter_context(open(files.cache_folder() / "wasm.lock", "w"))
             fcntl.flock(lock, fcntl.LOCK_EX)
         yield
+
+
+def _kept(contents):
+    """The same modules, after writing them to disk."""
+    for name, content in contents.items():
+        try:
+            files.write_checked(_path(name), content)
+        except OSError as error:
+            warnings.warn(f"the WebAssembly module cannot be kept in {_path(name).parent}, and will be built again: "
+                          f"{error}", RuntimeWarning, stacklevel=4)
+    return contents
 
 
 def ship(package):
@@ -237,9 +242,7 @@ def _together(codes):
     module, *others = map(llvm.parse_assembly, codes.values())
     for other in others:
         module.link_in(other)
-    # What the names of numba's symbols for a kernel contain.
-    rare, apart = (["".join(f"{len(each)}{each}" for each in f"{kernel.__module__}.{kernel.__name__}".split("."))
-                    for kernel in kernels] for kernels in (RARE, RARE + APART))
+    rare, apart = ([_mangled(kernel) for kernel in kernels] for kernels in (RARE, RARE + APART))
     for function in module.functions:
         is_rare = any(name in function.name for name in rare)
         if function.name not in exports and not function.is_declaration:
@@ -252,8 +255,25 @@ def _together(codes):
     return module
 
 
+def _mangled(kernel):
+    """The part that the names of numba's symbols for a kernel contain."""
+    return "".join(f"{len(each)}{each}" for each in f"{kernel.__module__}.{kernel.__name__}".split("."))
+
+
 def _code(kernel, constants):
-    """The LLVM code, with everything it calls, of a function of a table of a kernel's arguments, by its name."""
+    """The LLVM code of a kernel under its own name, with everything it calls."""
+    dispatcher = _entry(kernel, constants)
+    (compiled,) = dispatcher.overloads.values()
+    code = compiled.library.get_llvm_str()
+    code = re.sub(r"target datalayout = .*", f'target datalayout = "{LAYOUT}"', code)
+    code = re.sub(r"target triple = .*", f'target triple = "{TRIPLE}"', code)
+    code = re.sub(r'"target-(cpu|features)"="[^"]*"', "", code)
+    code = code.replace("= common ", "= internal ")
+    return code.replace(f"@{compiled.fndesc.llvm_func_name}(", f"@{kernel.__name__}(")
+
+
+def _entry(kernel, constants):
+    """The entry point of a kernel: a function of a table of its arguments."""
     import numba
 
     from neorl.core.views import SCALARS as TYPES
@@ -262,15 +282,7 @@ def _code(kernel, constants):
     taken = [name if name == "constants" else f"passed.{name}" for name in fields(kernel) if name != "return"]
     entry = eval(f"lambda passed: kernel({', '.join(taken)})", {"kernel": kernel, "constants": constants})
     result = TYPES[kernel.__annotations__["return"]]
-    dispatcher = numba.njit(result(View(_passed(kernel))), **OPTIONS, no_cpython_wrapper=True,
-                            no_cfunc_wrapper=True)(entry)
-    (compiled,) = dispatcher.overloads.values()
-    code = compiled.library.get_llvm_str()
-    code = re.sub(r"target datalayout = .*", f'target datalayout = "{LAYOUT}"', code)
-    code = re.sub(r"target triple = .*", f'target triple = "{TRIPLE}"', code)
-    code = re.sub(r'"target-(cpu|features)"="[^"]*"', "", code)
-    code = code.replace("= common ", "= internal ")
-    return code.replace(f"@{compiled.fndesc.llvm_func_name}(", f"@{kernel.__name__}(")
+    return numba.njit(result(View(_passed(kernel))), **OPTIONS, no_cpython_wrapper=True, no_cfunc_wrapper=True)(entry)
 
 
 if __name__ == "__main__":

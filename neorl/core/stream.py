@@ -31,16 +31,20 @@ def new_stream(seed_sequence: np.random.SeedSequence) -> NDArray[np.uint64]:
     checks.instance("seed_sequence", seed_sequence, np.random.SeedSequence)
     if seed_sequence.pool_size != POOL:
         raise checks.error("pool_size of seed_sequence", str(POOL), seed_sequence.pool_size)
-    words = _words(seed_sequence.entropy)
-    if seed_sequence.spawn_key:
-        words += [0] * (POOL - len(words)) + _words(seed_sequence.spawn_key)
     stream = np.zeros(4, np.uint64)
-    execute(start_stream, np.array(words, np.uint64), stream)
+    execute(start_stream, np.array(_entropy(seed_sequence), np.uint64), stream)
     return stream
 
 
+def _entropy(seed_sequence):
+    """The 32-bit words of a seed sequence, lowest first; if it was spawned, at least four words, then its key."""
+    words = _words(seed_sequence.entropy)
+    if seed_sequence.spawn_key:
+        words += [0] * (POOL - len(words)) + _words(seed_sequence.spawn_key)
+    return words
+
+
 def _words(value):
-    """The 32-bit words of an integer, or of several, lowest first."""
     if isinstance(value, list | tuple | np.ndarray):
         return [word for each in value for word in _words(each)]
     value = int(value)

@@ -97,10 +97,7 @@ def sweep(conditions: Sequence[Condition], executor: Executor | None = None,
     missing = [keeper for keeper in keepers.values() if keeper.missing]
     # The largest come first, so that later runs can reuse their memory.
     missing.sort(key=lambda keeper: -n_values(keeper.condition.agent, keeper.condition.world))
-    waiting = []
-    for keeper in missing:
-        count = -(-TASK_STEPS // keeper.condition.steps)
-        waiting += [Task(keeper, keeper.missing[at : at + count]) for at in range(0, len(keeper.missing), count)]
+    waiting = [task for keeper in missing for task in _tasks(keeper)]
     total, errors = sum(task.steps for task in waiting), list[tuple[Task, BaseException]]()
     name = label(missing[0].condition.agent) if len(missing) == 1 else "sweep"
     with progress_bar(total, name, progress) as bar:
@@ -134,6 +131,11 @@ class Task(NamedTuple):
     def steps(self):
         """The steps of all these runs together."""
         return len(self.runs) * self.keeper.condition.steps
+
+
+def _tasks(keeper):
+    count = -(-TASK_STEPS // keeper.condition.steps)
+    return [Task(keeper, keeper.missing[first : first + count]) for first in range(0, len(keeper.missing), count)]
 
 
 def _run(tasks, executor, threads, cache, bar, name):

@@ -69,7 +69,7 @@ def load_runs(condition):
 def save_runs(condition, runs):
     """Write some runs of a condition to a file of their own. Raises OSError if there is no room or no permission."""
     rewards, hits = map(np.stack, zip(*runs.values()))
-    files.write_arrays(files.cache_folder() / "runs" / f"{condition.key}-{min(runs)}", "runs", {},
+    files.write_arrays(_part_folder() / f"{condition.key}-{min(runs)}", "runs", {},
                        {"runs": np.array(list(runs)), "rewards": rewards, "hits": hits})
 
 
@@ -79,8 +79,12 @@ def remove_runs(condition):
         path.unlink(missing_ok=True)
 
 
+def _part_folder():
+    return files.cache_folder() / "runs"
+
+
 def _parts(condition):
-    return list((files.cache_folder() / "runs").glob(f"{condition.key}-*"))
+    return list(_part_folder().glob(f"{condition.key}-*"))
 
 
 def _taken(write, *what):
@@ -142,14 +146,20 @@ class Keeper:
         if self._cache and _taken(save, whole):
             _taken(remove_runs, self.condition)
         else:
-            import psutil
-
-            if self._cache and psutil.virtual_memory().available < whole.rewards.nbytes + whole.hits.nbytes:
-                raise MemoryError(f"{files.cache_folder()} takes no results, and no more of them fit into the free "
-                                  "memory; name another folder in NEORL_CACHE")
+            if self._cache:
+                _check_memory(whole.rewards.nbytes + whole.hits.nbytes)
             self._whole = whole
         self._runs, self._unwritten = {}, []
         return True
+
+
+def _check_memory(size):
+    """Raise MemoryError unless so many bytes of memory are free."""
+    import psutil
+
+    if psutil.virtual_memory().available < size:
+        raise MemoryError(f"{files.cache_folder()} takes no results, and no more of them fit into the free memory; "
+                          "name another folder in NEORL_CACHE")
 
 
 class Kept(NamedTuple):
