@@ -1,4 +1,5 @@
 # make book   compute every notebook and build the book   RUNS=10 runs per condition; 4 is a quick look, 100 the papers' scale
+#                                                         JOBS=2 notebooks at a time, of up to 4 GB each
 # make test   run the tests
 # make exact  run the reference runs in every way that must give the same bits, and print which do; PYTHONS="python3.13"
 # make verify recompute a random sample of the runs behind the figures and compare; SAMPLE=20 runs, SEED=of the sample
@@ -13,15 +14,59 @@ SAMPLE ?= 20
 SEED ?=
 RUNS ?= 10
 STEPS ?=
+JOBS ?= 2
 BIN := .venv/bin
 export NEORL_CACHE := $(CURDIR)/.cache
 export PYTHONUNBUFFERED := 1
 
+# Pages of the book. Long ones come first. Those that measure times are computed alone, after the others, and the
+# conclusion, which reads what all have found, last.
+CHAPTERS := book/chapters
+NAMES := $(notdir $(basename $(wildcard notebooks/*.ipynb)))
+LONG := assumptions beyond_agents calibration paper_a paper_c
+TIMED := paper_b performance
+CONCLUSION := chapter_5
+TOGETHER := $(filter $(NAMES),$(LONG)) $(filter-out $(LONG) $(TIMED) $(CONCLUSION),$(NAMES))
+SOURCES := $(shell find neorl notebooks/lib -type f -not -path '*/__pycache__/*') environment.txt \
+    $(addprefix book/,cells.py compute.py excerpts.py programs.py)
+HTML := _build/html/index.html
+page = $(1:%=$(CHAPTERS)/%.ipynb)
+
 .DEFAULT_GOAL := book
-.PHONY: book test exact verify lab readme bench wheel clean
+.PHONY: book test exact verify lab readme bench wheel clean FORCE
 
 book: .venv/ready
-	$(BIN)/python book/build.py --runs $(RUNS) $(if $(STEPS),--steps $(STEPS))
+	@$(MAKE) --no-print-directory --keep-going --jobs=$(JOBS) $(HTML)
+	@echo "the book is at file://$(CURDIR)/$(HTML)"
+
+# Threads of linear algebra that wait for each other beside another notebook took fifty times as long as one thread.
+$(CHAPTERS)/%.ipynb: notebooks/%.ipynb $(SOURCES) $(CHAPTERS)/.parameters
+	@OPENBLAS_NUM_THREADS=1 $(BIN)/python book/compute.py $< --runs $(RUNS) $(if $(STEPS),--steps $(STEPS))
+
+$(call page,$(TIMED)): | $(call page,$(TOGETHER))
+$(call page,$(lastword $(TIMED))): | $(call page,$(firstword $(TIMED)))
+$(call page,$(CONCLUSION)): $(call page,$(filter-out $(CONCLUSION),$(NAMES)))
+
+# Changes only if the parameters do.
+$(CHAPTERS)/.parameters: FORCE
+	@case "$(RUNS)-$(STEPS)" in *[!0-9-]*|0*|-*|*-0*) \
+	    echo "RUNS and STEPS must be integers of at least 1, but are '$(RUNS)' and '$(STEPS)'"; exit 1;; esac
+	@mkdir -p $(@D)
+	@echo "$(RUNS) $(STEPS)" | cmp -s - $@ || echo "$(RUNS) $(STEPS)" > $@
+
+$(CHAPTERS)/claims-table.md: $(call page,$(TOGETHER) $(filter $(NAMES),$(TIMED) $(CONCLUSION))) $(wildcard book/*.py) \
+    book/rules.toml book/_toc.yml
+	@$(BIN)/python book/tables.py
+
+# Readers of the last book have it until the next is complete.
+$(HTML): $(CHAPTERS)/claims-table.md $(shell find book -type f -not -path '$(CHAPTERS)/*' -not -path '*/__pycache__/*') \
+    _config.yml pyproject.toml
+	@rm -rf _build/next _build/last
+	@$(BIN)/jupyter-book build book --config _config.yml --path-output _build/next --all --quiet --warningiserror \
+	    --keep-going --nitpick > /dev/null
+	@if [ -e _build/html ]; then mv _build/html _build/last; fi
+	@mv _build/next/_build/html _build/html
+	@rm -rf _build/next _build/last
 
 test: .venv/ready
 	$(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist loadfile --no-loadscope-reorder $(ARGS)

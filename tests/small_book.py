@@ -3,13 +3,10 @@
 Of its notebooks, one is needed by others, one needs it, and the conclusion reads the records of both.
 """
 
-import hashlib
 import json
 import os
 import re
-import resource
 import shutil
-import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -51,6 +48,7 @@ def make_tree(tree):
     (tree / "book").mkdir(parents=True)
     shutil.copytree(ROOT / "notebooks" / "lib" / "shared", tree / "notebooks" / "lib" / "shared")
     shutil.copy(ROOT / "notebooks" / "lib" / "__init__.py", tree / "notebooks" / "lib")
+    shutil.copy(ROOT / "Makefile", tree)
     for path in [*(ROOT / "book").glob("*.py"), ROOT / "book" / "rules.toml"]:
         shutil.copy(path, tree / "book")  # links would lead the build to the real tree
     (tree / "neorl").mkdir()  # pages depend on the sources here, but import the real package
@@ -81,53 +79,30 @@ def write_notebook(tree, name, *sources, **parameters):
     nbformat.write(nbformat.v4.new_notebook(cells=cells, metadata=metadata), tree / "notebooks" / f"{name}.ipynb")
 
 
-def start(tree, runs=2, only=None, limits={}, **environment):
-    """Start a build of the tree and return its process, with stderr merged into stdout.
-
-    only: the single notebook to compute. limits: {resource: limit}, as for `resource.setrlimit`.
-    """
-    of_one = ["--notebook", tree / "notebooks" / f"{only}.ipynb", "--parameters", json.dumps({"runs": runs})]
-    command = [sys.executable, tree / "book" / "build.py", *(of_one if only else ("--runs", str(runs)))]
-
-    def prepare():
-        signal.signal(signal.SIGINT, signal.default_int_handler)
-        for kind, limit in limits.items():
-            resource.setrlimit(kind, limit)
-
-    return subprocess.Popen(
-        command, text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, cwd=tree,
-        env=os.environ | {"NEORL_CACHE": str(tree / ".cache"), "PYTHONPATH": str(ROOT), **environment},
-        preexec_fn=prepare)
+def start(tree, runs=2):
+    """Start a build of the tree in a session of its own, and return its process, with stderr merged into stdout."""
+    command = ["make", "--keep-going", "--jobs=2", f"BIN={Path(sys.executable).parent}", f"RUNS={runs}",
+               "_build/html/index.html"]
+    return subprocess.Popen(command, text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                            stderr=subprocess.STDOUT, cwd=tree, env=os.environ | {"PYTHONPATH": str(ROOT)},
+                            start_new_session=True)
 
 
-def build(tree, **choices):
-    """Build the tree, with the options of `start`: (exit code, output)."""
-    process = start(tree, **choices)
+def build(tree, runs=2):
+    """Build the tree: (exit code, output)."""
+    process = start(tree, runs)
     said, _ = process.communicate()
     return process.returncode, said
 
 
-def whole_pages(tree):
-    """The notebooks with computed pages; asserts that these match their records."""
-    chapters = tree / "book" / "chapters"
-    found = []
-    for name in NOTEBOOKS:
-        record = chapters / f"{name}.inputs.json"
-        if record.exists():
-            outputs = json.loads(record.read_text())["outputs"]  # a record is complete or absent
-            assert outputs and all(digest(chapters / each) == kept for each, kept in outputs.items()), name
-            found.append(name)
-    return found
-
-
-def digest(path):
-    """The digest of a file, as in the records."""
-    return hashlib.sha256(hashlib.sha256(path.read_bytes()).digest()).hexdigest()
+def written(tree):
+    """The time at which each page was begun: {notebook: time}."""
+    paths = {name: tree / "book" / "chapters" / f"{name}.ipynb" for name in NOTEBOOKS}
+    return {name: path.stat().st_mtime_ns for name, path in paths.items() if path.exists()}
 
 
 def assert_no_half_page(tree):
     """Assert that all files that exist are complete: computed pages, records of claims, and the book in HTML."""
-    whole_pages(tree)
     chapters = tree / "book" / "chapters"
     for path in chapters.glob("*.ipynb"):
         nbformat.read(path, nbformat.NO_CONVERT)

@@ -3,7 +3,7 @@
 import ast
 import re
 
-import build
+import compute
 import nbformat
 import pytest
 from page_cells import NOTEBOOKS as FOLDER
@@ -79,7 +79,7 @@ def test_links_lead_somewhere(cells):
         if cell.cell_type == "markdown":
             for target, place in re.findall(r"\]\(([^)#:]+)(?:#([^)]*))?\)", cell.source):
                 assert (FOLDER / target).exists(), target
-                assert not place or target == "../book/glossary.md" and place in build.terms(), place
+                assert not place or target == "../book/glossary.md" and place in compute.terms(), place
         else:  # the build rewrites the links of Markdown cells only
             assert "](../book/" not in cell.source
 

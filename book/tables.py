@@ -1,0 +1,28 @@
+"""Write what the book's other pages include of the computed ones: claims, rules, errata, and contents in pictures."""
+
+import sys
+from pathlib import Path
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "notebooks"))  # has what pages share
+
+# ruff: noqa: E402
+import contents
+import ledger
+import rules
+from compute import CHAPTERS, ROOT, records
+from lib.shared import report
+
+from neorl.files import write_whole
+
+
+def of_claims(paths, chapters):
+    """The texts to include, {name of the file: text}. paths: of records of claims. chapters: the folder of pages."""
+    record, toc = report.load(paths), (ROOT / "book" / "_toc.yml").read_text(encoding="utf-8")
+    return {"claims-rules.md": rules.page(), "claims-front.html": ledger.front(record),
+            "claims-squares.html": ledger.squares(record), "errata-table.md": report.errata(),
+            "contents.md": contents.pictures(toc, chapters), "claims-table.md": ledger.page(record)}
+
+
+if __name__ == "__main__":
+    for name, text in of_claims(records().values(), CHAPTERS).items():  # last the one that make looks for
+        write_whole(CHAPTERS / name, text.encode())

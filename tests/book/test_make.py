@@ -1,0 +1,120 @@
+"""``make book``: what it recomputes and keeps, and what it leaves when it is killed, interrupted or out of disk space.
+
+However a build of a small book (`small_book`) ends, every page in place is whole, the last book is there, and the next
+build ends with the same book.
+"""
+
+import os
+import random
+import re
+import shutil
+import signal
+import subprocess
+import time
+
+import psutil
+import pytest
+import small_book
+
+from neorl import WaterWorld, place_cells, simulate
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """A tree with a built book, for tests to copy."""
+    tree = small_book.make_tree(tmp_path_factory.mktemp("finished") / "tree")
+    code, said = small_book.build(tree)
+    assert code == 0, said
+    small_book.assert_no_half_page(tree)
+    for seed, name in enumerate(("assumptions", "paper_a")):
+        alone = simulate(place_cells([3]), WaterWorld(), steps=10_000, runs=2, seed=seed, progress=False)
+        assert f"{alone.totals.sum():.6f}" in small_book.pages(tree)[f"chapters/{name}.html"]
+    return tree
+
+
+@pytest.fixture
+def built(finished, tmp_path):
+    tree = tmp_path / "tree"
+    subprocess.run(["cp", "--archive", finished, tree], check=True)  # with the times of files
+    return tree
+
+
+def computed(before, tree):
+    """The notebooks whose pages were computed since."""
+    return sorted(name for name, time_ns in small_book.written(tree).items() if before.get(name) != time_ns)
+
+
+def test_what_has_changed_is_computed_again_and_nothing_else(built):
+    before = small_book.written(built)
+    assert small_book.build(built) == (0, "")
+    small_book.write_notebook(built, "paper_a", "print('changed')")
+    assert small_book.build(built)[0] == 0 and computed(before, built) == ["chapter_5", "paper_a"]
+    assert "changed" in small_book.pages(built)["chapters/paper_a.html"]
+    before = small_book.written(built)
+    assert small_book.build(built, runs=3)[0] == 0 and computed(before, built) == sorted(small_book.NOTEBOOKS)
+    before = small_book.written(built)
+    (built / "neorl" / "source.py").write_text("")
+    assert small_book.build(built, runs=3)[0] == 0 and computed(before, built) == sorted(small_book.NOTEBOOKS)
+
+
+@pytest.mark.parametrize("runs", ["0", "2.5", "many", ""])
+def test_bad_runs_are_refused_before_anything_runs(tmp_path, runs):
+    tree = small_book.make_tree(tmp_path / "tree")
+    code, said = small_book.build(tree, runs)
+    assert code != 0 and f"RUNS and STEPS must be integers of at least 1, but are '{runs}' and ''" in said
+    assert not small_book.written(tree)
+
+
+def test_a_notebook_that_raises_is_named_and_the_last_book_stays(built):
+    book, before = small_book.pages(built), small_book.written(built)
+    small_book.write_notebook(built, "paper_a", "print(1 / 0)")
+    (built / "notebooks" / "assumptions.ipynb").touch()
+    code, said = small_book.build(built)
+    assert code != 0 and "paper_a.ipynb, In [3]: ZeroDivisionError: division by zero" in said
+    assert computed(before, built) == ["assumptions"]
+    assert small_book.pages(built) == book
+
+
+def wait_for(path, process):
+    """Wait until a path exists or the process has ended."""
+    while not path.exists() and process.poll() is None:
+        time.sleep(0.005)
+
+
+@pytest.mark.parametrize("ending", [signal.SIGKILL, signal.SIGINT])
+def test_a_build_that_is_killed_or_interrupted_ends_with_the_same_book_the_next_time(tmp_path, finished, ending):
+    tree, draw = small_book.make_tree(tmp_path / "tree"), random.Random(5)
+    for moment in ("book/chapters/.paper_a", "_build/next/_build/html/index.html"):
+        kept, process, started = small_book.written(tree), small_book.start(tree), []
+        wait_for(tree / moment, process)
+        time.sleep(draw.uniform(0, 1))
+        if process.poll() is None:
+            started = psutil.Process(process.pid).children(recursive=True)
+            os.killpg(process.pid, ending)
+        process.communicate()
+        assert not psutil.wait_procs(started, timeout=60)[1]  # a kernel ends with the process that has started it
+        small_book.assert_no_half_page(tree)
+        assert kept.items() <= small_book.written(tree).items()
+    assert small_book.build(tree)[0] == 0
+    assert small_book.pages(tree) == small_book.pages(finished)
+
+
+def leave_room(disk, size):
+    """Resize an in-memory disk so that `size` bytes are free."""
+    blocks = -(-(shutil.disk_usage(disk).used + size) // 4096)
+    subprocess.run(["mount", "-o", f"remount,size={4096 * blocks}", disk], check=True)
+
+
+def test_a_full_disk_leaves_the_last_book_as_it_was(finished, mount, tmp_path):
+    disk = mount(tmp_path / "disk", "size=100m")
+    tree = disk / "tree"
+    subprocess.run(["cp", "--archive", finished, tree], check=True)
+    book = small_book.pages(tree)
+    leave_room(disk, 9_000_000)
+    code, said = small_book.build(tree, runs=3)
+    assert code != 0 and re.search("No space left on device", said), said
+    small_book.assert_no_half_page(tree)
+    assert small_book.pages(tree) == book
+    leave_room(disk, 100_000_000)
+    code, said = small_book.build(tree, runs=3)
+    assert code == 0 and small_book.pages(tree) != book, said
