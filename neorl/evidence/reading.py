@@ -1,6 +1,6 @@
 """A reading of the thesis: a value for every choice, the agents and experiments that follow, and their judgement.
 
-1. A `Reading` makes every choice of `neorl.evidence.pins`, pinned or open, and reports whether it obeys the text.
+1. A `Reading` makes every choice that the text pins or leaves open (`notebooks/lib/shared/pins.py`).
 2. Its *conditions* are the experiments of the papers under it, in groups, cheap ones first.
 3. The rules of `neorl.evidence.claims` judge it, on every claim for which the available conditions suffice.
 """
@@ -15,7 +15,6 @@ from neorl.agents.agent import Agent, Node
 from neorl.agents.rules import CALIBRATED, GREEDY, Learning, Policy
 from neorl.checks import AtLeastOne, OneOf, Share
 from neorl.evidence import claims
-from neorl.evidence.pins import agreement
 from neorl.experiments.condition import Condition
 from neorl.worlds.waterworld import WaterWorld
 
@@ -89,11 +88,6 @@ class Reading:
         checks.assign(self, network_resolutions=checks.several("network_resolutions", self.network_resolutions))
 
     @property
-    def within_the_text(self):
-        """Whether it obeys every sentence of the thesis that pins a choice: a `neorl.evidence.pins.Agreement`."""
-        return agreement(self)
-
-    @property
     def learning(self):
         """Its `Learning`."""
         if self.credit == "step":
@@ -111,7 +105,7 @@ class Reading:
                 "object_reach": self.object_reach if state == "object" else 0.0}
 
 
-# What the text prints or pins, and where it leaves more the plainest, or the middle of a prior (`neorl.evidence.pins`).
+# What the text prints or pins, and where it leaves more the plainest, or the middle of a prior, see those pins.
 TO_THE_LETTER = Reading(**{name: value for name, value in vars(rules.TO_THE_LETTER).items() if name in vars(Reading)},
                         object_state="self", object_reach=0.0, object_tiled_fraction=1.0, object_beyond="outermost",
                         object_centred=False, weighting="resolution", place_gain=1.0, scale=10.0)

@@ -8,7 +8,7 @@
 
 import numpy as np
 
-from lib.shared import side_by_side
+from lib.shared import pins, side_by_side
 from lib.shared.notebook import FINEST
 from lib.shared.priors import BEYOND
 from lib.shared.report import CALIBRATED, LETTER
@@ -61,8 +61,8 @@ def rates(results, names, share=(0.0, 1.0)):
 def choices(readings):
     """What readings choose for agents of place cells, as a Markdown table."""
     listed = side_by_side.choices(readings, [field for field, choice in BEYOND.items() if "A" in choice.papers])
-    broken = ([pin.choice for pin in reading.within_the_text.broken] for reading in readings.values())
-    agreements = (f"breaks: {', '.join(dict.fromkeys(pins))}" if pins else "within the text" for pins in broken)
+    broken = ([pin.choice for pin in pins.broken(reading)] for reading in readings.values())
+    agreements = (f"breaks: {', '.join(dict.fromkeys(each))}" if each else "within the text" for each in broken)
     return f"{listed}\n| *all in all* | | {' | '.join(agreements)} |"
 
 

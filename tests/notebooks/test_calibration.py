@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from lib.shared import pins
 from lib.shared.priors import TO_THE_LETTER, WITHIN
 from lib.study import calibration, calibration_results, calibration_table, calibration_targets
 from lib.study.calibration import design, features
@@ -207,7 +208,7 @@ def test_the_table_of_this_package_has_the_default_as_its_best_reading_and_runs_
     best = calibration_results.best(table)
     assert best.reading == Reading() and best.reading.learning == CALIBRATED
     assert len(table) >= 1_000 and sum(row.complete for row in table) >= 70
-    assert all(row.reading.within_the_text for row in table)
+    assert not any(pins.broken(row.reading) for row in table)
     assert all(old == new for old, new in calibration_table.rerun(table, SAMPLE, "layers"))
 
 

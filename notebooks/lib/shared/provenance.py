@@ -1,6 +1,6 @@
 """The source of every constant: the thesis, the environment it used, the author's public code, or this book.
 
-The values are read from the code that uses them, and the sources of a reading's choices from `neorl.evidence.pins`, so
+The values are read from the code that uses them, and the sources of a reading's choices from `lib.shared.pins`, so
 the table always agrees with both.
 """
 
@@ -8,9 +8,9 @@ import re
 from typing import NamedTuple
 
 from lib.shared import wording
+from lib.shared.pins import PINS
 from lib.shared.priors import BEYOND, WITHIN
 from lib.shared.smoothing import CUTOFF_PERIODS, FILTER_ORDER
-from neorl.evidence.pins import PINS
 from neorl.evidence.reading import LAYERS, LENGTHS, PRIMES, SINGLE, Reading, conditions
 from neorl.evidence.statements import STATEMENTS
 from neorl.experiments.run import BIN_SECONDS

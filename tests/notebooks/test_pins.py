@@ -4,8 +4,8 @@ from dataclasses import fields, replace
 
 import pytest
 
+from lib.shared import pins
 from lib.shared.priors import BEYOND, TO_THE_LETTER, WITHIN
-from neorl.evidence import pins
 from neorl.evidence.reading import Reading
 
 PINNED = [pin for pin in pins.PINS if pin.status == "pinned"]
@@ -33,9 +33,10 @@ def test_what_is_pinned_is_quoted_and_located():
     ({"fps": 30}, ["steps per second"]), ({"network_gain": 5.0}, ["gain of place cells, paper C"]),
     ({"recursion": -2.0}, ["recursion, r"]), ({"recursion": 1.0, "fps": 30}, ["recursion, r", "steps per second"])])
 def test_a_reading_against_the_text_says_which_sentences_it_breaks(change, broken):
-    found = replace(TO_THE_LETTER, **change).within_the_text
-    assert not found and [pin.choice for pin in found.broken] == broken
-    assert all(f"“{pin.quotation}” ({pin.place})" in str(found) for pin in found.broken)
+    reading = replace(TO_THE_LETTER, **change)
+    found = pins.broken(reading)
+    assert [pin.choice for pin in found] == broken
+    assert all(f"“{pin.quotation}” ({pin.place})" in pins.in_words(reading) for pin in found)
 
 
 def test_every_sentence_that_pins_a_choice_is_broken_somewhere_beyond_and_nowhere_within():

@@ -37,24 +37,14 @@ class Pin:
         return "pinned" if self.allows else "open"
 
 
-@dataclass(frozen=True)
-class Agreement:
-    """Whether a reading obeys the text: true if it breaks no pin. `broken` lists the pins that it breaks."""
-
-    broken: tuple[Pin, ...]
-
-    def __bool__(self):
-        return not self.broken
-
-    def __str__(self):
-        if not self.broken:
-            return "within the text"
-        return "; ".join(f"{pin.choice}: “{pin.quotation}” ({pin.place})" for pin in self.broken)
+def broken(reading):
+    """The pins that a `Reading` breaks: a list, empty if it is within the text."""
+    return [pin for pin in PINS if pin.allows and not pin.allows(reading)]
 
 
-def agreement(reading):
-    """The `Agreement` of a `Reading` with the text."""
-    return Agreement(tuple(pin for pin in PINS if pin.allows and not pin.allows(reading)))
+def in_words(reading):
+    """That a reading is within the text, or the sentences that it breaks."""
+    return "; ".join(f"{pin.choice}: “{pin.quotation}” ({pin.place})" for pin in broken(reading)) or "within the text"
 
 
 def _always(_):
