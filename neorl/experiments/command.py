@@ -81,11 +81,4 @@ def clear_cache(which):
 
 
 def _amount(some):
-    return f"{len(some)} file{'s' * (len(some) != 1)}, {_bytes(sum(each.size for each in some))}"
-
-
-def _bytes(size):
-    for unit in ("bytes", "kB", "MB", "GB"):
-        if size < 1000 or unit == "GB":
-            return f"{size:,.0f} {unit}" if unit == "bytes" or size >= 10 else f"{size:.1f} {unit}"
-        size /= 1000
+    return f"{len(some)} file{'s' * (len(some) != 1)}, {sum(each.size for each in some) / 1e6:,.3f} MB"

@@ -4,9 +4,8 @@
    turn, and returns their rewards and hits. A single condition thus keeps all cores as busy as many do.
 2. The process that called writes finished runs to disk; runs that are on disk already are not repeated
    (`neorl.experiments.store`).
-3. A task that fails, by itself or with its worker, is retried after the others are done, up to three attempts in all.
-   An executor that breaks as a whole is replaced by the cores of this machine. Without a cache, where nothing would be
-   kept, the first error ends the call.
+3. Tasks that fail, by themselves or with their workers, are reported once the others are done and kept; the next call
+   repeats them alone. Without a cache, where nothing would be kept, the first error ends the call.
 4. On this machine the workers are threads, not processes: compiled kernels run in parallel in them. Threads share the
    kernels, have no start-up time, and accept kernels and worlds defined in a notebook, which cannot be sent to a
    process.
@@ -18,7 +17,6 @@ import contextlib
 import os
 import pickle
 import threading
-import warnings
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, ThreadPoolExecutor, as_completed
 from typing import NamedTuple
@@ -34,7 +32,6 @@ from neorl.experiments.run import SLICE, Run, new_bins
 from neorl.experiments.store import Keeper
 from neorl.worlds.world import World
 
-ATTEMPTS = 3
 TASK_STEPS = 100_000  # they take a typical agent a tenth of a second, and a task's overhead is a millisecond
 
 
@@ -79,8 +76,8 @@ def sweep(conditions: Sequence[Condition], executor: Executor | None = None,
     threads: as in `simulate`. Not with an executor, which has workers of its own.
 
     Raises ValueError for a bad argument, MemoryError if a single run, or results that cannot be written, do not fit
-    into the free memory of this machine, RuntimeError for conditions that have failed three times, once all others are
-    kept; the next call resumes there. Warns if results cannot be written to disk.
+    into the free memory of this machine, RuntimeError for conditions that have failed, once all others are kept; the
+    next call resumes there. Warns if results cannot be written to disk.
     """
     conditions = checks.several("conditions", conditions)
     for condition in conditions:
@@ -98,24 +95,18 @@ def sweep(conditions: Sequence[Condition], executor: Executor | None = None,
     # The largest come first, so that later runs can reuse their memory.
     missing.sort(key=lambda keeper: -n_values(keeper.condition.agent, keeper.condition.world))
     waiting = [task for keeper in missing for task in _tasks(keeper)]
-    total, errors = sum(task.steps for task in waiting), list[tuple[Task, BaseException]]()
+    total = sum(task.steps for task in waiting)
     name = label(missing[0].condition.agent) if len(missing) == 1 else "sweep"
     with progress_bar(total, name, progress) as bar:
         try:
-            for _ in range(ATTEMPTS):
-                errors = _run(waiting, executor, threads, cache, bar, name) if waiting else []
-                waiting = [task for task, _ in errors]
-                if any(isinstance(error, BrokenExecutor) for _, error in errors):
-                    warnings.warn(f"{executor!r} is broken; this machine's cores do the rest", RuntimeWarning,
-                                  stacklevel=2)
-                    executor = None
+            errors = _run(waiting, executor, threads, cache, bar, name) if waiting else []
         finally:
             for keeper in missing:
                 keeper.write_runs()
     if errors:
         failed = {id(task.keeper): (task.keeper.condition, error) for task, error in errors}
         condition, error = next(iter(failed.values()))
-        raise RuntimeError(f"{len(failed)} of {len(conditions)} conditions have failed {ATTEMPTS} times, such as "
+        raise RuntimeError(f"{len(failed)} of {len(conditions)} conditions have failed, such as "
                            f"{condition}: {error!r}") from error
     return (keepers[name].result() or simulate(**condition.choices, cache=True)
             for name, condition in zip(names, conditions))

@@ -30,11 +30,11 @@ def test_the_cache_is_listed_and_cleared(tmp_path, capsys, monkeypatch):
     files.write_checked(tmp_path / "compiled" / ("0f" * 32), b"x" * 2_000_000)
     assert main(["cache"]) == 0
     printed = capsys.readouterr().out
-    assert str(tmp_path) in printed and "compiled kernels: 1 file, 2.0 MB" in printed
-    assert "finished conditions: none" in printed and "together: 1 file, 2.0 MB" in printed
+    assert str(tmp_path) in printed and "compiled kernels: 1 file, 2.000 MB" in printed
+    assert "finished conditions: none" in printed and "together: 1 file, 2.000 MB" in printed
     assert main(["cache", "--clear", "compiled"]) == 0
-    assert "1 file, 2.0 MB" in capsys.readouterr().out and not list((tmp_path / "compiled").iterdir())
-    assert main(["cache", "--clear"]) == 0 and "0 files, 0 bytes" in capsys.readouterr().out
+    assert "1 file, 2.000 MB" in capsys.readouterr().out and not list((tmp_path / "compiled").iterdir())
+    assert main(["cache", "--clear"]) == 0 and "0 files, 0.000 MB" in capsys.readouterr().out
 
 
 def test_an_error_is_printed_in_one_line(tmp_path, capsys):

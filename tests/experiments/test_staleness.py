@@ -58,7 +58,6 @@ def test_a_worker_process_with_the_same_program_is_accepted(tmp_path):
 def test_a_worker_process_that_imports_an_edited_program_is_refused(tmp_path, monkeypatch):
     edited.write(tmp_path, FIRST)
     monkeypatch.syspath_prepend(tmp_path)
-    monkeypatch.setattr(simulation, "ATTEMPTS", 1)
     program = importlib.import_module("program")
     try:
         edited.write(tmp_path, FIRST | {"helper": 10})
@@ -72,7 +71,6 @@ def test_a_worker_process_that_imports_an_edited_program_is_refused(tmp_path, mo
 def test_a_kernel_that_changes_while_it_runs_leaves_nothing_on_disk(cache_folder, monkeypatch):
     agent = place_cells([2], policy=Policy(choose=biased))
     monkeypatch.setattr(simulation, "live", lambda *run: monkeypatch.setattr(sys.modules[__name__], "BIAS", 1))
-    monkeypatch.setattr(simulation, "ATTEMPTS", 1)
     with pytest.raises(RuntimeError, match="change nothing while it runs"):
         simulate(agent, WaterWorld(), steps=1, runs=1, cache=True, progress=False)
     assert not list((cache_folder / "conditions").glob("*"))
