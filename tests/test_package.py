@@ -19,7 +19,7 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 
 @pytest.mark.parametrize("imported, when_used", [
     ("neorl", ("anywidget", "distributed", "gymnasium", "IPython", "matplotlib", "numba", "pandas", "psutil", "scipy",
-               "tqdm", "xarray")),
+               "tqdm")),
     ("neorl.drawing, neorl.evidence.reading", ("scipy.optimize", "scipy.signal", "scipy.stats"))])
 def test_what_takes_long_is_imported_when_it_is_used(imported, when_used):
     listed = subprocess.run([sys.executable, "-c", f"import {imported}, sys; print(*sys.modules)"],
@@ -59,9 +59,9 @@ def test_every_extra_that_a_message_names_exists():
 
 
 def test_a_missing_package_is_named_with_its_extra(monkeypatch):
-    monkeypatch.setitem(sys.modules, "xarray", None)
-    with pytest.raises(ImportError, match="xarray must be installed for this, but is not; pip install 'neorl-compani"):
-        require("xarray", extra="data")
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(ImportError, match="pandas must be installed for this, but is not; pip install 'neorl-compani"):
+        require("pandas", extra="data")
 
 
 def test_an_error_inside_a_package_that_is_there_is_not_hidden(tmp_path, monkeypatch):

@@ -1,10 +1,9 @@
-"""The result of a condition: rewards and hits of its runs, as arrays, tables of pandas and xarray, and files.
+"""The result of a condition: rewards and hits of its runs, as arrays, tables of pandas, and files.
 
 A saved result is an npz file of its arrays, rewards and hits, and a text, about: a table in JSON with the agent, the
 world and everything else that determined it, as plain data (`neorl.description`), and the version of neorl.
 """
 
-import json
 import sys
 from dataclasses import dataclass, fields
 from operator import attrgetter
@@ -97,25 +96,6 @@ class Result:
                    "reward": self.rewards.reshape(-1)}
         columns |= {f"hits_{kind}": self.hits[:, :, i].reshape(-1) for i, kind in enumerate(self.world.kinds)}
         return require("pandas", extra="data").DataFrame(columns, copy=True)
-
-    def to_xarray(self) -> Any:
-        """An `xarray.Dataset` of dimensions run, time and kind, with coordinates of the same names.
-
-        time: when each bin ends, in simulated seconds. rewards: float32 (run, time), the sum over the bin. hits: int16
-        (run, time, kind), the number of things met in the bin. attributes: steps and runs; agent, world and changes as
-        JSON texts (see `neorl.description`); seed and the version of neorl as texts.
-        Raises ImportError without xarray, ValueError for an agent or a world that cannot be imported by name.
-        """
-        xarray = require("xarray", extra="data")
-        known = about(self.condition)
-        texts = {name: json.dumps(known[name], ensure_ascii=False) for name in ("agent", "world", "changes")}
-        return xarray.Dataset(
-            {"rewards": (("run", "time"), self.rewards.copy(), {"long_name": "reward in the bin that ends then"}),
-             "hits": (("run", "time", "kind"), self.hits.copy(),
-                      {"long_name": "things met in the bin that ends then"})},
-            {"run": np.arange(self.runs), "kind": np.array(self.world.kinds, str),
-             "time": ("time", self.time, {"units": "s", "long_name": "simulated time"})},
-            {**texts, "steps": self.steps, "runs": self.runs, "seed": str(self.seed), "neorl": known["neorl"]})
 
     def save(self, path: str | PathLike[str]) -> None:
         """Save to a NumPy npz file: the arrays rewards and hits, and the text about, a table in JSON.

@@ -85,7 +85,7 @@ class Hidden(importlib.abc.MetaPathFinder):
             raise ModuleNotFoundError(f"No module named {{name!r}}", name=name)
 sys.meta_path.insert(0, Hidden())
 """
-OF_THE_BOOK = ("IPython", "ipykernel", "ipywidgets", "anywidget", "traitlets", "matplotlib_inline", "pandas", "xarray",
+OF_THE_BOOK = ("IPython", "ipykernel", "ipywidgets", "anywidget", "traitlets", "matplotlib_inline", "pandas",
                "sklearn", "ziglang", "gymnasium", "distributed", "papermill", "nbformat")
 
 

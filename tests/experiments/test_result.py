@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from saved_files import rewrite
 
-from neorl import (Agent, Arena, Condition, Desire, Node, Result, WaterWorld, World, brownian, network_d, place_cells,
+from neorl import (Agent, Arena, Condition, Desire, Node, Result, WaterWorld, brownian, network_d, place_cells,
                    simulate)
 from neorl.core.modality import PLACE_CELL
 from neorl.experiments.run import new_bins
@@ -62,21 +62,6 @@ def test_a_frame_has_a_row_for_each_run_and_bin(result):
     np.testing.assert_allclose(frame.groupby("run")["reward"].sum(), result.totals, rtol=1e-6)
     frame.loc[0, "reward"] = -1.0
     assert result.rewards[0, 0] != -1.0
-
-
-@pytest.mark.parametrize("result", RESULTS)
-def test_a_dataset_has_dimensions_coordinates_and_what_determined_it(result):
-    dataset = result.to_xarray()
-    assert dict(dataset.sizes) == {"run": 3, "time": len(result.time), "kind": len(result.world.kinds)}
-    kind = result.world.kinds[1]
-    assert dataset["hits"].sel(run=1, kind=kind).isel(time=4).item() == result.hits[1, 4, 1]
-    np.testing.assert_array_equal(dataset["rewards"], result.rewards)
-    np.testing.assert_array_equal(dataset["time"], result.time)
-    assert dataset["time"].attrs["units"] == "s"
-    assert (dataset.attrs["steps"], dataset.attrs["seed"]) == (503, str(2**70))
-    assert Agent.from_dict(json.loads(dataset.attrs["agent"])) == result.agent
-    assert World.from_dict(json.loads(dataset.attrs["world"])) == result.world
-    assert all(isinstance(value, str | int) for value in dataset.attrs.values())  # types that netCDF can store
 
 
 @pytest.mark.parametrize("result", RESULTS)
