@@ -8,8 +8,8 @@ learn by `CALIBRATED` and choose by `GREEDY`; the defaults of `Learning` and `Po
 The package is organised in rooms; a module imports only from its own room and from the rooms below it:
 
 - `neorl.browser`: the kernels compiled for web pages, and the Explorer that runs them there;
-- `neorl.drawing`: figures;
 - `neorl.gym`: worlds as Gymnasium environments, and agents in any Gymnasium environment;
+- `neorl.drawing`: figures;
 - `neorl.evidence`: statistics, claims and their rules, readings of the thesis and their calibration;
 - `neorl.experiments`: runs, sweeps, and the cache of finished ones;
 - `neorl.agents`: agents as data, and the `Learner`;

@@ -66,27 +66,26 @@ def board_or_new(ax, low=0.0):
 
 
 def draw_world(world: World, state: Any, ax: Axes | None = None) -> Axes:
-    """Draw a world of two axes from above, within its walls: a `neorl.WaterWorld` as `draw_tank` does, any other with
-    its agent, the agent's velocity over the next half second, and its things.
+    """Draw a world from above, within its walls: a `neorl.WaterWorld` as `draw_tank` does, any other with its agent,
+    the agent's velocity over the next half second, and its things. Only the first two axes are drawn; one is a line.
 
-    state: of that world. Raises ValueError if it is not, and for a world of other than two axes.
+    state: of that world. Raises ValueError if it is not.
 
     >>> arena = neorl.Arena()
     >>> axes = drawing.draw_world(arena, arena.reset(seed=0))
     """
-    if checks.instance("world", world, World).actions.axes != 2:
-        raise ValueError(f"world must have two axes to be drawn, but has {world.actions.axes}")
-    world.check_state(state)
+    checks.instance("world", world, World).check_state(state)
     axes = draw_walls(world, ax)
     if isinstance(world, WaterWorld):
         return draw_tank(world, state, axes)
     radius = world.radius if isinstance(world, Arena) else RADIUS
-    for place, kind in zip(state.scene.things / world.size, state.scene.kinds):
+    for place, kind in zip(state.scene.things, state.scene.kinds):
         if kind >= 0:
-            axes.add_patch(Circle(place, radius, facecolor=(GREEN, *CURVES)[kind % 8], alpha=0.75, edgecolor="none"))
-    place = inside(state.scene.position / world.size, RADIUS)
+            axes.add_patch(Circle(_in_plane(place / world.size, 0.5), radius, facecolor=(GREEN, *CURVES)[kind % 8],
+                                  alpha=0.75, edgecolor="none"))
+    place = inside(_in_plane(state.scene.position / world.size, 0.5), RADIUS)
     axes.add_patch(Circle(place, RADIUS, facecolor=AGENT, edgecolor="none"))
-    _draw_velocity(axes, place, state.scene.velocity / world.size)
+    _draw_velocity(axes, place, _in_plane(state.scene.velocity / world.size, 0.0))
     return axes
 
 
@@ -127,6 +126,10 @@ def draw_tank(world: WaterWorld, state: Any, ax: Axes | None = None) -> Axes:
         axes.text(x, y, sign, color="white", ha="center", va="center_baseline", weight="bold")
         _draw_velocity(axes, (x, y), velocity / world.width)
     return axes
+
+
+def _in_plane(vector, missing):
+    return (vector[0], vector[1] if len(vector) > 1 else missing)
 
 
 def inside(places, radius):

@@ -11,7 +11,7 @@ They take the fields of the world, or any `neorl.World` as a whole, and the argu
 environments, of `VectorWorldEnv`. An episode in WaterWorld lasts a minute, 3,000 steps, unless `max_episode_steps` says
 otherwise; one in an arena is a trial. `play` runs a neoRL agent in any Gymnasium environment.
 
-The package needs gymnasium, and pygame to show an environment in a window: the extra ``gym``.
+The package needs gymnasium, matplotlib to draw an environment, and pygame to show it in a window: the extra ``gym``.
 """
 
 from neorl.extras import require

@@ -39,9 +39,9 @@ class WorldEnv(gymnasium.Env):
     """A world as a Gymnasium environment; see the module for its rules.
 
     world: a `neorl.World`, or the name of one, "WaterWorld" or "module:name", with some of its fields. render_mode:
-    None, or "rgb_array": `render` returns a picture, uint8 (500, 500, 3). egocentric: whether things are relative to
-    the agent, nearest first. continuing: whether an episode goes on when one of the world is over; by default only in
-    WaterWorld.
+    None, or "rgb_array": `render` returns a picture, uint8 (500, 500, 3), which takes some 40 ms. egocentric: whether
+    things are relative to the agent, nearest first. continuing: whether an episode goes on when one of the world is
+    over; by default only in WaterWorld.
 
     Raises ValueError for anything else.
     """

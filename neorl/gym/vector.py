@@ -20,7 +20,6 @@ from neorl.description import restored
 from neorl.extras import require
 from neorl.gym.batch import Slots, Task, batch_step
 from neorl.gym.observation import observation_space
-from neorl.gym.rendering import frame
 from neorl.worlds.waterworld import WaterWorld
 from neorl.worlds.world import World, check_outcome
 
@@ -149,4 +148,17 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
         if self.render_mode is None:
             gymnasium.logger.warn("render() was called without a render_mode, such as render_mode='rgb_array'")
             return None
-        return tuple(frame(self.world, state.scene) for state in self.world_states)
+        return tuple(_picture(self.world, mapped(np.copy, state)) for state in self.world_states)
+
+
+def _picture(world, state):
+    """A picture of a world: uint8 (500, 500, 3), north up."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    from neorl.drawing import draw_world
+
+    canvas = FigureCanvasAgg(Figure((5, 5), dpi=100, facecolor="white"))
+    draw_world(world, state, canvas.figure.add_axes((0, 0, 1, 1)))
+    canvas.draw()
+    return np.array(canvas.buffer_rgba())[..., :3]

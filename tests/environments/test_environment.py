@@ -11,9 +11,9 @@ from neorl import Agent, Arena, Run, Scene, WaterWorld, brownian
 from neorl.core.calls import execute
 from neorl.core.kernel import mapped
 from neorl.core.scene import ABSENT
+from neorl.drawing import AGENT
 from neorl.gym import WorldEnv
 from neorl.gym.observation import observe
-from neorl.gym.rendering import AGENT, KINDS, SIDE
 
 TANK = WaterWorld(width=60, n_creeps=2, win_reward=5.0)  # episodes end often
 POOL = Arena(places=[("platform", 0.65, 0.35), ("trap", 0.3, 0.4)], pay=[2.0, -1.0], trial_seconds=1.5)
@@ -166,18 +166,15 @@ def test_bad_actions_are_refused_and_steps_before_the_first_reset():
         env.step(action)
 
 
-def pixel(picture, place):
-    row, column = int(place[1] * SIDE), int(place[0] * SIDE)
-    return tuple(picture[row, column].tolist())
-
-
-def test_a_picture_of_an_arena_shows_walls_obstacles_and_places():
+def test_a_picture_of_an_arena_shows_obstacles_places_and_the_agent():
     env = WorldEnv(Arena(obstacles=[(0.1, 0.45, 0.3, 0.55)], start=(0.5, 0.6)), "rgb_array")
     env.reset(seed=0)
     picture = env.render()
-    colours = [pixel(picture, place) for place in [(0.01, 0.01), (0.2, 0.5), (0.2, 0.6), (0.65, 0.35), (0.5, 0.6)]]
-    wall, obstacle, floor, platform, agent = colours
-    assert wall == obstacle != floor and platform == KINDS[0] and agent == AGENT
+    assert picture.shape == (500, 500, 3) and picture.dtype == np.uint8
+    at = [tuple((0.06 + np.array(place)) / 1.12 * 500) for place in [(0.2, 0.5), (0.65, 0.35), (0.5, 0.6), (0.5, 0.5)]]
+    obstacle, platform, agent, floor = (picture[int(y), int(x)].tolist() for x, y in at)
+    assert floor == [255] * 3 and len({tuple(each) for each in (obstacle, platform, agent, floor)}) == 4
+    assert agent == [int(AGENT[digit:digit + 2], 16) for digit in (1, 3, 5)]
 
 
 @pytest.mark.filterwarnings("ignore:.*You are trying to use .human. rendering")
