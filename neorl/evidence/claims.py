@@ -2,6 +2,7 @@
 
 `neorl.evidence.verdict` defines verdicts, and `neorl.evidence.statements` lists the claims.
 """
+# ruff: noqa: F401
 
 from neorl.evidence.rules_chapters import (judge_changes, judge_composition, judge_cost, judge_efficiency,
                                            judge_extension, judge_generality, judge_latent_learning, judge_more_maps,
@@ -11,10 +12,3 @@ from neorl.evidence.rules_papers import (judge_alternatives, judge_exploration, 
                                          judge_modalities, judge_multiple_layers, judge_networks, judge_pace,
                                          judge_points, judge_resolutions, judge_single_layer)
 from neorl.evidence.verdict import EARLY, FINAL, RUNS_FOR_A_VERDICT, VERDICTS, Claim
-
-__all__ = ["EARLY", "FINAL", "RUNS_FOR_A_VERDICT", "VERDICTS", "Claim", "judge_alternatives", "judge_changes",
-           "judge_composition", "judge_cost", "judge_efficiency", "judge_exploration", "judge_extension",
-           "judge_generality", "judge_joining", "judge_latent_learning", "judge_margin", "judge_modalities",
-           "judge_more_maps", "judge_multiple_layers", "judge_networks", "judge_pace", "judge_persistence",
-           "judge_points", "judge_real_time", "judge_resolutions", "judge_single_layer", "judge_tables",
-           "judge_temporality", "judge_time_scale"]

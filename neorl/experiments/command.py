@@ -23,9 +23,8 @@ def main(arguments=None):
     cache = commands.add_parser("cache", help="list the cache on disk, or clear it",
                                 description="List the contents of the folder that NEORL_CACHE names, or of the user's "
                                 "cache folder. All of it may be removed at any time, and is recreated when needed.")
-    cache.add_argument("--clear", nargs="?", const="all", choices=store.WHICH, help="remove all of it, or only "
-                       "compiled code")
-    cache.set_defaults(call=lambda given: clear_cache(given.clear) if given.clear else list_cache())
+    cache.add_argument("--clear", action="store_true", help="remove all of it")
+    cache.set_defaults(call=lambda given: clear_cache() if given.clear else list_cache())
     given = parser.parse_args(arguments)
     try:
         given.call(given)
@@ -75,9 +74,9 @@ def list_cache():
     print(f"together: {_amount(everything)}")
 
 
-def clear_cache(which):
-    """Clear the cache, and print how much was removed. which: see `neorl.experiments.store.clear`."""
-    print(f"removed from {files.cache_folder()}: {_amount(store.clear(which))}")
+def clear_cache():
+    """Clear the cache, and print how much was removed."""
+    print(f"removed from {files.cache_folder()}: {_amount(store.clear())}")
 
 
 def _amount(some):

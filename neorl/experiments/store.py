@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from neorl import checks, files
+from neorl import files
 from neorl.experiments.result import Result, about, fitting
 
 SECONDS = 5  # between two writes of a condition's runs; a write takes a hundredth of that
@@ -30,7 +30,6 @@ KINDS = {"conditions": ("finished conditions", DIGEST),
          "compiled": ("compiled kernels", DIGEST), "wasm": ("WebAssembly modules", DIGEST),
          "claims": ("claims of pages of the book", r"[a-z0-9_]+\.json")}
 MARK = b'"claims":'  # in files of claims, whose names are not neorl's alone
-WHICH = ("all", "compiled")
 
 
 def load(condition):
@@ -182,14 +181,9 @@ def kept():
     return found
 
 
-def clear(which="all"):
-    """Remove files that neorl keeps: "all", or only "compiled" code, kernels and WebAssembly.
-
-    which: one of these. Raises ValueError for anything else, OSError without permission.
-    Returns the list of `Kept` that were removed.
-    """
-    checks.one_of("which", which, WHICH)
-    removed = [each for each in kept() if which == "all" or each.kind in ("compiled", "wasm")]
+def clear():
+    """Remove all files that neorl keeps, and return the list of `Kept`. Raises OSError without permission."""
+    removed = kept()
     for each in removed:
         each.path.unlink(missing_ok=True)
     return removed

@@ -32,7 +32,7 @@ def test_the_cache_is_listed_and_cleared(tmp_path, capsys, monkeypatch):
     printed = capsys.readouterr().out
     assert str(tmp_path) in printed and "compiled kernels: 1 file, 2.000 MB" in printed
     assert "finished conditions: none" in printed and "together: 1 file, 2.000 MB" in printed
-    assert main(["cache", "--clear", "compiled"]) == 0
+    assert main(["cache", "--clear"]) == 0
     assert "1 file, 2.000 MB" in capsys.readouterr().out and not list((tmp_path / "compiled").iterdir())
     assert main(["cache", "--clear"]) == 0 and "0 files, 0.000 MB" in capsys.readouterr().out
 

@@ -283,14 +283,13 @@ def full(folder):
 OURS = {"condition", "another condition", "compiled", "wasm", "runs", "claims"}
 
 
-@pytest.mark.parametrize("which, remain", [("all", set()), ("compiled", OURS - {"compiled", "wasm"})])
-def test_what_is_asked_for_is_removed_and_nothing_of_others(full, which, remain):
-    others = {path: path.read_bytes() for name, path in full.items() if name not in OURS - remain}
-    removed = store.clear(which)
-    assert {full[name] for name in OURS - remain} == {each.path for each in removed}
+def test_what_is_neorls_is_removed_and_nothing_of_others(full):
+    others = {path: path.read_bytes() for name, path in full.items() if name not in OURS}
+    removed = store.clear()
+    assert {full[name] for name in OURS} == {each.path for each in removed}
     assert not any(each.path.exists() for each in removed)
     assert all(path.read_bytes() == content for path, content in others.items())
-    assert store.clear(which) == []
+    assert store.clear() == []
 
 
 def test_conditions_of_other_sources_are_not_restored(full, monkeypatch):
@@ -317,8 +316,3 @@ def test_an_invalid_note_is_ignored(folder, about):
     with path.open("wb") as file:
         np.savez(file, about=np.array(about))
     assert len(store.kept()) == 1 and verify.conditions_kept() == []
-
-
-def test_another_choice_is_refused():
-    with pytest.raises(ValueError, match="which must be 'all' or 'compiled', but is 'some'"):
-        store.clear("some")
