@@ -38,16 +38,6 @@ def test_all_rivals_compute_the_same(stretch):
     np.testing.assert_allclose(np.stack([head.q for head in heads], axis=-1), q, rtol=1e-6, atol=1e-29)
 
 
-@pytest.mark.filterwarnings("ignore")
-def test_jax_computes_the_same_where_it_is_installed(stretch):
-    jax = pytest.importorskip("jax")
-    q = stretch.q.copy()
-    best = rivals.by_kernel(stretch, q, stretch.goal_range.copy())
-    by_jax, values = rivals.by_jax(stretch)(jax.numpy.array(stretch.q))
-    np.testing.assert_allclose(values, q, rtol=1e-5, atol=1e-6)
-    assert (np.asarray(by_jax) == best).mean() > 0.99
-
-
 def test_all_goals_move_the_rows_of_two_cells_and_one_of_them_twice():
     rule = replace(CALIBRATED, bootstrap=True, memory=0.0)
     run = Run(place_cells([2], 0.0, 0.0, learning=rule), WaterWorld())  # indifferent, it moves all the same

@@ -6,16 +6,11 @@ perceptions and learning rates are recorded first, so that all implementations c
 
 - `by_kernel`: the agents' learning kernel, in a loop;
 - `by_numpy`: array operations, a few for each step;
-- `by_heads`: an object for each goal with a table of its own, as in published code of hybrid reward architectures;
-- `by_jax`: one compiled scan over the stretch, on the processor, if JAX is installed.
+- `by_heads`: an object for each goal with a table of its own, as in published code of hybrid reward architectures.
 
 Each returns the actions that it found best, int64 (steps,), and updates the values that it is given.
 """
 
-import contextlib
-import importlib.util
-import io
-import os
 from typing import NamedTuple
 
 import numpy as np
@@ -135,78 +130,14 @@ def by_heads(stretch, heads):
 
 
 def ways(stretch):
-    """Preparations for `in_turns` of all implementations that are installed here: {name: function}, the package first.
-    """
+    """Preparations for `in_turns` of all implementations: {name: function}, the package first."""
     heads = heads_of(stretch.q)
-    found = {"neoRL": lambda: _of_copies(by_kernel, stretch, stretch.q, stretch.goal_range),
-             "NumPy": lambda: _of_copies(by_numpy, stretch, stretch.q),
-             "an object for each goal": lambda: lambda: by_heads(stretch, heads)}
-    if is_installed("jax"):
-        scan = by_jax(stretch)
-        found["JAX"] = lambda: _of_device(scan, stretch.q)
-    return found
-
-
-def is_installed(module):
-    """Whether an optional package is installed."""
-    return importlib.util.find_spec(module) is not None
-
-
-def by_jax(stretch):
-    """A function of q (cells, 4, cells) that returns (best, q), compiled for this stretch."""
-    import jax
-    import jax.numpy as jnp
-
-    def step(q, seen):
-        left, entered, learns, rates, goals, valences = seen
-        row = q[left]
-        best = jnp.argmax(row[:, goals] @ valences)
-        target = (PLAIN.discount * q[entered].max(axis=0)).at[entered].set(1.0)
-        return q.at[left].add(jnp.where(learns, rates, 0.0)[:, None] * (target - row)), best
-
-    seen = [jax.device_put(each, jax.devices("cpu")[0]) for each in (
-        stretch.cells[:-1], stretch.cells[1:], stretch.learns, stretch.rates, stretch.goals,
-        stretch.valences.astype(np.float32))]
-    scan = jax.jit(lambda q, seen: jax.lax.scan(step, q, seen), donate_argnums=0)
-
-    def run(q):
-        q, best = jax.block_until_ready(scan(q, seen))
-        return best, q
-
-    return run
-
-
-def ple_steps(width, creeps, steps, seed=0):
-    """A function that takes ``steps`` steps of the PyGame Learning Environment's WaterWorld, with random actions."""
-    quiet = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PYGAME_HIDE_SUPPORT_PROMPT": "1"}
-    os.environ.update({name: value for name, value in quiet.items() if name not in os.environ})
-    with contextlib.redirect_stdout(io.StringIO()):  # it complains about games that are not installed
-        from ple import PLE
-        from ple.games.waterworld import WaterWorld as Original
-
-    game = PLE(Original(width, width, creeps), fps=50, display_screen=False, rng=seed)
-    game.init()
-    actions = game.getActionSet()
-    drawn = np.random.default_rng(seed).integers(len(actions) - 1, size=steps)
-
-    def run():
-        for action in drawn:
-            game.act(actions[action])
-            if game.game_over():
-                game.reset_game()
-
-    return run
+    return {"neoRL": lambda: _of_copies(by_kernel, stretch, stretch.q, stretch.goal_range),
+            "NumPy": lambda: _of_copies(by_numpy, stretch, stretch.q),
+            "an object for each goal": lambda: lambda: by_heads(stretch, heads)}
 
 
 def _of_copies(function, stretch, *arrays):
     """A call with copies of arrays that are made before the timing."""
     copies = [array.copy() for array in arrays]
     return lambda: function(stretch, *copies)
-
-
-def _of_device(scan, q):
-    """A call of a JAX program whose values are put on its device before the timing."""
-    import jax
-
-    values = jax.block_until_ready(jax.device_put(np.array(q), jax.devices("cpu")[0]))
-    return lambda: scan(values)
