@@ -33,6 +33,8 @@ HTML := _build/html/index.html
 page = $(1:%=$(CHAPTERS)/%.ipynb)
 
 .DEFAULT_GOAL := book
+# Files that are replaced only by complete ones, so make need not remove them when it is interrupted.
+.PRECIOUS: $(HTML) $(call page,$(NAMES))
 .PHONY: book test exact verify lab readme bench wheel clean FORCE
 
 book: .venv/ready

@@ -79,18 +79,19 @@ def write_notebook(tree, name, *sources, **parameters):
     nbformat.write(nbformat.v4.new_notebook(cells=cells, metadata=metadata), tree / "notebooks" / f"{name}.ipynb")
 
 
-def start(tree, runs=2):
+def start(tree, runs=2, *options):
     """Start a build of the tree in a session of its own, and return its process, with stderr merged into stdout."""
-    command = ["make", "--keep-going", "--jobs=2", f"BIN={Path(sys.executable).parent}", f"RUNS={runs}",
-               "_build/html/index.html"]
+    command = ["make", "--no-print-directory", "--keep-going", "--jobs=2", f"BIN={Path(sys.executable).parent}",
+               f"RUNS={runs}", "_build/html/index.html", *options]
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("MAKE")}  # of `make test`
     return subprocess.Popen(command, text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                            stderr=subprocess.STDOUT, cwd=tree, env=os.environ | {"PYTHONPATH": str(ROOT)},
+                            stderr=subprocess.STDOUT, cwd=tree, env=environment | {"PYTHONPATH": str(ROOT)},
                             start_new_session=True)
 
 
-def build(tree, runs=2):
-    """Build the tree: (exit code, output)."""
-    process = start(tree, runs)
+def build(tree, runs=2, *options):
+    """Build the tree, with other options of make: (exit code, output)."""
+    process = start(tree, runs, *options)
     said, _ = process.communicate()
     return process.returncode, said
 
