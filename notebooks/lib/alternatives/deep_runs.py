@@ -8,10 +8,9 @@
 3. Search: the same number of settings is drawn for each method (`lib.alternatives.search`), and each is tried once with
    3 creeps on a seed of its own. The one that earned most in the last third is used for all runs.
 4. Exploration ends after a number of steps, not after a share of a run, so a long run begins like a short one.
-5. Most rows of 600,000 steps are by "elsewhere": loops that do the libraries' arithmetic with fewer calls, at two to
-   five times their speed, and are not in this repository. The first 150,000 steps of every such run are also a row of
-   this script, with the same reward in every minute. The script computes the rows by "elsewhere" anew, and replaces
-   them.
+5. The first three runs of a method on a board have 600,000 steps, since they take ten minutes each; the others have
+   150,000. The arithmetic of PyTorch depends on the processor: on another one, a run may differ from its row after some
+   minutes.
 
 Both tables are made by ``python -m lib.alternatives.deep_runs search deep_search.csv`` and ``… run deep_runs.csv``,
 which resume when rerun. A run takes minutes, the tables hours; they need stable-baselines3 and sb3-contrib, which no
@@ -24,7 +23,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lib.alternatives.living import HERE, MINUTE, Row, read, write
+from lib.alternatives.living import MINUTE, Row, read, write
 from lib.alternatives.search import DEEP, DEEP_SETTINGS, DEEP_STEPS, SEED, append, best_settings, setting_of
 from lib.alternatives.search import read as read_search
 from neorl.extras import require
@@ -34,7 +33,7 @@ gymnasium = require("gymnasium", extra="gym")
 LAYERS = (64, 64)
 FASTEST_CREEP = 0.25  # sizes of the world per second
 # (creeps, steps, runs) in the order of computation; the methods take turns.
-PLAN = ((3, 150_000, 10), (8, 150_000, 10), (3, 600_000, 10), (8, 600_000, 10))
+PLAN = ((3, 600_000, 3), (8, 600_000, 3), (3, 150_000, 10), (8, 150_000, 10))
 
 
 class Sight(gymnasium.Wrapper):
@@ -123,19 +122,20 @@ def search(path):
 
 
 def run_all(path):
-    """Compute the runs of `PLAN` that the table at `path` does not have by this script, with the settings found."""
-    done = {row[:4] for row in read(path) if row.by == HERE} if Path(path).exists() else set()
+    """Compute the runs of `PLAN` that the table at `path` does not have at that length, with the settings found."""
+    done = {(row.method, row.creeps, row.run): row.steps for row in read(path)} if Path(path).exists() else {}
     for creeps, steps, runs in PLAN:
         for run in range(runs):
             for method in DEEP:
-                if (method, creeps, steps, run) not in done:
+                if done.get((method, creeps, run), 0) < steps:
                     write(path, [row_of(method, creeps, steps, run)])
+                    done[method, creeps, run] = steps
 
 
 def row_of(method, creeps, steps, run):
     """Compute one run, with the setting that the search found: a `Row`."""
     rewards, seconds, kilobytes = live(method, best_settings()[method], creeps, steps, 0, run)
-    return Row(method, creeps, steps, run, HERE, seconds, kilobytes, rewards)
+    return Row(method, creeps, steps, run, seconds, kilobytes, rewards)
 
 
 if __name__ == "__main__":

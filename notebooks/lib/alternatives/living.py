@@ -5,8 +5,7 @@
    `WaterWorldState` and `rules` are its rules; a learner reads only the scene in it, a controller all of it.
 2. When the last green creep is captured the board is reset before ``learn`` is called, with `restarted` true, and
    learning continues.
-3. A table of stored runs has a row for each run, with its reward in each minute of `MINUTE` steps. `by` is "code here",
-   or "elsewhere" for rewards that no program in this repository has computed yet.
+3. A table of stored runs has a row for each run, with its reward in each minute of `MINUTE` steps.
 """
 
 import csv
@@ -34,7 +33,6 @@ TIMED_STEPS = 20_000
 MINUTE = 3_000  # steps
 FOLDER = Path(__file__).parent
 TABLES = FOLDER / "long_runs.csv", FOLDER / "deep_runs.csv"
-HERE, ELSEWHERE = "code here", "elsewhere"
 
 
 class Contestant(NamedTuple):
@@ -153,8 +151,7 @@ class Row(NamedTuple):
     creeps: int
     steps: int
     run: int
-    by: str  # `HERE` or `ELSEWHERE`
-    seconds: float  # of processor time for the run; NaN if it was not timed
+    seconds: float  # of processor time for the run
     kilobytes: float
     rewards: np.ndarray  # in each minute: float64 (minutes,), whole numbers
 
@@ -164,7 +161,7 @@ def read(*paths):
     rows = []
     for path in paths or TABLES:
         with open(path, newline="") as file:
-            rows += [Row(row["method"], int(row["creeps"]), int(row["steps"]), int(row["run"]), row["by"],
+            rows += [Row(row["method"], int(row["creeps"]), int(row["steps"]), int(row["run"]),
                          float(row["seconds"]), float(row["kilobytes"]), np.array(row["rewards"].split(), float))
                      for row in csv.DictReader(file)]
     return rows
@@ -175,7 +172,7 @@ def write(path, rows):
     kept = {row[:4]: row for row in [*(read(path) if Path(path).exists() else ()), *rows]}
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows([Row._fields] + [
-        [*row[:5], f"{row.seconds:.3g}", f"{row.kilobytes:.4g}", " ".join(f"{each:.0f}" for each in row.rewards)]
+        [*row[:4], f"{row.seconds:.3g}", f"{row.kilobytes:.4g}", " ".join(f"{each:.0f}" for each in row.rewards)]
         for row in kept.values()])
     write_whole(path, text.getvalue().encode())
 
@@ -183,16 +180,14 @@ def write(path, rows):
 def stored(rows, names, creeps, steps):
     """The first `steps` of the stored runs of some contestants: {name: `Earned`}.
 
-    Each run is read from its shortest row that is long enough, in whole minutes. The time of a step is the median over
-    all rows of a contestant on the board that have one.
+    Of a run, whole minutes are read. The time of a step is the median over all rows of a contestant on the board.
     """
     found, minutes = {}, max(1, steps // MINUTE)
     for name in names:
         own = [row for row in rows if (row.method, row.creeps) == (name, creeps)]
-        of_run = {row.run: row for row in sorted(own, key=lambda row: -row.steps) if len(row.rewards) >= minutes}
-        if of_run:
-            lived = [of_run[run] for run in sorted(of_run)]
-            seconds = float(np.nanmedian([row.seconds / row.steps for row in own]))
+        lived = sorted((row for row in own if len(row.rewards) >= minutes), key=lambda row: row.run)
+        if lived:
+            seconds = float(np.median([row.seconds / row.steps for row in own]))
             found[name] = Earned(np.array([row.rewards[:minutes] for row in lived]), minutes * MINUTE, seconds,
                                  lived[0].kilobytes)
     return found
