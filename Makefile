@@ -1,6 +1,6 @@
 # make book   compute every notebook and build the book   RUNS=10 runs per condition; 4 is a quick look, 100 the papers' scale
 #                                                         JOBS=2 notebooks at a time, of up to 4 GB each
-# make test   run the tests
+# make test   run the tests                               WORKERS=3 processes, since tests of pages wait for a browser
 # make exact  run the reference runs in every way that must give the same bits, and print which do; PYTHONS="python3.13"
 # make verify recompute a random sample of the runs behind the figures and compare; SAMPLE=20 runs, SEED=of the sample
 # make lab    open the notebooks in JupyterLab
@@ -15,6 +15,7 @@ SEED ?=
 RUNS ?= 10
 STEPS ?=
 JOBS ?= 2
+WORKERS ?= 3
 BIN := .venv/bin
 export NEORL_CACHE := $(CURDIR)/.cache
 export PYTHONUNBUFFERED := 1
@@ -71,7 +72,7 @@ $(HTML): $(CHAPTERS)/claims-table.md $(shell find book -type f -not -path '$(CHA
 	@rm -rf _build/next _build/last
 
 test: .venv/ready
-	$(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist loadfile --no-loadscope-reorder $(ARGS)
+	$(BIN)/python -m pytest --numprocesses $(WORKERS) --dist loadfile --no-loadscope-reorder $(ARGS)
 
 exact: .venv/ready
 	$(BIN)/python tests/exactness.py $(PYTHONS)
