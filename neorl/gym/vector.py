@@ -153,6 +153,7 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
 
 def _picture(world, state):
     """A picture of a world: uint8 (500, 500, 3), north up."""
+    require("matplotlib", extra="gym")
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 

@@ -1,5 +1,7 @@
 """Worlds as Gymnasium environments pass Gymnasium's checks, and equal the worlds of runs to the bit."""
 
+import sys
+
 import gymnasium
 import numpy as np
 import pytest
@@ -175,6 +177,14 @@ def test_a_picture_of_an_arena_shows_obstacles_places_and_the_agent():
     obstacle, platform, agent, floor = (picture[int(y), int(x)].tolist() for x, y in at)
     assert floor == [255] * 3 and len({tuple(each) for each in (obstacle, platform, agent, floor)}) == 4
     assert agent == [int(AGENT[digit:digit + 2], 16) for digit in (1, 3, 5)]
+
+
+def test_a_picture_without_matplotlib_names_the_extra(monkeypatch):
+    env = WorldEnv(TANK, "rgb_array")
+    env.reset(seed=0)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    with pytest.raises(ImportError, match=r"matplotlib must be installed for this.*neorl-companion\[gym\]"):
+        env.render()
 
 
 @pytest.mark.filterwarnings("ignore:.*You are trying to use .human. rendering")
