@@ -33,7 +33,7 @@ QUIET = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "-
 PATIENCE = 60_000  # milliseconds that a test waits for a page, since the machine may be busy
 expect.set_options(timeout=PATIENCE)
 
-LONGEST = ("test_fuzzing", "test_package", "test_fuzzed_kernels", "test_compiler_off")
+LONGEST = ("test_make", "test_readme", "test_fuzzing", "test_package", "test_fuzzed_kernels", "test_compiler_off")
 
 
 def pytest_collection_modifyitems(items):
