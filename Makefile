@@ -20,8 +20,8 @@ BIN := .venv/bin
 export NEORL_CACHE := $(CURDIR)/.cache
 export PYTHONUNBUFFERED := 1
 
-# Pages of the book. Long ones come first. Those that measure times are computed alone, after the others, and the
-# conclusion, which reads what all have found, last.
+# Pages of the book. Long ones come first. Pages that measure times are computed alone, after the others, and the
+# conclusion, which reads the findings of all, comes last.
 CHAPTERS := book/chapters
 NAMES := $(notdir $(basename $(wildcard notebooks/*.ipynb)))
 LONG := assumptions beyond_agents calibration paper_a paper_c
