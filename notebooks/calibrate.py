@@ -1,9 +1,10 @@
 """Make the table of calibrated readings, or add to it: ``python notebooks/calibrate.py --minutes 45``, from the root.
 
 It continues the existing table; ``--anew`` starts a new one. ``--refine 20`` searches near the readings of the trials
-for 20 minutes instead, ``--narrow 14`` then runs readings between the two best of these, and
-``--confirm 20 --fresh-runs 100`` runs the nearest ones again. It can be interrupted at any time: the file is written
-whenever readings are finished, and their results are cached in the folder that ``NEORL_CACHE`` names.
+for 20 minutes instead, ``--screen 12`` runs promising readings twelve times, ``--rescale 2 4`` then tries these scales
+for the leading one in paper C, and ``--confirm 20 --fresh-runs 100`` runs the leading ones again. It can be interrupted
+at any time: the file is written whenever readings are finished, and their results are cached in the folder that
+``NEORL_CACHE`` names.
 """
 
 import argparse
@@ -27,19 +28,19 @@ def main():
         write_table(rows, chosen.table)
         print(f"{(time.monotonic() - begin) / 60:.1f} minutes: {summary(rows)}", flush=True)
 
-    if chosen.refine:
+    if chosen.screen:
+        table = calibration.screen(table, chosen.screen, seed=chosen.seed)
+        keep(table)
+    elif chosen.refine:
         table = calibration.refine(chosen.refine, table, OF_TRIALS, chosen.refined_runs, seed=chosen.seed, keep=keep)
     else:
         table = calibration.calibrate(chosen.minutes, table, seed=chosen.seed, runs=chosen.runs, steps=chosen.steps,
                                       keep=keep)
-    if chosen.narrow:
-        table = calibration.narrow(table, chosen.refined_runs, chosen.narrow, chosen.narrowed_runs, seed=chosen.seed)
+    if chosen.rescale:
+        table = calibration.rescale(table, 1, chosen.rescale, chosen.screen or chosen.refined_runs)
         keep(table)
     if chosen.confirm:
-        table = calibration.confirm(table, chosen.confirm, chosen.fresh_runs, seed=chosen.seed)
-        keep(table)
-    if chosen.rescale:
-        keep(calibration.rescale(table, 6, chosen.rescale, chosen.narrowed_runs, seed=chosen.seed))
+        keep(calibration.confirm(table, chosen.confirm, chosen.fresh_runs, seed=chosen.seed))
 
 
 def parse_arguments():
@@ -49,10 +50,9 @@ def parse_arguments():
     parser.add_argument("--steps", type=int, default=calibration.STEPS, help=f"steps per run ({calibration.STEPS})")
     parser.add_argument("--refine", type=float, metavar="MINUTES", help="search near those of the trials instead")
     parser.add_argument("--refined-runs", type=int, default=6, help="runs per condition of these (6)")
-    parser.add_argument("--narrow", type=int, default=0, help="readings to run between the two best of these (none)")
-    parser.add_argument("--narrowed-runs", type=int, default=40, help="runs per condition of these (40)")
     parser.add_argument("--rescale", type=float, nargs="*", default=(),
-                        help="scales of desires to try in paper C, for the 6 leading (none)")
+                        help="scales of desires to try in paper C, for the leading one (none)")
+    parser.add_argument("--screen", type=int, metavar="RUNS", help="run promising readings of the waves again instead")
     parser.add_argument("--confirm", type=int, default=12, help="nearest readings to run again at the end (12)")
     parser.add_argument("--fresh-runs", type=int, default=20, help="runs per condition of these (20)")
     parser.add_argument("--seed", type=int, default=0)

@@ -130,6 +130,7 @@ def small(monkeypatch):
     monkeypatch.setattr(time, "monotonic", lambda: float(next(clock)))
     monkeypatch.setattr(calibration_table, "run", made_up)
     for name, value in {"DESIGN": 64, "CHUNK": 16, "POOL": 400, "TREES": 10,
+                        "SCREENED": {"layers": 9, "places": 6, "objects": 6, "both": 6, "networks": 3, "single": 3},
                         "WAVE": {"places": 32, "layers": 32} | dict.fromkeys(tuple(GROUPS)[2:], 16)}.items():
         monkeypatch.setattr(calibration, name, value)
 
@@ -159,6 +160,19 @@ def test_the_leading_are_confirmed_with_fresh_seeds_and_more_runs(small):
     assert {row.wave for row in confirmed[-5:]} == {1 + max(row.wave for row in table)}
     with pytest.raises(ValueError, match="table has 0 rows"):
         calibration.confirm([], 5, 20)
+
+
+def test_fewer_and_fewer_readings_are_screened_and_the_leading_one_is_run_with_other_scales(small):
+    table = calibration.calibrate(0.6)
+    screened = calibration.screen(table, 12, seed=7)
+    new = screened[len(table) :]
+    assert screened[: len(table)] == table and {row.runs for row in new} == {12}
+    assert {row.reading for row in new} <= {row.reading for row in table}
+    assert {group: sum(group in row.groups for row in new) for group in GROUPS} == calibration.SCREENED
+    leading = next(row for row in calibration_table.leading(screened) if row.runs == 12)
+    scaled = calibration.rescale(screened, 1, [2.0, 4.0], 12)[len(screened) :]
+    assert [(row.seed, row.reading.scale, row.complete) for row in scaled] == [(leading.seed, scale, True)
+                                                                             for scale in (2.0, 4.0)]
 
 
 def statistics(holding, names=tuple(TARGETS)):

@@ -10,9 +10,9 @@ rather than one that climbs to the best fit. The page on calibration explains it
    readings that are most promising for paper B, networks and single maps for those most promising for all papers.
 3. `refine` searches near given readings and the nearest ones found from them, with more runs each. A round runs
    children in one group after the other, and after each only the nearest go on.
-4. `narrow` runs readings between the two for which most claims hold, with more runs yet.
-5. `confirm` runs the leading readings again with fresh seeds, since a search over noisy numbers finds lucky ones.
-6. `rescale` runs the leading readings in paper C with other units of a desire vector, which concern no other paper.
+4. `screen` runs readings again that agree with most targets in few runs, wherever in the priors they lie.
+5. `rescale` runs the leading ones in paper C with other units of a desire vector, which concern no other paper.
+6. `confirm` runs the leading readings again with fresh seeds, since a search over noisy numbers finds lucky ones.
 
 Every row has its own seed, so that no tank's luck is shared by all.
 """
@@ -27,6 +27,7 @@ from lib.shared.priors import TO_THE_LETTER, WITHIN
 from lib.study import calibration_table
 from lib.study.calibration_table import Row
 from lib.study.calibration_targets import GROUPS, TARGETS
+from neorl.agents.papers import LAYERS
 from neorl.extras import require
 
 RUNS, STEPS = 2, 600_000  # of a reading: the papers' own lengths
@@ -37,6 +38,8 @@ WAVE = {"places": 112, "layers": 112, "objects": 256, "both": 256, "networks": 3
 POOL = 4_000  # candidates per wave
 PARENTS, RENEWED, MOVED = 30, 0.1, 0.05  # of children: best rows, share of choices redrawn, spread of moved numbers
 ROUND = {"both": 24, "objects": 14, "places": 14, "layers": 14, "single": 8, "networks": 8}  # readings per round
+SCREENED = {"layers": 100, "places": 40, "objects": 40, "both": 40, "single": 8, "networks": 8}  # of readings screened
+SCREENED_RUNS = 16  # a reading that was run as often or less is screened
 KEPT = 12  # nearest refined readings whose children a round runs
 IMPLAUSIBLE = 3.0
 TREES, LEAF, FEWEST = 100, 3, 24  # of a forest: trees, fewest rows in a leaf, fewest rows to fit
@@ -74,42 +77,51 @@ def refine(minutes, table, parents, runs, seed, keep):
         found = sorted((row for row in table if row.complete and row.runs > RUNS), key=lambda row: row.distance)
         best = [*parents, *(row.reading for row in found[:KEPT])]
         drawn = [_child(*(best[i] for i in rng.integers(len(best), size=2)), rng) for _ in range(max(ROUND.values()))]
-        rows = _new_rows(table, drawn, runs, seed)
-        order = list(range(len(rows)))
-        for group, n in ROUND.items():
-            order = sorted(order, key=lambda i: rows[i].distance)[:n]
-            for i, row in zip(order, calibration_table.run([rows[i] for i in order], group)):
-                rows[i] = row
-        table += rows
+        table += _sieved(_new_rows(table, drawn, runs, seed), ROUND, lambda row: row.distance)
         keep(table)
     return table
 
 
-def narrow(table, refined_runs, n, runs, seed):
-    """Run n readings between two in every group, and return the table that includes their rows.
+def _sieved(rows, numbers, key):
+    """Rows that were run in one group after the other, in each as many of those that remain as {group: number} says."""
+    done = []
+    for group, n in numbers.items():
+        rows = sorted(rows, key=key)
+        done += rows[n:]
+        rows = calibration_table.run(rows[:n], group)
+    return sorted([*rows, *done], key=lambda row: row.seed)
 
-    The two are those of the complete rows of `refined_runs` runs for which most claims hold, or else the nearest.
-    Raises ValueError if there are not two such rows.
+
+def screen(table, runs, seed):
+    """Run promising readings again with fresh seeds, and return the table that includes their rows.
+
+    They are those of few runs under which three maps earn what they earn in the thesis (A6, A7), and then those nearest
+    to all numbers of that experiment and of paper B. Of the rows that a group has run, the best go on: those for which
+    most claims hold, the nearest first.
     """
-    found = sorted((row for row in table if row.complete and row.runs == refined_runs),
-                   key=lambda row: (-len(row.held), row.distance))
-    if len(found) < 2:
-        raise ValueError(f"table has {len(found)} complete rows of {refined_runs} runs, but two are needed: refine it "
-                         "with as many runs first")
-    nearest, other = (row.reading for row in found[:2])
-    rng = np.random.default_rng([seed, _next_wave(table)])
-    rows = _new_rows(table, [_between(nearest, other, rng) for _ in range(n)], runs, seed)
-    for group in GROUPS:
-        rows = calibration_table.run(rows, group)
-    return [*table, *rows]
+    names = [name for group in ("layers", "places", "objects", "both") for name in GROUPS[group].targets]
+    most = {}  # the row of each reading with most runs
+    for row in table:
+        if all(name in row.statistics for name in names) and (row.reading not in most
+                                                              or row.runs > most[row.reading].runs):
+            most[row.reading] = replace(row, statistics={name: row.statistics[name] for name in names})
+    found = sorted((row for row in most.values() if row.runs <= SCREENED_RUNS),
+                   key=lambda row: (not {"A6", "A7"} <= row.held, row.distance))
+    rows = _new_rows(table, [row.reading for row in found[: max(SCREENED.values())]], runs, seed)
+    return [*table, *_sieved(rows, SCREENED, lambda row: (-len(row.held), row.distance))]
 
 
-def rescale(table, n, scales, runs, seed):
-    """Run the n leading of the most-run readings in paper C with other scales of desires."""
-    most = max(row.runs for row in calibration_table.nearest(table))
-    first = [row for row in calibration_table.leading(table) if row.runs == most][:n]
-    readings = [replace(row.reading, scale=float(scale)) for scale in scales for row in first]
-    return [*table, *calibration_table.run(_new_rows(table, readings, runs, seed), "networks")]
+def rescale(table, n, scales, runs):
+    """Run the n leading of the complete rows of some runs again in paper C, with other scales of desires.
+
+    Their desire vectors are by size and their networks have the maps of paper A. Choices that concern paper C alone
+    change no other number, so the rows are complete.
+    """
+    first = [row for row in calibration_table.leading(table) if row.runs == runs][:n]
+    rows = [replace(row, wave=_next_wave(table), reading=replace(row.reading, vectors="by size", scale=float(scale),
+                                                                 network_resolutions=LAYERS))
+            for row in first for scale in scales]
+    return [*table, *calibration_table.run(rows, "networks")]
 
 
 def confirm(table, n, runs, seed=0):
@@ -295,13 +307,3 @@ def _child(mother, father, rng):
             value = choice.at(np.clip(choice.place(value) + MOVED * rng.standard_normal(), 0.0, 1.0 - 1e-9))
         chosen[name] = _short(value)
     return replace(TO_THE_LETTER, **chosen)
-
-
-def _between(nearest, other, rng):
-    """A reading whose numbers lie between those of two readings, and whose other choices are the first one's."""
-    chosen = {}
-    for name, choice in WITHIN.items():
-        if not isinstance(choice.prior, tuple):
-            ends = [choice.place(getattr(reading, name)) for reading in (nearest, other)]
-            chosen[name] = _short(choice.at(np.clip(rng.uniform(min(ends), max(ends)), 0.0, 1.0 - 1e-9)))
-    return replace(nearest, **chosen)

@@ -21,6 +21,7 @@ from neorl.evidence.reading import Reading
 NEAREST = 25  # rows that stand for the posterior where none agrees with all targets
 DRAWS = 10_000
 INTERVALS = 6  # of equal probability, into which the prior of a number is cut
+CONFIRMED = 100  # runs of each condition
 LEAST_EXPECTED = 3.0  # rows: if two independent claims hold together in this many on average, none is rare (5 %)
 
 
@@ -139,6 +140,11 @@ def best(table):
     """The row of `equals` with the reading of the book, so that agents keep their runs, or else the nearest."""
     rows = equals(table)
     return next((row for row in rows if row.reading == Reading()), rows[0])
+
+
+def confirmed(table):
+    """The complete rows of `CONFIRMED` runs or more, those for which most claims hold first."""
+    return [row for row in leading(table) if row.runs >= CONFIRMED]
 
 
 def equals(table):
