@@ -1,10 +1,9 @@
 """Make the table of calibrated readings, or add to it: ``python notebooks/calibrate.py --minutes 45``, from the root.
 
 It continues the existing table; ``--anew`` starts a new one. ``--refine 20`` searches near the readings of the trials
-for 20 minutes instead, ``--screen 12`` runs promising readings twelve times, ``--rescale 2 4`` then tries these scales
-for the leading one in paper C, and ``--confirm 20 --fresh-runs 100`` runs the leading ones again. It can be interrupted
-at any time: the file is written whenever readings are finished, and their results are cached in the folder that
-``NEORL_CACHE`` names.
+for 20 minutes instead, ``--screen 12`` runs promising readings again, ``--rescale 2 4`` then tries these scales for the
+leading one, and ``--confirm 20 --fresh-runs 100`` runs the leading ones again. It can be interrupted at any time: the
+file is written whenever readings are finished, and results are cached in the folder that ``NEORL_CACHE`` names.
 """
 
 import argparse

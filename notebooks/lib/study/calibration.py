@@ -95,16 +95,12 @@ def _sieved(rows, numbers, key):
 def screen(table, runs, seed):
     """Run promising readings again with fresh seeds, and return the table that includes their rows.
 
-    They are those of few runs under which three maps earn what they earn in the thesis (A6, A7), and then those nearest
-    to all numbers of that experiment and of paper B. Of the rows that a group has run, the best go on: those for which
-    most claims hold, the nearest first.
+    They are those of few runs under which A6 and A7 hold, and then those nearest to the numbers of these and of paper B.
+    After each group those go on for which most claims hold, the nearest first.
     """
     names = [name for group in ("layers", "places", "objects", "both") for name in GROUPS[group].targets]
-    most = {}  # the row of each reading with most runs
-    for row in table:
-        if all(name in row.statistics for name in names) and (row.reading not in most
-                                                              or row.runs > most[row.reading].runs):
-            most[row.reading] = replace(row, statistics={name: row.statistics[name] for name in names})
+    measured = sorted((row for row in table if all(name in row.statistics for name in names)), key=lambda row: row.runs)
+    most = {row.reading: replace(row, statistics={name: row.statistics[name] for name in names}) for row in measured}
     found = sorted((row for row in most.values() if row.runs <= SCREENED_RUNS),
                    key=lambda row: (not {"A6", "A7"} <= row.held, row.distance))
     rows = _new_rows(table, [row.reading for row in found[: max(SCREENED.values())]], runs, seed)
@@ -114,8 +110,7 @@ def screen(table, runs, seed):
 def rescale(table, n, scales, runs):
     """Run the n leading of the complete rows of some runs again in paper C, with other scales of desires.
 
-    Their desire vectors are by size and their networks have the maps of paper A. Choices that concern paper C alone
-    change no other number, so the rows are complete.
+    Vectors are by size, and maps are those of paper A. No other number depends on these, so the rows are complete.
     """
     first = [row for row in calibration_table.leading(table) if row.runs == runs][:n]
     rows = [replace(row, wave=_next_wave(table), reading=replace(row.reading, vectors="by size", scale=float(scale),
