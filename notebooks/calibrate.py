@@ -36,7 +36,7 @@ def main():
         table = calibration.calibrate(chosen.minutes, table, seed=chosen.seed, runs=chosen.runs, steps=chosen.steps,
                                       keep=keep)
     if chosen.rescale:
-        table = calibration.rescale(table, 1, chosen.rescale, chosen.screen or chosen.refined_runs)
+        table = calibration.rescale(table, chosen.rescale, chosen.screen or chosen.refined_runs)
         keep(table)
     if chosen.confirm:
         keep(calibration.confirm(table, chosen.confirm, chosen.fresh_runs, seed=chosen.seed))

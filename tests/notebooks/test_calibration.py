@@ -169,7 +169,7 @@ def test_fewer_and_fewer_readings_are_screened_and_the_leading_one_is_run_with_o
     assert screened[: len(table)] == table and {row.runs for row in new} == {12}
     assert {group: sum(group in row.groups for row in new) for group in GROUPS} == calibration.SCREENED
     leading = next(row for row in calibration_table.leading(screened) if row.runs == 12)
-    scaled = calibration.rescale(screened, 1, [2.0, 4.0], 12)[len(screened) :]
+    scaled = calibration.rescale(screened, [2.0, 4.0], 12)[len(screened) :]
     assert [(row.seed, row.reading.scale) for row in scaled] == [(leading.seed, 2.0), (leading.seed, 4.0)]
 
 

@@ -11,10 +11,10 @@ rather than one that climbs to the best fit. The page on calibration explains it
 3. `refine` searches near given readings and the nearest ones found from them, with more runs each. A round runs
    children in one group after the other, and after each only the nearest go on.
 4. `screen` runs readings again that agree with most targets in few runs, wherever in the priors they lie.
-5. `rescale` runs the leading ones in paper C with other units of a desire vector, which concern no other paper.
+5. `rescale` runs the leading one in paper C with other units of a desire vector, which concern no other paper.
 6. `confirm` runs the leading readings again with fresh seeds, since a search over noisy numbers finds lucky ones.
 
-Every row has its own seed, so that no tank's luck is shared by all.
+Every row has its own seed, so that no tank's luck is shared by all; only rescaled rows keep that of the row they vary.
 """
 
 import time
@@ -107,15 +107,14 @@ def screen(table, runs, seed):
     return [*table, *_sieved(rows, SCREENED, lambda row: (-len(row.held), row.distance))]
 
 
-def rescale(table, n, scales, runs):
-    """Run the n leading of the complete rows of some runs again in paper C, with other scales of desires.
+def rescale(table, scales, runs):
+    """Run the leading of the complete rows of some runs again in paper C, with other scales of desires.
 
     Vectors are by size, and maps are those of paper A. No other number depends on these, so the rows are complete.
     """
-    first = [row for row in calibration_table.leading(table) if row.runs == runs][:n]
-    rows = [replace(row, wave=_next_wave(table), reading=replace(row.reading, vectors="by size", scale=float(scale),
-                                                                 network_resolutions=LAYERS))
-            for row in first for scale in scales]
+    first = next(row for row in calibration_table.leading(table) if row.runs == runs)
+    rows = [replace(first, wave=_next_wave(table), reading=replace(first.reading, vectors="by size", scale=float(scale),
+                                                                   network_resolutions=LAYERS)) for scale in scales]
     return [*table, *calibration_table.run(rows, "networks")]
 
 

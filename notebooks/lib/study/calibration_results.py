@@ -142,17 +142,15 @@ def best(table):
     return next((row for row in rows if row.reading == Reading()), rows[0])
 
 
-def confirmed(table):
-    """The complete rows of `CONFIRMED` runs or more, those for which most claims hold first."""
-    return [row for row in leading(table) if row.runs >= CONFIRMED]
+def confirmed(table, runs=CONFIRMED):
+    """The complete rows of as many runs or more, those for which most claims hold first, the nearest among equals."""
+    return [row for row in leading(table) if row.runs >= runs]
 
 
 def equals(table):
     """The rows for which most claims hold among those with the most runs, the nearest first: see `leading`."""
-    complete = leading(table)
-    most = max(row.runs for row in complete)
-    confirmed = [row for row in complete if row.runs == most]
-    return [row for row in confirmed if len(row.held) == len(confirmed[0].held)]
+    found = confirmed(table, max(row.runs for row in nearest(table)))
+    return [row for row in found if len(row.held) == len(found[0].held)]
 
 
 def giving(table):
