@@ -152,8 +152,9 @@ def move_creep(state, rules, creep):
         state.direction[creep, axis] = direction
     x, y = state.direction[creep, 0], state.direction[creep, 1]
     length = math.sqrt(x * x + y * y)
-    state.direction[creep, 0] = x / length
-    state.direction[creep, 1] = y / length
+    if length != 1.0:  # as it mostly is: divisions are slow
+        state.direction[creep, 0] = x / length
+        state.direction[creep, 1] = y / length
 
 
 @dataclass(frozen=True)
