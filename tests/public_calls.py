@@ -76,7 +76,7 @@ TABLE = {
             "position", (0, 1))), [3])]), actions=actions))),
     "neorl.core.stream.new_stream": entry(
         new_stream, seed_sequence=[np.random.SeedSequence(3), np.random.SeedSequence(2**70, spawn_key=(1,)),
-                                   np.random.SeedSequence(5, pool_size=8)], also="pool_size"),
+                                   np.random.SeedSequence(5, pool_size=8)]),
     "neorl.worlds.waterworld.WaterWorld": entry(
         WaterWorld, width=st.integers(11, 500), n_creeps=st.integers(1, 9), fps=st.integers(1, 100),
         win_reward=reals, contact=["rounded", "truncated"], then=live_in),

@@ -34,13 +34,13 @@ from neorl.agents.compile import whole_constants
 from neorl.agents.individual import OF_A_MAP
 from neorl.agents.papers import brownian
 from neorl.agents.spaces import pilot
+from neorl.browser.seeding import start_stream
 from neorl.browser.worlds import PLANE
 from neorl.core import contacts, displacement, life, parameters
 from neorl.core.choices import Action, Cut, Feature, MapState, Source, Vector
 from neorl.core.kernel import OPTIONS, fields, is_tuple
 from neorl.core.parameters import Parameters, derive
 from neorl.core.state import State, begin_values
-from neorl.core.stream import start_stream
 from neorl.experiments.condition import source_digest
 from neorl.extras import require
 from neorl.worlds import arena, arm, vessel, water_maze, waterworld
@@ -190,7 +190,7 @@ def _passed(kernel):
 
 def _digest(name):
     """A digest of the sources alone: by the rules of `neorl.core.kernel`, results do not depend on the compiler."""
-    here = [Path(__file__).with_name(file).read_bytes() for file in ("wasm.py", "worlds.py")]
+    here = [Path(__file__).with_name(file).read_bytes() for file in ("seeding.py", "wasm.py", "worlds.py")]
     return hashlib.sha256(b"".join([source_digest().encode(), name.encode(), *here])).digest()
 
 

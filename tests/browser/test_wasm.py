@@ -7,16 +7,21 @@ from concurrent.futures import ThreadPoolExecutor
 import golden
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from webassembly import Machine, compiled, copied, module_of, sizes_of, state_of
 
 from neorl import Run, WaterWorld, files, place_cells
 from neorl.agents.compile import chosen
 from neorl.browser import wasm
 from neorl.browser.explorer import OTHER_SPACES
+from neorl.browser.seeding import start_stream
 from neorl.browser.worlds import rules_of
+from neorl.core.calls import execute
 from neorl.core.kernel import arrays, new_tuple
 from neorl.core.parameters import Parameters
 from neorl.core.state import State
+from neorl.core.stream import new_stream
 
 STEPS = 50_000
 RUNS = [name for name in golden.RUNS if name != "softmax"]  # a choice of actions that is not compiled for the page
@@ -83,6 +88,13 @@ def test_a_run_begins_as_in_python_without_any_python(name):
     derived = arrays(viewed(parameters))
     for field, array in arrays(run.parameters).items():
         assert np.array_equal(derived[field], array), field
+
+
+@given(st.integers(0, 2**32 - 1), st.lists(st.integers(0, 2**32 - 1), min_size=1, max_size=3))
+def test_a_stream_is_seeded_as_by_numpy(seed, key):
+    stream = np.zeros(4, np.uint64)
+    execute(start_stream, np.array([seed, 0, 0, 0, *key], np.uint64), stream)
+    assert np.array_equal(stream, new_stream(np.random.SeedSequence(seed, spawn_key=key)))
 
 
 @pytest.mark.parametrize("name", wasm.MODULES)
