@@ -4,6 +4,7 @@ A table is complete before a kernel runs and does not change while it does, so i
 reading an array from it costs no more than if the array had been an argument.
 """
 
+import functools
 from typing import Self
 
 import numpy as np
@@ -31,13 +32,7 @@ class View(types.Type):
 
     def member(self, name):
         """The place of a field, in words, and its type."""
-        place, lengths = 0, iter(self.lengths)
-        for each, field in fields(self.kind).items():
-            kind = types.UniTuple(types.int64, next(lengths)) if field is tuple else self.type_of(field)
-            if each == name:
-                return place, kind
-            place += _words(kind)
-        raise AttributeError(name)
+        return _members(self)[name]
 
     def type_of(self, field):
         """The type of an annotation."""
@@ -50,6 +45,16 @@ class View(types.Type):
         if len(field) == 2:
             return types.Array(from_dtype(np.dtype(field[0])), len(field[1]), "C")
         return Called(self, field[0])
+
+
+@functools.cache
+def _members(view):
+    members, place, lengths = {}, 0, iter(view.lengths)
+    for name, field in fields(view.kind).items():
+        kind = types.UniTuple(types.int64, next(lengths)) if field is tuple else view.type_of(field)
+        members[name] = place, kind
+        place += _words(kind)
+    return members
 
 
 class Called(types.Callable):
@@ -127,7 +132,7 @@ def _attribute(context, builder, view, pointer, name):
 def _words(kind):
     """The number of words of a field of a type."""
     if isinstance(kind, View):
-        return sum(_words(kind.member(name)[1]) for name in fields(kind.kind))
+        return sum(_words(each) for _, each in _members(kind).values())
     return 0 if isinstance(kind, types.UniTuple) else 1 + getattr(kind, "ndim", 0)
 
 
