@@ -48,7 +48,7 @@ def test_an_installation_compiles_nothing_and_carries_what_the_wheel_to_publish_
         assert [path.name for path in installed.rglob("*.wasm")] == given
         files = {path.relative_to(installed) for path in installed.rglob("*.*")}
         assert files == {path.relative_to(ROOT / "neorl") for path in (ROOT / "neorl").rglob("*.*")
-                         if path.suffix in (".py", ".typed", ".csv", ".json", ".js", ".css")} | {
+                         if path.suffix in (".py", ".toml", ".typed", ".csv", ".json", ".js", ".css")} | {
                              Path("browser", name) for name in given}
 
 
