@@ -3,6 +3,7 @@
 # make test   run the tests                               WORKERS=3 processes, since tests of pages wait for a browser
 # make exact  run the reference runs in every way that must give the same bits, and print which do; PYTHONS="python3.13"
 # make verify recompute a random sample of the runs behind the figures and compare; SAMPLE=20 runs, SEED=of the sample
+# make fuzz   try random kernels of a user's that write and return wild values; SETTINGS=1000 of them
 # make lab    open the notebooks in JupyterLab
 # make readme write the claims of the last build into the README
 # make bench  measure the speed of the kernels
@@ -12,6 +13,7 @@ PYTHON ?= python3
 PYTHONS ?=
 SAMPLE ?= 20
 SEED ?=
+SETTINGS ?= 1000
 RUNS ?= 10
 STEPS ?=
 JOBS ?= 2
@@ -36,7 +38,7 @@ page = $(1:%=$(CHAPTERS)/%.ipynb)
 .DEFAULT_GOAL := book
 # Files that are replaced only by complete ones, so make need not remove them when it is interrupted.
 .PRECIOUS: $(HTML) $(call page,$(NAMES))
-.PHONY: book test exact verify lab readme bench wheel clean FORCE
+.PHONY: book test exact verify fuzz lab readme bench wheel clean FORCE
 
 book: .venv/ready
 	@$(MAKE) --no-print-directory --keep-going --jobs=$(JOBS) $(HTML)
@@ -80,8 +82,11 @@ exact: .venv/ready
 verify: .venv/ready
 	$(BIN)/python book/verify.py --sample $(SAMPLE) $(if $(SEED),--seed $(SEED))
 
+fuzz: .venv/ready
+	$(BIN)/python tests/fuzzed_kernels.py $(SETTINGS)
+
 lab: .venv/ready
-	$(BIN)/jupyter lab --notebook-dir notebooks
+	$(BIN)/jupyter lab --ServerApp.root_dir=. --LabApp.default_url=/lab/tree/notebooks
 
 readme: .venv/ready
 	$(BIN)/python book/readme.py
