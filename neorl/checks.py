@@ -150,7 +150,7 @@ def with_article(noun: str) -> str:
 
 def plain(value):
     """A NumPy scalar, zero-dimensional array or fraction as a Python number; anything else unchanged."""
-    if isinstance(value, np.generic | np.ndarray) and value.ndim == 0:
+    if isinstance(value, np.generic | np.ndarray) and value.ndim == 0 and not np.ma.is_masked(value):
         return value.item()
     try:
         return float(value) if isinstance(value, numbers.Real) and not isinstance(value, int | float) else value

@@ -31,7 +31,8 @@ FOR_AUTHORS = {f"neorl.{name}" for name in (
     "gym.vector.VectorWorldEnv.advance",
     "agents.papers.paper_agent", "core.calls.execute", "core.kernel.announcing", "core.kernel.jit_is_off",
     "core.scene.checked_scene", "worlds.world.check_arrays",
-    "worlds.walls.checked", "worlds.world.check_outcome", "worlds.world.check_rules")}
+    "worlds.walls.checked", "worlds.world.check_definition", "worlds.world.check_outcome",
+    "worlds.world.check_rules", "worlds.world.checked_rules")}
 NOTHING_TO_REPLACE = {"neorl.agents.papers.brownian"}  # it takes no arguments
 
 

@@ -32,6 +32,7 @@ def scene(**fields):
     (lambda: checks.doubles("x", [[1], [1, 2]]), "x must be .*, but is .*"),
     (lambda: checks.doubles("x", np.ones(2, complex)), r"x must be numbers, in lists of equal lengths, but is array\("),
     (lambda: checks.doubles("x", [1e308]), r"x must be finite numbers from -1e\+30 to 1e\+30, but is array\(\[1.e\+30"),
+    (lambda: checks.real("x", MASKED[0]), "x must be a finite number from .*, but is masked"),
     (lambda: checks.doubles("x", MASKED), r"x must be free of masked values, but is masked_array\(data=\[--, 0.6\],"),
     (lambda: checks.path("x", "a\0b"), r"x must be the path of a file, but is 'a\\x00b'"),
     (lambda: checks.instance("x", None, Agent), "x must be an Agent, but is None"),

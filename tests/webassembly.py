@@ -109,5 +109,5 @@ def copied(run):
     return machine, sizes_of(run), {
         "parameters": machine.put_tuple(run.parameters), "state": machine.put_tuple(run.state),
         "rules": machine.put_tuple(rules_of(run.world)), "world_state": world_state, "scene": world_state.scene,
-        "total": 0.0, "clock": machine.put(np.zeros(1, np.int64)), "rewards": machine.put(np.zeros(1, np.float32)),
+        "total": 0.0, "clock": machine.put(np.zeros(2, np.int64)), "rewards": machine.put(np.zeros(1, np.float32)),
         "hits": machine.put(np.zeros((1, len(run.world.kinds)), np.int16))}

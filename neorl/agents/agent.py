@@ -18,7 +18,7 @@ from neorl.checks import NotNegative, OneOf
 from neorl.core.choices import MapState, Weighting
 from neorl.core.horde import OWN_CELL
 from neorl.core.maps import NresMap
-from neorl.core.modality import Modality
+from neorl.core.modality import SEVERAL, Modality
 from neorl.description import Described
 
 MOST_PARTS = 4_096  # nodes, or desires; time and memory are quadratic in their number
@@ -228,6 +228,10 @@ class Agent(Described, checks.Final):
         if isinstance(desire.source, str | Place) and desire.source not in nodes and not modality.takes_places:
             raise checks.error(f"source of the desire {desire}", f"a point in the space of {modality.name}s",
                                desire.source, "things and places have no coordinates there")
+        if ((isinstance(desire.source, Place) or desire.source in nodes) and modality.functions
+                and modality.follows in SEVERAL):
+            raise checks.error(f"source of the desire {desire}", "a kind of thing, or a point in the space of "
+                               f"{modality.name}s", desire.source, "kernels of your own locate nothing but things")
         if isinstance(desire.source, tuple) and len(desire.source) != len(modality.axes):
             raise checks.error(f"source of the desire {desire}", f"a point of {len(modality.axes)} coordinates, for "
                                f"{', '.join(modality.names)}", desire.source)

@@ -42,7 +42,7 @@ function newRun({ parameters: choices, world, steps, bin_steps }) {
     machine, sizes, world, steps, bin_steps, choices, state, world_state: worldState, scene: worldState.scene,
     rules: machine.tuple(layout.rules, sizes, world.rules), step: 0, reward: 0,
     parameters: machine.tuple("Parameters", sizes, choices),
-    clock: machine.put("int64", [1]),
+    clock: machine.put("int64", [2]),
     rewards: machine.put("float32", [sizes.bins]),
     hits: machine.put("int16", [sizes.bins, sizes.kinds]),
     elsewhere: machine.tuple("State", sizes, { values: { q, goal_range } }),

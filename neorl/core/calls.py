@@ -13,7 +13,7 @@ from typing import Annotated, NamedTuple, get_args
 import numpy as np
 
 from neorl import checks
-from neorl.core.kernel import Kernel, fields, is_tuple, jit_is_off
+from neorl.core.kernel import Kernel, fields, full_name, is_tuple, jit_is_off
 from neorl.core.kernel_errors import raise_named
 
 
@@ -69,8 +69,11 @@ def in_table(values):
 
 
 def _passed(kernel, arguments):
-    names = kernel.py_func.__code__.co_varnames
-    for name, each in zip(names, arguments):
+    code = kernel.py_func.__code__
+    if len(arguments) != code.co_argcount:
+        raise TypeError(f"{full_name(kernel)} must be called with {code.co_argcount} arguments, but is with "
+                        f"{len(arguments)}")
+    for name, each in zip(code.co_varnames, arguments):
         if isinstance(each, Table):
             each.refresh()
         elif getattr(kernel.__annotations__.get(name), "is_tabled", False):

@@ -5,7 +5,8 @@ import inspect
 from types import CodeType, ModuleType
 
 LIBRARIES = ("neorl", "numba", "numpy")
-LOADS, ATTRIBUTES = ("LOAD_GLOBAL", "LOAD_DEREF", "LOAD_NAME"), ("LOAD_ATTR", "LOAD_METHOD")
+LOADS = ("LOAD_GLOBAL", "LOAD_DEREF", "LOAD_NAME", "LOAD_FAST")
+ATTRIBUTES = ("LOAD_ATTR", "LOAD_METHOD")
 
 
 def global_random_in(function, seen=()):
@@ -30,8 +31,10 @@ def global_random_in(function, seen=()):
 
 def _used(code, known):
     """The known values that a function uses, and the attributes of modules among them: (name, value) pairs."""
-    name, value = "", None
+    name, value, known = "", None, dict(known)
     for each in dis.get_instructions(code):
+        if each.opname == "STORE_FAST" and value is not None:
+            known[each.argval] = value
         if each.opname in ATTRIBUTES and isinstance(value, ModuleType):
             name, value = f"{name}.{each.argval}", getattr(value, each.argval, None)
         elif each.opname != "EXTENDED_ARG":

@@ -119,6 +119,7 @@ class Kernel:
         with _making:
             reading, made = vars(self).get(name, (None, None))
             if reading is None or not reading.stands():
+                _refuse_global_random(self.py_func)  # again, since it may have come with a global
                 reading = Reading(self)
                 made = make(reading)
                 vars(self)[name] = reading, made
@@ -134,7 +135,7 @@ class Kernel:
 
         try:
             yield
-        except (NumbaError, UnsupportedBytecodeError) as error:
+        except (NumbaError, UnsupportedBytecodeError, TypeError) as error:
             raise not_compiled(self, error) from error
 
 
@@ -183,12 +184,17 @@ def function_of(kernel):
 def _compiled(function, options):
     if not inspect.isfunction(function):
         raise checks.error("function", "a Python function to make a kernel of", function)
+    _refuse_global_random(function)
+    return function if jit_is_off() else Kernel(function, options)
+
+
+def _refuse_global_random(function):
+    """Raise ValueError for a function that draws from a global random stream, itself or by a helper."""
     drawn = global_random_in(function)
     if drawn:
         raise ValueError(f"a kernel must draw its random numbers from a stream that is passed to it, but "
                          f"{full_name(function)} calls {drawn}, which no seed of a run determines: call "
                          "neorl.core.stream.uniform or randint with the stream of the world's state or of the policy")
-    return function if jit_is_off() else Kernel(function, options)
 
 
 @contextlib.contextmanager
@@ -316,4 +322,6 @@ def length(dimension, sizes):
     if isinstance(dimension, int):
         return dimension
     name, _, more = dimension.partition(" + ")
+    if name not in sizes:
+        raise checks.error("the length of an array in an annotation", f"a number or {checks.either(sizes)}", name)
     return sizes[name] + int(more or 0)

@@ -23,7 +23,7 @@ from neorl.core.calls import execute, in_table
 from neorl.core.kernel import arrays
 from neorl.core.stream import new_stream
 from neorl.worlds.rollout import recorded_in, rollout_in
-from neorl.worlds.world import World, check_outcome
+from neorl.worlds.world import World, check_outcome, checked_rules
 
 BIN_SECONDS = 0.2
 SLICE = 10_000  # steps between two checks for an interruption
@@ -180,15 +180,17 @@ class Run(Individual):
 
     def _take(self, kernel, last, *into):
         """Take the steps up to `last` by a kernel; returns what it returns."""
-        clock = on_lines_of_its_own(np.array([self.step]))
+        clock = on_lines_of_its_own(np.array([self.step, 0]))
         try:
-            return execute(kernel, *self._life, self._scene, self._world_state, self.world.rules, clock, last, *into)
+            return execute(kernel, *self._life, self._scene, self._world_state, checked_rules(self.world), clock, last,
+                           *into)
         finally:
             self._progress = int(clock[0])  # also if interrupted: Python handles that once the kernel returns
+            self._last_kernel = self.world.dynamics.reset if clock[1] else self.world.dynamics.step
 
     def _check(self, paid):
         """Raise ValueError for a kernel of the user's that has broken a rule in the last steps."""
-        check_outcome(self.world, self.world.dynamics.step, self._world_state, paid)
+        check_outcome(self.world, self._last_kernel, self._world_state, paid)
         self._check_faults()
 
 

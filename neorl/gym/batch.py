@@ -9,6 +9,7 @@ from typing import NamedTuple
 from neorl.checks import LARGEST
 from neorl.core.kernel import array, fields, inlined, inlined_kernel, is_tuple, kernel, kernel_maker
 from neorl.gym.observation import observe
+from neorl.worlds.rollout import keeps_rules
 
 
 class Task(NamedTuple):
@@ -63,10 +64,10 @@ def batch_step(dynamics):
                 if not abs(slots.reward[i]) <= LARGEST:
                     return i
                 at_goal = not task.timed
+                if not keeps_rules(scene, task.n_kinds):
+                    return i
                 for thing in range(scene.met.shape[0]):
                     met = scene.met[thing]
-                    if met < 0 or met > task.n_kinds:
-                        return i
                     if met != 0:
                         slots.met[i, met - 1] += 1
                         at_goal = at_goal or slots.terminal[met - 1]
@@ -77,8 +78,9 @@ def batch_step(dynamics):
                 slots.terminated[i] = done and at_goal and not task.continuing
                 slots.truncated[i] = (done and not at_goal and not task.continuing
                                       or slots.clock[i] >= task.last_step)
-            if not observe(scene, task.size, task.n_kinds, task.egocentric, slots.distance, slots.order,
-                           slots.observation[i]):
+            if not (keeps_rules(scene, task.n_kinds) and observe(
+                    scene, task.size, task.n_kinds, task.egocentric, slots.distance, slots.order,
+                    slots.observation[i])):
                 return i
         return -1
 

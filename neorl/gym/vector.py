@@ -21,7 +21,7 @@ from neorl.extras import require
 from neorl.gym.batch import Slots, Task, batch_step
 from neorl.gym.observation import observation_space
 from neorl.worlds.waterworld import WaterWorld
-from neorl.worlds.world import World, check_outcome
+from neorl.worlds.world import World, check_outcome, checked_rules
 
 gymnasium = require("gymnasium", extra="gym")
 MOST_NUMBERS = 2**28  # in the observations of all environments, 1 GiB
@@ -102,7 +102,7 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
                 for array in arrays(self._states).values():
                     array[row] = 0
                 self._states.stream[row] = new_stream(np.random.SeedSequence(each, spawn_key=(run,)))
-        self._rules, self._begun, self.slots.truncated[:] = self.world.rules, True, True
+        self._rules, self._begun, self.slots.truncated[:] = checked_rules(self.world), True, True
         self.advance(0)
         return self.slots.observation.copy(), self._infos()
 

@@ -1,7 +1,7 @@
 """The rollout of an agent in a world: choose, act, advance the world, perceive and learn, step after step.
 
 There are two: `rollout` only adds up rewards and contacts, and `recorded` writes down where the agent was as well. Both
-end early after a step that broke a rule of worlds.
+end early after a step or a reset that broke a rule of worlds; clock[1] is then 1 for a reset.
 
 The kernels of the world are compiled into the rollout, so a user-defined world runs as fast as those of the package.
 The agent's kernels are called (`neorl.core.constants`), so they are compiled once for all worlds.
@@ -24,21 +24,29 @@ MOST_RECORDED = 2**63 - 1  # in a frame, likewise
 
 
 @inlined_kernel
-def observed(parameters, constants, state, scene, reward, hits, interval, most):
-    """Perceive the outcome of an action, learn from it, and add the things met to hits[interval], up to `most` each.
-
-    Returns whether the agent's place and velocity and the numbers of all kinds keep the rules of worlds; counting ends
-    at the first that does not.
-    """
-    state.reward[0] = reward
-    constants.observe(parameters, constants, state, scene)
-    for axis in range(len(constants.axes)):  # at once, since a later step may put the agent back
+def keeps_rules(scene, n_kinds):
+    """Whether the agent's place and velocity and the numbers of all kinds keep the rules of worlds."""
+    for axis in range(scene.position.shape[0]):
         if not (abs(scene.position[axis]) <= LARGEST and abs(scene.velocity[axis]) <= LARGEST):
             return False
     for thing in range(scene.met.shape[0]):
-        met = scene.met[thing]
-        if not (0 <= met <= hits.shape[1] and ABSENT <= scene.kinds[thing] < hits.shape[1]):
+        if not (0 <= scene.met[thing] <= n_kinds and ABSENT <= scene.kinds[thing] < n_kinds):
             return False
+    return True
+
+
+@inlined_kernel
+def observed(parameters, constants, state, scene, reward, hits, interval, most):
+    """Perceive the outcome of an action, learn from it, and add the things met to hits[interval], up to `most` each.
+
+    Returns whether the scene keeps the rules; if not, nothing is counted.
+    """
+    state.reward[0] = reward
+    constants.observe(parameters, constants, state, scene)
+    if not keeps_rules(scene, hits.shape[1]):  # at once, since a later step may put the agent back
+        return False
+    for thing in range(scene.met.shape[0]):
+        met = scene.met[thing]
         if met != 0 and hits[interval, met - 1] < most:
             hits[interval, met - 1] += 1
     return True
@@ -52,7 +60,7 @@ def rollout_in(dynamics):
 
     @kernel
     def rollout(parameters: Parameters, constants: Constants, state: State, scene: Scene,
-                world_state: world_type, rules: rules_type, clock: array("int64", 1), last_step: int, total: float,
+                world_state: world_type, rules: rules_type, clock: array("int64", 2), last_step: int, total: float,
                 bin_steps: int, rewards: array("float32", "bins"), hits: array("int16", "bins", "kinds")) -> float:
         """Take the steps clock[0] … last_step − 1, adding rewards and contacts to the bins of `rewards` and `hits`.
 
@@ -73,6 +81,9 @@ def rollout_in(dynamics):
                 return total
             if done:
                 reset(world_state, rules)
+                if not keeps_rules(scene, hits.shape[1]):
+                    clock[0], clock[1] = now + 1, 1
+                    return total
                 constants.begin(parameters, constants, state, scene)
         clock[0] = last_step
         return total
@@ -88,7 +99,7 @@ def recorded_in(dynamics):
 
     @kernel
     def recorded(parameters: Parameters, constants: Constants, state: State, scene: Scene,
-                 world_state: world_type, rules: rules_type, clock: array("int64", 1), last_step: int,
+                 world_state: world_type, rules: rules_type, clock: array("int64", 2), last_step: int,
                  first_step: int, every: int, paid: array("float64", 2), positions: array("float64", "frames", "axes"),
                  actions: array("int64", "frames"), rewards: array("float64", "frames"),
                  hits: array("int64", "frames", "kinds"), ends: array("int64", "episodes"),
@@ -118,6 +129,9 @@ def recorded_in(dynamics):
                 ends[episodes], returns[episodes], paid[1] = now + 1, paid[1], 0.0
                 episodes += 1
                 reset(world_state, rules)
+                if not keeps_rules(scene, hits.shape[1]):
+                    clock[0], clock[1] = now + 1, 1
+                    return episodes
                 constants.begin(parameters, constants, state, scene)
         clock[0] = last_step
         return episodes

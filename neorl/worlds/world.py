@@ -31,10 +31,13 @@ from numpy.typing import NDArray
 
 from neorl import checks
 from neorl.core.calls import execute
-from neorl.core.kernel import Kernel, fields, full_name, is_tuple, kernel, length, new_tuple
-from neorl.core.scene import Actions
+from neorl.core.kernel import Kernel, check_kernel, fields, full_name, function_of, is_tuple, kernel, length, new_tuple
+from neorl.core.scene import Actions, Scene
 from neorl.core.stream import new_stream
 from neorl.description import Described
+
+
+STREAM = ("uint64", (4,))  # the type and the shape of a stream
 
 
 class Dynamics(NamedTuple):
@@ -57,12 +60,8 @@ class _Checking(type):
     def __call__(cls, *given, **by_name):
         world = super().__call__(*given, **by_name)
         if world.dynamics is not None:
-            for name in ("kinds", "actions", "things", "size", "fps", "rules"):
-                if getattr(cls, name, None) is None and getattr(world, name, None) is None:
-                    raise TypeError(f"{cls.__name__} must have {name}, as a World with dynamics, but has none; see "
-                                    "neorl.worlds.world for what a subclass defines")
-            checks.instance(f"actions of {cls.__name__}", world.actions, Actions)
-            check_rules(world.rules, fields(world.dynamics.reset)["rules"], dict(world.sizes))
+            check_definition(world)
+            checked_rules(world)
         return world
 
     @property
@@ -74,8 +73,8 @@ class _Checking(type):
 class World(Described, metaclass=_Checking):
     """A world of kernels; see the module for what a subclass defines, and how to debug it.
 
-    Raises TypeError for a subclass with dynamics that lacks what else a world has, ValueError for rules whose arrays do
-    not match their annotations.
+    Raises TypeError for a subclass with dynamics that lacks what else a world has, ValueError for a part that is not
+    what it must be, and for rules whose arrays do not match their annotations.
     """
 
     dynamics: Any = None  # a `Dynamics`
@@ -120,7 +119,7 @@ class World(Described, metaclass=_Checking):
         if not isinstance(seed, np.random.SeedSequence):
             seed = np.random.SeedSequence(checks.integer("seed", seed, at_least=0))
         state = new_tuple(self.State, self.sizes, {"stream": new_stream(seed)})
-        execute(self.dynamics.reset, state, self.rules)
+        execute(self.dynamics.reset, state, checked_rules(self))
         check_outcome(self, self.dynamics.reset, state)
         return state
 
@@ -137,7 +136,7 @@ class World(Described, metaclass=_Checking):
         action = names.index(checks.one_of("action", action, names)) if isinstance(action, str) else action
         action = checks.integer("action", action, at_least=0, at_most=len(names) - 1)
         self.check_state(state)
-        returned = execute(self.dynamics.step, state, self.rules, action)
+        returned = execute(self.dynamics.step, state, checked_rules(self), action)
         if not isinstance(returned, tuple) or len(returned) != 2:
             raise checks.error(f"what the kernel {full_name(self.dynamics.step)} returns", "(reward, done)", returned)
         reward, done = returned
@@ -154,6 +153,34 @@ class World(Described, metaclass=_Checking):
         if met.size and not (0 <= met.min() and met.max() <= len(self.kinds)):
             raise checks.error("state.scene.met", "0, or for a thing that was met 1 + the number of its kind among "
                                f"{self.kinds}", met)
+
+
+def check_definition(world):
+    """Raise TypeError for a world that lacks something, ValueError for a part that is not what it must be."""
+    name = type(world).__name__
+    for each in ("kinds", "actions", "things", "size", "fps", "rules"):
+        if getattr(type(world), each, None) is None and getattr(world, each, None) is None:
+            raise TypeError(f"{name} must have {each}, as a World with dynamics, but has none; see neorl.worlds.world "
+                            "for what a subclass defines")
+    checks.instance(f"actions of {name}", world.actions, Actions)
+    checks.integer(f"things of {name}", world.things, 0, checks.MOST)
+    checks.positive(f"size of {name}", world.size)
+    checks.positive(f"fps of {name}", world.fps)
+    for kind, each in checks.instance(f"dynamics of {name}", world.dynamics, Dynamics)._asdict().items():
+        check_kernel(f"{kind} of {name}", each)
+        takes = tuple(inspect.signature(function_of(each)).parameters)
+        if kind == "reset" and not {"state", "rules"} <= fields(each).keys() or len(takes) != 2 + (kind == "step"):
+            raise ValueError(f"{kind} of {name} must take (state, rules{', action' * (kind == 'step')}), annotated "
+                             f"with their types, but takes ({', '.join(takes)})")
+    if (found := fields(world.State)).get("scene") is not Scene or found.get("stream") != STREAM:
+        raise ValueError(f"the state of {name} must have a field scene, a neorl.Scene, and a field stream, "
+                         f"neorl.array('uint64', 4), but has {', '.join(found)}")
+
+
+def checked_rules(world):
+    """The rules of a world, whose arrays match their annotations, or ValueError."""
+    check_rules(rules := world.rules, fields(world.dynamics.reset)["rules"], dict(world.sizes))
+    return rules
 
 
 def check_rules(rules, kind, sizes, path="rules"):

@@ -131,8 +131,17 @@ def test_a_policy_must_return_a_whole_number():
     def halfway(value, stream):
         return 0.5
 
-    with pytest.raises(TypeError):
+    with pytest.raises(TypeError, match="the kernel .*halfway .* must be one that numba can compile, but "):
         Run(replace(place_cells([3]), policy=Policy(choose=halfway)), WORLD).advance(1)
+
+
+def test_a_credit_of_another_number_of_arguments_is_named():
+    @kernel
+    def of_three(count, steps, last):
+        return 1.0
+
+    with pytest.raises(TypeError, match="the kernel .*of_three .* but Signature mismatch: 4 argument types given"):
+        Run(replace(place_cells([3]), learning=plain_rule(credit=of_three)), WORLD)
 
 
 def test_a_users_kernels_are_called_and_distinguished(interpreted):
@@ -146,6 +155,14 @@ def test_a_desire_that_axes_of_ones_own_cannot_locate_is_refused(source):
                                          r".* as its source, \(x_share, in_the_east\), or"):
         Agent(nodes, (Desire("green", "PC", 1.0), Desire(source, "own", 1.0)))
     assert Agent(nodes, (Desire((0.2, 1.0), "own", 1.0),)) and perceiving(x_share)
+
+
+@pytest.mark.parametrize("source", [Place(0.2, 0.9), "PC", "own"])
+def test_only_things_are_located_by_axes_of_ones_own_beside_those_of_things(source):
+    nodes = Node("own", Modality("own cell", (Axis("objects"), Axis(in_the_east))), [4]), place_cells([3]).nodes[0]
+    with pytest.raises(ValueError, match="must be a kind of thing, or a point in the space of own cells, but is .*; k"):
+        Agent(nodes, (Desire("green", "PC", 1.0), Desire(source, "own", 1.0)))
+    assert Agent(nodes, (Desire("green", "own", 1.0), Desire((0.2, 1.0), "own", 1.0)))
 
 
 @kernel

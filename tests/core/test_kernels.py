@@ -3,6 +3,7 @@
 import contextlib
 import random
 import re
+import sys
 from random import randrange
 
 import numpy as np
@@ -167,6 +168,12 @@ def draws_within():
     return inner()
 
 
+def draws_from_a_module_by_another_name():
+    library = np
+    stream = library.random
+    return stream.random()
+
+
 drawn = np.random.default_rng(0).random
 
 
@@ -174,7 +181,33 @@ drawn = np.random.default_rng(0).random
     (lambda value, stream: np.random.randint(4), "np.random.randint"),
     (lambda value, stream: random.randrange(4), "random.randrange"), (lambda value, stream: randrange(4), "randrange"),
     (lambda scene, point: noise(), "np.random.normal"), (lambda scene, point: noisy_helper(), "random.random"),
-    (lambda: np.random.seed(0), "np.random.seed"), (draws_within, "np.random.rand"), (lambda: drawn(), "drawn")])
+    (lambda: np.random.seed(0), "np.random.seed"), (draws_within, "np.random.rand"), (lambda: drawn(), "drawn"),
+    (draws_from_a_module_by_another_name, "stream.random")])
 def test_a_kernel_that_draws_from_a_global_stream_is_refused_by_name(function, name):
     with pytest.raises(ValueError, match=rf"must draw its random numbers from a stream .*calls {re.escape(name)}, "):
         kernel(function)
+
+
+def late():
+    raise NotImplementedError  # replaced once a kernel calls it
+
+
+@kernel
+def calls_late():
+    return late()
+
+
+def test_a_kernel_whose_helper_comes_to_draw_from_a_global_stream_is_refused_when_it_is_compiled(monkeypatch):
+    monkeypatch.setattr(sys.modules[__name__], "late", noisy_helper)
+    with pytest.raises(ValueError, match="calls_late calls random.random, which no seed of a run determines"):
+        execute(calls_late)
+
+
+@kernel
+def first_of_two(one, other):
+    return one
+
+
+def test_a_kernel_that_is_given_another_number_of_arguments_says_so():
+    with pytest.raises(TypeError, match="test_kernels.first_of_two must be called with 2 arguments, but is with 3"):
+        execute(first_of_two, 1.0, 2.0, 3.0)

@@ -11,6 +11,7 @@ from neorl import (CARDINAL, Actions, Agent, Axis, Condition, Desire, Learning, 
 from neorl.core.kernel import array
 from neorl.core.modality import LANDMARK_VECTOR_CELL, PLACE_CELL, cartesian
 from neorl.core.stream import uniform
+from neorl.gym.vector import VectorWorldEnv
 from neorl.worlds.world import Dynamics
 
 
@@ -112,6 +113,116 @@ def test_an_unfinished_world_is_told_what_it_lacks():
     Unfinished.actions, Unfinished.fps = ("N", "S"), 5
     with pytest.raises(ValueError, match="actions of Unfinished must be an Actions, but is "):
         Unfinished()
+
+
+class Streamless(NamedTuple):
+    scene: Scene
+
+
+class Unsized(NamedTuple):
+    scene: Scene
+    stream: array("uint64", 4)
+    more: array("float64", "bananas")
+
+
+@kernel
+def without_types(state, rules):
+    state.scene.position[0] = 0.1
+
+
+@kernel
+def without_stream(state: Streamless, rules: NoRules) -> None:
+    state.scene.position[0] = 0.1
+
+
+@kernel
+def unsized(state: Unsized, rules: NoRules) -> None:
+    state.scene.position[0] = 0.1
+
+
+@kernel
+def drive_alone(state, rules):
+    return 0.0, False
+
+
+@pytest.mark.parametrize("change, message", [
+    ({"dynamics": (enter, drive)}, "dynamics of Wrong must be a Dynamics, but is "),
+    ({"dynamics": Dynamics(print, drive)}, "reset of Wrong must "),
+    ({"dynamics": Dynamics(without_types, drive)}, r"reset of Wrong must take \(state, rules\), annotated with"),
+    ({"dynamics": Dynamics(enter, drive_alone)}, r"must take \(state, rules, action\), .*but takes \(state, "),
+    ({"dynamics": Dynamics(without_stream, drive)}, "the state of Wrong must have .* a field stream, .* but has scene"),
+    ({"dynamics": Dynamics(unsized, drive)}, "must be a number or 'things' or 'axes', but is 'bananas'"),
+    ({"things": -1}, "things of Wrong must be an integer from 0 to 1048576, but is -1"),
+    ({"things": 1.5}, "things of Wrong must be an integer from 0 to 1048576, but is 1.5"),
+    ({"fps": 0}, "fps of Wrong must be a finite number from 1e-30 to 1e\\+30, but is 0"),
+    ({"size": np.nan}, "size of Wrong must be a finite number from 1e-30 to 1e\\+30, but is nan")])
+def test_a_world_whose_parts_are_not_what_they_must_be_is_refused_when_it_is_made(change, message):
+    with pytest.raises(ValueError, match=message):
+        type("Wrong", (Roundabout,), change)().reset(0)
+
+
+class AgainState(NamedTuple):
+    scene: Scene
+    stream: array("uint64", 4)
+    begun: array("int64", 1)
+
+
+class AgainRules(NamedTuple):
+    what: int
+
+
+@kernel
+def begin_again(state: AgainState, rules: AgainRules) -> None:
+    state.begun[0] += 1
+    wrong, scene = state.begun[0] > 1, state.scene
+    scene.position[0] = np.nan if wrong and rules.what == 0 else 0.1
+    scene.kinds[0] = 400 if wrong and rules.what == 1 else 0
+    scene.met[0] = 99 if wrong and rules.what == 2 else 0
+
+
+@kernel
+def end_at_once(state: AgainState, rules: AgainRules, action: int):
+    return 0.0, True
+
+
+@dataclass(frozen=True)
+class Again(World):
+    """Every step ends an episode, and the second reset breaks a rule of worlds."""
+
+    what: int
+
+    dynamics, kinds, actions = Dynamics(begin_again, end_at_once), ("pearl",), Actions(("on",), ((1.0,),))
+    things, size, fps = 1, 1.0, 1
+
+    @property
+    def rules(self):
+        return AgainRules(self.what)
+
+
+@pytest.mark.parametrize("what, field", [(0, "position"), (1, "kinds"), (2, "met")])
+def test_a_reset_within_a_run_that_breaks_a_rule_is_named(what, field):
+    message = f"begin_again broke a rule of worlds: after it, state.scene.{field} must be "
+    for live in (lambda run: run.advance(5), lambda run: run.record(5)):
+        run = Run(brownian(), Again(what), seed=0)
+        with pytest.raises(ValueError, match=message):
+            live(run)
+        assert run.step == 1
+    envs = VectorWorldEnv(Again(what), 2)
+    envs.reset(seed=0)
+    with pytest.raises(ValueError, match=message):
+        for _ in range(3):
+            envs.step(np.zeros(2, int))
+
+
+def test_rules_that_change_after_a_world_was_made_are_refused_before_kernels_read_them():
+    world = type("Growing", (Garden,), {"rules": property(lambda world: world.kept[-1]), "kept": [garden().rules]})
+    growing = world.__new__(world)
+    state, run = growing.reset(0), Run(brownian(), growing)
+    world.kept.append(garden().rules._replace(push=CARDINAL.table[:4]))
+    for use in (lambda: growing.reset(0), lambda: growing.step(state, 0), lambda: run.advance(1), lambda: run.record(1),
+                lambda: Run(brownian(), growing)):
+        with pytest.raises(ValueError, match=r"rules.push must be an array of float64 \(5, 2\)"):
+            use()
 
 
 def test_everything_that_runs_take_from_a_world_determines_its_key():
