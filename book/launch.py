@@ -13,7 +13,7 @@ from pathlib import Path
 ASKED = "% The repository is at <URL>."
 UNNAMED = ("This copy of the book was built without the address of its repository. It goes into `pyproject.toml`, as "
            "`Repository` under `[project.urls]`.")
-FOR_URL = '"`, with the address of the repository for `URL`'
+CLONE, FOR_URL = "git clone --depth 1 URL", ", with the address of the repository for `URL`"
 
 
 def setup(app):
@@ -38,7 +38,7 @@ def name_repository(app, page, source):
     address = repository(app)
     source[0] = source[0].replace(ASKED, f"The repository is at <{address}>." if address else UNNAMED)
     if address:
-        source[0] = source[0].replace(f"git+URL{FOR_URL}", f"git+{address}\"`")
+        source[0] = source[0].replace(FOR_URL, "").replace(CLONE, CLONE.replace("URL", address))
 
 
 def repository(app):

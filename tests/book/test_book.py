@@ -105,10 +105,12 @@ def test_without_a_repository_there_are_no_buttons_and_docstrings_become_lists_w
 
 def test_a_command_names_the_repository_that_is_set(tmp_path, monkeypatch):
     text = (ROOT / "book" / "running.md").read_text(encoding="utf-8")
-    for address, wanted in (("https://example.org/n", 'git+https://example.org/n"`.'), (None, 'git+URL"`, with the')):
+    for address, wanted in (("https://example.org/n", "git clone --depth 1 https://example.org/n neorl"),
+                            (None, "git clone --depth 1 URL neorl")):
         monkeypatch.setattr(launch, "repository", lambda app: address)
         launch.name_repository(None, "running", source := [text])
         assert wanted in source[0] and launch.ASKED not in source[0]
+        assert (launch.FOR_URL in source[0]) == (address is None)
 
 
 @pytest.mark.parametrize("lines, read", [
