@@ -24,29 +24,43 @@ MOST_RECORDED = 2**63 - 1  # in a frame, likewise
 
 
 @inlined_kernel
-def keeps_rules(scene, n_kinds):
-    """Whether the agent's place and velocity and the numbers of all kinds keep the rules of worlds."""
-    for axis in range(scene.position.shape[0]):
+def is_placed(scene, n_axes):
+    """Whether the agent's place and velocity keep the rules of worlds."""
+    for axis in range(n_axes):
         if not (abs(scene.position[axis]) <= LARGEST and abs(scene.velocity[axis]) <= LARGEST):
             return False
-    for thing in range(scene.met.shape[0]):
-        if not (0 <= scene.met[thing] <= n_kinds and ABSENT <= scene.kinds[thing] < n_kinds):
-            return False
     return True
+
+
+@inlined_kernel
+def is_known(scene, thing, n_kinds):
+    """Whether the numbers of a thing's kinds keep the rules of worlds."""
+    return 0 <= scene.met[thing] <= n_kinds and ABSENT <= scene.kinds[thing] < n_kinds
+
+
+@inlined_kernel
+def keeps_rules(scene, n_kinds):
+    """Whether a scene keeps the rules of worlds."""
+    for thing in range(scene.met.shape[0]):
+        if not is_known(scene, thing, n_kinds):
+            return False
+    return is_placed(scene, scene.position.shape[0])
 
 
 @inlined_kernel
 def observed(parameters, constants, state, scene, reward, hits, interval, most):
     """Perceive the outcome of an action, learn from it, and add the things met to hits[interval], up to `most` each.
 
-    Returns whether the scene keeps the rules; if not, nothing is counted.
+    Returns whether the scene keeps the rules; counting ends at the first thing that does not.
     """
     state.reward[0] = reward
     constants.observe(parameters, constants, state, scene)
-    if not keeps_rules(scene, hits.shape[1]):  # at once, since a later step may put the agent back
+    if not is_placed(scene, len(constants.axes)):  # at once, since a later step may put the agent back
         return False
     for thing in range(scene.met.shape[0]):
         met = scene.met[thing]
+        if not is_known(scene, thing, hits.shape[1]):
+            return False
         if met != 0 and hits[interval, met - 1] < most:
             hits[interval, met - 1] += 1
     return True
