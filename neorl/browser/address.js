@@ -3,9 +3,9 @@
 The first Explorer of a page uses the fragment that begins with `#explorer`; in JupyterLab there is none. The fragment
 has the settings that differ from the preset, by their names in `SHORT`, also `run` and `seed`; the `minute` at which
 the run pauses; the `map` shown, with the `goal` chosen in it; the agent `beside` it, with the minutes for which that
-one has `learned`; and `start`, one of the things to try. An example is #explorer_agent-network-d_run-7_red-0p5. Names
-are in lower case, and p is the decimal point, because pages use a fragment as a selector, which allows few other
-characters. */
+one has `learned`; and `start`, one of the things to try. An example is #explorer_agent-network-d_run-7_red-0p5. Without
+an agent, it means the one with which the page begins. Names are in lower case, and p is the decimal point, because
+pages use a fragment as a selector, which allows few other characters. */
 
 const PREFIX = "#explorer";
 const SHORT = { agent: "preset", run: "run", seed: "seed", resolutions: "resolutions", modality: "modality",
@@ -19,7 +19,7 @@ const written = (number) => String(number).replace(".", "p");
 const numberOf = (text) => (text.trim() === "" ? NaN : Number(text.replace("p", ".")));
 
 /** Parse an address into {settings, minute, map, goal, beside, start}, or null if it is not for an Explorer. */
-function readAddress(hash, presets, modalities, preset) {
+function readAddress(hash, presets, modalities, first) {
   if (!hash.startsWith(PREFIX)) return null;
   const said = Object.fromEntries(hash.slice(PREFIX.length).split("_").filter(Boolean).map((part) => {
     const [, name, value] = part.match(/^([a-z]*)-?(.*)$/i);
@@ -33,7 +33,7 @@ function readAddress(hash, presets, modalities, preset) {
   };
   const given = Object.entries(SHORT).filter(([short]) => Object.hasOwn(said, short))
     .map(([short, name]) => [name, valueOf(name, said[short])]);
-  const { preset: key = preset } = Object.fromEntries(given);
+  const { preset: key = first } = Object.fromEntries(given);
   const defaults = Object.hasOwn(presets, key) ? { ...initialSettings(presets, key), seed: presets[key].seed } : {};
   const isSaid = (name) => Object.hasOwn(said, name);
   const other = isSaid("beside") ? valueOf("preset", said.beside) : null;
@@ -69,7 +69,7 @@ class Address extends Tour {
   /** Open the run in the address, if there is one. Returns whether there is. */
   visit() {
     const { presets, modalities, model } = this;
-    const said = this.hasAddress() ? readAddress(location.hash, presets, modalities, model.get("preset")) : null;
+    const said = this.hasAddress() ? readAddress(location.hash, presets, modalities, this.first) : null;
     if (!said) return false;
     const { settings, minute, map, goal, beside, start } = said;
     const starts = { watch: () => this.watch(), red: () => this.revalueRed(), corner: () => this.showCorner(),
@@ -77,9 +77,10 @@ class Address extends Tour {
     const wishes = { get: (name) => (Object.hasOwn(settings, name) ? settings[name] : model.get(name)) };
     const isMoment = minute === null || (minute >= 0 && minute < 1e6);
     const problem = problemOf(presets, modalities, wishes) || (isMoment ? "" : "Its minute must be a number ≥ 0.")
-      || this.problemBeside(settings.preset, beside);
+      || this.problemBeside(settings.preset, beside) || problemOfStart(presets[settings.preset], start);
     if (problem) {
       this.refuse(this.control("preset"), `The address does not describe a run of this Explorer. ${problem}`);
+      this.part(".refused").scrollIntoView({ block: "nearest" });
       return false;
     }
     this.part(".board canvas").scrollIntoView({ block: "nearest" });

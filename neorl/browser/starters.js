@@ -2,6 +2,20 @@
 
 const [LEARNED, CORNER, FINE_ENOUGH] = [60_000, { x: 0.04, y: 0.04 }, 7]; // steps, a place, a resolution
 const EXPLORING = 0.05; // the least exploration that goes with a changed valence
+const OFFERED = { red: "Only an agent that avoids red creeps can come to desire them.",
+  corner: "Only an agent with cells as goals knows the way to a corner.",
+  game: "Only an agent among creeps can be played against." };
+
+/** Which things to try a preset offers. */
+function offersOf({ avoided, n_creeps, parameters: { nodes } }) {
+  return { watch: true, red: avoided === "red", corner: !nodes.learns_contacts.every(Boolean),
+    game: n_creeps !== null };
+}
+
+/** A message on a thing to try that a preset does not offer, or "". */
+function problemOfStart(preset, start) {
+  return Object.hasOwn(OFFERED, start) && !offersOf(preset)[start] ? OFFERED[start] : "";
+}
 
 class Starters extends Hands {
   /** A new run with the settings of the preset, and with an action that is due later, if any. */
@@ -67,10 +81,9 @@ class Starters extends Hands {
   offerStarters() {
     const { life: { frame, game }, model, presets } = this;
     const preset = presets[model.get("preset")];
-    const knowsCells = preset && !preset.parameters.nodes.learns_contacts.every(Boolean);
-    const able = { watch: preset, red: preset?.avoided === "red", corner: frame && knowsCells,
-      game: frame && !frame.ended && this.hasCreeps() };
-    for (const [name, isAble] of Object.entries(able)) this.action(name).disabled = !isAble;
+    const offers = preset ? offersOf(preset) : {};
+    const ready = { watch: true, red: true, corner: frame, game: frame && !frame.ended };
+    for (const [name, isReady] of Object.entries(ready)) this.action(name).disabled = !isReady || !offers[name];
     this.action("game").textContent = game ? "Leave the game" : "Play against it";
     this.action("game").ariaPressed = Boolean(game);
   }

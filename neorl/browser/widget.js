@@ -16,8 +16,8 @@ class Explorer extends Address {
   constructor(model, place) {
     super();
     Object.assign(this, { model, presets: model.get("_presets"), modalities: model.get("_modalities"),
-      life: newLife(), elements: [], beside: null, selected: null, noted: new Set(), undo: [], drawn: 0, told: 0,
-      failed: false });
+      first: model.get("preset"), life: newLife(), elements: [], beside: null, selected: null, noted: new Set(),
+      undo: [], drawn: 0, told: 0, failed: false });
     this.calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.root = Object.assign(document.createElement("div"), { className: "neorl-explorer",
       innerHTML: pageOf(`neorl-tank-${explorers += 1}`) });

@@ -234,7 +234,7 @@ def test_the_score_of_a_game_stands_above_the_tank(visit):
     assert score.bounding_box()["y"] < page.locator(".arena").bounding_box()["y"]
 
 
-def test_a_link_within_the_page_brings_the_tank_into_view(visit):
+def test_a_link_within_the_page_brings_the_tank_into_view_or_the_reason_of_its_refusal(visit):
     page = visit("", viewport={"width": 400, "height": 800})
     page.evaluate("""() => {
         document.body.style.width = "auto";
@@ -248,11 +248,24 @@ def test_a_link_within_the_page_brings_the_tank_into_view(visit):
             const { top, bottom } = document.querySelector(".arena").getBoundingClientRect();
             return top > 0 && bottom < innerHeight;
         }""")
+    page.evaluate("location.hash = '#explorer_agent-nobody'")
+    expect(page.locator(".refused")).to_be_in_viewport()
+
+
+def test_an_address_without_an_agent_is_one_of_the_agent_with_which_the_page_begins(visit):
+    page = visit()
+    page.locator('[name="preset"]').select_option("Arm of two links")
+    page.evaluate("location.hash = '#explorer_start-red'")
+    expect(page.locator(".said")).to_contain_text("Red is desirable now")
+    expect(page.locator('[name="preset"]')).to_have_value("places")
 
 
 @pytest.mark.parametrize("address, reason", [
     ("#explorer_agent-nobody", "There is no agent “nobody”"), ("#explorer_run--1", "run = -1"),
-    ("#explorer_minute-soon", "Its minute must be")])
+    ("#explorer_minute-soon", "Its minute must be"),
+    ("#explorer_agent-water-maze-platform-moved_start-red", "Only an agent that avoids red creeps"),
+    ("#explorer_agent-foveated-cells-contacts-alone_start-corner", "Only an agent with cells as goals"),
+    ("#explorer_agent-arm-of-two-links_start-game", "Only an agent among creeps")])
 def test_an_invalid_address_is_reported_and_the_page_stays_as_it_is(visit, address, reason):
     page = visit(address)
     expect(page.locator(".refused")).to_contain_text(reason)
