@@ -34,8 +34,8 @@ class Starters extends Hands {
   revalueRed() {
     const { steps } = this.presets[this.model.get("preset")];
     const half = Math.floor(steps / 2);
-    const after = "Red is desirable now: its valence is +1, and the agent seeks it at once. It still pays −1. "
-      + "One action in 20 is random: without fear or chance, an agent gets stuck between two cells.";
+    const after = "Red is desirable now: its valence is +1, and the agent seeks it at once. It still pays −1. One "
+      + "action in 20 is random: with nothing to avoid and no random moves, an agent can shuttle between two cells.";
     const act = () => {
       this.life.news = after;
       const exploration = Math.max(EXPLORING, this.model.get("exploration"));
