@@ -37,6 +37,18 @@ def wait_for_maps(page, names):
         Array.from(document.querySelector('[name="map"]').options, (option) => option.value).join()""", arg=names)
 
 
+def picture(page, canvas=".arena canvas"):
+    """What a canvas shows once all is drawn that the page has been told to draw."""
+    return page.locator(canvas).evaluate(
+        "canvas => new Promise((take) => requestAnimationFrame(() => take(canvas.toDataURL())))")
+
+
+def wait_for_another_picture(page, before, canvas=".arena canvas"):
+    """Wait until a canvas shows another picture than before. Returns it."""
+    page.wait_for_function("([at, before]) => document.querySelector(at).toDataURL() !== before", arg=[canvas, before])
+    return picture(page, canvas)
+
+
 def press(page, action):
     page.locator(f'.neorl-explorer [data-action="{action}"]').first.click()
 

@@ -7,7 +7,7 @@ import re
 from dataclasses import replace
 
 import pytest
-from explorer_page import drop_by_keyboard, press, wait, write_page
+from explorer_page import drop_by_keyboard, picture, press, wait, wait_for_another_picture, write_page
 from playwright.sync_api import expect
 
 from neorl import Desire, Explorer, Place, Run, WaterWorld, object_vector_cells, place_cells, simulate
@@ -102,22 +102,13 @@ def test_both_show_the_same_moment_step_by_step_and_of_agents_with_other_steps_p
     wait_for(page, step=str(2 * MINUTE + 1), secondStep=str(2 * MINUTE + 1))
 
 
-def wait_for_another_picture(page, before):
-    for _ in range(100):
-        if page.locator(".second canvas").screenshot() != before:
-            break
-        page.wait_for_timeout(100)
-    else:
-        pytest.fail("the second tank has not changed")
-
-
 def test_an_element_is_dropped_into_both_tanks(page):
     visit(page, "#explorer_agent-places_beside-things_minute-0")
     wait_for(page, step="0", secondStep="0", state="paused")
-    before = page.locator(".second canvas").screenshot()
+    before = picture(page, ".second canvas")
     drop_by_keyboard(page)
     page.wait_for_function("document.querySelector('.legend').textContent.includes('changed')")
-    wait_for_another_picture(page, before)
+    wait_for_another_picture(page, before, ".second canvas")
     press(page, "play")
     wait_for(page, step="20000", state="ended")
     runs = [replace(agent, desires=(*agent.desires, Desire(Place(0.5, 0.5), agent.nodes[0].name, 1.0)))
@@ -135,11 +126,11 @@ def test_the_same_agent_takes_the_settings_of_the_first(page):
 def test_the_way_to_a_cell_is_shown_in_both_tanks(page):
     visit(page, "#explorer_agent-places_beside-places_learned-10_minute-0")
     wait_for(page, step="0", secondStep="0", state="paused")
-    before = page.locator(".second canvas").screenshot()
+    before = picture(page, ".second canvas")
     page.locator(".space canvas").focus()
     page.keyboard.press("Enter")
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal !== ''")
-    wait_for_another_picture(page, before)
+    wait_for_another_picture(page, before, ".second canvas")
 
 
 def test_a_comparison_ends_without_stopping_the_first_run(page):
