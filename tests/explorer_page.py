@@ -49,6 +49,12 @@ def wait_for_another_picture(page, before, canvas=".arena canvas"):
     return picture(page, canvas)
 
 
+def wait_for_frame_in_flight(page):
+    """Choose a cell, and wait for that: the worker answers in order, so a frame requested before has then arrived."""
+    page.locator(".arena canvas").first.press("Enter")
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal !== ''")
+
+
 def press(page, action):
     page.locator(f'.neorl-explorer [data-action="{action}"]').first.click()
 

@@ -4,7 +4,8 @@ import re
 from dataclasses import replace
 
 import pytest
-from explorer_page import drop_by_keyboard, explorer_of, play_to_the_end, press, wait, wait_for_maps, write_page
+from explorer_page import (drop_by_keyboard, explorer_of, picture, play_to_the_end, press, wait,
+                           wait_for_another_picture, wait_for_frame_in_flight, wait_for_maps, write_page)
 from playwright.sync_api import expect
 
 from neorl import Desire, Explorer, Learning, Place, Run, WaterWorld, multimodal, network_d, place_cells, simulate
@@ -179,7 +180,7 @@ def test_a_change_on_the_way_keeps_what_was_learned(open_page, site):
     page.wait_for_function("document.querySelector('.legend').textContent.includes('changed on the way')")
     press(page, "play")
     wait(page, "paused")
-    page.wait_for_timeout(100)
+    wait_for_frame_in_flight(page)
     before = int(explorer.get_attribute("data-step"))
     assert 1000 < before
     press(page, "step")
@@ -191,18 +192,17 @@ def test_a_click_on_a_cell_shows_how_to_get_there(open_page, site):
     explorer = explorer_of(page)
     play_to_the_end(page)
     arena = page.locator(".arena canvas")
+    before = picture(page)
     page.locator('[name="field"]').uncheck()
+    before = wait_for_another_picture(page, before)
     page.locator('[name="map"]').select_option("PC N5")
-    arena.scroll_into_view_if_needed()
-    page.wait_for_timeout(300)
-    before = arena.screenshot()
+    before = wait_for_another_picture(page, before)
     box = arena.bounding_box()
     arena.click(position={"x": 0.32 * box["width"], "y": 0.68 * box["height"]})
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal !== ''")
     assert explorer.get_attribute("data-goal") == str(int(place_cells([5]).maps[0].encode([0.3, 0.7])))
     expect(explorer).to_contain_text("learned without being asked")
-    page.wait_for_timeout(300)
-    assert arena.screenshot() != before
+    wait_for_another_picture(page, before)
     page.keyboard.press("Escape")
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal === ''")
     page.keyboard.press("ArrowDown")
@@ -236,7 +236,7 @@ def test_it_pauses_out_of_view_and_in_a_hidden_tab(open_page, site):
     page.evaluate("""() => { Object.defineProperty(document, "hidden", { value: true, configurable: true });
                              document.dispatchEvent(new Event("visibilitychange")); }""")
     wait(page, "paused")
-    page.wait_for_timeout(100)
+    wait_for_frame_in_flight(page)
     step = explorer.get_attribute("data-step")
     page.wait_for_timeout(300)
     assert explorer.get_attribute("data-step") == step
