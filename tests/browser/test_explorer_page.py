@@ -9,6 +9,7 @@ from explorer_page import (drop_by_keyboard, explorer_of, picture, play_to_the_e
 from playwright.sync_api import expect
 
 from neorl import Desire, Explorer, Learning, Place, Run, WaterWorld, multimodal, network_d, place_cells, simulate
+from neorl.browser.explorer import GROUPS
 from neorl.core.modality import OBJECT_VECTOR_CELL
 
 SIZE = {"steps": 30_000, "runs": 12, "seed": 3, "progress": False}
@@ -63,6 +64,14 @@ def test_it_starts_by_itself_and_the_reward_curve_grows(open_page, site, over):
     wait(page, "ended")
     assert explorer.get_attribute("data-step") == "30000"
     assert float(explorer.get_attribute("data-score")) > 20
+
+
+def test_the_menu_of_agents_is_in_groups_and_begins_with_the_forager(open_page, site):
+    menu = open_page(*site("both")).locator('[name="preset"]')
+    expect(menu.locator("option").first).to_have_text("Forager: foveated cells, contacts alone")
+    first, *others = GROUPS
+    labels = menu.locator("optgroup").evaluate_all("groups => groups.map(({ label }) => label)")
+    assert labels == [first, "On this page", *others]
 
 
 def test_runs_of_the_agent_that_is_watched_are_offered(open_page, site):
@@ -185,6 +194,16 @@ def test_a_change_on_the_way_keeps_what_was_learned(open_page, site):
     assert 1000 < before
     press(page, "step")
     page.wait_for_function(f"document.querySelector('.neorl-explorer').dataset.step == {before + 1}")
+
+
+def test_the_trail_is_drawn_unless_it_is_hidden(open_page, site):
+    page = open_page(*site("both", speed=1.0, playing=True))
+    page.wait_for_function("document.querySelector('.neorl-explorer')?.dataset.step > 100")
+    press(page, "play")
+    wait_for_frame_in_flight(page)
+    with_trail = picture(page)
+    page.locator('[name="trail"]').uncheck()
+    wait_for_another_picture(page, with_trail)
 
 
 def test_a_click_on_a_cell_shows_how_to_get_there(open_page, site):

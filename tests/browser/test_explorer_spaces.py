@@ -57,8 +57,8 @@ def test_in_another_space_it_computes_the_run_of_python(opened, name):
     page = opened(name)
     for action in ("game", "red"):
         expect(page.locator(f'[data-action="{action}"]')).to_be_disabled()
-    expect(page.locator(".board .limb")).to_be_visible(visible=name.startswith("Arm"))
-    expect(page.locator(".side .space")).to_be_visible(visible=name.startswith("Arm"))
+    for title, subject in ((".board .limb .title", "Workspace"), (".side .space .title", "Joint space")):
+        expect(page.locator(title, has_text=subject)).to_be_visible(visible=name.startswith("Arm"))
     assert play_to_the_end(page) == lived(*OTHER_SPACES[name])
 
 
