@@ -133,7 +133,7 @@ class Policy(checks.Final):
 CALIBRATED = Learning(
     learning_rate=0.01711, discount=1.0, credit="happened", activity=0.6926, absent_decay=0.8339,
     absent_form="away", terminal=False, memory=24.78, bootstrap=False)
-# What the text prints, and the plainest or the middle of the prior where it leaves more, see
+# What the text prints, and the simplest or the middle of the prior where it leaves more, see
 # `notebooks/lib/shared/priors.py`.
 TO_THE_LETTER = Learning(
     learning_rate=0.012247448713915891, discount=0.9805065484119142, credit="activity", activity=0.5,

@@ -105,7 +105,7 @@ class Reading:
                 "object_reach": self.object_reach if state == "object" else 0.0}
 
 
-# What the text prints or pins; where it leaves more, the plainest or the middle of a prior, as the pins say.
+# What the text prints or pins; where it leaves more, the simplest or the middle of a prior, as the pins say.
 TO_THE_LETTER = Reading(**{name: value for name, value in vars(rules.TO_THE_LETTER).items() if name in vars(Reading)},
                         object_state="self", object_reach=0.0, object_tiled_fraction=1.0, object_beyond="outermost",
                         object_centred=False, weighting="resolution", place_gain=1.0, scale=10.0)

@@ -1,7 +1,7 @@
 """Verdicts: a claim of the thesis, our number for it, and the outcome of the claim's rule.
 
-1. A verdict is *reproduced*, *partly* or *not reproduced*, by a rule that is in the code, was written down before the
-   results, and is the same for every reading of the thesis.
+1. A verdict is *reproduced*, *partly* or *not reproduced*, by a rule in the code, the same for every reading of the
+   thesis. The page of claims names the commit that fixed it and, with reasons, those that changed it.
 2. *Reproduced* and *partly* need evidence: 95 % intervals that exclude the contrary, of the whole claim or of a part of
    it that the rule names. An interval that merely leaves room for a claim proves nothing.
 3. An agent has *learned* if it finally earns more than Brownian motion on the same board. A claim that presupposes

@@ -39,7 +39,7 @@ def test_every_field_of_a_reading_is_pinned_or_varied_within_the_text_and_varied
         assert choice.levels and choice.stated.startswith(choice.levels)
 
 
-def test_the_letter_takes_what_is_pinned_and_the_plainest_of_what_is_open():
+def test_the_letter_takes_what_is_pinned_and_the_simplest_of_what_is_open():
     letter = TO_THE_LETTER
     assert (letter.exploration, letter.tiled_fraction, letter.own_cell, letter.recursion) == (0, 1, "counts", -1)
     assert (letter.credit, letter.absent_form, letter.bootstrap, letter.terminal) == ("activity", "away", True, False)

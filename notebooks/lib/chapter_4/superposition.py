@@ -1,7 +1,7 @@
 """Sums in place of a whole: functions as sums of ridges, and sums of value functions (thesis sections 4.1.1, 4.1.2).
 
 1. Kolmogorov and Arnold write every continuous function as Σ_q χ_q(Σ_p ψ_qp(x_p)), with 2n + 1 outer functions χ (eq.
-   4.2). Here the inner functions are the plainest possible, so each term is a *ridge*: χ(x cos θ + y sin θ).
+   4.2). Here the inner functions are the simplest possible, so each term is a *ridge*: χ(x cos θ + y sin θ).
 2. Ridges are added one at a time, each at the angle θ that explains most of the residual of the others (projection
    pursuit, Friedman and Stuetzle 1981). The outer functions are polynomials, fitted jointly by least squares.
 3. On a grid, a state pays its reward whenever it is entered. A step into a wall enters no state. The task is

@@ -21,7 +21,7 @@ class Pin:
 
     fields: the fields of `Reading` that make the choice; () if it is the same in every reading. quotation, place: the
     sentence and its place in the thesis, "" if there is none. follows: what it excludes, or what it leaves open and
-    which value is plainest. allows: whether a given reading obeys the sentence; None if the choice is open.
+    which value is simplest. allows: whether a given reading obeys the sentence; None if the choice is open.
     """
 
     choice: str
@@ -60,7 +60,7 @@ POLICY_AND_MAPS = (
     Pin("ties", ("when_indifferent",),
         "Basal actions affect the agent by accelerating it in the cardinal directions, [N, S, E, W].",
         "paper A, WaterWorld",
-        "How a tie of values is broken is open. A uniform draw is plainest: “Learning can be regarded as inserting "
+        "How a tie of values is broken is open. A uniform draw is simplest: “Learning can be regarded as inserting "
         "bias into this stochastic process” (section 4.1.1). With ε = 0, an agent that takes no action while values "
         "add up to zero, as in the author's later code, never moves, and one that takes the first action is stuck at "
         "a wall; so only the draw is run."),
@@ -70,7 +70,7 @@ POLICY_AND_MAPS = (
         lambda reading: reading.tiled_fraction == 1),
     Pin("weight of a map", ("weighting",), "the contribution of each learner is inversely proportional to the size of "
         "its receptive field", "paper A, Experiments",
-        "Weights are proportional to the resolution N if size means width, which is plainest, or to N² if it means "
+        "Weights are proportional to the resolution N if size means width, which is simplest, or to N² if it means "
         "area; equal weights are excluded. Paper B adopts this.",
         lambda reading: reading.weighting in ("resolution", "cells")),
     Pin("elements in the agent's own cell", ("own_cell",), "the set of NRES cells occupied by an element of interest",
@@ -89,7 +89,7 @@ LEARNING = (
         lambda reading: reading.credit != "step"),
     Pin("credit of events that occurred", ("credit",), "Multiple occurrences of the same event should affect learning "
         "positively", "section 4.1.3, at equation 4.7",
-        "ψ(N) is positive for all N ≥ 1, and may grow or not. Equal credit is plainest: “All events that happened "
+        "ψ(N) is positive for all N ≥ 1, and may grow or not. Equal credit is simplest: “All events that happened "
         "while at s⁻ should be assigned equal weight”. Credit for the last event alone is excluded.",
         lambda reading: reading.credit not in ("last", "step")),
     Pin("credit of events that did not occur", ("absent_decay",), "zero occurrences would affect learning negatively "
@@ -97,11 +97,11 @@ LEARNING = (
         lambda reading: reading.absent_decay > 0 and reading.credit != "step"),
     Pin("form of ψ(0)", ("absent_form",), "increasing the inference value for events that happened and decreasing the "
         "value otherwise", "section 4.1.3, at equation 4.8",
-        "Equation 4.8 with a negative rate moves a value away from its target, which is plainest; a value that decays "
+        "Equation 4.8 with a negative rate moves a value away from its target, which is simplest; a value that decays "
         "towards zero decreases, too."),
     Pin("memory", ("memory", "credit"), "assigning credit to events after each transition s⁻ → s⁺ as a leaky "
         "integrator", "section 4.1.3",
-        "What leaks is open. How active an event is, or how often it occurred in the cell, is plainest: section 4.4 "
+        "What leaks is open. How active an event is, or how often it occurred in the cell, is simplest: section 4.4 "
         "has “how active the corresponding event was before state transition”. Cells left earlier may be remembered "
         "with their events as well: “memory traces” (section 4.4); but no sentence gives credit to them, and their "
         "number is ours."),
@@ -114,18 +114,18 @@ LEARNING = (
         "Between 0 and 1; no value is given. 1 is allowed: a goal reached later is then worth as much."),
     Pin("bootstrapping", ("bootstrap",), "it is still possible to utilize a transition-driven update by inference "
         "inversion", "section 4.1.3, equation 4.8",
-        "Equation 4.8 prints γ max Q, so bootstrapping is plainest. A memory of cells does the same work, though, and "
+        "Equation 4.8 prints γ max Q, so bootstrapping is simplest. A memory of cells does the same work, though, and "
         "whether there are both is open."),
     Pin("goal reached", ("terminal",), "Reaching s* results in a unitary reward R = +1.0", "section 4.1.2",
         "Whether more value can follow is open. Equation 4.8 prints R + γ max Q for every transition, including that "
-        "into the goal, which is plainest; otherwise the goal is terminal and worth 1."),
+        "into the goal, which is simplest; otherwise the goal is terminal and worth 1."),
 )
 
 OBJECTS = (
     Pin("state and goal of object vectors", ("object_state",),
         "with the self in the center and allocentric direction to external objects", "paper B, section 3",
         "Open, and decisive. The state is the self, always at the centre, and the goal is the object's cell, which is "
-        "plainest: “the current parameter configuration of the agent” gives the state (paper A, figure 2), and "
+        "simplest: “the current parameter configuration of the agent” gives the state (paper A, figure 2), and "
         "the cell “occupied by an element of interest” the value function (paper A, equation 4). Or the same in the "
         "frame of each object. Or the state is the object's cell and the goal the contact."),
     Pin("transition of object vectors", (), "after each transition s⁻ → s⁺", "section 4.1.3",
@@ -134,23 +134,23 @@ OBJECTS = (
         "state.", _always),
     Pin("goal of an object's cell", ("object_reach",), "When the agent encounters an object, it is replaced by a new "
         "object", "paper B, section 3",
-        "If the state is the object's cell, the goal is the cell at o − s = 0, which is plainest, or every cell that "
+        "If the state is the object's cell, the goal is the cell at o − s = 0, which is simplest, or every cell that "
         "the contact of the two overlaps."),
     Pin("range of object-vector cells", ("object_tiled_fraction",),
         "One can also compute a simple object vector cell (OVC) interpretation by vector subtraction",
         "paper B, section 3",
         "Differences of places lie between −1 and 1 board width. It is open whether the N intervals divide all of "
-        "that, which is plainest, or less."),
+        "that, which is simplest, or less."),
     Pin("cell beyond the range", ("object_beyond",), "most OVC cells have a receptive field up to 30cm away in mice",
         "section 2.2, footnote 4", "An object beyond the range of a map belongs to the outermost cell, which is "
-        "plainest, or to none."),
+        "simplest, or to none."),
     Pin("grid of object vectors", ("object_centred",), "OVC is centered on the self with an allocentric representation "
         "of other objects", "paper B, figure 4",
         "With N even, the self lies where four cells meet, or the grid is shifted by half a cell, so that the self is "
-        "in the middle of one. N equal intervals are plainest."),
+        "in the middle of one. N equal intervals are simplest."),
     Pin("gain of place cells, paper B", ("place_gain",), "behavior can later be harvested as a weighted sum over the "
         "OVF’s according to priorities", "paper B, section 2.2",
-        "Priorities of modalities are not given, and 1:1 is plainest, as in paper C. The author's later code has a "
+        "Priorities of modalities are not given, and 1:1 is simplest, as in paper C. The author's later code has a "
         "factor for places, with the remark that object-vector values seem three times as high; a drawing on the "
         "author's site has 5."),
 )
@@ -160,7 +160,7 @@ NETWORKS = (
         "paper C, section 3", "A gain of 1. A drawing of network D on the author's site has 5.",
         lambda reading: reading.network_gain == 1),
     Pin("valence in desire vectors", ("vectors",), "represents the vector sum", "paper C, section 1",
-        "Open: whether the Q-vectors that add up hold the valence of their elements. Without it is plainest, since the "
+        "Open: whether the Q-vectors that add up hold the valence of their elements. Without it is simplest, since the "
         "desire carries the valence as well; a red creep's would otherwise act twice, and red would attract."),
     Pin("where a desire lies", ("scale",), "e^out = d", "paper C, section 1",
         "At d itself, seen from the agent; no unit is given, and the one of the book is ours."),
@@ -168,7 +168,7 @@ NETWORKS = (
         "paper C, section 3", "A weight of −1.", lambda reading: reading.recursion == -1),
     Pin("resolutions, paper C", ("network_resolutions",), "The individual neoRL sub-nodes ξ³, ξ⁷, ξ²³ are trained by "
         "latent learning", "paper C, section 1",
-        "The experiments name none. The paper shows nodes of N3, N7 and N23, which is plainest; paper B has primes up "
+        "The experiments name none. The paper shows nodes of N3, N7 and N23, which is simplest; paper B has primes up "
         "to 13."),
 )
 
@@ -180,10 +180,10 @@ WORLD = (
     Pin("objects and rewards, paper C", (), "Three objects move around in the Euclidean plane", "paper C, section 2",
         "As in paper B.", _always),
     Pin("steps per second", ("fps",), "with one run taking somewhat under one hour on a single CPU core",
-        "paper A, Experiments", "150,000 steps are 50 minutes at 50 per second, which is plainest, or 42 at 60. At 30 "
+        "paper A, Experiments", "150,000 steps are 50 minutes at 50 per second, which is simplest, or 42 at 60. At 30 "
         "per second they would be 83, which is excluded.", lambda reading: reading.fps in (50, 60)),
     Pin("contact", ("contact",), "", "", "Pygame compares whole pixels: rounded since version 2, which is "
-        "plainest, and truncated before."),
+        "simplest, and truncated before."),
 )
 
 PINS = POLICY_AND_MAPS + LEARNING + OBJECTS + NETWORKS + WORLD

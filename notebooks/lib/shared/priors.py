@@ -5,7 +5,7 @@
    varied widely.
 3. Beyond the text (`BEYOND`), pinned choices are varied as well, jointly with all others.
 4. The reading to the letter takes the values that the text pins. Where more than one is left, it takes the one that a
-   sentence or an equation prints, or else the plainest, which stands first among the levels, or else the middle of the
+   sentence or an equation prints, or else the simplest, which stands first among the levels, or else the middle of the
    prior, which is a number of ours. `lib.shared.pins` says which and why.
 5. Trials outside this project had found α of 0.03, −ψ(0) of 0.9 and memories of some 20 cells before these priors were
    written; they reach far beyond on either side. `OF_TRIALS` has the two readings that they ended with.
@@ -75,7 +75,7 @@ class Choice(NamedTuple):
     """How a field of `Reading` is varied."""
 
     label: str
-    prior: tuple | LogUniform  # levels, the plainest first, or a distribution
+    prior: tuple | LogUniform  # levels, the simplest first, or a distribution
     papers: str  # the first letters of the claims that depend on it
 
     @property
