@@ -75,5 +75,6 @@ def test_readings_are_drawn_beside_the_verdicts(record):
     axes = plt.gca()
     assert [tick.get_text() for tick in axes.get_yticklabels()] == [
         "C2  reproduced", "A6  no verdict", "T5  not computed"]
-    assert [(bar.get_x(), bar.get_width()) for bar in axes.patches] == [(0, 25), (25, pytest.approx(100 * 26 / 256))]
-    assert [line.get_xydata().tolist() for line in axes.lines] == [[[5, 0]]]
+    assert [(bar.get_x(), bar.get_width()) for bar in axes.patches] == [(0, 0.25), (0.25, 26 / 256)]
+    assert [each.get_text() for each in axes.texts] == ["64 of 256", *2 * ["not varied over readings"]]
+    assert [line.get_xydata().tolist() for line in axes.lines] == [[[0.05, 0]]]

@@ -132,7 +132,7 @@ def _limits(values, borders):
 
 
 def draw_standing(record, names):
-    """The verdicts of claims, and the share of readings under which they hold.
+    """The verdicts of claims, the share of readings under which they are reproduced, and at the right its counts.
 
     Bars are from short runs, points from runs as long as the papers', where there are any.
     """
@@ -140,23 +140,25 @@ def draw_standing(record, names):
     for row, name in enumerate(names):
         share = record["shares"].get(name)
         if share:
-            holds, undecided = (100 * share[kind] / share["readings"] for kind in ("holds", "undecided"))
+            holds, undecided = (share[kind] / share["readings"] for kind in ("holds", "undecided"))
             axes.barh(row, holds, 0.55, color=COLOURS["reproduced"])
+            axes.annotate(f"{share['holds']} of {share['readings']}", (1, row), xytext=(9, 0),
+                          textcoords="offset points", fontsize=SMALL, va="center")
             if undecided:
                 axes.barh(row, undecided, 0.55, left=holds, **UNDECIDED)
             if share.get("measured"):
-                axes.plot(100 * share["agrees"] / share["measured"], row, **DIAMOND, clip_on=False)
+                axes.plot(share["agrees"] / share["measured"], row, **DIAMOND, clip_on=False)
         else:
-            axes.text(1, row, "not varied over readings", fontsize=SMALL, va="center")
+            axes.text(0.01, row, "not varied over readings", fontsize=SMALL, va="center")
     verdicts = {name: record["claims"].get(name, {"verdict": "not computed"})["verdict"] for name in names}
     axes.set_yticks(range(len(names)), [f"{name}  {verdicts[name]}" for name in names], fontsize=10)
-    axes.set(xlim=(0, 100), ylim=(len(names) - 0.4, -0.6), xlabel="% of readings")
+    axes.set_xticks([0, 0.5, 1], ["none", "half", "all readings"])
+    axes.set(xlim=(0, 1), ylim=(len(names) - 0.4, -0.6))
     axes.tick_params(axis="y", length=0, pad=8)  # a diamond at 0 reaches beyond the axis
     axes.spines["left"].set_visible(False)
-    handles = [Rectangle((0, 0), 1, 1, color=COLOURS["reproduced"]), Rectangle((0, 0), 1, 1, **UNDECIDED)]
-    handles.append(Line2D([], [], **DIAMOND))
-    axes.legend(handles, ["reproduced", "undecided", "agrees, in long runs"], frameon=False, fontsize=SMALL, ncols=3,
-                labelcolor=TEXT, loc="lower right", bbox_to_anchor=(1, 1.0), borderpad=0)  # beyond 100 % is no room
+    handles = [*(Rectangle((0, 0), 1, 1, **look) for look in (BARS["reproduced"], UNDECIDED)), Line2D([], [], **DIAMOND)]
+    axes.figure.legend(handles, ["reproduced", "undecided", "agrees, in long runs"], loc="outside upper center", ncols=3,
+                       frameon=False, fontsize=SMALL, labelcolor=TEXT, borderpad=0)
 
 
 def draw_importance(importance):
