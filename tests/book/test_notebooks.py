@@ -31,7 +31,9 @@ def test_a_page_shows_its_experiment_in_one_cell(cells):
     assert not HIDDEN & tags(experiment) and 8 <= len(experiment.source.splitlines()) <= 20
     assert re.search(r"\b(sweep|simulate)\(|\bLearner\(", experiment.source)
     drawn = [cells.index(cell) for cell in cells if "figure" in cell.metadata.get("mystnb", {})]
-    assert cells.index(experiment) < min(drawn)
+    boxes = [cells.index(cell) for cell in cells if "opening.found(" in cell.source]
+    assert max([cells.index(experiment), *boxes]) < min(drawn), "the box and the experiment come before figures"
+    assert any("## Variations to try\n" in cell.source for cell in cells)
 
 
 def test_a_notebook_is_without_outputs(cells):
