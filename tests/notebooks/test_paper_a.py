@@ -57,7 +57,7 @@ def test_the_experiment_follows_the_parameters():
 def test_the_variations_are_those_of_the_second_experiment():
     names = page("variations", runs=20)
     varied, variants = names["varied"], names["variants"]
-    assert set(varied) == {LETTER, CALIBRATED, *variants} and len(variants) >= 8
+    assert set(varied) == set(variants) and len(variants) >= 8
     for name, reading in variants.items():
         expected = conditions(reading, 150_000, 10, groups=("layers",))
         assert varied[name]["brownian"] == expected.pop(("brownian", 8))

@@ -44,8 +44,8 @@ def comparison(judged):
     counts = Counter(claim.name for claims in judged.values() for claim in claims)
     names = sorted(name for name, count in counts.items() if 2 * count > len(judged))
     rows = []
-    for reading in [each for each in dict.fromkeys([LETTER, CALIBRATED, *judged]) if each in judged]:
-        cells = {claim.name: _with_symbol(claim.verdict, wording.number(claim.here.value)) for claim in judged[reading]}
+    for reading, claims in judged.items():
+        cells = {claim.name: _with_symbol(claim.verdict, wording.number(claim.here.value)) for claim in claims}
         rows.append([reading, *(cells.get(name, "") for name in names)])
     return wording.table(["Reading", *names], rows)
 
