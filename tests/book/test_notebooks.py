@@ -6,18 +6,14 @@ import re
 import compute
 import nbformat
 import pytest
+from cells import tags
 from page_cells import NOTEBOOKS as FOLDER
+from programs import figure_of
 
 from lib.shared import notebook
 from neorl.evidence.statements import STATEMENTS
 
 NOTEBOOKS = {path.stem: nbformat.read(path, 4) for path in sorted(FOLDER.glob("*.ipynb"))}
-
-
-def tags(cell):
-    return set(cell.metadata.get("tags", []))
-
-
 HIDDEN = {"remove-input", "hide-input", "hide-cell"}
 
 
@@ -30,7 +26,7 @@ def test_a_page_shows_its_experiment_in_one_cell(cells):
     (experiment,) = [cell for cell in cells if "experiment" in tags(cell)]
     assert not HIDDEN & tags(experiment) and 8 <= len(experiment.source.splitlines()) <= 20
     assert re.search(r"\b(sweep|simulate)\(|\bLearner\(", experiment.source)
-    drawn = [cells.index(cell) for cell in cells if "figure" in cell.metadata.get("mystnb", {})]
+    drawn = [cells.index(cell) for cell in cells if figure_of(cell)]
     boxes = [cells.index(cell) for cell in cells if "opening.found(" in cell.source]
     assert max([cells.index(experiment), *boxes]) < min(drawn), "the box and the experiment come before figures"
     assert any("## Variations to try\n" in cell.source for cell in cells)
@@ -55,14 +51,8 @@ def test_a_cell_that_ends_with_a_drawing_puts_out_nothing_but_the_figure(cells):
                 assert cell.source.endswith(";"), "the returned axes would be part of the output"
 
 
-def labels(page):
-    """The labels of a notebook's figures."""
-    return [cell.metadata["mystnb"]["figure"]["name"] for cell in page.cells
-            if "figure" in cell.metadata.get("mystnb", {})]
-
-
 def test_every_claim_that_a_rule_judges_has_its_figure_on_one_page():
-    found = [label for page in NOTEBOOKS.values() for label in labels(page)]
+    found = [label for page in NOTEBOOKS.values() for label in map(figure_of, page.cells) if label]
     assert len(found) == len(set(found))
     assert {statement.figure for statement in STATEMENTS.values()} <= set(found)
 
@@ -70,7 +60,8 @@ def test_every_claim_that_a_rule_judges_has_its_figure_on_one_page():
 def test_each_specification_curve_has_the_label_of_its_claim():
     page = NOTEBOOKS["assumptions"]
     drawn = re.findall(r'draw_specification\(.*"(\w+)"\)', "\n".join(cell.source for cell in page.cells))
-    assert [f"fig-spec-{name.lower()}" for name in drawn] == [each for each in labels(page) if "spec" in each]
+    found = [name for name in map(figure_of, page.cells) if name and "spec" in name]
+    assert found == [f"fig-spec-{name.lower()}" for name in drawn]
     assert drawn == [name for name in STATEMENTS if name in drawn] and len(drawn) == 19
     folded = [cell.metadata.mystnb.code_prompt_show for cell in page.cells if "draw_specification(" in cell.source]
     assert folded == [f"{name}: {STATEMENTS[name].text}" for name in drawn]

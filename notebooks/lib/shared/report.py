@@ -43,11 +43,10 @@ def comparison(judged):
     """Verdicts under readings, {reading: [Claim, …]}, on claims judged under most of them."""
     counts = Counter(claim.name for claims in judged.values() for claim in claims)
     names = sorted(name for name, count in counts.items() if 2 * count > len(judged))
-    rows = []
-    for reading, claims in judged.items():
-        cells = {claim.name: _with_symbol(claim.verdict, wording.number(claim.here.value)) for claim in claims}
-        rows.append([reading, *(cells.get(name, "") for name in names)])
-    return wording.table(["Reading", *names], rows)
+    cells = {reading: {claim.name: _with_symbol(claim.verdict, wording.number(claim.here.value)) for claim in claims}
+             for reading, claims in judged.items()}
+    return wording.table(["Reading", *names], [[reading, *(found.get(name, "") for name in names)]
+                                               for reading, found in cells.items()])
 
 
 def errata(place=""):
