@@ -33,4 +33,5 @@ def verdicts(record):
             for name in names:
                 by_verdict[report.verdict({"claims": found}, name)].append(name)
             rows.append([group, reading, *(" ".join(each) for each in by_verdict.values())])
-    return table(["Claims", "Reading", *(f"{html(verdict)}\u00a0{verdict}" for verdict in VERDICTS), "not judged"], rows)
+    headings = [f"{html(verdict)}\u00a0{verdict}" for verdict in VERDICTS]
+    return table(["Claims", "Reading", *headings, "not judged"], rows)

@@ -1,7 +1,7 @@
 """Random search for the settings of tabular learners, deep learners and the PD controller: seeded ranges and results.
 
 ``python -m lib.alternatives.search search.csv`` draws `SETTINGS` settings of each tabular learner and of PD from
-`RANGES`, tries each in `RUNS` runs with 3 creeps on a seed that no reported run has, and writes their rewards per second
+`RANGES`, tries each in `RUNS` runs with 3 creeps on a seed that no reported run has, and writes their reward per second
 in the last third. Deep learners have fewer and shorter tries (`lib.alternatives.deep_runs`). The setting that earned
 most is used on both boards, and in long runs.
 

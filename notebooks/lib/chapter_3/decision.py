@@ -220,8 +220,7 @@ def _run_on(table, rates, state, q, visits, stream, path):
 
 
 def count_transitions(experience, steps):
-    """Transitions from each state by each action to each state in the first steps: int64 (runs, states, actions, states).
-    """
+    """Transitions from state by action to state in the first steps: int64 (runs, states, actions, states)."""
     runs, _, states, actions = experience.q.shape
     pairs, following = _pairs(experience, steps), experience.states_t[:, :steps].ravel()
     counts = np.bincount(pairs * states + following, minlength=runs * states * actions * states)

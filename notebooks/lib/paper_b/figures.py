@@ -131,8 +131,8 @@ def red_a_minute(revalued):
 def draw_distances(moved, seconds):
     """Draw the distance of agents from a desired place over all its moves, as `trials.distances` returns it."""
     starts = SECONDS_A_MOVE * np.arange(moved["experienced"].shape[1])
-    draw_curves((starts[:, None] + seconds).ravel(), {name: each.reshape(len(each), -1) for name, each in moved.items()},
-                "seconds", "distance, board widths")
+    curves = {name: each.reshape(len(each), -1) for name, each in moved.items()}
+    draw_curves((starts[:, None] + seconds).ravel(), curves, "seconds", "distance, board widths")
 
 
 def draw_time_scale(resolutions, stays):
@@ -166,7 +166,7 @@ def values_table(values):
 
 
 def sizes_table(sizes):
-    """The values and microseconds per step of each kind of agent, as a Markdown table. sizes: `trials.size_and_cost`."""
+    """Values and microseconds per step of each kind of agent, as a Markdown table. sizes: `trials.size_and_cost`."""
     return table(["State", "Values", "Time per step, µs"], [
         [name, f"{values:,}", f"{cost:.2f}"] for name, (values, cost) in sizes.items()])
 

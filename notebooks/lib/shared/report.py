@@ -19,14 +19,14 @@ from lib.shared.marks import NOT_COMPUTED, leads, symbol
 from lib.shared.opening import link
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 from neorl.evidence.statistics import Estimate
-from neorl.evidence.verdict import VERDICTS
 from neorl.experiments.condition import source_digest
 from neorl.files import cache_folder, write_whole
 
 LETTER, CALIBRATED = "to the letter", "calibrated"  # names of readings
 COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict")
-LEGEND = ("● reproduced, ◐ partly, ○ not reproduced, ◇ no learning to test; without a symbol, no verdict. Numbers are the "
-          "quantities in italics, with 95\u00a0% intervals over runs. A claim's name leads to what its verdict rests on.")
+LEGEND = ("● reproduced, ◐ partly, ○ not reproduced, ◇ no learning to test; without a symbol, no verdict. Numbers "
+          "are the quantities in italics, with 95\u00a0% intervals over runs. A claim's name leads to what its verdict "
+          "rests on.")
 BESIDE = "Beside the claims stand demonstrations of this book:"
 PARTS = ("claims", "letter", "shares")  # of a record
 

@@ -1,9 +1,9 @@
 """The multiverse of readings: all choices that the thesis leaves open, varied jointly, and their effect on the claims.
 
 1. A *reading* fixes every open choice (`neorl.evidence.reading`); each choice has a prior (`lib.shared.priors`).
-2. A design is a scrambled Sobol sequence through the priors, so that any power of two of its readings fills the space.
-3. A claim *holds* under a reading if its verdict is "reproduced", is *undecided* if its intervals leave room for it, and
-   *fails* otherwise, also if agents have learned nothing to test it by.
+2. A design is a scrambled Sobol sequence through the priors: any power of two of its readings fills the space.
+3. A claim *holds* under a reading if its verdict is "reproduced", is *undecided* if its intervals leave room for it,
+   and *fails* otherwise, also if agents have learned nothing to test it by.
 4. The importance of choices for a claim is estimated from `ENOUGH` readings or more.
 """
 
@@ -13,9 +13,8 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
-from lib.shared.priors import TO_THE_LETTER, WITHIN, Choice
+from lib.shared.priors import TO_THE_LETTER, WITHIN
 from neorl import checks
-from neorl.evidence.reading import Reading
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.statistics import Estimate, difference, estimate
 from neorl.extras import require

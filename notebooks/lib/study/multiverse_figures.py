@@ -18,7 +18,8 @@ from neorl.evidence.statements import STATEMENTS
 
 COLOURS = {"reproduced": AGENT, "undecided": RED, "not reproduced": INK}
 UNDECIDED = {"facecolor": (RED, FILL), "edgecolor": RED, "linewidth": 1}  # of bars
-BARS = {"reproduced": {"color": AGENT}, "undecided": UNDECIDED, "not reproduced": {"facecolor": "none", "edgecolor": INK}}
+BARS = {"reproduced": {"color": AGENT}, "undecided": UNDECIDED,
+        "not reproduced": {"facecolor": "none", "edgecolor": INK}}
 DIAMOND = {"color": INK, "marker": "D", "markersize": 6, "linestyle": "none", "markeredgecolor": "white",
            "markeredgewidth": 0.8}  # the edge sets it off from bars
 OUTCOMES = {"reproduced": "o", "undecided": "D", "not reproduced": "."}  # markers
@@ -156,9 +157,9 @@ def draw_standing(record, names):
     axes.set(xlim=(0, 1), ylim=(len(names) - 0.4, -0.6))
     axes.tick_params(axis="y", length=0, pad=8)  # a diamond at 0 reaches beyond the axis
     axes.spines["left"].set_visible(False)
-    handles = [*(Rectangle((0, 0), 1, 1, **look) for look in (BARS["reproduced"], UNDECIDED)), Line2D([], [], **DIAMOND)]
-    axes.figure.legend(handles, ["reproduced", "undecided", "agrees, in long runs"], loc="outside upper center", ncols=3,
-                       frameon=False, fontsize=SMALL, labelcolor=TEXT, borderpad=0)
+    bars = [Rectangle((0, 0), 1, 1, **look) for look in (BARS["reproduced"], UNDECIDED)]
+    axes.figure.legend([*bars, Line2D([], [], **DIAMOND)], ["reproduced", "undecided", "agrees, in long runs"],
+                       loc="outside upper center", ncols=3, frameon=False, fontsize=SMALL, labelcolor=TEXT, borderpad=0)
 
 
 def draw_importance(importance):
