@@ -2,9 +2,9 @@
 
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
-from contrast import GROUNDS, STYLE_SHEET, contrast, variables
 
 from lib.shared import marks, opening, provenance, report, side_by_side
 from lib.shared.fields import superposed_field
@@ -15,6 +15,8 @@ from neorl.evidence.reading import TO_THE_LETTER, Reading
 from neorl.evidence.statistics import Estimate
 from neorl.evidence.verdict import VERDICTS, Claim
 
+STYLE_SHEET = Path(__file__).parents[2] / "book" / "vendor" / "book.css"
+
 
 def test_a_table_has_a_line_for_its_heads_a_rule_and_a_line_for_each_row():
     assert table(("a", 1), [("b", Estimate(2, 1, 3))]) == "| a | 1 |\n|---|---|\n| b | 2.00 [1.00, 3.00] |"
@@ -22,15 +24,10 @@ def test_a_table_has_a_line_for_its_heads_a_rule_and_a_line_for_each_row():
     assert [scientific(value) for value in (2.4e-16, 3e9, 0.0)] == ["2 × 10<sup>−16</sup>", "3 × 10<sup>9</sup>", "0"]
 
 
-def test_every_verdict_has_a_mark_whose_colour_is_legible_on_all_grounds():
+def test_every_verdict_has_a_mark_with_a_style():
     assert [marks.symbol(verdict) for verdict in (*VERDICTS, report.NOT_COMPUTED)] == ["●", "◐", "○", "◇", "◇", "◇"]
-    styled = dict(re.findall(r"\n\.(verdict-[\w-]+) \{\n  color: var\(--([\w-]+)\);", STYLE_SHEET.read_text()))
-    assert styled.keys() == {mark.css for mark in marks.MARKS.values()}
-    for mode, colours in variables("verdict-").items():
-        assert colours.keys() == set(styled.values())
-        for name, colour in {**colours, **variables("link")[mode]}.items():
-            for ground in GROUNDS[mode]:
-                assert contrast(colour, ground) >= 4.5, (mode, name, ground)
+    styled = re.findall(r"\n\.(verdict-[\w-]+) \{\n  color: var\(", STYLE_SHEET.read_text())
+    assert {*styled} == {mark.css for mark in marks.MARKS.values()}
 
 
 def claims(**verdicts):

@@ -125,23 +125,16 @@ class Unsized(NamedTuple):
     more: array("float64", "bananas")
 
 
+def beginning(state_type):
+    @kernel
+    def begin(state: state_type, rules: NoRules) -> None:
+        state.scene.position[0] = 0.1
+
+    return begin
+
+
 @kernel
 def without_types(state, rules):
-    state.scene.position[0] = 0.1
-
-
-@kernel
-def without_stream(state: Streamless, rules: NoRules) -> None:
-    state.scene.position[0] = 0.1
-
-
-@kernel
-def unsized(state: Unsized, rules: NoRules) -> None:
-    state.scene.position[0] = 0.1
-
-
-@kernel
-def drive_alone(state, rules):
     return 0.0, False
 
 
@@ -149,9 +142,9 @@ def drive_alone(state, rules):
     ({"dynamics": (enter, drive)}, "dynamics of Wrong must be a Dynamics, but is "),
     ({"dynamics": Dynamics(print, drive)}, "reset of Wrong must "),
     ({"dynamics": Dynamics(without_types, drive)}, r"reset of Wrong must take \(state, rules\), annotated with"),
-    ({"dynamics": Dynamics(enter, drive_alone)}, r"must take \(state, rules, action\), .*but takes \(state, "),
-    ({"dynamics": Dynamics(without_stream, drive)}, "the state of Wrong must have .* a field stream, .* but has scene"),
-    ({"dynamics": Dynamics(unsized, drive)}, "must be a number or 'things' or 'axes', but is 'bananas'"),
+    ({"dynamics": Dynamics(enter, without_types)}, r"must take \(state, rules, action\), .*but takes \(state, "),
+    ({"dynamics": Dynamics(beginning(Streamless), drive)}, "state of Wrong must have .* a field stream, .*but has sc"),
+    ({"dynamics": Dynamics(beginning(Unsized), drive)}, "must be a number or 'things' or 'axes', but is 'bananas'"),
     ({"things": -1}, "things of Wrong must be an integer from 0 to 1048576, but is -1"),
     ({"things": 1.5}, "things of Wrong must be an integer from 0 to 1048576, but is 1.5"),
     ({"fps": 0}, "fps of Wrong must be a finite number from 1e-30 to 1e\\+30, but is 0"),
