@@ -1,7 +1,7 @@
 """Make the table of calibrated readings, or add to it: ``python notebooks/calibrate.py --minutes 45``, from the root.
 
-It continues the existing table; ``--anew`` starts a new one. ``--refine 20`` searches near the readings of the trials
-for 20 minutes instead, ``--screen 12`` runs promising readings again, ``--rescale 2 4`` then tries these scales for the
+It continues the existing table; ``--anew`` starts a new one. ``--refine 20`` searches near the leading readings for 20
+minutes instead, ``--screen 12`` runs promising readings again, ``--rescale 2 4`` then tries these scales for the
 leading one, and ``--confirm 20 --fresh-runs 100`` runs the leading ones again. It can be interrupted at any time: the
 file is written whenever readings are finished, and results are cached in the folder that ``NEORL_CACHE`` names.
 """
@@ -10,7 +10,6 @@ import argparse
 import time
 from pathlib import Path
 
-from lib.shared.priors import OF_TRIALS
 from lib.study import calibration
 from lib.study.calibration_results import progress
 from lib.study.calibration_table import SHIPPED, read_table, write_table
@@ -31,7 +30,7 @@ def main():
         table = calibration.screen(table, chosen.screen, seed=chosen.seed)
         keep(table)
     elif chosen.refine:
-        table = calibration.refine(chosen.refine, table, OF_TRIALS, chosen.refined_runs, seed=chosen.seed, keep=keep)
+        table = calibration.refine(chosen.refine, table, chosen.refined_runs, seed=chosen.seed, keep=keep)
     else:
         table = calibration.calibrate(chosen.minutes, table, seed=chosen.seed, runs=chosen.runs, steps=chosen.steps,
                                       keep=keep)
@@ -47,7 +46,7 @@ def parse_arguments():
     parser.add_argument("--minutes", type=float, default=45, help="how long (default 45)")
     parser.add_argument("--runs", type=int, default=calibration.RUNS, help=f"runs per condition ({calibration.RUNS})")
     parser.add_argument("--steps", type=int, default=calibration.STEPS, help=f"steps per run ({calibration.STEPS})")
-    parser.add_argument("--refine", type=float, metavar="MINUTES", help="search near those of the trials instead")
+    parser.add_argument("--refine", type=float, metavar="MINUTES", help="search near the leading readings instead")
     parser.add_argument("--refined-runs", type=int, default=6, help="runs per condition of these (6)")
     parser.add_argument("--rescale", type=float, nargs="*", default=(),
                         help="scales of desires to try in paper C, for the leading one (none)")

@@ -5,7 +5,7 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 
-from lib.shared.priors import BEYOND, PINNED, TO_THE_LETTER, WITHIN, LogUniform
+from lib.shared.priors import BEYOND, PINNED, WITHIN, LogUniform
 from lib.study import multiverse
 from lib.study.multiverse_figures import LEADING, draw_specification
 import neorl
@@ -13,7 +13,7 @@ from neorl import (CALIBRATED, Learning, Policy, multimodal, network_a, network_
                    simulate)
 from neorl.agents.rules import AT_EVERY_STEP
 from neorl.evidence.verdict import Claim
-from neorl.evidence.reading import GROUPS, Reading, conditions, judge
+from neorl.evidence.reading import GROUPS, TO_THE_LETTER, Reading, conditions, judge
 from neorl.evidence.statistics import Estimate
 
 

@@ -5,8 +5,8 @@ from dataclasses import fields, replace
 import pytest
 
 from lib.shared import pins
-from lib.shared.priors import BEYOND, TO_THE_LETTER, WITHIN
-from neorl.evidence.reading import Reading
+from lib.shared.priors import BEYOND, WITHIN
+from neorl.evidence.reading import TO_THE_LETTER, Reading
 
 PINNED = [pin for pin in pins.PINS if pin.status == "pinned"]
 

@@ -8,16 +8,16 @@
    sentence or an equation prints, or else the simplest, which stands first among the levels, or else the middle of the
    prior, which is a number of ours. `lib.shared.pins` says which and why.
 5. Trials outside this project had found α of 0.03, −ψ(0) of 0.9 and memories of some 20 cells before these priors were
-   written; they reach far beyond on either side. `OF_TRIALS` has the two readings that they ended with.
+   written; they reach far beyond on either side.
 """
 
 import math
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from typing import Any, NamedTuple
 
 from neorl.agents import papers
 from neorl.agents.rules import WHEN_INDIFFERENT
-from neorl.evidence.reading import LAYERS, TO_THE_LETTER, Reading
+from neorl.evidence.reading import LAYERS, Reading
 from neorl.worlds.waterworld import CONTACTS
 
 # Measures of a value that are uniform in their logarithm, with their inverses.
@@ -141,13 +141,6 @@ WITHIN = {
 PINNED: dict[str, Any] = {
     "own_cell": "counts", "tiled_fraction": 1.0, "exploration": 0.0, "when_indifferent": "random", "network_gain": 1.0,
     "recursion": -1.0}
-# The two readings that trials outside this project had found, from which the search is refined: see point 5.
-_TRIED: dict[str, Any] = {"discount": 1.0, "absent_form": "away", "bootstrap": False, "weighting": "cells",
-                          "scale": 100.0}
-OF_TRIALS = (replace(TO_THE_LETTER, learning_rate=0.027, credit="happened", absent_decay=0.89, memory=25.6,
-                     place_gain=4.0, **_TRIED),
-             replace(TO_THE_LETTER, learning_rate=0.037, credit="share", absent_decay=0.92, memory=18.1,
-                     place_gain=3.0, **_TRIED))
 _BEYOND = WITHIN | {
     "credit": Choice("credit, ψ(N)", ("activity", "count", "happened", "share", "last", "step"), "ABCT"),
     "absent_decay": Choice("absence, −ψ(0)", LogUniform(1e-3, 1, apart=0.0, chance=0.4), "ABCT"),

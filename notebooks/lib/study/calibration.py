@@ -8,8 +8,8 @@ rather than one that climbs to the best fit. The page on calibration explains it
 2. Then it runs *waves* of `candidates`: readings that are promising, or not implausible, by an `Emulator` of all
    results so far. A wave runs its candidates in both cheap groups. Object vectors and both modalities are run for the
    readings that are most promising for paper B, networks and single maps for those most promising for all papers.
-3. `refine` searches near given readings and the nearest ones found from them, with more runs each. A round runs
-   children in one group after the other, and after each only the nearest go on.
+3. `refine` searches near the leading readings of more runs, with more runs each. A round runs children in one group
+   after the other, and after each only those go on for which most claims hold, the nearest first.
 4. `screen` runs readings again that agree with most targets in few runs, wherever in the priors they lie.
 5. `rescale` runs the leading one in paper C with other units of a desire vector, which concern no other paper.
 6. `confirm` runs the leading readings again with fresh seeds, since a search over noisy numbers finds lucky ones.
@@ -23,11 +23,12 @@ from dataclasses import replace
 import numpy as np
 import scipy
 
-from lib.shared.priors import TO_THE_LETTER, WITHIN
+from lib.shared.priors import WITHIN
 from lib.study import calibration_table
 from lib.study.calibration_table import Row
 from lib.study.calibration_targets import GROUPS, TARGETS
 from neorl.agents.papers import LAYERS
+from neorl.evidence.reading import TO_THE_LETTER
 from neorl.extras import require
 
 RUNS, STEPS = 2, 600_000  # of a reading: the papers' own lengths
@@ -40,7 +41,7 @@ PARENTS, RENEWED, MOVED = 30, 0.1, 0.05  # of children: best rows, share of choi
 ROUND = {"both": 24, "objects": 14, "places": 14, "layers": 14, "single": 8, "networks": 8}  # readings per round
 SCREENED = {"layers": 100, "places": 40, "objects": 40, "both": 40, "single": 8, "networks": 8}  # of readings screened
 SCREENED_RUNS = 16  # a reading that was run as often or less is screened
-KEPT = 12  # nearest refined readings whose children a round runs
+KEPT = 12  # leading readings whose children a round of `refine` runs
 IMPLAUSIBLE = 3.0
 TREES, LEAF, FEWEST = 100, 3, 24  # of a forest: trees, fewest rows in a leaf, fewest rows to fit
 FAR = 8.0  # scales: the emulator clips values that lie farther than this outside an interval
@@ -65,28 +66,28 @@ def calibrate(minutes, table=(), seed=0, runs=RUNS, steps=STEPS, keep=None):
     return [row for row in table if row.statistics]
 
 
-def refine(minutes, table, parents, runs, seed, keep):
-    """Search near given readings for a number of minutes, and return the table that includes the rows.
-
-    parents: readings, to which the nearest 12 complete rows of more than 2 runs are added.
-    """
+def refine(minutes, table, runs, seed, keep):
+    """Search near the 12 leading readings of more than 2 runs for a number of minutes, and return the longer table."""
     end = time.monotonic() + 60 * minutes
     table = list(table)
     while time.monotonic() < end:
         rng = np.random.default_rng([seed, _next_wave(table)])
-        found = sorted((row for row in table if row.complete and row.runs > RUNS), key=lambda row: row.distance)
-        best = [*parents, *(row.reading for row in found[:KEPT])]
-        drawn = [_child(*(best[i] for i in rng.integers(len(best), size=2)), rng) for _ in range(max(ROUND.values()))]
-        table += _sieved(_new_rows(table, drawn, runs, seed), ROUND, lambda row: row.distance)
+        best = calibration_table.leading([row for row in table if row.runs > RUNS])[:KEPT]
+        drawn = [_child(*(best[i].reading for i in rng.integers(len(best), size=2)), rng)
+                 for _ in range(max(ROUND.values()))]
+        table += _sieved(_new_rows(table, drawn, runs, seed), ROUND)
         keep(table)
     return table
 
 
-def _sieved(rows, numbers, key):
-    """Rows that were run in one group after the other, in each as many of those that remain as {group: number} says."""
+def _sieved(rows, numbers):
+    """Rows that were run in one group after the other, in each as many of those that remain as {group: number} says.
+
+    Those go on for which most claims hold, the nearest first.
+    """
     done = []
     for group, n in numbers.items():
-        rows = sorted(rows, key=key)
+        rows = sorted(rows, key=lambda row: (-len(row.held), row.distance))
         done += rows[n:]
         rows = calibration_table.run(rows[:n], group)
     return sorted([*rows, *done], key=lambda row: row.seed)
@@ -95,8 +96,7 @@ def _sieved(rows, numbers, key):
 def screen(table, runs, seed):
     """Run promising readings again with fresh seeds, and return the table that includes their rows.
 
-    They are those of few runs under which A6 and A7 hold, and then those nearest to the numbers of these and of paper B.
-    After each group those go on for which most claims hold, the nearest first.
+    They are those of few runs under which A6 and A7 hold, and then those nearest to the numbers of these and of B.
     """
     names = [name for group in ("layers", "places", "objects", "both") for name in GROUPS[group].targets]
     measured = sorted((row for row in table if all(name in row.statistics for name in names)), key=lambda row: row.runs)
@@ -104,7 +104,7 @@ def screen(table, runs, seed):
     found = sorted((row for row in most.values() if row.runs <= SCREENED_RUNS),
                    key=lambda row: (not {"A6", "A7"} <= row.held, row.distance))
     rows = _new_rows(table, [row.reading for row in found[: max(SCREENED.values())]], runs, seed)
-    return [*table, *_sieved(rows, SCREENED, lambda row: (-len(row.held), row.distance))]
+    return [*table, *_sieved(rows, SCREENED)]
 
 
 def rescale(table, scales, runs):

@@ -13,8 +13,9 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
-from lib.shared.priors import TO_THE_LETTER, WITHIN
+from lib.shared.priors import WITHIN
 from neorl import checks
+from neorl.evidence.reading import TO_THE_LETTER
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.statistics import Estimate, difference, estimate
 from neorl.extras import require
