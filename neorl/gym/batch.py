@@ -78,9 +78,10 @@ def batch_step(dynamics):
                 slots.terminated[i] = done and at_goal and not task.continuing
                 slots.truncated[i] = (done and not at_goal and not task.continuing
                                       or slots.clock[i] >= task.last_step)
-            if not (keeps_rules(scene, task.n_kinds) and observe(
-                    scene, task.size, task.n_kinds, task.egocentric, slots.distance, slots.order,
-                    slots.observation[i])):
+            if slots.restarted[i] and not keeps_rules(scene, task.n_kinds):
+                return i
+            if not observe(scene, task.size, task.n_kinds, task.egocentric, slots.distance, slots.order,
+                           slots.observation[i]):
                 return i
         return -1
 
