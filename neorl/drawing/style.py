@@ -71,11 +71,16 @@ def colour_like(name, value):
     raise checks.error(name, "a colour of matplotlib's", value)
 
 
-def letters(colour):
-    """A matplotlib colour, darkened or lightened so that letters in it are legible: "#rrggbb"."""
+def linear_light(colour):
+    """The light of a matplotlib colour in red, green and blue, and in all, its relative luminance (WCAG 2)."""
     channels = np.array(to_rgb(colour))
     linear = np.where(channels <= 0.04045, channels / 12.92, ((channels + 0.055) / 1.055) ** 2.4)
-    light = linear @ [0.2126, 0.7152, 0.0722]
+    return linear, linear @ [0.2126, 0.7152, 0.0722]
+
+
+def letters(colour):
+    """A matplotlib colour, darkened or lightened so that letters in it are legible: "#rrggbb"."""
+    linear, light = linear_light(colour)
     if light > LIGHT_OF_LETTERS:
         linear = linear * LIGHT_OF_LETTERS / light
     else:
