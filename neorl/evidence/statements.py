@@ -65,12 +65,9 @@ class Statement:
     demonstration: bool = False
 
 
-def _statement(bounds=None, also=(), **given):
-    return Statement(**given, bounds=Bounds(**bounds) if bounds else POSITIVE,
-                     also={name: Bounds(**each) for name, each in dict(also).items()})
-
-
-STATEMENTS = {name: _statement(**given) for name, given in
-              tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8")).items()}
+STATEMENTS = {
+    name: Statement(**given | {"bounds": Bounds(**given["bounds"]) if "bounds" in given else POSITIVE,
+                               "also": {what: Bounds(**each) for what, each in given.get("also", {}).items()}})
+    for name, given in tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8")).items()}
 CLAIMS = tuple(name for name, statement in STATEMENTS.items() if not statement.demonstration)
 DEMONSTRATIONS = tuple(name for name, statement in STATEMENTS.items() if statement.demonstration)

@@ -36,7 +36,6 @@ from neorl.core.scene import Actions, Scene
 from neorl.core.stream import new_stream
 from neorl.description import Described
 
-
 STREAM = ("uint64", (4,))  # the type and the shape of a stream
 
 

@@ -115,8 +115,7 @@ def test_an_unfinished_world_is_told_what_it_lacks():
         Unfinished()
 
 
-class Streamless(NamedTuple):
-    scene: Scene
+Streamless = NamedTuple("Streamless", [("scene", Scene)])
 
 
 class Unsized(NamedTuple):
@@ -160,8 +159,7 @@ class AgainState(NamedTuple):
     begun: array("int64", 1)
 
 
-class AgainRules(NamedTuple):
-    what: int
+AgainRules = NamedTuple("AgainRules", [("what", int)])
 
 
 @kernel

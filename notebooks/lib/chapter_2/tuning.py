@@ -7,7 +7,7 @@
 3. *Tuning*: spikes in each bin of a variable, divided by the time spent there, both smoothed by a Gaussian. For
    position this is a rate map, for direction or speed a tuning curve (thesis section 2.2.1).
 4. *Information*: bits per spike about the variable (Skaggs et al. 1993), compared with that of spikes shifted in time.
-5. *Kinds* follow from the modalities of the book. `THESIS` is its table 2.1, after Bicanski and Burgess (2020):
+5. *Kinds* follow from the book's modalities. `THESIS` is the thesis's table 2.1, after Bicanski and Burgess (2020):
    whether the locality and the direction of a kind are allocentric, a distance or neither, and what the kind concerns.
 """
 

@@ -96,7 +96,7 @@ def _sieved(rows, numbers):
 def screen(table, runs, seed):
     """Run promising readings again with fresh seeds, and return the table that includes their rows.
 
-    They are those of few runs under which A6 and A7 hold, and then those nearest to the numbers of these and of B.
+    Those of few runs under which A6 and A7 hold come first, then those nearest to the numbers of these and of paper B.
     """
     names = [name for group in ("layers", "places", "objects", "both") for name in GROUPS[group].targets]
     measured = sorted((row for row in table if all(name in row.statistics for name in names)), key=lambda row: row.runs)
