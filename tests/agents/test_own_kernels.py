@@ -76,7 +76,7 @@ PAIRS = {  # with the user's own kernel, and with the package's that it reimplem
     "credit share": (crediting(share), crediting("share")),
     "credit last": (crediting(last_of_all), crediting("last")),
     "credit activity": (crediting(activity_above, activity=0.1), crediting("activity", activity=0.1)),
-    "credit happened, calibrated": (multimodal([5], learning=replace(CALIBRATED, credit=happened)), multimodal([5])),
+    "credit share, calibrated": (multimodal([5], learning=replace(CALIBRATED, credit=share)), multimodal([5])),
     "position": (perceiving(x_share), perceiving("position")),
     "greedy": (multimodal([3, 6], learning=plain_rule(), policy=Policy(0.05, choose=highest)),
                multimodal([3, 6], learning=plain_rule(), policy=Policy(0.05))),

@@ -16,7 +16,7 @@ SIZE = {"steps": 30_000, "runs": 12, "seed": 3, "progress": False}
 TANK = WaterWorld()
 BOTH, PLACES = multimodal([2, 3, 5], object_state="per object"), place_cells([5, 3])
 RULE = {"learning": Learning(0.03, 0.8, credit="happened", absent_decay=0.06, terminal=False),
-        "object_state": "per object", "scale": 17.86}
+        "object_state": "per object", "object_tiled_fraction": 1.0, "object_beyond": "outermost", "scale": 17.86}
 NETWORK = network_d([3, 4], **RULE)
 TURNED = network_d([3, 4], recursion=0.5, **RULE)
 

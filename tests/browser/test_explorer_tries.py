@@ -155,13 +155,13 @@ def test_the_address_of_a_moment_leads_back_to_it(visit):
 
 
 def test_the_address_has_the_state_of_object_vectors(visit):
-    page = visit("#explorer_agent-things_state-per-object_minute-2")
+    page = visit("#explorer_agent-things_state-self_minute-2")
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step === '6000'")
-    agent = object_vector_cells([4], object_state="per object")
+    agent = object_vector_cells([4], object_state="self")
     assert float(shown(page, "score")) == Run(agent, TANK, SIZE["seed"], 0).advance(6_000)
     page.locator('[name="object_state"]').select_option("object")
     page.wait_for_function("location.hash === '#explorer_agent-things_run-0_state-object'")
-    page.locator('[name="object_state"]').select_option("self")
+    page.locator('[name="object_state"]').select_option("per object")
     page.wait_for_function("location.hash === '#explorer_agent-things_run-0'")
 
 

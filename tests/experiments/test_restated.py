@@ -30,7 +30,7 @@ READINGS = {
     "last": place_cells([5], learning=plain_rule(credit="last", terminal=False), own_cell="counts"),
     "step": multimodal([5], learning=plain_rule(update_on="step"), object_state="object"),
     "objects": object_vector_cells([3, 4], weighting="resolution"),
-    "memory": multimodal([3, 6], learning=plain_rule(memory=4.0)),
+    "memory": multimodal([4, 6], learning=plain_rule(memory=4.0)),
     "memory alone": multimodal([2, 5], learning=plain_rule(memory=30.0, bootstrap=False, absent_decay=0.3,
                                                            learning_rate=0.3)),
     "away": multimodal([5], learning=plain_rule(absent_decay=0.2, absent_form="away", terminal=False)),
@@ -59,7 +59,7 @@ READINGS = {
     "A": network_a([2, 3]),
     "B": network_b([3, 5], signed=True),
     "C": network_c([3], object_gain=0.5),
-    "D": network_d([2, 5], policy=Policy(exploration=0.05)),
+    "D": network_d([3, 5], policy=Policy(exploration=0.05)),
     "A that recurs": replace(network_a([3, 5], object_state="object"), desires=(
         *network_a(**FAR).desires, Desire("OVC", "OVC", valence=0.5, **FAR),
         Desire("OVC", "OVC", valence=-0.7, of=("PC", "OVC"), **FAR))),

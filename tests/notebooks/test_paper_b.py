@@ -42,7 +42,7 @@ def test_other_claims_are_judged_by_the_conditions_of_readings_too():
                                              "resolutions of object vectors", "a modality"]
     book = conditions(Reading(), 1_000, 10, 3, ["modal"])
     assert page["varied"]["calibrated, a quarter as long"]["both"] == book["both"]
-    assert len(page["varied"]) == 9 and len({each["both"] for each in page["varied"].values()}) == 9
+    assert len(page["varied"]) == 10 and len({each["both"] for each in page["varied"].values()}) == 10
 
 
 def test_agents_explore_after_the_change_and_not_before():

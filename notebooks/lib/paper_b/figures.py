@@ -67,11 +67,11 @@ def draw_costs(costs):
 
 
 def draw_states():
-    """Draw the state and the goal of an N5 of object vectors under both readings, with an example of a transition."""
+    """Draw the state and the goal of an N5 of object vectors, with an example of a transition."""
     n5, (x, y) = NresMap(5, CARTESIAN_OBJECT_VECTOR_CELL), OBJECT
     centre, of_object = (int(cell) for cell in n5.encode([(0, 0), OBJECT]))
     side = 2 / n5.resolution
-    readings = {"the self": ("state", "goal", (0, 0), (side / 2, 0)),
+    readings = {"the self, or it per object": ("state", "goal", (0, 0), (side / 2, 0)),
                 "the object's cell": ("goal", "state", OBJECT, (x - side, y))}
     for axes, (title, (of_centre, of_cell, start, end)) in zip(new_boards(2, 1), readings.items()):
         draw_cells(n5, fills={centre: (AGENT, FILL), of_object: (GREEN, FILL)}, ax=as_board(axes, -1))
