@@ -71,7 +71,7 @@ def draw_states():
     n5, (x, y) = NresMap(5, CARTESIAN_OBJECT_VECTOR_CELL), OBJECT
     centre, of_object = (int(cell) for cell in n5.encode([(0, 0), OBJECT]))
     side = 2 / n5.resolution
-    readings = {"the self, or it per object": ("state", "goal", (0, 0), (side / 2, 0)),
+    readings = {"the self, also per object": ("state", "goal", (0, 0), (side / 2, 0)),
                 "the object's cell": ("goal", "state", OBJECT, (x - side, y))}
     for axes, (title, (of_centre, of_cell, start, end)) in zip(new_boards(2, 1), readings.items()):
         draw_cells(n5, fills={centre: (AGENT, FILL), of_object: (GREEN, FILL)}, ax=as_board(axes, -1))
@@ -89,8 +89,8 @@ def draw_object_values(learned):
     boards = iter(new_boards(len(learned), len(drawn)))
     for n in drawn:
         for name, (run, *_) in learned.items():
-            axes, m = as_board(next(boards), -1), [each.resolution for each in run.agent.maps].index(n)
-            nres_map = run.agent.maps[m]
+            axes, m = as_board(next(boards), -1), maps.index(n)
+            nres_map = NresMap(n, CARTESIAN_OBJECT_VECTOR_CELL)  # drawn as wide as the board, whatever its range
             draw_cells(nres_map, fills={int(nres_map.encode([0, 0])): (GREEN, FILL)}, width=0.6, ax=axes)
             draw_values(nres_map, values_for_objects(run, m), ax=axes)
             axes.set_title(f"{name}, N{n}")
