@@ -71,7 +71,7 @@ def drawn_steps(state: WaterWorldState, rules: Rules, stream: array("uint64", 4)
 def moved(run, steps):
     """Advance a `Run` by ``steps``, and count the bytes that its agent moves: `Moved`.
 
-    The agent has to desire every creep in each map, none of which has the self as its state.
+    The agent has to desire every creep in each map, each to have a cell for it, and none the self as its state.
     """
     maps, state, learning = run.parameters.maps, run.state, run.agent.learning
     tracks, actions = state.tracks, run.parameters.push.shape[0]
