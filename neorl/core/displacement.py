@@ -10,8 +10,8 @@
 
 import numpy as np
 
-from neorl.core.geometry import LAST, SCALE, STRIDE, cell_within
-from neorl.core.kernel import inlined_kernel
+from neorl.core.geometry import LAST, LOW, SCALE, STRIDE
+from neorl.core.kernel import inlined_kernel, kernel
 from neorl.core.learning import (SMALLEST, UNBOUNDED, UNIT, ZERO, enter, forget_all, higher, join, learn_remembered,
                                  order_of, rate_events, rule_of, stepped, sunk, trace_of, values_of, widen)
 
@@ -49,18 +49,41 @@ def join_passed(parameters, state, trace, rule, n, m, point, rates):
     strength, worth = UNIT, UNIT
     for event in range(rates.shape[0]):
         tracks.passed_rates[begin + newest, event] = rates[event]
-    for back in range(min(tracks.passed_count[track], size)):
-        slot = begin + (newest - back if back <= newest else newest - back + size)
-        if back > 0 or not learning.bootstrap:  # the last centre has already learned by bootstrapping
-            for axis in range(tracks.passed_at.shape[1]):
-                state.offset[axis] = state.coordinates[axis] - tracks.passed_at[slot, axis]
-            cell = cell_within(parameters, state.offset, n, m)
-            if cell >= 0:
-                count = join(trace, count, cell, tracks.passed_rates[slot], rule.absent_rate, strength, worth)
+    filled = min(tracks.passed_count[track], size)
+    look_back(parameters, state, n, m, begin, filled)
+    for back in range(filled):
+        slot = np.uint64(begin + (newest - back if back <= newest else newest - back + size))
+        cell = state.seen_from[slot]
+        if cell >= 0.0 and (back > 0 or not learning.bootstrap):  # the last centre has learned by bootstrapping
+            count = join(trace, count, int(cell), tracks.passed_rates[slot], rule.absent_rate, strength, worth)
         strength *= learning.memory_retained
         worth *= learning.memory_retained * learning.discount
         worth = worth if worth > SMALLEST else ZERO
     return count
+
+
+@kernel
+def look_back(parameters, state, n, m, begin, filled):
+    """Write the cell of the self as seen from each place into state.seen_from, or −∞ beyond the range.
+
+    Axis by axis, for all places: such loops compile to vector instructions.
+    """
+    seen_from, ends = state.seen_from[begin : begin + filled], parameters.nodes.ends[n]
+    for at in range(filled):
+        seen_from[at] = 0.0
+    for axis in range(np.uint64(state.tracks.passed_at.shape[1])):
+        cut, a = parameters.grid[np.uint64(parameters.maps.first_grid[m]) + axis], parameters.nodes.first_axis[n] + axis
+        low, scale, last, stride, here = cut[LOW], cut[SCALE], cut[LAST], cut[STRIDE], state.coordinates[axis]
+        least = parameters.axes.low[a] if ends else -np.inf
+        most = parameters.axes.high[a] if ends else np.inf
+        passed_at = state.tracks.passed_at[begin : begin + filled, axis]
+        for at in range(filled):
+            offset = here - passed_at[at]
+            interval = np.floor((offset - low) * scale)
+            interval = interval if interval > 0.0 else 0.0
+            seen = seen_from[at] + stride * (interval if interval < last else last)
+            seen = seen if offset >= least else -np.inf
+            seen_from[at] = seen if offset <= most else -np.inf
 
 
 @inlined_kernel

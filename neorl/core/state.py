@@ -71,6 +71,7 @@ class State(NamedTuple):
     coordinates: array("float64", "coordinates")  # working memory: of the point being located
     offset: array("float64", "axes")  # working memory: of an element of interest from the agent
     seen: array("int64", "maps")  # working memory: the cells of a point
+    seen_from: array("float64", "passed")  # working memory: the cell of the self as seen from each place passed
     rival: array("float64", "actions")  # working memory: a thing's contribution to the action values
     favourite: array("float64", "actions")  # working memory: that of the best of all things
 
