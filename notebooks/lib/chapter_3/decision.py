@@ -1,7 +1,7 @@
 """Finite Markov decision processes, solved by planning or by learning (thesis sections 3.1 and 3.3).
 
 Planning uses a known process: sweeps of the Bellman equation give values, values give a policy (Bellman 1957; eq. 3.7).
-Learning starts without a model and uses each step: to update action values by Q-learning (Watkins 1989; eq. 3.5), or to
+Learning starts without a model and uses each step: to update action values by Q-learning (Watkins 1989; eq. 4.6), or to
 count transitions, which give a model to plan with.
 
 Whatever the action, a step has one of the same few *outcomes*, each with its chance; the outcome determines the next
