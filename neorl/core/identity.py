@@ -36,7 +36,8 @@ STANDARD_LIBRARY = sysconfig.get_path("stdlib")
 class Reading:
     """The identity of a value, `text`, and whether the value still has it.
 
-    unknown: a value within it whose content cannot be read, or None. Raises ValueError for functions of numba.njit.
+    unknown: a value within it whose content cannot be read, or None. Raises ValueError for functions of numba.njit or
+    of numba.extending.overload.
     """
 
     def __init__(self, value):
@@ -114,9 +115,12 @@ class Reading:
         if _is_known(module):
             arguments = self._of(getattr(value, "origin", (None, ()))[1])
             return f"{module}:{name}{arguments}({self._named(closure) if module.startswith(OURS) else ''})"
-        if hasattr(value, "targetoptions"):
+        templates = sys.modules.get("numba.core.typing.templates")
+        means = ("jit" if hasattr(value, "targetoptions") else "extending.overload" if templates and any(
+            each is function for each, _ in templates.builtin_registry.globals) else "")
+        if means:
             raise ValueError(f"{name} must be decorated with neorl.kernel, since kernels call it, but is compiled by "
-                             "numba.jit, which would keep the values that its globals had then")
+                             f"numba.{means}, which would keep the values that its globals had then")
         self.functions.append(function)
         code, of_globals, attributes = _read(function.__code__)
         scope = function.__globals__

@@ -148,17 +148,23 @@ def test_a_maker_that_looks_up_a_changed_value_makes_another_kernel():
 def test_functions_that_numba_compiles_by_itself_are_refused():
     import numba
 
-    @numba.njit
-    def doubled(x):
-        return 2.0 * x
+    def tripled(x):
+        return 3.0 * x
 
-    @kernel
-    def answer(x):
-        return doubled(x)
+    @numba.extending.overload(tripled)
+    def implementation(x):
+        return lambda x: 3.0 * x
 
-    for refused in (lambda: execute(answer, 1.0), lambda: identity(answer)):
-        with pytest.raises(ValueError, match="test_functions_that_numba_compiles_by_itself_are_refused.<locals>.doub"):
-            refused()
+    def answering(called):
+        @kernel
+        def answer(x):
+            return called(x)
+        return answer
+
+    for answer, name in ((answering(numba.njit(lambda x: x)), "<lambda>"), (answering(tripled), "tripled")):
+        for refused in (lambda: execute(answer, 1.0), lambda: identity(answer)):
+            with pytest.raises(ValueError, match=f"itself_are_refused.<locals>.{name} must be decorated with neorl."):
+                refused()
 
 
 @dataclass(frozen=True)
