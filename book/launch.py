@@ -1,8 +1,8 @@
 """Sphinx extension: the buttons that lead to the repository, and to its notebooks on Binder and Colab.
 
 ``Repository`` in pyproject.toml's ``[project.urls]`` is their only setting, shared with the package's metadata;
-without it there are no buttons. The book shows notebooks as computed, in chapters/ and with their results first;
-readers run the originals, in notebooks/, and the button to download a page gives them these too.
+without it there are no buttons. The book shows notebooks as computed, in chapters/; readers run the originals,
+in notebooks/, and the button to download a page gives them these too.
 """
 
 import shutil

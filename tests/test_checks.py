@@ -83,4 +83,4 @@ def test_what_is_remembered_counts_as_memory():
     assert n_bytes(some, WORLD) - n_bytes(none, WORLD) == 9 * (20 + 16 * 4)
     short, long = (object_vector_cells([3], object_state="self", learning=Learning(memory=memory))
                    for memory in (0, 1e9))
-    assert n_bytes(long, WORLD) - n_bytes(short, WORLD) == (500 - 1) * (2 * 8 + 4 * 4)
+    assert n_bytes(long, WORLD) - n_bytes(short, WORLD) == (500 - 1) * (3 * 8 + 4 * 4)

@@ -61,20 +61,16 @@ def own_axes(agent):
 
 def n_values(agent, world):
     """The number of values that an agent holds in a world, of four bytes each."""
-    return sum(len(world.actions.names) * nres_map.cells * goals_of(node, nres_map)
-               for node in agent.nodes for nres_map in node.maps)
-
-
-def goals_of(node, nres_map):
-    """The number of values of an action in a cell of a map."""
-    return ENTRIES if node.goals == "contacts" else nres_map.cells if node.state == "object" else 1
+    return len(world.actions.names) * sum(
+        each.cells * (ENTRIES if node.goals == "contacts" else each.cells if node.state == "object" else 1)
+        for node in agent.nodes for each in node.maps)
 
 
 def n_bytes(agent, world):
     """The bytes that an agent in a world needs for its values and for its memory of the cells it has left."""
     rule, actions, axes = agent.learning, len(world.actions.names), world.actions.axes
     total = 4 * n_values(agent, world)
-    passed = int(execute(most_passed, _retained(rule.memory))) * (8 * axes + 4 * actions)
+    passed = int(execute(most_passed, _retained(rule.memory))) * (8 * (axes + 1) + 4 * actions)
     for node in agent.nodes:
         several = {"objects": world.things, "boundaries": 2 * axes, "landmarks": len(node.modality.landmarks)}
         points = 1 if node.state == "self" else several.get(node.modality.follows, 1)

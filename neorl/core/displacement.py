@@ -64,10 +64,7 @@ def join_passed(parameters, state, trace, rule, n, m, point, rates):
 
 @kernel
 def look_back(parameters, state, n, m, begin, filled):
-    """Write the cell of the self as seen from each place into state.seen_from, or −∞ beyond the range.
-
-    Axis by axis, for all places: such loops compile to vector instructions.
-    """
+    """Write the cell of the self as seen from each place into state.seen_from, or −∞ beyond the range."""
     seen_from, ends = state.seen_from[begin : begin + filled], parameters.nodes.ends[n]
     for at in range(filled):
         seen_from[at] = 0.0
@@ -77,7 +74,7 @@ def look_back(parameters, state, n, m, begin, filled):
         least = parameters.axes.low[a] if ends else -np.inf
         most = parameters.axes.high[a] if ends else np.inf
         passed_at = state.tracks.passed_at[begin : begin + filled, axis]
-        for at in range(filled):
+        for at in range(filled):  # compiles to vector instructions
             offset = here - passed_at[at]
             interval = np.floor((offset - low) * scale)
             interval = interval if interval > 0.0 else 0.0

@@ -50,18 +50,12 @@ def run_file(path, save=None):
     result = simulate(**condition.choices, cache=True, progress=sys.stderr.isatty())
     if save:
         result.save(save)
-    late = f", {_rate(result, 0.8)} in the last fifth" if len(result.time) >= 5 else ""
-    spread = ", ± the standard deviation over runs" if result.runs > 1 else ""
+    rate = result.rate()
+    spread = f" ± {rate.std(ddof=1):.3f}, the standard deviation over runs" if result.runs > 1 else ""
     print(f"{label(condition.agent)} in {type(condition.world).__name__}, {condition.steps:,} steps, "
           f"{condition.runs} run{'s' * (condition.runs != 1)}, seed {condition.seed}")
-    print(f"  reward per second: {_rate(result)}{late}{spread}")
+    print(f"  reward per second: {rate.mean():.3f}{spread}")
     print(f"  kept in {save or condition.path}")
-
-
-def _rate(result, begin=0.0):
-    """The rate of reward as text, with its standard deviation over runs if there are several."""
-    rate = result.rate(begin)
-    return f"{rate.mean():.3f} ± {rate.std(ddof=1):.3f}" if result.runs > 1 else f"{rate.mean():.3f}"
 
 
 def list_cache():
@@ -69,8 +63,7 @@ def list_cache():
     print(files.cache_folder())
     everything = store.kept()
     for kind, (words, _) in store.KINDS.items():
-        some = [each for each in everything if each.kind == kind]
-        print(f"{words}: {_amount(some)}" if some else f"{words}: none")
+        print(f"{words}: {_amount([each for each in everything if each.kind == kind])}")
     print(f"together: {_amount(everything)}")
 
 

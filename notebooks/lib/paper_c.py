@@ -77,13 +77,10 @@ def moment_of_desire(network, world, steps, seed=0):
     """A `Run` at a moment when the agent is well inside the board and a node's desire lands far from it."""
     run = Run(network, world, seed)
     run.advance(steps)
-    while run.step < steps + PATIENCE and not (_is_inside(run) and _reach(run) > FAR):
+    while run.step < steps + PATIENCE and not (_reach(run) > FAR and np.abs(
+            run.world_state.scene.position / run.world.size - 0.5).max() < WELL_INSIDE):
         run.advance(1)
     return run
-
-
-def _is_inside(run):
-    return np.abs(run.world_state.scene.position / run.world.size - 0.5).max() < WELL_INSIDE
 
 
 def _reach(run):

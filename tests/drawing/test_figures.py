@@ -44,16 +44,12 @@ def test_proficiency_draws_the_sum_of_the_parts(results):
     np.testing.assert_allclose(total, n3 + n7, rtol=1e-5, atol=1e-12)
 
 
-def test_the_filter_keeps_what_is_slow():
+def test_the_filter_keeps_what_is_slow_and_takes_out_what_is_fast():
     time = np.linspace(0, 1, 400)
     straight = np.stack([np.full(400, 0.3), 0.5 * time - 0.1])
     np.testing.assert_allclose(low_passed(straight), straight, atol=1e-6)
     slow = np.sin(TAU * 4 * time)[None]
     np.testing.assert_allclose(low_passed(slow)[:, 30:-30], slow[:, 30:-30], atol=0.01)  # no shift in time
-
-
-def test_the_filter_takes_out_what_is_fast():
-    time = np.linspace(0, 1, 400)
     fast = low_passed(np.sin(TAU * 60 * time)[None])
     assert np.abs(fast[:, 30:-30]).max() < 0.01
 

@@ -108,8 +108,8 @@ def decompose(series, order):
     """Decompose a series into `Parts`, with b_1 … b_order. series: float64 (steps,), more than twice `PAST`."""
     spectrum = np.abs(np.fft.rfft(series))
     peak = 1 + spectrum[1:-1].argmax()
-    frequency = optimize.minimize_scalar(_left_over, args=(series,), bounds=(peak - 1, peak + 1), method="bounded",
-                                         options={"xatol": 1e-6}).x
+    frequency = optimize.minimize_scalar(lambda each: np.square(series - _oscillation(each, series)).sum(),
+                                         bounds=(peak - 1, peak + 1), method="bounded", options={"xatol": 1e-6}).x
     deterministic = _oscillation(frequency, series)
     rest = series - deterministic
     past = linalg.toeplitz(rest[PAST - 1 : -1], rest[PAST - 1 :: -1])
@@ -135,10 +135,6 @@ def _error(coefficients, period, steps, run, seed):
     return [np.sqrt(np.mean((found.deterministic - true.deterministic) ** 2)),
             np.sqrt(np.mean((found.innovations - true.innovations) ** 2)),
             np.abs(found.coefficients - true.coefficients).max()]
-
-
-def _left_over(frequency, series):
-    return np.square(series - _oscillation(frequency, series)).sum()
 
 
 def _oscillation(frequency, series):

@@ -90,8 +90,8 @@ LEARNING = (
     Pin("credit of events that occurred", ("credit",), "Multiple occurrences of the same event should affect learning "
         "positively", "section 4.1.3, at equation 4.7",
         "ψ(N) is positive for all N ≥ 1, and may grow or not: “All events that happened while at s⁻ should be assigned "
-        "equal weight”. Credit by activity adds nothing to section 4.4, and is simplest. Credit for the last event alone "
-        "is excluded.",
+        "equal weight”. Credit by activity adds nothing to section 4.4, and is simplest. Credit for the last event "
+        "alone is excluded.",
         lambda reading: reading.credit not in ("last", "step")),
     Pin("credit of events that did not occur", ("absent_decay",), "zero occurrences would affect learning negatively "
         "according the result of ψ(0)", "section 4.1.3, at equation 4.7", "ψ(0) < 0; its size is open.",

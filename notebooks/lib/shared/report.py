@@ -129,11 +129,8 @@ def _bounded(found):
 def _cells(record, name):
     statement = STATEMENTS[name]
     return [f"**{link(name)}** {statement.text} <small>*{statement.statistic}*</small>", statement.thesis,
-            *(_marked(record[part].get(name)) for part in ("letter", "claims")), verdict(record, name)]
-
-
-def _marked(found):
-    return _with_symbol(found["verdict"], number(found)) if found else ""
+            *(_with_symbol(found["verdict"], number(found)) if (found := record[part].get(name)) else ""
+              for part in ("letter", "claims")), verdict(record, name)]
 
 
 def _with_symbol(verdict, text):

@@ -99,11 +99,6 @@ def _surplus(results, rate):
     return rate(results["layers"]) - sum(rate(results["layer", n]) for n in (3, 7, 23))
 
 
-def _worst(results):
-    """The reward per second of the worst single map over the whole run."""
-    return min(_whole(results["single", n]) for n in (10, 30, 50))
-
-
 def _evenness(results):
     """The shortest time to half of a single map's own final level, divided by the longest; 0 if one learns nothing."""
     each = [results["single", n] for n in (10, 30, 50)]
@@ -174,7 +169,7 @@ TARGETS = {
         STATEMENTS["C4"].bounds, 0.2, ""),
     # paper A, figure 6
     "A2": Target(
-        "A2", "worst of N10, N30, N50", _worst,
+        "A2", "worst of N10, N30, N50", lambda of: min(_whole(of["single", n]) for n in (10, 30, 50)),
         BROWNIAN_A, math.inf, NOISE, "better than control", "what Brownian motion earns"),
     "A3 early": Target(
         "A3", "N10 − N50, early", lambda of: _early(of["single", 10]) - _early(of["single", 50]),
