@@ -104,10 +104,10 @@ def landings(run):
 
 
 def distances(condition, runs):
-    """How far from the agent desires between nodes land in the second half of runs, and how often in its own cell.
+    """How far from the agent desires between nodes land in the second half of runs, and how often within which range.
 
-    Returns the median of the farthest desire, in board widths, and the share of moments at which all are in the cell of
-    distance 0 of the finest map: float64 (2, runs).
+    Returns the median of the farthest desire, in board widths, and the shares of moments at which all are in the cell
+    of distance 0 of the finest map, and at which all are beyond the range of the maps: float64 (3, runs).
     """
     return np.array([_distances(Run(condition.agent, condition.world, condition.seed, k), condition.steps)
                      for k in range(runs)]).T
@@ -120,4 +120,6 @@ def _distances(run, steps):
         run.advance(max(1, steps // 2 // LOOKS))
         landed.append(_landed(run))
     at_agent = finest.encode(landed) == finest.encode([0.0, 0.0])
-    return np.median(np.hypot(*np.moveaxis(landed, -1, 0)).max(axis=1)), at_agent.all(axis=1).mean()
+    beyond = np.abs(landed).max(axis=-1) > finest.modality.axes[0].high
+    return (np.median(np.hypot(*np.moveaxis(landed, -1, 0)).max(axis=1)), at_agent.all(axis=1).mean(),
+            beyond.all(axis=1).mean())

@@ -64,7 +64,7 @@ MOVING = Reading(0.03, 0.8, "share", absent_decay=0.0, memory=0.0, bootstrap=Tru
 def test_desires_that_land_on_the_agent_are_distinguished_from_those_that_do_not():
     near, far = ({name: paper_c.distances(Condition(agent, WaterWorld(), 60_000, 2), runs=2)
                   for name, agent in networks(replace(MOVING, scale=scale)).items()} for scale in (1e-6, 1e6))
-    for widths, share in near.values():
-        assert widths.shape == (2,) and np.all(widths < 0.01) and np.all(share == 1)
-    widths, share = far["D"]
-    assert np.all(widths > 1) and np.all(share < 1)
+    for widths, share, beyond in near.values():
+        assert widths.shape == (2,) and np.all(widths < 0.01) and np.all(share == 1) and not np.any(beyond)
+    widths, share, beyond = far["D"]
+    assert np.all(widths > 1) and np.all(share < 1) and np.all(beyond > 0)
