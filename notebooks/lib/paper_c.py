@@ -74,10 +74,7 @@ def final_rates(results):
 
 
 def moment_of_desire(network, world, steps, seed=0):
-    """A `Run` at a moment when the agent is well inside the board and a node's desire lands far from it.
-
-    It is the first run of the seed in which such a moment comes soon, or else the last one tried.
-    """
+    """A `Run` when the agent is well inside the board and a node's desire lands far from it, if such a moment comes."""
     for k in range(TRIED):
         run = Run(network, world, seed, k)
         run.advance(steps)

@@ -28,14 +28,15 @@ def _line(reading, found):
 
     Demonstrations follow the claims.
     """
-    groups = []
+    groups = {False: [], True: []}
     for demonstration, verdict in sorted({(STATEMENTS[name].demonstration, each) for name, each in found.items()},
                                          key=lambda group: (group[0], VERDICTS.index(group[1]))):
         names = [link(name) for name, each in found.items()
                  if (STATEMENTS[name].demonstration, each) == (demonstration, verdict)]
-        beside = "beside the claims, " if demonstration else ""
-        groups.append(f"{beside}{html(verdict)}\u00a0{', '.join(names)} {verdict}{REASONS.get(verdict, '')}")
-    return f"{reading.capitalize()}{': ' if reading else ''}{'; '.join(groups)}"
+        groups[demonstration].append(f"{html(verdict)}\u00a0{', '.join(names)} {verdict}{REASONS.get(verdict, '')}")
+    claims, beside = map("; ".join, groups.values())
+    beside = f"Beside the claims: {beside}" if beside else ""
+    return f"{reading.capitalize()}{': ' if reading else ''}{'. '.join(filter(None, [claims, beside]))}"
 
 
 def link(name, page=CLAIMS_PAGE):

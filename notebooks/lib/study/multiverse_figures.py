@@ -164,8 +164,8 @@ def draw_standing(record, names):
 
 def draw_importance(importance):
     """Which choices matter, as areas of discs: {claim: {choice: importance}}."""
-    axes = axes_or_new(None, figsize=(width_of_figures(), ROW * 1.25 * len(WITHIN) + 0.5))
-    keys = list(WITHIN)
+    keys = [*WITHIN] if any(importance.values()) else []
+    axes = axes_or_new(None, figsize=(width_of_figures(), ROW * 1.25 * len(keys) + 0.5))
     for column, shares in enumerate(importance.values()):
         for key, share in shares.items():
             axes.plot(column, keys.index(key), marker="o", color=AGENT, markersize=13 * np.sqrt(np.clip(share, 0, 1)))
