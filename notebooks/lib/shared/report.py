@@ -24,10 +24,10 @@ from neorl.files import cache_folder, write_whole
 
 LETTER, CALIBRATED = "to the letter", "calibrated"  # names of readings
 COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict")
-LEGEND = ("● reproduced, ◐ partly, ○ not reproduced, ◇ no learning to test; without a symbol, no verdict. Numbers "
-          "are the quantities in italics, with 95\u00a0% intervals over runs. A claim's name leads to what its verdict "
-          "rests on.")
-BESIDE = "Beside the claims stand demonstrations of this book:"
+LEGEND = ("● reproduced, ◐ partly, ○ not reproduced, ◇ not testable (agents learned too little); without a symbol, no "
+          "verdict. Numbers are the quantities in italics, with 95\u00a0% intervals over runs. A claim's name leads to "
+          "what its verdict rests on.")
+BESIDE = "Demonstrations of this book, not counted among the claims:"
 PARTS = ("claims", "letter", "shares")  # of a record
 
 
