@@ -190,7 +190,7 @@ def in_order(agent, q):
             contacts, of_self = node.goals == "contacts", node.state != "object"
             one, q = np.split(q, [4 * each.cells * (3 if contacts else 1 if of_self else each.cells)])
             in_place = contacts or of_self or agent.learning.bootstrap
-            yield one if in_place else one.reshape(each.cells, each.cells, 4).swapaxes(1, 2)
+            yield one if in_place else one.reshape(each.cells, each.cells, 4).transpose(1, 2, 0)
 
 
 if __name__ == "__main__":

@@ -202,7 +202,7 @@ class Individual:
                              f"{error!r}") from error
         for name in cls._kept:
             for each, mine in arrays(getattr(loaded, name)).items():
-                saved = kept.get(f"{name}.{each}", np.empty(0))
+                saved = kept.get(f"{name}.{each}", np.empty(0, object))
                 if (saved.dtype, saved.shape) != (mine.dtype, mine.shape):
                     raise ValueError(f"{path}: {name}.{each} must be {mine.dtype} {mine.shape}, but is {saved.dtype} "
                                      f"{saved.shape}; the file is of another version of neorl")
@@ -221,7 +221,7 @@ def _values_of(agent, parameters, state, m):
         return values.reshape(cells, actions, ENTRIES)
     if agent.learning.bootstrap:  # see `neorl.core.learning.Order`
         return values.reshape(cells, actions, cells)
-    return values.reshape(cells, cells, actions).swapaxes(1, 2)
+    return values.reshape(cells, cells, actions).transpose(1, 2, 0)
 
 
 def _map_keys(agent):

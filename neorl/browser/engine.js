@@ -232,10 +232,13 @@ function reordered(values, old, m) {
   const isSquare = !nodes.learns_contacts[nodeOf(nodes.first_map, m)] && !isOfSelf(old.choices, m);
   if (byGoal === run.choices.learning.bootstrap || !isSquare) return values;
   const [cells, actions] = [Number(maps.cells[m]), old.sizes.actions];
-  const [rows, columns] = byGoal ? [actions, cells] : [cells, actions];
   return values.map((_, at) => {
-    const [column, row] = [Math.floor(at / rows) % columns, at % rows];
-    return values[at - (at % (rows * columns)) + row * columns + column];
+    if (byGoal) { // into [goal, state, action]
+      const [action, state, goal] = [at % actions, Math.floor(at / actions) % cells, Math.floor(at / actions / cells)];
+      return values[(state * actions + action) * cells + goal];
+    }
+    const [goal, action, state] = [at % cells, Math.floor(at / cells) % actions, Math.floor(at / cells / actions)];
+    return values[(goal * cells + state) * actions + action];
   });
 }
 
@@ -350,8 +353,8 @@ function valueFunction(map, goal) {
   const [first, cells, { actions }] = [Number(first_value[map]), Number(counts[map]), run.sizes];
   const { q } = run.state.values;
   if (isOfSelf(run.choices, map)) return vectors(cells, (cell, action) => q[first + actions * cell + action]);
-  return vectors(cells, (cell, action) => q[first + actions * cell * cells
-    + (run.choices.learning.bootstrap ? action * cells + goal : goal * actions + action)]);
+  return vectors(cells, (cell, action) => q[first + (run.choices.learning.bootstrap
+    ? (cell * actions + action) * cells + goal : (goal * cells + cell) * actions + action)]);
 }
 
 /** The cell of the map shown that contains a place, or null. User-defined axes see the place as a thing there. */

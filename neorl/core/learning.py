@@ -43,12 +43,13 @@ class MapValues(NamedTuple):
 
 
 class Order(NamedTuple):
-    """The strides in q of successive goals and of successive actions.
+    """The strides in q of successive states, goals and actions.
 
     An agent that bootstraps runs through all goals of an action, so its maps are q[state, action, goal]. One that does
-    not runs through all actions for one goal in many cells, which are far apart: its maps are q[state, goal, action].
+    not runs through all actions for one goal in many states: its maps are q[goal, state, action].
     """
 
+    state: np.uint64
     goal: np.uint64
     action: np.uint64
 
@@ -146,8 +147,8 @@ def order_of(parameters, m):
     """The `Order` of a map's values."""
     goals, actions = np.uint64(parameters.maps.goals[m]), np.uint64(parameters.push.shape[0])
     if parameters.learning.bootstrap and goals > 1:
-        return Order(np.uint64(1), goals)
-    return Order(actions, np.uint64(1))
+        return Order(actions * goals, np.uint64(1), goals)
+    return Order(actions, actions * goals, np.uint64(1))
 
 
 @inlined_kernel
@@ -248,7 +249,7 @@ def learn_one_goal(values, order, rule, cell_tm1, goal, rates):
 @inlined_kernel
 def place_of(values, order, cell, goal):
     """The index in q at which a cell's action values for a goal begin; unsigned, since it is never negative."""
-    return np.uint64(values.first + cell * values.actions * values.goals) + np.uint64(goal) * order.goal
+    return np.uint64(values.first) + np.uint64(cell) * order.state + np.uint64(goal) * order.goal
 
 
 @inlined_kernel
@@ -337,8 +338,8 @@ def join(trace, count, cell, rates, absent_rate, strength, worth):
 def learn_remembered(values, order, rule, trace, count, goal):
     """Learn, in all remembered cells, that they led to the goal.
 
-    All values are read before any is used: those of a fine map lie far apart, and the processor can then wait for many
-    at a time.
+    All values are read before any is used: those of a fine map are not in the cache, and the processor can then wait
+    for many at a time.
     """
     cells, actions, read = trace.cells, len(trace.actions), values.scratch
     for i in range(count):

@@ -110,12 +110,12 @@ def clear_q(parameters: Parameters, state: State) -> None:
                 for i in range(values.first, maps.first_value[m + 1]):
                     values.q[i] = 0.0
                 continue
-            for cell in range(maps.cells[m]):
-                begin = place_of(values, order, cell, values.goal_range[cell, 0])
-                end = place_of(values, order, cell, values.goal_range[cell, 1])
-                for event in range(1 if order.action == 1 else values.actions):  # if 1, the range covers all events
-                    for i in range(begin, end):
-                        values.q[i + np.uint64(event) * order.action] = 0.0
+            for row in range(maps.cells[m]):
+                for column in range(maps.cells[m]):  # side by side
+                    cell, goal = (column, row) if order.action == 1 else (row, column)
+                    if values.goal_range[cell, 0] <= goal < values.goal_range[cell, 1]:
+                        for event in range(values.actions):
+                            values.q[place_of(values, order, cell, goal) + np.uint64(event) * order.action] = 0.0
 
 
 @kernel

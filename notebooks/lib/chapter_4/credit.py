@@ -123,7 +123,7 @@ def _live_in(chamber, stream, by_step, bootstrap, credit, learning_rate, rule, l
             if bootstrap:
                 learn_all_goals(learned, rule, 0, cell, rates)
             else:
-                learn_one_goal(learned, Order(np.uint64(1), np.uint64(CELLS)), rule, 0, cell, rates)
+                learn_one_goal(learned, Order(np.uint64(0), np.uint64(1), np.uint64(CELLS)), rule, 0, cell, rates)
         for event in range(N_EVENTS):
             values[visit, event, 0] = learned.q[event * CELLS + 1]
             values[visit, event, 1] = learned.q[event * CELLS + 2]

@@ -5,9 +5,9 @@ Bytes that an update must move, in each map for each change of cell that it lear
 1. Learning all goals (bootstrapping) reads the A rows of the cell entered, and reads and writes the rows of the cell
    left whose events have a rate. A row has 4 bytes for each goal that the cells may know of.
 2. A memory of k cells reads and writes A values of each, which lie together unless the agent bootstraps
-   (`neorl.core.learning.Order`). The cells lie far apart in a large map, so whole lines of 64 bytes are moved.
-   In a map that fits into the cache nearest to the processor, and on lines that the previous change brought there,
-   each value moves 4 bytes.
+   (`neorl.core.learning.Order`). Whole lines of 64 bytes are moved, which the cells remembered share in part. In a map
+   that fits into the cache nearest to the processor, and on lines that the previous change brought there, each value
+   moves 4 bytes.
 3. The memory fades at every change of cell: for each cell 2 A weights, as many worths and a strength, all read and
    written, 4 bytes each. To learn, a cell's number is read (8 bytes), and its range of goals read and written (2 × 16).
 
@@ -101,8 +101,9 @@ def moved(run, steps):
             if learning.memory > 0:
                 ordered += count * (8 + 2 * 16)
                 known = tracks.remembered[maps.first_trace[m] + (track - maps.first_track[m]) * cells:][:count]
-                apart, of_goal = (cells, 1) if learning.bootstrap else (1, actions)
-                values = np.add.outer(first + known * actions * cells + entered * of_goal, np.arange(actions) * apart)
+                rows, apart = ((known * actions * cells + entered, cells) if learning.bootstrap else
+                               ((entered * cells + known) * actions, 1))
+                values = np.add.outer(first + rows, np.arange(actions) * apart)
                 lines, values_of_line = np.unique(4 * values.ravel() // LINE, return_counts=True)
                 touched[lines] = True
                 is_near = np.isin(lines, near[track]) | (4 * actions * cells**2 <= NEAREST_CACHE)
