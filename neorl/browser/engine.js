@@ -224,22 +224,23 @@ function keepMap(old, from, to) {
   }
 }
 
-/** The values of a map of an old run, reordered as in the present run (neorl.core.learning.Order). */
+/** A function of state, action and goal: the place of their value in a map (neorl.core.learning.Order). */
+const placeOf = ({ learning: { bootstrap } }, cells, actions) => (state, action, goal) =>
+  (bootstrap ? (state * actions + action) * cells + goal : (goal * cells + state) * actions + action);
+
+/** The values of a map of an old run, reordered as in the present run. */
 function reordered(values, old, m) {
-  const { maps } = old.parameters;
-  const byGoal = old.choices.learning.bootstrap;
-  const { nodes } = old.choices;
+  const { choices: { nodes }, parameters: { maps } } = old;
   const isSquare = !nodes.learns_contacts[nodeOf(nodes.first_map, m)] && !isOfSelf(old.choices, m);
-  if (byGoal === run.choices.learning.bootstrap || !isSquare) return values;
+  if (old.choices.learning.bootstrap === run.choices.learning.bootstrap || !isSquare) return values;
   const [cells, actions] = [Number(maps.cells[m]), old.sizes.actions];
-  return values.map((_, at) => {
-    if (byGoal) { // into [goal, state, action]
-      const [action, state, goal] = [at % actions, Math.floor(at / actions) % cells, Math.floor(at / actions / cells)];
-      return values[(state * actions + action) * cells + goal];
-    }
-    const [goal, action, state] = [at % cells, Math.floor(at / cells) % actions, Math.floor(at / cells / actions)];
-    return values[(goal * cells + state) * actions + action];
-  });
+  const [before, now] = [old, run].map((each) => placeOf(each.choices, cells, actions));
+  const moved = values.slice();
+  for (let at = 0; at < moved.length; at += 1) {
+    const each = [Math.floor(at / cells / actions), Math.floor(at / cells) % actions, at % cells];
+    moved[now(...each)] = values[before(...each)];
+  }
+  return moved;
 }
 
 function advance({ steps, budget }) {
@@ -349,12 +350,11 @@ function heat(side) {
 
 /** The learned value function of a goal, as a vector in every cell of a map; of all goals, if its state is the self. */
 function valueFunction(map, goal) {
-  const { first_value, cells: counts } = run.parameters.maps;
-  const [first, cells, { actions }] = [Number(first_value[map]), Number(counts[map]), run.sizes];
-  const { q } = run.state.values;
+  const { parameters: { maps }, sizes: { actions }, state: { values: { q } } } = run;
+  const [first, cells] = [Number(maps.first_value[map]), Number(maps.cells[map])];
   if (isOfSelf(run.choices, map)) return vectors(cells, (cell, action) => q[first + actions * cell + action]);
-  return vectors(cells, (cell, action) => q[first + (run.choices.learning.bootstrap
-    ? (cell * actions + action) * cells + goal : (goal * cells + cell) * actions + action)]);
+  const place = placeOf(run.choices, cells, actions);
+  return vectors(cells, (cell, action) => q[first + place(cell, action, goal)]);
 }
 
 /** The cell of the map shown that contains a place, or null. User-defined axes see the place as a thing there. */

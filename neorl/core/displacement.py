@@ -10,7 +10,7 @@
 
 import numpy as np
 
-from neorl.core.geometry import LAST, LOW, SCALE, STRIDE
+from neorl.core.geometry import LAST, SCALE, STRIDE, interval_at
 from neorl.core.kernel import inlined_kernel, kernel
 from neorl.core.learning import (SMALLEST, UNBOUNDED, UNIT, ZERO, enter, forget_all, higher, join, learn_remembered,
                                  order_of, rate_events, rule_of, stepped, sunk, trace_of, values_of, widen)
@@ -69,16 +69,14 @@ def look_back(parameters, state, n, m, begin, filled):
     for at in range(filled):
         seen_from[at] = 0.0
     for axis in range(np.uint64(state.tracks.passed_at.shape[1])):
-        cut, a = parameters.grid[np.uint64(parameters.maps.first_grid[m]) + axis], parameters.nodes.first_axis[n] + axis
-        low, scale, last, stride, here = cut[LOW], cut[SCALE], cut[LAST], cut[STRIDE], state.coordinates[axis]
+        row, a = parameters.grid[np.uint64(parameters.maps.first_grid[m]) + axis], parameters.nodes.first_axis[n] + axis
+        cut, here = (row[0], row[1], row[2], row[3], row[4]), state.coordinates[axis]  # in registers
         least = parameters.axes.low[a] if ends else -np.inf
         most = parameters.axes.high[a] if ends else np.inf
         passed_at = state.tracks.passed_at[begin : begin + filled, axis]
         for at in range(filled):  # compiles to vector instructions
             offset = here - passed_at[at]
-            interval = np.floor((offset - low) * scale)
-            interval = interval if interval > 0.0 else 0.0
-            seen = seen_from[at] + stride * (interval if interval < last else last)
+            seen = seen_from[at] + cut[STRIDE] * interval_at(cut, offset)
             seen = seen if offset >= least else -np.inf
             seen_from[at] = seen if offset <= most else -np.inf
 

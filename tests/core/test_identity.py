@@ -151,15 +151,10 @@ def test_functions_that_numba_compiles_by_itself_are_refused():
     def tripled(x):
         return 3.0 * x
 
-    @numba.extending.overload(tripled)
-    def implementation(x):
-        return lambda x: 3.0 * x
+    numba.extending.overload(tripled)(lambda x: lambda x: 3.0 * x)
 
     def answering(called):
-        @kernel
-        def answer(x):
-            return called(x)
-        return answer
+        return kernel(lambda x: called(x))
 
     for answer, name in ((answering(numba.njit(lambda x: x)), "<lambda>"), (answering(tripled), "tripled")):
         for refused in (lambda: execute(answer, 1.0), lambda: identity(answer)):

@@ -16,6 +16,7 @@ from lib.study.calibration_targets import CLAIMS, GROUPS, TARGETS, Measure, Targ
 from lib.study.multiverse import binned
 from neorl import CALIBRATED, Condition, WaterWorld, place_cells
 from neorl.evidence.reading import TO_THE_LETTER, Reading
+from neorl.evidence.statements import STATEMENTS
 from neorl.experiments.result import Result
 
 SAMPLE = 3  # rows of the table that are recomputed, in the cheapest group
@@ -37,6 +38,12 @@ def test_a_distance_is_zero_inside_and_counted_in_scale_and_error_outside():
     assert target.distance(1.0, error=0.4) == pytest.approx(2)
     np.testing.assert_allclose(target.distance(np.array([1.7, 4.0, 5.3])), [1, 0, 1])
     assert replace(target, high=math.inf).distance(1e9) == 0
+
+
+def test_targets_are_of_known_claims_and_each_belongs_to_one_group():
+    assert set(CLAIMS) <= set(STATEMENTS)
+    assert sorted(name for group in GROUPS.values() for name in group.targets) == sorted(TARGETS)
+    assert all(target.low < target.high and target.scale > 0 and target.reason for target in TARGETS.values())
 
 
 def test_what_the_layers_earn_is_measured():
