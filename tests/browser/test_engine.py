@@ -191,7 +191,7 @@ def learned(run, m, goal):
     network_d([4, 5], learning=Learning(memory=100.0, discount=0.95)),
     network_d([5, 7], learning=Learning(memory=3.0)),
     network_d([4, 5], learning=Learning(memory=0.0)),
-    network_d([4, 5], learning=Learning(memory=30.0, bootstrap=True)),
+    network_d([4, 5], learning=Learning(memory=30.0, bootstrap=False)),
 ])
 def test_a_memory_that_changes_on_the_way_goes_on_as_in_python(ask, later):
     agent, goal = network_d([4, 5], learning=Learning(memory=30.0)), 9
