@@ -54,8 +54,8 @@ def sentence(record, named=str):
         return (f"This book judges {len(CLAIMS)} claims of P. R. Leikanger’s thesis. Verdicts need "
                 f"{RUNS_FOR_A_VERDICT} runs of each condition, and this build has fewer.")
     parts = [f"{len(names)} {verdict} ({', '.join(names)})" for verdict, names in groups.items() if names]
-    left = len(CLAIMS) - sum(map(len, groups.values()))
-    parts += [f"{left} not judged"] if left else []
+    left = [named(name) for name in CLAIMS if report.verdict(record, name) not in groups]
+    parts += [f"{len(left)} not judged ({', '.join(left)})"] if left else []
     return (f"We reran P. R. Leikanger’s thesis with {runs[0][0]} runs of each condition. Of its {len(CLAIMS)} claims "
             f"we found {'; '.join(parts)}.")
 
@@ -102,7 +102,7 @@ def _evidence(record, name):
     if share:
         agrees = _share(share["agrees"], share["measured"]) if share.get("measured") else ""
         parts.append(wording.table(SHARES, [[agrees, *(_share(share[each], share["readings"])
-                                                       for each in ("holds", "undecided"))]]))
+                                                       for each in ("reproduced", "undecided"))]]))
     return parts
 
 

@@ -68,7 +68,7 @@ class Beside extends Starters {
     if (learned && !await this.teach({ ...request, steps: stepsIn(60 * learned) })) return;
     const frame = await this.askSecond({ ...request, seed: model.get("seed"), keeps: learned > 0,
       steps: stepsIn(length.steps / fps), bin_steps: stepsIn(length.bin / fps) });
-    if (frame) this.life.second = { world, parameters: request.parameters, trail: [] };
+    if (frame) this.life.second = { world, parameters: request.parameters };
     this.takeSecond(frame);
   }
 
@@ -112,7 +112,7 @@ class Beside extends Starters {
   takeSecond(frame) {
     const { second } = this.life;
     if (!frame || !second) return;
-    Object.assign(second, { frame, trail: trailOf(second.trail, frame, second.world.fps) });
+    Object.assign(second, { frame });
     Object.assign(this.root.dataset, { secondStep: frame.step, secondScore: frame.reward });
     this.wake();
   }
@@ -153,7 +153,7 @@ class Beside extends Starters {
   drawSecond() {
     const { beside, colours, elements, life: { frame, second } } = this;
     if (!beside || !frame || !second) return;
-    const [names, trail] = [this.names(), this.control("trail").checked ? second.trail : []];
+    const [names, trail] = [this.names(), this.control("trail").checked];
     if (second.frame.arm) drawLimb(this.second, colours, second.frame);
     else drawArena(this.second, colours, second.frame, { trail, elements });
     this.root.querySelectorAll(".named").forEach((title, index) => {

@@ -236,12 +236,12 @@ class Controls {
   }
 
   draw(now = performance.now()) {
-    const { life: { frame, cursor, trail, length, world, rate, second }, colours, condition } = this;
+    const { life: { frame, cursor, length, world, rate, second }, colours, condition } = this;
     const isLoading = !frame && !this.failed;
     if (!this.arena.clientWidth || (isLoading && this.drawn)) return; // keep the last picture while loading
     Object.assign(this, { drawn: now, stale: false });
     this.drawSecond();
-    drawArena(this.arena, colours, frame, { cursor, trail: this.control("trail").checked ? trail : [] });
+    drawArena(this.arena, colours, frame, { cursor, trail: this.control("trail").checked });
     this.arrange(Boolean(frame?.arm));
     if (frame?.arm) drawLimb(this.limb, colours, frame);
     drawCurve(this.curve, colours, { seconds: length.steps / world.fps, binSeconds: length.bin / world.fps,

@@ -34,9 +34,9 @@ function fittedContext(canvas) {
   return context;
 }
 
-/** Draw the arena. frame: from the engine, or null; cursor: a place, or none; trail: where the agent has been;
- * elements: of interest, where they are no buttons over the canvas. */
-function drawArena(canvas, colours, frame, { cursor = null, trail = [], elements = [] } = {}) {
+/** Draw the arena. frame: from the engine, or null; cursor: a place, or none; trail: whether to draw it; elements: of
+ * interest, where they are no buttons over the canvas. */
+function drawArena(canvas, colours, frame, { cursor = null, trail = false, elements = [] } = {}) {
   const context = fittedContext(canvas);
   const unit = canvas.clientWidth / (1 + 2 * BOARD_MARGIN);
   context.translate(BOARD_MARGIN * unit, BOARD_MARGIN * unit);
@@ -55,7 +55,7 @@ function drawArena(canvas, colours, frame, { cursor = null, trail = [], elements
   else if (frame?.field) drawField(board, frame);
   stroke(board, colours.ink, 1.4, 0.75, (path) => path.addPath(walls));
   if (frame?.current) drawCurrent(board, frame.current);
-  drawTrail(board, trail);
+  if (trail && frame) drawTrail(board, frame.trail);
   if (frame) drawMovers(board, frame);
   drawElements(board, elements);
   if (cursor) drawCursor(board, cursor);

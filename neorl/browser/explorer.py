@@ -5,8 +5,8 @@ Everything it needs is in its state, so it works in a page without Python: the k
 its traits, which are the controls.
 
 - `settings.js` turns a preset and the traits into parameters, and `engine.js` runs them in a worker, which
-  `simulator.js` starts, in the memory of `machine.js`. Nothing else affects a run: run k of a seed is the same as in
-  `neorl.Run`. `views.js` defines what a frame shows of each world.
+  `simulator.js` starts, in the memory of `machine.js`; `changing.js` changes their agent. Nothing else affects a run:
+  run k of a seed is the same as in `neorl.Run`. `views.js` defines what a frame shows of each world.
 - `drawing.js`, `movers.js` and `curve.js` draw; `page.js`, `legend.js`, `controls.js`, `hands.js` and `widget.js` are
   the interface; `starters.js` has things to try, `beside.js` the second tank, `tour.js` the guided tour, and
   `address.js` keeps the state in the page's address.
@@ -105,7 +105,7 @@ class Explorer(AnyWidget):
 
     _esm = text_of(*SCRIPTS)
     _css = text_of("widget.css")
-    _engine = traitlets.Unicode(text_of("machine.js", "views.js", "engine.js")).tag(sync=True)
+    _engine = traitlets.Unicode(text_of("machine.js", "views.js", "changing.js", "engine.js")).tag(sync=True)
     _wasm = traitlets.Dict().tag(sync=True)
     _layout = traitlets.Dict().tag(sync=True)
     _presets = traitlets.Dict().tag(sync=True)

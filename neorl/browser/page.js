@@ -7,7 +7,6 @@ const [DOUBLE_TAP, NEARBY] = [350, 0.06]; // milliseconds and board widths betwe
 const NO_MEMORY = -1; // its position on the slider, which has logarithms to base ten
 const THRUST_EVERY = 90; // milliseconds; a held key pushes for single steps, since the player could not steer otherwise
 const [REACH, SLOW, REACHING] = [0.05, 0.2, 1500]; // near a creep: board widths, times real time, milliseconds
-const TRAIL = 3; // simulated seconds
 const KEYS = { ArrowUp: [0, 0, -1], ArrowDown: [1, 0, 1], ArrowRight: [2, 1, 0], ArrowLeft: [3, -1, 0] };
 const NEW_RUN = ["preset", "memory", "resolutions", "modality", "object_state", "n_creeps", "seed", "run"];
 const ALLOWED = "Resolutions are whole numbers from 1 to 90, such as 3, 5, 7.";
@@ -93,11 +92,7 @@ class Refusal extends Error {}
 /** Everything the page holds of one run; every run has its own, and they share nothing. */
 const newLife = (given = {}) => ({ frame: null, world: { fps: 1 }, length: { steps: 1, bin: 1 }, changed: false,
   advancing: false, owed: 0, counted: 0, rate: 0, cursor: null, game: null, held: null, slid: false, dragged: null,
-  tapped: null, pointer: null, trail: [], second: null, changes: [], due: null, news: "", ...given });
-
-/** A trail extended by the agent's place in a frame, without what is too long ago. */
-const trailOf = (trail, { agent, step: now }, fps) =>
-  [...trail, { ...agent, step: now }].filter(({ step }) => now - step <= TRAIL * fps);
+  tapped: null, pointer: null, second: null, changes: [], due: null, news: "", ...given });
 
 /** Fill a menu with agents, in groups, after an option of its own, if any. */
 function fillMenu(menu, presets, keys, first = null) {

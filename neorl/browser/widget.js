@@ -200,8 +200,7 @@ class Explorer extends Address {
   }
 
   take(frame) {
-    const { life, life: { trail, world } } = this;
-    Object.assign(life, { frame, trail: trailOf(trail, frame, world.fps) });
+    Object.assign(this.life, { frame });
     this.showMaps(frame);
     Object.assign(this.root.dataset, { step: frame.step, score: frame.reward, goal: frame.seen.goal ?? "" });
     if (frame.ended && this.life.game) this.safely(() => this.leaveGame())();

@@ -18,7 +18,7 @@ from lib.shared.thesis_figures import mark_levels
 from neorl.core.horde import as_vectors
 from neorl.core.maps import NresMap
 from neorl.core.scene import CARDINAL
-from neorl.drawing.boards import new_board
+from neorl.drawing.boards import new_boards
 from neorl.drawing.curves import draw_sums
 from neorl.drawing.style import AGENT, GREEN, INK, RED, looks
 from neorl.drawing.value_maps import draw_cells, draw_values
@@ -106,11 +106,11 @@ def draw_together(results):
         mark_levels(axes, {f"thesis: {factor} × N7": factor * results["layer", 7].rate(*FINAL).mean()})
 
 
-def draw_elements(nres_map, places, valences, values):
+def draw_elements(axes, nres_map, places, valences, values):
     """Draw elements of interest, with valences in free corners, and the action values."""
     fills = {goal: (GREEN if valence > 0 else RED, FILL * abs(valence))
              for goal, valence in zip(nres_map.encode(places), valences)}
-    axes = draw_cells(nres_map, fills=fills)
+    draw_cells(nres_map, fills=fills, ax=axes)
     draw_values(nres_map, values, ax=axes)
     cells, side = nres_map.encode(places), 1 / nres_map.resolution
     for cell, (east, south), valence in zip(cells, as_vectors(np.asarray(values), CARDINAL)[cells], valences):
@@ -121,8 +121,8 @@ def draw_elements(nres_map, places, valences, values):
 
 
 def draw_maps(several):
-    """Draw the receptive fields of several maps over one board, in the lines of `LINES`."""
-    axes = new_board()
-    for place, nres_map in enumerate(several):
-        colour, width = LINES[min(place, len(LINES) - 1)]
-        draw_cells(nres_map, colour, width=width, ax=axes)
+    """Draw the receptive fields of maps over one board, the first two and all, in the lines of `LINES`."""
+    for axes, shown in zip(new_boards(2, 1), (several[:2], several)):
+        for place, nres_map in enumerate(shown):
+            colour, width = LINES[min(place, len(LINES) - 1)]
+            draw_cells(nres_map, colour, width=width, ax=axes)

@@ -197,8 +197,8 @@ def test_a_change_on_the_way_keeps_what_was_learned(open_page, site):
 
 
 def test_the_trail_is_drawn_unless_it_is_hidden(open_page, site):
-    page = open_page(*site("both", speed=1.0, playing=True))
-    page.wait_for_function("document.querySelector('.neorl-explorer')?.dataset.step > 100")
+    page = open_page(*site("both", speed=50.0, playing=True))
+    page.wait_for_function("document.querySelector('.neorl-explorer')?.dataset.step > 1000")
     press(page, "play")
     wait_for_frame_in_flight(page)
     with_trail = picture(page)

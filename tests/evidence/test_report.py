@@ -54,7 +54,7 @@ def test_what_a_verdict_rests_on_is_its_sentence_and_the_numbers_of_both_reading
 def record(cache_folder):
     report.save("paper_c", networks(), letter=networks(*paper_c()[::-1]))
     report.save("look", layers(runs=1))
-    report.save("assumptions", shares={"C2": {"holds": 64, "undecided": 26, "untestable": 3, "readings": 256,
+    report.save("assumptions", shares={"C2": {"reproduced": 64, "undecided": 26, "untestable": 3, "readings": 256,
                                                "agrees": 2, "measured": 40}})
     return report.load((cache_folder / "claims").iterdir())
 

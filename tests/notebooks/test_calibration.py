@@ -91,9 +91,9 @@ def test_the_error_is_that_of_the_mean_over_runs():
 def test_a_claim_holds_if_all_its_targets_do():
     statistics = {"A6 surplus": Measure(0.1, 0), "A6 pace": Measure(-0.1, 0), "A7 ratio": Measure(3.5, 0)}
     row = Row(0, 0, 2, 3_000, Reading(), statistics)
-    assert row.tested == {"A6"} and not row.held
+    assert row.tested == {"A6"} and not row.agreeing
     row = replace(row, statistics=statistics | {"A6 pace": Measure(0.02, 0)})
-    assert row.held == {"A6"} and row.distance == 0 and replace(row, statistics={}).distance == math.inf
+    assert row.agreeing == {"A6"} and row.distance == 0 and replace(row, statistics={}).distance == math.inf
 
 
 def truth(reading, name):

@@ -183,9 +183,9 @@ def test_claims_are_counted_in_their_order():
     found = multiverse.by_claim(cheap, [{"A2": claim(2, "reproduced")}])
     assert list(found) == ["A2", "A6", "C2"] and found["C2"] == [each["C2"] for each in cheap]
     counts = multiverse.shares(found)
-    assert counts["C2"] == {"holds": 1, "undecided": 1, "untestable": 1, "readings": 4}
-    assert counts["A2"] == {"holds": 1, "undecided": 0, "untestable": 0, "readings": 1}
-    assert [multiverse.held(each) for each in cheap] == [["C2"], [], [], []]
+    assert counts["C2"] == {"reproduced": 1, "undecided": 1, "untestable": 1, "readings": 4}
+    assert counts["A2"] == {"reproduced": 1, "undecided": 0, "untestable": 0, "readings": 1}
+    assert [multiverse.reproduced(each) for each in cheap] == [["C2"], [], [], []]
 
 
 @pytest.fixture(scope="module")
@@ -206,7 +206,7 @@ def test_support_counts_the_claims_that_hold_at_each_level(made_up):
     assert not found["object_tiled_fraction", "0.5"].is_to_the_letter
     parts = [each for (name, _), each in found.items() if name == "discount"]
     assert len(parts) == 5 and [each.is_to_the_letter for each in parts] == [False, False, True, False, False]
-    assert parts[4].held > parts[0].held == 0 and parts[0].level == "0.333 … 0.838"
+    assert parts[4].reproduced > parts[0].reproduced == 0 and parts[0].level == "0.333 … 0.838"
     assert ("memory", "216 … 1,000") in found and "exploration" not in {name for name, _ in found}
 
 

@@ -130,11 +130,10 @@ def draw_trend(years, counts, fitted):
     axes.set(xlabel="year", ylabel="transistors per processor")
 
 
-def draw_game(game):
-    """The board as a game begins: fruits at the first of its places, rings at the others, the agent and the ghost."""
-    (axes,) = new_grids(game.grid, size=3.4)
+def draw_game(axes, game, places):
+    """The board as a game begins: fruits at the first of these places, rings at the others, the agent and the ghost."""
     draw_grid(axes, game.grid)
-    for i, place in enumerate(game.places):
+    for i, place in enumerate(places):
         axes.add_patch(Circle(game.grid.places[place], 0.24, edgecolor=GREEN, linewidth=1.6,
                               facecolor=GREEN if i < game.fruits else "none"))
     (agent,), (ghost,) = (game.grid.marked(mark) for mark in "ag")

@@ -8,10 +8,10 @@ from lib.shared.grid import MOVES, WALL
 from neorl.drawing.style import AGENT, INK
 
 
-def new_grids(grid, columns=1, rows=1, size=None):
-    """Axes for drawings of a grid, each `size` inches wide or as a figure: a list."""
+def new_grids(grid, columns=1, rows=1):
+    """Axes for drawings of a grid, side by side in a figure: a list."""
     wide, high = len(grid.rows[0]), len(grid.rows)
-    width = columns * size if size else plt.rcParams["figure.figsize"][0]
+    width = plt.rcParams["figure.figsize"][0]
     figure, axes = plt.subplots(rows, columns, figsize=(width, width / columns * high / wide * rows + 0.3 * rows),
                                 squeeze=False)
     for each in axes.flat:

@@ -58,8 +58,8 @@ def errata(place=""):
 def save(page, claims=(), shares=None, letter=()):
     """Save the findings of a page as JSON, with the digest of the source that computed them.
 
-    shares: {name of a claim: {"holds", "undecided", "readings"}}, counts of readings within the text in short runs,
-    with "agrees" and "measured" if there are counts at the papers' lengths too. A missing bound is null.
+    shares: {name of a claim: {"reproduced", "undecided", "readings"}}, counts of readings within the text in short
+    runs, with "agrees" and "measured" if there are counts at the papers' lengths too. A missing bound is null.
     """
     content = {"page": page, "source": source_digest(), "claims": _kept(claims), "letter": _kept(letter),
                "shares": shares or {}}

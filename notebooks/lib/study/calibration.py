@@ -87,7 +87,7 @@ def _sieved(rows, numbers):
     """
     done = []
     for group, n in numbers.items():
-        rows = sorted(rows, key=lambda row: (-len(row.held), row.distance))
+        rows = sorted(rows, key=lambda row: (-len(row.agreeing), row.distance))
         done += rows[n:]
         rows = calibration_table.run(rows[:n], group)
     return sorted([*rows, *done], key=lambda row: row.seed)
@@ -102,7 +102,7 @@ def screen(table, runs, seed):
     measured = sorted((row for row in table if all(name in row.statistics for name in names)), key=lambda row: row.runs)
     most = {row.reading: replace(row, statistics={name: row.statistics[name] for name in names}) for row in measured}
     found = sorted((row for row in most.values() if row.runs <= SCREENED_RUNS),
-                   key=lambda row: (not {"A6", "A7"} <= row.held, row.distance))
+                   key=lambda row: (not {"A6", "A7"} <= row.agreeing, row.distance))
     rows = _new_rows(table, [row.reading for row in found[: max(SCREENED.values())]], runs, seed)
     return [*table, *_sieved(rows, SCREENED)]
 

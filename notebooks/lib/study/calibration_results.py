@@ -111,11 +111,11 @@ class Together(NamedTuple):
 def claims_together(table):
     """Count the rows in which pairs and sets of claims hold together."""
     tested = np.array([[name in row.tested for name in CLAIMS] for row in table], float)
-    held = np.array([[name in row.held for name in CLAIMS] for row in table], float)
+    held = np.array([[name in row.agreeing for name in CLAIMS] for row in table], float)
     rows, both = tested.T @ tested, held.T @ held
     alone = held.T @ tested  # rows with both measured in which the first holds
     expected = np.divide(alone * alone.T, rows, out=np.zeros(rows.shape), where=rows > 0)
-    found = [row.held for row in nearest(table)]
+    found = [row.agreeing for row in nearest(table)]
     largest = [each for each in set(found) if not any(each < other for other in found)]
     sets = [(tuple(sorted(each)), sum(each <= other for other in found)) for each in largest]
     sets.sort(key=lambda entry: (-len(entry[0]), -entry[1], entry[0]))
@@ -132,7 +132,7 @@ def evenly(table):
     for claim in CLAIMS:
         rows = design if all(claim in row.tested for row in design) else design[:IN_FULL]
         measured = [row for row in rows if claim in row.tested]
-        found[claim] = {"agrees": sum(claim in row.held for row in measured), "measured": len(measured)}
+        found[claim] = {"agrees": sum(claim in row.agreeing for row in measured), "measured": len(measured)}
     return found
 
 
@@ -150,7 +150,7 @@ def confirmed(table, runs=CONFIRMED):
 def equals(table):
     """The rows for which most claims hold among those with the most runs, the nearest first: see `leading`."""
     found = confirmed(table, max(row.runs for row in nearest(table)))
-    return [row for row in found if len(row.held) == len(found[0].held)]
+    return [row for row in found if len(row.agreeing) == len(found[0].agreeing)]
 
 
 def giving(table):

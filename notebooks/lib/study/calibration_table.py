@@ -54,7 +54,7 @@ class Row:
         return frozenset(CLAIMS) - {target.claim for name, target in TARGETS.items() if name not in self.statistics}
 
     @property
-    def held(self):
+    def agreeing(self):
         """The tested claims whose targets all agree with the thesis: a frozenset of names."""
         return self.tested - {TARGETS[name].claim for name, found in self.statistics.items()
                               if not TARGETS[name].holds(found.value)}
@@ -117,7 +117,7 @@ def pooled(rows):
 
 def leading(table):
     """The complete rows, those for which most claims hold first: the nearest reading does not reproduce most."""
-    return sorted(nearest(table), key=lambda row: -len(row.held))
+    return sorted(nearest(table), key=lambda row: -len(row.agreeing))
 
 
 def write_table(table, path):

@@ -51,27 +51,27 @@ def by_claim(*sweeps):
 
 
 def shares(claims):
-    """How often each claim holds: {name: {"holds", "undecided", "untestable", "readings"}}, counts of readings."""
+    """Counts of readings for each claim: {name: {"reproduced", "undecided", "untestable", "readings"}}."""
     counts = {}
     for name, found in claims.items():
         outcomes = [outcome(claim) for claim in found]
-        counts[name] = {"holds": outcomes.count("reproduced"), "undecided": outcomes.count("undecided"),
+        counts[name] = {"reproduced": outcomes.count("reproduced"), "undecided": outcomes.count("undecided"),
                         "untestable": sum(claim.outcome == "not testable" for claim in found), "readings": len(found)}
     return counts
 
 
-def held(claims):
-    """The names of the claims that hold, of {name: `Claim`}."""
+def reproduced(claims):
+    """The names of the claims that are reproduced, of {name: `Claim`}."""
     return [name for name, claim in claims.items() if outcome(claim) == "reproduced"]
 
 
 class Support(NamedTuple):
-    """How many claims hold at one level of a choice, and the lead over the level of the reading to the letter."""
+    """Claims reproduced at one level of a choice, on average, and their lead over the level to the letter."""
 
     choice: str
     level: str
     is_to_the_letter: bool
-    held: float
+    reproduced: float
     lead: Estimate
 
 
@@ -80,7 +80,7 @@ def support(readings, judged):
 
     A choice without levels is cut into fifths of its prior. A level that no reading has is left out.
     """
-    counts = np.array([len(held(claims)) for claims in judged])
+    counts = np.array([len(reproduced(claims)) for claims in judged])
     found = []
     for name in WITHIN:
         levels, _, (letter, *at) = binned(name, [TO_THE_LETTER, *readings], PARTS)

@@ -141,9 +141,9 @@ def draw_standing(record, names):
     for row, name in enumerate(names):
         share = record["shares"].get(name)
         if share:
-            holds, undecided = (share[kind] / share["readings"] for kind in ("holds", "undecided"))
+            holds, undecided = (share[kind] / share["readings"] for kind in ("reproduced", "undecided"))
             axes.barh(row, holds, 0.55, color=COLOURS["reproduced"])
-            axes.annotate(f"{share['holds']} of {share['readings']}", (1, row), xytext=(9, 0),
+            axes.annotate(f"{share['reproduced']} of {share['readings']}", (1, row), xytext=(9, 0),
                           textcoords="offset points", fontsize=SMALL, va="center")
             if undecided:
                 axes.barh(row, undecided, 0.55, left=holds, **UNDECIDED)
