@@ -6,7 +6,7 @@
 // Places and velocities are sent in units of the world's size, y downward; inside WaterWorld they are in pixels.
 
 const SLICE_MS = 4; // between two readings of the clock
-const [TRAIL, BETWEEN] = [3, 3]; // simulated seconds, and steps from one place of the trail to the next
+const [TRAIL, BETWEEN] = [3, 2]; // simulated seconds, and steps from one place of the trail to the next
 
 const modules = {}; // by name, {layout, compiled}
 let run = null;

@@ -5,7 +5,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.patches import Circle
 
 from lib.shared.style import UNDER_WHITE
-from neorl.drawing.boards import inside, new_boards
+from neorl.drawing.boards import inside
 from neorl.drawing.style import AGENT, GREEN, INK, RED
 
 
@@ -21,12 +21,6 @@ def draw_route(axes, path, waypoints):
     axes.plot(*path[0], "o", color=AGENT, markersize=9)
     for number, (x, y) in enumerate(waypoints, start=1):
         _draw_disc(axes, (x, y), 0.045, UNDER_WHITE, str(number))
-
-
-def draw_recordings(recordings):
-    """Several recordings side by side, each on a board of its own."""
-    for axes, recording in zip(new_boards(rows=1, columns=len(recordings)), recordings):
-        draw_recording(axes, recording)
 
 
 def draw_recording(axes, recording):
@@ -48,9 +42,12 @@ def draw_recording(axes, recording):
 
 
 def _draw_path(axes, path, shown):
-    pieces = np.stack([path[:-1], path[1:]], axis=1)
-    width = np.linspace(0.7, 2.4, len(pieces))
-    axes.add_collection(LineCollection(pieces[shown], colors=AGENT, linewidths=width[shown]))
+    """Draw those steps of a path that are shown, in forty stretches or more of increasing width."""
+    hidden = np.flatnonzero(~shown)
+    cuts = np.unique([*np.linspace(0, len(shown), 41).astype(int), *hidden, *(hidden + 1)])
+    begins = cuts[:-1][shown[cuts[:-1]]]
+    stretches = [path[begin : cuts[cuts > begin][0] + 1] for begin in begins]
+    axes.add_collection(LineCollection(stretches, colors=AGENT, linewidths=0.7 + 1.7 * begins / len(shown)))
 
 
 def _draw_disc(axes, place, radius, colour, sign):

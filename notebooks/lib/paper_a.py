@@ -116,8 +116,8 @@ def draw_elements(axes, nres_map, places, valences, values):
     for cell, (east, south), valence in zip(cells, as_vectors(np.asarray(values), CARDINAL)[cells], valences):
         left, top = side * (cell % nres_map.resolution), side * (cell // nres_map.resolution)
         falling = east * south > 0  # an arrow that leaves the upper right corner free
-        mark(axes, (left + side * (0.92 if falling else 0.08), top + 0.08 * side), f"{valence:+g}".replace("-", "−"),
-             ha="right" if falling else "left", va="top")
+        mark(axes, (left + side * (0.9 if falling else 0.1), top + 0.1 * side), f"{valence:+g}".replace("-", "−"),
+             ha="center", va="center")
 
 
 def draw_maps(several):
