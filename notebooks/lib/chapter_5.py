@@ -6,7 +6,7 @@ Each conclusion rests on some claims, and claims on other worlds and agents on n
 from lib.shared import report
 from lib.shared.marks import html
 from lib.shared.report import CALIBRATED, LETTER
-from lib.shared.wording import table
+from lib.shared.wording import filled, table
 from neorl.evidence.statements import CLAIMS
 from neorl.evidence.verdict import VERDICTS
 
@@ -19,7 +19,7 @@ GROUPS = {"Superposition": SUPERPOSITION, "Learning apart from behaviour": SEPAR
 
 
 def verdicts(record):
-    """The claims with each verdict, in each of `GROUPS` and under both readings, as a Markdown table.
+    """The claims with each verdict that any has, in each of `GROUPS` and under both readings, as a Markdown table.
 
     A claim that was not computed, or is judged under one reading only, is in the last column.
 
@@ -34,4 +34,4 @@ def verdicts(record):
                 by_verdict[report.verdict({"claims": found}, name)].append(name)
             rows.append([group, reading, *(" ".join(each) for each in by_verdict.values())])
     headings = [f"{html(verdict)}\u00a0{verdict}" for verdict in VERDICTS]
-    return table(["Claims", "Reading", *headings, "not judged"], rows)
+    return table(*filled(["Claims", "Reading", *headings, "not judged"], rows))

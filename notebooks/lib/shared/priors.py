@@ -12,7 +12,7 @@
 """
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any, NamedTuple
 
 from neorl.agents import papers
@@ -88,7 +88,8 @@ class Choice(NamedTuple):
     @property
     def stated(self):
         """The whole prior, in words."""
-        return self.levels if isinstance(self.prior, tuple) else f"{self.levels}, {self.prior}"
+        return self.levels if isinstance(self.prior, tuple) else (
+            f"{' … '.join(map(self.words, replace(self.prior, apart=None).support()))}, {self.prior}")
 
     @staticmethod
     def words(value):

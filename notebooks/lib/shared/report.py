@@ -25,8 +25,8 @@ from neorl.files import cache_folder, write_whole
 LETTER, CALIBRATED = "to the letter", "calibrated"  # names of readings
 COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict")
 LEGEND = ("● reproduced, ◐ partly, ○ not reproduced, ◇ not testable (agents learned too little); without a symbol, no "
-          "verdict. Numbers are the quantities in italics, with 95\u00a0% intervals over runs. A claim's name leads to "
-          "what its verdict rests on.")
+          "verdict. Numbers: the quantities in italics, with 95\u00a0% intervals over runs. That of a time can lie "
+          "below it, since noise reaches a level early. A claim's name leads to what its verdict rests on.")
 BESIDE = "Demonstrations of this book, not counted among the claims:"
 PARTS = ("claims", "letter", "shares")  # of a record
 
@@ -86,12 +86,9 @@ def verdict(record, name):
 
 def extract(record, names):
     """Some claims of a record, as `load` returns it, as a Markdown table without its empty columns, and its legend."""
-    rows = [_cells(record, name) for name in names]
-    kept = [at for at in range(len(COLUMNS)) if any(row[at] for row in rows)]
-    head = [COLUMNS[at] for at in kept]
-    if "To the letter" not in head:
-        head = ["Here" if each == "Calibrated" else each for each in head]
-    return f"{wording.table(head, [[row[at] for at in kept] for row in rows])}\n\n{LEGEND}"
+    head, rows = wording.filled(COLUMNS, [_cells(record, name) for name in names])
+    head = head if "To the letter" in head else ["Here" if each == "Calibrated" else each for each in head]
+    return f"{wording.table(head, rows)}\n\n{LEGEND}"
 
 
 def evidence(record, names):

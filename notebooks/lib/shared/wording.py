@@ -7,6 +7,12 @@ def table(header, rows):
     return "\n".join([first, "|---" * len(header) + "|", *others])
 
 
+def filled(header, rows):
+    """A header and rows without the columns that are empty in all rows."""
+    kept = [at for at in range(len(header)) if any(row[at] for row in rows)]
+    return [header[at] for at in kept], [[row[at] for at in kept] for row in rows]
+
+
 def number(value, digits=2):
     """A number with `digits` decimals, and a minus sign in place of a hyphen."""
     return f"{value:z.{digits}f}".replace("-", "−")
