@@ -1,10 +1,9 @@
 """The page of chapter 1: newborns and veterans, the helmsman and the captain in its cells, and its drawings."""
 
-from concurrent.futures import ThreadPoolExecutor
-
 import numpy as np
 from page_cells import defined
 
+from lib.shared.runs import each_run
 from neorl import Learning, Run, WaterWorld, execute, multimodal, place_cells, simulate
 from neorl.core.kernel import arrays
 
@@ -15,7 +14,7 @@ GIVEN = {"np": np, "Run": Run, "execute": execute, "tank": TANK}
 def experiment(agent, **parameters):
     """What the experiment's cell defines for an agent, 2 pairs on seed 4 and a trial of 1,500 steps."""
     return defined("chapter_1", "cell-11", **GIVEN, WaterWorld=lambda n_creeps: WaterWorld(n_creeps=n_creeps, fps=25),
-                   multimodal=lambda: agent, simulate=simulate, ThreadPoolExecutor=ThreadPoolExecutor,
+                   multimodal=lambda: agent, simulate=simulate, each_run=each_run,
                    **{"runs": 2, "steps": 5_000, "seed": 4, "n_creeps": 3, **parameters})
 
 

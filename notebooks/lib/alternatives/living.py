@@ -11,13 +11,13 @@
 import csv
 import functools
 import io
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from time import thread_time
 from typing import NamedTuple
 
 import numpy as np
 
+from lib.shared.runs import each_run
 from neorl.agents.compile import n_bytes
 from neorl.core.calls import execute
 from neorl.core.kernel import arrays, inlined, kernel
@@ -28,7 +28,7 @@ from neorl.worlds import waterworld
 from neorl.worlds.waterworld import WaterWorld
 
 BOARDS = {creeps: WaterWorld(n_creeps=creeps) for creeps in (3, 8)}
-FPS, THREADS, BINS = BOARDS[3].fps, 2, 50
+FPS, BINS = BOARDS[3].fps, 50
 TIMED_STEPS = 20_000
 MINUTE = 3_000  # steps
 FOLDER = Path(__file__).parent
@@ -98,8 +98,7 @@ def live(contestant, world, *, steps, runs, bins=BINS, seed=0):
         seconds[run] = thread_time() - began
 
     live_one(0, np.zeros_like(edges))  # compiles the kernel before calls are timed
-    with ThreadPoolExecutor(THREADS) as pool:
-        list(pool.map(live_one, range(runs)))
+    each_run(live_one, runs)
     return Earned(rewards, steps, float(np.median(seconds)) / steps, int(sizes[0]) / 1e3)
 
 

@@ -18,11 +18,11 @@ exp(greediness × preference). The rules:
 4. *Boltzmann addition*: the sum of the policies, to the power of the greediness, which is 1.
 """
 
-from concurrent.futures import ThreadPoolExecutor
 from typing import NamedTuple
 
 import numpy as np
 
+from lib.shared.runs import each_run
 from lib.shared.tabular import greedy_action, learn_q
 from neorl.core.calls import execute
 from neorl.core.kernel import kernel
@@ -89,8 +89,7 @@ def run_ensemble(maze, chooser, *, steps, runs, seed=0, doublings=0):
         execute(_run, table, CHOOSERS.index(chooser), doublings, edges, stream, preferences,
                 np.zeros((len(LEARNERS), maze.states)), np.zeros(4), np.zeros(4), rewards[run])
 
-    with ThreadPoolExecutor(2) as pool:
-        list(pool.map(run_one, range(runs)))
+    each_run(run_one, runs)
     return rewards / np.diff(edges)
 
 

@@ -14,7 +14,6 @@ The learners, all by Q-learning (van Seijen et al. 2017, Hybrid reward architect
    value function per place (thesis section 4.1.3), with the fruits as elements of interest.
 """
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -23,6 +22,7 @@ import numpy as np
 from scipy.sparse import csgraph
 
 from lib.shared.grid import Grid
+from lib.shared.runs import each_run
 from lib.shared.tabular import Rates, exploring_action, learn_q
 from neorl.core.calls import execute
 from neorl.core.kernel import kernel
@@ -109,8 +109,7 @@ def play(game, learner, *, steps, runs, seed=0):
                 np.zeros(4), rewards[run], ends[run])
         known[run] = np.any(q, axis=1).sum()
 
-    with ThreadPoolExecutor(2) as pool:
-        list(pool.map(play_one, range(runs)))
+    each_run(play_one, runs)
     return Played(edges, rewards * 100 / np.diff(edges), ends, known)
 
 

@@ -5,13 +5,13 @@ size of values, what a map of object vectors has learned, the computing time of 
 values when others join. Agents and worlds are those of the page.
 """
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from time import perf_counter
 from typing import NamedTuple
 
 import numpy as np
 
+from lib.shared.runs import each_run
 from neorl.agents.agent import Desire, Node, Place
 from neorl.agents.rules import Policy
 from neorl.core.modality import PLACE_CELL
@@ -167,7 +167,7 @@ def learn(agents, world, steps, runs, seed=0):
         run.advance(steps)
         return run
 
-    return {name: _each_run(lambda k, agent=agent: learned(agent, k), agent, world, runs)
+    return {name: each_run(lambda k, agent=agent: learned(agent, k), runs, usable_threads(agent, world))
             for name, agent in agents.items()}
 
 
@@ -225,9 +225,4 @@ def _with_maps(agent, chosen):
 
 
 def _of_runs(live_one, agent, world, runs):
-    return np.array(_each_run(live_one, agent, world, runs))
-
-
-def _each_run(live_one, agent, world, runs):
-    with ThreadPoolExecutor(min(usable_threads(agent, world), runs)) as cores:
-        return list(cores.map(live_one, range(runs)))
+    return np.array(each_run(live_one, runs, usable_threads(agent, world)))
