@@ -2,10 +2,12 @@
 
 A kernel called from Python is cached with everything inlined into it, under a key of all that its code depends on: the
 source of the rooms `core` and `worlds`, the code and constants of every user-defined kernel, the types of its
-arguments, numba, LLVM and the processor. So the cache need not be cleared after a change, and deleted files are
-compiled again. A file is complete or absent; one that is damaged, or cannot be read or written, counts as absent.
+arguments, numba, LLVM and the processor, and the lines on which the user's kernels raise. So the cache need not be
+cleared after a change, and deleted files are compiled again. A file is complete or absent; one that is damaged, or
+cannot be read or written, counts as absent.
 """
 
+import dis
 import hashlib
 import pickle
 import sys
@@ -57,9 +59,16 @@ class CompileCache(NullCache):
             return None
         made_of = (self._reading.text, digest_of_source("core", "worlds"),
                    [_name_of(each) for each in normalize_signature(sig)[0]], self._kernel.options, numba.__version__,
-                   llvmlite.__version__, sys.version, codegen.magic_tuple(),
+                   llvmlite.__version__, sys.version, codegen.magic_tuple(), _lines_that_raise(self._reading.functions),
                    [getattr(numba.config, name) for name in SETTINGS])
         return files.cache_folder() / "compiled" / hashlib.sha256(repr(made_of).encode()).hexdigest()
+
+
+def _lines_that_raise(functions):
+    """Where those of a user's functions stand that raise: their compiled code names the file and the line."""
+    codes = [each.__code__ for each in functions]
+    return [(code.co_qualname, code.co_filename, code.co_firstlineno, code.co_linetable) for code in codes
+            if any(each.opname == "RAISE_VARARGS" for each in dis.get_instructions(code))]
 
 
 def _name_of(kind):

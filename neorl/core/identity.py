@@ -4,7 +4,7 @@ A cached file is found by a text of everything that determined it (`neorl.experi
 `neorl.core.compile_cache`). A function counts by its bytecode, since its file may have changed after it was read, and
 by the present values of its globals, closures, defaults and attributes of modules, down to the functions among them.
 The code of the rooms `core` and `worlds` counts by name, since the key of such a file also contains the digest of
-their source (`digest_of_source`); that of Python, numba and NumPy counts by name, too.
+their source (`digest_of_source`); so does that of Python, numba and NumPy. A program must not assign to names in them.
 
 numba takes all these values for constants when it compiles; a `Reading` compares them with the present ones.
 """
@@ -30,6 +30,8 @@ WITHOUT_SOURCE = ("numba", "numpy")
 PLAIN = (NoneType, bool, int, float, complex, str, bytes)
 CONSTANTS = (*PLAIN, tuple, np.ndarray, np.generic, Enum)  # among the attributes of a class
 MISSING = object()
+NOT_OF_NUMBA = ("{} must be decorated with neorl.kernel, since kernels call it, but is compiled by numba's {}, which "
+                "would keep the values that its globals had then")
 STANDARD_LIBRARY = sysconfig.get_path("stdlib")
 
 
@@ -63,11 +65,11 @@ class Reading:
                 *[part for each in self.functions for part in (each.__code__, each.__defaults__, each.__kwdefaults__)]]
 
     def _of(self, value):
-        if type(value) in PLAIN or isinstance(value, np.generic):
+        if type(value) in PLAIN or isinstance(value, np.generic) and not isinstance(value, np.void):
             return repr(value)
         if isinstance(value, tuple):
             return f"{_kind(value)}{getattr(value, '_fields', '')}({', '.join(map(self._of, value))})"
-        if isinstance(value, np.ndarray) and not value.dtype.hasobject:
+        if isinstance(value, np.ndarray | np.void) and not value.dtype.hasobject:
             self._arrays.append((value, value.tobytes()))
             return f"{value.dtype}{value.shape}{self._arrays[-1][1].hex()}"
         if isinstance(value, ModuleType):
@@ -76,6 +78,8 @@ class Reading:
             return self._once(value, self._class)
         if isinstance(value, MethodType):
             return self._of((value.__func__, value.__self__))
+        if type(value).__name__ in ("DUFunc", "GUFunc", "_Intrinsic", "CFunc"):
+            raise ValueError(NOT_OF_NUMBA.format(value.__name__, type(value).__name__))
         if isinstance(getattr(value, "py_func", value), FunctionType):
             return self._once(value, self._function)
         if isinstance(value, Enum):
@@ -96,9 +100,9 @@ class Reading:
 
     def _class(self, kind):
         name = name_of(kind)
-        if _is_known(str(kind.__module__)):
+        if _is_known_class(kind):
             return name
-        found = {}
+        found = {each: (kind.__members__, member) for each, member in getattr(kind, "__members__", {}).items()}
         for base in reversed(kind.__mro__):
             found |= {each: (vars(base), value) for each, value in vars(base).items()
                       if isinstance(value, CONSTANTS) and not each.startswith("__")}
@@ -119,8 +123,7 @@ class Reading:
         means = ("jit" if hasattr(value, "targetoptions") else "extending.overload" if templates and any(
             each is function for each, _ in templates.builtin_registry.globals) else "")
         if means:
-            raise ValueError(f"{name} must be decorated with neorl.kernel, since kernels call it, but is compiled by "
-                             f"numba.{means}, which would keep the values that its globals had then")
+            raise ValueError(NOT_OF_NUMBA.format(name, means))
         self.functions.append(function)
         code, of_globals, attributes = _read(function.__code__)
         scope = function.__globals__
@@ -145,7 +148,7 @@ class Reading:
     def _object(self, value):
         content = (self._named((each.name, getattr(value, each.name)) for each in fields(value))
                    if is_dataclass(value) else self._pickled(value))
-        if not _is_known(str(type(value).__module__)):
+        if not _is_known_class(type(value)):
             content += self._of(getattr(value, "determinants", ()))
             content += self._of(type(value).__call__) if callable(value) else ""
         return f"{_kind(value)}({content})"
@@ -202,6 +205,12 @@ def _is_known(module):
         return True
     file = getattr(sys.modules.get(module), "__file__", None) or ""
     return file.startswith(STANDARD_LIBRARY) and "-packages" not in file
+
+
+def _is_known_class(kind):
+    """Whether a class counts by name: code that is run without a name, and `make_dataclass`, borrow those of others."""
+    module, is_made = str(kind.__module__), bool(kind.__flags__ & 1 << 9)  # by a class statement, not in C
+    return _is_known(module) and (not is_made or getattr(sys.modules.get(module), kind.__name__, None) is kind)
 
 
 @functools.cache

@@ -244,12 +244,14 @@ def kernel_maker(function: Callable) -> Any:
 
     The function is called every time, and its kernel replaced by an earlier one if that is the same in all that it
     depends on. NumPy scalars and zero-dimensional arrays count as Python numbers. Raises ValueError for anything but a
-    Python function. The decorated function raises TypeError for arguments that cannot be hashed, and ValueError if it
-    does not return a kernel.
+    Python function, and for one with arguments by name alone. The decorated function raises TypeError for arguments
+    that cannot be hashed, and ValueError if it does not return a kernel.
     """
     if not inspect.isfunction(function):
         raise checks.error("function", "a Python function that makes kernels", function)
     signature, known = inspect.signature(function), dict[tuple, Any]()
+    if {each.kind.name for each in signature.parameters.values()} & {"KEYWORD_ONLY", "VAR_KEYWORD"}:
+        raise checks.error("function", "without arguments by name alone, after * or **", function)
 
     @functools.wraps(function)
     def make(*arguments, **by_name):

@@ -26,7 +26,7 @@ class Result:
     """The rewards and hits of the runs of one condition.
 
     condition: the `neorl.Condition`, whose agent, world, steps, runs, seed and changes the result has, too.
-    rewards: float32 (runs, bins), summed over bins of 0.2 s. hits: int16 (runs, bins, kinds), the number of things of
+    rewards: float32 (runs, bins), in bins of about 0.2 s. hits: int16 (runs, bins, kinds), the number of things of
     each kind that were met, counted up to 32,767 in a bin; in WaterWorld green and red creeps.
     """
 

@@ -113,7 +113,7 @@ class Run(Individual):
                 every: int = SLICE) -> float:
         """Take `steps` more steps; returns their total reward.
 
-        rewards: float32 (bins,); if given, receives the reward in each 0.2 s since the run began.
+        rewards: float32 (bins,); if given, receives the reward in each bin of about 0.2 s, see `edges` of a result.
         hits: int16 (bins, kinds), likewise the number of things of each kind that were met, at most 32,767.
         each: called with the run after every `every` steps and after the last one, to report progress, to save a
             checkpoint, or to measure. every: an integer ≥ 1. Neither changes what the run does.
@@ -207,7 +207,7 @@ def _bins(name, given, dtype, bins, *beside):
 
 
 def bin_steps(world):
-    """The number of steps in a bin of 0.2 s, at least one."""
+    """The number of steps in a bin: 0.2 s, rounded, and at least one."""
     return max(1, round(BIN_SECONDS * world.fps))
 
 

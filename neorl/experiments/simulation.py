@@ -106,9 +106,9 @@ def sweep(conditions: Sequence[Condition], executor: Executor | None = None,
     if errors:
         failed = {id(task.keeper): (task.keeper.condition, error) for task, error in errors}
         condition, error = next(iter(failed.values()))
-        raise RuntimeError(f"{len(failed)} of {len(conditions)} conditions have failed, such as "
-                           f"{condition}: {error!r}") from error
-    return (keepers[name].result() or simulate(**condition.choices, cache=True)
+        raise RuntimeError(f"{len(failed)} of {len(conditions)} conditions have failed, one by {type(error).__name__}: "
+                           f"{error}\n\nIt was {condition}") from error
+    return (keepers[name].result() or simulate(**condition.choices, cache=True, progress=progress)
             for name, condition in zip(names, conditions))
 
 

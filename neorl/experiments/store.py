@@ -32,10 +32,10 @@ KINDS = {"conditions": ("finished conditions", DIGEST),
 MARK = b'"claims":'  # in files of claims, whose names are not neorl's alone
 
 
-def load(condition):
-    """The `Result` of a condition if it is on disk, else None."""
+def load(condition, path=None):
+    """The `Result` of a condition if it is on disk, else None. path: where it was kept."""
     try:
-        _, arrays = files.read_arrays(condition.path, "Result")
+        _, arrays = files.read_arrays(path or condition.path, "Result")
         return Result(condition, *fitting(arrays, condition, condition.runs))
     except (OSError, ValueError):  # absent, damaged, or of another version
         return None
@@ -105,6 +105,7 @@ class Keeper:
 
     def __init__(self, condition, cache):
         self.condition, self._cache, self._runs, self._whole = condition, cache, {}, None
+        self._path = condition.path if cache else None  # of the constants and rules as they are now
         self._unwritten, self._written_at = [], None  # numbers of runs that are only in memory; seconds
         if cache and load(condition) is not None:
             _taken(remove_runs, condition)  # left by a process killed before it could do so
@@ -135,7 +136,7 @@ class Keeper:
 
     def result(self):
         """The `Result` of a complete condition, or None if its file was removed in the meantime."""
-        return self._whole or load(self.condition)
+        return self._whole or load(self.condition, self._path)
 
     def _finish_if_complete(self):
         if len(self._runs) < self.condition.runs:

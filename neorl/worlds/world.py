@@ -161,6 +161,9 @@ def check_definition(world):
         if getattr(type(world), each, None) is None and getattr(world, each, None) is None:
             raise TypeError(f"{name} must have {each}, as a World with dynamics, but has none; see neorl.worlds.world "
                             "for what a subclass defines")
+    kinds = checks.several(f"kinds of {name}", world.kinds)
+    if len(set(map(str, kinds))) < len(kinds) or not all(isinstance(each, str) for each in kinds):
+        raise checks.error(f"kinds of {name}", "different names", kinds)
     checks.instance(f"actions of {name}", world.actions, Actions)
     checks.integer(f"things of {name}", world.things, 0, checks.MOST)
     checks.positive(f"size of {name}", world.size)
@@ -174,6 +177,9 @@ def check_definition(world):
     if (found := fields(world.State)).get("scene") is not Scene or found.get("stream") != STREAM:
         raise ValueError(f"the state of {name} must have a field scene, a neorl.Scene, and a field stream, "
                          f"neorl.array('uint64', 4), but has {', '.join(found)}")
+    for each, kind in found.items():
+        if not isinstance(kind, tuple) and not is_tuple(kind):
+            raise checks.error(f"{each} in the state of {name}", "annotated as a neorl.array or a named tuple", kind)
 
 
 def checked_rules(world):
@@ -191,11 +197,17 @@ def check_rules(rules, kind, sizes, path="rules"):
         value = getattr(rules, name)
         if is_tuple(field):
             check_rules(value, field, sizes, f"{path}.{name}")
+        elif field in (bool, int, float, np.float32) and not _is_number(checks.plain(value)):
+            raise checks.error(f"{path}.{name}", "a number of at most 64 bits, as it is annotated", value)
         elif isinstance(field, tuple) and not _is_as_annotated(value, *field, sizes):
             found = f"{value.dtype} {value.shape}" if isinstance(value, np.ndarray) else checks.shown(value)
             dtype, shape = field[0], tuple(sizes.get(each, each) for each in field[1])
             raise ValueError(f"{path}.{name} must be an array of {dtype} {shape}, as it is annotated, since kernels "
                              f"read it without a check, but is {found}: change the array, or its annotation")
+
+
+def _is_number(value):
+    return isinstance(value, bool | float) or isinstance(value, int) and abs(value) < 2**63
 
 
 def _is_as_annotated(value, dtype, shape, sizes):

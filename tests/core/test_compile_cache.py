@@ -69,6 +69,13 @@ def test_a_file_that_changes_after_it_was_read_does_not_lend_its_source_to_older
     assert called(module(changed)) == (12.0, False)
 
 
+def test_a_kernel_that_raises_tells_its_own_line_after_it_has_moved(module):
+    for line in (4, 6):
+        above = (line - 4) * "\n" + "from neorl import kernel\n@kernel\ndef answer(x):\n"
+        with pytest.raises(ValueError, match=f"own.answer .*, line {line}. must not raise, but has raised"):
+            execute(module(above + "    assert x > 5.0\n    return x").answer, 1.0)
+
+
 def test_another_processor_or_compiler_compiles_again(module, monkeypatch):
     called(module())
     monkeypatch.setattr("numba.__version__", "0.0")

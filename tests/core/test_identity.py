@@ -3,6 +3,7 @@
 import subprocess
 import sys
 from dataclasses import dataclass
+from enum import Enum
 from types import ModuleType
 
 import numpy as np
@@ -142,6 +143,8 @@ def test_a_maker_that_looks_up_a_changed_value_makes_another_kernel():
     assert scaled(2.0) is first is not scaled(3.0) and execute(first, 1.0) == 2.0
     scale = 5.0
     assert scaled(2.0) is not first and execute(scaled(2.0), 1.0) == 10.0
+    with pytest.raises(ValueError, match="function must be without arguments by name alone"):
+        kernel_maker(lambda a, *, by: None)
 
 
 @pytest.mark.skipif(jit_is_off(), reason="the compiler is off")
@@ -156,10 +159,20 @@ def test_functions_that_numba_compiles_by_itself_are_refused():
     def answering(called):
         return kernel(lambda x: called(x))
 
-    for answer, name in ((answering(numba.njit(lambda x: x)), "<lambda>"), (answering(tripled), "tripled")):
-        for refused in (lambda: execute(answer, 1.0), lambda: identity(answer)):
-            with pytest.raises(ValueError, match=f"itself_are_refused.<locals>.{name} must be decorated with neorl."):
+    for called in (numba.njit(tripled), numba.vectorize(tripled), tripled):
+        for refused in (lambda: execute(answering(called), 1.0), lambda: identity(answering(called))):
+            with pytest.raises(ValueError, match="tripled must be decorated with neorl.kernel, since kernels call it"):
                 refused()
+
+
+def test_what_borrows_the_name_of_a_known_module_counts_by_its_content_all_the_same():
+    made = [type("Made", (), {"pay": pay, "__module__": "types"}) for pay in (1, 2)]
+    numbered = [Enum("E", {"name": number}) for number in (1, 2)]
+    record = np.array([(1.0, 2)], dtype=[("pay", "f8"), ("n", "i8")])[0]
+    before = Reading(record)
+    record["pay"] = 5.0
+    assert identity(made[0]) != identity(made[1]) and identity(numbered[0]) != identity(numbered[1])
+    assert not before.stands() and identity(record) != before.text
 
 
 @dataclass(frozen=True)

@@ -116,6 +116,7 @@ def test_an_unfinished_world_is_told_what_it_lacks():
 
 
 Streamless = NamedTuple("Streamless", [("scene", Scene)])
+Numbered = NamedTuple("Numbered", [("scene", Scene), ("stream", array("uint64", 4)), ("more", float)])
 
 
 class Unsized(NamedTuple):
@@ -147,6 +148,8 @@ def without_types(state, rules):
     ({"things": -1}, "things of Wrong must be an integer from 0 to 1048576, but is -1"),
     ({"things": 1.5}, "things of Wrong must be an integer from 0 to 1048576, but is 1.5"),
     ({"fps": 0}, "fps of Wrong must be a finite number from 1e-30 to 1e\\+30, but is 0"),
+    ({"dynamics": Dynamics(beginning(Numbered), drive)}, "more in the state of Wrong must be annotated as a neorl."),
+    ({"kinds": ("pad", "pad")}, "kinds of Wrong must be different names"), ({"kinds": "pad"}, "kinds of Wrong must be"),
     ({"size": np.nan}, "size of Wrong must be a finite number from 1e-30 to 1e\\+30, but is nan")])
 def test_a_world_whose_parts_are_not_what_they_must_be_is_refused_when_it_is_made(change, message):
     with pytest.raises(ValueError, match=message):
@@ -290,6 +293,7 @@ class GardenRules(NamedTuple):
     stones: Stones
     push: array("float64", 5, 2)
     cost: array("int64", "axes")
+    gain: float
 
 
 @kernel
@@ -305,8 +309,8 @@ class Garden(World):
     things, size, fps = 0, 1.0, 1
 
 
-def garden(place=(3, 2), weight=(3,), push=CARDINAL.table, cost=np.zeros(2, int)):
-    return Garden(GardenRules(Stones(np.zeros(place), np.zeros(weight)), push, cost))
+def garden(place=(3, 2), weight=(3,), push=CARDINAL.table, cost=np.zeros(2, int), gain=1.0):
+    return Garden(GardenRules(Stones(np.zeros(place), np.zeros(weight)), push, cost, gain))
 
 
 @pytest.mark.parametrize("change, message", [
@@ -316,6 +320,7 @@ def garden(place=(3, 2), weight=(3,), push=CARDINAL.table, cost=np.zeros(2, int)
     ({"push": CARDINAL.pushes}, r"rules.push must be an array of .* but is \(\(0.0, -1.0\), "),
     ({"cost": np.zeros(3, int)}, r"rules.cost must be an array of int64 \(2,\), .* but is int64 \(3,\)"),
     ({"cost": np.zeros((2, 1), int)}, r"rules.cost must be an array of int64 \(2,\), .* but is int64 \(2, 1\)"),
+    ({"gain": "x"}, "rules.gain must be a number of at most 64 bits"), ({"gain": 10**25}, "rules.gain must be a num"),
     ({"weight": 2}, r"rules.stones.weight must be an array of float64 \(3,\), .* but is float64 \(2,\)")])
 def test_rules_that_are_not_as_annotated_are_refused_when_a_world_is_made(change, message):
     with pytest.raises(ValueError, match=message):
