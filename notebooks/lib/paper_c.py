@@ -42,7 +42,7 @@ def draw_rates(results, of_paper):
     axes = draw_proficiency(results)
     if of_paper:
         level = max(0.0, DRASTIC * results["C"].rate(*FINAL).mean())
-        mark_levels(axes, {f"thesis: D beyond {DRASTIC} × C": level})
+        mark_levels(axes, {f"C4: D beyond {DRASTIC} × C": level})
 
 
 def draw_desires(run, axes):

@@ -102,8 +102,9 @@ def numbers(record, name):
     found = {reading: record[part][name] for reading, part in (("Here", "claims"), ("To the letter", "letter"))
              if name in record[part]}
     asked = {what: asks for each in found.values() for what, (_, asks) in each["numbers"].items()}
-    rows = [[what, asks, *(number({"here": each["numbers"][what][0]}) if what in each["numbers"] else ""
-                           for each in found.values())] for what, asks in asked.items()]
+    rows = [[what, asks, *(number({"here": each["numbers"][what][0]}) if what in each["numbers"] else
+                           number(each) if what == STATEMENTS[name].statistic else "" for each in found.values())]
+            for what, asks in asked.items()]
     head = ["Number", "Rule", *(f"{reading}, {each['runs']} runs" for reading, each in found.items())]
     return wording.table(head, rows) if rows else ""
 
