@@ -14,7 +14,7 @@ from lib.shared.opening import anchor, link
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS
 from neorl.evidence.verdict import RUNS_FOR_A_VERDICT, VERDICTS
 
-SHARES = ("Readings that agree", "Readings that reproduce it", "Undecided")
+SHARES = ("Agree, in long runs", "Reproduce it, in short runs", "Undecided, in short runs")
 CHAPTERS = {"A": "Paper A: maps of one space", "B": "Paper B: modalities", "C": "Paper C: networks of desires",
             "T": "The thesis as a whole"}
 

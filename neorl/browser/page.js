@@ -15,7 +15,7 @@ const STATES = { self: "the self (goal: the object's cell)", "per object": "the 
 const AVOIDED = { red: "red", obstacle: "obstacles", vessel: "vessels" };
 const WHOLE = ({ min, max }) => `Whole numbers from ${min} to ${max} are allowed here.`;
 const STOPPED = "The simulation has stopped. Reset restarts it.";
-const HINTS = ["Click a cell to see the way to it.", "Double-click to drop an element of interest.",
+const HINTS = ["Click a cell to see the way to it.", "Double-click or double-tap to drop an element of interest.",
   "Drag the creeps."];
 const WHERE = "Click where to drop the element of interest.";
 
