@@ -11,8 +11,8 @@ from pathlib import Path
 
 
 ASKED = "% The repository is at <URL>."
-UNNAMED = ("This copy of the book was built without the address of its repository: ask whoever gave it to you. The "
-           "explorer runs every agent without an installation, on a phone, too.")
+UNNAMED = ("This copy of the book was built without the address of its repository: ask the person who gave it to "
+           "you. The explorer runs every agent without an installation, on a phone, too.")
 CLONE, FOR_URL = "git clone --depth 1 URL", ", with the address of the repository for `URL`"
 
 

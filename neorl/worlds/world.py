@@ -207,7 +207,7 @@ def check_rules(rules, kind, sizes, path="rules"):
 
 
 def _is_number(value):
-    return isinstance(value, bool | float) or isinstance(value, int) and abs(value) < 2**63
+    return isinstance(value, float) or isinstance(value, int) and abs(value) < 2**63
 
 
 def _is_as_annotated(value, dtype, shape, sizes):

@@ -45,9 +45,9 @@ def _draw_path(axes, path, shown):
     """Draw those steps of a path that are shown, in forty stretches or more of increasing width."""
     hidden = np.flatnonzero(~shown)
     cuts = np.unique([*np.linspace(0, len(shown), 41).astype(int), *hidden, *(hidden + 1)])
-    begins = cuts[:-1][shown[cuts[:-1]]]
-    stretches = [path[begin : cuts[cuts > begin][0] + 1] for begin in begins]
-    axes.add_collection(LineCollection(stretches, colors=AGENT, linewidths=0.7 + 1.7 * begins / len(shown)))
+    ends = [(begin, end) for begin, end in zip(cuts, cuts[1:]) if shown[begin]]
+    axes.add_collection(LineCollection([path[begin : end + 1] for begin, end in ends], colors=AGENT,
+                                       linewidths=[0.7 + 1.7 * begin / len(shown) for begin, _ in ends]))
 
 
 def _draw_disc(axes, place, radius, colour, sign):

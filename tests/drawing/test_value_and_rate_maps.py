@@ -12,9 +12,6 @@ from neorl.core.modality import HEAD_DIRECTION_CELL, OBJECT_VECTOR_CELL, polar
 TANK = WaterWorld()
 UNEQUAL_POLAR = Modality("polar", [Axis("objects", "length", boundaries=(0, 0.1, 0.3, 0.8)),
                                    Axis("objects", "direction", intervals=5)])
-UNEQUAL_PLACES = Modality("places", [Axis("position", boundaries=(0, 0.1, 0.25, 0.7, 1)), Axis("position", along=1)])
-UNEQUAL_VELOCITIES = Modality("velocities", [Axis("velocity", boundaries=(-1, -0.2, 0.1, 1)),
-                                             Axis("velocity", along=1, low=-1)])
 
 
 def wedges(axes):

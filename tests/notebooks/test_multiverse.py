@@ -35,7 +35,9 @@ def test_every_field_of_a_reading_is_pinned_or_varied_within_the_text_and_varied
     assert [name for name in names if name in WITHIN] == list(WITHIN) and list(BEYOND) == names
     assert set(PINNED) == set(names) - set(WITHIN)
     for name, choice in BEYOND.items():
-        assert 0 <= choice.place(getattr(TO_THE_LETTER, name)) <= 1 and choice.levels and choice.stated
+        assert 0 <= choice.place(getattr(TO_THE_LETTER, name)) <= 1
+        assert choice.levels and (choice.stated.startswith(choice.levels) or choice.prior.apart is not None)
+    assert WITHIN["memory"].stated == "0.5 … 1,000, log-uniform in 1 + value, or 0 (15\u00a0%)"
 
 
 def test_the_letter_takes_what_is_pinned_and_the_simplest_of_what_is_open():

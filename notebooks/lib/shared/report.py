@@ -25,8 +25,8 @@ from neorl.files import cache_folder, write_whole
 LETTER, CALIBRATED = "to the letter", "calibrated"  # names of readings
 COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict")
 LEGEND = ("● reproduced, ◐ partly, ○ not reproduced, ◇ not testable (agents learned too little); without a symbol, no "
-          "verdict. Numbers: the quantities in italics, with 95\u00a0% intervals over runs. That of a time can lie "
-          "below it, since noise reaches a level early. A claim's name leads to what its verdict rests on.")
+          "verdict. Numbers: the quantities in italics, with 95\u00a0% intervals over runs. Intervals of times can lie "
+          "below the time, since noise reaches a level early. A claim's name leads to what its verdict rests on.")
 BESIDE = "Demonstrations of this book, not counted among the claims:"
 PARTS = ("claims", "letter", "shares")  # of a record
 
