@@ -11,14 +11,18 @@ PAGE = 4_096
 
 def fitting_runs(agent, world):
     """The number of runs of an agent that fit into nine tenths of the free memory. Raises MemoryError if none fits."""
+    needed = n_bytes(agent, world)
+    return int(usable_bytes(needed, "a run of this agent needs", "choose fewer or coarser maps") // needed)
+
+
+def usable_bytes(needed, what, remedy):
+    """Nine tenths of the free memory, in bytes. Raises MemoryError if what needs `needed` bytes does not fit."""
     import psutil
 
     free = psutil.virtual_memory().available
-    needed = n_bytes(agent, world)
     if needed > 0.9 * free:
-        raise MemoryError(f"a run of this agent needs {needed / 2**30:.1f} GiB of memory, but {free / 2**30:.1f} are "
-                          "free; choose fewer or coarser maps")
-    return int(0.9 * free // needed)
+        raise MemoryError(f"{what} {needed / 2**30:.1f} GiB of memory, but {free / 2**30:.1f} are free; {remedy}")
+    return 0.9 * free
 
 
 def kept_apart(values):

@@ -36,6 +36,9 @@ def raise_named(kernels, error):
                                                                                    function.__qualname__):
                 raise ValueError(f"the kernel {_where(function, frame.lineno)} must not raise, but has raised "
                                  f"{type(error).__name__}: {error}; let it return a value in every case") from error
+    if users and re.fullmatch(r"expected \w+, got None", str(error)):  # numba says no more
+        raise ValueError(f"the kernel {' or '.join(map(_where, users))} must return a value in every case, but has "
+                         "returned None") from error
     raise error
 
 

@@ -27,6 +27,7 @@ from neorl.worlds.world import World, check_outcome, checked_rules
 
 BIN_SECONDS = 0.2
 SLICE = 10_000  # steps between two checks for an interruption
+MOST_STEPS = 2**63 - 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,7 +129,7 @@ class Run(Individual):
         >>> paid += neorl.Run.load("run.npz").advance(1_000)
         """
         self.world.check_state(self._world_state)
-        last = self.step + checks.integer("steps", steps, at_least=0)
+        last = self.step + checks.integer("steps", steps, 0, MOST_STEPS - self.step)
         every = checks.integer("every", every, at_least=1)
         if each is not None and not callable(each):
             raise ValueError(f"each must be a function that takes the run, or None, but is {checks.shown(each)}")
@@ -161,8 +162,8 @@ class Run(Individual):
         >>> episodes, earned = len(path.returns), path.rewards.sum()
         """
         self.world.check_state(self._world_state)
-        first, every = self.step, checks.integer("every", every, at_least=1)
-        last = first + checks.integer("steps", steps, at_least=0)
+        first, every = self.step, checks.integer("every", every, 1, MOST_STEPS)
+        last = first + checks.integer("steps", steps, 0, MOST_STEPS - first)
         at = np.append(np.arange(first, last, every), last)
         frames, kinds = len(at) - 1, len(self.world.kinds)
         positions = np.zeros((frames + 1, self.world.actions.axes))
@@ -214,7 +215,4 @@ def bin_steps(world):
 def new_bins(world, runs, steps):
     """Zeros for the rewards and hits of runs of `steps` steps: float32 (runs, bins) and int16 (runs, bins, kinds)."""
     bins = -(-steps // bin_steps(world))
-    try:
-        return np.zeros((runs, bins), np.float32), np.zeros((runs, bins, len(world.kinds)), np.int16)
-    except ValueError as error:  # more than an array can have
-        raise MemoryError("steps and runs must be so many that their rewards fit into memory") from error
+    return np.zeros((runs, bins), np.float32), np.zeros((runs, bins, len(world.kinds)), np.int16)

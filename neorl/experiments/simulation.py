@@ -24,15 +24,16 @@ from typing import NamedTuple
 from neorl import checks
 from neorl.agents.agent import Agent
 from neorl.agents.compile import n_values
-from neorl.agents.memory import fitting_runs
+from neorl.agents.memory import fitting_runs, usable_bytes
 from neorl.core.kernel import announcing
 from neorl.experiments.condition import Condition
 from neorl.experiments.result import Result
-from neorl.experiments.run import SLICE, Run, new_bins
+from neorl.experiments.run import SLICE, Run, bin_steps, new_bins
 from neorl.experiments.store import Keeper
 from neorl.worlds.world import World
 
 TASK_STEPS = 100_000  # they take a typical agent a tenth of a second, and a task's overhead is a millisecond
+BYTES_OF_A_RUN = 500  # with its task and what waits for it, besides its rewards and hits
 
 
 def simulate(agent: Agent, world: World, *, steps: int, runs: int, seed: int = 0,
@@ -81,7 +82,7 @@ def sweep(conditions: Sequence[Condition], executor: Executor | None = None,
     """
     conditions = checks.several("conditions", conditions)
     for condition in conditions:
-        checks.instance("condition", condition, Condition)
+        _check_room(checks.instance("condition", condition, Condition))
     if not hasattr(executor, "submit") and executor is not None:
         raise checks.error("executor", "an executor of concurrent.futures or None", executor)
     if threads is not None:
@@ -110,6 +111,13 @@ def sweep(conditions: Sequence[Condition], executor: Executor | None = None,
                            f"{error}\n\nIt was {condition}") from error
     return (keepers[name].result() or simulate(**condition.choices, cache=True, progress=progress)
             for name, condition in zip(names, conditions))
+
+
+def _check_room(condition):
+    """Raise MemoryError if the result of a condition does not fit into the free memory."""
+    bins = -(-condition.steps // bin_steps(condition.world))
+    usable_bytes(condition.runs * (BYTES_OF_A_RUN + bins * (4 + 2 * len(condition.world.kinds))),
+                 "rewards and hits of all these runs need", "choose fewer runs or steps")
 
 
 class Task(NamedTuple):

@@ -168,6 +168,10 @@ def check_definition(world):
     checks.integer(f"things of {name}", world.things, 0, checks.MOST)
     checks.positive(f"size of {name}", world.size)
     checks.positive(f"fps of {name}", world.fps)
+    if world.terminal is not None and [type(checks.plain(each)) for each in checks.several(
+            f"terminal of {name}", world.terminal)] != [bool] * len(kinds):
+        raise checks.error(f"terminal of {name}", f"None, or {len(kinds)} of True and False, for {kinds}",
+                           world.terminal)
     for kind, each in checks.instance(f"dynamics of {name}", world.dynamics, Dynamics)._asdict().items():
         check_kernel(f"{kind} of {name}", each)
         takes = tuple(inspect.signature(function_of(each)).parameters)

@@ -11,7 +11,7 @@ import pytest
 from pond import Pond, PondRules, PondState
 from subprograms import printed
 
-from neorl import Agent, Axis, Modality, Node, Run, Scene, kernel
+from neorl import Agent, Axis, Modality, Node, Policy, Run, Scene, WaterWorld, kernel
 from neorl.core.calls import execute
 from neorl.core.kernel import function_of
 from neorl.core.modality import PLACE_CELL
@@ -48,6 +48,12 @@ def calls_it(x):
 @kernel
 def out_of_sight(scene, point):
     return scene.nowhere[0]
+
+
+@kernel
+def indifferent(value, stream):
+    if value[0] > 0.0:
+        return 0
 
 
 @kernel
@@ -107,6 +113,13 @@ def test_a_kernel_that_raises_is_named_first_with_and_without_the_compiler():
     said = f"{begins(raises, line)}not raise, but has raised ValueError: too much; let it return a value in every case"
     assert error_of_raising() == said and execute(calls_it, 1.0) == 1.0
     assert printed(__file__) == said.replace(f" {__name__}.", " __main__.")
+
+
+def test_a_policy_that_returns_nothing_in_some_case_is_named():
+    agent = Agent((Node("PC", PLACE_CELL, [3]),), policy=Policy(0.0, choose=indifferent))
+    with pytest.raises(ValueError) as caught:
+        Run(agent, WaterWorld()).advance(1)
+    assert str(caught.value) == f"{begins(indifferent)}return a value in every case, but has returned None"
 
 
 def test_an_error_of_the_package_is_passed_on():

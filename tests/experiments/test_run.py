@@ -11,7 +11,8 @@ import psutil
 import pytest
 from same import assert_same
 
-from neorl import Agent, Arena, Desire, Learning, Node, Policy, Run, WaterWorld, multimodal, network_d, place_cells
+from neorl import (Agent, Arena, Desire, Learning, Node, Policy, Run, WaterWorld, multimodal, network_d, place_cells,
+                   simulate)
 from neorl.core.modality import PLACE_CELL
 
 TANK = WaterWorld(n_creeps=4)
@@ -34,12 +35,16 @@ def test_a_tank_with_other_creeps_is_refused_and_one_with_as_many_is_copied(run)
     assert not np.array_equal(run.world_state.scene.position, [125, 125])
 
 
-def test_an_agent_that_does_not_fit_into_memory_is_refused_by_a_run_and_by_a_change(run):
+def test_what_does_not_fit_into_memory_or_64_bits_is_refused(run):
     large = place_cells([2_000])
     with pytest.raises(MemoryError, match="a run of this agent needs 238418.9 GiB of memory"):
         Run(large, TANK)
     with pytest.raises(MemoryError, match="a run of this agent needs"):
         run.change(large)
+    with pytest.raises(ValueError, match="steps must be an integer from 0 to 9223372036854775807, but is 184467440737"):
+        run.advance(2**64)
+    with pytest.raises(MemoryError, match="rewards and hits of all these runs need .*; choose fewer runs or steps"):
+        simulate(place_cells([3]), TANK, steps=1, runs=10**12)
     run.advance(100)
 
 

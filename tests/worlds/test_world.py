@@ -150,6 +150,7 @@ def without_types(state, rules):
     ({"fps": 0}, "fps of Wrong must be a finite number from 1e-30 to 1e\\+30, but is 0"),
     ({"dynamics": Dynamics(beginning(Numbered), drive)}, "more in the state of Wrong must be annotated as a neorl."),
     ({"kinds": ("pad", "pad")}, "kinds of Wrong must be different names"), ({"kinds": "pad"}, "kinds of Wrong must be"),
+    ({"terminal": 3}, "terminal of Wrong must be a list"), ({"terminal": [1]}, "terminal of Wrong must be None, or 0"),
     ({"size": np.nan}, "size of Wrong must be a finite number from 1e-30 to 1e\\+30, but is nan")])
 def test_a_world_whose_parts_are_not_what_they_must_be_is_refused_when_it_is_made(change, message):
     with pytest.raises(ValueError, match=message):
