@@ -18,9 +18,8 @@ from lib.shared.thesis_figures import mark_levels
 from neorl.core.horde import as_vectors
 from neorl.core.maps import NresMap
 from neorl.core.scene import CARDINAL
-from neorl.drawing.boards import new_boards
 from neorl.drawing.curves import draw_sums
-from neorl.drawing.style import AGENT, GREEN, INK, RED, looks
+from neorl.drawing.style import GREEN, INK, RED, looks
 from neorl.drawing.value_maps import draw_cells, draw_values
 from neorl.evidence.reading import LAYERS, SINGLE
 from neorl.evidence.statements import STATEMENTS
@@ -29,7 +28,6 @@ from neorl.evidence.verdict import FINAL
 from neorl.experiments.run import Run
 
 N_CREEPS = 8  # of the paper
-LINES = (RED, 3.2), (AGENT, 1.8), (INK, 0.7)  # of the first map, the second, and any others
 
 
 def all_of(layers):
@@ -118,11 +116,3 @@ def draw_elements(axes, nres_map, places, valences, values):
         falling = east * south > 0  # an arrow that leaves the upper right corner free
         mark(axes, (left + side * (0.9 if falling else 0.1), top + 0.1 * side), f"{valence:+g}".replace("-", "−"),
              ha="center", va="center")
-
-
-def draw_maps(several):
-    """Draw the receptive fields of maps over one board, the first two and all, in the lines of `LINES`."""
-    for axes, shown in zip(new_boards(2, 1), (several[:2], several)):
-        for place, nres_map in enumerate(shown):
-            colour, width = LINES[min(place, len(LINES) - 1)]
-            draw_cells(nres_map, colour, width=width, ax=axes)

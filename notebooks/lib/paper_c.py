@@ -6,14 +6,13 @@ The results under one reading are {name: `Result`}, of networks "A" to "D" and o
 import numpy as np
 from matplotlib import pyplot as plt
 
-from lib.shared.wording import number, table
+from lib.shared.wording import table
 from lib.shared.thesis_figures import mark_levels
 from neorl.drawing.boards import MARGIN, desire_colour
 from neorl.drawing.curves import draw_proficiency
 from neorl.drawing.network_figures import HEAD, LARGEST, draw_into, laid_out, write
 from neorl.drawing.style import width_of_figures
 from neorl.evidence.statements import STATEMENTS
-from neorl.evidence.statistics import estimate
 from neorl.evidence.verdict import FINAL
 from neorl.experiments.run import Run
 
@@ -57,20 +56,6 @@ def draw_desires(run, axes):
                 "arrowstyle": "->", "color": colour, "linestyle": "--", "linewidth": 1.6, "shrinkA": 8, "shrinkB": 3})
             if shown == 1:
                 axes.plot(*(start + landing), marker="s", markersize=7, color=colour, clip_on=False)
-
-
-def final_rates(results):
-    """Reward and hits in the last fifth of a run, as a Markdown table."""
-    rows = []
-    for name in next(iter(results.values())):
-        of_name = {reading: each[name] for reading, each in results.items()}
-        if len({result.condition for result in of_name.values()}) == 1:
-            of_name = {"any": next(iter(of_name.values()))}
-        for reading, result in of_name.items():
-            met = 3_600 * result.hit_rate(*FINAL).mean(axis=0)
-            rows.append([name, reading, estimate(np.mean, result.rate(*FINAL)),
-                         *(number(each, 0) for each in met)])
-    return table(["Agent", "Reading", "Reward per second", "Green per hour", "Red per hour"], rows)
 
 
 def moment_of_desire(network, world, steps, seed=0):

@@ -5,7 +5,7 @@ import pytest
 from matplotlib import pyplot as plt
 
 from lib import paper_c
-from lib.shared.smoothing import low_passed
+from lib.shared.smoothing import draw_smoothed, low_passed
 from neorl import (Condition, NresMap, Result, Run, WaterWorld, brownian, network_b, object_vector_cells, place_cells,
                    simulate)
 from neorl.core.geometry import TAU
@@ -52,6 +52,12 @@ def test_the_filter_keeps_what_is_slow_and_takes_out_what_is_fast():
     np.testing.assert_allclose(low_passed(slow)[:, 30:-30], slow[:, 30:-30], atol=0.01)  # no shift in time
     fast = low_passed(np.sin(TAU * 60 * time)[None])
     assert np.abs(fast[:, 30:-30]).max() < 0.01
+
+
+def test_smoothed_curves_have_the_unfiltered_ones_behind_them(results):
+    axes = plt.figure().add_subplot()
+    assert draw_smoothed(results, axes) is axes and axes.get_xlim() == (0, 2)
+    assert len(axes.lines) == 2 * len(results) + 1  # and the line at 0
 
 
 def test_a_last_bin_that_is_short_counts_as_short():

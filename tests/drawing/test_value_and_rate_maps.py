@@ -5,13 +5,17 @@ import pytest
 from matplotlib.patches import Wedge
 from matplotlib.transforms import Affine2D
 
+from lib.paper_b.receptive_fields import draw_receptive_fields
 from neorl import Agent, Axis, Desire, Modality, Node, NresMap, Run, WaterWorld, drawing
 from neorl.core.geometry import TAU
-from neorl.core.modality import HEAD_DIRECTION_CELL, OBJECT_VECTOR_CELL, polar
+from neorl.core.modality import HEAD_DIRECTION_CELL, MODALITIES, OBJECT_VECTOR_CELL, PLACE_CELL, polar
 
 TANK = WaterWorld()
 UNEQUAL_POLAR = Modality("polar", [Axis("objects", "length", boundaries=(0, 0.1, 0.3, 0.8)),
                                    Axis("objects", "direction", intervals=5)])
+UNEQUAL_PLACES = Modality("places", [Axis("position", boundaries=(0, 0.1, 0.25, 0.7, 1)), Axis("position", along=1)])
+UNEQUAL_VELOCITIES = Modality("velocities", [Axis("velocity", boundaries=(-1, -0.2, 0.1, 1)),
+                                             Axis("velocity", along=1, low=-1)])
 
 
 def wedges(axes):
@@ -49,3 +53,37 @@ def learned(modality, resolution):
     run = Run(Agent([Node("node", modality, [resolution])], [Desire("green", "node", 1.0)]), TANK)
     run.advance(20_000)
     return run
+
+
+@pytest.mark.parametrize("modality, goal", [(PLACE_CELL, (0.7, 0.7)), (OBJECT_VECTOR_CELL, (0.1, 0.0))])
+def test_a_value_map_is_the_more_opaque_the_more_the_best_action_is_worth(modality, goal):
+    run = learned(modality, 3)
+    axes = drawing.draw_value_map(run, [goal], valences=[2.0])
+    best = run.q()[:, :, run.agent.maps[0].encode(goal)].max(axis=1)
+    filled = axes.patches[9:18]
+    np.testing.assert_allclose([patch.get_alpha() for patch in filled], 0.45 * best / best.max(), rtol=1e-6)
+    assert len(axes.patches) == 19 and axes.patches[-1].get_linewidth() > 2
+    shunned = drawing.draw_value_map(run, [goal, goal], valences=[-0.5, -0.5])
+    assert {patch.get_facecolor()[:3] for patch in shunned.patches[9:18] if patch.get_alpha()} <= {
+        tuple(int(drawing.RED[i : i + 2], 16) / 255 for i in (1, 3, 5))}
+
+
+@pytest.mark.parametrize("resolution", [1, 2, 5])
+@pytest.mark.parametrize("modality", [*MODALITIES, UNEQUAL_PLACES, UNEQUAL_POLAR, UNEQUAL_VELOCITIES],
+                         ids=lambda modality: modality.name)
+def test_the_active_receptive_fields_are_filled(modality, resolution):
+    state, nres_map = TANK.reset(3), NresMap(resolution, modality)
+    state.scene.position[:] = np.array([0.61, 0.43]) * TANK.width
+    state.scene.velocity[:] = np.array([-0.3, 0.13]) * TANK.width
+    axes = draw_receptive_fields(nres_map, TANK, state)
+    axes.figure.draw_without_rendering()
+    active = set(nres_map.encode(modality.coordinates(state.scene, TANK.size)))
+    fills = [fill for fill in axes.collections if fill.get_alpha()]
+    assert len(fills) == len(active)
+
+    places = np.random.default_rng(0).random((300, 2))
+    agent = state.scene.position / TANK.size
+    seen = {"position": places, "velocity": (places - agent) / 0.5}.get(modality.follows, places - agent)
+    filled = np.any([[fill.get_paths()[0].contains_point(place) for place in places] for fill in fills], axis=0)
+    expected = np.isin(nres_map.encode(modality.tune(seen)), list(active))
+    assert np.mean(filled == expected) > 0.98  # all but where corners are rounded

@@ -2,23 +2,46 @@
 
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
-from lib.shared import opening, provenance, side_by_side
+from lib.shared import marks, opening, provenance, report, side_by_side
 from lib.shared.fields import superposed_field
 from lib.shared.priors import BEYOND
 from lib.shared.wording import number, scientific, table
 from neorl import GREEDY, WaterWorld, superpose
+from neorl.drawing.style import linear_light
 from neorl.evidence.reading import TO_THE_LETTER, Reading
 from neorl.evidence.statistics import Estimate
-from neorl.evidence.verdict import Claim
+from neorl.evidence.verdict import VERDICTS, Claim
+
+STYLE_SHEET = (Path(__file__).parents[2] / "book" / "vendor" / "book.css").read_text()
+GROUNDS = ("#ffffff", "#f3f4f5"), ("#121212", "#29313d"), ("#ffffff",)  # pages and boxes, light, dark and printed
 
 
 def test_a_table_has_a_line_for_its_heads_a_rule_and_a_line_for_each_row():
     assert table(("a", 1), [("b", Estimate(2, 1, 3))]) == "| a | 1 |\n|---|---|\n| b | 2.00 [1.00, 3.00] |"
     assert [number(value) for value in (1.234, -1.5, -0.001)] == ["1.23", "−1.50", "0.00"]
     assert [scientific(value) for value in (2.4e-16, 3e9, 0.0)] == ["2 × 10<sup>−16</sup>", "3 × 10<sup>9</sup>", "0"]
+
+
+def contrast(first, second):
+    """The contrast of two colours as WCAG 2 defines it: 1 … 21."""
+    (_, dark), (_, light) = sorted(map(linear_light, (first, second)), key=lambda each: each[1])
+    return (light + 0.05) / (dark + 0.05)
+
+
+def test_every_verdict_has_a_mark_whose_colour_is_legible_on_all_grounds():
+    assert [marks.symbol(verdict) for verdict in (*VERDICTS, report.NOT_COMPUTED)] == ["●", "◐", "○", "◇", "◇", "◇"]
+    styled = dict(re.findall(r"\n\.(verdict-[\w-]+) \{\n  color: var\(--([\w-]+)\);", STYLE_SHEET))
+    assert styled.keys() == {mark.css for mark in marks.MARKS.values()}
+    found = re.findall(r"--(verdict-[\w-]*|link[\w-]*): (#[0-9a-f]{6});", STYLE_SHEET)
+    for grounds, colours in zip(GROUNDS, map(dict, np.array_split(found, len(GROUNDS)))):
+        assert colours.keys() == {*styled.values(), "link"}
+        for name, colour in colours.items():
+            for ground in grounds:
+                assert contrast(colour, ground) >= 4.5, (name, ground)
 
 
 def claims(**verdicts):

@@ -109,17 +109,3 @@ def watch(agent, world, experience, steps, seed):
         scene = run.world_state.scene
         seen.append((mapped(np.copy, run.world_state), bool((scene.met == 1).any())))
     return seen
-
-
-def paths_of_last_day(agent, maze, seed, trials=2):
-    """Paths of a run in the first trials of the last day in a water maze: a list of float64 (steps, 2)."""
-    run, paths = Run(agent, maze, seed), []
-    while run.world_state.trial[0] <= maze.trials - maze.trials_a_day:
-        run.advance(1)
-    while len(paths) < trials:
-        path, trial = [], run.world_state.trial[0]
-        while run.world_state.trial[0] == trial:
-            path.append(run.world_state.scene.position.copy())
-            run.advance(1)
-        paths.append(np.array(path))
-    return paths

@@ -12,16 +12,15 @@ from lib.paper_b.trials import SECONDS_A_MOVE, best_values, values_for_objects
 from lib.shared.panels import add_arrow
 from lib.shared.report import CALIBRATED, LETTER
 from lib.shared.style import FILL, mark
-from lib.shared.wording import table
 from lib.shared.thesis_figures import draw_against_thesis
 from neorl.core.maps import NresMap
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, MODALITIES
 from neorl.drawing.boards import as_board, draw_tank, new_boards
 from neorl.drawing.curves import draw_curves, draw_sweep
-from neorl.drawing.style import AGENT, CURVES, GREEN, INK, axes_or_new, name_ends
+from neorl.drawing.style import AGENT, GREEN, INK
 from neorl.drawing.value_maps import draw_cells, draw_values
 from neorl.evidence.statements import STATEMENTS
-from neorl.evidence.statistics import estimate, quotient
+from neorl.evidence.statistics import estimate
 
 OBJECT = (0.8, -0.4)  # where the object is as seen from the self, in board widths
 DISC = 0.09  # radius of either, larger than in the tank
@@ -32,9 +31,6 @@ B3, B4 = STATEMENTS["B3"], STATEMENTS["B4"]
 PC = B3.also["place cells"].number  # per second, and of object-vector cells too: "no loss", section 3.1
 THESIS_LEVELS = {"PC": PC, "OVC": PC, "PC + OVC": B3.bounds.number}
 THESIS_MINUTES = {"PC": B4.also["place cells"].number, "PC + OVC": B4.bounds.number}
-TUNINGS = {("component", "component"): "cartesian", ("margin", "margin"): "proximal", ("length", "direction"): "polar",
-           ("direction",): "angle", ("length",): "length"}
-FRAMES = {"position": "allocentric", "velocity": "allocentric direction"}
 STRETCHES = 100  # intervals of a run in which red creeps are counted
 
 
@@ -54,16 +50,6 @@ def draw_agents(thesis, found, xlabel):
     draw_against_thesis({LABELS[agent]: number for agent, number in thesis.items()},
                         {name: {LABELS[agent]: of_agents[agent] for agent in thesis}
                          for name, of_agents in found.items()}, xlabel)
-
-
-def draw_costs(costs):
-    """Draw microseconds per step of agents with one more map each, beside the sums of the costs of these maps."""
-    axes = axes_or_new(None)
-    axes.plot(costs.labels, costs.predicted, color=INK, linewidth=1.2)
-    axes.plot(costs.labels, costs.measured, color=CURVES[0], linestyle="none", marker="o", markersize=5)
-    axes.set(ylabel="microseconds per step", ylim=(0, None))
-    axes.tick_params(axis="x", rotation=60)
-    name_ends(axes, [(costs.measured[-1], "measured", CURVES[0]), (costs.predicted[-1], "sum", INK)])
 
 
 def draw_states():
@@ -133,52 +119,6 @@ def draw_distances(moved, seconds):
     starts = SECONDS_A_MOVE * np.arange(moved["experienced"].shape[1])
     curves = {name: each.reshape(len(each), -1) for name, each in moved.items()}
     draw_curves((starts[:, None] + seconds).ravel(), curves, "seconds", "distance, board widths")
-
-
-def draw_time_scale(resolutions, stays):
-    """Draw seconds in a cell, {reading: (runs, maps)}, over the width of its receptive field."""
-    widths = [1 / n for n in resolutions[::-1]]
-    means = {name: [estimate(np.mean, stay) for stay in each.T[::-1]] for name, each in stays.items()}
-    axes = draw_sweep(widths, means, "width of a receptive field, share of the range", "seconds in a cell")
-    axes.set(xscale="log", yscale="log", ylim=(None, None))
-    axes.set_xticks(widths, ["" if n == 11 else f"1/{n}" for n in resolutions[::-1]])
-    axes.minorticks_off()
-
-
-def modalities_table():
-    """The modalities that the thesis names, as a Markdown table."""
-    return table(["Cell", "Reference frame", "Tuned to", "Map"], [
-        [each.name, _frame(each), f"{' × '.join(each.names)} ({TUNINGS[tuple(axis.feature for axis in each.axes)]})",
-         f"{len(each.axes)}-D"] for each in MODALITIES])
-
-
-def _frame(modality):
-    """The reference frame of a modality; a length alone has none."""
-    lengths = {axis.feature for axis in modality.axes} == {"length"}
-    return "–" if lengths else FRAMES.get(modality.follows, "centred on the agent, allocentric direction")
-
-
-def values_table(values):
-    """Mean values of either modality, and their ratio, as a Markdown table. values: {reading: {node: (runs,)}}."""
-    return table(["Reading", "PC", "OVC", "OVC / PC (author's remark: 3)"], [
-        [name, *(estimate(np.mean, each) for each in (of["PC"], of["OVC"], quotient(of["OVC"], of["PC"])))]
-        for name, of in values.items()])
-
-
-def sizes_table(sizes):
-    """Values and microseconds per step of each kind of agent, as a Markdown table. sizes: `trials.size_and_cost`."""
-    return table(["State", "Values", "Time per step, µs"], [
-        [name, f"{values:,}", f"{cost:.2f}"] for name, (values, cost) in sizes.items()])
-
-
-def change_table(revalued, roamed):
-    """Green creeps per minute and distances roamed, before and after revaluing, as a table."""
-    rows = []
-    for name, result in revalued.items():
-        green = (60 * result.hit_rate(*part)[:, 0] for part in ((0.3, 0.5), (0.8, 1)))
-        ways = [estimate(np.mean, each) for each in roamed[name]] if name in roamed else ["", ""]
-        rows.append([name, *(estimate(np.mean, each) for each in green), *ways])
-    return table(["Agents", "Green before", "Green finally", "Roaming before", "Roaming finally"], rows)
 
 
 def explorer_conditions(results, paper, others):

@@ -207,15 +207,6 @@ def measure_costs(agent, world, steps, repetitions, seed):
     return Costs([f"{name} N{n}" for name, n in maps], cost[0], alone, first)
 
 
-def maps_kept(before, after, world, steps, seed=0):
-    """How many maps of an agent hold the same values, to the last bit, when it changes to one with more."""
-    run, maps = Run(before, world, seed), range(len(before.maps))
-    run.advance(steps)
-    knew = [run.q(m).copy() for m in maps]
-    run.change(after)
-    return sum(np.array_equal(run.q(m), knew[m]) for m in maps)
-
-
 def _with_maps(agent, chosen):
     """The agent with only these of its maps, (name of the node, N) each, or a map of one cell if there are none."""
     of_node = {node.name: [n for name, n in chosen if name == node.name] for node in agent.nodes}
