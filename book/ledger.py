@@ -85,7 +85,7 @@ def _claim(record, name):
     statement, found, verdict = STATEMENTS[name], record["claims"].get(name), report.verdict(record, name)
     numbers = f"Thesis: {escape(statement.thesis)}" + (f" · Here: {report.number(found)}" if found else "")
     cells = [f"<b>{name}</b>", f"{escape(statement.text)} <small>{numbers}</small>",
-             f"{marks.html(verdict)}\u00a0{verdict}"]
+             f"{marks.html(verdict)}\u00a0{report.decided(record, name)}"]
     line = "".join(f"<span>{cell}</span>" for cell in cells)
     return "\n\n".join([f'<details class="claim"><summary>{line}</summary>\n<div id="{anchor(name)}">',
                         f"“{statement.quotation}” ({statement.place}).", *_evidence(record, name),

@@ -12,11 +12,11 @@ from lib.shared import report
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, STATEMENTS, Bounds
 
 FOUND = {"here": [0.1, 0.09, 0.11], "runs": 20, "verdict": "reproduced",
-         "numbers": {"Lead of B over A": [[0.1, 0.09, 0.11], "more than 0"]}}
+         "numbers": {"Lead of B over A": [[0.1, 0.09, 0.11], "more than 0", ""]}}
 RECORD = {"claims": {"C2": FOUND, "A6": FOUND | {"here": [0.19, None, None], "runs": 1, "verdict": "no verdict"},
                      "B1": FOUND | {"verdict": "not reproduced"}},
           "letter": {"C2": FOUND | {"here": [-0.3, -0.31, -0.29], "verdict": "partly",
-                                         "numbers": {"Lead of B over A": [[-0.3, -0.31, -0.29], "more than 0"]}}},
+                                         "numbers": {"Lead of B over A": [[-0.3, -0.31, -0.29], "more than 0", ""]}}},
           "shares": {"C2": {"reproduced": 64, "undecided": 26, "readings": 256, "agrees": 2, "measured": 40},
                      "A6": {"reproduced": 1, "undecided": 0, "readings": 4}}}
 

@@ -1,6 +1,7 @@
 """Reports of the results: tables, records on disk, and entries that are missing."""
 
 import json
+from dataclasses import replace
 
 import pytest
 from matplotlib import pyplot as plt
@@ -9,7 +10,9 @@ from test_claims import brownian, paper_a, paper_c
 from lib.shared import report
 from lib.study.multiverse_figures import draw_standing
 from neorl.evidence import claims
-from neorl.evidence.statements import STATEMENTS
+from neorl.evidence.statements import STATEMENTS, Bounds
+from neorl.evidence.statistics import Estimate
+from neorl.evidence.verdict import Claim
 
 pytestmark = pytest.mark.usefixtures("cache_folder")
 
@@ -45,9 +48,18 @@ def test_what_a_verdict_rests_on_is_its_sentence_and_the_numbers_of_both_reading
     assert "“The neoRL network from illustration 4a improves" in item and "(paper C, section 3)" in item
     header, _, rise, lead, *_ = item.split("\n\n")[1].splitlines()
     assert header == "  | Number | Rule | Here, 20 runs | To the letter, 20 runs |"
-    assert rise == ("  | Final reward per second of A, less its early one | more than 0 | 0.05 [0.05, 0.05] | "
-                    "0.40 [0.40, 0.40] |")
-    assert lead.startswith("  | lead over Brownian motion | more than 0 | 0.05 [")
+    assert rise == ("  | Final reward per second of A, less its early one | more than 0 | ✓\u00a00.05 [0.05, 0.05] | "
+                    "✓\u00a00.40 [0.40, 0.40] |")
+    assert lead.startswith("  | lead over Brownian motion | more than 0 | ✓\u00a00.05 [")
+
+
+def test_a_verdict_that_more_runs_might_change_is_undecided_and_every_number_has_a_mark():
+    found = Claim("C4", Estimate(1.6, 1.3, 1.9), {"D / C": (Estimate(1.6, 1.3, 1.9), Bounds(low=1.5)),
+                                                  "D": (Estimate(1, 0.9, 1.1), Bounds(high=0.5))}, 10, "partly", True)
+    kept = {"claims": report._kept([found]), "letter": {}}
+    assert report.decided(kept, "C4") == "partly, undecided"
+    assert [line.split("|")[3].split()[0] for line in report.numbers(kept, "C4").splitlines()[2:]] == ["?", "✗"]
+    assert report.decided({"claims": report._kept([replace(found, runs=2)])}, "C4") == "no verdict"
 
 
 @pytest.fixture

@@ -4,7 +4,7 @@ import numpy as np
 
 from lib.shared.panels import add_curves
 from neorl.drawing.curves import draw_curves
-from neorl.drawing.style import CURVES, GREEN, INK, RED, SMALL, axes_or_new
+from neorl.drawing.style import CURVES, GREEN, INK, RED, axes_or_new
 from neorl.evidence.statistics import estimate
 
 
@@ -44,16 +44,6 @@ def _rows(axes, names):
     axes.set_yticks(range(len(names)), list(names))
     axes.invert_yaxis()
     axes.legend(frameon=False, fontsize=9, loc="lower left")
-
-
-def draw_fear(middles, fears):
-    """Draw fear, (runs, bins), as a function of approach, with the line on which they are equal."""
-    known = np.isfinite(fears).all(axis=0)
-    axes = draw_curves(middles[known], {"fear by avoidance": fears[:, known]}, "approach", "fear")
-    axes.plot([0, 1], [0, 1], color=INK, linewidth=0.7)
-    axes.annotate("fear = approach", (0.3, 0.33), ha="center", va="bottom", rotation=45, rotation_mode="anchor",
-                  transform_rotates_text=True, fontsize=SMALL)
-    axes.set_xlim(0, 1)
 
 
 def draw_revalued(result):

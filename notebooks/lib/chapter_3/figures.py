@@ -122,14 +122,6 @@ def draw_means(series, xlabel, ylabel, logs="", marks=False, guides=()):
                           annotation_clip=False)
 
 
-def draw_trend(years, counts, fitted):
-    """Counts of transistors over years, on a logarithmic scale, and the trend that was fitted to them; each (n,)."""
-    axes = plt.figure(figsize=(4.9, 3.2)).add_subplot()
-    axes.semilogy(years, counts, color=AGENT, linestyle="none", marker="o", markersize=5)
-    axes.semilogy(years, fitted, color=INK, linewidth=1.2)
-    axes.set(xlabel="year", ylabel="transistors per processor")
-
-
 def draw_game(axes, game, places):
     """The board as a game begins: fruits at the first of these places, rings at the others, the agent and the ghost."""
     draw_grid(axes, game.grid)

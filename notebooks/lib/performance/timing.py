@@ -14,7 +14,7 @@ from scipy import stats
 
 from neorl.core.calls import execute
 from neorl.core.kernel import array, kernel
-from neorl.evidence.statistics import Estimate, estimate
+from neorl.evidence.statistics import Estimate
 
 LINE = 64  # bytes
 SMALLEST, LARGEST = 2**14, 2**28  # bytes
@@ -49,11 +49,6 @@ def again(run, steps):
 def always(function, *arguments, **options):
     """A preparation for `in_turns`, to time a call that needs none."""
     return lambda: lambda: function(*arguments, **options)
-
-
-def times_as_long(one, other):
-    """The least of one's times as a multiple of the least of the other's: an `Estimate` over repetitions."""
-    return estimate(lambda a, b, axis: a.min(axis) / b.min(axis), one, other)
 
 
 def exponent(xs, costs):

@@ -25,8 +25,9 @@ from neorl.files import cache_folder, write_whole
 LETTER, CALIBRATED = "to the letter", "calibrated"  # names of readings
 COLUMNS = ("Claim", "Thesis", "To the letter", "Calibrated", "Verdict")
 LEGEND = ("● reproduced, ◐ partly, ○ not reproduced, ◇ not testable (agents learned too little); without a symbol, no "
-          "verdict. Numbers: the quantities in italics, with 95\u00a0% intervals over runs. Intervals of times can lie "
-          "below the time, since noise reaches a level early. A claim's name leads to what its verdict rests on.")
+          "verdict; *undecided*: more runs might show the claim. Numbers: the quantities in italics, with 95\u00a0% "
+          "intervals over runs. Intervals of times can lie below the time, since noise reaches a level early. A "
+          "claim's name leads to what its verdict rests on.")
 BESIDE = "Demonstrations of this book, not counted among the claims:"
 PARTS = ("claims", "letter", "shares")  # of a record
 
@@ -84,6 +85,11 @@ def verdict(record, name):
     return record["claims"].get(name, {"verdict": NOT_COMPUTED})["verdict"]
 
 
+def decided(record, name):
+    """The verdict on a claim, and whether it is undecided, as text."""
+    return verdict(record, name) + ", undecided" * record["claims"].get(name, {}).get("undecided", False)
+
+
 def extract(record, names):
     """Some claims of a record, as `load` returns it, as a Markdown table without its empty columns, and its legend."""
     head, rows = wording.filled(COLUMNS, [_cells(record, name) for name in names])
@@ -101,8 +107,9 @@ def numbers(record, name):
     """The numbers of a claim under both readings, with the bounds that its rule asks for, as a Markdown table or ""."""
     found = {reading: record[part][name] for reading, part in (("Here", "claims"), ("To the letter", "letter"))
              if name in record[part]}
-    asked = {what: asks for each in found.values() for what, (_, asks) in each["numbers"].items()}
-    rows = [[what, asks, *(number({"here": each["numbers"][what][0]}) if what in each["numbers"] else
+    asked = {what: asks for each in found.values() for what, (_, asks, _) in each["numbers"].items()}
+    rows = [[what, asks, *(each["numbers"][what][2] + number({"here": each["numbers"][what][0]})
+                           if what in each["numbers"] else
                            number(each) if what == STATEMENTS[name].statistic else "" for each in found.values())]
             for what, asks in asked.items()]
     head = ["Number", "Rule", *(f"{reading}, {each['runs']} runs" for reading, each in found.items())]
@@ -116,8 +123,13 @@ def label(rule):
 
 def _kept(claims):
     return {claim.name: {"here": _bounded(claim.here), "runs": claim.runs, "verdict": claim.verdict,
-                         "numbers": {what: [_bounded(found), str(bounds or "")]
+                         "undecided": claim.undecided and claim.verdict == claim.outcome,
+                         "numbers": {what: [_bounded(found), str(bounds or ""), bounds and _mark(found, bounds) or ""]
                                      for what, (found, bounds) in claim.numbers.items()}} for claim in claims}
+
+
+def _mark(found, bounds):
+    return f"{'✓' if bounds.hold(found) else '?' if bounds.allow(found) else '✗'}\u00a0"
 
 
 def _bounded(found):
@@ -128,7 +140,7 @@ def _cells(record, name):
     statement = STATEMENTS[name]
     return [f"**{link(name)}** {statement.text} <small>*{statement.statistic}*</small>", statement.thesis,
             *(_with_symbol(found["verdict"], number(found)) if (found := record[part].get(name)) else ""
-              for part in ("letter", "claims")), verdict(record, name)]
+              for part in ("letter", "claims")), decided(record, name)]
 
 
 def _with_symbol(verdict, text):
