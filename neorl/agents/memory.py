@@ -21,7 +21,8 @@ def usable_bytes(needed, what, remedy):
 
     free = psutil.virtual_memory().available
     if needed > 0.9 * free:
-        raise MemoryError(f"{what} {needed / 2**30:.1f} GiB of memory, but {free / 2**30:.1f} are free; {remedy}")
+        raise MemoryError(f"{what} {min(needed, 10**30) / 2**30:.1f} GiB of memory, but {free / 2**30:.1f} are free; "
+                          f"{remedy}")
     return 0.9 * free
 
 
