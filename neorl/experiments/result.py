@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from neorl import checks
 from neorl.description import described, restored
 from neorl.experiments.condition import Condition
-from neorl.experiments.run import bin_steps
+from neorl.experiments.run import bin_steps, n_bins
 from neorl.extras import require
 from neorl.files import read_arrays, write_arrays
 
@@ -137,7 +137,7 @@ def condition_of(known):
 
 def fitting(arrays, condition, runs):
     """Rewards and hits of runs of a condition, from {name: array}. Raises ValueError if they are of another one."""
-    bins = -(-condition.steps // bin_steps(condition.world))
+    bins = n_bins(condition.world, condition.steps)
     for name, dtype, shape in (("rewards", np.float32, (runs, bins)),
                                ("hits", np.int16, (runs, bins, len(condition.world.kinds)))):
         found = arrays.get(name, np.empty(0))

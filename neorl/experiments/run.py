@@ -212,7 +212,12 @@ def bin_steps(world):
     return max(1, round(BIN_SECONDS * world.fps))
 
 
+def n_bins(world, steps):
+    """The number of bins of a run of `steps` steps, of which the last may be short."""
+    return -(-steps // bin_steps(world))
+
+
 def new_bins(world, runs, steps):
     """Zeros for the rewards and hits of runs of `steps` steps: float32 (runs, bins) and int16 (runs, bins, kinds)."""
-    bins = -(-steps // bin_steps(world))
+    bins = n_bins(world, steps)
     return np.zeros((runs, bins), np.float32), np.zeros((runs, bins, len(world.kinds)), np.int16)

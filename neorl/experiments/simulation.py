@@ -28,7 +28,7 @@ from neorl.agents.memory import fitting_runs, usable_bytes
 from neorl.core.kernel import announcing
 from neorl.experiments.condition import Condition
 from neorl.experiments.result import Result
-from neorl.experiments.run import SLICE, Run, bin_steps, new_bins
+from neorl.experiments.run import SLICE, Run, n_bins, new_bins
 from neorl.experiments.store import Keeper
 from neorl.worlds.world import World
 
@@ -115,7 +115,7 @@ def sweep(conditions: Sequence[Condition], executor: Executor | None = None,
 
 def _check_room(condition):
     """Raise MemoryError if the result of a condition does not fit into the free memory."""
-    bins = -(-condition.steps // bin_steps(condition.world))
+    bins = n_bins(condition.world, condition.steps)
     usable_bytes(condition.runs * (BYTES_OF_A_RUN + bins * (4 + 2 * len(condition.world.kinds))),
                  "rewards and hits of all these runs need", "choose fewer runs or steps")
 

@@ -21,6 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from neorl import files
+from neorl.agents.memory import usable_bytes
 from neorl.experiments.result import Result, about, fitting
 
 SECONDS = 5  # between two writes of a condition's runs; a write takes a hundredth of that
@@ -147,19 +148,12 @@ class Keeper:
             _taken(remove_runs, self.condition)
         else:
             if self._cache:
-                _check_memory(whole.rewards.nbytes + whole.hits.nbytes)
+                usable_bytes(whole.rewards.nbytes + whole.hits.nbytes,
+                             f"{files.cache_folder()} takes no results, and these need",
+                             "name another folder in NEORL_CACHE")
             self._whole = whole
         self._runs, self._unwritten = {}, []
         return True
-
-
-def _check_memory(size):
-    """Raise MemoryError unless so many bytes of memory are free."""
-    import psutil
-
-    if psutil.virtual_memory().available < size:
-        raise MemoryError(f"{files.cache_folder()} takes no results, and no more of them fit into the free memory; "
-                          "name another folder in NEORL_CACHE")
 
 
 class Kept(NamedTuple):
