@@ -137,7 +137,7 @@ class Explorer(AnyWidget):
         first = next(iter(conditions.values()), None)
         tanks = [result.world for result in conditions.values() if isinstance(result.world, WaterWorld)]
         tank = tanks[0] if tanks else WaterWorld()
-        as_printed = replace(tank, fps=LETTER.fps, contact=LETTER.contact)
+        as_printed = replace(tank, fps=LETTER.world.fps, contact=LETTER.world.contact)
         agents = {name: (agent, as_printed if name in TO_THE_LETTER else Arena() if name in IN_THE_ARENA else tank)
                   for name, agent in AGENTS.items()} | OTHER_SPACES
         own = {name: (result.agent, result.world) for name, result in conditions.items()}

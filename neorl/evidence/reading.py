@@ -6,14 +6,14 @@
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
 from neorl import checks
 from neorl.agents import papers, rules
 from neorl.agents.agent import Agent, Node
 from neorl.agents.rules import CALIBRATED, GREEDY, Learning, Policy
-from neorl.checks import AtLeastOne, OneOf, Share
+from neorl.checks import OneOf
 from neorl.evidence import claims
 from neorl.experiments.condition import Condition
 from neorl.worlds.waterworld import WaterWorld
@@ -37,78 +37,91 @@ GROUPS = {
 }
 
 
+# The choices that the parts of a reading make, by the names of their fields.
+PARTS = {
+    "learning": ("learning_rate", "discount", "credit", "absent_decay", "absent_form", "memory", "activity",
+                 "bootstrap", "terminal"),
+    "policy": ("exploration", "when_indifferent"),
+    "world": ("fps", "contact"),
+}
+
+
 @dataclass(frozen=True)
 class Reading:
     """A value for every choice in building the agents; the defaults are those of the book.
 
-    credit: one of `rules.CREDITS`, or "step" for temporal difference, which of the other fields of `Learning` uses
-        the learning rate, the discount and `terminal` alone, and for which the state of object vectors is "object".
+    learning, policy: of all its agents. `when_indifferent` counts as "random" if `exploration` is 0, since the agent
+        would otherwise never move. With temporal difference the state of object vectors counts as "object".
+    world: its tank, in which each paper sets the creeps and the reward for the last green one.
     tiled_fraction, object_tiled_fraction: shares of their range that maps of places and of object vectors cover.
     object_state, object_reach, object_beyond, object_centred: of object vectors, see `neorl.agents.papers`.
-    when_indifferent: always "random" if `exploration` is 0, since the agent would otherwise never move.
     place_gain, network_gain: of place cells, relative to object-vector cells, in papers B and C.
     vectors: whether the valence of an element is in the vector of a desire ("signed") or not ("by size"), see `Desire`.
     network_resolutions: of the maps of paper C.
 
-    The other fields are those of `Learning`, `Policy`, `Node`, `Desire`, `Agent` and `WaterWorld` of the same names.
-    Raises ValueError for invalid vectors, resolutions, exploration, recursion or fps; its agents and conditions
-    check the other fields.
+    The other fields are those of `Agent`, `Node` and `Desire` of the same names. Raises ValueError for invalid parts,
+    vectors, resolutions or recursion; its agents and conditions check the other fields.
     """
 
-    learning_rate: float = CALIBRATED.learning_rate
-    discount: float = CALIBRATED.discount
-    credit: str = CALIBRATED.credit  # type: ignore[assignment]
-    absent_decay: float = CALIBRATED.absent_decay
-    absent_form: str = CALIBRATED.absent_form
-    memory: float = CALIBRATED.memory
-    activity: float = CALIBRATED.activity
-    bootstrap: bool = CALIBRATED.bootstrap
-    terminal: bool = CALIBRATED.terminal
+    learning: Learning = CALIBRATED
     own_cell: str = Agent.own_cell
     tiled_fraction: float = papers.TILED_FRACTION
-    object_state: str = papers.OF_OBJECTS["object_state"]  # type: ignore[assignment]
-    object_reach: float = papers.OF_OBJECTS["object_reach"]  # type: ignore[assignment]
-    object_tiled_fraction: float = papers.OF_OBJECTS["object_tiled_fraction"]  # type: ignore[assignment]
-    object_beyond: str = papers.OF_OBJECTS["object_beyond"]  # type: ignore[assignment]
-    object_centred: bool = papers.OF_OBJECTS["object_centred"]  # type: ignore[assignment]
+    object_state: str = papers.OF_OBJECTS["object_state"]
+    object_reach: float = papers.OF_OBJECTS["object_reach"]
+    object_tiled_fraction: float = papers.OF_OBJECTS["object_tiled_fraction"]
+    object_beyond: str = papers.OF_OBJECTS["object_beyond"]
+    object_centred: bool = papers.OF_OBJECTS["object_centred"]
     weighting: str = Node.weighting
-    exploration: Share = GREEDY.exploration
-    when_indifferent: str = GREEDY.when_indifferent
+    policy: Policy = GREEDY
     place_gain: float = papers.PLACE_GAIN
     network_gain: float = 1.0
     vectors: Annotated[str, OneOf(VECTORS)] = "by size"
     scale: float = papers.SCALE
     recursion: float = -1.0
     network_resolutions: tuple[int, ...] = LAYERS
-    fps: AtLeastOne = WaterWorld.fps
-    contact: str = WaterWorld.contact
+    world: WaterWorld = WaterWorld()
 
     def __post_init__(self):
         checks.check_fields(self)
         checks.assign(self, network_resolutions=checks.several("network_resolutions", self.network_resolutions))
 
     @property
-    def learning(self):
-        """Its `Learning`."""
-        if self.credit == "step":
-            return Learning(self.learning_rate, self.discount, update_on="step", terminal=self.terminal)
-        names = {each.name for each in fields(Learning)} & vars(self).keys()
-        return Learning(**{name: getattr(self, name) for name in names})
+    def choices(self) -> dict[str, Any]:
+        """Its value of every choice by name, those of its parts included."""
+        found: dict[str, Any] = {}
+        for name, value in vars(self).items():
+            found |= {each: getattr(value, each) for each in PARTS[name]} if name in PARTS else {name: value}
+        return found | ({"credit": "step"} if self.learning.update_on == "step" else {})
+
+    def varied(self, **choices: Any) -> "Reading":
+        """The same reading with other values of some `choices`.
+
+        The credit "step" is temporal difference, of which the learning rate, the discount and `terminal` alone are
+        choices. Raises ValueError for an unknown choice and for an invalid value.
+        """
+        for name in choices:
+            checks.one_of("the name of a choice", name, tuple(self.choices))
+        wanted = self.choices | choices
+        learning, policy, world = ({name: wanted.pop(name) for name in names} for names in PARTS.values())
+        if learning["credit"] == "step":
+            kept = ("learning_rate", "discount", "terminal")
+            learning = {"update_on": "step", **{name: learning[name] for name in kept}}
+        return replace(self, learning=Learning(**learning), policy=replace(self.policy, **policy),
+                       world=replace(self.world, **world), **wanted)
 
     @property
     def agents(self):
         """The arguments that are common to all its agents, for the functions that make them."""
-        policy = Policy(self.exploration, self.when_indifferent if self.exploration else "random")
-        state = "object" if self.credit == "step" else self.object_state
+        policy = self.policy if self.policy.exploration else replace(self.policy, when_indifferent="random")
+        state = "object" if self.learning.update_on == "step" else self.object_state
         return {"learning": self.learning, "policy": policy, "own_cell": self.own_cell,
                 **{name: getattr(self, name) for name in papers.OF_NODES}, "object_state": state,
                 "object_reach": self.object_reach if state == "object" else 0.0}
 
 
 # What the text prints or pins; where it leaves more, the simplest or the middle of a prior, as the pins say.
-TO_THE_LETTER = Reading(**{name: value for name, value in vars(rules.TO_THE_LETTER).items() if name in vars(Reading)},
-                        object_state="self", object_reach=0.0, object_tiled_fraction=1.0, object_beyond="outermost",
-                        object_centred=False, weighting="resolution", place_gain=1.0, scale=10.0)
+TO_THE_LETTER = Reading(rules.TO_THE_LETTER, object_state="self", object_tiled_fraction=1.0, object_beyond="outermost",
+                        weighting="resolution", place_gain=1.0, scale=10.0)
 
 
 def conditions(reading: Reading, steps: int, runs: int, seed: int = 0,
@@ -130,13 +143,12 @@ def conditions(reading: Reading, steps: int, runs: int, seed: int = 0,
 
 
 def _all_conditions(reading, steps, runs, seed):
-    eight, three = (WaterWorld(n_creeps=n, win_reward=win, fps=reading.fps, contact=reading.contact)
-                    for n, win in ((8, 5.0), (3, 0.0)))
+    eight, three = (replace(reading.world, n_creeps=n, win_reward=win) for n, win in ((8, 5.0), (3, 0.0)))
     each = reading.agents
 
     def living(agent, paper, length=steps, runs=runs):
         world, length = (eight if paper == "A" else three), min(length, LENGTHS[paper])
-        length = length if paper == "A" else max(1, round(length * reading.fps / PAPER_FPS))
+        length = length if paper == "A" else max(1, round(length * reading.world.fps / PAPER_FPS))
         return Condition(agent, world, length, runs, seed)
 
     made = {("brownian", 8): living(papers.brownian(), "A", LENGTHS["A"], CONTROLS * runs),

@@ -46,7 +46,7 @@ def test_the_traits_of_a_preset_describe_its_agent(name):
 def test_presets_to_the_letter_run_at_their_frame_rate_in_the_tank_of_the_page():
     slow = simulate(place_cells([3]), WaterWorld(n_creeps=2, fps=25), steps=10, runs=1, progress=False)
     explorer = Explorer({"slow": slow}, preset="Network D, to the letter")
-    assert explorer.world == WaterWorld(n_creeps=2, fps=LETTER.fps, contact=LETTER.contact)
+    assert explorer.world == WaterWorld(n_creeps=2, fps=LETTER.world.fps, contact=LETTER.world.contact)
     explorer.preset = "Network D"
     assert explorer.world == slow.world
 

@@ -92,7 +92,7 @@ def test_any_other_agent_of_such_a_world_stands_in_the_menus_and_in_the_address(
 
 def test_both_show_the_same_moment_step_by_step_and_of_agents_with_other_steps_per_second(page):
     visit(page, "#explorer_agent-places_beside-network-d-to-the-letter_minute-2")
-    letter = replace(TANK, fps=TO_THE_LETTER.fps, contact=TO_THE_LETTER.contact)
+    letter = replace(TANK, fps=TO_THE_LETTER.world.fps, contact=TO_THE_LETTER.world.contact)
     wait_for(page, step=str(2 * MINUTE), secondStep=str(120 * letter.fps), state="paused")
     run = Run(networks(TO_THE_LETTER)["D"], letter, SIZE["seed"])
     assert float(page.locator(".neorl-explorer").get_attribute("data-second-score")) == run.advance(120 * letter.fps)

@@ -102,7 +102,7 @@ def truth(reading, name):
     ends = [end for end in (target.low, target.high) if math.isfinite(end)]
     upward = 1 if math.isfinite(target.low) else -1
     wanted = sum(ends) / 2 if len(ends) == 2 else ends[0] + 0.1 * upward * target.scale
-    off = max(0.8 - WITHIN["discount"].place(reading.discount), 0) + 0.5 * (reading.contact != "rounded")
+    off = max(0.8 - WITHIN["discount"].place(reading.learning.discount), 0) + 0.5 * (reading.world.contact != "rounded")
     return Measure(wanted - 20 * upward * target.scale * off, 0.1 * target.scale)
 
 
@@ -116,9 +116,9 @@ def test_a_design_keeps_to_the_text_and_spans_the_priors():
     assert readings == design(64)
     assert design(64, seed=1) != readings
     for name, choice in WITHIN.items():
-        places = [choice.place(getattr(reading, name)) for reading in readings]
+        places = [choice.place(reading.choices[name]) for reading in readings]
         assert min(places) < 0.1 and max(places) > 0.9
-    assert readings[0] == replace(TO_THE_LETTER, **{name: getattr(readings[0], name) for name in WITHIN})
+    assert readings[0] == TO_THE_LETTER.varied(**{name: readings[0].choices[name] for name in WITHIN})
     found = features(readings)
     assert found.min() >= 0 and found.max() <= 1 and np.ptp(found, axis=0).min() > 0
 
@@ -294,7 +294,7 @@ def test_what_would_have_to_give_is_the_claim_that_no_row_holds_with_the_others(
 
 
 def test_a_posterior_knows_the_choice_that_matters_and_no_other():
-    table = [replace(row, statistics=statistics(CLAIMS if row.reading.contact == "rounded" else ()))
+    table = [replace(row, statistics=statistics(CLAIMS if row.reading.world.contact == "rounded" else ()))
              for row in rows(*[()] * 128, points=128)]
     found = calibration_results.posterior(table, 2_000)
     assert found.weights.sum() == pytest.approx(1) and 500 < found.effective < 1_600

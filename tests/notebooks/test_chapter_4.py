@@ -42,9 +42,9 @@ def test_agents_differ_in_their_temporal_driver_alone(steps):
             cell, brownian, *every_step = page["results"][name, which].values()
             assert cell == made[key] and brownian == made[chance]
             for stay, label, each in zip((1, 10, 50), list(page["results"][name, which])[2:], every_step):
-                rule = replace(reading, credit="step", discount=reading.discount ** (1 / stay))
+                rule = reading.varied(credit="step", discount=reading.learning.discount ** (1 / stay))
                 assert each == conditions(rule, steps, 10, 3, ["layers", "modal"])[key]
-                assert label == f"γ = {rule.discount:.4g}" and each.agent.learning.update_on == "step"
+                assert label == f"γ = {rule.learning.discount:.4g}" and each.agent.learning.update_on == "step"
 
 
 def test_only_the_agents_and_stays_of_the_thesis_are_judged():

@@ -1,6 +1,7 @@
 """The multiverse: readings, their priors and conditions, and the counts over them."""
 
-from dataclasses import fields, replace
+from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,8 +10,8 @@ from lib.shared.priors import BEYOND, PINNED, WITHIN, LogUniform
 from lib.study import multiverse
 from lib.study.multiverse_figures import LEADING, draw_specification
 import neorl
-from neorl import (CALIBRATED, Learning, Policy, multimodal, network_a, network_b, network_c, network_d, place_cells,
-                   simulate)
+from neorl import (CALIBRATED, Learning, Policy, WaterWorld, multimodal, network_a, network_b, network_c, network_d,
+                   place_cells, simulate)
 from neorl.agents.rules import AT_EVERY_STEP
 from neorl.evidence.verdict import Claim
 from neorl.evidence.reading import GROUPS, TO_THE_LETTER, Reading, conditions, judge
@@ -31,26 +32,26 @@ def test_the_default_reading_is_that_of_the_book():
 
 
 def test_every_field_of_a_reading_is_pinned_or_varied_within_the_text_and_varied_beyond_it():
-    names = [field.name for field in fields(Reading)]
+    names = list(Reading().choices)
     assert [name for name in names if name in WITHIN] == list(WITHIN) and list(BEYOND) == names
     assert set(PINNED) == set(names) - set(WITHIN)
     for name, choice in BEYOND.items():
-        assert 0 <= choice.place(getattr(TO_THE_LETTER, name)) <= 1
+        assert 0 <= choice.place(TO_THE_LETTER.choices[name]) <= 1
         assert choice.levels and (choice.stated.startswith(choice.levels) or choice.prior.apart is not None)
     assert WITHIN["memory"].stated == "0.5 … 1,000, log-uniform in 1 + value, or 0 (15\u00a0%)"
 
 
 def test_the_letter_takes_what_is_pinned_and_the_simplest_of_what_is_open():
-    letter = TO_THE_LETTER
+    letter = SimpleNamespace(**TO_THE_LETTER.choices)
     assert (letter.exploration, letter.tiled_fraction, letter.own_cell, letter.recursion) == (0, 1, "counts", -1)
     assert (letter.credit, letter.absent_form, letter.bootstrap, letter.terminal) == ("activity", "away", True, False)
     assert letter.learning_rate == pytest.approx(np.sqrt(3e-4 * 0.5))
     assert 1 / (1 - letter.discount) == pytest.approx(1.5 * 200 ** (0.5 / 0.75))
     assert (letter.memory, letter.object_state, letter.vectors) == (0, "self", "by size")
     assert letter.absent_decay == pytest.approx(np.sqrt(1e-3)) and letter.activity == pytest.approx(0.5)
-    found = conditions(letter, 600_000, 2)
+    found = conditions(TO_THE_LETTER, 600_000, 2)
     assert found["network", "D"].agent == network_d(
-        [3, 7, 23], scale=letter.scale, signed=False, object_state="self", learning=letter.learning,
+        [3, 7, 23], scale=letter.scale, signed=False, object_state="self", learning=TO_THE_LETTER.learning,
         policy=Policy(exploration=0), own_cell="counts",
         tiled_fraction=1, object_tiled_fraction=1, object_beyond="outermost", object_centred=False,
         weighting="resolution", place_gain=1)
@@ -71,27 +72,32 @@ PAPERS = {"brownian": "A", "single": "A", "layer": "A", "layers": "A", "place": 
     {"contact": "truncated"}])
 def test_every_choice_changes_the_conditions_of_the_papers_that_it_belongs_to_and_no_others(change):
     (name,) = change
-    letter, other = (conditions(replace(TO_THE_LETTER, **each), 3_000, 2) for each in ({}, change))
+    letter, other = (conditions(TO_THE_LETTER.varied(**each), 3_000, 2) for each in ({}, change))
     changed = {PAPERS[key if isinstance(key, str) else key[0]] for key in letter if letter[key] != other[key]}
     assert changed == set(BEYOND[name].papers)
 
 
 def test_an_agent_that_would_never_move_draws_its_actions_instead():
-    assert replace(TO_THE_LETTER, when_indifferent="no-op").agents == TO_THE_LETTER.agents
-    assert Reading(when_indifferent="no-op", exploration=0.1).agents["policy"] == Policy(0.1, "no-op")
+    assert TO_THE_LETTER.varied(when_indifferent="no-op").agents == TO_THE_LETTER.agents
+    assert Reading(policy=Policy(0.1, "no-op")).agents["policy"] == Policy(0.1, "no-op")
 
 
 def test_temporal_difference_overrides_the_other_choices_of_learning():
-    reading = replace(TO_THE_LETTER, credit="step", memory=3.0)
-    assert reading.learning == Learning(reading.learning_rate, reading.discount, update_on="step", terminal=False)
-    assert set(AT_EVERY_STEP) < {field.name for field in fields(Reading)}
+    reading = TO_THE_LETTER.varied(credit="step", memory=3.0)
+    letter = TO_THE_LETTER.learning
+    assert reading.learning == Learning(letter.learning_rate, letter.discount, update_on="step", terminal=False)
+    assert set(AT_EVERY_STEP) < set(reading.choices) and reading.choices["credit"] == "step"
+    again = reading.varied(credit="activity", bootstrap=False).learning
+    assert (again.update_on, again.credit, again.bootstrap) == ("cell", "activity", False)
+    with pytest.raises(ValueError, match="the name of a choice must be 'learning_rate', .*, but is 'gamma'"):
+        reading.varied(gamma=0.5)
 
 
 def test_a_reach_of_contact_is_for_states_of_the_object_alone():
     for state, reach in (("object", 0.1), ("self", 0.0), ("per object", 0.0)):
-        agents = replace(TO_THE_LETTER, object_state=state, object_reach=0.1).agents
+        agents = TO_THE_LETTER.varied(object_state=state, object_reach=0.1).agents
         assert (agents["object_state"], agents["object_reach"]) == (state, reach)
-    assert replace(TO_THE_LETTER, credit="step").agents["object_state"] == "object"
+    assert TO_THE_LETTER.varied(credit="step").agents["object_state"] == "object"
 
 
 @pytest.mark.parametrize("choices", [WITHIN, BEYOND])
@@ -111,7 +117,7 @@ def test_conditions_come_in_groups_that_hold_all_in_the_end():
 
 
 def test_papers_b_and_c_simulate_the_same_time_at_any_rate_and_paper_a_the_same_steps():
-    found = conditions(Reading(fps=30), 30_000, 4)
+    found = conditions(Reading(world=WaterWorld(fps=30)), 30_000, 4)
     assert (found["single", 10].steps, found["both"].steps, found["network", "D"].steps) == (30_000, 18_000, 18_000)
     assert (found["pace", "both"].steps, found["pace", "both"].runs) == (288_000, 2)
     assert found["pace", "both"].steps / 30 == 160 * 60
@@ -141,9 +147,9 @@ def test_a_prior_is_uniform_in_the_logarithm_of_its_measure(prior, ends, middle)
 def test_a_design_fills_the_priors_evenly_and_any_power_of_two_is_part_of_the_next():
     readings = multiverse.design(64)
     assert readings[:16] == multiverse.design(16)
-    assert sum(reading.terminal for reading in readings) == 32
+    assert sum(reading.learning.terminal for reading in readings) == 32
     assert 20 <= sum(reading.object_state == "object" for reading in readings) <= 23
-    rates = np.sort([reading.learning_rate for reading in readings])
+    rates = np.sort([reading.learning.learning_rate for reading in readings])
     np.testing.assert_allclose(np.log(rates / 3e-4) / np.log(0.5 / 3e-4), (np.arange(64) + 0.5) / 64, atol=1 / 64)
     assert multiverse.design(16, seed=1) != readings[:16]
     assert len(set(readings)) == 64
@@ -151,7 +157,7 @@ def test_a_design_fills_the_priors_evenly_and_any_power_of_two_is_part_of_the_ne
 
 @pytest.fixture(scope="module")
 def results():
-    found = conditions(replace(TO_THE_LETTER, fps=30), 600, 2)
+    found = conditions(TO_THE_LETTER.varied(fps=30), 600, 2)
     cheap = {key: replace(condition, steps=min(condition.steps, 9_600)) for key, condition in found.items()
              if key not in [("single", 70), ("single", 90)]}
     lived = {key: simulate(**condition.choices, progress=False) for key, condition in cheap.items()}
@@ -193,7 +199,8 @@ def test_claims_are_counted_in_their_order():
 def made_up():
     """128 readings whose C2 depends on the discount and, to a lesser degree, on the credit."""
     readings = multiverse.design(128)
-    values = [WITHIN["discount"].place(reading.discount) + 0.5 * (reading.credit == "happened") for reading in readings]
+    values = [WITHIN["discount"].place(rule.discount) + 0.5 * (rule.credit == "happened")
+              for rule in (reading.learning for reading in readings)]
     return readings, [claim(value, "reproduced" if value > 1 else "not reproduced") for value in values]
 
 

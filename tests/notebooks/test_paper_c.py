@@ -8,7 +8,7 @@ from page_cells import planned
 
 from lib import paper_c
 from lib.shared.report import CALIBRATED, LETTER
-from neorl import Run, WaterWorld, network_b
+from neorl import Learning, Policy, Run, WaterWorld, network_b
 from neorl.evidence.reading import TO_THE_LETTER, Reading, conditions, networks
 from neorl.experiments.condition import Condition
 
@@ -57,8 +57,7 @@ def test_the_moment_is_the_first_at_which_the_agent_is_well_inside_and_desires_s
     assert fits[-1] and not any(fits[:-1])
 
 
-MOVING = Reading(0.03, 0.8, "share", absent_decay=0.0, memory=0.0, bootstrap=True, terminal=True,
-                 object_state="object", exploration=0.1)
+MOVING = Reading(Learning(0.03, 0.8, credit="share"), object_state="object", policy=Policy(0.1))
 
 
 def test_desires_that_land_on_the_agent_are_distinguished_from_those_that_do_not():

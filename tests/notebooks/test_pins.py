@@ -1,7 +1,5 @@
 """Pins: every pinned choice quotes its sentence, and a reading that breaks one is detected."""
 
-from dataclasses import fields, replace
-
 import pytest
 
 from lib.shared import pins
@@ -12,7 +10,7 @@ PINNED = [pin for pin in pins.PINS if pin.status == "pinned"]
 
 
 def test_every_choice_of_a_reading_has_its_row_and_no_other_has():
-    assert {name for pin in pins.PINS for name in pin.fields} == {field.name for field in fields(Reading)}
+    assert {name for pin in pins.PINS for name in pin.fields} == set(Reading().choices)
     assert len({pin.choice for pin in pins.PINS}) == len(pins.PINS)
 
 
@@ -33,7 +31,7 @@ def test_what_is_pinned_is_quoted_and_located():
     ({"fps": 30}, ["steps per second"]), ({"network_gain": 5.0}, ["gain of place cells, paper C"]),
     ({"recursion": -2.0}, ["recursion, r"]), ({"recursion": 1.0, "fps": 30}, ["recursion, r", "steps per second"])])
 def test_a_reading_against_the_text_says_which_sentences_it_breaks(change, broken):
-    reading = replace(TO_THE_LETTER, **change)
+    reading = TO_THE_LETTER.varied(**change)
     found = pins.broken(reading)
     assert [pin.choice for pin in found] == broken
     assert all(f"“{pin.quotation}” ({pin.place})" in pins.in_words(reading) for pin in found)
@@ -45,5 +43,5 @@ def test_every_sentence_that_pins_a_choice_is_broken_somewhere_beyond_and_nowher
             of_pin = [name for name in pin.fields if name in choices]
             values = [choices[name].at((k + 0.5) / 60) for name in of_pin for k in range(60)]
             names = [name for name in of_pin for _ in range(60)]
-            assert any(not pin.allows(replace(TO_THE_LETTER, **{name: value}))
+            assert any(not pin.allows(TO_THE_LETTER.varied(**{name: value}))
                        for name, value in zip(names, values)) == breaks, pin.choice

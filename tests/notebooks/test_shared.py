@@ -58,9 +58,9 @@ def test_a_box_has_verdicts_by_reading_with_links_or_says_that_there_are_none():
 
 
 def test_variants_of_a_reading_are_those_that_differ_and_its_choices_are_open_or_pinned():
-    reading = Reading(memory=0.0, exploration=0.1)
+    reading = Reading().varied(memory=0.0, exploration=0.1)
     made = side_by_side.changed(reading, {"no memory": {"memory": 0.0}, "greedy": {"exploration": 0.0}})
-    assert made == {"greedy": replace(reading, exploration=0.0)}
+    assert made == {"greedy": reading.varied(exploration=0.0)}
     choices = side_by_side.choices({"letter": TO_THE_LETTER, "far": replace(TO_THE_LETTER, recursion=2.0)},
                                    ["recursion", "network_resolutions"])
     assert choices.splitlines()[2:] == ["| recursion, r | pinned | −1 | 2 |",

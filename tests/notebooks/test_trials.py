@@ -4,13 +4,14 @@ import numpy as np
 import pytest
 
 import neorl
+from neorl import Learning
 from neorl.agents import papers
 from lib.paper_b import trials
 from neorl.evidence.reading import Reading
 
-READING = Reading(0.03, 0.8, "share", absent_decay=0.0, memory=0.0, bootstrap=True, terminal=True,
-                  object_state="object", object_tiled_fraction=1.0, object_beyond="outermost", object_centred=False,
-                  place_gain=1.0, weighting="resolution")  # whatever the defaults
+READING = Reading(Learning(0.03, 0.8, credit="share"), object_state="object", object_tiled_fraction=1.0,
+                  object_beyond="outermost", object_centred=False, place_gain=1.0,
+                  weighting="resolution")  # whatever the defaults
 PRIMES = (2, 3)
 PLACE, BOTH = papers.place_cells(PRIMES, **READING.agents), papers.multimodal(PRIMES, **READING.agents)
 TANK = neorl.WaterWorld()

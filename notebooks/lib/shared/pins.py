@@ -19,7 +19,7 @@ from dataclasses import dataclass
 class Pin:
     """One choice, and the sentence of the thesis that bears on it.
 
-    fields: the fields of `Reading` that make the choice; () if it is the same in every reading. quotation, place: the
+    fields: the names of those `choices` of a `Reading`; () if it is the same in every reading. quotation, place: the
     sentence and its place in the thesis, "" if there is none. follows: what it excludes, or what it leaves open and
     which value is simplest. allows: whether a given reading obeys the sentence; None if the choice is open.
     """
@@ -56,7 +56,7 @@ POLICY_AND_MAPS = (
     Pin("policy", ("exploration",), "my epsilon-free exploration", "Acknowledgements",
         "ε = 0: the action of highest value is taken, as in a = argmax Q_tot(s, a) of paper A (The Control Problem by "
         "Superposition). Section 4.3.1, too, contrasts directed exploration with ε-greedy policies.",
-        lambda reading: reading.exploration == 0),
+        lambda reading: reading.policy.exploration == 0),
     Pin("ties", ("when_indifferent",),
         "Basal actions affect the agent by accelerating it in the cardinal directions, [N, S, E, W].",
         "paper A, WaterWorld",
@@ -86,16 +86,16 @@ LEARNING = (
         "neoRL", "chapter 4, introduction",
         "A change of cell drives an update (equation 4.8), not every step. Only paper A says “If learners use "
         "Q-learning” (The Control Problem by Superposition); temporal difference is a comparison.",
-        lambda reading: reading.credit != "step"),
+        lambda reading: reading.choices["credit"] != "step"),
     Pin("credit of events that occurred", ("credit",), "Multiple occurrences of the same event should affect learning "
         "positively", "section 4.1.3, at equation 4.7",
         "ψ(N) is positive for all N ≥ 1, and may grow or not: “All events that happened while at s⁻ should be assigned "
         "equal weight”. Credit by activity adds nothing to section 4.4, and is simplest. Credit for the last event "
         "alone is excluded.",
-        lambda reading: reading.credit not in ("last", "step")),
+        lambda reading: reading.choices["credit"] not in ("last", "step")),
     Pin("credit of events that did not occur", ("absent_decay",), "zero occurrences would affect learning negatively "
         "according the result of ψ(0)", "section 4.1.3, at equation 4.7", "ψ(0) < 0; its size is open.",
-        lambda reading: reading.absent_decay > 0 and reading.credit != "step"),
+        lambda reading: reading.learning.absent_decay > 0 and reading.choices["credit"] != "step"),
     Pin("form of ψ(0)", ("absent_form",), "increasing the inference value for events that happened and decreasing the "
         "value otherwise", "section 4.1.3, at equation 4.8",
         "Equation 4.8 with a negative rate moves a value away from its target, which is simplest; a value that decays "
@@ -182,7 +182,7 @@ WORLD = (
         "As in paper B.", _always),
     Pin("steps per second", ("fps",), "with one run taking somewhat under one hour on a single CPU core",
         "paper A, Experiments", "150,000 steps are 50 minutes at 50 per second, which is simplest, or 42 at 60. At 30 "
-        "per second they would be 83, which is excluded.", lambda reading: reading.fps in (50, 60)),
+        "per second they would be 83, which is excluded.", lambda reading: reading.world.fps in (50, 60)),
     Pin("contact", ("contact",), "", "", "Pygame compares whole pixels: rounded since version 2, which is "
         "simplest, and truncated before."),
 )

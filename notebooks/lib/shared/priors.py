@@ -12,7 +12,7 @@
 """
 
 import math
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from neorl.agents import papers
@@ -72,7 +72,7 @@ class LogUniform:
 
 
 class Choice(NamedTuple):
-    """How a field of `Reading` is varied."""
+    """How one of the `choices` of a `Reading` is varied."""
 
     label: str
     prior: tuple | LogUniform  # levels, the simplest first, or a distribution
@@ -154,4 +154,4 @@ _BEYOND = WITHIN | {
     "recursion": Choice("recursion, r", (-1.0, -3.0, -2.0, -0.5, 0.5, 1.0), "C"),
     "fps": Choice("steps per second", (50, 30, 60), "ABCT"),
 }
-BEYOND = {field.name: _BEYOND[field.name] for field in fields(Reading)}
+BEYOND = {name: _BEYOND[name] for name in Reading().choices}

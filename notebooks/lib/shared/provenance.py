@@ -56,12 +56,12 @@ def constants():
         Constant("filter of paper B's curves", f"Butterworth, order {FILTER_ORDER}, {CUTOFF_PERIODS} periods per run",
                  "paper B, section 3; order and cutoff are " + OURS),
     ]
-    return fixed + [Constant(choice.label, choice.words(getattr(Reading(), name)), source(name))
+    return fixed + [Constant(choice.label, choice.words(Reading().choices[name]), source(name))
                     for name, choice in BEYOND.items()]
 
 
 def source(name):
-    """The source of the default of a field of `Reading`, in words."""
+    """The source of the default of one of the `choices` of a `Reading`, in words."""
     places = []
     for pin in PINS:
         if pin.fields[:1] == (name,) and pin.place:

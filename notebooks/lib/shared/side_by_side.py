@@ -1,19 +1,17 @@
 """Readings of the thesis side by side, on the pages of the papers: their variants and their choices."""
 
-from dataclasses import replace
-
 from lib.shared.priors import BEYOND, WITHIN
 from lib.shared.wording import table
 
 
 def changed(reading, changes):
-    """Variants of a reading, {name: {field: value}}, except those equal to it."""
-    made = {name: replace(reading, **change) for name, change in changes.items()}
+    """Variants of a reading, {name: {choice: value}}, except those equal to it."""
+    made = {name: reading.varied(**change) for name, change in changes.items()}
     return {name: each for name, each in made.items() if each != reading}
 
 
-def choices(readings, fields):
-    """A Markdown table of the choices of readings in some fields, pinned or open."""
+def choices(readings, names):
+    """A Markdown table of some choices of readings, pinned or open."""
     return table(["Choice", "The text", *readings], [
-        [BEYOND[field].label, "open" if field in WITHIN else "pinned",
-         *(BEYOND[field].words(getattr(reading, field)) for reading in readings.values())] for field in fields])
+        [BEYOND[name].label, "open" if name in WITHIN else "pinned",
+         *(BEYOND[name].words(reading.choices[name]) for reading in readings.values())] for name in names])

@@ -187,7 +187,7 @@ def design(points, seed=0):
 def reading_at(shares):
     """The reading with each choice in `WITHIN` at a quantile of its prior, rounded; others are to the letter."""
     chosen = {name: _short(choice.at(share)) for (name, choice), share in zip(WITHIN.items(), shares)}
-    return replace(TO_THE_LETTER, **chosen)
+    return TO_THE_LETTER.varied(**chosen)
 
 
 def _short(value):
@@ -241,9 +241,9 @@ def features(readings):
 
     A number becomes its place in its prior, from 0 to 1; each level of a choice in words becomes a feature, 0 or 1.
     """
-    columns = []
+    chosen, columns = [reading.choices for reading in readings], []
     for name, choice in WITHIN.items():
-        values = [getattr(reading, name) for reading in readings]
+        values = [each[name] for each in chosen]
         if isinstance(values[0], str):
             columns += [[value == level for value in values] for level in dict.fromkeys(choice.prior)]
         else:
@@ -294,10 +294,10 @@ def _child(mother, father, rng):
     """A reading that takes each choice from one of two parents or redraws it; inherited numbers move a little."""
     chosen = {}
     for name, choice in WITHIN.items():
-        value = getattr(mother if rng.random() < 0.5 else father, name)
+        value = (mother if rng.random() < 0.5 else father).choices[name]
         if rng.random() < RENEWED:
             value = choice.at(rng.random())
         elif not isinstance(choice.prior, tuple):
             value = choice.at(np.clip(choice.place(value) + MOVED * rng.standard_normal(), 0.0, 1.0 - 1e-9))
         chosen[name] = _short(value)
-    return replace(TO_THE_LETTER, **chosen)
+    return TO_THE_LETTER.varied(**chosen)

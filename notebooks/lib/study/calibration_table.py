@@ -8,7 +8,7 @@ full, statistics with 5 significant digits, in memory as on disk.
 import csv
 import io
 from ast import literal_eval
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -124,19 +124,18 @@ def write_table(table, path):
     """Write rows to a file of comma-separated values, one line each below a header."""
     content = io.StringIO()
     writer = csv.writer(content, lineterminator="\n")
-    choices = [each.name for each in fields(Reading)]
-    writer.writerow([*OWN, *choices, *TARGETS, *(f"error of {name}" for name in TARGETS)])
+    writer.writerow([*OWN, *Reading().choices, *TARGETS, *(f"error of {name}" for name in TARGETS)])
     for row in table:
         measured = [row.statistics.get(name, ("", "")) for name in TARGETS]
         writer.writerow([*(getattr(row, name) for name in OWN),
-                         *(getattr(row.reading, name) for name in choices),
+                         *row.reading.choices.values(),
                          *(value for value, _ in measured), *(error for _, error in measured)])
     path.write_text(content.getvalue(), encoding="utf-8")
 
 
 def read_table(path=SHIPPED):
     """Read the rows of a file written by `write_table`, or raise ValueError."""
-    kinds = {each.name: type(each.default) for each in fields(Reading)}
+    kinds = {name: type(value) for name, value in Reading().choices.items()}
     expected = {*OWN, *kinds, *TARGETS, *(f"error of {name}" for name in TARGETS)}
     lines = csv.DictReader(io.StringIO(path.read_text(encoding="utf-8")))
     if set(lines.fieldnames or ()) != expected:
@@ -144,7 +143,7 @@ def read_table(path=SHIPPED):
         raise ValueError(f"{path} has other columns than this version has: {', '.join(differing)}")
     table = []
     for line in lines:
-        reading = Reading(**{name: line[name] if kind is str else literal_eval(line[name])
+        reading = Reading().varied(**{name: line[name] if kind is str else literal_eval(line[name])
                              for name, kind in kinds.items()})
         statistics = {name: Measure(float(line[name]), float(line[f"error of {name}"]))
                       for name in TARGETS if line[name]}

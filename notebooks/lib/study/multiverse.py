@@ -7,7 +7,6 @@
 4. The importance of choices for a claim is estimated from `ENOUGH` readings or more.
 """
 
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -29,13 +28,13 @@ def design(points, seed=0, choices=WITHIN):
     """Plausible readings, spread evenly through the priors: a list of `Reading`.
 
     points: their number, a power of two, or ValueError is raised; a design is the first part of every larger one.
-    choices: the fields that vary, {field of `Reading`: `Choice`}; the others are those of the reading to the letter.
+    choices: those that vary, {name: `Choice`}; the others are those of the reading to the letter.
     """
     checks.integer("points", points, at_least=2)
     if points & (points - 1):
         raise checks.error("points", "a power of two", points)
     shares = scipy.stats.qmc.Sobol(len(choices), rng=np.random.default_rng(seed)).random(points)
-    return [replace(TO_THE_LETTER, **{name: choice.at(share) for (name, choice), share in zip(choices.items(), row)})
+    return [TO_THE_LETTER.varied(**{name: choice.at(share) for (name, choice), share in zip(choices.items(), row)})
             for row in shares]
 
 
@@ -95,7 +94,7 @@ def support(readings, judged):
 def binned(name, readings, parts):
     """A choice in levels: (levels, shares of the prior, level of each reading)."""
     choice = WITHIN[name]
-    values = [getattr(reading, name) for reading in readings]
+    values = [reading.choices[name] for reading in readings]
     if isinstance(choice.prior, tuple):
         levels = list(dict.fromkeys(choice.prior))
         prior = np.array([choice.prior.count(level) for level in levels]) / len(choice.prior)
@@ -120,7 +119,8 @@ def importance(readings, claims):
     there are not two in each); the R² returned is that before shuffling.
     """
     chosen = {key: choice for key, choice in WITHIN.items() if claims[0].name[0] in choice.papers}
-    places = np.array([[choice.place(getattr(reading, key)) for key, choice in chosen.items()] for reading in readings])
+    places = np.array([[choice.place(choices[key]) for key, choice in chosen.items()]
+                       for choices in (reading.choices for reading in readings)])
     ranks = scipy.stats.rankdata([claim.here.value for claim in claims]) / len(claims)
     lost, explained = [], []
     ensemble, inspection, selection = (require(f"sklearn.{each}", extra="book")

@@ -84,7 +84,7 @@ def _leading(readings, name):
     found = []
     for key, choice in WITHIN.items():
         if name[0] in choice.papers:
-            places = [choice.place(getattr(reading, key)) for reading in readings]
+            places = [choice.place(reading.choices[key]) for reading in readings]
             varies = len(set(places)) > 1
             found.append((abs(spearmanr(places, range(len(places))).statistic) if varies else 0.0, choice, places))
     found.sort(key=lambda each: each[0], reverse=True)
