@@ -6,9 +6,8 @@ from matplotlib.patches import Circle, FancyBboxPatch, Wedge
 from matplotlib.ticker import MultipleLocator
 
 from lib.chapter_3.ensembles import LEARNERS
-from lib.chapter_3.hybrid_reward import settled_values
 from lib.shared.grid import WALL
-from lib.shared.grid_figures import draw_grid, draw_policy, new_grids
+from lib.shared.grid_figures import draw_grid, draw_policy
 from lib.shared.panels import add_arrow
 from lib.shared.style import FILL, mark
 from neorl.drawing.style import AGENT, CURVES, GREEN, INK, RED, TEXT, letters, name_ends
@@ -23,21 +22,6 @@ def draw_activations(inputs, step, relu, slope):
         axes.set(xlabel="weighted input", title=title)
     panels[0].set_ylabel("output")
     panels[0].plot((inputs[1:] + inputs[:-1]) / 2, slope, color=RED, linestyle="none", marker="o", markersize=4)
-
-
-def draw_pattern(points, labels, lines):
-    """Points (n, 2) of two classes, labels −1 and 1, and lines {name: (weight, weight, bias)} between them."""
-    axes = plt.figure(figsize=(4.9, 3.2)).add_subplot()
-    for label, marker, colour in ((-1, "o", RED), (1, "P", GREEN)):
-        axes.plot(*points[labels == label].T, linestyle="none", marker=marker, color=colour, alpha=0.8)
-    axes.set(xlim=(-1, 1), ylim=(-1, 1), xlabel="first input", ylabel="second input", xticks=[-1, 0, 1],
-             yticks=[-1, 0, 1])
-    xs, ends = np.array([-1.0, 1.0]), []
-    for (name, (w_x, w_y, bias)), colour in zip(lines.items(), CURVES):
-        ys = -(w_x * xs + bias) / w_y
-        axes.plot(xs, ys, color=colour)
-        ends.append((np.clip(ys[1], -0.8, 1), name, colour))
-    name_ends(axes, ends)
 
 
 def draw_loop():
@@ -70,23 +54,6 @@ def draw_plans(panels, grid, plans):
             if letter != ".":
                 mark(axes, (x - 0.28, y - 0.24), letter, ha="center", va="center")
         axes.set_title(title, fontsize=11)
-
-
-def draw_alternation(value_errors, policy_losses):
-    """Policy iteration by stage; fourth roots of distances make small ones visible."""
-    axes = plt.figure(figsize=(4.9, 3.6)).add_subplot()
-    xs, ys = np.power(value_errors, 0.25), np.power(policy_losses, 0.25)
-    axes.plot(xs, ys, color=INK, linewidth=0.9)
-    for first, colour, name, shift in ((1, CURVES[0], "after evaluation", (0, 8)),
-                                       (2, CURVES[5], "after\nimprovement", (8, 2))):
-        axes.plot(xs[first::2], ys[first::2], color=colour, linestyle="none", marker="o", markersize=5, clip_on=False)
-        axes.annotate(name, (xs[first], ys[first]), color=letters(colour), xytext=shift, textcoords="offset points")
-    axes.plot(xs[0], ys[0], color=INK, marker="o", markersize=5, clip_on=False)
-    axes.annotate("start", (xs[0], ys[0]), (8, 0), textcoords="offset points", va="center")
-    axes.set(xlabel="values: distance from the policy's own", ylabel="policy: distance from greedy", xlim=(0, None),
-             ylim=(0, None))
-    for axis, shown in ((axes.xaxis, [0, 0.01, 0.1, 0.5]), (axes.yaxis, [0, 0.001, 0.01, 0.1, 0.5])):
-        axis.set_ticks(np.power(shown, 0.25), map(str, shown))
 
 
 def draw_means(series, xlabel, ylabel, logs="", marks=False, guides=()):
@@ -149,19 +116,6 @@ def draw_scores(played):
                       color=letters(colour), textcoords="offset points", va="center", annotation_clip=False)
     axes.axhline(0, color=INK, linewidth=0.7, zorder=1)
     axes.set(xscale="log", xlabel="steps", ylabel="reward per 100 steps", xlim=(None, furthest))
-
-
-def draw_junction(grid, discounts):
-    """Where the sum of settled heads leads, a panel for each discount; a fruit lies at each "o" of the grid."""
-    fruits = grid.marked("o")
-    for axes, discount in zip(new_grids(grid, columns=len(discounts)), discounts):
-        draw_grid(axes, grid)
-        for fruit in fruits:
-            axes.add_patch(Circle(grid.places[fruit], 0.24, facecolor=GREEN, edgecolor="none"))
-        values = sum(settled_values(grid, fruit, discount) for fruit in fruits)
-        values[fruits] = 0  # a fruit that is reached is gone
-        draw_policy(axes, grid, values)
-        axes.set_title(f"γ = {discount}", color=TEXT)
 
 
 def draw_finals(rewards, best):

@@ -104,22 +104,6 @@ def draw_track(seen, radius, axes):
         mark(axes, place, str(number), ha="center", va="center")
 
 
-def draw_pool(swum, paths, maze):
-    """Paths of a swimmer's first trials on the last day, and seconds to the platform over the days.
-
-    swum: {"moved" or "fixed": {swimmer: float64 (runs, days, trials a day)}}.
-    """
-    above, below = pair()
-    draw_paths(paths, maze, above)
-    trials = np.arange(maze.trials) + 0.5
-    drawn = swum["moved"] | {"neoRL, fixed": swum["fixed"]["neoRL"]}
-    draw_curves(trials / maze.trials_a_day, {name: each.reshape(len(each), -1) for name, each in drawn.items()}, "days",
-                "seconds to the platform", below)
-    below.set_ylim(0, None)
-    for day in range(1, len(maze.places)):
-        below.axvline(day, color=INK, linewidth=0.8)
-
-
 def draw_paths(paths, maze, axes):
     """The pool with the paths of trials, from the rim to the platform where the last one ends."""
     axes.add_patch(Circle((0.5, 0.5), 0.5, fill=False, edgecolor=INK, linewidth=1.4))
