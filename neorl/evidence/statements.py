@@ -9,7 +9,7 @@ import math
 import operator
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 
@@ -17,13 +17,15 @@ from pathlib import Path
 class Bounds:
     """The interval of an estimate that agrees with a claim.
 
-    low, high: its ends, which may be infinite. number: the thesis's own, if it gives one. open: without its ends.
+    low, high: its ends, which may be infinite. number: the thesis's own, if it gives one. open: without its ends. why:
+    how wide it is, in words.
     """
 
     low: float = -math.inf
     high: float = math.inf
     number: float | None = None
     open: bool = False
+    why: str = field(default="", repr=False)
 
     def hold(self, found):
         """Whether the interval of an `Estimate` lies within."""

@@ -1,5 +1,9 @@
 """The statements: their quotations, their bounds, and the rules that they name."""
 
+import math
+
+import pytest
+
 from neorl.evidence import claims
 from neorl.evidence.statements import CLAIMS, DEMONSTRATIONS, POSITIVE, STATEMENTS, Bounds
 from neorl.evidence.statistics import Estimate
@@ -22,6 +26,16 @@ def test_a_number_stands_in_the_words_of_its_statement_and_within_its_bounds():
             if each.number is not None:
                 assert f"{each.number:g}" in f"{statement.thesis} {statement.quotation}", name
                 assert each.low <= each.number <= each.high, name
+
+
+def test_a_factor_that_is_named_is_that_of_the_bounds():
+    for statement in STATEMENTS.values():
+        for each in (statement.bounds, *statement.also.values()):
+            if "within a factor of" in each.why:
+                factor = float(each.why.split()[-1].replace("√2", str(math.sqrt(2))))
+                number = 1.0 if each.number is None else each.number
+                for end, sense in ((each.low, -1), (each.high, 1)):
+                    assert math.isinf(end) or end == pytest.approx(number * factor**sense, rel=0.02)
 
 
 def test_every_rule_is_named_in_the_statements():

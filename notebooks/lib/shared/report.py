@@ -124,12 +124,13 @@ def label(rule):
 def _kept(claims):
     return {claim.name: {"here": _bounded(claim.here), "runs": claim.runs, "verdict": claim.verdict,
                          "undecided": claim.undecided and claim.verdict == claim.outcome,
-                         "numbers": {what: [_bounded(found), str(bounds or ""), bounds and _mark(found, bounds) or ""]
+                         "numbers": {what: [_bounded(found), *(_asked(found, bounds) if bounds else ("", ""))]
                                      for what, (found, bounds) in claim.numbers.items()}} for claim in claims}
 
 
-def _mark(found, bounds):
-    return f"{'✓' if bounds.hold(found) else '?' if bounds.allow(found) else '✗'}\u00a0"
+def _asked(found, bounds):
+    mark = "✓" if bounds.hold(found) else "?" if bounds.allow(found) else "✗"
+    return f"{bounds}{bounds.why and f' ({bounds.why})'}", f"{mark}\u00a0"
 
 
 def _bounded(found):
