@@ -5,7 +5,8 @@ from matplotlib import pyplot as plt
 from matplotlib.patches import Rectangle
 
 from lib.shared.grid import MOVES, WALL
-from neorl.drawing.style import AGENT, INK
+from lib.shared.style import FILL, mark
+from neorl.drawing.style import AGENT, GREEN, INK
 
 
 def new_grids(grid, columns=1, rows=1):
@@ -23,8 +24,8 @@ def new_grids(grid, columns=1, rows=1):
 def draw_grid(axes, grid, fills=None):
     """The walls and states of a grid, some of them filled: fills {state: (colour, opacity)}."""
     for y, row in enumerate(grid.rows):
-        for x, mark in enumerate(row):
-            wall = mark == WALL
+        for x, letter in enumerate(row):
+            wall = letter == WALL
             axes.add_patch(Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=INK if wall else "none",
                                      alpha=0.55 if wall else 0.5, edgecolor=INK, linewidth=0.6))
     for state, (colour, opacity) in (fills or {}).items():
@@ -38,3 +39,19 @@ def draw_policy(axes, grid, q):
     start, step = grid.places[state], 0.38 * MOVES[action]
     axes.quiver(*start.T, *step.T, color=AGENT, angles="xy", scale_units="xy", scale=1, units="xy", width=0.05,
                 headwidth=4.5)
+
+
+def draw_plans(panels, grid, plans):
+    """The value of each state as the opacity of its fill, the best actions, and the marks of the grid.
+
+    plans: {title: (values (states,), q (states, 4) or None)}, the values shaded relative to the largest of all.
+    """
+    largest = max(max(values.max() for values, _ in plans.values()), 1e-9)
+    for axes, (title, (values, q)) in zip(panels, plans.items()):
+        draw_grid(axes, grid, {state: (GREEN, FILL * max(value, 0) / largest) for state, value in enumerate(values)})
+        if q is not None:
+            draw_policy(axes, grid, q)
+        for (x, y), letter in zip(grid.places, "".join(grid.rows).replace(WALL, "")):
+            if letter != ".":
+                mark(axes, (x - 0.28, y - 0.24), letter, ha="center", va="center")
+        axes.set_title(title, fontsize=11)
