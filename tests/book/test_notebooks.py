@@ -15,6 +15,7 @@ from neorl.evidence.statements import STATEMENTS
 
 NOTEBOOKS = {path.stem: nbformat.read(path, 4) for path in sorted(FOLDER.glob("*.ipynb"))}
 HIDDEN = {"remove-input", "hide-input", "hide-cell"}
+DRAWS = r"(figures|drawing)\.(draw|new)_|plt\.(figure\(|subplots)|draw_means\("
 
 
 @pytest.fixture(params=NOTEBOOKS)
@@ -32,13 +33,18 @@ def test_a_page_shows_its_experiment_in_one_cell(cells):
     assert any("## Variations to try\n" in cell.source for cell in cells)
 
 
+def test_the_lines_of_open_cells_fit_on_a_page(cells):
+    shown = [cell.source for cell in cells if cell.cell_type == "code" and not HIDDEN & tags(cell)]
+    assert [line for source in shown for line in source.splitlines() if len(line) > 82] == []
+
+
 def test_a_notebook_is_without_outputs(cells):
     assert all(not cell.outputs and cell.execution_count is None for cell in cells if cell.cell_type == "code")
 
 
 def test_every_figure_has_alt_text_and_a_caption(cells):
     for cell in cells:
-        if cell.cell_type == "code" and re.search(r"(figures|drawing)\.(draw|new)_", cell.source):
+        if cell.cell_type == "code" and re.search(DRAWS, cell.source):
             assert len(cell.metadata["mystnb"]["image"]["alt"]) > 40
             assert len(cell.metadata["mystnb"]["figure"]["caption"]) > 40
 

@@ -112,7 +112,7 @@ def numbers(record, name):
                            if what in each["numbers"] else
                            number(each) if what == STATEMENTS[name].statistic else "" for each in found.values())]
             for what, asks in asked.items()]
-    head = ["Number", "Rule", *(f"{reading}, {each['runs']} runs" for reading, each in found.items())]
+    head = ["Number", "Rule", *(f"{reading}, {each['runs']} runs or more" for reading, each in found.items())]
     return wording.table(head, rows) if rows else ""
 
 
