@@ -136,6 +136,7 @@ class Reading:
             for each in attributes:
                 self._names.append((vars(module), each))
                 if (attribute := getattr(module, each, MISSING)) is not MISSING:
+                    self._is_mutable |= each not in vars(module)  # its __getattr__ made it
                     found.append((f"{path}.{each}", attribute))
                     if isinstance(attribute, ModuleType) and all(attribute is not known for _, known in modules):
                         modules.append((f"{path}.{each}", attribute))

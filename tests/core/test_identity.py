@@ -4,7 +4,7 @@ import subprocess
 import sys
 from dataclasses import dataclass
 from enum import Enum
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 
 import numpy as np
 import pytest
@@ -173,6 +173,15 @@ def test_what_borrows_the_name_of_a_known_module_counts_by_its_content_all_the_s
     record["pay"] = 5.0
     assert identity(made[0]) != identity(made[1]) and identity(numbered[0]) != identity(numbered[1])
     assert not before.stands() and identity(record) != before.text
+
+
+def test_what_a_module_makes_when_it_is_asked_for_a_name_is_read_again_each_time():
+    paying, made = ModuleType("paying"), SimpleNamespace(pay=1.0)
+    paying.__getattr__ = lambda name: getattr(made, name)
+    before = Reading(kernel(lambda: paying.pay))
+    assert before.stands()
+    made.pay = 2.0
+    assert not before.stands()
 
 
 @dataclass(frozen=True)
