@@ -47,7 +47,7 @@ def test_what_a_verdict_rests_on_is_its_sentence_and_the_numbers_of_both_reading
     (item,) = report.evidence(kept, ["C1"])
     assert "“The neoRL network from illustration 4a improves" in item and "(paper C, section 3)" in item
     header, _, rise, lead, *_ = item.split("\n\n")[1].splitlines()
-    assert header == "  | Number | Rule | Here, 20 runs | To the letter, 20 runs |"
+    assert header == "  | Number | Rule | Here, 20 runs or more | To the letter, 20 runs or more |"
     assert rise == ("  | Final reward per second of A, less its early one | more than 0 | ✓\u00a00.05 [0.05, 0.05] | "
                     "✓\u00a00.40 [0.40, 0.40] |")
     assert lead.startswith("  | lead over Brownian motion | more than 0 | ✓\u00a00.05 [")
