@@ -57,7 +57,7 @@ ERRATA = (
             "they decrease: fields grow from the dorsal to the ventral end"),
     Erratum("paper B, section 3", "“(on average) 1.5 points per reset”",
             "1.5 is the expected number of green creeps among three (3 × ½); on a board with one at least it is 12/7. "
-            "As every second creep taken is replaced by a green one, the points from one reset to the next are twice "
-            "that, 24/7, whatever the agent does"),
+            "As a creep taken is replaced by a green one with a probability of ½, the points from one reset to the "
+            "next are on average twice that, 24/7, whatever the agent does"),
     Erratum("paper C, section 1", "“Edward C. Tolman (1866-1959)”", "1886–1959, as in section 2.1.2"),
 )
