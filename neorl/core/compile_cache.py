@@ -5,16 +5,22 @@ source of the rooms `core` and `worlds`, the code and constants of every user-de
 arguments, numba, LLVM and the processor, and the lines on which the user's kernels raise. So the cache need not be
 cleared after a change, and deleted files are compiled again. A file is complete or absent; one that is damaged, or
 cannot be read or written, counts as absent.
+
+numba numbers the functions that a process compiles, and their numbers tell apart the names by which code is linked. The
+numbers of each process begin elsewhere, so that code from disk does not share a name with other code.
 """
 
 import dis
 import hashlib
+import itertools
 import pickle
+import secrets
 import sys
 
 import llvmlite
 import numba
 from numba import types
+from numba.core.bytecode import FunctionIdentity
 from numba.core.caching import NullCache
 from numba.core.compiler import CompileResult
 from numba.core.sigutils import normalize_signature
@@ -23,6 +29,7 @@ from neorl import files
 from neorl.core.identity import digest_of_source, name_of
 
 
+FunctionIdentity._unique_ids = itertools.count(secrets.randbits(60))
 SETTINGS = ("BOUNDSCHECK", "LOOP_VECTORIZE", "OPT", "SLP_VECTORIZE")  # of numba that affect compiled code
 
 

@@ -109,6 +109,30 @@ def test_processes_that_start_at_once_do_not_disturb_each_other(module, tmp_path
     assert len(kept()) == 1 and called(module()) == (6.0, True)
 
 
+def test_code_that_two_processes_have_compiled_is_linked_by_names_of_its_own(tmp_path, monkeypatch):
+    monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
+    program = tmp_path / "answering.py"
+    program.write_text("""
+import sys
+from neorl import kernel, kernel_maker
+
+@kernel_maker
+def answering(x):
+    @kernel
+    def answer():
+        return x
+
+    return answer
+
+made = [answering(float(x)) for x in sys.argv[1:]]
+for _ in range(2):  # compiled, then found again
+    addresses = {each.compiled_for(()).address for each in made}
+assert len(addresses) == len(made)
+""")
+    for numbers in ("1", "21"):  # the second process compiles one and finds the other on disk
+        subprocess.run([sys.executable, program, *numbers], check=True)
+
+
 def test_a_kernel_that_no_module_defines_is_compiled_and_not_kept(module):
     own = {}
     exec("from neorl import kernel\n@kernel\ndef answer(x):\n    return x", own)
