@@ -13,6 +13,7 @@ numbers of each process begin elsewhere, so that code from disk does not share a
 import dis
 import hashlib
 import itertools
+import os
 import pickle
 import secrets
 import sys
@@ -28,9 +29,17 @@ from numba.core.sigutils import normalize_signature
 from neorl import files
 from neorl.core.identity import digest_of_source, name_of
 
-
-FunctionIdentity._unique_ids = itertools.count(secrets.randbits(60))
 SETTINGS = ("BOUNDSCHECK", "LOOP_VECTORIZE", "OPT", "SLP_VECTORIZE")  # of numba that affect compiled code
+
+
+def number_apart():
+    """Begin to number the functions that this process compiles where no other process does."""
+    FunctionIdentity._unique_ids = itertools.count(secrets.randbits(60))
+
+
+number_apart()
+if hasattr(os, "register_at_fork"):  # not on Windows
+    os.register_at_fork(after_in_child=number_apart)
 
 
 class CompileCache(NullCache):

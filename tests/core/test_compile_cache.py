@@ -1,6 +1,7 @@
 """Compiled kernels on disk are reused if everything that they were compiled from is unchanged, and only then."""
 
 import importlib.util
+import os
 import subprocess
 import sys
 
@@ -131,6 +132,14 @@ assert len(addresses) == len(made)
 """)
     for numbers in ("1", "21"):  # the second process compiles one and finds the other on disk
         subprocess.run([sys.executable, program, *numbers], check=True)
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="processes cannot be forked")
+def test_forked_processes_number_their_functions_apart():
+    numbers = ("import os\nfrom neorl.core.compile_cache import FunctionIdentity\n"
+               "os.fork() and os.wait()\nprint(next(FunctionIdentity._unique_ids))")
+    forked = subprocess.run([sys.executable, "-c", numbers], check=True, capture_output=True, text=True).stdout
+    assert len(set(forked.split())) == 2
 
 
 def test_a_kernel_that_no_module_defines_is_compiled_and_not_kept(module):
