@@ -6,8 +6,8 @@ arguments, numba, LLVM and the processor, and the lines on which the user's kern
 cleared after a change, and deleted files are compiled again. A file is complete or absent; one that is damaged, or
 cannot be read or written, counts as absent.
 
-numba numbers the functions that a process compiles, and their numbers tell apart the names by which code is linked. The
-numbers of each process begin elsewhere, so that code from disk does not share a name with other code.
+numba numbers the functions of a process, and links their code by names that contain these numbers. The numbers of each
+process begin elsewhere, so that code from disk does not share a name with other code.
 """
 
 import dis

@@ -59,8 +59,8 @@ class Reading:
     vectors: whether the valence of an element is in the vector of a desire ("signed") or not ("by size"), see `Desire`.
     network_resolutions: of the maps of paper C.
 
-    The other fields are those of `Agent`, `Node` and `Desire` of the same names. Raises ValueError for invalid parts,
-    vectors, resolutions or recursion; its agents and conditions check the other fields.
+    The other fields are as in `Agent`, `Node` and `Desire`. Raises ValueError for invalid parts, vectors, resolutions
+    or recursion; its agents and conditions check the other fields.
     """
 
     learning: Learning = CALIBRATED
@@ -87,7 +87,7 @@ class Reading:
 
     @property
     def choices(self) -> dict[str, Any]:
-        """Its value of every choice by name, those of its parts included."""
+        """Its value of every choice by name, including the choices of its parts."""
         found: dict[str, Any] = {}
         for name, value in vars(self).items():
             found |= {each: getattr(value, each) for each in PARTS[name]} if name in PARTS else {name: value}
@@ -99,9 +99,9 @@ class Reading:
         The credit "step" is temporal difference, of which the learning rate, the discount and `terminal` alone are
         choices. Raises ValueError for an unknown choice and for an invalid value.
         """
-        for name in choices:
-            checks.one_of("the name of a choice", name, tuple(self.choices))
-        wanted = self.choices | choices
+        wanted = self.choices
+        for name, value in choices.items():
+            wanted[checks.one_of("the name of a choice", name, wanted)] = value
         learning, policy, world = ({name: wanted.pop(name) for name in names} for names in PARTS.values())
         if learning["credit"] == "step":
             kept = ("learning_rate", "discount", "terminal")
@@ -120,8 +120,9 @@ class Reading:
 
 
 # What the text prints or pins; where it leaves more, the simplest or the middle of a prior, as the pins say.
-TO_THE_LETTER = Reading(rules.TO_THE_LETTER, object_state="self", object_tiled_fraction=1.0, object_beyond="outermost",
-                        weighting="resolution", place_gain=1.0, scale=10.0)
+TO_THE_LETTER = Reading(rules.TO_THE_LETTER, object_state="self", object_reach=0.0, object_tiled_fraction=1.0,
+                        object_beyond="outermost", object_centred=False, weighting="resolution", place_gain=1.0,
+                        scale=10.0)
 
 
 def conditions(reading: Reading, steps: int, runs: int, seed: int = 0,

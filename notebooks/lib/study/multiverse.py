@@ -28,7 +28,7 @@ def design(points, seed=0, choices=WITHIN):
     """Plausible readings, spread evenly through the priors: a list of `Reading`.
 
     points: their number, a power of two, or ValueError is raised; a design is the first part of every larger one.
-    choices: those that vary, {name: `Choice`}; the others are those of the reading to the letter.
+    choices: what varies, {name: `Choice`}; the rest is as in the reading to the letter.
     """
     checks.integer("points", points, at_least=2)
     if points & (points - 1):
