@@ -20,7 +20,7 @@ DRASTIC = STATEMENTS["C4"].bounds.low  # times as much as C
 LOOKS = 500  # samples of each run, in its second half
 WELL_INSIDE = 0.2  # board widths from the middle
 FAR = 0.1  # board widths from the agent
-TRIED, PATIENCE = 10, 5_000  # runs, and steps of each
+TRIED, PATIENCE, EVERY = 10, 5_000, 10  # runs, the steps of each, and the steps from look to look
 
 
 def draw_networks(agents):
@@ -67,7 +67,7 @@ def moment_of_desire(network, world, steps, seed=0):
             off_centre = np.abs(run.world_state.scene.position / world.size - 0.5).max()
             if off_centre < WELL_INSIDE and np.hypot(*_landed(run).T).max(initial=0.0) > FAR:
                 return run
-            run.advance(1)
+            run.advance(EVERY)
     return run
 
 
