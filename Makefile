@@ -1,6 +1,6 @@
 # make book   compute every notebook and build the book   RUNS=10 runs per condition; 4 is a quick look, 100 the papers' scale
 #                                                         JOBS=2 notebooks at a time, of up to 4 GB each
-# make test   run the tests                               WORKERS=3 processes, since tests of pages wait for a browser
+# make test   run the tests                               WORKERS=4 processes, since tests of pages wait for a browser
 # make exact  run the reference runs in every way that must give the same bits, and print which do; PYTHONS="python3.13"
 # make verify recompute a random sample of the runs behind the figures and compare; SAMPLE=20 runs, SEED=of the sample
 # make fuzz   try random kernels of a user's that write and return wild values; SETTINGS=1000 of them
@@ -17,7 +17,7 @@ SETTINGS ?= 1000
 RUNS ?= 10
 STEPS ?=
 JOBS ?= 2
-WORKERS ?= 3
+WORKERS ?= 4
 BIN := .venv/bin
 export NEORL_CACHE := $(CURDIR)/.cache
 export PYTHONUNBUFFERED := 1
