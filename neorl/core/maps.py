@@ -7,7 +7,6 @@ one. A point beyond the range of the map belongs to the cell at the end of the r
 first interval centred on east.
 """
 
-import functools
 import math
 from dataclasses import dataclass
 
@@ -15,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from neorl import checks
-from neorl.core.calls import execute, in_table
+from neorl.core.calls import execute
 from neorl.core.geometry import cell_of, in_range
 from neorl.core.kernel import array, kernel
 from neorl.core.modality import MOST_CELLS, PLACE_CELL, Modality, as_turns, space_of
@@ -60,14 +59,8 @@ class NresMap(checks.Final):
         """
         points = checks.points("points", points, self.modality.names)
         cells = np.zeros(points.shape[:-1], np.int64)
-        execute(encode, _space_of(self.modality, self.resolution), as_turns(self.modality, points), cells.reshape(-1))
+        execute(encode, space_of(self.modality, self.resolution), as_turns(self.modality, points), cells.reshape(-1))
         return cells
-
-
-@functools.lru_cache(maxsize=64)
-def _space_of(modality, resolution):
-    """The space of a map as `execute` passes it on, kept for loops that encode one point after another."""
-    return in_table(space_of(modality, resolution))
 
 
 @kernel

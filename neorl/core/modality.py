@@ -19,6 +19,7 @@ Axes of several vectors make *conjunctive* cells, such as those of place and hea
 HEAD_DIRECTION_CELL.axes`.
 """
 
+import functools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated
@@ -28,7 +29,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from neorl import checks
 from neorl.checks import OneOf, Within
-from neorl.core.calls import execute
+from neorl.core.calls import execute, in_table
 from neorl.core.choices import Cut, Feature, MapState, Vector
 from neorl.core.constants import Constants, features
 from neorl.core.geometry import TAU, locate
@@ -294,8 +295,9 @@ def as_turns(modality, points):
     return points
 
 
+@functools.lru_cache(maxsize=64)
 def space_of(modality, resolution, n_axes=None, size=1.0):
-    """The `SpaceParameters` of a map of a modality."""
+    """The `SpaceParameters` of a map of a modality, as `execute` passes them on; kept for loops of single points."""
     n_axes = n_axes or modality.least_axes
     given, sizes = axis_parameters([modality], n_axes)
     given["nodes"]["first_map"] = integers([0, 1])
@@ -303,7 +305,7 @@ def space_of(modality, resolution, n_axes=None, size=1.0):
     space = new_tuple(SpaceParameters, sizes, given | {"size": float(size), "maps": {
         "resolution": np.array([resolution])}})
     execute(cut_axes, space, 0, 0)
-    return space
+    return in_table(space)
 
 
 def axis_parameters(modalities, n_axes):
