@@ -72,12 +72,18 @@ def reaching(next_state, worth, slip=0.0, starts=None):
     default all that do not end an episode.
     """
     states, actions = next_state.shape
-    value, ends = np.zeros(states), np.isin(np.arange(states), list(worth))
-    value[list(worth)] = list(worth.values())
+    value, ends = _ending(states, worth)
     slipped = np.broadcast_to(next_state[:, None], (states, actions, actions))
     successors = np.concatenate([next_state[..., None], slipped], axis=2)
     return Process(successors, np.array([1 - slip] + [slip / actions] * actions), value[successors], ends,
                    np.flatnonzero(~ends) if starts is None else np.array(starts))
+
+
+def _ending(states, worth):
+    """What each state pays, and whether it ends the episode, both (states,), from {state: reward}."""
+    value, ends = np.zeros(states), np.isin(np.arange(states), list(worth))
+    value[list(worth)] = list(worth.values())
+    return value, ends
 
 
 def lattice(side, dimensions):
@@ -156,8 +162,7 @@ def sticky(next_state, worth, stickiness):
     chosen = next_state[state] * actions + np.arange(actions)
     again = np.broadcast_to((next_state[state, last] * actions + last)[:, None], chosen.shape)
     successors = np.stack([chosen, again], axis=2)
-    value, ends = np.zeros(states), np.isin(np.arange(states), list(worth))
-    value[list(worth)] = list(worth.values())
+    value, ends = _ending(states, worth)
     return Process(successors, np.array([1 - stickiness, stickiness]), value[successors // actions], ends[state],
                    np.flatnonzero(~ends[state]))
 
