@@ -21,6 +21,8 @@ WORKERS ?= 4
 BIN := .venv/bin
 export NEORL_CACHE := $(CURDIR)/.cache
 export PYTHONUNBUFFERED := 1
+# Where the environment forbids it, every process would compile all modules again that it imports, for seconds.
+unexport PYTHONDONTWRITEBYTECODE
 
 # Pages of the book. Long ones come first. Pages that measure times are computed alone, after the others, and the
 # conclusion, which reads the findings of all, comes last.
