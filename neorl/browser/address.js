@@ -67,10 +67,11 @@ class Address extends Tour {
   }
 
   /** Open the run in the address, if there is one. Returns whether there is. */
-  visit() {
+  visit(hash = location.hash) {
     const { presets, modalities, model } = this;
-    const said = this.hasAddress() ? readAddress(location.hash, presets, modalities, this.first) : null;
+    const said = this.hasAddress() ? readAddress(hash, presets, modalities, this.first) : null;
     if (!said) return false;
+    clearTimeout(this.writing); // the address of the run that is left
     const { settings, minute, map, goal, beside, start } = said;
     const starts = { watch: () => this.watch(), red: () => this.revalueRed(), corner: () => this.showCorner(),
       game: () => this.joinGame() };

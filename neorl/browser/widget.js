@@ -54,7 +54,7 @@ class Explorer extends Address {
     on(tank, "lostpointercapture", () => { this.life.held = null; });
     on(tank, "pointerleave", () => { this.life.pointer = null; });
     on(tank, "click", (event) => this.tap(event));
-    on(window, "hashchange", () => this.visit());
+    on(window, "hashchange", ({ newURL }) => this.visit(new URL(newURL).hash));
     on(document, "click", ({ target }) => target.closest("a")?.href === location.href && this.visit()); // once more
     on(document, "visibilitychange", () => this.refresh());
     on(window, "resize", () => this.wake()); // also when the page moves to a screen of another resolution

@@ -154,6 +154,16 @@ def test_the_address_of_a_moment_leads_back_to_it(visit):
     assert {name: shown(again, name) for name in before} == before
 
 
+def test_a_link_leads_to_its_run_even_if_the_address_of_the_last_one_was_written_in_between(visit):
+    page = visit("#explorer_agent-things_minute-0")
+    page.evaluate("""() => {
+        const newURL = new URL("#explorer_agent-things_run-7_minute-2", location.href).href;
+        window.dispatchEvent(new HashChangeEvent("hashchange", { newURL }));
+    }""")
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step === '6000'")
+    assert float(shown(page, "score")) == Run(object_vector_cells([4]), TANK, SIZE["seed"], 7).advance(6_000)
+
+
 def test_the_address_has_the_state_of_object_vectors(visit):
     page = visit("#explorer_agent-things_state-self_minute-2")
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.step === '6000'")
