@@ -14,7 +14,6 @@ import tempfile
 import time
 from pathlib import Path
 
-sys.modules["rfc3987_syntax"] = None  # jsonschema would read for a second a grammar that no notebook needs
 sys.path.append(str(Path(__file__).resolve().parents[1] / "notebooks"))  # has what pages share
 
 # ruff: noqa: E402

@@ -6,10 +6,10 @@ from pathlib import Path
 sys.path.append(str(Path(__file__).resolve().parents[1] / "notebooks"))  # has what pages share
 
 # ruff: noqa: E402
-from compute import CHAPTERS, ROOT, records  # first, since it keeps jsonschema from reading a grammar for a second
 import contents
 import ledger
 import rules
+from compute import CHAPTERS, ROOT, records
 from lib.shared import report
 
 from neorl.files import write_whole

@@ -10,9 +10,6 @@ import sys
 import threading
 from pathlib import Path
 
-sys.modules["rfc3987_syntax"] = None  # jsonschema would read for a second a grammar that no notebook needs
-
-# ruff: noqa: E402
 import matplotlib
 import pytest
 from hypothesis import settings
