@@ -47,8 +47,9 @@ book: .venv/ready
 	@echo "the book is at file://$(CURDIR)/$(HTML)"
 
 # Threads of linear algebra that wait for each other beside another notebook took fifty times as long as one thread.
+book test: export OPENBLAS_NUM_THREADS := 1
 $(CHAPTERS)/%.ipynb: notebooks/%.ipynb $(SOURCES) $(CHAPTERS)/.parameters
-	@OPENBLAS_NUM_THREADS=1 $(BIN)/python book/compute.py $< --runs $(RUNS) $(if $(STEPS),--steps $(STEPS))
+	@$(BIN)/python book/compute.py $< --runs $(RUNS) $(if $(STEPS),--steps $(STEPS))
 
 $(call page,$(TIMED)): | $(call page,$(TOGETHER))
 $(call page,$(lastword $(TIMED))): | $(call page,$(firstword $(TIMED)))

@@ -33,12 +33,16 @@ QUIET = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "-
 PATIENCE = 60_000  # milliseconds that a test waits for a page, since the machine may be busy
 expect.set_options(timeout=PATIENCE)
 
-LONGEST = ("test_make", "test_readme", "test_fuzzing", "test_package", "test_fuzzed_kernels", "test_compiler_off")
+FIRST = ("test_readme", "test_book", "test_claims", "test_statistics",
+         "test_make", "test_fuzzing", "test_package", "test_fuzzed_kernels", "test_compiler_off")
 
 
 def pytest_collection_modifyitems(items):
-    """Begin with the files that take longest, lest one is left when all other workers have finished."""
-    items.sort(key=lambda item: LONGEST.index(item.path.stem) if item.path.stem in LONGEST else len(LONGEST))
+    """Begin with the files that take longest, lest one is left when all other workers have finished.
+
+    One of the first four compiles the kernels of which most others have need, while the other three have none.
+    """
+    items.sort(key=lambda item: FIRST.index(item.path.stem) if item.path.stem in FIRST else len(FIRST))
 
 
 @pytest.fixture(autouse=True)
