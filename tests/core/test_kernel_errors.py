@@ -3,6 +3,7 @@
 Run as a program, this file prints the errors of kernels that raise, for a comparison with the compiler switched off.
 """
 
+import gc
 import inspect
 import json
 
@@ -83,6 +84,7 @@ def test_a_kernel_that_cannot_be_compiled_is_named_first(called, to_blame, what)
         execute(called, 1.0)
     assert str(caught.value).startswith(f"{begins(to_blame)}be one that numba can compile, but {what}")
     assert "numba's message:" in str(caught.value)
+    assert gc.isenabled()  # again: while a kernel is compiled, no garbage is collected
 
 
 @pytest.mark.parametrize("make, to_blame", [
