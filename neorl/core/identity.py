@@ -30,8 +30,8 @@ WITHOUT_SOURCE = ("numba", "numpy")
 PLAIN = (NoneType, bool, int, float, complex, str, bytes)
 CONSTANTS = (*PLAIN, tuple, np.ndarray, np.generic, Enum)  # among the attributes of a class
 MISSING = object()
-NOT_OF_NUMBA = ("{} must be decorated with neorl.kernel, since kernels call it, but is compiled by numba's {}, which "
-                "would keep the values that its globals had then")
+NOT_OF_NUMBA = ("kernels must call functions decorated with neorl.kernel, but call {}, which is compiled by numba's {} "
+                "and would keep the values that its globals had then")
 STANDARD_LIBRARY = sysconfig.get_path("stdlib")
 
 
@@ -80,6 +80,7 @@ class Reading:
             return self._of((value.__func__, value.__self__))
         if type(value).__name__ in ("DUFunc", "GUFunc", "_Intrinsic", "CFunc"):
             raise ValueError(NOT_OF_NUMBA.format(value.__name__, type(value).__name__))
+        _refuse_overloaded(value)
         if isinstance(getattr(value, "py_func", value), FunctionType):
             return self._once(value, self._function)
         if isinstance(value, Enum):
@@ -119,11 +120,8 @@ class Reading:
         if _is_known(module):
             arguments = self._of(getattr(value, "origin", (None, ()))[1])
             return f"{module}:{name}{arguments}({self._named(closure) if module.startswith(OURS) else ''})"
-        templates = sys.modules.get("numba.core.typing.templates")
-        means = ("jit" if hasattr(value, "targetoptions") else "extending.overload" if templates and any(
-            each is function for each, _ in templates.builtin_registry.globals) else "")
-        if means:
-            raise ValueError(NOT_OF_NUMBA.format(name, means))
+        if hasattr(value, "targetoptions"):
+            raise ValueError(NOT_OF_NUMBA.format(name, "jit"))
         self.functions.append(function)
         code, of_globals, attributes = _read(function.__code__)
         scope = function.__globals__
@@ -132,6 +130,8 @@ class Reading:
         modules = [(each, module) for each, module in found if isinstance(module, ModuleType)]
         for path, module in modules:  # which grows
             if _is_known(module.__name__):
+                for each in attributes:
+                    _refuse_overloaded(getattr(module, each, None))
                 continue
             for each in attributes:
                 self._names.append((vars(module), each))
@@ -166,6 +166,22 @@ class Reading:
             return f"{getattr(value, '__module__', '')}:{reduced}"
         self._is_mutable |= any(each is not None for each in reduced[2:])
         return ", ".join(self._of(list(each) if isinstance(each, Iterator) else each) for each in reduced)
+
+
+def _refuse_overloaded(value):
+    """Raise ValueError for what a user's numba.extending.overload compiles, perhaps in place of numba itself."""
+    templates = sys.modules.get("numba.core.typing.templates")
+    if templates and any(value is each for each in _overloaded(len(templates.builtin_registry.functions))):
+        raise ValueError(NOT_OF_NUMBA.format(value.__name__, "extending.overload"))
+
+
+@functools.lru_cache(maxsize=1)
+def _overloaded(number):
+    """What users have overloaded, read again whenever numba has another number of templates."""
+    from numba.core.typing.templates import builtin_registry
+
+    made = [(each.key, each._overload_func) for each in builtin_registry.functions if hasattr(each, "_overload_func")]
+    return [key for key, function in made if not _is_known(str(function.__globals__.get("__name__")))]
 
 
 def identity(value):
