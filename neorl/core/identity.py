@@ -80,7 +80,7 @@ class Reading:
             return self._of((value.__func__, value.__self__))
         if type(value).__name__ in ("DUFunc", "GUFunc", "_Intrinsic", "CFunc"):
             raise ValueError(NOT_OF_NUMBA.format(value.__name__, type(value).__name__))
-        _refuse_overloaded(value)
+        _refuse_registered(value)
         if isinstance(getattr(value, "py_func", value), FunctionType):
             return self._once(value, self._function)
         if isinstance(value, Enum):
@@ -131,7 +131,7 @@ class Reading:
         for path, module in modules:  # which grows
             if _is_known(module.__name__):
                 for each in attributes:
-                    _refuse_overloaded(getattr(module, each, None))
+                    _refuse_registered(vars(module).get(each))
                 continue
             for each in attributes:
                 self._names.append((vars(module), each))
@@ -168,20 +168,24 @@ class Reading:
         return ", ".join(self._of(list(each) if isinstance(each, Iterator) else each) for each in reduced)
 
 
-def _refuse_overloaded(value):
-    """Raise ValueError for what a user's numba.extending.overload compiles, perhaps in place of numba itself."""
+def _refuse_registered(value):
+    """Raise ValueError for what users have registered with numba, perhaps in place of numba's own code."""
     templates = sys.modules.get("numba.core.typing.templates")
-    if templates and any(value is each for each in _overloaded(len(templates.builtin_registry.functions))):
+    if templates and any(value is each for each in _registered(len(templates.builtin_registry.globals))):
         raise ValueError(NOT_OF_NUMBA.format(value.__name__, "extending.overload"))
 
 
 @functools.lru_cache(maxsize=1)
-def _overloaded(number):
-    """What users have overloaded, read again whenever numba has another number of templates."""
+def _registered(number):
+    """Functions of users' that numba knows, and what users have overloaded; read again once there are more."""
     from numba.core.typing.templates import builtin_registry
 
-    made = [(each.key, each._overload_func) for each in builtin_registry.functions if hasattr(each, "_overload_func")]
-    return [key for key, function in made if not _is_known(str(function.__globals__.get("__name__")))]
+    def is_users(function):
+        return isinstance(function, FunctionType) and not _is_known(str(function.__globals__.get("__name__")))
+
+    return [value for value, kind in builtin_registry.globals
+            if is_users(value) or any(is_users(getattr(each, "_overload_func", None))
+                                      for each in getattr(kind, "templates", ()))]
 
 
 def identity(value):

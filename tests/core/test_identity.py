@@ -159,11 +159,16 @@ def test_functions_that_numba_compiles_by_itself_are_refused():
     def answering(called):
         return kernel(lambda x: called(x))
 
+    def typed(x):
+        return 3.0 * x
+
+    numba.extending.type_callable(typed)(lambda context: lambda x: x)
     numba.extending.overload(np.heaviside)(lambda x, y: lambda x, y: x)
     for called, name in ((numba.njit(tripled), "tripled"), (numba.vectorize(tripled), "tripled"), (tripled, "tripled"),
+                         (typed, "typed"),
                          (np.heaviside, "heaviside"), (lambda x: np.heaviside(x, x), "heaviside")):
         for refused in (lambda: execute(answering(called), 1.0), lambda: identity(answering(called))):
-            with pytest.raises(ValueError, match=f"with neorl.kernel, but call .*{name}, which is compiled"):
+            with pytest.raises(ValueError, match=f"decorated with neorl.kernel, but call .*{name}, which"):
                 refused()
 
 
