@@ -71,7 +71,6 @@ class Address extends Tour {
     const { presets, modalities, model } = this;
     const said = this.hasAddress() ? readAddress(hash, presets, modalities, this.first) : null;
     if (!said) return false;
-    clearTimeout(this.writing); // the address of the run that is left
     const { settings, minute, map, goal, beside, start } = said;
     const starts = { watch: () => this.watch(), red: () => this.revalueRed(), corner: () => this.showCorner(),
       game: () => this.joinGame() };
@@ -84,6 +83,7 @@ class Address extends Tour {
       this.part(".refused").scrollIntoView({ block: "nearest" });
       return false;
     }
+    clearTimeout(this.writing); // the address of the run that is left
     this.part(".board canvas").scrollIntoView({ block: "nearest" });
     const { world, steps } = presets[settings.preset];
     const step = Math.min(steps, Math.round((minute ?? 0) * 60 * world.fps));
