@@ -1,6 +1,8 @@
 # make book   compute every notebook and build the book   RUNS=10 runs per condition; 4 is a quick look, 100 the papers' scale
 #                                                         JOBS=2 notebooks at a time, of up to 4 GB each
 # make test   run the tests                               WORKERS=4 processes, since tests of pages wait for a browser
+# make package test the package as installed from WHEEL=dist/*.whl, or from one that is built, with ARGS="of pytest"
+# make deep   begin the stored runs of deep learners again; installs their packages, among them PyTorch, into .venv
 # make exact  run the reference runs in every way that must give the same bits, and print which do; PYTHONS="python3.13"
 # make verify recompute a random sample of the runs behind the figures and compare; SAMPLE=20 runs, SEED=of the sample
 # make fuzz   try random kernels of a user's that write and return wild values; SETTINGS=1000 of them
@@ -11,6 +13,7 @@
 # make clean  remove all that these made, and nothing else
 PYTHON ?= python3
 PYTHONS ?=
+WHEEL ?=
 SAMPLE ?= 20
 SEED ?=
 SETTINGS ?= 1000
@@ -40,7 +43,7 @@ page = $(1:%=$(CHAPTERS)/%.ipynb)
 .DEFAULT_GOAL := book
 # Files that are replaced only by complete ones, so make need not remove them when it is interrupted.
 .PRECIOUS: $(HTML) $(call page,$(NAMES))
-.PHONY: book test exact verify fuzz lab readme bench wheel clean FORCE
+.PHONY: book test package deep exact verify fuzz lab readme bench wheel clean FORCE
 
 book: .venv/ready
 	@$(MAKE) --no-print-directory --keep-going --jobs=$(JOBS) $(HTML)
@@ -78,6 +81,16 @@ $(HTML): $(CHAPTERS)/claims-table.md $(shell find book -type f -not -path '$(CHA
 
 test: .venv/ready
 	$(BIN)/python -m pytest --numprocesses $(WORKERS) --dist loadfile --no-loadscope-reorder $(ARGS)
+
+# On every system, so without .venv.
+package:
+	rm -rf build
+	$(PYTHON) tests/installation.py "$(WHEEL)" $(ARGS)
+
+# Packages that no extra installs.
+deep: .venv/ready
+	$(BIN)/python -m pip install --quiet torch==2.13.0 stable-baselines3==2.9.2 sb3-contrib==2.9.2
+	$(BIN)/python -m pytest tests/notebooks/test_alternatives.py -k deep_learner -rs
 
 exact: .venv/ready
 	$(BIN)/python tests/exactness.py $(PYTHONS)

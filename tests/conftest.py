@@ -14,7 +14,6 @@ import matplotlib
 import pytest
 from hypothesis import settings
 from matplotlib import pyplot as plt
-from playwright.sync_api import Error, expect, sync_playwright
 
 from neorl import files
 
@@ -22,16 +21,15 @@ from neorl import files
 settings.register_profile("neorl", deadline=None, derandomize=True)
 settings.load_profile("neorl")
 matplotlib.use("agg")
-# Interpreters that tests start find the package and the pages' modules, as the kernels of notebooks do, and the tests'.
+# Interpreters that tests start find the pages' modules, as the kernels of notebooks do, and the tests'.
 ROOT = Path(__file__).parents[1]
-os.environ["PYTHONPATH"] = os.pathsep.join([*map(str, (ROOT, ROOT / "notebooks", ROOT / "tests")),
+os.environ["PYTHONPATH"] = os.pathsep.join([*map(str, (ROOT / "notebooks", ROOT / "tests")),
                                             *filter(None, [os.environ.get("PYTHONPATH")])])
 
 BROWSERS = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"]
 QUIET = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
          "--disable-component-update", "--disable-sync"]  # no requests of its own
 PATIENCE = 60_000  # milliseconds that a test waits for a page, since the machine may be busy
-expect.set_options(timeout=PATIENCE)
 
 FIRST = ("test_readme", "test_book", "test_claims", "test_statistics",
          "test_make", "test_fuzzing", "test_package", "test_fuzzed_kernels", "test_compiler_off")
@@ -92,11 +90,13 @@ def mount():
 @pytest.fixture(scope="session")
 def chromium():
     """The Chromium of this machine, or else the one installed by Playwright."""
+    api = pytest.importorskip("playwright.sync_api")
+    api.expect.set_options(timeout=PATIENCE)
     found = next(filter(None, map(shutil.which, BROWSERS)), None)
-    with sync_playwright() as playwright:
+    with api.sync_playwright() as playwright:
         try:
             browser = playwright.chromium.launch(executable_path=found, args=QUIET)
-        except Error:
+        except api.Error:
             if found:
                 raise
             pytest.skip("no Chromium: install it, or run playwright install chromium")

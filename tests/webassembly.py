@@ -4,11 +4,13 @@ import ctypes
 from functools import cache
 
 import numpy as np
-import wasmtime
+import pytest
 
 from neorl.browser import wasm, worlds
 from neorl.browser.worlds import IN_THE_PLANE, PlaneState, rules_of
 from neorl.core.kernel import arrays, length, mapped, new_tuple
+
+wasmtime = pytest.importorskip("wasmtime")
 
 PAGE = 2**16
 
