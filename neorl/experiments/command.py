@@ -47,7 +47,7 @@ def run_file(path, save=None):
     Raises what `neorl.Condition.load`, `simulate` and `neorl.Result.save` raise.
     """
     condition = Condition.load(path)
-    result = simulate(**condition.choices, cache=True, progress=sys.stderr.isatty())
+    result = simulate(**condition.choices, cache=True)
     if save:
         result.save(save)
     rate = result.rate()

@@ -16,6 +16,7 @@
 import contextlib
 import os
 import pickle
+import sys
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, ThreadPoolExecutor, as_completed
@@ -49,8 +50,9 @@ def simulate(agent: Agent, world: World, *, steps: int, runs: int, seed: int = 0
         interruption the next call does the rest.
     threads: the greatest number of runs in parallel, an integer ≥ 1; by default one per core, as far as they fit into
         the free memory.
-    progress: show a progress bar; or a function (done, total), which is called now and then with the number of steps
-        that all runs together have taken, and will take. It is called from threads, but never twice at once.
+    progress: show a progress bar in a terminal or a notebook, but not where the output is recorded; or a function
+        (done, total), which is called now and then with the number of steps that all runs together have taken, and
+        will take. It is called from threads, but never twice at once.
 
     Raises ValueError for a bad argument, MemoryError if a single run does not fit into the free memory. Warns if
     results that are to be cached cannot be written to disk.
@@ -71,8 +73,8 @@ def sweep(conditions: Sequence[Condition], executor: Executor | None = None,
     executor: any `concurrent.futures.Executor` whose workers can import this version of neorl, such as a process
         pool, `dask.distributed.Client.get_executor()`, or an executor over MPI; by default this machine's cores. It is
         not shut down.
-    progress: show a progress bar, with the time left at the pace so far; or a function (done, total) as in `simulate`,
-        of the steps of those conditions that are not on disk already.
+    progress: show a progress bar, with the time left at the pace so far, or call a function (done, total), as
+        `simulate` does; both count the steps of those conditions that are not on disk already.
     cache: as in `simulate`; without it, all results are in memory.
     threads: as in `simulate`. Not with an executor, which has workers of its own.
 
@@ -270,7 +272,19 @@ def progress_bar(steps, name, shown):
         return Report(shown, steps)
     if not isinstance(checks.plain(shown), bool):
         raise checks.error("progress", "True, False or a function that takes the steps done and their total", shown)
-    return tqdm(total=steps, desc=name, unit="step", unit_scale=True, leave=False, disable=not shown)
+    return tqdm(total=steps, desc=name, unit="step", unit_scale=True, leave=False,
+                disable=not (shown and _is_watched()))
+
+
+def _is_watched():
+    """Whether standard error is a terminal, or output of a notebook whose front end can be asked for input.
+
+    What papermill, nbconvert or a build runs cannot be asked, and records its output.
+    """
+    shell = "IPython" in sys.modules and sys.modules["IPython"].get_ipython()
+    if hasattr(shell, "get_parent"):  # of a kernel
+        return shell.get_parent().get("content", {}).get("allow_stdin", True)
+    return sys.stderr is not None and sys.stderr.isatty()
 
 
 class Report(contextlib.nullcontext):
