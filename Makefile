@@ -6,7 +6,7 @@
 # make exact  run the reference runs in every way that must give the same bits, and print which do; PYTHONS="python3.13"
 # make verify recompute a random sample of the runs behind the figures and compare; SAMPLE=20 runs, SEED=of the sample
 # make fuzz   try random kernels of a user's that write and return wild values; SETTINGS=1000 of them
-# make lab    open the notebooks in JupyterLab
+# make lab    open the notebooks in JupyterLab, which saves pages without outputs
 # make readme write the claims of the last build into the README
 # make bench  measure the speed of the kernels
 # make wheel build the wheel to publish, dist/*.whl, which carries the kernels as WebAssembly modules
@@ -22,7 +22,8 @@ STEPS ?=
 JOBS ?= 2
 WORKERS ?= 4
 BIN := .venv/bin
-export NEORL_CACHE := $(CURDIR)/.cache
+# A relative NEORL_CACHE counts from here, whether or not a recipe starts a shell.
+export PWD := $(CURDIR)
 export PYTHONUNBUFFERED := 1
 # Where the environment forbids it, every process would compile all modules again that it imports, for seconds.
 unexport PYTHONDONTWRITEBYTECODE
@@ -102,7 +103,9 @@ fuzz: .venv/ready
 	$(BIN)/python tests/fuzzed_kernels.py $(SETTINGS)
 
 lab: .venv/ready
-	$(BIN)/jupyter lab --ServerApp.root_dir=. --LabApp.default_url=/lab/tree/notebooks
+	$(BIN)/jupyter lab --ServerApp.root_dir=. --LabApp.default_url=/lab/tree/notebooks \
+	    --ContentsManager.pre_save_hook=lib.shared.saving.keep_source \
+	    $(if $(filter 0,$(shell id -u)),--allow-root) $(ARGS)
 
 readme: .venv/ready
 	$(BIN)/python book/readme.py
@@ -117,12 +120,14 @@ wheel: .venv/ready
 	$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation --wheel-dir dist . ; \
 	    status=$$?; rm -f neorl/browser/*.wasm; exit $$status
 
-# Pins are complete, so pip need not resolve anything; modules are compiled when first used, which is far fewer.
+# Pins are complete, so pip need not resolve anything; modules are compiled when first used, which is far fewer. Pages
+# find `lib` from any folder.
 .venv/ready: environment.txt pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed; name it with make PYTHON=...")'
 	$(PYTHON) -m venv --clear .venv
 	$(BIN)/python -m pip install --quiet --no-deps --no-compile -r environment.txt
 	$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation --editable .
+	cd .venv/lib/python3.* && echo "$(CURDIR)/notebooks" > site-packages/pages.pth
 	touch $@
 
 clean:

@@ -42,7 +42,7 @@ def main():
     parser.add_argument("--steps", type=int, help="steps per run (by default the paper's)")
     chosen = vars(parser.parse_args())
     notebook = chosen.pop("notebook")
-    os.environ["NEORL_CACHE"] = str(cache_folder().absolute())  # notebooks run in their own folder
+    os.environ["NEORL_CACHE"] = str(cache_folder())  # notebooks run in their own folder
     try:
         compute(notebook, {name: value for name, value in chosen.items() if value is not None})
     except PapermillExecutionError as error:

@@ -1,7 +1,7 @@
 """Files that are complete or absent, even if the process is killed while writing them, and the cache folder.
 
-Whatever takes long to compute is kept in the folder named by the environment variable ``NEORL_CACHE``, or in the user's
-cache folder; all of it may be deleted at any time. What a killed process left unfinished is removed by a later one.
+Whatever takes long to compute is kept in one folder, `cache_folder`; all of it may be deleted at any time. What a
+killed process left unfinished is removed by a later one.
 """
 
 import contextlib
@@ -21,11 +21,22 @@ DIGEST_BYTES = hashlib.sha256().digest_size
 UNFINISHED = (".neorl-", ".tmp")  # prefix and suffix of the name of a file being written
 STALE_SECONDS = 3_600  # since the last write: by then no process is still writing
 FORMAT = 1  # the version of array files
+CHECKOUT = Path(__file__).resolve().parents[1]  # of neorl, unless it is installed
 
 
 def cache_folder():
-    """The folder of files that may be deleted at any time: a `pathlib.Path`."""
-    return Path(os.environ.get("NEORL_CACHE") or platformdirs.user_cache_path("neorl-companion"))
+    """The folder of files that may be deleted at any time: an absolute `pathlib.Path`.
+
+    It is named by the environment variable ``NEORL_CACHE``. Without it, it is ``.cache`` of the clone that neorl is
+    imported from, or else the user's cache folder. A relative name counts from where the command was given, which
+    shells leave in ``PWD``: the kernel of a notebook, which runs in another folder, finds the same one.
+    """
+    if named := os.environ.get("NEORL_CACHE"):
+        began_in = os.environ.get("PWD", "")
+        return Path(began_in if os.path.isdir(began_in) else "", os.path.expanduser(named)).absolute()
+    if (CHECKOUT / "notebooks" / "lib").is_dir():
+        return CHECKOUT / ".cache"
+    return platformdirs.user_cache_path("neorl-companion")
 
 
 def write_whole(path, content):

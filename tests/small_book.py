@@ -85,8 +85,8 @@ def start(tree, runs=2, *options):
                f"RUNS={runs}", "_build/html/index.html", *options]
     environment = {name: value for name, value in os.environ.items() if not name.startswith("MAKE")}  # of `make test`
     return subprocess.Popen(command, text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                            stderr=subprocess.STDOUT, cwd=tree, env=environment | {"PYTHONPATH": str(ROOT)},
-                            start_new_session=True)
+                            stderr=subprocess.STDOUT, cwd=tree, start_new_session=True,
+                            env=environment | {"PYTHONPATH": str(ROOT), "NEORL_CACHE": str(tree / ".cache")})
 
 
 def build(tree, runs=2, *options):
