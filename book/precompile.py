@@ -11,9 +11,10 @@ from neorl.browser import wasm
 def main():
     for agent in (place_cells([3]), multimodal(), network_d(), forager()):
         simulate(agent, WaterWorld(), steps=100, runs=1, progress=False)
-    for name in wasm.MODULES:
-        if name not in wasm._on_disk():
-            wasm._kept(wasm._built([name]))
+    with wasm._one_process_at_a_time():
+        for name in wasm.MODULES:
+            if name not in wasm._on_disk():
+                wasm._kept(wasm._built([name]))
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 It continues the existing table; ``--anew`` starts a new one. ``--refine 20`` searches near the leading readings for 20
 minutes instead, ``--screen 12`` runs promising readings again, ``--rescale 2 4`` then tries these scales for the
 leading one, and ``--confirm 20 --fresh-runs 100`` runs the leading ones again. It can be interrupted at any time: the
-file is written whenever readings are finished, and results are cached in the folder that ``NEORL_CACHE`` names.
+file is written whenever readings are finished, and results are cached as those of pages are.
 """
 
 import argparse

@@ -21,8 +21,8 @@ def main(arguments=None):
     run.add_argument("--save", metavar="result.npz", help="also write the result there, for neorl.Result.load")
     run.set_defaults(call=lambda given: run_file(given.file, given.save))
     cache = commands.add_parser("cache", help="list the cache on disk, or clear it",
-                                description="List the contents of the folder that NEORL_CACHE names, or of the user's "
-                                "cache folder. All of it may be removed at any time, and is recreated when needed.")
+                                description="List the contents of the cache folder, which NEORL_CACHE may name. All "
+                                "of it may be removed at any time, and is recreated when needed.")
     cache.add_argument("--clear", action="store_true", help="remove all of it")
     cache.set_defaults(call=lambda given: clear_cache() if given.clear else list_cache())
     given = parser.parse_args(arguments)

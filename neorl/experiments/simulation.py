@@ -281,7 +281,8 @@ def _is_watched():
 
     What papermill, nbconvert or a build runs cannot be asked, and records its output.
     """
-    shell = "IPython" in sys.modules and sys.modules["IPython"].get_ipython()
+    ipython = sys.modules.get("IPython")
+    shell = ipython and ipython.get_ipython()
     if hasattr(shell, "get_parent"):  # of a kernel
         return shell.get_parent().get("content", {}).get("allow_stdin", True)
     return sys.stderr is not None and sys.stderr.isatty()
