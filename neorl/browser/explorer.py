@@ -13,6 +13,7 @@ its traits, which are the controls.
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -30,8 +31,10 @@ from neorl.core.modality import MODALITIES, PLACE_CELL, axis_parameters
 from neorl.evidence.reading import TO_THE_LETTER as LETTER
 from neorl.evidence.reading import networks
 from neorl.evidence.statistics import tolerance_band
-from neorl.experiments.run import bin_steps
+from neorl.experiments.condition import Condition
 from neorl.experiments.result import Result
+from neorl.experiments.run import bin_steps
+from neorl.experiments.simulation import label
 from neorl.extras import require
 from neorl.worlds.arena import Arena
 from neorl.worlds.arm import Arm
@@ -81,8 +84,10 @@ class Explorer(AnyWidget):
     """A neoRL agent to watch, change and play against; in JupyterLab and, from its stored state, in a static page.
 
     conditions: {name: `Result`}, the conditions of the page, in worlds of the package; their bands and runs are shown.
-        Each agent has a single valence for red (or for obstacles or vessels), a single one for recursion, a single
-        state of object vectors, and no kernels of the user's own.
+        A `Condition` has no runs to show yet, and an `Agent` is put into WaterWorld with 3 creeps, or into the other
+        space that it is a preset of. One of these can also be given without a name, and the name of a preset in their
+        place. Each agent has a single valence for red (or for obstacles or vessels), a single one for recursion, a
+        single state of object vectors, and no kernels of the user's own.
     preset: the name of a condition or of one of `neorl.browser.explorer.AGENTS`; by default the first condition or
         agent.
     traits: initial values of any of the traits below.
@@ -131,21 +136,24 @@ class Explorer(AnyWidget):
     score = traitlets.Float().tag(sync=True)
 
     def __init__(self, conditions=None, preset=None, **traits):
-        conditions = conditions or {}
-        for name, result in conditions.items():
-            _check_condition(name, result)
+        if isinstance(conditions, str) and preset is None:
+            conditions, preset = None, conditions
+        conditions = _by_name(conditions)
+        for name, condition in conditions.items():
+            _check_condition(name, condition)
         first = next(iter(conditions.values()), None)
-        tanks = [result.world for result in conditions.values() if isinstance(result.world, WaterWorld)]
+        tanks = [each.world for each in conditions.values() if isinstance(each.world, WaterWorld)]
         tank = tanks[0] if tanks else WaterWorld()
         as_printed = replace(tank, fps=LETTER.world.fps, contact=LETTER.world.contact)
         agents = {name: (agent, as_printed if name in TO_THE_LETTER else Arena() if name in IN_THE_ARENA else tank)
                   for name, agent in AGENTS.items()} | OTHER_SPACES
-        own = {name: (result.agent, result.world) for name, result in conditions.items()}
+        own = {name: (each.agent, each.world) for name, each in conditions.items()}
         start = {name: agents[name] for name in START_HERE}
         self._lives = start | own | agents | own  # in the menu's order; conditions replace agents of the same name
         presets = {name: _preset(name, agent, world, conditions.get(name)) | {"place": place}
                    for place, (name, (agent, world)) in enumerate(self._lives.items())}
-        preset = checks.one_of("preset", preset or next(iter(conditions or presets)), tuple(presets))
+        preset = next(iter(conditions or presets)) if preset is None else preset
+        checks.one_of("preset", preset, tuple(presets))
         for name in traits:
             checks.one_of("trait", name, tuple(each for each in self.traits(sync=True) if not each.startswith("_")))
         begin = {"preset": preset, "seed": first.seed if first else 0, **_settings(presets[preset]), **traits}
@@ -212,23 +220,41 @@ class Explorer(AnyWidget):
                     setattr(self, name, value)
 
 
-def _check_condition(name, result):
-    checks.instance(f"condition {name}", result, Result)
-    agent = result.agent
+def _by_name(conditions):
+    """The conditions that an Explorer is to show, {name: `Result` or `Condition`}."""
+    if isinstance(conditions, Result | Condition | Agent):
+        conditions = {label(getattr(conditions, "agent", conditions)): conditions}
+    kinds = "a Result, a Condition or an Agent"
+    if not isinstance(conditions, Mapping | None):
+        raise checks.error("conditions", f"{kinds}, several by name, {{name: …}}, or the name of a preset", conditions)
+    for name, condition in (conditions or {}).items():
+        checks.instance("name of a condition", name, str)
+        if not isinstance(condition, Result | Condition | Agent):
+            raise checks.error(f"condition {name}", kinds, condition)
+    return {name: Condition(each, _world_for(each), STEPS, runs=1) if isinstance(each, Agent) else each
+            for name, each in (conditions or {}).items()}
+
+
+def _world_for(agent):
+    return next((world for each, world in OTHER_SPACES.values() if each == agent), WaterWorld())
+
+
+def _check_condition(name, condition):
+    agent = condition.agent
     for what, values in (("valences of red", {each.valence for each in agent.desires if each.source in AVOIDED}),
                          ("recursions", {each.valence for each in agent.desires if each.source == each.target}),
                          ("states of object vectors", {agent.nodes[n].state for n in _stated(
-                             agent.nodes, agent.learning, result.world)})):
+                             agent.nodes, agent.learning, condition.world)})):
         if len(values) > 1:
             raise ValueError(f"{what} in condition {name} must be the same throughout, but are {values}")
     if any(each.valence == LEARNED for each in agent.desires):
         raise ValueError(f"valences in condition {name} must be numbers to be shown in the Explorer, but are learned")
-    checks.integer(f"seed of condition {name}", result.seed, at_least=0, at_most=2**32 - 1)
-    if not isinstance(result.world, (*IN_THE_PLANE, Vessel)):
+    checks.integer(f"seed of condition {name}", condition.seed, at_least=0, at_most=2**32 - 1)
+    if not isinstance(condition.world, (*IN_THE_PLANE, Vessel)):
         raise checks.error(f"world of condition {name}", "one of the package's, to be shown in the Explorer",
-                           result.world)
-    for each in (agent, *(later for _, later in result.changes)):
-        if whole_constants(each, result.world) != wasm.MODULES[_module_of(result.world)].constants:
+                           condition.world)
+    for each in (agent, *(later for _, later in condition.changes)):
+        if whole_constants(each, condition.world) != wasm.MODULES[_module_of(condition.world)].constants:
             raise ValueError(f"condition {name} must have the kernels that are compiled for the page, with the greedy "
                              "choice, but has its own, for an axis, the credit or the choice of an action")
 
@@ -246,12 +272,12 @@ def _stated(nodes, learning, world):
             and len(node.modality.axes) == world.actions.axes]
 
 
-def _preset(name, agent, world, result):
-    """A preset in the page's format: its settings, the chosen parameters, and the results of its runs."""
+def _preset(name, agent, world, condition):
+    """A preset in the page's format: its settings, the chosen parameters, and the results of its runs, if any."""
+    result = condition if isinstance(condition, Result) else None
     red = [e for e, desire in enumerate(agent.desires) if desire.source in AVOIDED]
     recurring = [e for e, desire in enumerate(agent.desires) if desire.source == desire.target]
     names = [node.name for node in agent.nodes]
-    steps = result.steps if result else STEPS
     modality = agent.nodes[0].modality
     learning = agent.learning
     stated = _stated(agent.nodes, learning, world)
@@ -259,7 +285,8 @@ def _preset(name, agent, world, result):
     could_be = in_menu and agent.nodes[0].goals == "cells" and learning.update_on == "cell"
     return {
         "label": LABELS.get(name, name), "nodes": names,
-        "group": "On this page" if result else next(group for group, agents in GROUPS.items() if name in agents),
+        "is_condition": condition is not None,
+        "group": "On this page" if condition else next(group for group, agents in GROUPS.items() if name in agents),
         "resolutions": list(agent.nodes[0].resolutions),
         "modality": in_menu,
         "object_state": agent.nodes[stated[0]].state if stated else "", "stated": stated,
@@ -270,11 +297,12 @@ def _preset(name, agent, world, result):
         "valence_red": agent.desires[red[0]].valence if red else 0.0,
         "recursion": agent.desires[recurring[0]].valence if recurring else None,
         "n_creeps": world.n_creeps if isinstance(world, WaterWorld) else None, "world": _world(world),
-        "steps": steps, "red": red, "avoided": agent.desires[red[0]].source if red else "", "recurring": recurring,
-        "seed": result.seed if result else 0, "runs": result.runs if result else 0,
+        "steps": condition.steps if condition else STEPS,
+        "red": red, "avoided": agent.desires[red[0]].source if red else "", "recurring": recurring,
+        "seed": condition.seed if condition else 0, "runs": result.runs if result else 0,
         "band": _band(result) if result else None, "totals": result.totals.tolist() if result else [],
         "changes": [{"step": step, "parameters": _parameters(later, world)}
-                    for step, later in (result.changes if result else ())],
+                    for step, later in (condition.changes if condition else ())],
         "parameters": _parameters(agent, world)}
 
 

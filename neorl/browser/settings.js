@@ -89,7 +89,7 @@ function conditionOf(layout, presets, modalities, settings) {
   const chosen = JSON.stringify(chosenParameters(layout, presets, modalities, settings));
   const world = JSON.stringify(worldOf(presets, settings));
   // Conditions that differ only in later changes of the agent are distinguished by the preset.
-  return [settings.preset, ...orderedKeys(presets)].find((key) => presets[key].totals.length > 0
+  return [settings.preset, ...orderedKeys(presets)].find((key) => presets[key].is_condition
     && JSON.stringify(presets[key].world) === world && JSON.stringify(presets[key].parameters) === chosen) ?? null;
 }
 

@@ -10,10 +10,11 @@ import pytest
 from traitlets import TraitError
 
 import neorl
-from neorl import (CALIBRATED, Agent, Arena, Desire, Explorer, Learning, Node, Policy, WaterWorld, multimodal,
-                   network_d, object_vector_cells, place_cells, simulate)
+from neorl import (CALIBRATED, Agent, Arena, Condition, Desire, Explorer, Learning, Node, Policy, Vessel, WaterWorld,
+                   multimodal, network_d, object_vector_cells, place_cells, simulate)
 from neorl.agents.papers import OF_OBJECTS
-from neorl.browser.explorer import AGENTS, CURVE_BINS, IN_THE_ARENA, OTHER_SPACES
+from neorl.agents.spaces import pilot
+from neorl.browser.explorer import AGENTS, CURVE_BINS, IN_THE_ARENA, OTHER_SPACES, STEPS
 from neorl.core import modality
 from neorl.evidence.reading import TO_THE_LETTER as LETTER
 
@@ -135,10 +136,38 @@ def test_a_condition_that_cannot_be_shown_is_refused(agent, seed, allowed):
         Explorer(preset="X")
 
 
-def test_a_condition_must_be_a_result():
-    allowed = r"condition X must be a Result, but is Agent\(nodes=\(Node\(name='PC', modality=Modality\(name"
+PAIR = Condition(place_cells([3, 5]), WaterWorld(n_creeps=2), steps=70, runs=2, seed=4,
+                 changes=[(30, place_cells([3]))])
+
+
+@pytest.mark.parametrize("what, name, agent, world, steps, seed", [
+    ("Network D", "Network D", network_d(), WaterWorld(), STEPS, 0),
+    (place_cells([3]), "PC N3", place_cells([3]), WaterWorld(), STEPS, 0),
+    (pilot(), "far N8, near N4", pilot(), Vessel(), STEPS, 0),
+    (PAIR, "PC N3+N5", PAIR.agent, PAIR.world, 70, 4),
+    ({"X": PAIR, "Y": place_cells([3])}, "X", PAIR.agent, PAIR.world, 70, 4)])
+def test_what_has_no_results_yet_is_shown_too(what, name, agent, world, steps, seed):
+    explorer = Explorer(what)
+    assert (explorer.preset, explorer.agent, explorer.world, explorer.seed) == (name, agent, world, seed)
+    assert explorer._presets[name]["steps"] == steps
+
+
+def test_a_result_needs_no_name(conditions):
+    result = conditions["by N²"]
+    explorer = Explorer(result)
+    assert (explorer.preset, explorer.agent, explorer.world, explorer.seed) == ("PC N3+N5", result.agent, TANK, 5)
+    assert explorer._presets["PC N3+N5"]["totals"] == result.totals.tolist()
+
+
+@pytest.mark.parametrize("what, allowed", [
+    ({"X": TANK}, r"condition X must be a Result, a Condition or an Agent, but is WaterWorld\(width"),
+    ({3: PAIR}, "name of a condition must be a str, but is 3"),
+    ("Network E", "preset must be 'Foveated cells, contacts alone'"), ("", "preset must be 'Foveated cells"),
+    ([PAIR], r"conditions must be a Result, a Condition or an Agent, several by name, {name: …}, or the name of a pre"),
+    (TANK, "conditions must be a Result, a Condition or an Agent, several by name")])
+def test_what_cannot_be_shown_is_refused(what, allowed):
     with pytest.raises(ValueError, match=allowed):
-        Explorer({"X": place_cells([3])})
+        Explorer(what)
 
 
 def test_an_agent_with_other_choices_keeps_them():

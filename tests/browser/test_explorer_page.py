@@ -98,6 +98,14 @@ def test_a_run_opened_by_its_number_ends_with_the_score_of_python(open_page, sit
     expect(explorer).to_contain_text(re.compile(r"The notebook computed .* for this run: the same\."))
 
 
+def test_a_condition_without_results_is_computed_in_the_page(open_page, tmp_path, conditions):
+    result = conditions["joins"]
+    write_page(tmp_path, [Explorer(result.condition, playing=False, speed=0.0)])
+    page = open_page(tmp_path, "page.html")
+    explorer_of(page)
+    assert play_to_the_end(page) == result.totals[0]
+
+
 @pytest.mark.parametrize("name, value, change", [
     ("valence_red", 0.5, lambda agent: replace(agent, desires=[
         replace(each, valence=0.5) if each.source == "red" else each for each in agent.desires])),
