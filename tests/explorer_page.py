@@ -49,6 +49,28 @@ def wait_for_another_picture(page, before, canvas=".arena canvas"):
     return picture(page, canvas)
 
 
+# The pixels of a canvas that have one of these colours, by name, each red, green and blue, at whatever opacity.
+COUNT = """(canvas, colours) => new Promise((take) => requestAnimationFrame(() => {
+    const copy = Object.assign(document.createElement("canvas"), { width: canvas.width, height: canvas.height });
+    const context = copy.getContext("2d", { willReadFrequently: true });
+    context.drawImage(canvas, 0, 0);
+    const { data } = context.getImageData(0, 0, copy.width, copy.height);
+    const counts = Object.fromEntries(Object.keys(colours).map((name) => [name, 0]));
+    for (let at = 0; at < data.length; at += 4) {
+        for (const [name, colour] of Object.entries(colours)) {
+            counts[name] += data[at + 3] > 100 && colour.every((part, i) => Math.abs(part - data[at + i]) < 6);
+        }
+    }
+    take(counts);
+}))"""
+COLOURS = {"agent": [0x3b, 0x8a, 0xd9], "green": [0x12, 0x94, 0x6d], "red": [0xd9, 0x62, 0x2b]}
+
+
+def coloured(canvas, **colours):
+    """The numbers of pixels of a canvas, a locator, in the colours of the agent and the creeps, or in others."""
+    return canvas.evaluate(COUNT, colours or COLOURS)
+
+
 def wait_for_frame_in_flight(page):
     """Choose a cell, and wait for that: the worker answers in order, so a frame requested before has then arrived."""
     page.locator(".arena canvas").first.press("Enter")

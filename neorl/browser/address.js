@@ -1,7 +1,7 @@
 /* The Explorer's state in the address of its page, so that a link can identify a run, its settings and a moment of it.
 
-The first Explorer of a page uses the fragment that begins with `#explorer`; in JupyterLab there is none. The fragment
-has the settings that differ from the preset, by their names in `SHORT`, also `run` and `seed`; the `minute` at which
+The first Explorer of a page uses the fragment that begins with `#explorer`. In an application such as JupyterLab, whose
+address is its own, the Explorer keeps nothing there, and links in a notebook lead to its first Explorer. The fragment has the settings that differ from the preset, by their names in `SHORT`, also `run` and `seed`; the `minute` at which
 the run pauses; the `map` shown, with the `goal` chosen in it; the agent `beside` it, with the minutes for which that
 one has `learned`; and `start`, one of the things to try. An example is #explorer_agent-network-d_run-7_red-0p5. Without
 an agent, it means the one with which the page begins. Names are in lower case, and p is the decimal point, because
@@ -60,17 +60,45 @@ function addressOf(presets, settings, { minute, map, goal, beside }) {
   return parts.join("_");
 }
 
+/** Whether the page is JupyterLab, or another application of Jupyter's. */
+const isInApplication = () => document.querySelector("#jupyter-config-data") !== null;
+
 class Address extends Tour {
   hasAddress() {
-    return document.querySelector(".neorl-explorer:not(.neorl-replay)") === this.root
-      && !document.body.hasAttribute("data-jp-theme-name");
+    return !isInApplication() && this.isFirstIn(document);
   }
 
-  /** Open the run in the address, if there is one. Returns whether there is. */
-  visit(hash = location.hash) {
+  /** Whether this is the first Explorer of a page or a notebook, in whichever of its views it stands. */
+  isFirstIn(part) {
+    return this.places.includes(part.querySelector(".neorl-place"));
+  }
+
+  /** Open the run in the address, once the Explorer is part of the page. */
+  arrive() {
+    if (this.arrived || !this.root.isConnected) return;
+    this.arrived = true;
+    if (this.hasAddress()) this.visit(location.hash);
+  }
+
+  /** Follow a link that does not change the address: to the address that the page has already, or within a notebook. */
+  follows(event) {
+    const link = event.target.closest(`a[href*="${PREFIX}"]`);
+    if (!link || event.ctrlKey || event.metaKey || event.shiftKey) return; // these open another tab or window
+    if (!isInApplication()) {
+      if (link.href === location.href && this.hasAddress()) this.visit(link.hash);
+      return;
+    }
+    const notebook = link.closest(".jp-Document");
+    if (!notebook || !this.isFirstIn(notebook) || !link.getAttribute("href").startsWith("#")) return;
+    event.preventDefault();
+    this.visit(link.hash);
+  }
+
+  /** Open the run that an address describes, if it is one of an Explorer. */
+  visit(hash) {
     const { presets, modalities, model } = this;
-    const said = this.hasAddress() ? readAddress(hash, presets, modalities, this.first) : null;
-    if (!said) return false;
+    const said = readAddress(hash, presets, modalities, this.first);
+    if (!said) return;
     const { settings, minute, map, goal, beside, start } = said;
     const starts = { watch: () => this.watch(), red: () => this.revalueRed(), corner: () => this.showCorner(),
       game: () => this.joinGame() };
@@ -81,7 +109,7 @@ class Address extends Tour {
     if (problem) {
       this.refuse(this.control("preset"), `The address does not describe a run of this Explorer. ${problem}`);
       this.part(".refused").scrollIntoView({ block: "nearest" });
-      return false;
+      return;
     }
     clearTimeout(this.writing); // the address of the run that is left
     this.part(".board canvas").scrollIntoView({ block: "nearest" });
@@ -96,7 +124,6 @@ class Address extends Tour {
     };
     this.compare(beside);
     this.fresh({ ...settings, playing: true }, { step, hurries: true, act, news: "Running up to that moment …" });
-    return true;
   }
 
   /** The address of the settings and the view, and of the present moment, unless the run was changed on the way. */

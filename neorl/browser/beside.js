@@ -113,7 +113,8 @@ class Beside extends Starters {
     const { second } = this.life;
     if (!frame || !second) return;
     Object.assign(second, { frame });
-    Object.assign(this.root.dataset, { secondStep: frame.step, secondScore: frame.reward });
+    const { step: secondStep, reward: secondScore, seen: { goal } } = frame;
+    Object.assign(this.root.dataset, { secondStep, secondScore, secondGoal: goal ?? "" });
     this.wake();
   }
 
@@ -150,8 +151,8 @@ class Beside extends Starters {
     root.dataset.beside = beside.agent;
   }
 
-  drawSecond() {
-    const { beside, colours, elements, life: { frame, second } } = this;
+  drawSecond(colours) {
+    const { beside, elements, life: { frame, second } } = this;
     if (!beside || !frame || !second) return;
     const [names, trail] = [this.names(), this.control("trail").checked];
     if (second.frame.arm) drawLimb(this.second, colours, second.frame);

@@ -101,8 +101,9 @@ class Controls {
     return this.fresh({ run: run.valueAsNumber, speed: 0, playing: true });
   }
 
-  /** Offer the runs of the condition that is watched. */
+  /** Offer the runs of the condition that is watched, if it has any. */
   offerRuns(condition) {
+    if (!this.presets[condition].totals.length) return;
     this.control("open-preset").value = condition;
     this.limitRun();
   }
@@ -160,7 +161,7 @@ class Controls {
     this.action("clear").disabled = !frame || !this.elements.length;
     this.action("drop").ariaPressed = Boolean(this.dropping);
     this.action("step").disabled = !frame || frame.ended;
-    this.action("link").disabled = !frame;
+    Object.assign(this.action("link"), { disabled: !frame, hidden: isInApplication() });
     this.offerStarters();
     this.showSecond();
     for (const name of ["map", "field", "heat"]) this.control(name).disabled = !frame;
@@ -236,11 +237,12 @@ class Controls {
   }
 
   draw(now = performance.now()) {
-    const { life: { frame, cursor, length, world, rate, second }, colours, condition } = this;
+    const { life: { frame, cursor, length, world, rate, second }, condition } = this;
     const isLoading = !frame && !this.failed;
     if (!this.arena.clientWidth || (isLoading && this.drawn)) return; // keep the last picture while loading
     Object.assign(this, { drawn: now, stale: false });
-    this.drawSecond();
+    const colours = readColours(this.root);
+    this.drawSecond(colours);
     drawArena(this.arena, colours, frame, { cursor, trail: this.control("trail").checked });
     this.arrange(Boolean(frame?.arm));
     if (frame?.arm) drawLimb(this.limb, colours, frame);

@@ -1,8 +1,9 @@
 /* Drawings of the Explorer: the world, on a canvas of its own.
 
-These functions keep no state and listen to no events: a drawing depends only on their arguments. Places are in units of
-the world's size, y downward, as in the frames of the engine. Positions are not clipped, so discs may overlap the border
-of the tank, as in the figures of the book. Colours come from the style sheet, which takes them from the page. */
+A drawing keeps no state, and depends only on its arguments. Places are in units of the world's size, y downward, as in
+the frames of the engine. Positions are not clipped, so discs may overlap the border of the tank, as in the figures of
+the book. Colours come from the style sheet, which takes them from the page. They are read for each drawing and never
+kept, because a host may render a widget before it is part of the page, where it has neither colours nor a size. */
 
 const [BOARD_MARGIN, LONGEST_DESIRE, BEYOND] = [0.055, 0.3, 3]; // in board widths; no drawing reaches BEYOND
 const [HALF_A_SECOND, FULL_TURN] = [0.5, 2 * Math.PI]; // a velocity is drawn as the distance covered in half a second
@@ -14,6 +15,24 @@ function readColours(root) {
   const valueOf = (name) => [name, style.getPropertyValue(`--${name}`).trim()];
   const names = ["ink", "paper", "agent", "green", "red", "place", "goal"];
   return { ...Object.fromEntries(names.map(valueOf)), font: style.fontFamily };
+}
+
+/** Call `redraw` whenever these elements get another size, and whenever the page may have got another look: by a theme,
+ * by its style sheet, which may load after the theme is named, or by the reader's system. Returns a function that ends
+ * this. */
+function watchLook(elements, redraw) {
+  const [sizes, themes] = [new ResizeObserver(redraw), new MutationObserver(redraw)];
+  for (const element of elements) sizes.observe(element);
+  for (const element of [document.documentElement, document.body]) themes.observe(element, { attributes: true });
+  const media = ["(prefers-color-scheme: dark)", "(prefers-contrast: more)", "(forced-colors: active)"].map(
+    (query) => [matchMedia(query), "change"]);
+  const sources = [...media, [window, "resize"], [document, "load"], [document.fonts, "loadingdone"]];
+  const isCaptured = true; // since the load of a style sheet does not bubble
+  for (const [source, event] of sources) source.addEventListener(event, redraw, isCaptured);
+  return () => {
+    for (const observer of [sizes, themes]) observer.disconnect();
+    for (const [source, event] of sources) source.removeEventListener(event, redraw, isCaptured);
+  };
 }
 
 /** Where a place lies on the arena's canvas, as a share of its side; and back. */

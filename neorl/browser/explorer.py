@@ -8,8 +8,8 @@ its traits, which are the controls.
   `simulator.js` starts, in the memory of `machine.js`; `changing.js` changes their agent. Nothing else affects a run:
   run k of a seed is the same as in `neorl.Run`. `views.js` defines what a frame shows of each world.
 - `drawing.js`, `movers.js` and `curve.js` draw; `page.js`, `legend.js`, `controls.js`, `hands.js` and `widget.js` are
-  the interface; `starters.js` has things to try, `beside.js` the second tank, `tour.js` the guided tour, and
-  `address.js` keeps the state in the page's address.
+  the interface; `starters.js` has things to try, `beside.js` the second tank, `tour.js` the guided tour,
+  `address.js` keeps the state in the page's address, and `shared.js` has one Explorer for all views of a widget.
 """
 
 import math
@@ -72,7 +72,7 @@ STEPS = 300_000  # of a run of an agent that is not a condition of the page
 AVOIDED = ("red", "obstacle", "vessel")  # the kinds whose valence has a control
 CURVE_BINS = 50
 SCRIPTS = ("settings.js", "simulator.js", "drawing.js", "movers.js", "curve.js", "page.js", "legend.js", "controls.js",
-           "hands.js", "starters.js", "beside.js", "tour.js", "address.js", "widget.js")
+           "hands.js", "starters.js", "beside.js", "tour.js", "address.js", "widget.js", "shared.js")
 
 
 def text_of(*names):

@@ -10,24 +10,22 @@
 - Every failure ends the run with a message. The next change of a control tries again; Reset does so with the settings
   of the preset. */
 
-let explorers = 0; // so far, for ids that are unique on the page
-
 class Explorer extends Address {
-  constructor(model, place) {
+  /** places: those of the model's views, of which the Explorer stands in the last one. */
+  constructor(model, places) {
     super();
-    Object.assign(this, { model, presets: model.get("_presets"), modalities: model.get("_modalities"),
+    Object.assign(this, { model, places, presets: model.get("_presets"), modalities: model.get("_modalities"),
       first: model.get("preset"), life: newLife(), elements: [], beside: null, selected: null, noted: new Set(),
       undo: [], drawn: 0, told: 0, failed: false });
     this.calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
-    this.root = Object.assign(document.createElement("div"), { className: "neorl-explorer",
-      innerHTML: pageOf(`neorl-tank-${explorers += 1}`) });
+    const id = `neorl-tank-${Math.random().toString(36).slice(2)}`; // each widget of a page has a module of its own
+    this.root = Object.assign(document.createElement("div"), { className: "neorl-explorer", innerHTML: pageOf(id) });
     [this.arena, this.second, this.limb, this.curve] = this.root.querySelectorAll("canvas");
     this.fillMenus();
-    place.append(this.root);
+    places.at(-1).append(this.root);
     this.listen();
-    this.recolour();
     if (this.calm) this.write({ playing: false });
-    this.visit();
+    this.arrive();
     this.refresh();
     const { top, height } = this.root.getBoundingClientRect();
     this.approach({ isIntersecting: height > 0 && top < innerHeight }); // before the page is first painted, not after
@@ -39,8 +37,8 @@ class Explorer extends Address {
       target.addEventListener(type, safe);
       this.undo.push(() => target.removeEventListener(type, safe));
     });
-    const watch = (observer, ...targets) => {
-      for (const target of targets) observer.observe(...target);
+    const watch = (observer) => {
+      observer.observe(this.root);
       this.undo.push(() => observer.disconnect());
     };
     on(this.root, "input change", (event) => this.turned(event));
@@ -54,16 +52,12 @@ class Explorer extends Address {
     on(tank, "lostpointercapture", () => { this.life.held = null; });
     on(tank, "pointerleave", () => { this.life.pointer = null; });
     on(tank, "click", (event) => this.tap(event));
-    on(window, "hashchange", ({ newURL }) => this.visit(new URL(newURL).hash));
-    on(document, "click", ({ target }) => target.closest("a")?.href === location.href && this.visit()); // once more
+    on(window, "hashchange", ({ newURL }) => this.hasAddress() && this.visit(new URL(newURL).hash));
+    on(document, "click", (event) => this.follows(event));
     on(document, "visibilitychange", () => this.refresh());
-    on(window, "resize", () => this.wake()); // also when the page moves to a screen of another resolution
-    on(matchMedia("(prefers-color-scheme: dark)"), "change", () => this.recolour());
-    const theme = { attributeFilter: ["data-theme", "data-mode", "data-jp-theme-name", "class"] };
-    watch(new MutationObserver(() => this.recolour()), [document.documentElement, theme], [document.body, theme]);
-    watch(new ResizeObserver(() => this.wake()), [this.arena], [this.second], [this.curve]);
-    watch(new IntersectionObserver((entries) => this.approach(entries.at(-1)), { rootMargin: "200px" }), [this.root]);
-    watch(new IntersectionObserver((entries) => this.sight(entries.at(-1))), [this.root]);
+    this.undo.push(watchLook([this.arena, this.second, this.limb, this.curve], () => this.wake()));
+    watch(new IntersectionObserver((entries) => this.approach(entries.at(-1)), { rootMargin: "200px" }));
+    watch(new IntersectionObserver((entries) => this.sight(entries.at(-1))));
     for (const name of [...NEW_RUN, ...GOES_ON, "speed", "playing"]) {
       const note = () => this.note(name);
       this.model.on(`change:${name}`, note);
@@ -72,17 +66,15 @@ class Explorer extends Address {
   }
 
   approach({ isIntersecting }) {
-    if (isIntersecting && !this.near) this.near = true, this.note("near");
+    if (!isIntersecting || this.near) return;
+    this.near = true;
+    this.note("near");
+    this.arrive();
   }
 
   sight({ isIntersecting }) {
     this.inSight = isIntersecting;
     this.refresh();
-  }
-
-  recolour() {
-    this.colours = readColours(this.root);
-    this.wake();
   }
 
   // Reactions to traits
@@ -202,7 +194,8 @@ class Explorer extends Address {
   take(frame) {
     Object.assign(this.life, { frame });
     this.showMaps(frame);
-    Object.assign(this.root.dataset, { step: frame.step, score: frame.reward, goal: frame.seen.goal ?? "" });
+    const { step, reward: score, seen: { name: map, goal } } = frame;
+    Object.assign(this.root.dataset, { step, score, map, goal: goal ?? "" });
     if (frame.ended && this.life.game) this.safely(() => this.leaveGame())();
     if (frame.ended) this.refresh();
     this.wake();
@@ -324,27 +317,3 @@ function problemOf(presets, modalities, model) {
   const wrong = Object.keys(allowed).find((name) => !allowed[name](model.get(name)));
   return wrong ? `The Explorer cannot run with ${wrong} = ${JSON.stringify(model.get(wrong))}.` : "";
 }
-
-/** A message on the parts of a widget's state that the page lacks, or "". */
-function damageOf(model) {
-  const isFull = (value) => value !== null && typeof value === "object" && Object.keys(value).length > 0;
-  const sound = { _presets: isFull, _modalities: isFull, _layout: isFull, _engine: (text) => Boolean(text),
-    _wasm: (all) => isFull(all) && Object.values(all).every((each) => ArrayBuffer.isView(each) && each.byteLength) };
-  const missing = Object.keys(sound).filter((name) => !sound[name](model.get(name)));
-  return missing.length ? `The Explorer cannot start: this page does not hold its ${missing.join(", ")}.` : "";
-}
-
-function render({ model, el }) {
-  try {
-    const damage = damageOf(model);
-    if (damage) throw new Refusal(damage);
-    const explorer = new Explorer(model, el);
-    return () => explorer.stop();
-  } catch (error) {
-    el.innerHTML = `<div class="neorl-explorer" data-state="failed"><p role="alert"></p></div>`;
-    const message = error instanceof Refusal ? error.message : "The Explorer cannot start on this page.";
-    el.querySelector("[role=alert]").textContent = message;
-  }
-}
-
-export default { render };

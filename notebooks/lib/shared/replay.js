@@ -48,21 +48,16 @@ class Replay {
       this.at = Number(this.slider.value);
       this.play(false);
     });
-    const redraw = () => this.draw();
     const sight = new IntersectionObserver((entries) => {
       this.inSight = entries.at(-1).isIntersecting;
       this.play(this.playing);
     });
-    const [sizes, theme, dark] = [new ResizeObserver(redraw), new MutationObserver(redraw),
-      matchMedia("(prefers-color-scheme: dark)")];
     sight.observe(this.root);
-    sizes.observe(this.root);
-    theme.observe(document.documentElement, { attributes: true });
-    dark.addEventListener("change", redraw);
+    const unwatch = watchLook([this.root], () => this.draw());
     this.stop = () => {
       this.playing = false;
-      for (const watcher of [sight, sizes, theme]) watcher.disconnect();
-      dark.removeEventListener("change", redraw);
+      sight.disconnect();
+      unwatch();
       this.root.remove();
     };
   }
