@@ -38,15 +38,12 @@ def wait_for_maps(page, names):
 
 
 def picture(page, canvas=".arena canvas"):
-    """What a canvas shows once all is drawn that the page has been told to draw."""
+    """What a canvas shows once all is drawn that the page has been told to draw.
+
+    What the page asks of its worker it is told later: the data attributes of the Explorer say when.
+    """
     return page.locator(canvas).evaluate(
         "canvas => new Promise((take) => requestAnimationFrame(() => take(canvas.toDataURL())))")
-
-
-def wait_for_another_picture(page, before, canvas=".arena canvas"):
-    """Wait until a canvas shows another picture than before. Returns it."""
-    page.wait_for_function("([at, before]) => document.querySelector(at).toDataURL() !== before", arg=[canvas, before])
-    return picture(page, canvas)
 
 
 # The pixels of a canvas that have one of these colours, by name, each red, green and blue, at whatever opacity.

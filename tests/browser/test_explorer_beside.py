@@ -7,7 +7,7 @@ import re
 from dataclasses import replace
 
 import pytest
-from explorer_page import drop_by_keyboard, picture, press, wait, wait_for_another_picture, write_page
+from explorer_page import drop_by_keyboard, picture, press, wait, write_page
 from playwright.sync_api import expect
 
 from neorl import Desire, Explorer, Place, Run, WaterWorld, object_vector_cells, place_cells, simulate
@@ -108,7 +108,7 @@ def test_an_element_is_dropped_into_both_tanks(page):
     before = picture(page, ".second canvas")
     drop_by_keyboard(page)
     page.wait_for_function("document.querySelector('.legend').textContent.includes('changed')")
-    wait_for_another_picture(page, before, ".second canvas")
+    assert picture(page, ".second canvas") != before
     press(page, "play")
     wait_for(page, step="20000", state="ended")
     runs = [replace(agent, desires=(*agent.desires, Desire(Place(0.5, 0.5), agent.nodes[0].name, 1.0)))
@@ -129,8 +129,11 @@ def test_the_way_to_a_cell_is_shown_in_both_tanks(page):
     before = picture(page, ".second canvas")
     page.locator(".space canvas").focus()
     page.keyboard.press("Enter")
-    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal !== ''")
-    wait_for_another_picture(page, before, ".second canvas")
+    page.wait_for_function("""() => {
+        const { goal, secondGoal } = document.querySelector(".neorl-explorer").dataset;
+        return goal !== "" && goal === secondGoal;
+    }""")
+    assert picture(page, ".second canvas") != before
 
 
 def test_a_comparison_ends_without_stopping_the_first_run(page):

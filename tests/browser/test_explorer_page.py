@@ -3,9 +3,10 @@
 import re
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from explorer_page import (drop_by_keyboard, explorer_of, picture, play_to_the_end, press, wait,
-                           wait_for_another_picture, wait_for_frame_in_flight, wait_for_maps, write_page)
+                           wait_for_frame_in_flight, wait_for_maps, write_page)
 from playwright.sync_api import expect
 
 from neorl import Desire, Explorer, Learning, Place, Run, WaterWorld, multimodal, network_d, place_cells, simulate
@@ -205,13 +206,18 @@ def test_a_change_on_the_way_keeps_what_was_learned(open_page, site):
 
 
 def test_the_trail_is_drawn_unless_it_is_hidden(open_page, site):
-    page = open_page(*site("both", speed=50.0, playing=True))
-    page.wait_for_function("document.querySelector('.neorl-explorer')?.dataset.step > 1000")
-    press(page, "play")
-    wait_for_frame_in_flight(page)
+    seconds = Run(BOTH, TANK, SIZE["seed"])
+    seconds.advance(2_850)
+    assert np.ptp(seconds.record(150).positions, axis=0).max() > 100  # so there is a trail of the last three
+    folder, name = site("both")
+    page = open_page(folder, f"{name}#explorer_minute-1")
+    page.wait_for_function("document.querySelector('.neorl-explorer')?.dataset.step === '3000'")
+    wait(page, "paused")
     with_trail = picture(page)
     page.locator('[name="trail"]').uncheck()
-    wait_for_another_picture(page, with_trail)
+    without = picture(page)
+    page.locator('[name="trail"]').check()
+    assert picture(page) == with_trail != without
 
 
 def test_a_click_on_a_cell_shows_how_to_get_there(open_page, site):
@@ -221,15 +227,18 @@ def test_a_click_on_a_cell_shows_how_to_get_there(open_page, site):
     arena = page.locator(".arena canvas")
     before = picture(page)
     page.locator('[name="field"]').uncheck()
-    before = wait_for_another_picture(page, before)
+    expect(page.locator(".key")).not_to_contain_text("Grey: what the agent would do")  # written as the tank is drawn
+    without_field = picture(page)
     page.locator('[name="map"]').select_option("PC N5")
-    before = wait_for_another_picture(page, before)
+    page.wait_for_function("document.querySelector('.neorl-explorer').dataset.map === 'PC N5'")
+    of_five = picture(page)
+    assert len({before, without_field, of_five}) == 3
     box = arena.bounding_box()
     arena.click(position={"x": 0.32 * box["width"], "y": 0.68 * box["height"]})
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal !== ''")
     assert explorer.get_attribute("data-goal") == str(int(place_cells([5]).maps[0].encode([0.3, 0.7])))
     expect(explorer).to_contain_text("learned without being asked")
-    wait_for_another_picture(page, before)
+    assert picture(page) != of_five
     page.keyboard.press("Escape")
     page.wait_for_function("document.querySelector('.neorl-explorer').dataset.goal === ''")
     page.keyboard.press("ArrowDown")
