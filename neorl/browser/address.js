@@ -81,16 +81,14 @@ class Address extends Tour {
   }
 
   /** Follow a link that does not change the address: to the address that the page has already, or within a notebook. */
-  follows(event) {
-    const link = event.target.closest(`a[href*="${PREFIX}"]`);
-    if (!link || event.ctrlKey || event.metaKey || event.shiftKey) return; // these open another tab or window
-    if (!isInApplication()) {
-      if (link.href === location.href && this.hasAddress()) this.visit(link.hash);
-      return;
-    }
-    const notebook = link.closest(".jp-Document");
-    if (!notebook || !this.isFirstIn(notebook) || !link.getAttribute("href").startsWith("#")) return;
-    event.preventDefault();
+  followLink(event) {
+    const link = event.target.closest("a");
+    if (!link?.hash?.startsWith(PREFIX) || event.ctrlKey || event.metaKey || event.shiftKey) return; // or opens a tab
+    const inApplication = isInApplication();
+    const part = (inApplication && link.closest(".jp-Document")) || document;
+    const isOfPart = inApplication ? link.getAttribute("href").startsWith("#") : link.href === location.href;
+    if (!isOfPart || !this.isFirstIn(part)) return;
+    if (inApplication) event.preventDefault();
     this.visit(link.hash);
   }
 

@@ -53,7 +53,7 @@ class Explorer extends Address {
     on(tank, "pointerleave", () => { this.life.pointer = null; });
     on(tank, "click", (event) => this.tap(event));
     on(window, "hashchange", ({ newURL }) => this.hasAddress() && this.visit(new URL(newURL).hash));
-    on(document, "click", (event) => this.follows(event));
+    on(document, "click", (event) => this.followLink(event));
     on(document, "visibilitychange", () => this.refresh());
     this.undo.push(watchLook([this.arena, this.second, this.limb, this.curve], () => this.wake()));
     watch(new IntersectionObserver((entries) => this.approach(entries.at(-1)), { rootMargin: "200px" }));

@@ -1,0 +1,180 @@
+"""The Explorer in JupyterLab itself, which renders outputs off screen: colours, links and further views."""
+
+import json
+import os
+import subprocess
+import sys
+import time
+
+import nbformat
+import pytest
+from explorer_page import COLOURS, coloured
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
+from playwright.sync_api import expect
+
+from neorl import Run, WaterWorld, files, place_cells
+
+STEPS = 3_000
+LINK = '<a href="#explorer_run-2_minute-0p5">run 2</a>'
+EXPLORER = f"""import neorl
+neorl.Explorer(neorl.Condition(neorl.place_cells([3]), neorl.WaterWorld(n_creeps=8), {STEPS}, 1), speed=0)"""
+NOTEBOOKS = ["one.ipynb", "other.ipynb"]
+FAR = ["\n\n".join(["below"] * 40)] * 5
+CURRENT = ".jp-NotebookPanel:not(.lm-mod-hidden)"
+SCROLLED = f"{CURRENT} .jp-WindowedPanel-outer"
+READY = """() => { const kernel = jupyterapp.shell.currentWidget?.sessionContext?.session?.kernel;
+                   return kernel?.connectionStatus === "connected" && kernel.status === "idle"; }"""
+# Whether the current notebook has a new Explorer, which need not be part of the page yet.
+RENDERED = """() => jupyterapp.shell.currentWidget.content.widgets.some(
+    ({ node }) => node.querySelector(".neorl-explorer[data-state]:not([data-old])"))"""
+
+
+@pytest.fixture(scope="module")
+def address(tmp_path_factory):
+    """The address of a JupyterLab on this machine, with notebooks whose Explorer is far below a link to it."""
+    root, own = tmp_path_factory.mktemp("notebooks"), tmp_path_factory.mktemp("jupyter")
+    for name in NOTEBOOKS:
+        cells = [*map(new_markdown_cell, [LINK, *FAR]), new_code_cell(EXPLORER), *map(new_markdown_cell, FAR)]
+        kernel = {"kernelspec": {"name": "python3", "display_name": "Python"}}
+        nbformat.write(new_notebook(cells=cells, metadata=kernel), root / name)
+    (own / "labconfig").mkdir()
+    (own / "labconfig" / "page_config.json").write_text(json.dumps(
+        {"disabledExtensions": {"@jupyterlab/apputils-extension:announcements": True}}))
+    folders = {f"JUPYTER{name}": str(own) for name in ("_CONFIG_DIR", "_DATA_DIR", "_RUNTIME_DIR", "LAB_SETTINGS_DIR",
+                                                       "LAB_WORKSPACES_DIR")}
+    lab = subprocess.Popen(
+        [sys.executable, "-m", "jupyterlab", "--no-browser", "--allow-root", "--ServerApp.ip=127.0.0.1",
+         "--ServerApp.port=0", f"--ServerApp.root_dir={root}", "--LabApp.expose_app_in_browser=True",
+         "--LabApp.extension_manager=readonly", "--LabApp.news_url=None",
+         "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate"],
+        env=os.environ | folders | {"IPYTHONDIR": str(own), "NEORL_CACHE": str(files.cache_folder())},
+        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        server = own / f"jpserver-{lab.pid}.json"
+        while not server.exists() or not server.read_text().endswith("}"):
+            assert lab.poll() is None
+            time.sleep(0.05)
+        known = json.loads(server.read_text())
+        yield f"{known['url']}lab?token={known['token']}"
+    finally:
+        lab.terminate()  # which ends its kernels, too
+        try:
+            lab.wait(60)
+        finally:
+            lab.kill()
+
+
+@pytest.fixture(scope="module")
+def page(chromium, address):
+    context = chromium.new_context(viewport={"width": 1200, "height": 800})
+    context.set_default_timeout(60_000)
+    complaints, own = [], (address.partition("lab?")[0], "blob:", "data:")
+    context.on("request", lambda request: request.url.startswith(own) or complaints.append(request.url))
+    context.on("weberror", lambda uncaught: complaints.append(uncaught.error))
+    page = context.new_page()
+    page.goto(address)
+    page.wait_for_function("window.jupyterapp?.shell.currentWidget")  # the launcher
+    yield page
+    context.close()
+    assert not complaints
+
+
+def command(page, name, **choices):
+    page.evaluate("([name, choices]) => { jupyterapp.commands.execute(name, choices); }", [name, choices])
+
+
+def open_notebook(page, name):
+    command(page, "docmanager:open", path=name)
+    page.wait_for_function("name => jupyterapp.shell.currentWidget?.context?.path === name", arg=name)
+    page.wait_for_function(READY)
+
+
+def restart_and_run_all(page):
+    """Restart the kernel and run all cells, while the Explorer is far out of view."""
+    page.evaluate("document.querySelectorAll('.neorl-explorer').forEach((each) => { each.dataset.old = ''; })")
+    command(page, "notebook:restart-run-all")
+    page.locator(".jp-Dialog .jp-mod-accept").click()
+    page.wait_for_function(RENDERED)
+
+
+def explorer_of(page):
+    return page.locator(f"{CURRENT} .neorl-explorer[data-state]")
+
+
+def scroll_to_the_tank(page):
+    """Scroll down as a reader does, until the tank is in view."""
+    page.locator(SCROLLED).hover()
+    tank = explorer_of(page).locator(".arena")
+    for _ in range(100):
+        page.mouse.wheel(0, 200)
+        page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        box = tank.count() and tank.bounding_box()
+        if box and box["height"] and box["y"] < 300:
+            return
+    pytest.fail("no tank")
+
+
+def check_colours(page):
+    explorer = explorer_of(page)
+    expect(explorer).to_have_attribute("data-state", "ended")
+    assert min(coloured(explorer.locator(".arena canvas")).values()) > 50
+    assert coloured(explorer.locator(".curve"), agent=COLOURS["agent"])["agent"] > 50
+
+
+def wait_for_walls(page, wanted):
+    """Wait until the walls of the tank are white or black; the signs of creeps are always white."""
+    for _ in range(600):
+        counts = coloured(explorer_of(page).locator(".arena canvas"), black=[0, 0, 0], white=[255, 255, 255])
+        if counts[wanted] > 500 and (wanted == "black" or not counts["black"]):
+            return
+        page.wait_for_timeout(100)
+    pytest.fail(f"{counts}")
+
+
+def test_an_explorer_rendered_out_of_view_has_the_colours_of_the_theme(page):
+    open_notebook(page, "one.ipynb")
+    restart_and_run_all(page)
+    scroll_to_the_tank(page)
+    check_colours(page)
+    wait_for_walls(page, "black")
+    command(page, "apputils:change-theme", theme="JupyterLab Dark")
+    page.wait_for_function("document.body.dataset.jpThemeName === 'JupyterLab Dark'")
+    wait_for_walls(page, "white")
+    page.evaluate("""async () => {
+        const { currentWidget } = jupyterapp.shell;
+        await currentWidget.context.save();
+        currentWidget.close();
+    }""")
+    open_notebook(page, "one.ipynb")
+    page.wait_for_function(RENDERED)
+    scroll_to_the_tank(page)
+    check_colours(page)
+    wait_for_walls(page, "white")
+
+
+def test_a_link_is_followed_by_the_explorer_of_its_notebook_and_a_further_view_shows_the_same_run(page):
+    for name in NOTEBOOKS:
+        open_notebook(page, name)
+        restart_and_run_all(page)
+        scroll_to_the_tank(page)
+        expect(explorer_of(page)).to_have_attribute("data-state", "ended")
+    explorer, run = explorer_of(page), Run(place_cells([3]), WaterWorld(n_creeps=8), run=2)
+    expect(explorer.locator("[data-action=link]")).to_be_hidden()
+    page.locator(SCROLLED).evaluate("notebook => { notebook.scrollTop = 0; }")
+    page.get_by_role("link", name="run 2").click()
+    expect(explorer).to_have_attribute("data-step", "1500")
+    assert float(explorer.get_attribute("data-score")) == run.advance(1_500)
+    assert "#" not in page.url and page.evaluate("jupyterapp.shell.currentWidget.context.path") == NOTEBOOKS[-1]
+    expect(explorer.locator(".arena")).to_be_in_viewport()
+
+    page.evaluate("""() => { const { content } = jupyterapp.shell.currentWidget;
+        content.activeCellIndex = content.widgets.findIndex(({ model }) => model.type === "code"); }""")
+    command(page, "notebook:create-output-view")
+    expect(page.locator(".jp-LinkedOutputView .neorl-explorer[data-state]")).to_have_attribute("data-step", "1500")
+    expect(page.get_by_role("button", name="Show it here")).to_be_visible()
+    expect(explorer).to_have_count(0)
+    page.locator(".jp-LinkedOutputView").evaluate("""view => [...jupyterapp.shell.widgets("main")].find(
+        ({ node }) => node.contains(view)).close()""")
+    expect(explorer).to_have_attribute("data-step", "1500")
+    open_notebook(page, NOTEBOOKS[0])
+    expect(explorer).to_have_attribute("data-step", str(STEPS))
