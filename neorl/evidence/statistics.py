@@ -23,7 +23,10 @@ RECENT = 1 / 40  # of a run: the window over which the mean reward per second co
 
 
 class Estimate(NamedTuple):
-    """A value with the bounds of its 95 % interval. As text it has two decimals below 10, and none from there on."""
+    """A value with the bounds of its 95 % interval, which contains it.
+
+    As text it has two decimals below 10, and none from there on.
+    """
 
     value: float
     low: float
@@ -38,7 +41,8 @@ class Estimate(NamedTuple):
 def estimate(statistic: Callable, *samples: ArrayLike) -> Estimate:
     """A statistic of one or several independent samples (each (runs,)), with its bootstrap interval.
 
-    A sample of a single run has no interval: its bounds are NaN.
+    The interval is extended to the value where it would not contain it, as resamples may be biased, or rounded
+    otherwise. A sample of a single run has no interval: its bounds are NaN.
 
     statistic: takes the samples, and `axis`, the axis of the runs. Raises ValueError for a sample that is empty or not
     finite.
@@ -51,7 +55,7 @@ def estimate(statistic: Callable, *samples: ArrayLike) -> Estimate:
     if min(map(len, checked)) < 2:
         return Estimate(value, np.nan, np.nan)
     low, high = _bootstrapped(checked, statistic)
-    return Estimate(value, float(low), float(high))
+    return Estimate(value, min(float(low), value), max(float(high), value))
 
 
 def difference(a, b, axis):

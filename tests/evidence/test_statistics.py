@@ -24,6 +24,14 @@ def test_the_interval_of_a_constant_has_no_width():
     assert estimate(np.mean, np.full(10, 2.5)) == (2.5, 2.5, 2.5)
 
 
+@pytest.mark.parametrize("statistic, sample", [
+    (np.mean, np.full(2, 3.3834586466165413)), (np.mean, np.full(3, 3.3834586466165413)),
+    (lambda x, axis: -x.mean(axis) ** 2, np.arange(-10.0, 11.0))])
+def test_an_interval_contains_its_value_though_resamples_are_rounded_otherwise_or_biased(statistic, sample):
+    value, low, high = estimate(statistic, sample)
+    assert low <= value <= high
+
+
 def test_a_single_run_has_no_interval():
     single = estimate(np.mean, np.array([1.0]))
     assert single.value == 1.0 and math.isnan(single.low) and math.isnan(single.high)
