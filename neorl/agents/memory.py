@@ -3,6 +3,7 @@
 import numpy as np
 
 from neorl.agents.compile import n_bytes
+from neorl.container import free_memory
 from neorl.core.kernel import mapped
 
 CACHE_LINES = 128  # bytes; two lines, because processors fetch them in pairs
@@ -17,9 +18,7 @@ def fitting_runs(agent, world):
 
 def usable_bytes(needed, what, remedy):
     """Nine tenths of the free memory, in bytes. Raises MemoryError if what needs `needed` bytes does not fit."""
-    import psutil
-
-    free = psutil.virtual_memory().available
+    free = free_memory()
     if needed > 0.9 * free:
         raise MemoryError(f"{what} {min(needed, 10**30) / 2**30:.1f} GiB of memory, but {free / 2**30:.1f} are free; "
                           f"{remedy}")

@@ -36,6 +36,7 @@ from neorl.agents.papers import brownian
 from neorl.agents.spaces import pilot
 from neorl.browser.seeding import start_stream
 from neorl.browser.worlds import PLANE
+from neorl.container import cores, free_memory
 from neorl.core import contacts, displacement, life, parameters
 from neorl.core.choices import Action, Cut, Feature, MapState, Source, Vector
 from neorl.core.kernel import OPTIONS, fields, is_tuple
@@ -82,6 +83,7 @@ EVERY_STEP = life.act, life.observe, life.observe_self
 # Optimised for speed, but not inlined.
 APART = (contacts.observe_contacts, contacts.evaluate_contacts, displacement.learn_displacement)
 SHIPPED = {name: Path(__file__).with_name(f"{name}.wasm") for name in MODULES}  # in a wheel
+BYTES_OF_A_BUILD = 750 * 2**20
 TRIPLE = "wasm32-unknown-unknown"
 LAYOUT = "e-m:e-p:32:32-p10:8:8-p20:8:8-i64:64-i128:128-n32:64-S128-ni:1:10:20"
 LINK = ("--no-entry", "--allow-undefined", "--import-memory", "--gc-sections", "--strip-all", "-O2",
@@ -195,8 +197,8 @@ def _digest(name):
 
 
 def _built(names):
-    """Build modules side by side: {name: bytes}."""
-    with ThreadPoolExecutor() as pool:
+    """Build modules, side by side where cores and memory suffice: {name: bytes}."""
+    with ThreadPoolExecutor(max(1, min(cores(), free_memory() // BYTES_OF_A_BUILD))) as pool:
         return dict(zip(names, pool.map(_built_in_a_process_of_its_own, names)))
 
 

@@ -14,7 +14,7 @@ from neorl.core.identity import digest_of_source, identity
 from neorl.worlds.world import World
 
 # Everything that takes part in a run.
-PARTS = ("checks", "extras", "files", "core", "description", "worlds", "agents", "experiments")
+PARTS = ("checks", "container", "extras", "files", "core", "description", "worlds", "agents", "experiments")
 
 
 @dataclass(frozen=True)

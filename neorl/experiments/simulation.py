@@ -26,6 +26,7 @@ from neorl import checks
 from neorl.agents.agent import Agent
 from neorl.agents.compile import n_values
 from neorl.agents.memory import fitting_runs, usable_bytes
+from neorl.container import cores
 from neorl.core.kernel import announcing
 from neorl.experiments.condition import Condition
 from neorl.experiments.result import Result
@@ -257,8 +258,7 @@ def live(condition, k, rewards, hits, each_slice=lambda lived: None, after=None)
 
 def usable_threads(agent, world):
     """The number of runs of an agent in a world to run in parallel: one per core, within nine tenths of free memory."""
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-    return min(fitting_runs(agent, world), cores)
+    return min(fitting_runs(agent, world), cores())
 
 
 def progress_bar(steps, name, shown):
