@@ -85,7 +85,7 @@ class Described:
 
         suffix = _suffix(path)
         try:
-            text = Path(path).read_text(encoding="utf-8")
+            text = Path(path).read_text(encoding="utf-8-sig")  # some editors begin with a mark
             data = tomllib.loads(text) if suffix == ".toml" else json.loads(text)
         except (ValueError, RecursionError) as error:
             raise ValueError(f"{path} must be written in {suffix[1:].upper()}, but is not: {error}") from error
@@ -98,7 +98,7 @@ class Described:
 
 
 def _suffix(path):
-    suffix = checks.path("path", path).suffix
+    suffix = checks.path("path", path).suffix.lower()
     if suffix in SUFFIXES:
         return suffix
     raise checks.error("path", f"a name that ends in {' or '.join(SUFFIXES)}", path)

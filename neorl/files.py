@@ -40,8 +40,11 @@ def cache_folder():
 
 
 def write_whole(path, content):
-    """Write bytes to a file that is complete or absent at any time. Raises OSError, and then leaves nothing behind."""
-    path = Path(path)
+    """Write bytes to a file that is complete or absent at any time, or to the one that a link stands for.
+
+    Raises OSError, and then leaves nothing behind.
+    """
+    path = Path(os.path.realpath(path))
     path.parent.mkdir(parents=True, exist_ok=True)
     _remove_stale(path.parent)
     prefix, suffix = UNFINISHED

@@ -1,5 +1,6 @@
 """Agents, worlds and conditions as plain data are read as they were written, and errors are located by their path."""
 
+import codecs
 import json
 import sys
 import types
@@ -90,6 +91,19 @@ def test_an_experiment_can_be_written_by_hand(tmp_path):
     """)
     agent = place_cells([3, 7], learning=Learning(memory=10.0), policy=Policy(choose=softmax(0.5)))
     assert Condition.load(path) == Condition(agent, WaterWorld(n_creeps=8), 1_000, 2)
+    (tmp_path / "MARKED.TOML").write_bytes(codecs.BOM_UTF8 + path.read_bytes())  # as by an editor of Windows
+    assert Condition.load(tmp_path / "MARKED.TOML") == Condition.load(path)
+
+
+@pytest.mark.parametrize("exists", [True, False])
+def test_a_link_to_a_file_stays_one(tmp_path, exists):
+    target, link = tmp_path / "folder" / "target.JSON", tmp_path / "link.json"
+    if exists:
+        target.parent.mkdir()
+        target.write_text("")
+    link.symlink_to(target)
+    WaterWorld(n_creeps=8).save(link)
+    assert link.is_symlink() and WaterWorld.load(target) == WaterWorld(n_creeps=8)
 
 
 def test_modalities_and_kernels_go_by_name_and_numbers_of_numpy_are_plain_numbers(monkeypatch):
