@@ -6,10 +6,12 @@ import subprocess
 import sys
 
 import pytest
+from numba.core.compiler import Flags
 
 from neorl import files
 from neorl.core.calls import execute
 from neorl.core.kernel import announcing, jit_is_off, kernel
+from neorl.core.linking import LinkedFlags
 
 pytestmark = pytest.mark.skipif(jit_is_off(), reason="the compiler is off")
 
@@ -132,6 +134,14 @@ assert len(addresses) == len(made)
 """)
     for numbers in ("1", "21"):  # the second process compiles one and finds the other on disk
         subprocess.run([sys.executable, program, *numbers], check=True)
+
+
+def test_compilations_do_not_share_the_flags_that_numba_changes_meanwhile():
+    flags = LinkedFlags(Flags())
+    changed = flags.copy()
+    assert changed == flags and hash(changed) == hash(flags)
+    changed.force_pyobject = True
+    assert changed != flags and not flags.force_pyobject
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="processes cannot be forked")
