@@ -30,13 +30,17 @@ def cache_folder():
     It is named by the environment variable ``NEORL_CACHE``. Without it, it is ``.cache`` of the clone that neorl is
     imported from, or else the user's cache folder. A relative name counts from where the command was given, which
     shells leave in ``PWD``: the kernel of a notebook, which runs in another folder, finds the same one.
+    Raises OSError if the user has no such folder.
     """
     if named := os.environ.get("NEORL_CACHE"):
         began_in = os.environ.get("PWD", "")
         return Path(began_in if os.path.isdir(began_in) else "", os.path.expanduser(named)).absolute()
     if (CHECKOUT / "notebooks" / "lib").is_dir():
         return CHECKOUT / ".cache"
-    return platformdirs.user_cache_path("neorl-companion")
+    try:
+        return platformdirs.user_cache_path("neorl-companion")
+    except RuntimeError as error:
+        raise FileNotFoundError("NEORL_CACHE must name a folder, since this user has no home folder") from error
 
 
 def write_whole(path, content):

@@ -15,7 +15,7 @@ its traits, which are the controls.
 import math
 from collections.abc import Mapping
 from dataclasses import replace
-from pathlib import Path
+from importlib import resources
 
 import numpy as np
 
@@ -77,7 +77,7 @@ SCRIPTS = ("settings.js", "simulator.js", "drawing.js", "movers.js", "curve.js",
 
 def text_of(*names):
     """The content of text files beside this one, one after the other."""
-    return "\n".join((Path(__file__).parent / name).read_text(encoding="utf-8") for name in names)
+    return "\n".join((resources.files(__package__) / name).read_text(encoding="utf-8") for name in names)
 
 
 class Explorer(AnyWidget):

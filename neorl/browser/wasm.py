@@ -22,8 +22,8 @@ import re
 import subprocess
 import sys
 import tempfile
-import warnings
 from concurrent.futures import ThreadPoolExecutor
+from importlib import resources
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -39,11 +39,13 @@ from neorl.browser.worlds import PLANE
 from neorl.container import cores, free_memory
 from neorl.core import contacts, displacement, life, parameters
 from neorl.core.choices import Action, Cut, Feature, MapState, Source, Vector
+from neorl.core.identity import can_cache, digest_of_source
 from neorl.core.kernel import OPTIONS, fields, is_tuple
 from neorl.core.parameters import Parameters, derive
 from neorl.core.state import State, begin_values
-from neorl.experiments.condition import source_digest
+from neorl.experiments.condition import PARTS, source_digest
 from neorl.extras import require
+from neorl.warn import warn
 from neorl.worlds import arena, arm, vessel, water_maze, waterworld
 from neorl.worlds.probe import cell_seen_at, step_second, survey
 from neorl.worlds.rollout import rollout_in
@@ -82,7 +84,8 @@ RARE = (life.begin, waterworld.reset, waterworld.draw_creep, arena.reset, arm.re
 EVERY_STEP = life.act, life.observe, life.observe_self
 # Optimised for speed, but not inlined.
 APART = (contacts.observe_contacts, contacts.evaluate_contacts, displacement.learn_displacement)
-SHIPPED = {name: Path(__file__).with_name(f"{name}.wasm") for name in MODULES}  # in a wheel
+SHIPPED = {name: resources.files(__package__) / f"{name}.wasm" for name in MODULES}  # in a wheel
+OURS = [f"browser.{name}" for name in ("seeding", "wasm", "worlds")]  # modules that take part, besides those of a run
 BYTES_OF_A_BUILD = 750 * 2**20
 TRIPLE = "wasm32-unknown-unknown"
 LAYOUT = "e-m:e-p:32:32-p10:8:8-p20:8:8-i64:64-i128:128-n32:64-S128-ni:1:10:20"
@@ -110,7 +113,8 @@ def _on_disk():
     found = {}
     for name, path in SHIPPED.items():
         shipped, digest = files.read_checked(path) or b"", _digest(name)
-        content = shipped[len(digest):] if shipped[:len(digest)] == digest else files.read_checked(_path(name))
+        content = (shipped[len(digest):] if digest and shipped.startswith(digest) else
+                   files.read_checked(_path(name)) if can_cache(*PARTS, *OURS) else None)
         if content is not None:
             found[name] = content
     return found
@@ -135,20 +139,18 @@ def _one_process_at_a_time():
 
 def _kept(contents):
     """The same modules, after writing them to disk."""
-    for name, content in contents.items():
+    for name, content in contents.items() if can_cache(*PARTS, *OURS) else ():
         try:
             files.write_checked(_path(name), content)
         except OSError as error:
-            warnings.warn(f"the WebAssembly module cannot be kept in {_path(name).parent}, and will be built again: "
-                          f"{error}", RuntimeWarning, stacklevel=4)
+            warn(f"{_path(name).parent} takes no WebAssembly modules ({error.strerror}): they will be built again")
     return contents
 
 
 def ship(package):
     """Put the modules into `package`, the folder of the package that a wheel is made of."""
     for name, content in modules().items():
-        target = Path(package) / SHIPPED[name].relative_to(Path(__file__).parents[1])
-        files.write_checked(target, _digest(name) + content)
+        files.write_checked(Path(package) / "browser" / SHIPPED[name].name, _digest(name) + content)
 
 
 def layout(name="plane"):
@@ -191,9 +193,12 @@ def _passed(kernel):
 
 
 def _digest(name):
-    """A digest of the sources alone: by the rules of `neorl.core.kernel`, results do not depend on the compiler."""
-    here = [Path(__file__).with_name(file).read_bytes() for file in ("seeding.py", "wasm.py", "worlds.py")]
-    return hashlib.sha256(b"".join([source_digest().encode(), name.encode(), *here])).digest()
+    """A digest of the sources alone: by the rules of `neorl.core.kernel`, results do not depend on the compiler.
+
+    b"" where there is no source.
+    """
+    digests = source_digest(), digest_of_source(*OURS)
+    return b"" if None in digests else hashlib.sha256("".join([*digests, name]).encode()).digest()
 
 
 def _built(names):

@@ -4,7 +4,7 @@ A kernel called from Python is cached with everything inlined into it, under a k
 source of the rooms `core` and `worlds`, the code and constants of every user-defined kernel, the types of its
 arguments, numba, LLVM and the processor, and the lines on which the user's kernels raise. So the cache need not be
 cleared after a change, and deleted files are compiled again. A file is complete or absent; one that is damaged, or
-cannot be read or written, counts as absent.
+cannot be read, counts as absent.
 
 numba numbers the functions of a process, and links their code by names that contain these numbers. The numbers of each
 process begin elsewhere, so that code from disk does not share a name with other code.
@@ -27,8 +27,10 @@ from numba.core.compiler import CompileResult
 from numba.core.sigutils import normalize_signature
 
 from neorl import files
-from neorl.core.identity import digest_of_source, name_of
+from neorl.core.identity import can_cache, digest_of_source, name_of
+from neorl.warn import warn_once
 
+OF_KERNELS = ("core", "worlds")  # the rooms whose code is compiled
 SETTINGS = ("BOUNDSCHECK", "LOOP_VECTORIZE", "OPT", "SLP_VECTORIZE")  # of numba that affect compiled code
 
 
@@ -67,13 +69,15 @@ class CompileCache(NullCache):
             return
         try:
             files.write_checked(path, pickle.dumps(data._reduce()))
-        except (OSError, pickle.PicklingError, AttributeError):  # no room, no permission, or a type without a name
+        except OSError as error:
+            warn_once(f"{path.parent} takes no compiled kernels ({error.strerror}): each process compiles them again")
+        except (pickle.PicklingError, AttributeError):  # a type without a name
             return
 
     def _path(self, sig, codegen):
-        if self._reading.unknown is not None or not self._reading.stands():
+        if self._reading.unknown is not None or not can_cache(*OF_KERNELS) or not self._reading.stands():
             return None
-        made_of = (self._reading.text, digest_of_source("core", "worlds"),
+        made_of = (self._reading.text, digest_of_source(*OF_KERNELS),
                    [_name_of(each) for each in normalize_signature(sig)[0]], self._kernel.options, numba.__version__,
                    llvmlite.__version__, sys.version, codegen.magic_tuple(), _lines_that_raise(self._reading.functions),
                    [getattr(numba.config, name) for name in SETTINGS])

@@ -14,16 +14,20 @@ import copyreg
 import dis
 import functools
 import hashlib
+import importlib.util
 import operator
+import pkgutil
 import sys
 import sysconfig
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 from enum import Enum
-from pathlib import Path
 from types import CellType, CodeType, FunctionType, MethodType, ModuleType, NoneType
 
 import numpy as np
+
+from neorl import files
+from neorl.warn import warn_once
 
 OURS = ("neorl.core.", "neorl.worlds.")
 WITHOUT_SOURCE = ("numba", "numpy")
@@ -208,10 +212,36 @@ def name_of(value):
 
 @functools.cache
 def digest_of_source(*parts):
-    """A digest of the source of some rooms and modules of this package, such as "core", when it was first called."""
-    package = Path(__file__).parents[1]
-    paths = [path for part in parts for path in sorted([*package.glob(f"{part}.py"), *(package / part).rglob("*.py")])]
-    return hashlib.sha256(b"".join(path.read_bytes() for path in paths)).hexdigest()
+    """A digest of the source of some rooms and modules of this package, such as "core", when it was first called.
+
+    None where there is bytecode alone. The source is read by what loads the modules, perhaps from a zip file.
+    """
+    sources = [source for part in parts for source in _sources(importlib.util.find_spec(f"neorl.{part}"))]
+    return None if None in sources else hashlib.sha256("\0".join(sources).encode()).hexdigest()
+
+
+def _sources(spec):
+    """The source of a module and of those within it, each a text, or None."""
+    yield getattr(spec.loader, "get_source", lambda name: None)(spec.name)
+    for finder, name, _ in pkgutil.iter_modules(spec.submodule_search_locations or (), f"{spec.name}."):
+        yield from _sources(finder.find_spec(name))
+
+
+def can_cache(*parts):
+    """Whether there is a folder to cache in, and source by which to tell apart what it was computed with.
+
+    parts: as in `digest_of_source`. Warns where there is not, once in a process.
+    """
+    try:
+        files.cache_folder()
+    except OSError as error:
+        warn_once(f"nothing is cached: {error}")
+        return False
+    if digest_of_source(*parts) is None:
+        warn_once("nothing is cached: neorl was imported from bytecode without its source, by which another version "
+                  "would be noticed; install it with its source")
+        return False
+    return True
 
 
 def _kind(value):

@@ -56,10 +56,11 @@ def _named_in(text, functions):
     """The innermost function that numba's message names, by itself or by a line of it."""
     found = {}
     for function in functions:
-        lines, first = inspect.getsourcelines(function) if function.__code__.co_filename[:1] != "<" else ((), 0)
-        file = re.escape(function.__code__.co_filename)
+        code = function.__code__
+        lines = [line for *_, line in code.co_lines() if line and code.co_filename[:1] != "<"]
+        file = re.escape(code.co_filename)
         at = [text.find(repr(function)), *(each.start() for each in re.finditer(rf"at {file} \((\d+)\)", text)
-                                           if first <= int(each[1]) < first + len(lines))]
+                                           if lines and min(lines) <= int(each[1]) <= max(lines))]
         if max(at) >= 0:
             found[min(each for each in at if each >= 0)] = function
     return [found[min(found)]] if found else []

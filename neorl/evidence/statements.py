@@ -10,7 +10,7 @@ import operator
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
+from importlib import resources
 
 
 @dataclass(frozen=True)
@@ -70,6 +70,6 @@ class Statement:
 STATEMENTS = {
     name: Statement(**given | {"bounds": Bounds(**given["bounds"]) if "bounds" in given else POSITIVE,
                                "also": {what: Bounds(**each) for what, each in given.get("also", {}).items()}})
-    for name, given in tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8")).items()}
+    for name, given in tomllib.loads((resources.files(__package__) / "statements.toml").read_text("utf-8")).items()}
 CLAIMS = tuple(name for name, statement in STATEMENTS.items() if not statement.demonstration)
 DEMONSTRATIONS = tuple(name for name, statement in STATEMENTS.items() if statement.demonstration)

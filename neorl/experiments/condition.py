@@ -14,7 +14,7 @@ from neorl.core.identity import digest_of_source, identity
 from neorl.worlds.world import World
 
 # Everything that takes part in a run.
-PARTS = ("checks", "container", "extras", "files", "core", "description", "worlds", "agents", "experiments")
+PARTS = ("checks", "container", "extras", "files", "warn", "core", "description", "worlds", "agents", "experiments")
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Condition(Described):
 
     @property
     def path(self):
-        """The file of its result."""
+        """The file of its result. Raises OSError where there is no cache folder."""
         return files.cache_folder() / "conditions" / self.key
 
 

@@ -27,11 +27,13 @@ from neorl.agents.agent import Agent
 from neorl.agents.compile import n_values
 from neorl.agents.memory import fitting_runs, usable_bytes
 from neorl.container import cores
+from neorl.core.identity import can_cache
 from neorl.core.kernel import announcing
-from neorl.experiments.condition import Condition
+from neorl.experiments.condition import PARTS, Condition
 from neorl.experiments.result import Result
 from neorl.experiments.run import SLICE, Run, n_bins, new_bins
 from neorl.experiments.store import Keeper
+from neorl.warn import users_frame, work_for
 from neorl.worlds.world import World
 
 TASK_STEPS = 100_000  # they take a typical agent a tenth of a second, and a task's overhead is a millisecond
@@ -92,7 +94,7 @@ def sweep(conditions: Sequence[Condition], executor: Executor | None = None,
         checks.integer("threads", threads, at_least=1)
         if executor is not None:
             raise checks.error("threads", "None beside an executor", threads)
-    cache = checks.flag("cache", cache)
+    cache = checks.flag("cache", cache) and can_cache(*PARTS)
     names = [condition.key if cache else id(condition) for condition in conditions]
     keepers = {name: Keeper(condition, cache) for name, condition in dict(zip(names, conditions)).items()}
     missing = [keeper for keeper in keepers.values() if keeper.missing]
@@ -149,7 +151,8 @@ def _run(tasks, executor, threads, cache, bar, name):
     lives = [(agent, each.world) for each in conditions
              for agent in (each.agent, *(later for _, later in each.changes))]
     usable = usable_threads(*max(lives, key=lambda life: n_values(*life)))
-    pool = ThreadPoolExecutor(usable if threads is None else min(usable, threads))
+    pool = ThreadPoolExecutor(usable if threads is None else min(usable, threads),
+                              initializer=work_for, initargs=(users_frame(),))
     stop, room = threading.Event(), threading.local()
 
     def each_slice(lived):

@@ -5,7 +5,8 @@
    damaged, or was not written by this version, counts as absent.
 2. The runs of a long condition are written every few seconds, and the whole condition once it is complete; then the
    single runs are removed. A short condition is written only once, so it has no overhead.
-3. If the disk cannot be written to, results stay in memory, with a warning.
+3. If the disk cannot be written to, results stay in memory, with a warning; so they do where there is no cache folder,
+   and where neorl has no source that could tell its versions apart (`neorl.core.identity.can_cache`).
 4. Files in the cache folder (`neorl.files`) whose folder and name follow neorl's scheme are listed and removed, and no
    others; a file of claims must also describe itself.
 """
@@ -14,7 +15,6 @@ import contextlib
 import json
 import re
 import time
-import warnings
 from pathlib import Path
 from typing import NamedTuple
 
@@ -23,6 +23,7 @@ import numpy as np
 from neorl import files
 from neorl.agents.memory import usable_bytes
 from neorl.experiments.result import Result, about, fitting
+from neorl.warn import warn
 
 SECONDS = 5  # between two writes of a condition's runs; a write takes a hundredth of that
 DIGEST = "[0-9a-f]{64}"
@@ -92,8 +93,8 @@ def _taken(write, *what):
     try:
         write(*what)
     except OSError as error:
-        warnings.warn(f"{files.cache_folder()} takes no results ({error.strerror}): they stay in memory, and are lost "
-                      "when this process ends", RuntimeWarning, stacklevel=2)
+        warn(f"{files.cache_folder()} takes no results ({error.strerror}): they stay in memory, and are lost when this "
+             "process ends")
         return False
     return True
 

@@ -20,6 +20,7 @@ from neorl.description import restored
 from neorl.extras import require
 from neorl.gym.batch import Slots, Task, batch_step
 from neorl.gym.observation import observation_space
+from neorl.warn import warn
 from neorl.worlds.waterworld import WaterWorld
 from neorl.worlds.world import World, check_outcome, checked_rules
 
@@ -146,7 +147,7 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
         if not self._begun:
             raise gymnasium.error.ResetNeeded("render() must follow reset(), but came before it")
         if self.render_mode is None:
-            gymnasium.logger.warn("render() was called without a render_mode, such as render_mode='rgb_array'")
+            warn("render() was called without a render_mode, such as render_mode='rgb_array'")
             return None
         return tuple(_picture(self.world, mapped(np.copy, state)) for state in self.world_states)
 

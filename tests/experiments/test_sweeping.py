@@ -117,7 +117,7 @@ def test_a_sweep_that_waits_for_a_worker_that_hangs_can_be_interrupted_and_says_
 def test_workers_are_threads_at_most_so_many(monkeypatch):
     asked, original = [], simulation.ThreadPoolExecutor
     monkeypatch.setattr(simulation, "usable_threads", lambda agent, world: 3)
-    monkeypatch.setattr(simulation, "ThreadPoolExecutor", lambda count: asked.append(count) or original(count))
+    monkeypatch.setattr(simulation, "ThreadPoolExecutor", lambda count, **_: asked.append(count) or original(count))
     for seed, threads in enumerate([None, 1, 2, 9]):
         sweep([Condition(place_cells([3]), WORLD, 100, 1, seed)], threads=threads, progress=False)
     assert asked == [3, 1, 2, 3]
