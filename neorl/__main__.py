@@ -5,4 +5,5 @@ import sys
 from neorl.experiments.command import main
 
 if __name__ == "__main__":
+    sys.stdout.reconfigure(errors="backslashreplace")  # names may have letters that a terminal lacks
     sys.exit(main())

@@ -52,7 +52,7 @@ def run_file(path, save=None):
     if save:
         result.save(save)
     rate = result.rate()
-    spread = f" ± {rate.std(ddof=1):.3f}, the standard deviation over runs" if result.runs > 1 else ""
+    spread = f", with a standard deviation over runs of {rate.std(ddof=1):.3f}" if result.runs > 1 else ""
     print(f"{label(condition.agent)} in {type(condition.world).__name__}, {condition.steps:,} steps, "
           f"{condition.runs} run{'s' * (condition.runs != 1)}, seed {condition.seed}")
     print(f"  reward per second: {rate.mean():.3f}{spread}")

@@ -1,9 +1,12 @@
 """What the commands print, write and return."""
 
+import os
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from neorl import Condition, Result, WaterWorld, files, place_cells, simulate
 from neorl.experiments.command import main
@@ -20,9 +23,18 @@ def test_a_file_is_run_described_and_saved(cache_folder, tmp_path, capsys):
     rate = result.rate()
     assert printed == [
         "PC N3 in WaterWorld, 600 steps, 2 runs, seed 0",
-        f"  reward per second: {rate.mean():.3f} ± {rate.std(ddof=1):.3f}, the standard deviation over runs",
+        f"  reward per second: {rate.mean():.3f}, with a standard deviation over runs of {rate.std(ddof=1):.3f}",
         f"  kept in {tmp_path / 'results.npz'}"]
     assert CONDITION.path.exists()
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "latin2", "utf-8"])
+def test_a_terminal_without_some_letters_prints_the_rest(cache_folder, tmp_path, encoding):
+    agent = replace(CONDITION.agent, nodes=[replace(CONDITION.agent.nodes[0], name="Ортс")], desires=[])
+    replace(CONDITION, agent=agent).save(tmp_path / "experiment.json")
+    done = subprocess.run([sys.executable, "-m", "neorl", "run", tmp_path / "experiment.json"], capture_output=True,
+                          env=os.environ | {"PYTHONIOENCODING": encoding})
+    assert done.returncode == 0 and b", with a standard deviation over runs of" in done.stdout
 
 
 def test_the_cache_is_listed_and_cleared(tmp_path, capsys, monkeypatch):
