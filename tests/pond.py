@@ -1,9 +1,17 @@
-"""A small world of a user's own, for tests: steps in a square pond, whose lily pad ends an episode."""
+"""A small world of a user's own, for tests: steps in a square pond, whose lily pad ends an episode.
 
+Run as a program, this file sends the world, then of the main program, and an agent to processes started by a method.
+"""
+
+import subprocess
+import sys
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
+from multiprocessing import get_context
 from typing import NamedTuple
 
-from neorl import CARDINAL, Dynamics, Scene, World, array, kernel, uniform
+from neorl import (CARDINAL, Agent, Condition, Desire, Dynamics, Node, Policy, Scene, World, array, kernel,
+                   kernel_maker, modality, simulate, sweep, uniform)
 
 
 class PondState(NamedTuple):
@@ -43,3 +51,37 @@ class Pond(World):
     @property
     def rules(self):
         return PondRules(CARDINAL.table)
+
+
+@kernel_maker
+def always(action):
+    @kernel
+    def choose(value, stream):
+        return action
+
+    return choose
+
+
+def main(method):
+    import cloudpickle
+    from gymnasium.vector import AsyncVectorEnv
+
+    from neorl import gym
+
+    agent = Agent([Node("PC", modality.PLACE_CELL, [5])], [Desire("pad", "PC", valence=1.0)],
+                  policy=Policy(0.9, choose=always(1)))
+    condition = Condition(agent, Pond(), 5_000, 2)
+    here = simulate(**condition.choices, progress=False)
+    with ProcessPoolExecutor(1, get_context(method)) as pool:
+        assert list(sweep([condition], pool, progress=False, cache=False)) == [here] and here.totals.any()
+    envs = AsyncVectorEnv([lambda: gym.WorldEnv(Pond())] * 2, context=method)
+    assert (envs.reset(seed=3)[0] == gym.VectorWorldEnv(Pond(), 2).reset(seed=3)[0]).all()
+    envs.close()
+    work = cloudpickle.dumps(lambda: simulate(**condition.choices, progress=False).totals.tolist())
+    # A worker such as those of loky and Dask, which does not know the main program.
+    elsewhere = [sys.executable, "-c", "import pickle, sys\nprint(pickle.load(sys.stdin.buffer)())"]
+    assert subprocess.check_output(elsewhere, input=work).decode().strip() == str(here.totals.tolist())
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -30,6 +30,7 @@ import sys
 import threading
 from collections.abc import Callable
 from typing import Annotated, Any, NamedTuple, get_args, get_type_hints
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -42,6 +43,7 @@ from neorl.core.kernel_errors import not_compiled
 OPTIONS = {"error_model": "numpy", "nogil": True, "_nrt": False}
 INLINED = {"forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 _making = threading.RLock()
+_kernels = WeakKeyDictionary[type, Any]()  # by the class that stands for them
 
 
 class Kernel:
@@ -55,12 +57,19 @@ class Kernel:
         self.py_func, self.options = function, options
 
     def __reduce__(self):
-        if hasattr(self, "origin"):
-            return self.origin
-        module = sys.modules.get(self.__module__)
-        if getattr(module, self.__name__, None) is self:
-            return self.__name__  # a kernel that a module defines is the same in another process
-        return Kernel, (self.py_func, self.options)
+        return getattr(self, "origin", (_kernel_of, (self.definition,)))
+
+    @functools.cached_property
+    def definition(self):
+        """A class that stands for the kernel where it is pickled: as an attribute, another process finds it by name.
+
+        cloudpickle saves it by its content where it so saves other classes of the same module, such as those that the
+        kernel's arguments are instances of: both must come to be the same in the other process.
+        """
+        definition = type("definition", (), {"made_of": (self.py_func, self.options), "__module__": self.__module__,
+                                             "__qualname__": f"{self.__qualname__}.definition"})
+        _kernels[definition] = self
+        return definition
 
     def __repr__(self):
         return f"<kernel {full_name(self)}>"
@@ -144,6 +153,14 @@ class Kernel:
         finally:
             if collects:
                 gc.enable()
+
+
+def _kernel_of(definition):
+    """The kernel that a class stands for."""
+    if definition not in _kernels:  # from another process
+        kernel = Kernel(*definition.made_of)
+        kernel.definition, _kernels[definition] = definition, kernel
+    return _kernels[definition]
 
 
 class Compiled(NamedTuple):
@@ -256,7 +273,7 @@ def kernel_maker(function: Callable) -> Any:
     """
     if not inspect.isfunction(function):
         raise checks.error("function", "a Python function that makes kernels", function)
-    signature, known = inspect.signature(function), dict[tuple, Any]()
+    signature, known = inspect.signature(function), _Made()
     if {each.kind.name for each in signature.parameters.values()} & {"KEYWORD_ONLY", "VAR_KEYWORD"}:
         raise checks.error("function", "without arguments by name alone, after * or **", function)
 
@@ -277,6 +294,13 @@ def kernel_maker(function: Callable) -> Any:
 
     make.makes_kernels = True  # type: ignore[attr-defined]
     return make
+
+
+class _Made(dict):
+    """The kernels that a maker has made, of which another process makes its own."""
+
+    def __reduce__(self):
+        return _Made, ()
 
 
 def array(dtype, *shape):

@@ -146,7 +146,7 @@ def _run(tasks, executor, threads, cache, bar, name):
     """Compute tasks, and return the failed ones, [(task, exception), ...]."""
     if executor is not None:
         return _collect(tasks, lambda condition, runs: executor.submit(
-            _live_there, pickle.dumps(condition), runs, condition.key), cache, lambda task: bar.update(task.steps))
+            _live_there, _pickled(condition), runs, condition.key), cache, lambda task: bar.update(task.steps))
     conditions = {id(task.keeper): task.keeper.condition for task in tasks}.values()
     lives = [(agent, each.world) for each in conditions
              for agent in (each.agent, *(later for _, later in each.changes))]
@@ -202,6 +202,15 @@ def _collect(tasks, submit, cache, finished=lambda task: None):
         for future in waiting:  # none, unless it was interrupted
             future.cancel()
     return errors
+
+
+def _pickled(condition):
+    """A condition for a worker, by cloudpickle where it is installed, which includes what the main program defines."""
+    try:
+        from cloudpickle import dumps
+    except ImportError:
+        from pickle import dumps
+    return dumps(condition)
 
 
 def _live_there(pickled, runs, key):

@@ -4,19 +4,22 @@ import importlib
 import os
 import re
 import signal
+import subprocess
 import sys
 import threading
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
-from multiprocessing import get_context
+from multiprocessing import get_all_start_methods, get_context
 from pathlib import Path
 from types import SimpleNamespace
 
+import pond
 import pytest
 from distributed import Client, LocalCluster
 from same import alone
 
 from neorl import Condition, Policy, WaterWorld, multimodal, place_cells, simulate, sweep
+from neorl.core.kernel import jit_is_off
 from neorl.experiments import simulation, store
 
 WORLD = WaterWorld()
@@ -176,6 +179,12 @@ def test_kernels_that_workers_cannot_import_are_refused(cluster, tmp_path, monke
     agent = replace(place_cells([3]), policy=Policy(0.0, choose=importlib.import_module("only_here").first))
     with Client(cluster) as client, pytest.raises(RuntimeError, match="modules that its executor's workers can import"):
         sweep([Condition(agent, WORLD, 1_000, 1)], client.get_executor(), progress=False)
+
+
+@pytest.mark.skipif(jit_is_off(), reason="the compiler is off")
+@pytest.mark.parametrize("method", [each for each in get_all_start_methods() if each != "fork"])
+def test_worlds_and_kernels_of_the_main_program_reach_other_processes(method):
+    subprocess.run([sys.executable, pond.__file__, method], check=True)
 
 
 PAGE = Path(__file__).parents[2] / "book" / "running.md"
