@@ -32,7 +32,8 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
     """Many environments of one world in one compiled step; see the module.
 
     world, render_mode, egocentric, continuing, fields: as in `neorl.gym.environment.WorldEnv`. num_envs: the number of
-    environments, ≥ 1. max_episode_steps: after which an episode is truncated, ≥ 1, or None.
+    environments, ≥ 1. max_episode_steps: after which an episode is truncated, ≥ 1; or None or −1, as Gymnasium writes
+    it, for no limit.
 
     Raises ValueError for anything else, and for more than 2²⁸ numbers in all observations.
     """
@@ -52,8 +53,8 @@ class VectorWorldEnv(gymnasium.vector.VectorEnv):
         numbers = 2 * axes + world.things * (axes + kinds)
         if n * numbers > MOST_NUMBERS:
             raise checks.error("num_envs", f"at most {MOST_NUMBERS // numbers}, of {numbers} numbers each", n)
-        last_step = (2**62 if max_episode_steps is None else
-                     checks.integer("max_episode_steps", max_episode_steps, at_least=1))
+        is_endless = max_episode_steps is None or isinstance(max_episode_steps, int) and max_episode_steps == -1
+        last_step = 2**62 if is_endless else checks.integer("max_episode_steps", max_episode_steps, at_least=1)
         continuing = isinstance(world, WaterWorld) if continuing is None else checks.flag("continuing", continuing)
         self.render_mode = checks.one_of("render_mode", render_mode, (None, *self.metadata["render_modes"]))
         self.metadata = {**self.metadata, "render_fps": world.fps}

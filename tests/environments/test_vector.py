@@ -72,6 +72,12 @@ def test_gymnasium_makes_them_by_their_names():
     single.reset(seed=1)
     np.testing.assert_array_equal(pools.render()[1], single.render())
     assert gymnasium.make_vec("neorl/World-v0", num_envs=2, world=Pond()).world == Pond()
+    for mode in ("sync", "vector_entry_point"):
+        endless = gymnasium.make_vec("neorl/WaterWorld-v0", 1, mode, max_episode_steps=-1)
+        endless.reset(seed=0)
+        assert not any(endless.step(np.full(1, 4))[3].any() for _ in range(3_001))
+        with pytest.raises(ValueError, match="max_episode_steps"):
+            gymnasium.make_vec("neorl/WaterWorld-v0", 1, mode, max_episode_steps=0)
     singles = gymnasium.make_vec("neorl/WaterWorld-v0", num_envs=2, vectorization_mode="sync")
     assert data_equivalence(singles.reset(seed=3), VectorWorldEnv(WaterWorld(), 2).reset(seed=3), exact=True)
 
