@@ -1,5 +1,6 @@
 """The package as a whole: static checks, imports between its rooms, optional dependencies and the installation."""
 
+import pkgutil
 import re
 import shutil
 import subprocess
@@ -94,3 +95,20 @@ def test_no_name_shadows_a_module():
     assert len(modules) > 30
     for (parent, _, name), module in modules:
         assert getattr(sys.modules[parent], name) is module
+
+
+def test_files_and_names_that_the_sources_speak_of_exist():
+    """Not those of notebooks, or below `book/chapters`, where the build puts its own."""
+    sources = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "Makefile", *(ROOT / "book").glob("*.md"), *(
+        path for folder in ("neorl", "notebooks", "book", "tests") for path in (ROOT / folder).rglob("*.py"))]
+    named = {(path.relative_to(ROOT), *name) for path in sources for name in re.findall(
+        r"(?<![\w/.])((?:neorl|notebooks|lib|book|tests)(?:/[\w-]+)+\.(?:py|toml|ipynb|md|js|css|csv|json))\b"
+        r"|`((?:neorl|lib)(?:\.\w+)+)`", path.read_text(encoding="utf-8")) if not name[0].startswith("book/chapters/")}
+    missing = [each for each in named if each[1] and not any((ROOT / folder / each[1]).exists()
+                                                             for folder in ("", "notebooks"))]
+    for each in named:
+        try:
+            pkgutil.resolve_name(each[2] or "neorl")
+        except (ImportError, AttributeError):
+            missing.append(each)
+    assert len(named) > 100 and missing == []

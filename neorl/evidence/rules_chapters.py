@@ -45,7 +45,7 @@ def judge_cost(together, alone, none):
 
 def judge_temporality(whole, short):
     """Claim T3, from the loss of agents that remember one step less than the process
-    (`notebooks/lib/chapter_3/temporality.py`).
+    (`notebooks/lib/chapter_3/decision.py`).
 
     whole, short: {name of a process: reward above chance, (runs,)}, of agents that remember all L steps, and of agents
     that remember one step less.

@@ -1,5 +1,5 @@
 """The study of what the thesis leaves open: the multiverse of readings, and the calibration to its printed numbers.
 
 The pages on assumptions and on calibration show it. `calibration.csv` is the table of calibrated readings, which
-``python book/calibrate.py`` continues.
+``python notebooks/calibrate.py`` continues.
 """
