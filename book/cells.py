@@ -1,20 +1,37 @@
 """The cells of a built page: those of its notebook, in their order.
 
-The parameters show the values used for the page, and the cell that papermill injects is left out.
+1. The parameters show the values used for the page, and the cell that papermill injects is left out.
+2. The caption of a figure is a Markdown cell below it, tagged as such, so that every reader of the notebook sees it;
+   the book shows it under the figure's number.
+3. A fold of code and output bears the title in its first line, a comment, which JupyterLab shows in its place.
 """
 
 import re
 
-PARAMETERS, INJECTED = "parameters", "injected-parameters"
+PARAMETERS, INJECTED, CAPTION = "parameters", "injected-parameters", "caption"
+LABEL = "**Figure.** "  # with which a caption begins
+TITLED = {"hide-cell", "hide-output"}  # tags of folds that may have a title
 
 
 def of_page(cells, values):
     """The cells of a computed notebook as its page shows them. values: of its parameters, {name: value}."""
-    kept = [each for each in cells if INJECTED not in tags(each)]
-    for cell in kept:
+    kept = []
+    for cell in cells:
+        if CAPTION in tags(cell):
+            kept[-1].metadata["mystnb"]["figure"]["caption"] = caption_of(cell)
+        elif INJECTED not in tags(cell):
+            kept.append(cell)
         if PARAMETERS in tags(cell):
             cell.source = with_values(cell.source, values)
+        if TITLED & tags(cell) and cell.source.startswith("# "):
+            title, _, cell.source = cell.source.removeprefix("# ").partition("\n")
+            cell.metadata.setdefault("mystnb", {}).update(code_prompt_show=title, code_prompt_hide=title)
     return kept
+
+
+def caption_of(cell):
+    """The caption in a cell, in one line, without its label."""
+    return " ".join(cell.source.removeprefix(LABEL).split("\n"))
 
 
 def tags(cell):

@@ -33,8 +33,10 @@ def planned(page, *cells, until=(), **given):
     parameters, imports, *_ = code(page).values()
     names = {"__name__": f"cells_of_{page}"}
     exec(parameters, names)
-    exec(imports.partition("notebook.begin")[0], names)
-    names |= {"sweep": iter, **given}
+    chosen = {name: value for name, value in given.items() if name in names}
+    names |= chosen
+    exec(imports, names)  # lists become tuples
+    names |= {"sweep": iter, **{name: value for name, value in given.items() if name not in chosen}}
     for cell in cells:
         text = source(page, cell)
         for line in until:

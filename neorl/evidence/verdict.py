@@ -6,7 +6,7 @@
    it that the rule names. An interval that merely leaves room for a claim proves nothing.
 3. An agent has *learned* if it finally earns more than Brownian motion on the same board. A claim that presupposes
    learning is *not testable* where agents have learned nothing; a claim that agents improve fails there.
-4. With fewer than 10 runs per condition there is *no verdict*.
+4. With fewer than 10 runs per condition, or shorter ones than the claim's, there is *no verdict*.
 
 Rewards are per simulated second and means over runs; early is the first tenth of a run, final the last fifth.
 """
@@ -33,11 +33,12 @@ class Claim:
     runs: int
     outcome: str  # one of VERDICTS but the last, whatever the number of runs
     undecided: bool  # not reproduced, but the intervals leave room for it, so that more runs might show it
+    full_length: bool = True  # whether the runs are as long as the claim's own
 
     @property
     def verdict(self):
-        """The outcome, if there are enough runs for a verdict."""
-        return self.outcome if self.runs >= RUNS_FOR_A_VERDICT else "no verdict"
+        """The outcome, if runs are many and long enough for a verdict."""
+        return self.outcome if self.full_length and self.runs >= RUNS_FOR_A_VERDICT else "no verdict"
 
 
 def judged(name, here, runs, asked=None, shown=None, *, reproduced=None, partly=None, possible=None, testable=True):

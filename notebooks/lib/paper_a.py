@@ -1,7 +1,7 @@
 """What the page on paper A needs beside its experiment: squares of the board, tables and figures.
 
 1. The results under one reading are {key: `Result`}, with the keys ("single", N), ("layer", N), "layers" (all layers in
-   one agent), "control" and "brownian" (Brownian motion, as long as the agents' runs and as long as the paper's).
+   one agent), "control" and ("brownian", 8) (Brownian motion, as long as the agents' runs and as long as the paper's).
 2. The layers are those of the paper's second experiment unless the page has been given others. The thesis's numbers,
    and the names of its figures, go only with its own maps and 8 creeps.
 """
@@ -9,7 +9,7 @@
 import numpy as np
 
 from lib.shared import pins, side_by_side
-from lib.shared.notebook import FINEST
+from lib.shared.parameters import FINEST
 from lib.shared.priors import BEYOND
 from lib.shared.report import CALIBRATED, LETTER
 from lib.shared.style import FILL, mark
@@ -50,8 +50,15 @@ def squares_entered(agent, world, steps, runs, seed=0):
     return np.array(found)
 
 
-def rates(results, names, share=(0.0, 1.0)):
-    """Mean reward per second in a share of the run, as a Markdown table."""
+def names_of(results):
+    """The agents of the second experiment: {key: name}. results: of one reading."""
+    layers = resolutions_of(results, "layer")
+    return {**{("layer", n): f"N{n}" for n in layers}, "layers": all_of(layers)}
+
+
+def rates(results, share):
+    """Mean reward per second of the second experiment's agents in a share of the run, as a Markdown table."""
+    names = names_of(next(iter(results.values())))
     return table(["Reading", *names.values()], [
         [reading, *(estimate(np.mean, each[key].rate(*share)) for key in names)] for reading, each in results.items()])
 
@@ -68,17 +75,18 @@ def explorer_conditions(results):
     """The conditions that the page's Explorer offers: {name: `Result`}. results: {reading: {key: `Result`}}."""
     offered = {}
     for reading, suffix in ((CALIBRATED, ""), (LETTER, ", to the letter")):
-        found, layers = results[reading], _resolutions(results[reading], "layer")
+        found, layers = results[reading], resolutions_of(results[reading], "layer")
         seven = _as_in(7, found["layers"], set(layers) == set(LAYERS))
         offered[f"{seven}: {all_of(layers)} maps{suffix}"] = found["layers"]
         offered |= {f"{seven}: N{n} alone{suffix}": found["layer", n] for n in layers}
         offered |= {f"{_as_in(6, found['single', n], n in SINGLE)}: N{n}{suffix}": found["single", n]
-                    for n in _resolutions(found, "single")}
+                    for n in resolutions_of(found, "single")}
     control = results[CALIBRATED]["control"]
     return offered | {f"{_as_in(6, control)}: Brownian motion": control}
 
 
-def _resolutions(results, group):
+def resolutions_of(results, group):
+    """The resolutions of the agents of a group, "single" or "layer": a list."""
     return [key[1] for key in results if key[0] == group]
 
 
@@ -93,7 +101,7 @@ def draw_together(results):
 
     With the paper's layers and creeps, a dashed line marks the thesis's level, a multiple of what N7 finally earns.
     """
-    layers = _resolutions(results, "layer")
+    layers = resolutions_of(results, "layer")
     alone, together = {f"N{n}": results["layer", n] for n in layers}, results["layers"]
     total = {2: "sum of both", 3: "sum of the three"}.get(len(layers), "sum of all")
     sums = [*((name, [result]) for name, result in alone.items()), (all_of(layers), [together]),

@@ -8,6 +8,7 @@ from pathlib import Path
 import excerpts
 import nbformat
 import pytest
+from cells import LABEL, of_page
 from matplotlib import pyplot as plt
 
 TEXT = "</script><!-- <script> </SCRIPT >"  # must not end the tag that contains it
@@ -88,3 +89,16 @@ def test_figures_are_saved_by_name_and_the_first_small_without_letters_too(tmp_p
     excerpts.save_figures(nbformat.v4.new_notebook(cells=cells), tmp_path)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["fig-one-small.svg", "fig-one.svg", "fig-two.svg"]
     assert ['id="text_' in (tmp_path / f"fig-one{which}.svg").read_text() for which in ("", "-small")] == [True, False]
+
+
+def test_captions_and_titles_of_folds_are_the_book_s_and_cells_of_papermill_are_left_out():
+    figure = nbformat.v4.new_code_cell("# Rewards, run by run\ndraw()", metadata={
+        "mystnb": {"figure": {"name": "fig-one"}}, "tags": ["hide-cell"]})
+    caption = nbformat.v4.new_markdown_cell(f"{LABEL}Rewards\nof *runs*.", metadata={"tags": ["caption"]})
+    parameters = nbformat.v4.new_code_cell("runs: int = 4  # of each", metadata={"tags": ["parameters"]})
+    injected = nbformat.v4.new_code_cell("runs = 2", metadata={"tags": ["injected-parameters"]})
+    parameters, figure = of_page([parameters, injected, figure, caption], {"runs": 2})
+    assert (parameters.source, figure.source) == ("runs: int = 2  # of each", "draw()")
+    assert figure.metadata["mystnb"] == {
+        "figure": {"name": "fig-one", "caption": "Rewards of *runs*."}, "code_prompt_show": "Rewards, run by run",
+        "code_prompt_hide": "Rewards, run by run"}

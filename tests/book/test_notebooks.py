@@ -2,11 +2,12 @@
 
 import ast
 import re
+from contextlib import nullcontext
 
 import compute
 import nbformat
 import pytest
-from cells import tags
+from cells import LABEL, caption_of, tags
 from page_cells import NOTEBOOKS as FOLDER
 from programs import figure_of
 
@@ -42,11 +43,19 @@ def test_a_notebook_is_without_outputs(cells):
     assert all(not cell.outputs and cell.execution_count is None for cell in cells if cell.cell_type == "code")
 
 
-def test_every_figure_has_alt_text_and_a_caption(cells):
-    for cell in cells:
-        if cell.cell_type == "code" and re.search(DRAWS, cell.source):
+def test_every_figure_has_alt_text_and_a_caption_below_it(cells):
+    for cell, below in zip(cells, [*cells[1:], None]):
+        if figure_of(cell) or cell.cell_type == "code" and re.search(DRAWS, cell.source):
             assert len(cell.metadata["mystnb"]["image"]["alt"]) > 40
-            assert len(cell.metadata["mystnb"]["figure"]["caption"]) > 40
+            assert below.source.startswith(LABEL) and len(caption_of(below)) > 40 and tags(below) == {"caption"}
+        else:
+            assert below is None or "caption" not in tags(below)
+
+
+def test_what_the_book_folds_is_folded_in_jupyterlab(cells):
+    for cell in cells:
+        folds = {"source_hidden": HIDDEN & tags(cell), "outputs_hidden": {"hide-cell", "hide-output"} & tags(cell)}
+        assert cell.metadata.get("jupyter", {}) == {fold: True for fold, tagged in folds.items() if tagged}
 
 
 def test_a_cell_that_ends_with_a_drawing_puts_out_nothing_but_the_figure(cells):
@@ -69,8 +78,8 @@ def test_each_specification_curve_has_the_label_of_its_claim():
     found = [name for name in map(figure_of, page.cells) if name and "spec" in name]
     assert found == [f"fig-spec-{name.lower()}" for name in drawn]
     assert drawn == [name for name in STATEMENTS if name in drawn] and len(drawn) == 19
-    folded = [cell.metadata.mystnb.code_prompt_show for cell in page.cells if "draw_specification(" in cell.source]
-    assert folded == [f"{name}: {STATEMENTS[name].text}" for name in drawn]
+    folded = [cell.source.splitlines()[0] for cell in page.cells if "draw_specification(" in cell.source]
+    assert folded == [f"# {name}: {STATEMENTS[name].text}" for name in drawn]
 
 
 def test_links_lead_somewhere(cells):
@@ -83,43 +92,63 @@ def test_links_lead_somewhere(cells):
             assert "](../book/" not in cell.source
 
 
-@pytest.mark.parametrize("change, message", [
-    ({"runs": 0}, "runs must be an integer of at least 1, but is 0"), ({"runs": "4"}, "runs must be .*, but is '4'"),
-    ({"steps": -1}, "steps must be .*, but is -1"), ({"seed": 0.5}, "seed must be .*, but is 0.5"),
-])
-def test_a_bad_parameter_is_refused(change, message):
-    with pytest.raises(ValueError, match=message):
-        notebook.begin(**{"runs": 20, "steps": 1_000, "seed": 0, **change})
+# Values that are right for some parameters; each of the others must be refused by a sentence that names it.
+TRIED = [0, -1, "x", [], [1], [3, 3], None, 0.5, 10**9]
+RIGHT = {"seed": [0, 10**9], "runs": [10**9], "steps": [10**9], "decisions": [10**9], "traffic": [0], "nearest": [0],
+         "sample": [0], "recursion": [0, -1, 0.5], "place_gain": [0, 0.5], "bonus": [0, 0.5], "begin": [0.5],
+         "learning_rate": [0.5], "exploration": [0, 0.5], "keep": ["x"], "layers": [[1]], "counts": [[1]],
+         "stays": [[1]]}
+RIGHT_ON = {("paper_c", "resolutions"): [[], [1]], **{(page, "resolutions"): [[1]] for page in (
+    "beyond_agents", "chapter_4", "paper_a", "paper_b", "your_research")}}
+
+
+@pytest.mark.parametrize("page", NOTEBOOKS)
+def test_a_page_refuses_bad_parameters_before_it_runs(page):
+    given, begun = (ast.parse(cell.source) for cell in NOTEBOOKS[page].cells[:8] if re.search(
+        r"^runs: int|notebook\.begin\(", cell.source, re.MULTILINE))
+    begun.body = [part for part in begun.body if not isinstance(part, ast.Import | ast.ImportFrom)]
+    names = {"notebook": notebook}
+    exec(compile(given, page, "exec"), names)
+    exec(compile(begun, page, "exec"), names)
+    for name in [statement.target.id for statement in given.body]:
+        for value in TRIED:
+            if value in RIGHT_ON.get((page, name), RIGHT.get(name, ())):
+                exec(compile(begun, page, "exec"), names | {name: value})
+            else:
+                with pytest.raises(ValueError, match=rf"^{name} must be .*, but is "):
+                    exec(compile(begun, page, "exec"), names | {name: value})
 
 
 def test_too_short_a_run_is_refused_where_there_would_be_nothing_to_draw():
     with pytest.raises(ValueError, match="steps must be an integer of at least 1000, but is 999"):
-        notebook.begin(runs=20, steps=999, seed=0, fewest_steps=1_000)
+        notebook.begin({"steps": 1_000}, runs=20, steps=999, seed=0)
 
 
-@pytest.mark.parametrize("given, fewest, wanted", [
-    ([5, 11], 1, (5, 11)), ("[11, 5]", 1, (11, 5)), ("5, 11", 1, (5, 11)), ([], 0, ()), ("[]", 0, ())])
-def test_resolutions_are_a_list_or_its_text(given, fewest, wanted):
-    assert notebook.resolutions("layers", given, fewest) == wanted
+@pytest.mark.parametrize("given, wanted", [
+    ([11, 5], (5, 11)), ("[11, 5]", (5, 11)), ("5, 11", (5, 11)), ("[]", ())])
+def test_a_list_may_be_a_text_and_is_sorted(given, wanted):
+    notebook.begin({"resolutions": 0}, resolutions=given)
+    assert notebook.listed(given) == wanted
 
 
 @pytest.mark.parametrize("given, message", [
-    ("five", r"layers must be a list of resolutions, but is 'five'; write it as \[5, 11\]"),
+    ("five", r"layers must be a list of numbers, but is 'five'; write it as \[5, 11\]"),
     ([3, 91], "layers must be an integer from 1 to 90, but is 91"),
-    ([], "layers must be a list of 1 or more resolutions, all different, but is"), ([3, 3], "but is .3, 3."),
-    (7, "layers must be a list or a tuple, but is 7")])
-def test_other_resolutions_are_refused(given, message):
+    ([], "layers must be a list of 1 or more numbers, all different, but is"), ([3, 3], "but is .3, 3."),
+    (7, "layers must be a list of numbers, but is 7")])
+def test_other_lists_are_refused(given, message):
     with pytest.raises(ValueError, match=message):
-        notebook.resolutions("layers", given)
+        notebook.begin(layers=given)
 
 
-def test_a_parameter_that_the_notebook_does_not_have_is_refused(monkeypatch):
+@pytest.mark.parametrize("injected, refused", [("runz = 3", "runz"), ("PAPERMILL_OUTPUT_PATH = 'out.ipynb'", None)])
+def test_a_parameter_that_a_notebook_does_not_have_is_refused_unless_it_is_papermill_s(injected, refused, monkeypatch):
     class Shell:
-        user_ns = {"In": ["", "runs: int = 20", "# Parameters\nruns = 4\nrunz = 3\n", "notebook.begin(runs, 1, 0)"]}
+        user_ns = {"In": ["", "runs: int = 20", f"# Parameters\nruns = 4\n{injected}\n"]}
 
     monkeypatch.setattr(notebook, "get_ipython", Shell)
-    with pytest.raises(ValueError, match="a parameter must be one of runs, steps, seed.*, but is runz"):
-        notebook.begin(runs=4, steps=1, seed=0)
+    with pytest.raises(ValueError, match="a parameter must be one of runs, but is runz") if refused else nullcontext():
+        notebook.begin(runs=4)
 
 
 def test_a_notebook_begins_with_typed_parameters_and_hidden_imports(cells):
@@ -130,6 +159,7 @@ def test_a_notebook_begins_with_typed_parameters_and_hidden_imports(cells):
     assert {"runs", "steps", "seed"} <= {statement.target.id for statement in statements}
     assert re.match(r"# .*\b(seconds|minutes?)\b", parameters.source)
     assert HIDDEN & tags(imports)
-    *imported, begun = ast.parse(imports.source).body
-    assert all(isinstance(each, (ast.Import, ast.ImportFrom)) for each in imported)
-    assert ast.unparse(begun).startswith("notebook.begin(")
+    *imported, begun = [part for part in ast.parse(imports.source).body if "notebook.listed" not in ast.unparse(part)]
+    assert all(isinstance(part, ast.Import | ast.ImportFrom) for part in imported)
+    checked = re.fullmatch(r"notebook\.begin\((?:{.*}, )?(.*)\)", ast.unparse(begun))[1]
+    assert {*checked.split(", ")} == {f"{name}={name}" for name in (part.target.id for part in statements)}

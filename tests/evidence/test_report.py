@@ -30,8 +30,14 @@ def test_claims_are_kept_as_data_and_a_bound_that_does_not_exist_as_null(record,
     kept = json.loads((cache_folder / "claims" / "paper_c.json").read_text())
     assert list(kept["claims"]) == list(kept["letter"]) == ["C1", "C2", "C3", "C4"]
     assert kept["claims"]["C4"]["here"] == list(networks()[3].here) and kept["claims"]["C4"]["runs"] == 20
-    text = (cache_folder / "claims" / "look.json").read_text()
-    assert "NaN" not in text and json.loads(text)["claims"]["A6"]["here"][1:] == [None, None]
+    text = (cache_folder / "claims" / "alternatives.json").read_text()
+    assert "NaN" not in text and json.loads(text)["claims"]["C5"]["here"][1:] == [None, None]
+
+
+def test_a_record_has_all_claims_of_its_page_or_stays_as_it_was(record, cache_folder):
+    report.save("paper_c", networks()[:3])
+    report.save("paper_c")
+    assert report.load() == record
 
 
 def test_a_table_of_a_page_has_both_readings_and_leads_to_what_the_verdicts_rest_on():
@@ -65,7 +71,7 @@ def test_a_verdict_that_more_runs_might_change_is_undecided_and_every_number_has
 @pytest.fixture
 def record(cache_folder):
     report.save("paper_c", networks(), letter=networks(*paper_c()[::-1]))
-    report.save("look", layers(runs=1))
+    report.save("alternatives", [replace(layers(runs=1)[0], name="C5")])
     report.save("assumptions", shares={"C2": {"reproduced": 64, "undecided": 26, "untestable": 3, "readings": 256,
                                                "agrees": 2, "measured": 40}})
     return report.load((cache_folder / "claims").iterdir())
@@ -79,14 +85,14 @@ def row(table, name):
 def test_all_that_is_kept_is_read_unless_files_are_named(record, cache_folder):
     (cache_folder / "claims" / "notes.txt").touch()
     assert report.load() == record
-    assert list(report.load([cache_folder / "claims" / "look.json"])["claims"]) == ["A6", "A7", "A8"]
+    assert list(report.load([cache_folder / "claims" / "alternatives.json"])["claims"]) == ["C5"]
 
 
 def test_readings_are_drawn_beside_the_verdicts(record):
-    draw_standing(record, ["C2", "A6", "T5"])
+    draw_standing(record, ["C2", "C5", "T5"])
     axes = plt.gca()
     assert [tick.get_text() for tick in axes.get_yticklabels()] == [
-        "C2  reproduced", "A6  no verdict", "T5  not computed"]
+        "C2  reproduced", "C5  no verdict", "T5  not computed"]
     assert [(bar.get_x(), bar.get_width()) for bar in axes.patches] == [(0, 0.25), (0.25, 26 / 256)]
     assert [each.get_text() for each in axes.texts] == ["64 of 256", *2 * ["not varied over readings"]]
     assert [line.get_xydata().tolist() for line in axes.lines] == [[[0.05, 0]]]

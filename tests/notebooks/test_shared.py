@@ -5,6 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from lib.shared import marks, opening, provenance, report, side_by_side
 from lib.shared.fields import superposed_field
@@ -44,17 +45,26 @@ def test_every_verdict_has_a_mark_whose_colour_is_legible_on_all_grounds():
                 assert contrast(colour, ground) >= 4.5, (name, ground)
 
 
-def claims(**verdicts):
-    return [Claim(name, Estimate(0.1, 0.05, 0.2), "", 10, verdict, False) for name, verdict in verdicts.items()]
+def claims(runs=10, full_length=True, **verdicts):
+    return [Claim(name, Estimate(0.1, 0.05, 0.2), {}, runs, verdict, False, full_length)
+            for name, verdict in verdicts.items()]
 
 
 def test_a_box_has_verdicts_by_reading_with_links_or_says_that_there_are_none():
     judged = {"calibrated": claims(A2="reproduced", A3="partly", A4="reproduced"), "": claims(C1="not testable")}
-    calibrated, nameless = opening.found(judged, 10).split("\n\n")[2:4]
+    calibrated, nameless = opening.found(judged).split("\n\n")[2:4]
     names = re.findall(r'<a href="../book/claims.md#claim-\w+" title="[^"]+">(\w+)</a>', calibrated)
     assert calibrated.startswith("Calibrated: ") and names == ["A2", "A4", "A3"]
     assert "C1</a> not testable, because the agents learned too little" in nameless
-    assert "A2" not in opening.found(judged, 9) and "**Quick look: no verdicts.**" in opening.found(judged, 9)
+    assert opening.found({"calibrated": [], "": []}) == ""
+
+
+@pytest.mark.parametrize("runs, full_length, said", [
+    (9, True, "this page was computed with 9."),
+    (12, False, "this page was computed with 10, some of which are shorter.")])
+def test_a_box_of_few_or_short_runs_has_no_verdicts(runs, full_length, said):
+    box = opening.found({"": claims(A3="partly"), "calibrated": claims(runs, full_length, A2="reproduced")})
+    assert "A2" not in box and "**Quick look: no verdicts.**" in box and said in box
 
 
 def test_variants_of_a_reading_are_those_that_differ_and_its_choices_are_open_or_pinned():

@@ -1,6 +1,6 @@
 """The box *What was found*, in Markdown: the verdict on each claim of a page, with its symbol.
 
-With too few runs for verdicts the box says so instead.
+With too few runs for verdicts, or too short ones, the box says so instead.
 """
 
 from html import escape
@@ -13,12 +13,17 @@ CLAIMS_PAGE = "../book/claims.md"  # from a notebook; the build makes it the bui
 REASONS = {"not testable": ", because the agents learned too little"}
 
 
-def found(judged, runs):
-    """The box of a page, a line for each reading: judged {reading: [Claim, …]}."""
-    lines = [f"**Quick look: no verdicts.** A verdict needs {RUNS_FOR_A_VERDICT} runs of each condition; this page was "
-             f"computed with {runs}."]
-    if runs >= RUNS_FOR_A_VERDICT:
-        lines = [_line(reading, {claim.name: claim.verdict for claim in claims}) for reading, claims in judged.items()]
+def found(judged):
+    """The box of a page, a line for each reading, or "" without claims. judged: {reading: [Claim, …]}."""
+    claims = [claim for claims in judged.values() for claim in claims]
+    if not claims:
+        return ""
+    lines = [_line(reading, {claim.name: claim.verdict for claim in claims}) for reading, claims in judged.items()]
+    runs = min(claim.runs for claim in claims)
+    if runs < RUNS_FOR_A_VERDICT or not all(claim.full_length for claim in claims):
+        shorter = ", some of which are shorter" * any(not claim.full_length for claim in claims)
+        lines = [f"**Quick look: no verdicts.** A verdict needs {RUNS_FOR_A_VERDICT} runs of each condition, as long "
+                 f"as the claim's own; this page was computed with {runs}{shorter}."]
     # A blank line ends the HTML, so that the text between the two tags is parsed as Markdown.
     return "\n\n".join(['<div class="found">', "**What was found**", *lines, "</div>"])
 

@@ -30,6 +30,9 @@ LEGEND = ("● reproduced, ◐ partly, ○ not reproduced, ◇ not testable (age
           "claim's name leads to what its verdict rests on.")
 BESIDE = "Demonstrations of this book, not counted among the claims:"
 PARTS = ("claims", "letter", "shares")  # of a record
+CLAIMS_OF = {"alternatives": ("C5",), "chapter_2": ("H1",), "chapter_3": ("T3", "T4"), "chapter_4": ("T5", "T7"),
+             "other_spaces": ("G1", "G2", "G3", "G4"), "paper_a": (*(f"A{n}" for n in range(1, 10)), "T9"),
+             "paper_b": (*(f"B{n}" for n in range(1, 8)), "T1", "T2", "T6", "T8"), "paper_c": ("C1", "C2", "C3", "C4")}
 
 
 def table(claims, letter=()):
@@ -59,9 +62,12 @@ def errata(place=""):
 def save(page, claims=(), shares=None, letter=()):
     """Save the findings of a page as JSON, with the digest of the source that computed them.
 
+    A record is complete: nothing is saved unless all claims of the page are judged.
     shares: {name of a claim: {"reproduced", "undecided", "readings"}}, counts of readings within the text in short
     runs, with "agrees" and "measured" if there are counts at the papers' lengths too. A missing bound is null.
     """
+    if {claim.name for claim in claims} != {*CLAIMS_OF.get(page, ())}:
+        return
     content = {"page": page, "source": source_digest(), "claims": _kept(claims), "letter": _kept(letter),
                "shares": shares or {}}
     write_whole(cache_folder() / "claims" / f"{page}.json", json.dumps(content, indent=1, allow_nan=False).encode())

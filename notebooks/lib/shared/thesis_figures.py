@@ -20,16 +20,17 @@ REACH = 0.5  # of the range of the numbers: intervals are cut off that far beyon
 def draw_against_thesis(thesis, readings, xlabel):
     """Draw numbers of the thesis beside the results, a row for each, with dots and 95 % intervals.
 
-    thesis: {label: number}. readings: {name: {label: Estimate}}, with the same labels. An interval that reaches far
-    beyond all numbers is cut off, with an arrow at the edge.
+    thesis: {label: number, or None where it has none}. readings: {name: {label: Estimate}}, with the same labels. An
+    interval that reaches far beyond all numbers is cut off, with an arrow at the edge.
     """
     rows = np.arange(len(thesis))
     axes = axes_or_new(None, figsize=(width_of_figures(), 1.1 + ROW * len(rows)))
-    printed = [*thesis.values()]
-    axes.vlines(printed, rows - 0.36, rows + 0.36, color=INK, linewidth=2.2)
+    printed = {row: number for row, number in enumerate(thesis.values()) if number is not None}
+    marked = np.array([*printed])
+    axes.vlines([*printed.values()], marked - 0.36, marked + 0.36, color=INK, linewidth=2.2)
     names = [axes.annotate(f"thesis {number:g}".replace("-", "−"), (number, row - 0.38), xytext=(0, 0),
                            textcoords="offset points", fontsize=SMALL, ha="center", va="bottom")
-             for row, number in zip(rows, printed)]
+             for row, number in printed.items()]
     intervals = []
     shifts = 0.5 * (np.arange(len(readings)) - (len(readings) - 1) / 2) / max(len(readings), 1)
     for (name, found), shift, colour, marker in zip(readings.items(), shifts, CURVES, MARKERS):
@@ -38,7 +39,7 @@ def draw_against_thesis(thesis, readings, xlabel):
         axes.hlines(rows + shift, low, high, color=colour)
         intervals += zip(rows + shift, low, high, [colour] * len(rows))
     axes.set(yticks=rows, yticklabels=thesis, ylim=(len(rows) - 0.5, -0.75), xlabel=xlabel)
-    values = [*printed, *(estimate.value for found in readings.values() for estimate in found.values())]
+    values = [*printed.values(), *(estimate.value for found in readings.values() for estimate in found.values())]
     low, high = sorted(axes.get_xlim())
     reach = REACH * (max(values) - min(values)) or np.inf
     left, right = axes.set_xlim(max(low, min(values) - reach), min(high, max(values) + reach))
