@@ -1,4 +1,4 @@
-"""What the page on paper C needs beside its experiment: its maps, a table and a figure, and where desires land.
+"""What the page on paper C needs beside its experiment: its judgement, drawings, and where desires land.
 
 The results under one reading are {name: `Result`}, of networks "A" to "D" and of "Brownian" motion on the same board.
 """
@@ -6,12 +6,15 @@ The results under one reading are {name: `Result`}, of networks "A" to "D" and o
 import numpy as np
 from matplotlib import pyplot as plt
 
+from lib.shared import judging
 from lib.shared.wording import table
 from lib.shared.thesis_figures import mark_levels
 from neorl.drawing.boards import MARGIN, desire_colour
 from neorl.drawing.curves import draw_proficiency
 from neorl.drawing.network_figures import HEAD, LARGEST, draw_into, laid_out, write
 from neorl.drawing.style import width_of_figures
+from neorl.evidence import claims
+from neorl.evidence.reading import GROUPS, LENGTHS, conditions
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.verdict import FINAL
 from neorl.experiments.run import Run
@@ -21,6 +24,14 @@ LOOKS = 500  # samples of each run, in its second half
 WELL_INSIDE = 0.2  # board widths from the middle
 FAR = 0.1  # board widths from the agent
 TRIED, PATIENCE, EVERY = 10, 5_000, 10  # runs, the steps of each, and the steps from look to look
+
+
+def judge(results, reading):
+    """The claims on networks under a reading, a list: none unless its networks were run among the paper's creeps."""
+    ran = {key: results["Brownian" if key[0] == "brownian" else key[1]] for key in GROUPS["networks"]}
+    wanted = conditions(reading, LENGTHS["C"], 1, groups=["networks"])
+    return judging.judged(lambda: claims.judge_networks(*(results[name] for name in "ABCD"), results["Brownian"]),
+                          ran, wanted)
 
 
 def draw_networks(agents):
@@ -37,7 +48,7 @@ def draw_networks(agents):
 
 
 def draw_rates(results, of_paper):
-    """Draw reward per second of networks, and for the paper's what D has to exceed."""
+    """Draw reward per second of networks, and for the paper's own what D has to exceed."""
     axes = draw_proficiency(results)
     if of_paper:
         level = max(0.0, DRASTIC * results["C"].rate(*FINAL).mean())

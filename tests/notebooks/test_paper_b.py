@@ -1,11 +1,14 @@
 """The page of paper B: the conditions of its cells, its figures and tables."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from page_cells import planned
+from page_cells import planned, source
 
 import neorl
 from lib.paper_b import figures, trials
+from lib.shared.report import CALIBRATED, CLAIMS_OF, LETTER
 from neorl import WaterWorld
 from neorl.evidence.reading import PRIMES, TO_THE_LETTER, Reading, conditions
 
@@ -25,21 +28,17 @@ def test_the_experiment_has_the_conditions_by_which_readings_are_judged(steps):
         main = conditions(reading, steps, 12, 3, ["modal", "pace"])
         expected = conditions(reading, steps, 10, 3, ["modal", "resolutions"])
         expected |= {key: main[key] for key in (("place", "all"), ("objects", "all"), "both")}
-        expected["brownian"] = expected.pop(("brownian", 3))
         assert page["results"][name] == expected
         assert page["paced"][name] == {"PC": main["pace", "place"], "OVC": main["pace", "objects"],
                                        "PC + OVC": main["pace", "both"]}
 
 
 def test_other_claims_are_judged_by_the_conditions_of_readings_too():
-    page = run_cells("computing", "revalued-computed", "more-computed", "variations")
+    page = run_cells("computing", "ran", "revalued-computed", "more-computed", "variations")
     for name, reading in page["readings"].items():
         expected = conditions(reading, 1_000, 10, 3, ["revaluing", "layers"])
         assert page["turned"][name][""] == expected["revalued"]
-        assert page["layers"][name] == {"all": expected["layers"], "brownian": expected["brownian", 8],
-                                        **{n: expected["layer", n] for n in (3, 7, 23)}}
-        assert list(page["added"][name]) == ["resolutions of place, paper A", "resolutions of place",
-                                             "resolutions of object vectors", "a modality"]
+        assert page["layers"][name].items() <= expected.items() and len(page["layers"][name]) == 5
     book = conditions(Reading(), 1_000, 10, 3, ["modal"])
     assert page["varied"]["calibrated, a quarter as long"]["both"] == book["both"]
     assert len(page["varied"]) == 10 and len({each["both"] for each in page["varied"].values()}) == 10
@@ -78,6 +77,61 @@ def test_other_maps_take_the_place_of_the_papers():
     each = run_cells("computing", resolutions=(2, 5))["made"]["calibrated"]
     assert {key[1] for key in each if key[0] == "place"} == {2, 5, "all"}
     assert {node.resolutions for node in each["both"].agent.nodes} == {(2, 5)}
+
+
+ALL = [*CLAIMS_OF["paper_b"]]
+
+
+def judged(cache_folder, **given):
+    """What the page defines with made-up results, the claims that it judges, and whether it saves a record."""
+    def sweep(conditions):
+        return (neorl.Result(each, np.zeros((each.runs, bins := -(-each.steps // 10)), np.float32),
+                             np.zeros((each.runs, bins, 2), np.int16)) for each in conditions)
+
+    names = planned("paper_b", "computing", "ran", "judging", "minutes-computed", "points-computed",
+                    "revalued-computed", "moved-computed", "joined-computed", "more-computed", "stays-computed",
+                    "costs-computed", until=ANALYSES, runs=2, steps=1_000, sweep=sweep, **given)
+    return names, *judged_of(names, cache_folder)
+
+
+def judged_of(names, cache_folder):
+    exec(source("paper_b", "judging-rest"), names)
+    found = {reading: [claim.name for claim in claims] for reading, claims in names["judged"].items()}
+    return found, (cache_folder / "claims" / "paper_b.json").exists()
+
+
+def other_agent(made):
+    """The same result, or measurement, of another agent."""
+    condition = replace(made.condition, agent=neorl.brownian())
+    return replace(made, condition=condition) if isinstance(made, neorl.Result) else made._replace(condition=condition)
+
+
+def test_a_claim_is_judged_only_if_what_was_run_for_it_is_the_paper_s(cache_folder):
+    names, found, saved = judged(cache_folder)
+    assert found == {LETTER: ALL, CALIBRATED: ALL} and saved
+    (cache_folder / "claims" / "paper_b.json").unlink()
+    for claim, what, key in [
+            ("B4", "paced", "OVC"), ("B5", "boards", "PC + OVC"), ("B7", "joined", "joined"), ("T1", "turned", ""),
+            ("T1", "moved", None), ("T2", "costs", None), ("T6", "layers", ("layer", 7)), ("T8", "stays", None)]:
+        of_reading = names[what][CALIBRATED]
+        changed = other_agent(of_reading) if key is None else of_reading | {key: other_agent(of_reading[key])}
+        first = {reading: [each for each in claims if each.name in ("B1", "B2", "B3", "B6")]
+                 for reading, claims in names["judged"].items()}
+        found, saved = judged_of(names | {"judged": first, what: names[what] | {CALIBRATED: changed}}, cache_folder)
+        assert found[CALIBRATED] == [name for name in ALL if name != claim] and not saved, claim
+
+
+def with_a_third_node(*arguments, **options):
+    both = neorl.multimodal(*arguments, **options)
+    return replace(both, nodes=[*both.nodes, neorl.Node("HD", neorl.modality.HEAD_DIRECTION_CELL, [8])])
+
+
+@pytest.mark.parametrize("given, found", [
+    ({"place_gain": 0.0}, {LETTER: ALL, "calibrated, place cells × 0": []}),
+    ({"multimodal": with_a_third_node}, {LETTER: [], CALIBRATED: []}),
+    ({"n_creeps": 4, "resolutions": (2, 3)}, {LETTER: [], CALIBRATED: []})])
+def test_other_agents_and_boards_are_neither_judged_nor_called_calibrated_nor_saved(given, found, cache_folder):
+    assert judged(cache_folder, **given)[1:] == (found, False)
 
 
 def made_up(rate, runs=2, red=0.0, bins=3_000):

@@ -4,18 +4,20 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from page_cells import planned
+from page_cells import planned, source
 
 from lib import paper_c
 from lib.shared.report import CALIBRATED, LETTER
-from neorl import Learning, Policy, Run, WaterWorld, network_b
+from neorl import Learning, Policy, Result, Run, WaterWorld, network_b
 from neorl.evidence.reading import TO_THE_LETTER, Reading, conditions, networks
 from neorl.experiments.condition import Condition
 
 READINGS = {LETTER: TO_THE_LETTER, CALIBRATED: Reading()}
-def experiment(**parameters):
+
+
+def experiment(*cells, **parameters):
     """The names that the page's cells define down to its experiment, with an iterator of conditions for results."""
-    return planned("paper_c", "of-paper", "1e283f34", **parameters)
+    return planned("paper_c", "1e283f34", *cells, **parameters)
 
 
 @pytest.mark.parametrize("steps", [4_000, 300_000, 600_000])
@@ -25,21 +27,45 @@ def test_the_page_runs_the_networks_of_each_reading(steps):
         expected = conditions(reading, steps, 3, 2, groups=["networks"])
         assert found["results"][name] == {key[1] if key[0] == "network" else "Brownian": each
                                           for key, each in expected.items()}
-    assert found["of_paper"]
 
 
 def test_weights_and_creeps_and_maps_are_those_of_the_parameters():
-    other = experiment(recursion=-0.5, n_creeps=5, resolutions="[7, 2]")
-    assert not other["of_paper"]
+    other = experiment(recursion=-0.5, n_creeps=5, resolutions=(2, 7))
     for name, reading in READINGS.items():
         agents = networks(replace(reading, recursion=-0.5, network_resolutions=(2, 7)))
         assert {key: each.agent for key, each in other["results"][name].items() if key != "Brownian"} == agents
         assert {each.world for each in other["results"][name].values()} == {WaterWorld(n_creeps=5)}
 
 
-@pytest.mark.parametrize("parameter", [{"recursion": -0.5}, {"n_creeps": 4}, {"resolutions": [3, 7]}])
-def test_claims_are_judged_only_if_what_the_paper_ran_is_what_was_run(parameter):
-    assert not experiment(**parameter)["of_paper"]
+def without_reward(conditions):
+    """Made-up results of conditions."""
+    return (Result(each, np.zeros((each.runs, bins := each.steps // 10), np.float32),
+                   np.zeros((each.runs, bins, 2), np.int16)) for each in conditions)
+
+
+@pytest.mark.parametrize("parameters, judged", [
+    ({}, True), ({"recursion": -0.5}, False), ({"n_creeps": 4}, False), ({"resolutions": (3, 7)}, False),
+    ({"resolutions": (3, 7, 23)}, True), ({"network_a": network_b}, False)])
+def test_claims_are_judged_only_if_what_the_paper_ran_is_what_was_run(parameters, judged):
+    found = experiment("judging", runs=2, steps=2_000, sweep=without_reward, **parameters)["judged"]
+    assert {name: [claim.name for claim in claims] for name, claims in found.items()} == dict.fromkeys(
+        READINGS, ["C1", "C2", "C3", "C4"] if judged else [])
+
+
+def test_runs_as_long_as_the_paper_s_give_verdicts_and_shorter_ones_do_not():
+    for steps in (300_000, 299_990):
+        found = experiment("judging", runs=2, steps=steps, sweep=without_reward)["judged"]
+        assert {claim.full_length for claims in found.values() for claim in claims} == {steps == 300_000}
+
+
+def test_the_variations_are_those_of_what_was_run_whatever_the_parameters_are_now():
+    names = experiment("ran", runs=3, steps=4_000, n_creeps=5, recursion=-0.5)
+    names |= {"n_creeps": 8, "steps": 9_000, "recursion": 2.0, "book": names["readings"][CALIBRATED]}
+    exec(source("paper_c", "variations"), names)
+    for name, variant in names["variants"].items():
+        assert {each.world.n_creeps for each in names["others"][name].values()} == {5}
+        assert names["others"][name]["D"].agent == networks(variant)["D"] and variant.recursion == -0.5
+        assert names["others"][name]["D"].steps == 4_000
 
 
 def test_the_moment_is_the_first_seen_at_which_the_agent_is_well_inside_and_desires_something_far(monkeypatch):

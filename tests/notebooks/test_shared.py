@@ -73,7 +73,7 @@ def test_variants_of_a_reading_are_those_that_differ_and_its_choices_are_open_or
     assert made == {"greedy": reading.varied(exploration=0.0)}
     choices = side_by_side.choices({"letter": TO_THE_LETTER, "far": replace(TO_THE_LETTER, recursion=2.0)},
                                    ["recursion", "network_resolutions"])
-    assert choices.splitlines()[2:] == ["| recursion, r | pinned | −1 | 2 |",
+    assert choices.splitlines()[2:] == ["| recursion, r | pinned to −1 | −1 | 2 |",
                                         "| resolutions, C | open | {3, 7, 23} | {3, 7, 23} |"]
 
 

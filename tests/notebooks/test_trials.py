@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import neorl
-from neorl import Learning
+from neorl import Condition, Learning
 from neorl.agents import papers
 from lib.paper_b import trials
 from neorl.evidence.reading import Reading
@@ -18,7 +18,7 @@ TANK = neorl.WaterWorld()
 
 
 def test_a_stay_is_the_time_from_one_change_of_cell_to_the_next_but_for_resets():
-    (found,) = trials.mean_stays(PLACE, TANK, 8_000, 1)
+    (found,) = trials.mean_stays(Condition(PLACE, TANK, 8_000, 1)).seconds
     run, changes = neorl.Run(PLACE, neorl.WaterWorld(win_reward=100.0), 0), np.zeros(2)
     run.advance(2_000)
     resets = 0
@@ -32,7 +32,7 @@ def test_a_stay_is_the_time_from_one_change_of_cell_to_the_next_but_for_resets()
 
 
 def test_the_desired_place_moves_and_experience_is_worth_something():
-    moved, seconds = trials.distances(PLACE, TANK, 40_000, 2)
+    _, moved, seconds = trials.distances(Condition(PLACE, TANK, 40_000, 2))
     assert moved["ignorant"].shape == moved["experienced"].shape == (2, 6, 150) and seconds[-1] == 30
     run = neorl.Run(PLACE, TANK, 0, 1)
     run.advance(10_000)
@@ -76,6 +76,12 @@ def test_an_object_is_the_goal_or_the_state():
         assert trials.best_values(run)[1] == pytest.approx(best.mean()) and best.any()
     sizes = trials.size_and_cost(learned, 10, repetitions=1)
     assert {name: values for name, (values, _) in sizes.items()} == {"self": 4 * (4 + 25), "object": 4 * (16 + 625)}
+
+
+def test_a_map_of_one_cell_has_no_other_to_go_to():
+    run = neorl.Run(papers.multimodal([1, 3], **READING.agents), TANK)
+    run.advance(3_000)
+    assert trials.best_values(run)[[0, 2]].tolist() == [0, 0] and trials.best_values(run)[[1, 3]].all()
 
 
 def test_a_desire_that_moves_is_a_condition_that_can_be_rerun(cache_folder):

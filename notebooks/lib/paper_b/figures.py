@@ -1,7 +1,9 @@
 """The figures and tables of the page on paper B, and the conditions that its Explorer offers.
 
-The results under one reading are {key: `Result`}, with the keys ("place", N), ("objects", N), "both" and "brownian";
-N is a resolution, or "all" for the agent with all of them. `AGENTS` names those of the paper's figure 5.
+1. The results under one reading are {key: `Result`}, with the keys ("place", N), ("objects", N), "both" and
+   ("brownian", 3); N is a resolution, or "all" for the agent with all of them. `AGENTS` names those of figure 5.
+2. A reading is called calibrated only with the book's gain of place cells. The thesis's numbers, and the names of its
+   figures, go only with what the paper ran.
 """
 
 import numpy as np
@@ -10,15 +12,16 @@ from matplotlib.patches import Circle
 from lib.paper_b.receptive_fields import draw_receptive_fields
 from lib.paper_b.trials import SECONDS_A_MOVE, best_values, values_for_objects
 from lib.shared.panels import add_arrow
-from lib.shared.report import CALIBRATED, LETTER
+from lib.shared.report import CALIBRATED
 from lib.shared.style import FILL, mark
-from lib.shared.thesis_figures import draw_against_thesis
+from lib.shared.thesis_figures import draw_against_thesis, mark_levels
 from neorl.core.maps import NresMap
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, MODALITIES
 from neorl.drawing.boards import as_board, draw_tank, new_boards
 from neorl.drawing.curves import draw_curves, draw_sweep
 from neorl.drawing.style import AGENT, GREEN, INK
 from neorl.drawing.value_maps import draw_cells, draw_values
+from neorl.evidence.reading import Reading
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.statistics import estimate
 
@@ -34,6 +37,11 @@ THESIS_MINUTES = {"PC": B4.also["place cells"].number, "PC + OVC": B4.bounds.num
 STRETCHES = 100  # intervals of a run in which red creeps are counted
 
 
+def named(place_gain):
+    """The name of the book's reading with some gain of place cells: "calibrated" with its own."""
+    return CALIBRATED if place_gain == Reading.place_gain else f"{CALIBRATED}, place cells × {place_gain:g}"
+
+
 def of_figure_4(results, modality):
     """Results of figure 4's agents under one reading, "place" (4A) or "objects" (4B): {"N2": Result, …, "all": …}."""
     found = {key[1]: result for key, result in results.items() if key[0] == modality}
@@ -45,9 +53,9 @@ def of_figure_5(results):
     return {name: results[key] for name, key in AGENTS.items()}
 
 
-def draw_agents(thesis, found, xlabel):
-    """Draw results {reading: {agent: Estimate}} beside the thesis's numbers {agent: number}."""
-    draw_against_thesis({LABELS[agent]: number for agent, number in thesis.items()},
+def draw_agents(thesis, found, xlabel, of_paper):
+    """Draw results {reading: {agent: Estimate}}, and beside the paper's own the thesis's numbers {agent: number}."""
+    draw_against_thesis({LABELS[agent]: number if of_paper else None for agent, number in thesis.items()},
                         {name: {LABELS[agent]: of_agents[agent] for agent in thesis}
                          for name, of_agents in found.items()}, xlabel)
 
@@ -114,16 +122,21 @@ def red_a_minute(revalued):
     return (edges[:-1] + edges[1:]) / 2 * next(iter(revalued.values())).seconds / 60, curves
 
 
-def draw_distances(moved, seconds):
-    """Draw the distance of agents from a desired place over all its moves, as `trials.distances` returns it."""
-    starts = SECONDS_A_MOVE * np.arange(moved["experienced"].shape[1])
-    curves = {name: each.reshape(len(each), -1) for name, each in moved.items()}
-    draw_curves((starts[:, None] + seconds).ravel(), curves, "seconds", "distance, board widths")
+def draw_distances(moved):
+    """Draw the distance of agents from a desired place over all its moves. moved: a `trials.Moved`."""
+    starts = SECONDS_A_MOVE * np.arange(moved.distances["experienced"].shape[1])
+    curves = {name: each.reshape(len(each), -1) for name, each in moved.distances.items()}
+    draw_curves((starts[:, None] + moved.seconds).ravel(), curves, "seconds", "distance, board widths")
 
 
-def explorer_conditions(results, paper, others):
-    """The conditions that the page's Explorer offers: {name: `Result`}."""
-    calibrated, letter = results[CALIBRATED], results[LETTER]
+def draw_levels(axes, agents):
+    """Mark the levels of the thesis in a figure of curves. agents: {name of a line: agent of `THESIS_LEVELS`}."""
+    mark_levels(axes, {f"thesis, {name}: {THESIS_LEVELS[agent]}": THESIS_LEVELS[agent]
+                       for name, agent in agents.items()})
+
+
+def explorer_conditions(calibrated, letter, paper, others):
+    """The conditions that the page's Explorer offers, of those under two readings: {name: `Result`}."""
     offered = {f"{paper}, figure 5: place + object-vector cells": calibrated["both"]}
     for figure, modality in (("4A: place", "place"), ("4B: object-vector", "objects")):
         offered |= {f"{paper}, figure {figure} cells, {n}": result

@@ -15,6 +15,7 @@ from lib.shared.runs import each_run
 from neorl.agents.agent import Desire, Node, Place
 from neorl.agents.rules import Policy
 from neorl.core.modality import PLACE_CELL
+from neorl.experiments.condition import Condition
 from neorl.experiments.run import Run, bin_steps
 from neorl.experiments.simulation import simulate, usable_threads
 
@@ -23,9 +24,25 @@ MOVES, SECONDS_A_MOVE = 6, 30
 LIVED = 0.25  # share of a run that agents live before they are measured
 
 
+class Moved(NamedTuple):
+    """Distances from a desired place that moves to and fro, in board widths."""
+
+    condition: Condition
+    distances: dict  # {"experienced": (runs, moves, samples), "ignorant": the same}
+    seconds: np.ndarray  # from the move to each sample
+
+
+class Stays(NamedTuple):
+    """Mean times that agents stay in a cell of each map."""
+
+    condition: Condition
+    seconds: np.ndarray  # (runs, maps)
+
+
 class Costs(NamedTuple):
     """Microseconds per step on one core, each (repetitions,), of agents that all move identically."""
 
+    condition: Condition  # of the agent with all maps
     labels: list  # of the maps
     none: np.ndarray  # without any map
     alone: np.ndarray  # (maps, repetitions), with one map
@@ -48,12 +65,12 @@ def desiring(agent, place):
     return replace(agent, desires=[Desire(place, "PC", valence=1.0)])
 
 
-def distances(agent, world, steps, runs, seed=0):
-    """Distance of agents from a desired place that moves to and fro, in board widths: (moved, seconds).
+def distances(condition):
+    """The distance of a condition's agents from a desired place that moves: `Moved`.
 
-    moved: {"experienced": (runs, moves, samples), "ignorant": the same}, of agents that have lived a quarter of `steps`
-    among creeps before, and of untrained ones. seconds: from the move to each sample.
+    Experienced agents have run for a quarter of the condition's steps among creeps before; ignorant ones are untrained.
     """
+    agent, world, seed = condition.agent, condition.world, condition.seed
     desires = [desiring(agent, at) for at in PLACES]
     interval = bin_steps(world)
     samples = SECONDS_A_MOVE * world.fps // interval
@@ -69,9 +86,10 @@ def distances(agent, world, steps, runs, seed=0):
                 found[move, sample] = np.linalg.norm(run.world_state.scene.position / world.size - at.coordinates)
         return found
 
-    lived = {"experienced": round(LIVED * steps), "ignorant": 0}
-    moved = {name: _of_runs(lambda k: near(before, k), agent, world, runs) for name, before in lived.items()}
-    return moved, (np.arange(samples) + 1) * interval / world.fps
+    lived = {"experienced": round(LIVED * condition.steps), "ignorant": 0}
+    moved = {name: _of_runs(lambda k: near(before, k), agent, world, condition.runs)
+             for name, before in lived.items()}
+    return Moved(condition, moved, (np.arange(samples) + 1) * interval / world.fps)
 
 
 def live_with_moving_desire(agent, world, steps, runs, seed=0):
@@ -82,24 +100,25 @@ def live_with_moving_desire(agent, world, steps, runs, seed=0):
                     changes=[(lived, desires[0]), (lived + move, desires[1])])
 
 
-def mean_stays(agent, world, steps, runs, seed=0):
-    """Mean time that agents stay in a cell, in seconds, for each map of place cells: (runs, maps).
+def mean_stays(condition):
+    """How long a condition's agents stay in a cell of each map of place cells: `Stays`.
 
-    They live a quarter of `steps` first and are then measured for as long, at most 15,000 steps. A board's reset,
+    They run for a quarter of its steps first and are then measured for as long, at most 15,000 steps. A board's reset,
     which puts an agent elsewhere, does not count as a change of cell; without any change, a stay is the time measured.
     """
-    lived = round(LIVED * steps)
+    agent, world = condition.agent, condition.world
+    lived = round(LIVED * condition.steps)
     path_steps = max(1, min(lived, 15_000))
 
     def of_run(k):
-        run = Run(agent, world, seed, k)
+        run = Run(agent, world, condition.seed, k)
         run.advance(lived)
         path = run.record(path_steps)
         moved = ~np.isin(path.steps[:-1], path.ends)
         changes = [((np.diff(each.encode(path.positions / world.size)) != 0) & moved).sum() for each in agent.maps]
         return path_steps / world.fps / np.maximum(changes, 1)
 
-    return _of_runs(of_run, agent, world, runs)
+    return Stays(condition, _of_runs(of_run, agent, world, condition.runs))
 
 
 def roaming(revalued, seconds=100):
@@ -127,7 +146,7 @@ def mean_values(agent, world, steps, runs, seed=0):
 
     For a map it is the value of the best action, averaged over states and over the goals that the node can be asked
     for: any other cell of a map of places; of a map of object vectors the contact, from any other cell, or any other
-    cell if the state is the self. Maps count by their weights; gains are left out.
+    cell if the state is the self. Maps count by their weights, those of one cell as 0; gains are left out.
     """
     def of_nodes(k):
         run = Run(agent, world, seed, k)
@@ -140,15 +159,16 @@ def mean_values(agent, world, steps, runs, seed=0):
 
 
 def best_values(run):
-    """The mean value of the best action in each map of a `Run`, (maps,), over the states and goals of `mean_values`."""
-    means = []
-    for m, each in enumerate(run.agent.maps):
+    """The mean value of the best action in each map of a `Run`, (maps,), over the states and goals of `mean_values`.
+
+    It is 0 for a map of one cell, which has no other to go to.
+    """
+    def best(m, each):
         if each.modality.follows == "position":
-            means.append(run.q(m).max(axis=1)[~np.eye(each.cells, dtype=bool)].mean())
-        else:
-            best = values_for_objects(run, m).max(axis=1)
-            means.append(np.delete(best, run.parameters.maps.contact[m]).mean())
-    return np.array(means)
+            return run.q(m).max(axis=1)[~np.eye(each.cells, dtype=bool)]
+        return np.delete(values_for_objects(run, m).max(axis=1), run.parameters.maps.contact[m])
+
+    return np.array([best(m, each).mean() if each.cells > 1 else 0.0 for m, each in enumerate(run.agent.maps)])
 
 
 def values_for_objects(run, index):
@@ -187,15 +207,16 @@ def size_and_cost(learned, steps, repetitions=5):
             for name, run in runs.items()}
 
 
-def measure_costs(agent, world, steps, repetitions, seed):
-    """Measure the cost of an agent as its maps are added one by one: a `Costs`.
+def measure_costs(condition):
+    """Measure the cost of a condition's agent as its maps are added one by one, as often as it has runs: `Costs`.
 
     Its nodes get a gain of 0 and do not explore, so it evaluates and learns everything but draws every action.
     """
+    agent, steps, repetitions = condition.agent, condition.steps, condition.runs
     both = replace(agent, nodes=[replace(node, gain=0.0) for node in agent.nodes], policy=Policy(0.0, "random"))
     maps = [(node.name, n) for node in both.nodes for n in node.resolutions]
     sets = [(), *((each,) for each in maps), *(maps[:k] for k in range(2, len(maps) + 1))]
-    alive = [Run(_with_maps(both, chosen), world, seed) for chosen in sets]
+    alive = [Run(_with_maps(both, chosen), condition.world, condition.seed) for chosen in sets]
     cost = np.empty((len(sets), repetitions))
     for repetition in range(repetitions):  # in turns, so that disturbances affect all alike
         for place, run in enumerate(alive):
@@ -204,7 +225,7 @@ def measure_costs(agent, world, steps, repetitions, seed):
             cost[place, repetition] = (perf_counter() - start) / steps * 1e6
     alone = cost[1 : len(maps) + 1]
     first = np.concatenate([alone[:1], cost[len(maps) + 1 :]])
-    return Costs([f"{name} N{n}" for name, n in maps], cost[0], alone, first)
+    return Costs(condition, [f"{name} N{n}" for name, n in maps], cost[0], alone, first)
 
 
 def _with_maps(agent, chosen):

@@ -18,7 +18,8 @@ def found(judged):
     claims = [claim for claims in judged.values() for claim in claims]
     if not claims:
         return ""
-    lines = [_line(reading, {claim.name: claim.verdict for claim in claims}) for reading, claims in judged.items()]
+    lines = [_line(reading, {claim.name: claim.verdict for claim in claims}) for reading, claims in judged.items()
+             if claims]
     runs = min(claim.runs for claim in claims)
     if runs < RUNS_FOR_A_VERDICT or not all(claim.full_length for claim in claims):
         shorter = ", some of which are shorter" * any(not claim.full_length for claim in claims)

@@ -1,6 +1,6 @@
 """Readings of the thesis side by side, on the pages of the papers: their variants and their choices."""
 
-from lib.shared.priors import BEYOND, WITHIN
+from lib.shared.priors import BEYOND, PINNED, WITHIN
 from lib.shared.wording import table
 
 
@@ -11,7 +11,7 @@ def changed(reading, changes):
 
 
 def choices(readings, names):
-    """A Markdown table of some choices of readings, pinned or open."""
+    """A Markdown table of some choices of readings, which the text leaves open or pins to a value."""
     return table(["Choice", "The text", *readings], [
-        [BEYOND[name].label, "open" if name in WITHIN else "pinned",
+        [BEYOND[name].label, "open" if name in WITHIN else f"pinned to {BEYOND[name].words(PINNED[name])}",
          *(BEYOND[name].words(reading.choices[name]) for reading in readings.values())] for name in names])
