@@ -211,7 +211,8 @@ def test_a_row_runs_again_as_it_was(cache_folder):
     table[1] = replace(table[1], statistics=table[1].statistics | {"C3": Measure(9.0, 0.0)})
     pairs = calibration_table.rerun(table, 2, "networks")
     assert [(old.reading, old == new) for old, new in pairs] == [(made[0].reading, True), (made[1].reading, False)]
-    with pytest.raises(ValueError, match="n must be an integer from 1 to 1, but is 2"):
+    assert calibration_table.rerun(table, 0, "layers") == []
+    with pytest.raises(ValueError, match="n must be an integer from 0 to 1, but is 2"):
         calibration_table.rerun(table, 2, "layers")
 
 

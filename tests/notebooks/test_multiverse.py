@@ -5,7 +5,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from page_cells import source
 
+from lib.shared import report
 from lib.shared.priors import BEYOND, PINNED, WITHIN, LogUniform
 from lib.study import multiverse
 from lib.study.multiverse_figures import LEADING, draw_specification
@@ -193,6 +195,37 @@ def test_claims_are_counted_in_their_order():
     assert counts["C2"] == {"reproduced": 1, "undecided": 1, "untestable": 1, "readings": 4}
     assert counts["A2"] == {"reproduced": 1, "undecided": 0, "untestable": 0, "readings": 1}
     assert [multiverse.reproduced(each) for each in cheap] == [["C2"], [], [], []]
+
+
+def planned_sweep(readings, steps=multiverse.STEPS, groups=multiverse.CHEAP):
+    """What a sweep of readings would be judged of."""
+    return [multiverse.Judged({}, conditions(reading, steps, 2, groups=groups)) for reading in readings]
+
+
+OWN = multiverse.design(16)
+OTHERS = multiverse.design(16, choices=BEYOND)
+
+
+@pytest.mark.parametrize("readings, ran, kept", [
+    (OWN, OWN, {}), (OWN, OWN, {"steps": 40_000}), (OWN, OWN, {"steps": 29_000}), (OTHERS, OTHERS, {}),
+    (OWN[:8], OWN[:8], {}), (OWN, OTHERS, {}), (OWN, OWN[:8], {}), (OWN, OWN, {"groups": multiverse.CHEAP[:-1]})])
+def test_shares_are_saved_of_the_book_s_own_design_alone(readings, ran, kept, cache_folder):
+    names = {"multiverse": multiverse, "report": report, "shares": {"A1": {}}, "readings": readings,
+             "all_judged": planned_sweep(ran, **kept),
+             "part_judged": planned_sweep(ran[:4], kept.get("steps", multiverse.STEPS), multiverse.EXPENSIVE)}
+    exec(source("assumptions", "store"), names)
+    saved = (cache_folder / "claims" / "assumptions.json").exists()
+    assert saved == (readings is ran is OWN and kept in ({}, {"steps": 40_000}))
+
+
+def test_the_page_s_own_runs_are_those_of_the_book_s_design():
+    assert f"steps: int = {multiverse.STEPS:_} " in source("assumptions", "parameters")
+    assert len(OWN) == multiverse.FEWEST
+
+
+def test_minutes_are_those_of_all_readings():
+    found = planned_sweep([TO_THE_LETTER, TO_THE_LETTER.varied(fps=60)], groups=("modal", "layers"))
+    assert multiverse.minutes(found, "both") == "10" and multiverse.minutes(found, "layers") == "8.33 to 10"
 
 
 @pytest.fixture(scope="module")

@@ -83,11 +83,11 @@ def measured(row, results):
 def rerun(table, n, group, seed=0):
     """Recompute n rows of a table in a group: [(row as stored, row as recomputed), …], which should be equal.
 
-    Raises ValueError if n is not an integer from 1 to the number of rows that were run in the group.
+    Raises ValueError if n is not an integer from 0 to the number of rows that were run in the group.
     """
     rows = [replace(row, statistics={name: row.statistics[name] for name in GROUPS[group].targets})
             for row in table if group in row.groups]
-    drawn = np.random.default_rng(seed).choice(len(rows), checks.integer("n", n, 1, len(rows)), replace=False)
+    drawn = np.random.default_rng(seed).choice(len(rows), checks.integer("n", n, 0, len(rows)), replace=False)
     kept = [rows[i] for i in sorted(drawn)]
     return list(zip(kept, run([replace(row, statistics={}) for row in kept], group)))
 

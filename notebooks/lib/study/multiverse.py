@@ -5,6 +5,8 @@
 3. A claim *holds* under a reading if its verdict is "reproduced", is *undecided* if its intervals leave room for it,
    and *fails* otherwise, also if agents have learned nothing to test it by.
 4. The importance of choices for a claim is estimated from `ENOUGH` readings or more.
+5. The book's record of shares is about its own design: `FEWEST` readings or more, spread evenly within the text, each
+   in the papers' own conditions for `STEPS` steps or more. Other runs are shown on the page and not recorded.
 """
 
 from typing import NamedTuple
@@ -12,15 +14,19 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
+from lib.shared import judging
 from lib.shared.priors import WITHIN
 from neorl import checks
-from neorl.evidence.reading import TO_THE_LETTER
+from neorl.evidence.reading import TO_THE_LETTER, conditions, judge
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.statistics import Estimate, difference, estimate
 from neorl.extras import require
 
 PARTS = 5  # into which a prior without levels is cut; the middle one contains the reading to the letter
 ENOUGH = 32  # readings
+FEWEST, STEPS = 16, 30_000  # readings of the book's design, and steps of their runs at 50 steps per second
+CHEAP = ("layers", "modal", "networks", "revaluing", "resolutions")  # groups of conditions
+EXPENSIVE = ("single", "pace")  # for A1 to A5, and for B4
 PREDICTED = 0.1  # the least R² at which choices count as predicting the number of a claim
 
 
@@ -36,6 +42,40 @@ def design(points, seed=0, choices=WITHIN):
     shares = scipy.stats.qmc.Sobol(len(choices), rng=np.random.default_rng(seed)).random(points)
     return [TO_THE_LETTER.varied(**{name: choice.at(share) for (name, choice), share in zip(choices.items(), row)})
             for row in shares]
+
+
+class Judged(NamedTuple):
+    """A reading's claims, {name: `Claim`}, and the conditions of which they were judged, {key: `Condition`}."""
+
+    claims: dict
+    ran: dict
+
+
+def judged(results):
+    """Judge the claims for which some results of a reading suffice, {key: `Result`}: `Judged`."""
+    return Judged(judge(results), {key: result.condition for key, result in results.items()})
+
+
+def of_book(readings, cheap, expensive):
+    """Whether what was run is of the book's own design.
+
+    cheap, expensive: lists of `Judged`, of all readings in the groups `CHEAP`, and of the first ones in `EXPENSIVE`.
+    """
+    seed = next(iter(cheap[0].ran.values())).seed
+    return (len(readings) >= FEWEST and readings == design(len(readings), seed) and len(cheap) == len(readings)
+            and all(_as_long(each.ran, conditions(reading, STEPS, 1, groups=groups))
+                    for groups, found in ((CHEAP, cheap), (EXPENSIVE, expensive))
+                    for reading, each in zip(readings, found)))
+
+
+def _as_long(ran, wanted):
+    return judging.same(ran, wanted) and all(ran[key].steps >= wanted[key].steps for key in wanted)
+
+
+def minutes(found, key):
+    """The simulated minutes of a condition under all readings, as text. found: a list of `Judged`."""
+    lasting = [each.ran[key].steps / each.ran[key].world.fps / 60 for each in found]
+    return " to ".join(dict.fromkeys(f"{end:.3g}" for end in (min(lasting), max(lasting))))
 
 
 def outcome(claim):
