@@ -4,11 +4,13 @@ from itertools import product
 
 import numpy as np
 import pytest
+from page_cells import planned, source
 
 from lib.alternatives import controllers, living, search, tabular_learners
 from lib.alternatives.contestants import of_thesis
 from lib.alternatives.living import BOARDS, Earned
-from neorl import Run, WaterWorld, brownian, forager, place_cells, simulate
+from lib.shared import notebook
+from neorl import Result, Run, WaterWorld, brownian, forager, place_cells, simulate
 from neorl.core.calls import execute
 from neorl.core.kernel import arrays
 from neorl.core.stream import new_stream
@@ -166,3 +168,51 @@ def test_rates_lie_between_steps_and_levels_are_reached_by_means():
     assert each.rates[0, :2] == pytest.approx([0.1, 0.2])
     assert each.steps_to(1.05) == pytest.approx([60_000])  # bins of 1.0, 1.1 and 1.2
     assert np.isinf(each.steps_to(2.5)).all()
+
+
+def without_reward(conditions):
+    return (Result(each, np.zeros((each.runs, bins := each.steps // 10), np.float32),
+                   np.zeros((each.runs, bins, 2), np.int16)) for each in conditions)
+
+
+def others(settings, board, steps, runs, seed):
+    """What contestants earn that earn nothing."""
+    return {name: Earned(np.zeros((runs, living.bins_of(steps))), steps, 1e-6, 1.0, living.identity(
+        make(settings[name]), board)) for name, make in tabular_learners.TABULAR.items()}
+
+
+def experiment(**given):
+    def of_result(result):
+        return Earned(np.zeros((result.runs, living.bins_of(result.steps))), result.steps, 1e-6, 1.0)
+
+    return planned("alternatives", "tables", "experiment", "judging", **{
+        "runs": 2, "steps": 150_000, "sweep": without_reward, "of_result": of_result, "of_others": others, **given})
+
+
+@pytest.mark.parametrize("given, verdicts", [
+    ({}, [True]), ({"n_creeps": 5}, [True]), ({"steps": 149_999}, [False]), ({"N_CREEPS": 4}, []),
+    ({"TO_THE_LETTER": Reading(place_gain=1.0)}, []),
+    ({"best_settings": lambda: SETTINGS | {"monolithic": SETTINGS["joint cells"]}}, [])])
+def test_the_claim_is_judged_only_of_the_page_s_own_contestants_and_board(given, verdicts):
+    assert [claim.full_length for claim in experiment(**given)["judged"]] == verdicts
+
+
+@pytest.mark.parametrize("steps, minutes", [(3_000, 1), (8_999, 2), (150_000, 50), (600_000, 200)])
+def test_a_run_and_the_stored_ones_last_the_same_whole_minutes(steps, minutes, tmp_path):
+    names = experiment(steps=steps, keep=str(tmp_path / "kept.csv"))
+    assert {each.steps for of_board in names["boards"].values() for each in of_board.values()} == {minutes * 3_000}
+    exec(source("alternatives", "kept"), names)
+    kept = living.read(tmp_path / "kept.csv")
+    assert len(kept) == 2 * 2 * (6 + 4) and {len(row.rewards) for row in kept} == {minutes}
+
+
+def test_the_reward_of_a_minute_is_the_sum_of_its_parts():
+    each = Earned(np.arange(2.0 * living.bins_of(9_000)).reshape(2, -1), 9_000, 1e-6, 1.0)
+    assert each.rewards.shape == (2, 51) and each.of_minutes[0].tolist() == [sum(range(17)), sum(range(17, 34)),
+                                                                            sum(range(34, 51))]
+
+
+@pytest.mark.parametrize("keep", ["none/kept.csv", "."])
+def test_a_file_to_keep_is_checked_before_anything_runs(keep):
+    with pytest.raises(ValueError, match=f"keep must be a file in a folder that exists, but is '{keep}'"):
+        notebook.begin(keep=keep)

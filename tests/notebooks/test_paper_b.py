@@ -127,7 +127,7 @@ def with_a_third_node(*arguments, **options):
 
 
 @pytest.mark.parametrize("given, found", [
-    ({"place_gain": 0.0}, {LETTER: ALL, "calibrated, place cells × 0": []}),
+    ({"place_gain": 0.0}, {LETTER: ALL, "calibrated, PC × 0": []}),
     ({"multimodal": with_a_third_node}, {LETTER: [], CALIBRATED: []}),
     ({"n_creeps": 4, "resolutions": (2, 3)}, {LETTER: [], CALIBRATED: []})])
 def test_other_agents_and_boards_are_neither_judged_nor_called_calibrated_nor_saved(given, found, cache_folder):

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from lib.performance import bound, rivals, timing
+from lib.shared import notebook
 from neorl import CALIBRATED, Run, WaterWorld, place_cells
 
 STEPS, LIVED = 1_000, 3_000
@@ -55,3 +56,9 @@ def test_exponents():
     assert np.isnan(timing.exponent(xs, np.array([-1.0, 2.0, 0.0, 8.0]))).all()
     low, high = timing.exponent(xs, xs * [1, 1.5, 1, 1])[1:]
     assert low < 1 < high
+
+
+def test_copies_of_the_largest_map_fit_into_memory():
+    notebook.begin(resolution=50)
+    with pytest.raises(ValueError, match="resolution must be an integer from 1 to 50, but is 51"):
+        notebook.begin(resolution=51)

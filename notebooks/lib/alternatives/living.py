@@ -51,6 +51,7 @@ class Earned(NamedTuple):
     steps: int  # per run
     seconds: float  # to compute a step on one core, the world's part included
     kilobytes: float  # of its memory
+    identity: tuple = ()  # see `identity`; of agents of neoRL and of stored runs it is empty
 
     @property
     def edges(self):
@@ -61,6 +62,11 @@ class Earned(NamedTuple):
     def rates(self):
         """Reward per simulated second in each bin: float64 (runs, bins)."""
         return self.rewards / (np.diff(self.edges) / FPS)
+
+    @property
+    def of_minutes(self):
+        """Reward in each minute of `MINUTE` steps, of a run with `bins_of` bins: float64 (runs, minutes)."""
+        return self.rewards.reshape(len(self.rewards), self.steps // MINUTE, -1).sum(axis=-1)
 
     def rate(self, begin=0.0, end=1.0):
         """Reward per simulated second between two fractions of the run: float64 (runs,)."""
@@ -78,6 +84,11 @@ class Earned(NamedTuple):
         sums = np.pad(self.rewards.cumsum(axis=1), ((0, 0), (1, 0)))
         first, last = (np.array([np.interp(at, self.edges, run) for run in sums]) for at in (begin, end))
         return (last - first) / ((end - begin) / FPS)
+
+
+def identity(contestant, world):
+    """What runs in a world, but for its random numbers: its kernels, its setting and the world, a tuple."""
+    return *contestant[:3], world
 
 
 def live(contestant, world, *, steps, runs, bins=BINS, seed=0):
@@ -99,7 +110,8 @@ def live(contestant, world, *, steps, runs, bins=BINS, seed=0):
 
     live_one(0, np.zeros_like(edges))  # compiles the kernel before calls are timed
     each_run(live_one, runs)
-    return Earned(rewards, steps, float(np.median(seconds)) / steps, int(sizes[0]) / 1e3)
+    return Earned(rewards, steps, float(np.median(seconds)) / steps, int(sizes[0]) / 1e3,
+                  identity(contestant, world))
 
 
 @functools.cache
@@ -126,8 +138,9 @@ def learn_nothing(setting, memory, state, rules, action, reward, restarted):
 
 
 def bins_of(steps):
-    """The number of parts of a run on the page: one for each minute, or `BINS` if these are more."""
-    return max(BINS, steps // MINUTE)
+    """The number of parts of a run on the page: `BINS` or more, as many in each minute."""
+    minutes = max(1, steps // MINUTE)
+    return minutes * -(-BINS // minutes)
 
 
 def of_result(result, bins=None):
@@ -177,11 +190,11 @@ def write(path, rows):
 
 
 def stored(rows, names, creeps, steps):
-    """The first `steps` of the stored runs of some contestants: {name: `Earned`}.
+    """The first `steps` of the stored runs of some contestants, whole minutes: {name: `Earned`}.
 
-    Of a run, whole minutes are read. The time of a step is the median over all rows of a contestant on the board.
+    The time of a step is the median over all rows of a contestant on the board.
     """
-    found, minutes = {}, max(1, steps // MINUTE)
+    found, minutes = {}, steps // MINUTE
     for name in names:
         own = [row for row in rows if (row.method, row.creeps) == (name, creeps)]
         lived = sorted((row for row in own if len(row.rewards) >= minutes), key=lambda row: row.run)

@@ -39,7 +39,7 @@ STRETCHES = 100  # intervals of a run in which red creeps are counted
 
 def named(place_gain):
     """The name of the book's reading with some gain of place cells: "calibrated" with its own."""
-    return CALIBRATED if place_gain == Reading.place_gain else f"{CALIBRATED}, place cells × {place_gain:g}"
+    return CALIBRATED if place_gain == Reading.place_gain else f"{CALIBRATED}, PC × {place_gain:g}"
 
 
 def of_figure_4(results, modality):
@@ -56,8 +56,8 @@ def of_figure_5(results):
 def draw_agents(thesis, found, xlabel, of_paper):
     """Draw results {reading: {agent: Estimate}}, and beside the paper's own the thesis's numbers {agent: number}."""
     draw_against_thesis({LABELS[agent]: number if of_paper else None for agent, number in thesis.items()},
-                        {name: {LABELS[agent]: of_agents[agent] for agent in thesis}
-                         for name, of_agents in found.items()}, xlabel)
+                        {name.replace(", ", ",\n"): {LABELS[agent]: of_agents[agent] for agent in thesis}
+                         for name, of_agents in found.items()}, xlabel)  # in two lines, a long name has room
 
 
 def draw_states():

@@ -6,6 +6,7 @@ sorted. They may be texts, as papermill's option -p passes them.
 
 import ast
 from functools import partial
+from pathlib import Path
 
 from neorl import checks
 
@@ -38,6 +39,12 @@ def _power_of_two(name, value):
         raise checks.error(name, "a power of two", value, "choose 8, 16, 32, 64 or 128")
 
 
+def _file(name, value):
+    path = Path(checks.instance(name, value, str))
+    if value and (path.is_dir() or not path.parent.is_dir()):
+        raise checks.error(name, "a file in a folder that exists", value)
+
+
 def _whole(at_least, at_most=None):
     return partial(checks.integer, at_least=at_least, at_most=at_most)
 
@@ -49,13 +56,14 @@ def _number(at_least, at_most):
 RESOLUTION = _whole(1, FINEST)
 RULES = {
     "runs": _whole(1), "steps": _whole(1), "seed": _whole(0), "points": _power_of_two,
-    "n": RESOLUTION, "resolution": RESOLUTION, "resolutions": partial(_list, each=RESOLUTION),
+    "n": RESOLUTION, "resolution": _whole(1, 50),  # pages time copies of agents with such a map, of 0.1 GB each
+    "resolutions": partial(_list, each=RESOLUTION),
     "layers": partial(_list, each=RESOLUTION), "counts": partial(_list, each=_whole(1, 6)),
     "stays": partial(_list, each=_whole(1, 1_000)), "n_creeps": _whole(1, MOST_CREEPS),
     "place_gain": _number(0, 100), "recursion": _number(-100, 100), "learning_rate": _number(1e-3, 1),
     "exploration": _number(0, 1), "memory": _whole(1, 8), "bonus": _number(0, 10), "begin": _number(0.1, 0.9),
     "traffic": _whole(0, 64), "decisions": _whole(200), "nearest": _whole(0, 10), "sample": _whole(0, 100),
-    "keep": partial(checks.instance, kind=str),
+    "keep": _file,
 }
 
 
