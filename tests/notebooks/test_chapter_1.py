@@ -61,5 +61,6 @@ def test_the_route_passes_its_waypoints_in_order():
 
 
 def test_the_captain_earns_more_than_one_per_second():
-    page = defined("chapter_1", "helmsman", "captain", **GIVEN, agent=place_cells([2]), runs=3, seed=1, minute=3_000)
+    page = defined("chapter_1", "helmsman", "captain", **GIVEN, agent=place_cells([2]), veterans=range(3), seed=1,
+                   minute=3_000)
     assert page.by_rule.min() > 1 and len(set(page.by_rule)) == 3

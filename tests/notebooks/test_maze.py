@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from page_cells import defined
+from page_cells import planned
 
 from lib.chapter_2.maze import (DAYS, GROUPS, LEARNERS, Animal, Maze, Record, Rival, _learn_by_traces, findings, live,
                                 simulate)
@@ -11,7 +11,6 @@ from lib.shared.tabular import Rates
 from neorl.core.calls import execute
 from neorl.core.kernel import new_tuple
 from neorl.core.stream import new_stream
-from neorl.evidence import claims
 
 N, S, E, W = range(4)
 FED_FROM = dict(zip(GROUPS, (1, DAYS + 1, 11)))
@@ -147,11 +146,11 @@ def flat(level, after=None, day_12=None, runs=20):
     errors = np.full((runs, DAYS), float(level)) + np.arange(runs)[:, None] % 2 * 0.01
     errors[:, 11:] += (level if after is None else after) - level
     errors[:, 11] = day_12 if day_12 is not None else errors[:, 11]
-    return Record(errors, None)
+    return Record(errors, None, None)
 
 
 def test_the_findings_of_the_original_are_found_in_results_that_have_them():
-    falling = Record(np.tile(np.concatenate([np.linspace(14, 3, 11), np.full(6, 2.0)]), (20, 1)), None)
+    falling = Record(np.tile(np.concatenate([np.linspace(14, 3, 11), np.full(6, 2.0)]), (20, 1)), None, None)
     results = {"throughout": falling, "never": flat(14, 13), "delayed": flat(14, 1, 3)}
     assert [found.holds for found in findings(results, 11).values()] == [True] * 8
 
@@ -163,14 +162,14 @@ def test_the_findings_of_the_original_are_not_found_in_results_that_lack_them():
     assert numbers == pytest.approx([0, 0, 0, 2, 0.1, 2.1, 7.1 / 6, 2.1], abs=0.01)
 
 
-@pytest.mark.parametrize("parameters, after, verdict", [
-    ({}, 2, "partly"), ({}, 1, "reproduced"), ({}, 12, "not reproduced"),
-    ({"exploration": 0.3}, 2, None), ({"learning_rate": 0.2}, 2, None),
+@pytest.mark.parametrize("given, after, verdict", [
+    ({}, 2, "partly"), ({}, 1, "reproduced"), ({}, 12, "not reproduced"), ({"exploration": 0.3}, 2, None),
+    ({"learning_rate": 0.2}, 2, None), ({"Maze": lambda: Maze("RLRL")}, 2, None), ({"DAYS": 12}, 2, None),
+    ({"Animal": lambda kind, **rates: Animal(kind, **rates, trace=0.5 if kind == "Sarsa(λ)" else 0.9)}, 2, None),
 ])
-def test_the_page_judges_the_animals_of_the_book_alone(parameters, after, verdict):
-    levels = {1: flat(2), DAYS + 1: flat(14), 11: flat(14, after, after)}
-    page = defined("chapter_2", "experiment", "judging", Maze=Maze, Animal=Animal, DAYS=DAYS, LEARNERS=LEARNERS,
-                   claims=claims, simulate=lambda animal, maze, day, runs, seed, number: levels[day],
-                   **{"runs": 20, "seed": 0, "learning_rate": 0.1, "exploration": 0.1, **parameters})
-    assert [claim.verdict for claim in page.judged] == ([verdict] if verdict else [])
-    assert {animal.exploration for animal in page.animals.values()} == {parameters.get("exploration", 0.1)}
+def test_the_page_judges_the_animals_of_the_book_alone(given, after, verdict):
+    levels = {1: flat(2), 13: flat(14), DAYS + 1: flat(14), 11: flat(14, after, after)}
+    page = planned("chapter_2", "experiment", "judging", **given,
+                   simulate=lambda animal, maze, day, *_: levels[day]._replace(ran=(animal, maze, day)))
+    assert [claim.verdict for claim in page["judged"]] == ([verdict] if verdict else [])
+    assert {animal.exploration for animal in page["animals"].values()} == {given.get("exploration", 0.1)}

@@ -155,11 +155,17 @@ class Animal:
             checks.real(name, getattr(self, name), 0, 1)
 
 
+# What demonstration H1 is about: {kind of animal: {group: (animal, maze, first meal)}}.
+OF_BOOK = {kind: {group: (Animal(kind), Maze(), first_meal)
+                  for group, first_meal in zip(GROUPS, (1, DAYS + 1, 11))} for kind in LEARNERS}
+
+
 class Record(NamedTuple):
     """The errors and the knowledge of the animals of a group."""
 
     errors: np.ndarray  # int64 (runs, days), entries into blinds
     known: np.ndarray  # float64 (runs, days), the share of choice points known in the evening, see `_known`
+    ran: tuple  # (animal, maze, first_meal), as given to `simulate`
 
 
 def simulate(animal, maze, first_meal, runs, seed=0, group=0):
@@ -173,7 +179,7 @@ def simulate(animal, maze, first_meal, runs, seed=0, group=0):
         stream = new_stream(np.random.SeedSequence(seed, spawn_key=(run, group)))
         for day, (errors[run, day], worth) in enumerate(live(animal, maze, first_meal, stream)):
             known[run, day] = _known(maze, worth[maze.choice_points])
-    return Record(errors, known)
+    return Record(errors, known, (animal, maze, first_meal))
 
 
 def _known(maze, worth):
