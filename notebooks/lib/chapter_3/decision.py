@@ -43,6 +43,9 @@ class Process:
     ends: np.ndarray  # bool (states,), whether a state ends the episode
     starts: np.ndarray  # the states in which an episode may begin, each equally likely
 
+    def __eq__(self, other):
+        return isinstance(other, Process) and all(map(np.array_equal, vars(self).values(), vars(other).values()))
+
     @property
     def states(self):
         """The number of states."""
@@ -238,6 +241,7 @@ class Experience(NamedTuple):
     rewards: np.ndarray
     states_t: np.ndarray
     q: np.ndarray  # float64 (runs, checkpoints, states seen, actions)
+    ran: tuple  # (process, seen, `Rates`), as given to `simulate`, with what is seen of each state as a tuple
 
 
 class ProcessArrays(NamedTuple):
@@ -275,7 +279,7 @@ def simulate(process, checkpoints, runs, seed, seen=None, learning_rate=0.0, dis
     rates = Rates(float(learning_rate), float(discount), float(exploration))
     experience = Experience(
         *(np.zeros((runs, steps[-1]), kind) for kind in (np.int16, np.int8, np.float32, np.int16)),
-        np.zeros((runs, len(checkpoints), seen.max() + 1, process.actions)))
+        np.zeros((runs, len(checkpoints), seen.max() + 1, process.actions)), (process, tuple(seen.tolist()), rates))
     table = ProcessArrays(process.successors, np.cumsum(process.chances)[:-1], process.rewards, process.ends,
                           process.starts, seen)
     for run in range(runs):
