@@ -6,20 +6,20 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from page_cells import planned, source
+from page_cells import code, planned, source
 
-from lib.chapter_4 import noise, superposition
+from lib.chapter_4 import drivers, noise, superposition
 from lib.chapter_4.credit import DEFAULT, INVERSION, Chamber, learn_in
 from lib.chapter_4.noise import expected_squared_displacement, mean_squared_displacement, walk
 from lib.chapter_4.superposition import fit_ridges, plan
 from lib.shared.grid import Grid
+from neorl import WaterWorld, multimodal, place_cells
 from neorl.agents.rules import CALIBRATED
 from neorl.core.calls import execute
 from neorl.core.stream import new_stream, randint, uniform
 from neorl.evidence.reading import TO_THE_LETTER, Reading, conditions
+from neorl.evidence.verdict import Claim
 
-AGENTS = {"place cells": ("layers", ("brownian", 8)), "object-vector cells": (("objects", "all"), ("brownian", 3)),
-          "both": ("both", ("brownian", 3))}  # the keys of their conditions
 FAR = (np.inf, 0, 0)
 SIDE = np.linspace(-1, 1, 31)
 X, Y = np.meshgrid(SIDE, SIDE)
@@ -29,31 +29,53 @@ QUICK = replace(INVERSION, learning_rate=0.3)
 
 def run_cells(*names, **given):
     """What some cells of the page define, with conditions in place of results: {name: value}."""
-    return planned("chapter_4", "lists", *names, **{"runs": 30, "steps": 600_000, "seed": 3, **given})
+    return planned("chapter_4", *names, **{"runs": 30, "steps": 600_000, "seed": 3, **given})
 
 
 @pytest.mark.parametrize("steps", [1_000, 600_000])
 def test_agents_differ_in_their_temporal_driver_alone(steps):
     page = run_cells("agents", "experiment", steps=steps)
-    assert page["readings"] == {"to the letter": TO_THE_LETTER, "calibrated": Reading()} and page["of_thesis"]
+    assert page["readings"] == {"to the letter": TO_THE_LETTER, "calibrated": Reading()}
     for name, reading in page["readings"].items():
         made = conditions(reading, steps, 30, 3, ["layers", "modal"])
-        for which, (key, chance) in AGENTS.items():
-            cell, brownian, *every_step = page["results"][name, which].values()
-            assert cell == made[key] and brownian == made[chance]
-            for stay, label, each in zip((1, 10, 50), list(page["results"][name, which])[2:], every_step):
+        for which, (key, chance) in drivers.AGENTS.items():
+            results = page["results"][name, which]
+            assert results["changes of cell"] == made[key] and results["Brownian motion"] == made[chance]
+            for stay, each in drivers.at_every_step(results).items():
                 rule = reading.varied(credit="step", discount=reading.learning.discount ** (1 / stay))
                 assert each == conditions(rule, steps, 10, 3, ["layers", "modal"])[key]
-                assert label == f"γ = {rule.learning.discount:.4g}" and each.agent.learning.update_on == "step"
+                assert each.agent.learning.update_on == "step"
 
 
-def test_only_the_agents_and_stays_of_the_thesis_are_judged():
-    assert run_cells(resolutions="[23, 3, 7]")["of_thesis"]
-    other = run_cells("agents", "experiment", "judging", resolutions="[5]", stays="[20]", steps=1_000)
-    assert other["judged"] == {"to the letter": [], "calibrated": []}
-    assert other["results"]["calibrated", "place cells"]["changes of cell"].agent.nodes[0].resolutions == (5,)
-    with pytest.raises(ValueError, match="stays must be .*, but is 0"):
-        run_cells(stays=[0])
+def test_stays_that_are_nearly_as_long_are_different_conditions():
+    results = run_cells("agents", "experiment", stays=[999, 1_000])["results"]["calibrated", "both"]
+    assert list(drivers.at_every_step(results)) == [999, 1_000]
+
+
+@pytest.mark.parametrize("line, other, judged", [
+    ("", "", True), ("stays: list = [1, 10, 50]", "stays = [1, 2, 10, 50]", True),
+    ("stays: list = [1, 10, 50]", "stays = [1, 10]", False), ("[3, 7, 23]", "[5]", False),
+    ("n_creeps=8 if", "n_creeps=5 if", False), ("object_vector_cells(**", "object_vector_cells([5], **", False)])
+def test_only_agents_and_stays_of_the_thesis_are_judged(line, other, judged):
+    text = {cell: each.replace(line, other) for cell, each in code("chapter_4").items()}
+    assert not line or text != code("chapter_4")
+    names = run_cells()
+    names["claims"] = SimpleNamespace(judge_persistence=lambda each: Claim(
+        "T7", [*each["both"][1]], {}, 10, "partly", False))
+    for cell in ("cell-01", "agents", "experiment", "judging"):
+        exec(text[cell], names)
+    expected = [[1, 10, 50]] * judged
+    assert [[claim.here for claim in claims] for claims in names["judged"].values()] == [expected] * 2
+
+
+@pytest.mark.parametrize("steps, agent, full", [(150_000, multimodal(), True), (149_999, multimodal(), False),
+                                                (150_000, place_cells([3]), None)])
+def test_real_time_is_judged_of_the_agent_of_the_thesis_with_its_experience(steps, agent, full):
+    names = run_cells() | {"judged": {"to the letter": [], "calibrated": []}, "busy": None, "window": 0.7,
+                           "run": SimpleNamespace(agent=agent, world=WaterWorld(), step=2 * steps),
+                           "load": np.full(12, 0.01), "delay": np.zeros((12, 35))}
+    exec(source("chapter_4", "cell-46"), names)
+    assert [(claim.name, claim.full_length) for claim in names["t5"]] == ([("T5", full)] if full is not None else [])
 
 
 class Clock:
