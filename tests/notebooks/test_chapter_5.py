@@ -4,18 +4,19 @@ import re
 from dataclasses import replace
 
 import pytest
+from matplotlib import pyplot as plt
 from page_cells import planned
 
 from lib import chapter_5
 from lib.shared.report import CALIBRATED, LETTER
 from neorl.evidence.reading import PRIMES, Reading, conditions
-from neorl.evidence.statements import CLAIMS
+from neorl.evidence.statements import CLAIMS, STATEMENTS
 from neorl.evidence.verdict import VERDICTS
 
 
 def experiment(**given):
     """What the page's cells define down to its experiment, with conditions in place of results: {name: value}."""
-    return planned("chapter_5", "lists", "experiment", runs=3, steps=900, seed=2, **given)
+    return planned("chapter_5", "experiment", "ran", runs=3, steps=900, seed=2, **given)
 
 
 def test_agents_have_the_coarsest_maps_of_paper_b_up_to_all():
@@ -30,8 +31,9 @@ def test_agents_have_the_coarsest_maps_of_paper_b_up_to_all():
 
 @pytest.mark.parametrize("begin, step", [(0.5, 450), (0.25, 225)])
 def test_indifferent_agents_have_the_same_desires_but_no_valence_until_these_begin(begin, step):
-    results = experiment(begin=begin, counts="[2]")["results"]
-    throughout, later = results["throughout"], results["later"]
+    page = experiment(begin=begin, counts=[2])
+    results, throughout, later = (page[name] for name in ("results", "throughout", "later"))
+    assert (page["numbers"], page["begun"], results["later"]) == ([2], begin, later)
     assert throughout == conditions(Reading(), 900, 3, 2, ["modal"])["both"]
     assert later.changes == ((step, throughout.agent),)
     assert [desire.source for desire in later.agent.desires] == [desire.source for desire in throughout.agent.desires]
@@ -54,3 +56,18 @@ def test_each_reading_has_its_verdicts_on_each_conclusion():
     assert cells["Learning apart from behaviour", CALIBRATED] == ["T1 C3", "C1", "", "", "T7 C2 C4"]
     assert cells["Learning apart from behaviour", LETTER] == ["", "", "C1", "", "T1 T7 C2 C3 C4"]
     assert cells["Superposition", LETTER][3] == "A2" and len(rows) == 8
+
+
+def test_what_no_page_has_judged_is_said_in_one_sentence():
+    nothing = {"claims": {}, "letter": {}, "shares": {}}
+    assert chapter_5.remedy(nothing).startswith("**No claim has been judged yet: `make book` computes")
+    assert chapter_5.verdicts(nothing) == chapter_5.extract(nothing, CLAIMS) == ""
+    claim = {"here": [2.0, 1.0, 3.0], "runs": 10, "verdict": "partly", "undecided": False, "numbers": {}}
+    some = nothing | {"claims": {name: claim for name in STATEMENTS if name not in ("A2", "T9")}}
+    assert "A2, T9 have not been judged yet" in chapter_5.remedy(some)
+    assert "not computed" not in chapter_5.extract(some, CLAIMS)
+    assert chapter_5.remedy(some | {"claims": dict.fromkeys(STATEMENTS, claim)}) == ""
+    for record, rows in ((some, ["A3  partly"]), (nothing, [])):
+        chapter_5.draw_standing(record, ["A2", "A3"])
+        assert [label.get_text() for label in plt.gca().get_yticklabels() if plt.gca().axison] == rows
+    plt.close("all")
