@@ -33,7 +33,11 @@ def page():
     """The page down to its judgement, with short runs in the water maze and with birds, and no others."""
     driven = dict.fromkeys(["neoRL", "Q-learning", "random"], np.full((RUNS, trials.POINTS), 200.0))
     return cells("spaces-3", "pool-run", "birds", "birds-run", "car", "spaces-4", "judging",
-                 simulate=made_up, driven=driven)
+                 simulate=made_up, driven=driven, played=decided(2_400))
+
+
+def decided(decisions):
+    return [SimpleNamespace(rewards=np.zeros(decisions))]
 
 
 def test_all_agents_have_one_rule_and_one_policy(page):
@@ -60,9 +64,9 @@ def test_a_second_map_joins_at_half_time(page):
 
 
 def test_what_is_watched_follows_the_run():
-    agent, world = place_cells([3]), WaterWorld()
-    seen = trials.watch(agent, world, 100, 50, 3)
-    run = Run(agent, world, 3)
+    result = made_up(place_cells([3]), WaterWorld(), steps=100, runs=1, seed=3, cache=False)
+    seen = trials.watch(result, 50)
+    run = Run(result.agent, result.world, 3)
     run.advance(150)
     np.testing.assert_array_equal(seen[-1][0].scene.position, run.world_state.scene.position)
     assert len(seen) == 50 and not np.array_equal(seen[0][0].scene.position, seen[-1][0].scene.position)
@@ -122,8 +126,19 @@ def test_more_is_better_in_every_score(page):
     assert all(page.scores[world][0].mean() > page.scores[world][1].mean() for world in ("water maze", "birds"))
 
 
-@pytest.mark.parametrize("given, names", [({"decisions": 2_400}, ["G1", "G2", "G3", "G4"]), ({}, ["G1", "G3", "G4"]),
-                                          ({"traffic": 4, "decisions": 2_400}, ["G1", "G3"])])
-def test_a_claim_is_judged_with_the_worlds_that_it_was_made_for(page, given, names):
-    found = {name: getattr(page, name) for name in ("swum", "asked", "sailed", "scores", "late")}
-    assert [claim.name for claim in cells("judging", **found | given).judged] == names
+def test_a_claim_is_judged_with_a_verdict_only_of_runs_as_long_as_its_own(page):
+    assert [(claim.name, claim.full_length) for claim in page.judged] == [
+        ("G1", True), ("G2", False), ("G3", True), ("G4", False)]
+
+
+@pytest.mark.parametrize("changed, names", [
+    (lambda page: cells("spaces-3", traffic=12, simulate=made_up), ["G1", "G3"]),
+    (lambda page: SimpleNamespace(sailed=page.sailed | {"far radar": page.sailed["radar"]}), ["G1", "G3"]),
+    (lambda page: SimpleNamespace(played=decided(2_399)), ["G1", "G3", "G4"]),
+    (lambda page: SimpleNamespace(HELD=8), ["G1", "G3", "G4"]),
+    (lambda page: SimpleNamespace(moved=page.mazes["fixed"]), ["G3", "G4"]),
+    (lambda page: SimpleNamespace(rates=page.rates._replace(discount=0.9)), ["G3", "G4"]),
+    (lambda page: SimpleNamespace(thinkers=page.thinkers | {"a map of each": (page.hasty, 20_000)}), ["G1", "G4"])])
+def test_a_claim_is_judged_only_of_the_page_s_own_agents_and_worlds(page, changed, names):
+    found = vars(page) | {name: value for name, value in vars(changed(page)).items() if name != "judged"}
+    assert [claim.name for claim in cells("judging", **found).judged] == names

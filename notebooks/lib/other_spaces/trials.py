@@ -95,14 +95,14 @@ def fewest(space, here, there):
     return int(np.add.outer(columns, rows)[left**2 + up**2 < space.radius**2].min())
 
 
-def watch(agent, world, experience, steps, seed):
-    """Record `steps` steps of a run that has had `experience` steps before.
+def watch(result, steps):
+    """Record `steps` steps after the end of the first run of a `Result` without changes.
 
     Returns a list of (a copy of the state after the step; whether a thing of the first kind was met in the step). In
     that state a new thing has replaced the one that was met.
     """
-    run = Run(agent, world, seed)
-    run.advance(experience)
+    run = Run(result.agent, result.world, result.seed)
+    run.advance(result.steps)
     seen = []
     for _ in range(steps):
         run.advance(1)
