@@ -4,6 +4,7 @@
 # make package test the package as installed from WHEEL=dist/*.whl, or from one that is built, with ARGS="of pytest"
 # make deep   begin the stored runs of deep learners again; installs their packages, among them PyTorch, into .venv
 # make exact  run the reference runs in every way that must give the same bits, and print which do; PYTHONS="python3.13"
+# make pages  run the pages in a kernel in the ways of their readers, and print which fail; PAGES="paper_a paper_b"
 # make verify recompute a random sample of the runs behind the figures and compare; SAMPLE=20 runs, SEED=of the sample
 # make fuzz   try random kernels of a user's that write and return wild values; SETTINGS=1000 of them
 # make lab    open the notebooks in JupyterLab, which saves pages without outputs
@@ -14,6 +15,7 @@
 PYTHON ?= python3
 PYTHONS ?=
 WHEEL ?=
+PAGES ?=
 SAMPLE ?= 20
 SEED ?=
 SETTINGS ?= 1000
@@ -44,7 +46,7 @@ page = $(1:%=$(CHAPTERS)/%.ipynb)
 .DEFAULT_GOAL := book
 # Files that are replaced only by complete ones, so make need not remove them when it is interrupted.
 .PRECIOUS: $(HTML) $(call page,$(NAMES))
-.PHONY: book test package deep exact verify fuzz lab readme bench wheel clean FORCE
+.PHONY: book test package deep exact pages verify fuzz lab readme bench wheel clean FORCE
 
 book: .venv/ready
 	@$(MAKE) --no-print-directory --keep-going --jobs=$(JOBS) $(HTML)
@@ -95,6 +97,9 @@ deep: .venv/ready
 
 exact: .venv/ready
 	$(BIN)/python tests/exactness.py $(PYTHONS)
+
+pages: .venv/ready
+	$(BIN)/python tests/pages.py $(PAGES)
 
 verify: .venv/ready
 	$(BIN)/python book/verify.py --sample $(SAMPLE) $(if $(SEED),--seed $(SEED))

@@ -74,25 +74,25 @@ def program(cells, name):
         if figure_of(cell) == name:
             break
     last = len(sources) - 1
-    parts = [(*each, place == last) for place, source in enumerate(sources) for each in _statements(source)]
+    parts = [(*each, place == last) for place, source in enumerate(sources) for each in statements(source)]
     modules = {each.asname or each.name for node, *_ in parts if isinstance(node, IMPORT) for each in node.names}
     kept, needed = [SAVE.format(name=name)], {ALWAYS}
     for node, text, draws in reversed(parts):
         table = symtable(text, name, "exec")
         bound = {each.get_name() for each in table.get_symbols() if each.is_assigned() or each.is_imported()}
-        changed = needed & (bound | _changed(node) - modules | {ALWAYS} & _changed(node))
+        changed = needed & (bound | changed_names(node) - modules | {ALWAYS} & changed_names(node))
         if isinstance(node, IMPORT):
             node.names = [each for each in node.names if (each.asname or each.name) in changed]
             text = ast.unparse(node)
         elif changed or draws:
             needed -= bound if isinstance(node, ast.Assign) else set()
-            needed |= _read(table)
+            needed |= read_names(table)
         if changed or draws:
             kept.insert(0, text)
     return re.sub(r"\n{3,}", "\n\n", "\n".join(kept).strip())
 
 
-def _statements(source):
+def statements(source):
     """The statements of a cell, each with its text and the comments above it, except those above a parameter."""
     lines, begin = ["", *source.splitlines()], 0
     for node in ast.parse(source).body:
@@ -101,13 +101,13 @@ def _statements(source):
         begin = node.end_lineno + 1
 
 
-def _read(table, top=True):
+def read_names(table, top=True):
     """The global names that a piece of code reads, in its functions too."""
     names = {each.get_name() for each in table.get_symbols() if each.is_referenced() and (top or each.is_global())}
-    return names.union(*(_read(child, False) for child in table.get_children()))
+    return names.union(*(read_names(child, False) for child in table.get_children()))
 
 
-def _changed(node):
+def changed_names(node):
     """The names of objects that a statement changes: it sets an item, calls a method, or fills an array."""
     found = set()
     for part in ast.walk(node):

@@ -8,6 +8,7 @@ import compute
 import nbformat
 import pytest
 from cells import LABEL, caption_of, tags
+from page_cells import HIDDEN
 from page_cells import NOTEBOOKS as FOLDER
 from programs import figure_of
 
@@ -15,7 +16,6 @@ from lib.shared import notebook
 from neorl.evidence.statements import STATEMENTS
 
 NOTEBOOKS = {path.stem: nbformat.read(path, 4) for path in sorted(FOLDER.glob("*.ipynb"))}
-HIDDEN = {"remove-input", "hide-input", "hide-cell"}
 DRAWS = r"(figures|drawing)\.(draw|new)_|plt\.(figure\(|subplots)|draw_means\("
 
 
