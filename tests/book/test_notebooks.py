@@ -58,6 +58,18 @@ def test_what_the_book_folds_is_folded_in_jupyterlab(cells):
         assert cell.metadata.get("jupyter", {}) == {fold: True for fold, tagged in folds.items() if tagged}
 
 
+def test_what_a_page_says_of_its_experiment_comes_from_the_results(cells):
+    """Below the experiment, cells that draw or write read no parameter but the seed: it may have changed since."""
+    code = [cell for cell in cells if cell.cell_type == "code"]
+    parameters = {statement.target.id for statement in ast.parse(code[0].source).body} - {"seed"}
+    (experiment,) = [place for place, cell in enumerate(code) if "experiment" in tags(cell)]
+    for cell in code[experiment + 1:]:
+        if HIDDEN & tags(cell) or figure_of(cell) or "Markdown(" in cell.source:
+            read = {node.id for node in ast.walk(ast.parse(cell.source))
+                    if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)}
+            assert not read & parameters, (cell.id, read & parameters)
+
+
 def test_a_cell_that_ends_with_a_drawing_puts_out_nothing_but_the_figure(cells):
     for cell in cells:
         if cell.cell_type == "code" and cell.source:
