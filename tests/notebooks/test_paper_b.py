@@ -8,9 +8,12 @@ from page_cells import planned, source
 
 import neorl
 from lib.paper_b import figures, trials
+from lib.shared import opening
 from lib.shared.report import CALIBRATED, CLAIMS_OF, LETTER
 from neorl import WaterWorld
 from neorl.evidence.reading import PRIMES, TO_THE_LETTER, Reading, conditions
+from neorl.evidence.statistics import Estimate
+from neorl.evidence.verdict import Claim
 
 ANALYSES = ("per_reset =", "minutes =", "sooner =")  # the lines of a cell from which on it needs results
 
@@ -132,6 +135,12 @@ def with_a_third_node(*arguments, **options):
     ({"n_creeps": 4, "resolutions": (2, 3)}, {LETTER: [], CALIBRATED: []})])
 def test_other_agents_and_boards_are_neither_judged_nor_called_calibrated_nor_saved(given, found, cache_folder):
     assert judged(cache_folder, **given)[1:] == (found, False)
+
+
+def test_a_reading_without_claims_has_no_line_in_the_box():
+    claim = Claim("B1", Estimate(1.0, 0.9, 1.1), {}, 10, "partly", False)
+    box = opening.found({LETTER: [claim], "calibrated, PC × 0": []})
+    assert "To the letter: " in box and "× 0" not in box
 
 
 def made_up(rate, runs=2, red=0.0, bins=3_000):
