@@ -7,15 +7,7 @@ Two WebAssembly modules at once would need twice the memory.
 from neorl import WaterWorld, forager, multimodal, network_d, place_cells, simulate
 from neorl.browser import wasm
 
-
-def main():
+if __name__ == "__main__":
     for agent in (place_cells([3]), multimodal(), network_d(), forager()):
         simulate(agent, WaterWorld(), steps=100, runs=1, progress=False)
-    with wasm._one_process_at_a_time():
-        for name in wasm.MODULES:
-            if name not in wasm._on_disk():
-                wasm._kept(wasm._built([name]))
-
-
-if __name__ == "__main__":
-    main()
+    wasm.modules(at_once=1)

@@ -93,11 +93,11 @@ LINK = ("--no-entry", "--allow-undefined", "--import-memory", "--gc-sections", "
         "--export=__heap_base")
 
 
-def modules():
+def modules(at_once=len(MODULES)):
     """The WebAssembly modules, {name of `MODULES`: bytes}.
 
-    Modules that are neither shipped nor on disk are built side by side, which takes about a minute. Of several
-    processes one builds them, and the others wait.
+    Modules that are neither shipped nor on disk are built, at most `at_once` side by side, which takes about a minute.
+    Of several processes one builds them, and the others wait.
 
     Raises ImportError if a package needed to build them is not installed, RuntimeError if a build fails.
     """
@@ -105,7 +105,7 @@ def modules():
     if len(found) < len(MODULES):
         with _one_process_at_a_time():
             found = _on_disk()  # another process may have built them
-            found |= _kept(_built([name for name in MODULES if name not in found]))
+            found |= _kept(_built([name for name in MODULES if name not in found], at_once))
     return found
 
 
@@ -201,9 +201,9 @@ def _digest(name):
     return b"" if None in digests else hashlib.sha256("".join([*digests, name]).encode()).digest()
 
 
-def _built(names):
+def _built(names, at_once):
     """Build modules, side by side where cores and memory suffice: {name: bytes}."""
-    with ThreadPoolExecutor(max(1, min(cores(), free_memory() // BYTES_OF_A_BUILD))) as pool:
+    with ThreadPoolExecutor(max(1, min(at_once, cores(), free_memory() // BYTES_OF_A_BUILD))) as pool:
         return dict(zip(names, pool.map(_built_in_a_process_of_its_own, names)))
 
 

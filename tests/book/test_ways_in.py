@@ -5,6 +5,7 @@ import copy
 import io
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -79,14 +80,14 @@ def test_a_terminal_shows_progress_and_a_file_does_not(terminal, monkeypatch):
 
 @pytest.fixture
 def lab(tmp_path, monkeypatch):
-    """The contents manager of `make lab`, whose clone has the pages as Jupyter writes them."""
+    """The contents manager of `make lab`, for a clone with the pages."""
     command = subprocess.run(["make", "--dry-run", "lab"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
     assert ("--allow-root" in command) == (os.getuid() == 0)
     hook = re.search(r"--ContentsManager.pre_save_hook=(\S+)", command)[1]
     monkeypatch.setattr(saving, "PAGES", tmp_path / "notebooks")
     saving.PAGES.mkdir()
     for path in (ROOT / "notebooks").glob("*.ipynb"):
-        nbformat.write(nbformat.read(path, 4), saving.PAGES / path.name)
+        shutil.copy(path, saving.PAGES)
     for arguments in (["init", "--quiet"], ["add", "."]):
         subprocess.run(["git", *arguments], cwd=tmp_path, check=True)
     return AsyncLargeFileManager(root_dir=str(tmp_path), config=Config(ContentsManager={"pre_save_hook": hook}))

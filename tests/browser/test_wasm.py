@@ -110,7 +110,7 @@ def contents(tmp_path, monkeypatch):
     """The contents of the modules, with none left on disk and a build that fails the test."""
     contents = wasm.modules()
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path))
-    monkeypatch.setattr(wasm, "_built", lambda names: names and pytest.fail(f"built again: {names}"))
+    monkeypatch.setattr(wasm, "_built", lambda names, at_once: names and pytest.fail(f"built again: {names}"))
     return contents
 
 
@@ -125,14 +125,14 @@ def test_modules_on_disk_are_taken_and_a_damaged_one_is_not(contents, tmp_path):
 
 
 def test_a_wheel_ships_the_modules_of_its_own_sources(contents, tmp_path, monkeypatch):
-    monkeypatch.setattr(wasm, "_built", lambda names: {name: contents[name] for name in names})
+    monkeypatch.setattr(wasm, "_built", lambda names, at_once: {name: contents[name] for name in names})
     wasm.ship(tmp_path / "neorl")
     monkeypatch.undo()
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path / "empty"))
     monkeypatch.setattr(wasm, "SHIPPED", {name: tmp_path / "neorl" / "browser" / f"{name}.wasm" for name in contents})
     assert wasm.modules() == contents and not (tmp_path / "empty").exists()
     others = dict.fromkeys(contents, b"of other sources")
-    monkeypatch.setattr(wasm, "_built", lambda names: {name: others[name] for name in names})
+    monkeypatch.setattr(wasm, "_built", lambda names, at_once: {name: others[name] for name in names})
     monkeypatch.setattr(wasm, "source_digest", lambda: "other sources")
     assert wasm.modules() == others
 
@@ -163,6 +163,6 @@ def test_without_a_linker_the_error_says_what_to_install(tmp_path, monkeypatch):
 def test_modules_that_cannot_be_kept_are_built_with_a_warning(contents, tmp_path, monkeypatch):
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("NEORL_CACHE", str(tmp_path / "file"))
-    monkeypatch.setattr(wasm, "_built", lambda names: {name: contents[name] for name in names})
+    monkeypatch.setattr(wasm, "_built", lambda names, at_once: {name: contents[name] for name in names})
     with pytest.warns(RuntimeWarning, match="cannot be kept"):
         assert wasm.modules() == contents

@@ -36,6 +36,7 @@ def test_claims_are_kept_as_data_and_a_bound_that_does_not_exist_as_null(record,
 
 def test_a_record_has_all_claims_of_its_page_or_stays_as_it_was(record, cache_folder):
     report.save("paper_c", networks()[:3])
+    report.save("paper_c", networks(), letter=networks()[1:])
     report.save("paper_c")
     assert report.load() == record
 

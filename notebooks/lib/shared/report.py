@@ -33,6 +33,7 @@ PARTS = ("claims", "letter", "shares")  # of a record
 CLAIMS_OF = {"alternatives": ("C5",), "chapter_2": ("H1",), "chapter_3": ("T3", "T4"), "chapter_4": ("T5", "T7"),
              "other_spaces": ("G1", "G2", "G3", "G4"), "paper_a": (*(f"A{n}" for n in range(1, 10)), "T9"),
              "paper_b": (*(f"B{n}" for n in range(1, 8)), "T1", "T2", "T6", "T8"), "paper_c": ("C1", "C2", "C3", "C4")}
+ONCE = {"T5"}  # judged under one reading beside claims that are judged under two
 
 
 def table(claims, letter=()):
@@ -62,11 +63,13 @@ def errata(place=""):
 def save(page, claims=(), shares=None, letter=()):
     """Save the findings of a page as JSON, with the digest of the source that computed them.
 
-    A record is complete: nothing is saved unless all claims of the page are judged.
+    A record is complete: nothing is saved unless all claims of the page are judged, under both readings where there are
+    two.
     shares: {name of a claim: {"reproduced", "undecided", "readings"}}, counts of readings within the text in short
     runs, with "agrees" and "measured" if there are counts at the papers' lengths too. A missing bound is null.
     """
-    if {claim.name for claim in claims} != {*CLAIMS_OF.get(page, ())}:
+    wanted, *judged = ({*names} for names in (CLAIMS_OF.get(page, ()), _names(claims), _names(letter)))
+    if judged[0] != wanted or judged[1] and judged[1] != wanted - ONCE:
         return
     content = {"page": page, "source": source_digest(), "claims": _kept(claims), "letter": _kept(letter),
                "shares": shares or {}}
@@ -137,6 +140,10 @@ def _kept(claims):
 def _asked(found, bounds):
     mark = "✓" if bounds.hold(found) else "?" if bounds.allow(found) else "✗"
     return f"{bounds}{bounds.why and f' ({bounds.why})'}", f"{mark}\u00a0"
+
+
+def _names(claims):
+    return [claim.name for claim in claims]
 
 
 def _bounded(found):
