@@ -11,15 +11,15 @@ import re
 from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
 
-GROUPS, OWN = Path("/sys/fs/cgroup"), Path("/proc/self/cgroup")
+GROUPS, OWN = "/sys/fs/cgroup", "/proc/self/cgroup"  # where Linux describes its control groups
 
 
-def free_memory(groups: Path = GROUPS, own: Path = OWN) -> int:
+def free_memory(groups: str | Path = GROUPS, own: str | Path = OWN) -> int:
     """Bytes of memory that this process may still use. groups, own: where Linux describes its control groups."""
     import psutil
 
     free = [psutil.virtual_memory().available]
-    for group in _groups("memory", groups, own):
+    for group in _groups("memory", Path(groups), Path(own)):
         cached = dict(re.findall(r"^(\w+) (\d+)$", _read(group / "memory.stat"), re.MULTILINE))
         for limits, usage, cache in ((("memory.max", "memory.high"), "memory.current", "inactive_file"),
                                      (("memory.limit_in_bytes",), "memory.usage_in_bytes", "total_inactive_file")):
@@ -28,10 +28,10 @@ def free_memory(groups: Path = GROUPS, own: Path = OWN) -> int:
     return max(0, min(free))
 
 
-def cores(groups: Path = GROUPS, own: Path = OWN) -> int:
+def cores(groups: str | Path = GROUPS, own: str | Path = OWN) -> int:
     """The number of cores on which this process may run, ≥ 1; a part of a core counts as one. groups, own: as above."""
     usable = [len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1]
-    for group in _groups("cpu", groups, own):
+    for group in _groups("cpu", Path(groups), Path(own)):
         limit = _read(group / "cpu.max") or f"{_read(group / 'cpu.cfs_quota_us')} {_read(group / 'cpu.cfs_period_us')}"
         quota, period = map(_number, limit.partition(" ")[::2])
         if quota and period:
