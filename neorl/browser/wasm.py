@@ -214,7 +214,10 @@ def _built_in_a_process_of_its_own(name):
                            env=environment | {"NUMBA_CPU_NAME": "generic", "NUMBA_OPT": "0"})
     if built.returncode:
         raise RuntimeError(f"the WebAssembly module was not built:\n{built.stderr.decode()}")
-    return built.stdout
+    digest = _digest(name)
+    if not built.stdout.startswith(digest):
+        raise RuntimeError("neorl must be as it was when it was imported, but its source has changed; restart Python")
+    return built.stdout[len(digest):]
 
 
 def _build(name):
@@ -293,4 +296,4 @@ def _entry(kernel, constants):
 
 
 if __name__ == "__main__":
-    sys.stdout.buffer.write(_build(sys.argv[1]))
+    sys.stdout.buffer.write(_digest(sys.argv[1]) + _build(sys.argv[1]))

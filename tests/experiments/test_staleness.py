@@ -7,12 +7,14 @@ import random
 import sys
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
+from types import SimpleNamespace
 
 import edited
 import pytest
 from subprograms import printed
 
 from neorl import Condition, Policy, WaterWorld, kernel, place_cells, simulate, sweep
+from neorl.browser import wasm
 from neorl.core.kernel import jit_is_off
 from neorl.experiments import simulation
 
@@ -82,3 +84,12 @@ BIAS = 0
 @kernel
 def biased(value, stream):
     return BIAS
+
+
+def test_a_module_of_webassembly_built_from_other_source_is_refused(monkeypatch):
+    outcome = SimpleNamespace(returncode=0, stdout=wasm._digest("plane") + b"module")
+    monkeypatch.setattr("subprocess.run", lambda *_, **__: outcome)
+    assert wasm._built(["plane"]) == {"plane": b"module"}
+    outcome.stdout = wasm._digest("helm") + b"module"
+    with pytest.raises(RuntimeError, match="its source has changed"):
+        wasm._built(["plane"])
