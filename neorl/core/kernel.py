@@ -56,7 +56,9 @@ class Kernel:
         functools.update_wrapper(self, function)
         self.py_func, self.options = function, options
 
-    def __reduce__(self):
+    def __reduce_ex__(self, protocol):
+        if protocol < 4 and not hasattr(self, "origin"):
+            return self.__name__  # older protocols know no names of attributes
         return getattr(self, "origin", (_kernel_of, (self.definition,)))
 
     @functools.cached_property

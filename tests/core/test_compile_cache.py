@@ -1,7 +1,9 @@
 """Compiled kernels on disk are reused if everything that they were compiled from is unchanged, and only then."""
 
+import copy
 import importlib.util
 import os
+import pickle
 import subprocess
 import sys
 
@@ -12,6 +14,7 @@ from neorl import files
 from neorl.core.calls import execute
 from neorl.core.kernel import announcing, jit_is_off, kernel
 from neorl.core.linking import LinkedFlags
+from neorl.worlds import waterworld
 
 pytestmark = pytest.mark.skipif(jit_is_off(), reason="the compiler is off")
 
@@ -135,6 +138,11 @@ assert len(addresses) == len(made)
 """)
     for numbers in ("1", "21"):  # the second process compiles one and finds the other on disk
         subprocess.run([sys.executable, program, *numbers], check=True)
+
+
+@pytest.mark.parametrize("protocol", range(2, pickle.HIGHEST_PROTOCOL + 1))
+def test_a_kernel_of_a_module_is_pickled_by_its_name(protocol):
+    assert pickle.loads(pickle.dumps(waterworld.step, protocol)) is waterworld.step is copy.deepcopy(waterworld.step)
 
 
 def test_compilations_do_not_share_the_flags_that_numba_changes_meanwhile():
