@@ -54,7 +54,7 @@ def planned(page, *cells, until=(), **given):
     exec(parameters, names)
     chosen = {name: value for name, value in given.items() if name in names}
     names |= chosen
-    exec(imports, names)  # lists become tuples
+    exec(re.sub(r"notebook\.begin\([^)]*\)", "", imports), names)  # lists become tuples
     names |= {"sweep": iter, **{name: value for name, value in given.items() if name not in chosen}}
     for cell in cells:
         text = source(page, cell)

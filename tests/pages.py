@@ -32,11 +32,13 @@ from nbclient.exceptions import CellExecutionError
 from nbformat.v4 import new_code_cell, new_notebook
 from page_cells import NOTEBOOKS, computed_below, suggested
 from papermill.cli import _resolve_type as value_of
+from traitlets.config import Config
 
 from neorl.files import cache_folder
 
 SMALL = {"runs": 2, "steps": 1_000, "seed": 0}
-ALSO_SMALL = {"assumptions": {"points": 4}, "calibration": {"nearest": 1, "sample": 1}, "chapter_3": {"steps": 3_000},
+ALSO_SMALL = {"alternatives": {"steps": 3_000}, "assumptions": {"points": 4},
+              "calibration": {"nearest": 1, "sample": 1, "steps": 2_000}, "chapter_3": {"steps": 3_000},
               "other_spaces": {"decisions": 200}, "your_research": {"steps": 2_000}}
 LEAST = {"runs": 1, "n": 1, "resolution": 1, "resolutions": [1], "layers": [1], "counts": [1], "stays": [1],
          "n_creeps": 1, "place_gain": 0.0, "recursion": 0.0, "learning_rate": 0.001, "exploration": 0.0, "memory": 1,
@@ -52,12 +54,13 @@ OTHERS = {
     "paper_a": {"resolutions": [4, 12], "layers": [2, 3, 5, 7], "n_creeps": 20},
     "paper_b": {"resolutions": [3, 4], "n_creeps": 8, "place_gain": 100.0},
     "paper_c": {"n_creeps": 8, "recursion": 2.5, "resolutions": [3, 4]},
-    "performance": {"resolution": 90, "n_creeps": 20}, "your_research": {"resolutions": [2, 20]}}
+    "performance": {"resolution": 50, "n_creeps": 20}, "your_research": {"resolutions": [2, 20]}}
 COMPILED = "compiled", "wasm", "wasm.lock"  # parts of the cache
 WAYS = "defaults", "twice", "below", "least", "others", "papermill", "suggested", "refused"
 MEASURED = {  # the cells that show measured times
     "agent_in_one_file": {"comparison"}, "alternatives": {"costs-table"}, "beyond_agents": {"e65b2d27"},
-    "chapter_4": {"cell-45", "pace"}, "own_world": {"cell-13"}, "paper_b": {"state-sizes", "cell-35", "cell-18"},
+    "chapter_4": {"cell-45", "cell-46", "pace"}, "own_world": {"cell-13"},
+    "paper_b": {"state-sizes", "cell-35", "cell-18"},
     "performance": {"cell-06", "cell-08", "cell-09", "cell-13", "cell-18", "minutes", "cell-20"}}
 OK, BAD = "ok", (None, {}, float("nan"))
 RESET = "get_ipython().reset(new_session=True)\n__spec__ = None"  # processes that are spawned look up the latter
@@ -166,7 +169,8 @@ def row_of(name):
     with tempfile.TemporaryDirectory() as cache:
         for part in COMPILED:
             (Path(cache) / part).symlink_to(cache_folder().resolve() / part)
-        client = NotebookClient(new_notebook(), kernel_name="python3")
+        quiet = {"transport": "ipc", "ip": f"{cache}/kernel"}  # over TCP the kernel warns that it is not encrypted
+        client = NotebookClient(new_notebook(), kernel_name="python3", config=Config(KernelManager=quiet))
         with client.setup_kernel(cwd=str(NOTEBOOKS), env=os.environ | {"NEORL_CACHE": cache}):
             page = Page(name, client)
             for way in WAYS:

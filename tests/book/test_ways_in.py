@@ -124,10 +124,10 @@ def test_a_page_that_was_run_in_lab_is_saved_as_it_was(lab):
         assert saved.cells[1].source == notebook.cells[1].source and "said" not in path.read_text()
 
 
-@pytest.mark.parametrize("path", ["notebooks/own.ipynb", "paper_a.ipynb"])
-def test_a_readers_own_notebook_keeps_its_outputs(lab, path):
+@pytest.mark.parametrize("folder, name", [("notebooks", "own.ipynb"), ("", "paper_a.ipynb")])
+def test_a_readers_own_notebook_keeps_its_outputs(lab, folder, name):
     notebook = executed(nbformat.read(saving.PAGES / "paper_a.ipynb", 4))
-    assert b"said" in save(lab, path, notebook)
+    assert b"said" in save(lab, f"{folder}/{name}", notebook)
 
 
 def test_binder_compiles_kernels_and_webassembly():

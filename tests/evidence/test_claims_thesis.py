@@ -82,7 +82,7 @@ def in_the_maze(day_12, later, runs=20, never=14.0):
     noise = np.random.default_rng(0).normal(0, 0.1, (3, runs, 17))
     means = {"throughout": [14.0] * 11 + [2.0] * 6, "never": [14.0] * 11 + [never] * 6,
              "delayed": [14.0] * 11 + [day_12] + [later] * 5}
-    return {group: Record(mean + each, known=None) for (group, mean), each in zip(means.items(), noise)}
+    return {group: Record(mean + each, known=None, ran=None) for (group, mean), each in zip(means.items(), noise)}
 
 
 @pytest.mark.parametrize("rats, expected", [
