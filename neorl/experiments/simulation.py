@@ -284,20 +284,22 @@ def progress_bar(steps, name, shown):
         return Report(shown, steps)
     if not isinstance(checks.plain(shown), bool):
         raise checks.error("progress", "True, False or a function that takes the steps done and their total", shown)
-    return tqdm(total=steps, desc=name, unit="step", unit_scale=True, leave=False,
-                disable=not (shown and _is_watched()))
+    watched = _watched_output()
+    return tqdm(total=steps, desc=name, unit="step", unit_scale=True, leave=False, file=watched,
+                disable=not shown or watched is None)
 
 
-def _is_watched():
-    """Whether standard error is a terminal, or output of a notebook whose front end can be asked for input.
+def _watched_output():
+    """Standard error if it is a terminal, the output of a notebook whose front end can be asked for input, or None.
 
-    What papermill, nbconvert or a build runs cannot be asked, and records its output.
+    What papermill, nbconvert or a build runs cannot be asked, and records its output. In a notebook, standard error
+    would leave a red bar behind.
     """
     ipython = sys.modules.get("IPython")
     shell = ipython and ipython.get_ipython()
     if hasattr(shell, "get_parent"):  # of a kernel
-        return shell.get_parent().get("content", {}).get("allow_stdin", True)
-    return sys.stderr is not None and sys.stderr.isatty()
+        return sys.stdout if shell.get_parent().get("content", {}).get("allow_stdin", True) else None
+    return sys.stderr if sys.stderr is not None and sys.stderr.isatty() else None
 
 
 class Report(contextlib.nullcontext):
