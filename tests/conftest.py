@@ -32,7 +32,8 @@ QUIET = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "-
 PATIENCE = 60_000  # milliseconds that a test waits for a page, since the machine may be busy
 
 FIRST = ("test_readme", "test_book", "test_claims", "test_statistics",
-         "test_make", "test_fuzzing", "test_package", "test_fuzzed_kernels", "test_compiler_off")
+         "test_make", "test_fuzzing", "test_package", "test_fuzzed_kernels", "test_compiler_off", "test_jupyterlab",
+         "test_variations")
 
 
 def pytest_collection_modifyitems(items):

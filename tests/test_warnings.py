@@ -23,11 +23,14 @@ sys.path.insert(0, sys.argv[1])
 if "homeless" in sys.argv:
     pwd.getpwuid = {}.__getitem__  # KeyError, as for a user whom the system does not know
     del os.environ["HOME"], os.environ["NEORL_CACHE"]
+    from neorl import files
+    files.CHECKOUT = files.Path()  # as if it were installed, not imported from a clone, which has a cache
 from neorl import WaterWorld, execute, kernel, place_cells, simulate
 from neorl.core.identity import digest_of_source
 doubled = kernel(lambda x: 2.0 * x)
 for _ in range(2):
-    execute(doubled, 1.0), simulate(place_cells([3]), WaterWorld(), steps=300, runs=1, cache=True, progress=False)
+    execute(doubled, 1.0), "alone" in sys.argv or simulate(
+        place_cells([3]), WaterWorld(), steps=300, runs=1, cache=True, progress=False)
 print(digest_of_source("core", "worlds"))
 """
 
@@ -53,14 +56,15 @@ COMPILED = pytest.mark.skipif(jit_is_off(), reason="the compiler is off")
 
 
 @pytest.mark.parametrize("action, message", [
-    (lambda choose: simulated(choose, True), "file takes no results .Not a directory.: they stay in memory"),
+    (lambda choose: simulated(choose, True), r"takes no results \(\w+.*\): they stay in memory"),
     pytest.param(lambda choose: simulated(choose, False),
-                 "compiled takes no compiled kernels .Not a directory.: each process compiles", marks=COMPILED),
-    (lambda _: wasm._kept({"plane": b""}), "wasm takes no WebAssembly modules .Not a directory.: they will be built"),
+                 r"compiled takes no compiled kernels \(\w+.*\): each process compiles", marks=COMPILED),
+    (lambda _: wasm._kept({"plane": b""}), r"wasm takes no WebAssembly modules \(\w+.*\): they will be built"),
     (rendered, "without a render_mode")], ids=["results", "kernels", "modules", "render"])
-def test_warnings_point_at_the_users_line(tmp_path, monkeypatch, choose, action, message):
-    (tmp_path / "file").write_text("")
-    monkeypatch.setenv("NEORL_CACHE", str(tmp_path / "file"))
+def test_warnings_point_at_the_users_line(cache_folder, choose, action, message):
+    for folder in ("compiled", "conditions", "runs", "wasm") if "results" not in message else ("conditions", "runs"):
+        (cache_folder / folder).unlink(missing_ok=True)
+        (cache_folder / folder).write_text("")
     with warnings.catch_warnings(record=True) as warned:
         warnings.simplefilter("always")
         action(choose)
@@ -76,7 +80,7 @@ def program(tmp_path, monkeypatch):
     monkeypatch.delenv("PYTHONPATH")
     monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
 
-    def run(path, *more, jit=False):
+    def run(path, more=(), jit=False):
         monkeypatch.setenv("NUMBA_DISABLE_JIT", str(int(not jit)))
         done = subprocess.run([sys.executable, "program.py", path, *more], cwd=tmp_path, capture_output=True,
                               text=True)
@@ -91,9 +95,9 @@ def kept(folder):
 
 
 def test_a_user_without_a_home_folder_has_no_cache_and_one_warning(program, tmp_path):
-    _, warned = program(PACKAGE.parent, "homeless")
+    _, warned = program(PACKAGE.parent, ["homeless"])
     message = "nothing is cached: NEORL_CACHE must name a folder, since this user has no home folder"
-    assert warned == [("program.py:11", message)]
+    assert warned == [("program.py:13", message)]
     assert kept(tmp_path) == {"program.py"}
 
 
@@ -116,12 +120,13 @@ def test_versions_in_zip_files_share_nothing(program, tmp_path):
     assert len(digests) == 2 and list(map(len, results)) == [1, 2, 2]
 
 
-@COMPILED
-def test_bytecode_without_source_caches_nothing_and_says_so_once(program, tmp_path):
+@pytest.mark.parametrize("options", [{}, pytest.param({"more": ["alone"], "jit": True}, marks=COMPILED)],
+                         ids=["results", "kernels"])
+def test_bytecode_without_source_caches_nothing_and_says_so_once(program, tmp_path, options):
     shutil.copytree(PACKAGE, tmp_path / "tree" / "neorl", ignore=shutil.ignore_patterns("__pycache__"))
     compileall.compile_dir(tmp_path / "tree", quiet=1, legacy=True)
     for path in (tmp_path / "tree").rglob("*.py"):
         path.unlink()
-    printed, warned = program("tree", jit=True)
-    assert printed == "None" and [where for where, _ in warned] == ["program.py:11"]
+    printed, warned = program("tree", **options)
+    assert printed == "None" and [where for where, _ in warned] == ["program.py:13"]
     assert "imported from bytecode without its source" in warned[0][1] and not kept(tmp_path / "cache")

@@ -8,6 +8,7 @@ import re
 import shutil
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import nbformat
@@ -109,7 +110,9 @@ def executed(notebook):
 
 def save(lab, path, notebook):
     """Save a notebook as JupyterLab does; returns the bytes of the file."""
-    asyncio.run(lab.save({"type": "notebook", "format": "json", "content": notebook}, path))
+    saving_it = lab.save({"type": "notebook", "format": "json", "content": notebook}, path)
+    with ThreadPoolExecutor(1) as apart:  # from the loop of the browser that other tests may have started
+        apart.submit(asyncio.run, saving_it).result()
     return Path(lab.root_dir, path.strip("/")).read_bytes()
 
 

@@ -89,7 +89,7 @@ def biased(value, stream):
 def test_a_module_of_webassembly_built_from_other_source_is_refused(monkeypatch):
     outcome = SimpleNamespace(returncode=0, stdout=wasm._digest("plane") + b"module")
     monkeypatch.setattr("subprocess.run", lambda *_, **__: outcome)
-    assert wasm._built(["plane"]) == {"plane": b"module"}
+    assert wasm._built(["plane"], 1) == {"plane": b"module"}
     outcome.stdout = wasm._digest("helm") + b"module"
     with pytest.raises(RuntimeError, match="its source has changed"):
-        wasm._built(["plane"])
+        wasm._built(["plane"], 1)
