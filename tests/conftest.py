@@ -46,8 +46,9 @@ def pytest_collection_modifyitems(items):
 
 @pytest.fixture(autouse=True)
 def closed():
-    """Close all figures after each test."""
-    yield
+    """Close all figures after each test, and undo what it has set of matplotlib."""
+    with plt.rc_context():
+        yield
     plt.close("all")
 
 

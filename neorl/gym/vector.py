@@ -161,7 +161,7 @@ def _picture(world, state):
 
     from neorl.drawing import draw_world
 
-    canvas = FigureCanvasAgg(Figure((5, 5), dpi=100, facecolor="white"))
+    canvas = FigureCanvasAgg(Figure((5, 5), dpi=100, facecolor="white", layout="none"))
     draw_world(world, state, canvas.figure.add_axes((0, 0, 1, 1)))
     canvas.draw()
     return np.array(canvas.buffer_rgba())[..., :3]

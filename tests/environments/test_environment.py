@@ -9,7 +9,7 @@ from gymnasium.utils.env_checker import check_env
 from pond import Pond
 from same import assert_equal
 
-from neorl import Agent, Arena, Run, Scene, WaterWorld, brownian
+from neorl import Agent, Arena, Run, Scene, WaterWorld, brownian, drawing
 from neorl.core.calls import execute
 from neorl.core.kernel import mapped
 from neorl.core.scene import ABSENT
@@ -166,6 +166,13 @@ def test_bad_actions_are_refused_and_steps_before_the_first_reset():
             env.step(action)
     for action in (np.int64(4), np.array(3), np.uint8(0)):
         env.step(action)
+
+
+def test_a_picture_can_be_drawn_in_the_book_s_style_of_figures():
+    drawing.use_style()  # whose layout would warn, which fails a test
+    env = gymnasium.make("neorl/WaterWorld-v0", render_mode="rgb_array")
+    env.reset(seed=0)
+    assert env.render().std() > 0
 
 
 def test_a_picture_of_an_arena_shows_obstacles_places_and_the_agent():
