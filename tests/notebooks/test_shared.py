@@ -10,6 +10,7 @@ import pytest
 from lib.shared import marks, opening, provenance, report, side_by_side
 from lib.shared.fields import superposed_field
 from lib.shared.priors import BEYOND
+from lib.shared.thesis_figures import draw_against_thesis
 from lib.shared.wording import number, scientific, table
 from neorl import GREEDY, WaterWorld, superpose
 from neorl.drawing.style import linear_light
@@ -91,3 +92,10 @@ def test_a_field_has_the_superposition_of_every_cell():
     q = np.random.default_rng(0).random((9, 4, 9), np.float32)
     field = superposed_field(q, [2, 7], [1.0, -0.5])
     np.testing.assert_array_equal(field, [superpose(q, state, [2, 7], [1.0, -0.5]) for state in range(9)])
+
+
+def test_only_what_the_thesis_has_a_number_for_is_marked_as_its_own():
+    here = {"reward": Estimate(1, 0, 2), "states": Estimate(4, 3, 5)}
+    axes = draw_against_thesis({"reward": None, "states": 5.9}, {"calibrated": here}, "times")
+    assert [text.get_text() for text in axes.texts] == ["thesis 5.9"]
+    assert not draw_against_thesis(dict.fromkeys(here), {"calibrated": here}, "times").texts
