@@ -61,8 +61,8 @@ def test_a_box_has_verdicts_by_reading_with_links_or_says_that_there_are_none():
 
 
 @pytest.mark.parametrize("runs, full_length, said", [
-    (9, True, "this page has 9."),
-    (12, False, "this page has 10, some of them shorter.")])
+    (9, True, "here are 9."),
+    (12, False, "here are 10, some shorter.")])
 def test_a_box_of_few_or_short_runs_has_no_verdicts(runs, full_length, said):
     box = opening.found({"": claims(A3="partly"), "calibrated": claims(runs, full_length, A2="reproduced")})
     assert "A2" not in box and "**Quick look: no verdicts.**" in box and said in box

@@ -22,9 +22,9 @@ def found(judged):
              if claims]
     runs = min(claim.runs for claim in claims)
     if runs < RUNS_FOR_A_VERDICT or not all(claim.full_length for claim in claims):
-        shorter = ", some of them shorter" * any(not claim.full_length for claim in claims)
-        lines = [f"**Quick look: no verdicts.** A verdict needs {RUNS_FOR_A_VERDICT} runs of the claim's own length; "
-                 f"this page has {runs}{shorter}."]
+        shorter = ", some shorter" * any(not claim.full_length for claim in claims)
+        lines = [f"**Quick look: no verdicts.** They need {RUNS_FOR_A_VERDICT} runs of full length; here are "
+                 f"{runs}{shorter}."]
     # A blank line ends the HTML, so that the text between the two tags is parsed as Markdown.
     return "\n\n".join(['<div class="found">', "**What was found**", *lines, "</div>"])
 
