@@ -13,8 +13,7 @@ from neorl.drawing.boards import MARGIN, desire_colour
 from neorl.drawing.curves import draw_proficiency
 from neorl.drawing.network_figures import HEAD, LARGEST, draw_into, laid_out, write
 from neorl.drawing.style import width_of_figures
-from neorl.evidence import claims
-from neorl.evidence.reading import GROUPS, LENGTHS, conditions
+from neorl.evidence.reading import GROUPS
 from neorl.evidence.statements import STATEMENTS
 from neorl.evidence.verdict import FINAL
 from neorl.experiments.run import Run
@@ -29,9 +28,7 @@ TRIED, PATIENCE, EVERY = 10, 5_000, 10  # runs, the steps of each, and the steps
 def judge(results, reading):
     """The claims on networks under a reading, a list: none unless its networks were run among the paper's creeps."""
     ran = {key: results["Brownian" if key[0] == "brownian" else key[1]] for key in GROUPS["networks"]}
-    wanted = conditions(reading, LENGTHS["C"], 1, groups=["networks"])
-    return judging.judged(lambda: claims.judge_networks(*(results[name] for name in "ABCD"), results["Brownian"]),
-                          ran, wanted)
+    return judging.of_papers(ran, reading, "networks")
 
 
 def draw_networks(agents):

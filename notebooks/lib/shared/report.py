@@ -68,8 +68,8 @@ def save(page, claims=(), shares=None, letter=()):
     shares: {name of a claim: {"reproduced", "undecided", "readings"}}, counts of readings within the text in short
     runs, with "agrees" and "measured" if there are counts at the papers' lengths too. A missing bound is null.
     """
-    wanted, *judged = ({*names} for names in (CLAIMS_OF.get(page, ()), _names(claims), _names(letter)))
-    if judged[0] != wanted or judged[1] and judged[1] != wanted - ONCE:
+    wanted, calibrated, literal = {*CLAIMS_OF.get(page, ())}, _names(claims), _names(letter)
+    if calibrated != wanted or literal and literal != wanted - ONCE:
         return
     content = {"page": page, "source": source_digest(), "claims": _kept(claims), "letter": _kept(letter),
                "shares": shares or {}}
@@ -143,7 +143,7 @@ def _asked(found, bounds):
 
 
 def _names(claims):
-    return [claim.name for claim in claims]
+    return {claim.name for claim in claims}
 
 
 def _bounded(found):
