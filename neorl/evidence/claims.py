@@ -10,5 +10,6 @@ from neorl.evidence.rules_chapters import (judge_changes, judge_composition, jud
                                            judge_time_scale)
 from neorl.evidence.rules_papers import (judge_alternatives, judge_exploration, judge_joining, judge_margin,
                                          judge_modalities, judge_multiple_layers, judge_networks, judge_pace,
-                                         judge_points, judge_resolutions, judge_single_layer)
+                                         judge_points, judge_resolutions, judge_single_layer,
+                                         judge_untrained)
 from neorl.evidence.verdict import EARLY, FINAL, RUNS_FOR_A_VERDICT, VERDICTS, Claim

@@ -31,9 +31,9 @@ GROUPS = {
     "single": (("brownian", 8), *(("single", n) for n in SINGLE)),
     "modal": (("brownian", 3), ("place", "all"), ("objects", "all"), "both"),
     "networks": (("brownian", 3), *(("network", name) for name in "ABCD")),
-    "revaluing": ("revalued",),
+    "revaluing": ("revalued", "wanting"),
     "resolutions": (("brownian", 3), *((modality, n) for modality in ("place", "objects") for n in PRIMES)),
-    "pace": (("brownian", 3), ("pace", "place"), ("pace", "objects"), ("pace", "both")),
+    "pace": (("brownian", 3), ("pace", "place"), ("pace", "both")),
 }
 
 
@@ -164,10 +164,11 @@ def _all_conditions(reading, steps, runs, seed):
     made["both"] = living(both, "B")
     longer = {"length": LONGER * steps, "runs": max(2, runs // 2)} if steps < LENGTHS["B"] else {}
     made |= {("pace", name): living(agent, "B", **longer) for name, agent in
-             (("place", made["place", "all"].agent), ("objects", made["objects", "all"].agent), ("both", both))}
+             (("place", made["place", "all"].agent), ("both", both))}
     made |= {("network", name): living(agent, "C") for name, agent in networks(reading).items()}
     wanting = replace(both, desires=[replace(desire, valence=1.0) for desire in both.desires])
     made["revalued"] = replace(made["both"], changes=((made["both"].steps // 2, wanting),))
+    made["wanting"] = replace(made["both"], agent=wanting)
     return made
 
 
@@ -208,7 +209,7 @@ def judge(results):
     if complete("networks"):
         judged += claims.judge_networks(*(by["network"][name] for name in "ABCD"), by["brownian"][3])
     if complete("revaluing"):
-        judged += [claims.judge_changes(results["revalued"])]
+        judged += [claims.judge_changes(results["revalued"], results["wanting"])]
     if complete("layers", "modal", "resolutions"):
         judged += [claims.judge_more_maps(additions(results))]
     return {claim.name: claim for claim in judged}

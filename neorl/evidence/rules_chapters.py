@@ -5,33 +5,37 @@
 
 import numpy as np
 
-from neorl.evidence.statements import STATEMENTS
-from neorl.evidence.statistics import (Estimate, difference, estimate, minutes_sooner, probability_of_improvement,
-                                       quotient, ratio)
-from neorl.evidence.verdict import AFTER_TURN, BEFORE_TURN, FINAL, fewest_runs, judged, learned, share_of_run
+from neorl.evidence.statements import POSITIVE
+from neorl.evidence.statistics import (HALF_A_MINUTE, Estimate, difference, estimate, least, minutes_sooner, most,
+                                       probability_of_improvement, quotient, ratio)
+from neorl.evidence.verdict import AFTER_TURN, BEFORE_TURN, FINAL, all_of, any_of, fewest_runs, judged, learned
 
 
-def judge_changes(revalued, moved=None):
-    """Claim T1 on revaluing elements, and on its page also on moving them, compared with the same agents later.
+def judge_changes(revalued, wanting, moved=None):
+    """Claim T1 on revaluing elements, and on its page also on moving them.
 
-    revalued: the `Result` of agents that desire red creeps too, from half-time on.
+    revalued: the `Result` of agents that desire red creeps too, from half-time on. wanting: that of agents that desired
+        them from the start, in runs of the same length.
     moved: mean distances, in board widths, to a desired place in the time after each of its moves between two points:
         {"experienced": (runs, moves), "ignorant": (runs, moves)}, an even number of moves, 4 or more, of agents with
         and without experience among creeps. Readings are judged without it, by revaluing alone.
     Returns a `Claim`.
     """
-    before, after, later = (_red_a_minute(revalued, *share) for share in (BEFORE_TURN, AFTER_TURN, FINAL))
-    kept, turn = estimate(ratio, after, later), estimate(difference, after, before)
-    asked, held = {"rise": turn}, False
+    before, after, from_the_start = (_red_a_minute(result, *share) for result, share in (
+        (revalued, BEFORE_TURN), (revalued, AFTER_TURN), (wanting, AFTER_TURN)))
+    asked = {}
     if moved:
-        first, others = moved["experienced"][:, :2].mean(axis=1), moved["experienced"][:, 2:].mean(axis=1)
-        asked |= {"moved": estimate(ratio, others, first),
-                  "ignorant, less": estimate(difference, moved["ignorant"][:, :2].mean(axis=1), first)}
-        held = STATEMENTS["T1"].also["moved"].hold(asked["moved"]) and asked["ignorant, less"].low > 0
-    per_minute = {"before the turn": before, "after it": after, "finally": later}
-    return judged("T1", kept, revalued.runs, asked,
-                  {"per minute": {when: estimate(np.mean, rate) for when, rate in per_minute.items()}},
-                  partly=turn.low > 0 or held)
+        first, later = moved["experienced"][:, :2].mean(axis=1), moved["experienced"][:, 2:].mean(axis=1)
+        asked = {"moved": estimate(_share_of_rise, moved["ignorant"][:, :2].mean(axis=1), first, later)}
+    per_minute = {"before the turn": before, "after it": after, "wanted from the start": from_the_start}
+    return judged("T1", estimate(_share_of_rise, before, from_the_start, after), fewest_runs(revalued, wanting), asked,
+                  {"per minute": {when: estimate(np.mean, rate) for when, rate in per_minute.items()}})
+
+
+def _share_of_rise(start, end, reached, axis):
+    """The share of the way from one mean to another that a third has come."""
+    base = start.mean(axis)
+    return quotient(reached.mean(axis) - base, end.mean(axis) - base)
 
 
 def judge_cost(together, alone, none):
@@ -40,7 +44,7 @@ def judge_cost(together, alone, none):
     together: with all maps. alone: a sequence, with each map alone. none: without any.
     Returns a `Claim`.
     """
-    return judged("T2", estimate(_cost_ratio, together, none, *alone), len(together), partly=False)
+    return judged("T2", estimate(_cost_ratio, together, none, *alone), len(together))
 
 
 def judge_temporality(whole, short):
@@ -54,7 +58,7 @@ def judge_temporality(whole, short):
     loss = {name: estimate(_loss, whole[name], short[name]) for name in whole}
     return judged("T3", min(loss.values(), key=lambda each: each.value),
                   min(map(len, (*whole.values(), *short.values()))), {"loss": loss},
-                  testable=all(estimate(np.mean, each).low > 0 for each in whole.values()))
+                  testable=all_of([POSITIVE.decide(estimate(np.mean, above)) for above in whole.values()]))
 
 
 def judge_tables(states, values, entries, filled):
@@ -66,10 +70,7 @@ def judge_tables(states, values, entries, filled):
     """
     value, entry, full = (estimate(np.mean, _powers(np.log(states), np.log(table)))
                           for table in (values, entries, filled))
-    square, linear = STATEMENTS["T4"].bounds, STATEMENTS["T4"].also["values"]
-    fits = [linear.low <= value.value <= linear.high, square.low <= entry.value <= square.high]
-    return judged("T4", entry, len(values), shown={"values": value, "entries that differ from 0": full},
-                  reproduced=all(fits), partly=any(fits), possible=False)
+    return judged("T4", entry, len(values), {"values": value}, {"entries that differ from 0": full})
 
 
 def judge_real_time(load, delay, beside=None):
@@ -80,12 +81,9 @@ def judge_real_time(load, delay, beside=None):
         None if the machine does not count them.
     Returns a `Claim`.
     """
-    share, latest = estimate(np.mean, load), Estimate(delay.max(), np.nan, np.nan)
-    within, in_time = STATEMENTS["T5"].bounds, delay.max() <= STATEMENTS["T5"].also["steps late"].high
-    busy = {} if beside is None else {"processes per core just before": Estimate(beside, np.nan, np.nan)}
-    return judged("T5", share, len(load), shown={
-        "steps late": latest, "share of steps done late": estimate(np.mean, (delay > 1).mean(axis=1)), **busy},
-        reproduced=within.hold(share) and in_time, partly=within.hold(share), possible=within.allow(share))
+    busy = {} if beside is None else {"processes per core just before": Estimate(*[beside] * 3)}
+    return judged("T5", estimate(np.mean, load), len(load), {"steps late": Estimate(*[delay.max()] * 3)},
+                  {"share of steps done late": estimate(np.mean, (delay > 1).mean(axis=1)), **busy})
 
 
 def judge_more_maps(additions):
@@ -95,21 +93,12 @@ def judge_more_maps(additions):
     sequence of those of the agents with fewer, in runs of the same length. brownian: Brownian motion on the same board.
     Returns a `Claim`.
     """
-    sooner, shares, testable = {}, {}, []
-    for name, (more, fewer, brownian) in additions.items():
-        sooner[name] = sooner_with_more(more, fewer)
-        shares[name] = share_of_run(sooner[name], more)
-        if any(learned(result, brownian) for result in fewer):
-            testable.append(name)
-    counted = testable or list(additions)  # additions where an agent with fewer maps has learned
-    bounds = STATEMENTS["T6"].also["share of a run sooner"]
-    as_soon = [bounds.hold(shares[name]) for name in counted]
-    return judged("T6", min((sooner[name] for name in counted), key=lambda each: each.value),
-                  min(fewest_runs(more, *fewer) for more, fewer, _ in additions.values()),
-                  shown={"minutes sooner": {name: sooner[name] for name in counted},
-                         "share of a run sooner": {name: shares[name] for name in counted}},
-                  reproduced=all(as_soon), partly=any(as_soon),
-                  possible=all(bounds.allow(shares[name]) for name in counted), testable=bool(testable))
+    known = {name: any_of([learned(result, brownian) for result in fewer])
+             for name, (_, fewer, brownian) in additions.items()}
+    counted = [name for name in additions if known[name] is not False] or list(additions)  # where some have learned
+    sooner = {name: sooner_with_more(*additions[name][:2]) for name in counted}
+    return judged("T6", least(sooner.values()), min(fewest_runs(more, *fewer) for more, fewer, _ in additions.values()),
+                  {"minutes sooner": sooner}, testable=any_of(known.values()))
 
 
 def sooner_with_more(more, fewer):
@@ -118,7 +107,7 @@ def sooner_with_more(more, fewer):
     more: a `Result`. fewer: a sequence. Returns an `Estimate`.
     """
     level = 0.5 * max(result.rate(*FINAL).mean() for result in fewer)
-    return min((minutes_sooner(more, result, level) for result in fewer), key=lambda lead: lead.value)
+    return least([minutes_sooner(more, result, level, HALF_A_MINUTE) for result in fewer])
 
 
 def judge_persistence(agents):
@@ -134,13 +123,13 @@ def judge_persistence(agents):
         step = max((each.rate(*FINAL) for each in per_step.values()), key=np.mean)
         share[name] = estimate(_share_of_lead, step, persistent.rate(*FINAL), brownian.rate())
         lead[name] = estimate(difference, persistent.rate(*FINAL), step)
-    counted = [name for name, (persistent, _, brownian) in agents.items() if learned(persistent, brownian)]
-    counted, testable = counted or list(agents), bool(counted)
-    return judged("T7", max((share[name] for name in counted), key=lambda each: each.value),
+    known = {name: learned(persistent, brownian) for name, (persistent, _, brownian) in agents.items()}
+    counted = [name for name in agents if known[name] is not False] or list(agents)
+    return judged("T7", most([share[name] for name in counted]),
                   min(fewest_runs(persistent, *per_step.values()) for persistent, per_step, _ in agents.values()),
                   {"gain": {name: share[name] for name in counted}},
-                  {"lead at changes of cell": {name: lead[name] for name in counted}},
-                  partly=any(lead[name].low > 0 for name in counted), testable=testable)
+                  part={"lead at changes of cell": {name: lead[name] for name in counted}},
+                  testable=any_of(known.values()))
 
 
 def judge_time_scale(resolutions, stays):
@@ -155,7 +144,8 @@ def judge_time_scale(resolutions, stays):
     power = estimate(np.mean, _powers(width, time))
     coarser = [f"N{resolutions[at]}" for at in order[1:]]
     longer = dict(zip(coarser, (estimate(np.mean, each) for each in np.diff(time, axis=1).T)))
-    return judged("T8", power, len(stays), {"longer in the next coarser map": longer}, partly=power.low > 0)
+    return judged("T8", power, len(stays), {"longer in the next coarser map": longer},
+                  part={"exponent": power})
 
 
 def judge_latent_learning(agent, rivals, first_reward=11):
@@ -165,14 +155,16 @@ def judge_latent_learning(agent, rivals, first_reward=11):
     rivals: {name: the same} of other learners, which are reported and not judged.
     Returns a `Claim`.
     """
-    runs, level = min(len(record.errors) for record in agent.values()), STATEMENTS["H1"].also["level"].high
     after, next_day = slice(first_reward, None), slice(first_reward, first_reward + 1)
     lead = _more_errors(agent, "delayed", "throughout", after)
     at_once = _more_errors(agent, "delayed", "throughout", next_day)
     worth = _more_errors(agent, "never", "throughout", after)
-    return judged("H1", lead, runs, shown={"on the day after the first reward": at_once, "effect of reward": worth, **{
-        f"with {name}": _more_errors(groups, "delayed", "throughout", after) for name, groups in rivals.items()}},
-        partly=max(lead.high, at_once.high) <= level * worth.value, testable=worth.low > 0)
+    level = Estimate(*(quotient(each, worth.value) for each in most([lead, at_once])))
+    return judged("H1", lead, min(len(record.errors) for record in agent.values()),
+                  shown={"on the day after the first reward": at_once, "effect of reward": worth, **{
+                      f"with {name}": _more_errors(groups, "delayed", "throughout", after)
+                      for name, groups in rivals.items()}},
+                  part={"level": level}, testable=POSITIVE.decide(worth))
 
 
 def _red_a_minute(result, begin, end):
@@ -210,7 +202,11 @@ def judge_efficiency(agent, table, chance):
     """
     share, gain = estimate(ratio, agent, table), estimate(difference, chance, agent)
     return judged("G1", share, min(map(len, (agent, table, chance))), {"seconds less than at random": gain},
-                  partly=STATEMENTS["G1"].also["partly"].hold(share) and gain.low > 0)
+                  part={"share of the quicker of both": estimate(_share_of_less, agent, table, chance)})
+
+
+def _share_of_less(steps, one, other, axis):
+    return quotient(steps.mean(axis), np.minimum(one.mean(axis), other.mean(axis)))
 
 
 def judge_generality(scores):
@@ -219,7 +215,7 @@ def judge_generality(scores):
     Returns a `Claim`.
     """
     better = {world: probability_of_improvement(*pair) for world, pair in scores.items()}
-    return judged("G2", min(better.values(), key=lambda each: each.value),
+    return judged("G2", least(better.values()),
                   min(len(each) for pair in scores.values() for each in pair), {"world": better})
 
 
@@ -233,7 +229,8 @@ def judge_composition(apart, whole, chance):
     """
     cost, gain = estimate(ratio, apart, whole), estimate(ratio, chance, apart)
     return judged("G3", cost, min(map(len, (apart, whole, chance))), {"random agents": gain},
-                  partly=STATEMENTS["G3"].also["partly"].hold(cost) and gain.low > 1)
+                  part={"share of twice as many, or of random agents'": estimate(
+                      _share_of_less, apart, 2 * whole, chance)})
 
 
 def judge_extension(joined, alone, chance):
@@ -245,4 +242,4 @@ def judge_extension(joined, alone, chance):
     gain = estimate(difference, 60 * joined.rate(*FINAL), 60 * alone.rate(*FINAL))
     kept = estimate(ratio, joined.rate(*AFTER_TURN), alone.rate(*AFTER_TURN))
     return judged("G4", gain, fewest_runs(joined, alone, chance), {"kept": kept},
-                  testable=estimate(difference, alone.rate(*FINAL), chance.rate(*FINAL)).low > 0)
+                  testable=learned(alone, chance))

@@ -1,6 +1,9 @@
 """The claims of the thesis: each with its place, the sentence that is judged, and the thesis's own number.
 
-*Demonstrations* stand beside them: experiments of this book on sentences that ask for something and report no result.
+1. Most are about *agents*. The others are counted apart: a claim refuted by *proof*, claims that are true by
+   *counting*, claims about the *code* of this book, and a *report* of what the author tried.
+2. *Demonstrations* stand beside them: experiments of this book on sentences that ask for something and report no
+   result, or for more than is measured.
 
 They are data, in `statements.toml`; `neorl.evidence.claims` judges the claims.
 """
@@ -27,13 +30,12 @@ class Bounds:
     open: bool = False
     why: str = field(default="", repr=False)
 
-    def hold(self, found):
-        """Whether the interval of an `Estimate` lies within."""
-        return self._below(self.low, found.low) and self._below(found.high, self.high)
-
-    def allow(self, found):
-        """Whether the interval of an `Estimate` reaches inside, so that more runs might show the claim."""
-        return self._below(self.low, found.high) and self._below(found.low, self.high)
+    def decide(self, found):
+        """Whether the interval of an `Estimate` lies within (True), wholly outside (False) or across an end (None)."""
+        if self._below(self.low, found.low) and self._below(found.high, self.high):
+            return True
+        reaches = self._below(self.low, found.high) and self._below(found.low, self.high)
+        return None if reaches or math.isnan(found.low) else False
 
     def _below(self, one, other):
         return (operator.lt if self.open else operator.le)(one, other)
@@ -49,6 +51,7 @@ class Bounds:
 
 
 POSITIVE = Bounds(low=0.0, open=True)
+KINDS = ("agents", "proof", "counting", "code", "report", "demonstration")
 
 
 @dataclass(frozen=True)
@@ -64,12 +67,13 @@ class Statement:
     rule: str
     bounds: Bounds
     also: Mapping[str, Bounds]
-    demonstration: bool = False
+    kind: str = "agents"  # one of KINDS
 
 
 STATEMENTS = {
     name: Statement(**given | {"bounds": Bounds(**given["bounds"]) if "bounds" in given else POSITIVE,
                                "also": {what: Bounds(**each) for what, each in given.get("also", {}).items()}})
     for name, given in tomllib.loads((resources.files(__package__) / "statements.toml").read_text("utf-8")).items()}
-CLAIMS = tuple(name for name, statement in STATEMENTS.items() if not statement.demonstration)
-DEMONSTRATIONS = tuple(name for name, statement in STATEMENTS.items() if statement.demonstration)
+CLAIMS = tuple(name for name, statement in STATEMENTS.items() if statement.kind != "demonstration")
+AGENTS = tuple(name for name, statement in STATEMENTS.items() if statement.kind == "agents")
+DEMONSTRATIONS = tuple(name for name, statement in STATEMENTS.items() if statement.kind == "demonstration")

@@ -19,13 +19,15 @@ RESAMPLES = 1_000
 Results = Result | Sequence[Result]
 MOST_RUNS = 2**31
 TOLERATED = 0.75  # the share of all possible runs that a tolerance band contains
-RECENT = 1 / 40  # of a run: the window over which the mean reward per second counts as reaching a level
+WINDOW = 1 / 40  # of a run: the window over which the mean reward per second counts as reaching a level
+HALF_A_MINUTE = 30.0  # seconds: a window that sees how agents differ that learn within a minute
 
 
 class Estimate(NamedTuple):
     """A value with the bounds of its 95 % interval, which contains it.
 
-    As text it has two decimals below 10, and none from there on.
+    A number without uncertainty is both bounds of its interval. As text it has two decimals below 10, and none from
+    there on.
     """
 
     value: float
@@ -34,7 +36,8 @@ class Estimate(NamedTuple):
 
     def __str__(self):
         digits = 2 if abs(self.value) < 10 else 0
-        bounds = "" if np.isnan(self.low) else f" [{self.low:z.{digits}f}, {self.high:z.{digits}f}]"
+        certain = np.isnan(self.low) or self.low == self.high
+        bounds = "" if certain else f" [{self.low:z.{digits}f}, {self.high:z.{digits}f}]"
         return f"{self.value:z.{digits}f}{bounds}".replace("-", "−")
 
 
@@ -56,6 +59,16 @@ def estimate(statistic: Callable, *samples: ArrayLike) -> Estimate:
         return Estimate(value, np.nan, np.nan)
     low, high = _bootstrapped(checked, statistic)
     return Estimate(value, min(float(low), value), max(float(high), value))
+
+
+def least(estimates):
+    """The smallest of several `Estimate`s, with the smallest bounds: that all are above a number."""
+    return Estimate(*map(min, zip(*estimates)))
+
+
+def most(estimates):
+    """The greatest of several `Estimate`s, with the greatest bounds: that all are below a number."""
+    return Estimate(*map(max, zip(*estimates)))
 
 
 def difference(a, b, axis):
@@ -154,36 +167,40 @@ def tolerated_share(runs: int, beyond: int = 1) -> float:
     return float(scipy.stats.beta.ppf(0.05, runs + 1 - 2 * beyond, 2 * beyond)) if runs >= 2 * beyond else 0.0
 
 
-def recent_rates(result):
-    """Reward per second over the preceding fortieth of the run, (runs, windows), and the end of each such window."""
-    bins = result.rewards.shape[1]
-    width = max(1, bins // round(1 / RECENT))
+def rates_in_windows(result, window=None):
+    """Reward per second in windows that begin at each bin: (runs, windows), and their begins and ends in seconds.
+
+    window: its length in seconds, by default a fortieth of the run.
+    """
+    bins, edges = result.rewards.shape[1], result.edges
+    width = max(1, bins // round(1 / WINDOW) if window is None else min(bins, round(window / edges[1])))
     sums = np.pad(result.rewards.cumsum(axis=1, dtype=float), ((0, 0), (1, 0)))
-    edges = result.edges
-    return (sums[:, width:] - sums[:, :-width]) / (edges[width:] - edges[:-width]), edges[width:]
+    begins, ends = edges[:-width], edges[width:]
+    return (sums[:, width:] - sums[:, :-width]) / (ends - begins), begins, ends
 
 
-def first_time(made, ends, never):
-    """The end of the first window in which a level is made, bool (…, windows), or `never`: (…)."""
-    return np.where(made.any(axis=-1), ends[made.argmax(axis=-1)], never)
+def first_time(reached, times, never):
+    """The time of the first window in which a level is reached, bool (…, windows), or `never`: (…)."""
+    return np.where(reached.any(axis=-1), times[reached.argmax(axis=-1)], never)
 
 
-def minutes_sooner(quick: Results, slow: Results, level: float) -> Estimate:
+def minutes_sooner(quick: Results, slow: Results, level: float, window: float | None = None) -> Estimate:
     """The simulated minutes by which runs of `quick` reach a level sooner than those of `slow`, as an `Estimate`.
 
     quick, slow: a `Result` each, or a sequence of them, of runs of one length, whose rewards add up. level: reward per
-    second. It is reached when the mean over runs in the preceding fortieth of the run first reaches it, to about a
-    two-hundredth of the run; where it is never reached, the time is the whole run.
+    second. window: seconds > 0, by default a fortieth of the run. The level is reached in the middle of the first
+    window in which the mean over runs reaches it; where it is never reached, the time is the whole run.
     Raises ValueError for anything else.
     """
     level = checks.real("level", level)
+    window = window if window is None else checks.positive("window", window)
     groups: list[Sequence[Any]] = [group if isinstance(group, list | tuple) else [group] for group in (quick, slow)]
     for name, group in zip(("quick", "slow"), groups):
         for result in group:
             checks.instance(name, result, Result)
         if len({(result.steps, result.world.fps) for result in group}) != 1:
             raise ValueError(f"{name} must be one result or more, all of runs of one length, but has {len(group)}")
-    thinned = [[_thinned(*recent_rates(result)) for result in group] for group in groups]
+    thinned = [[_thinned(*rates_in_windows(result, window)) for result in group] for group in groups]
 
     def lead(*chosen, axis):
         chosen, times = iter(chosen), []
@@ -195,9 +212,10 @@ def minutes_sooner(quick: Results, slow: Results, level: float) -> Estimate:
     return estimate(lead, *(np.arange(result.runs) for group in groups for result in group))
 
 
-def _thinned(rates, ends, points=200):
-    step = max(1, rates.shape[1] // points)
-    return rates[:, ::step], ends[::step]
+def _thinned(rates, begins, ends, of_window=5):
+    """The rates in five windows of those that begin within each length of a window, and their middles."""
+    step = max(1, round((ends[0] - begins[0]) / (begins[1] - begins[0]) / of_window)) if len(begins) > 1 else 1
+    return rates[:, ::step], (begins[::step] + ends[::step]) / 2
 
 
 def _mean_of_runs(rates, chosen):
@@ -207,20 +225,23 @@ def _mean_of_runs(rates, chosen):
     return (counts @ rates / runs).reshape(*chosen.shape[:-1], -1)
 
 
-def minutes_to_own_level(*results: Result, share: float = 0.9, of: Callable | None = None) -> Estimate:
+def minutes_to_own_level(*results: Result, share: float = 0.9, of: Callable | None = None,
+                         window: float | None = None) -> Estimate:
     """The simulated minutes until the mean over a result's runs reaches `share` of its own final level.
 
     Single runs reach a level early by chance; their mean does not. The final level is the mean reward per second in the
     last fifth of the run, and is reached as in `minutes_sooner`; a level that is not positive is never reached.
 
     results: one `Result`, or several with `of`, a function of the minutes of each, arrays of one shape, such as their
-    quotient. share: from 0 to 1. Returns an `Estimate`, from resampled runs. Raises ValueError for anything else.
+    quotient. share: from 0 to 1. window: as in `minutes_sooner`. Returns an `Estimate`, from resampled runs. Raises
+    ValueError for anything else.
     """
     share = checks.real("share", share, 0, 1)
+    window = window if window is None else checks.positive("window", window)
     if not results or (not callable(of) if of is not None else len(results) > 1):
         raise ValueError(f"results must be one, or several with `of`, a function of their minutes, but are "
                          f"{len(results)} with {checks.shown(of)}")
-    minutes = [_minutes_to_own_level(checks.instance("results", each, Result), share) for each in results]
+    minutes = [_minutes_to_own_level(checks.instance("results", each, Result), share, window) for each in results]
 
     def statistic(*chosen, axis):
         times = [each(runs) for each, runs in zip(minutes, chosen)]
@@ -229,13 +250,13 @@ def minutes_to_own_level(*results: Result, share: float = 0.9, of: Callable | No
     return estimate(statistic, *(np.arange(result.runs) for result in results))
 
 
-def _minutes_to_own_level(result, share):
+def _minutes_to_own_level(result, share, window):
     """A function of the runs of each resample, int (…, runs), for `minutes_to_own_level`."""
-    (rates, ends), final = _thinned(*recent_rates(result)), result.rate(0.8, 1.0)[:, None]
+    (rates, middles), final = _thinned(*rates_in_windows(result, window)), result.rate(0.8, 1.0)[:, None]
 
     def minutes(chosen):
         level = share * _mean_of_runs(final, chosen)
-        return first_time((_mean_of_runs(rates, chosen) >= level) & (level > 0), ends, result.seconds) / 60
+        return first_time((_mean_of_runs(rates, chosen) >= level) & (level > 0), middles, result.seconds) / 60
 
     return minutes
 

@@ -12,27 +12,27 @@ def sample(mean, runs=20):
 
 
 @pytest.mark.parametrize("agent, table, chance, expected", [
-    (10, 40, 50, "reproduced"), (30, 40, 50, "partly"), (45, 40, 50, "not reproduced"), (10, 40, 8, "not reproduced")])
+    (10, 40, 50, "reproduced"), (30, 40, 50, "partly"), (45, 40, 50, "contradicted"), (10, 40, 8, "contradicted")])
 def test_efficiency(agent, table, chance, expected):
     claim = claims.judge_efficiency(sample(agent), sample(table), sample(chance))
     assert claim.verdict == expected and claim.here.value == pytest.approx(agent / table, rel=0.05)
 
 
 @pytest.mark.parametrize("agents, expected", [
-    ((3, 4), "reproduced"), ((3, 0.5), "partly"), ((0.5, 0.6), "not reproduced")])
+    ((3, 4), "reproduced"), ((3, 0.5), "partly"), ((0.5, 0.6), "contradicted")])
 def test_generality(agents, expected):
     claim = claims.judge_generality({str(agent): (sample(agent), sample(1)) for agent in agents})
     assert claim.verdict == expected and claim.here.value == (min(agents) > 1)
 
 
-@pytest.mark.parametrize("apart, expected", [(1.1, "reproduced"), (1.5, "partly"), (3, "not reproduced")])
+@pytest.mark.parametrize("apart, expected", [(1.1, "reproduced"), (1.5, "partly"), (3, "contradicted")])
 def test_composition(apart, expected):
     assert claims.judge_composition(sample(apart), sample(1), sample(9)).verdict == expected
-    assert claims.judge_composition(sample(apart), sample(1), sample(0.5)).verdict == "not reproduced"
+    assert claims.judge_composition(sample(apart), sample(1), sample(0.5)).verdict == "contradicted"
 
 
 @pytest.mark.parametrize("joined, expected", [
-    ((1.0, 1.3), "reproduced"), ((1.0, 0.95), "partly"), ((1.0, 0.8), "not reproduced")])
+    ((1.0, 1.3), "reproduced"), ((1.0, 0.95), "partly"), ((1.0, 0.8), "contradicted")])
 def test_extension(joined, expected):
     alone, joined_later = made_up(1.0), made_up(*joined, learned_by=0.5)
     claim = claims.judge_extension(joined_later, alone, made_up(0.0))

@@ -12,12 +12,12 @@ from neorl.evidence.statistics import Estimate
 def test_bounds_are_read_by_both_ends_of_an_interval():
     near = Bounds(2.5, 5.0, number=3.5)
     within, across, beyond = Estimate(3, 2.5, 5), Estimate(3, 2, 4), Estimate(6, 5.1, 7)
-    assert [near.hold(each) for each in (within, across, beyond)] == [True, False, False]
-    assert [near.allow(each) for each in (within, across, beyond)] == [True, True, False]
+    assert [near.decide(each) for each in (within, across, beyond)] == [True, None, False]
     assert [str(each) for each in (near, Bounds(low=0.8), Bounds(high=30), Bounds(-5, 5), POSITIVE)] == [
         "from 2.5 to 5", "0.8 or more", "30 or less", "from −5 to 5", "more than 0"]
-    at_0 = Estimate(1, 0, 2)
-    assert Bounds(low=0.0).hold(at_0) and POSITIVE.allow(at_0) and not POSITIVE.hold(at_0)
+    at_0, at_most_0, unknown = Estimate(1, 0, 2), Estimate(-1, -2, 0), Estimate(1, math.nan, math.nan)
+    assert [Bounds(low=0.0).decide(each) for each in (at_0, at_most_0, unknown)] == [True, None, None]
+    assert [POSITIVE.decide(each) for each in (at_0, at_most_0, unknown)] == [None, False, None]
 
 
 def test_a_number_stands_in_the_words_of_its_statement_and_within_its_bounds():
@@ -46,5 +46,5 @@ def test_every_rule_is_named_in_the_statements():
 def test_every_statement_quotes_what_it_judges_and_demonstrations_stand_beside_the_claims():
     for name, statement in STATEMENTS.items():
         assert statement.place and 5 <= len(statement.quotation.split()) <= 45, name
-    assert DEMONSTRATIONS == ("B7", "G1", "G2", "G3", "G4", "H1")
+    assert DEMONSTRATIONS == ("B7", "T9", "G1", "G2", "G3", "G4", "H1")
     assert sorted((*CLAIMS, *DEMONSTRATIONS)) == sorted(STATEMENTS)

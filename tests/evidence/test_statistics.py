@@ -129,7 +129,7 @@ def test_a_lead_in_time_is_that_of_the_mean_over_runs():
     assert minutes_sooner(early, late, 0.5) == pytest.approx([0.5] * 3)  # 150 bins of 0.2 s
     assert minutes_sooner(late, early, 0.5) == pytest.approx([-0.5] * 3)
     assert minutes_sooner(early, late, 2.0) == (0, 0, 0)  # neither reaches it
-    assert minutes_sooner(early, steps_up(400, 250, height=0.4), 0.5).value == pytest.approx((80 - 21) / 60, abs=0.01)
+    assert minutes_sooner(early, steps_up(400, 250, height=0.4), 0.5).value == pytest.approx((80 - 20) / 60, abs=0.01)
     assert np.isnan(minutes_sooner(steps_up(400, 1, runs=1), late, 0.5).low)
 
 

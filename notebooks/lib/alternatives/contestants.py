@@ -1,4 +1,4 @@
-"""The contestants of the page on alternatives, by name, what those earn that are not agents, and the claim on them."""
+"""The contestants of the page on alternatives, what those earn that are not agents, and the claims on them."""
 
 from lib.alternatives.controllers import PLANNED, nearest_green, pd, planner
 from lib.alternatives.living import BOARDS, FPS, bins_of, identity, live
@@ -13,7 +13,9 @@ from neorl.evidence.verdict import FINAL, RUNS_FOR_A_VERDICT, fewest_runs
 
 INFORMED = {"nearest green": lambda gains: nearest_green(), "PD": pd, "planner": planner}  # given the physics
 BROWNIAN = "Brownian motion"
+SEES = {False: "relative positions", True: "relative positions and velocities"}  # of creeps, whether deep or not
 N_CREEPS, STEPS = 3, 150_000  # of the board and the runs by which claim C5 is judged
+CREEPS_A = 8  # of the board of paper A, by which claim A10 is judged
 
 
 def of_thesis(readings):
@@ -33,11 +35,17 @@ def of_others(settings, board, steps, runs, seed):
 
 
 def judge(results, earned):
-    """Claim C5 by what contestants earn on one board, a list: none unless they and the board are the page's own.
+    """Claims C5 and A10 by what contestants earn, a list: none unless they and the boards are the page's own.
 
     Learners count that ran as long as the agents, in as many runs or enough for a verdict.
-    results: {name: `Result`} of agents. earned: {name: `Earned`} of all.
+    results: {number of creeps: {name: `Result`}} of agents. earned: the same with `Earned`, of all.
     """
+    if not {N_CREEPS, CREEPS_A} <= earned.keys():
+        return []
+    return [*_attempts(results[N_CREEPS], earned[N_CREEPS]), *_untrained(results[CREEPS_A], earned[CREEPS_A])]
+
+
+def _attempts(results, earned):
     thesis, board = of_thesis({LETTER: TO_THE_LETTER, CALIBRATED: Reading()}), BOARDS[N_CREEPS]
     wanted = {name: Condition(agent, board, STEPS, 1) for name, agent in {BROWNIAN: brownian(), **thesis}.items()}
     ran = results | {name: earned[name].identity for name in TABULAR if name in earned}
@@ -45,11 +53,26 @@ def judge(results, earned):
     wanted |= {name: identity(make(settings[name]), board) for name, make in TABULAR.items()}
 
     def rule():
-        steps, enough = results[BROWNIAN].steps, min(fewest_runs(*results.values()), RUNS_FOR_A_VERDICT)
-        learners = {name: earned[name] for name in (*TABULAR, *DEEP) if name in earned}
+        learners = _learners((*TABULAR, *DEEP), results, earned)
         return [claims.judge_alternatives(
-            {name: (each.rate(*FINAL), each.seconds) for name, each in learners.items()
-             if each.steps == steps and len(each.rewards) >= enough},
+            {name: (each.rate(*FINAL), each.seconds, SEES[name in DEEP]) for name, each in learners.items()},
             {name: earned[name].rate(*FINAL) for name in thesis}, earned[BROWNIAN].rate(*FINAL), 1 / FPS)]
 
     return judging.judged(rule, ran, wanted)
+
+
+def _untrained(results, earned):
+    deep = _learners(DEEP, results, earned)
+
+    def rule():
+        return [claims.judge_untrained({name: each.rewards.sum(axis=1) for name, each in deep.items()},
+                                       earned[BROWNIAN].rewards.sum(axis=1))]
+
+    return judging.judged(rule, results, {BROWNIAN: Condition(brownian(), BOARDS[CREEPS_A], STEPS, 1)}) if deep else []
+
+
+def _learners(names, results, earned):
+    """Those that ran as long as Brownian motion, in as many runs as agents or enough: {name: `Earned`}."""
+    steps, enough = results[BROWNIAN].steps, min(fewest_runs(*results.values()), RUNS_FOR_A_VERDICT)
+    return {name: earned[name] for name in names
+            if name in earned and earned[name].steps == steps and len(earned[name].rewards) >= enough}

@@ -20,18 +20,19 @@ def of_figures(results, reading):
             or judging.of_papers(results, reading, "modal"))
 
 
-def of_trials(results, reading, *, layers, paced, boards, joined, turned, moved, cost, stays):
+def of_trials(results, reading, *, layers, paced, boards, joined, turned, wanting, moved, cost, stays):
     """The other claims under a reading, B4, B5, B7, T1, T2, T6 and T8, a list.
 
     layers: {key: `Result`} of paper A's agents. paced, boards: {agent of figure 5: `Result`}, of long runs, and of
-    boards that pay for a reset. joined, turned: a `Result` of agents to which a modality is added, and of agents whose
-    desires change. moved, cost, stays: a `trials.Moved`, `trials.Costs` and `trials.Stays`.
+    boards that pay for a reset. joined, turned, wanting: a `Result` of agents to which a modality is added, of agents
+    whose desires change, and of agents that had the new desires from the start. moved, cost, stays: a `trials.Moved`,
+    `trials.Costs` and `trials.Stays`.
     """
     papers = judging.papers(reading, *GROUPS)
     both, place = papers["both"], papers["place", "all"]
     ran = results | layers | {
-        ("pace", "place"): paced["PC"], ("pace", "objects"): paced["OVC"], ("pace", "both"): paced["PC + OVC"],
-        "paying": boards["PC + OVC"], "joined": joined, "revalued": turned,
+        ("pace", "place"): paced["PC"], ("pace", "both"): paced["PC + OVC"],
+        "paying": boards["PC + OVC"], "joined": joined, "revalued": turned, "wanting": wanting,
         "moved": moved.condition, "cost": cost.condition, "stays": stays.condition}
     wanted = papers | {
         "paying": replace(both, world=replace(both.world, win_reward=PAYING)),
@@ -39,11 +40,11 @@ def of_trials(results, reading, *, layers, paced, boards, joined, turned, moved,
         "moved": place, "cost": replace(both, steps=TIMED), "stays": place}
     chance, near = results["brownian", 3], {group: each.mean(axis=2) for group, each in moved.distances.items()}
     rules = {
-        GROUPS["pace"]: lambda: claims.judge_pace(paced["PC"], paced["OVC"], paced["PC + OVC"], chance),
+        GROUPS["pace"]: lambda: claims.judge_pace(paced["PC"], paced["PC + OVC"], chance),
         ("paying",): lambda: claims.judge_points(boards["PC + OVC"]),
         ("joined", ("place", "all"), ("brownian", 3)):
             lambda: claims.judge_joining(joined, results["place", "all"], chance),
-        ("revalued", "moved"): lambda: claims.judge_changes(turned, near),
+        ("revalued", "wanting", "moved"): lambda: claims.judge_changes(turned, wanting, near),
         ("cost",): lambda: claims.judge_cost(cost.first[-1], cost.alone, cost.none),
         GROUPS["layers"] + GROUPS["modal"] + GROUPS["resolutions"]:
             lambda: claims.judge_more_maps(readings.additions(ran)),

@@ -30,8 +30,8 @@ LEGEND = ("● reproduced, ◐ partly, ○ not reproduced, ◇ not testable (age
           "claim's name leads to what its verdict rests on.")
 BESIDE = "Demonstrations of this book, not counted among the claims:"
 PARTS = ("claims", "letter", "shares")  # of a record
-CLAIMS_OF = {"alternatives": ("C5",), "chapter_2": ("H1",), "chapter_3": ("T3", "T4"), "chapter_4": ("T5", "T7"),
-             "other_spaces": ("G1", "G2", "G3", "G4"), "paper_a": (*(f"A{n}" for n in range(1, 10)), "T9"),
+CLAIMS_OF = {"alternatives": ("A10", "C5"), "chapter_2": ("H1",), "chapter_3": ("T3", "T4"), "chapter_4": ("T5", "T7"),
+             "other_spaces": ("G1", "G2", "G3", "G4"), "paper_a": (*(f"A{n}" for n in range(1, 10)), "A11", "T9"),
              "paper_b": (*(f"B{n}" for n in range(1, 8)), "T1", "T2", "T6", "T8"), "paper_c": ("C1", "C2", "C3", "C4")}
 ONCE = {"T5"}  # judged under one reading beside claims that are judged under two
 
