@@ -7,6 +7,7 @@ digests: ``python tests/golden.py STEPS NAME …``, or rewrites the record: ``py
 import hashlib
 import json
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -88,6 +89,8 @@ STATES = {
 }
 BOOK = {"policy": Policy(0.0, "random"), "own_cell": "counts", "weighting": "cells"}
 MAZE = Arena(obstacles=[(0.4, 0.3, 0.6, 0.5)], trial_seconds=15.0)
+BASIN = WaterWorld(width=60, n_creeps=2, fps=50, win_reward=5.0, contact="rounded")  # so small that episodes end often
+UNNOTICED, ONCE = {"resets": "unnoticed"}, {"shared_cell": "once"}
 NETWORKS = {"A": network_a, "B": network_b, "C": network_c, "D": network_d}
 RUNS = {
     "Brownian": (brownian(), 8),
@@ -120,6 +123,15 @@ RUNS = {
        for name, state in STATES.items()},
     **{f"both, {name}, bootstrapping": (multimodal([4, 7], place_gain=3.0, **learning(memory=5.0) | BOOK | state), 3)
        for name, state in STATES.items()},
+    **{f"both, {name}, resets unnoticed": (multimodal([2, 5], place_gain=3.0, **learning(
+        memory=5.0, credit="activity", bootstrap=name == "object") | BOOK | UNNOTICED | {"object_state": name}), BASIN)
+       for name in ("object", "self", "per object")},
+    "network D, resets unnoticed": (network_d([2, 5], scale=30.0, signed=False, **learning() | UNNOTICED), BASIN),
+    **{f"both, {name}, once": (multimodal([2, 5], place_gain=3.0, **learning(**CALIBRATED) | BOOK | ONCE | state), 8)
+       for name, state in STATES.items()},
+    "every modality, once, resets unnoticed": (replace(every_modality(), **UNNOTICED | ONCE), BASIN),
+    "contacts, resets unnoticed": (replace(forager([5, 9], contacts=CONTACTS), **UNNOTICED), BASIN),
+    "arena, resets unnoticed": (seeker(learning=plain_rule(), policy=Policy(0.1, "no-op"), **UNNOTICED), MAZE),
     "arena": (seeker(learning=plain_rule(), policy=Policy(0.1, "no-op")), MAZE),
     "arena, calibrated": (seeker(learning=plain_rule(**CALIBRATED), policy=Policy(0.0, "random")), MAZE),
     "softmax": (multimodal([4], place_gain=1.0, **learning(credit="activity", memory=3.0)

@@ -143,7 +143,8 @@ TABLE = {
         scale=st.floats(0, 3), signed=[True, False], then=want_it, also=("desire", "node", "coordinates")),
     "neorl.agents.agent.Agent": entry(
         Agent, nodes=[(Node("PC", PLACE_CELL, [3]),)], desires=[[Desire("green", "PC", 1.0)], ()],
-        learning=[Learning()], policy=[Policy()], own_cell=["counts", "silent"], then=live, also="node"),
+        learning=[Learning()], policy=[Policy()], own_cell=["counts", "silent"],
+        shared_cell=["each", "once"], resets=["noticed", "unnoticed"], then=live, also="node"),
     "neorl.agents.agent.Agent.comes_from_node": entry(
         neorl.place_cells([3]).comes_from_node, desire=[Desire("green", "PC", 1.0)]),
     "neorl.agents.learner.Surroundings": entry(

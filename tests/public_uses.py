@@ -107,6 +107,7 @@ paths = st.sampled_from(["run.npz"]).map(lambda name: str(pathlib.Path(tempfile.
 described_paths = st.sampled_from(["value.json", "value.toml"]).map(
     lambda name: str(pathlib.Path(tempfile.gettempdir()) / name))
 of_paper = {"learning": [Learning()], "policy": [Policy()], "own_cell": ["counts", "silent"], "weighting": ["cells"],
+            "shared_cell": ["each", "once"], "resets": ["noticed", "unnoticed"],
             "tiled_fraction": st.floats(0.1, 2), "object_tiled_fraction": st.floats(0.1, 2)}
 
 

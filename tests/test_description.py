@@ -47,7 +47,8 @@ learnings = st.one_of(
 policies = st.builds(Policy, SHARES, choose=st.sampled_from([softmax(0.1), softmax(3), Policy().choose]))
 choices = st.fixed_dictionaries({
     "learning": learnings, "policy": policies, "object_state": st.just("object")}, optional={
-    "own_cell": st.sampled_from(["silent", "counts"]), "tiled_fraction": st.floats(0.1, 2.0),
+    "own_cell": st.sampled_from(["silent", "counts"]), "shared_cell": st.sampled_from(["each", "once"]),
+    "resets": st.sampled_from(["noticed", "unnoticed"]), "tiled_fraction": st.floats(0.1, 2.0),
     "weighting": st.sampled_from(["equal", "cells"])})
 of_papers = st.builds(lambda make, resolutions, chosen: make(resolutions, **chosen), st.sampled_from(PAPERS),
                       st.lists(st.integers(1, 30), min_size=1, max_size=3), choices)

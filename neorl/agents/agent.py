@@ -23,6 +23,8 @@ from neorl.description import Described
 
 MOST_PARTS = 4_096  # nodes, or desires; time and memory are quadratic in their number
 STATES = tuple(name.replace("_", " ") for name in MapState.__members__)
+SHARED_CELL = ("each", "once")
+RESETS = ("noticed", "unnoticed")
 LEARNED, FIRST_WORTH = "learned", 1.0  # optimistic, so that unknown things are approached
 
 
@@ -172,6 +174,12 @@ class Agent(Described, checks.Final):
     learning: how its maps learn, a `Learning`. policy: how it chooses actions, a `Policy`.
     contacts: how nodes with contacts as goals learn, a `Contacts`.
     own_cell: whether an element in the currently active cell is "silent", its desire being satisfied, or "counts".
+    shared_cell: whether several things of one kind in the same cell of a map, be it a state or a goal, count "each", or
+        "once", since S_R of eq. 4.4 is a set of cells. The valence of a desire sums over all things, and nodes with
+        contacts as goals count each, in both cases.
+    resets: whether the end of an episode is "noticed": memories are erased, and the leap to the next is not learned.
+        When "unnoticed", nothing happens at a reset, and the leap is one more transition, which the agent learns when
+        it perceives the outcome of its next action. What it has just met starts afresh, as it does without a reset.
 
     Raises ValueError for anything else, and for a network that cannot be evaluated: a desire from or to a node that
     does not exist, of elements that its node does not have, in a space where it has no meaning, or in a cycle of nodes.
@@ -183,6 +191,8 @@ class Agent(Described, checks.Final):
     policy: Policy = field(default_factory=Policy)
     own_cell: Annotated[str, OneOf(OWN_CELL)] = "counts"
     contacts: Contacts = field(default_factory=Contacts)
+    shared_cell: Annotated[str, OneOf(SHARED_CELL)] = "each"
+    resets: Annotated[str, OneOf(RESETS)] = "noticed"
 
     def __post_init__(self):
         for name, kind, fewest in (("nodes", Node, 1), ("desires", Desire, 0)):

@@ -101,6 +101,7 @@ def chosen(agent, world):
     coordinates = max([n_axes, *(len(modality.axes) for modality in modalities)])
     choices |= {
         "size": float(world.size), "own_cell_counts": agent.own_cell == "counts",
+        "shared_cell_counts_once": agent.shared_cell == "once", "notices_resets": agent.resets == "noticed",
         "push": np.array(world.actions.pushes, float), "frames": frames,
         "maps": {"resolution": integers(n for node in agent.nodes for n in node.resolutions)},
         "desires": _desires(agent, world, coordinates),

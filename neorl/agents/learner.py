@@ -18,6 +18,8 @@ from neorl.core.kernel import kernel, mapped, new_tuple
 from neorl.core.scene import ABSENT, CARDINAL, Actions, Scene
 from neorl.core.stream import new_stream
 
+UNBORN = "before the first scene"
+
 
 @dataclass(frozen=True)
 class Surroundings(checks.Final):
@@ -64,7 +66,7 @@ class Learner(Individual):
         sizes = {"things": world.things, "axes": actions.axes}
         self._scene = kept_apart(new_tuple(Scene, sizes, {}))
         self._live(agent, world, new_stream(np.random.SeedSequence(seed)))
-        self._progress = "before the first scene"
+        self._progress = UNBORN
         self._bind()
 
     @classmethod
@@ -83,10 +85,13 @@ class Learner(Individual):
     def begin(self, scene: Any) -> None:
         """Begin, or begin again after a discontinuity such as a new episode: nothing is learned across it.
 
+        An agent whose resets are "unnoticed" only sees the new scene if it has begun before.
+
         scene: a `neorl.Scene`, as in `observe`. Raises ValueError for one that does not fit.
         """
         self._take(scene)
-        self._calls[0]()
+        if self._progress == UNBORN or self.agent.resets == "noticed":
+            self._calls[0]()
         self._progress = "to act"
         self._check_faults()
 

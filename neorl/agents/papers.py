@@ -1,6 +1,6 @@
 """The agents of the thesis's papers, as values of `Agent`.
 
-`choices` are other fields of `Agent` (learning, policy, own_cell) or, for all nodes, `weighting` of `Node` and
+`choices` are other fields of `Agent` (learning, policy, own_cell, …) or, for all nodes, `weighting` of `Node` and
 `tiled_fraction`: the central fraction of each axis's range that the maps of place cells divide into equal cells; values
 beyond it belong to the outermost cells. `object_tiled_fraction` is that of object-vector cells; `object_state`,
 `object_reach` and `object_beyond` are fields of their `Node`, and `object_centred` of its `Axis`. The defaults are

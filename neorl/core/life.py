@@ -5,7 +5,8 @@
 3. A map learns all its goals from each track whose active cell changes (with update_on "step", after every step).
 4. When the agent meets a thing, the thing's tracks learn that it has arrived at distance 0, then follow the fresh thing
    as if it had always been there. At the end of an episode the world is reset. Neither leap is a transition to learn
-   from, nor is the appearance or disappearance of a thing.
+   from, nor is the appearance or disappearance of a thing. For an agent that does not notice resets, nothing happens
+   at a reset, and its leap is a transition.
 5. At rest, or at distance 0, a track keeps its last direction.
 6. Where the state of a node's maps is the self, one track follows the agent, and captures do not concern it; or the
    agent as seen from each thing has a track, which starts afresh when that thing is met. A transition is then that the

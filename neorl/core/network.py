@@ -9,6 +9,7 @@
    conjunctive cells that do not represent its place, an element is everywhere: it is in several cells, and their values
    add up. An element beyond the range of a map that ends there adds nothing to it.
 2. These values, weighted by valence and by the weight of the map, add up to the node's Q-vector (thesis eq. 4.3, 4.4).
+   The elements of a desire that are in the same cell add theirs each, or once.
 3. The sum of the pushes of all actions, times their values, turns a Q-vector into a vector in the world: a desire. The
    end of that vector is an element of interest for the next node.
 
@@ -105,6 +106,7 @@ def evaluate_desire(parameters, constants, state, scene, n, e):
                     add_value(parameters, constants, state, n, m, state.tracks.cell[track], chosen.goal[e, m], valence,
                               q)
         return
+    state.evaluation[0] += 1
     of_place = parameters.nodes.follows[n] == Vector.position
     sees_things = (source == Source.kind and parameters.nodes.follows[n] == Vector.objects
                    and parameters.nodes.state[n] == MapState.object)
@@ -116,7 +118,8 @@ def evaluate_desire(parameters, constants, state, scene, n, e):
         if sees_things:
             for m in maps_of(parameters.nodes, n):
                 cell = state.tracks.cell[np.uint64(parameters.maps.first_track[m] + thing)]
-                add_contact(parameters, constants, state, n, m, cell, valence, q)
+                if counts(parameters, state, m, cell):
+                    add_contact(parameters, constants, state, n, m, cell, valence, q)
             continue
         for axis in range(n_axes):
             here = state.here[axis]
@@ -144,6 +147,8 @@ def add_element(parameters, constants, state, scene, n, valence, q):
         return
     for m in maps_of(nodes, n):
         cell = cell_within(parameters, coordinates, n, m)
+        if not counts(parameters, state, m, cell):
+            continue
         if of_agent:
             add_goals(parameters, constants, state, n, m, state.tracks.cell[np.uint64(maps.first_track[m])], cell,
                       valence, q)
@@ -151,6 +156,17 @@ def add_element(parameters, constants, state, scene, n, valence, q):
             add_contact(parameters, constants, state, n, m, cell, valence, q)
         else:
             add_value(parameters, constants, state, n, m, maps.contact[m], cell, valence, q)
+
+
+@inlined_kernel
+def counts(parameters, state, m, cell):
+    """Whether an element in a cell of a map counts beside those of its desire that came before it."""
+    if not parameters.shared_cell_counts_once or cell < 0:
+        return True
+    place = np.uint64(parameters.maps.first_cell[m] + cell)
+    is_first = state.counted[place] != state.evaluation[0]
+    state.counted[place] = state.evaluation[0]
+    return is_first
 
 
 @inlined_kernel

@@ -138,6 +138,8 @@ class Parameters(NamedTuple):
 
     size: float  # of the world, in its own units of length
     own_cell_counts: bool
+    shared_cell_counts_once: bool
+    notices_resets: bool
     push: array("float64", "actions", "axes")  # of each action that is an event
     frames: array("int64", "frames", "actions")  # what each action becomes in each mirror image of the world
     maps: MapParameters

@@ -70,6 +70,8 @@ class State(NamedTuple):
     here: array("float64", "axes")  # working memory: where the agent is, in units of the world's size
     coordinates: array("float64", "coordinates")  # working memory: of the point being located
     offset: array("float64", "axes")  # working memory: of an element of interest from the agent
+    counted: array("int64", "cells")  # working memory: the last evaluation in which an element in the cell has counted
+    evaluation: array("int64", 1)  # working memory: the number of evaluations of desires for kinds of things
     seen: array("int64", "maps")  # working memory: the cells of a point
     seen_from: array("float64", "passed")  # working memory: the cell of the self as seen from each place passed
     rival: array("float64", "actions")  # working memory: a thing's contribution to the action values

@@ -75,5 +75,6 @@ def step_second(parameters: Parameters, constants: Constants, state: State, scen
                     life.begin_point(parameters, constants, state, scene, n, creep)
     if done:
         reset(board, rules)
-        life.begin(parameters, constants, state, scene)
+        if parameters.notices_resets:
+            life.begin(parameters, constants, state, scene)
     return reward

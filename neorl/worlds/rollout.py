@@ -98,7 +98,8 @@ def rollout_in(dynamics):
                 if not keeps_rules(scene, hits.shape[1]):
                     clock[0], clock[1] = now + 1, 1
                     return total
-                constants.begin(parameters, constants, state, scene)
+                if parameters.notices_resets:
+                    constants.begin(parameters, constants, state, scene)
         clock[0] = last_step
         return total
 
@@ -146,7 +147,8 @@ def recorded_in(dynamics):
                 if not keeps_rules(scene, hits.shape[1]):
                     clock[0], clock[1] = now + 1, 1
                     return episodes
-                constants.begin(parameters, constants, state, scene)
+                if parameters.notices_resets:
+                    constants.begin(parameters, constants, state, scene)
         clock[0] = last_step
         return episodes
 

@@ -30,11 +30,12 @@ def simulate(agent, world, steps, seed=0, run=0):
     sequence = np.random.SeedSequence(seed).spawn(run + 1)[run]
     rng = np.random.Generator(np.random.SFC64(sequence.spawn(1)[0]))
     state, rule, rewards, done = world.reset(sequence), agent.learning, np.zeros(steps), True
+    scene = see(world, state)
     maps = [Map(node, n) for node in agent.nodes for n in node.resolutions]
     keep = np.float32(rule.activity * world.fps / (1 + rule.activity * world.fps))
     for t in range(steps):
-        if done:  # an episode begins, with what was learned in those before
-            scene, activity = see(world, state), np.zeros(4, np.float32)
+        if t == 0 or done and agent.resets == "noticed":  # an episode begins, with what was learned in those before
+            activity = np.zeros(4, np.float32)
             pulls = [(np.zeros(4), 0.0) for _ in agent.desires]
             for nres in maps:
                 nres.tracks = [Track(nres, vector) for vector in followed(nres.node, scene)]
@@ -46,6 +47,7 @@ def simulate(agent, world, steps, seed=0, run=0):
             perceive(rule, nres, scene, action, activity)
         if done:
             execute(world.dynamics.reset, state, world.rules)
+            scene = see(world, state)
     return rewards, [nres.q for nres in maps]
 
 
@@ -136,26 +138,31 @@ def values(agent, scene, maps, pulls):
         found = {e: elements(agent, desire, scene, pulls) for e, desire in enumerate(agent.desires)
                  if desire.target == node.name}  # all before any is updated, for recursion
         for e in found:
-            pull = np.zeros(4)
-            for element, w in found[e]:
+            pull, counted = np.zeros(4), []
+            for element, w, k in found[e]:
                 for nres in (each for each in maps if each.node is node):
-                    for s, i in selected(nres, element, scene):
+                    pairs = selected(nres, element, scene, k)
+                    if agent.shared_cell == "once" and (nres, pairs) in counted:
+                        continue
+                    counted.append((nres, pairs))
+                    for s, i in pairs:
                         if s != i or agent.own_cell == "counts":
                             q = nres.q[s if node.state == "object" else 0, :, i]
                             pull += nres.weight * w * q.astype(float)  # w_i Q_i(s, ·)
-            pulls[e] = pull, sum(w for _, w in found[e])
+            pulls[e] = pull, sum(w for _, w, _ in found[e])
             value += node.gain * pull
     return value
 
 
-def selected(nres, element, scene):
-    """The pairs (s, i) of cells by which an element selects Q_i(s, ·) (eq. 4.4)."""
+def selected(nres, element, scene, k):
+    """The pairs (s, i) of cells by which an element, or thing k, selects Q_i(s, ·) (eq. 4.4)."""
     follows, tracks = nres.node.modality.follows, [track for track in nres.tracks if track.cell is not None]
     if isinstance(element, tuple):  # a point, with directions in radians
         point = [x / math.tau % 1.0 if axis.is_direction else x for x, axis in zip(element, nres.axes)]
         return [(track.cell, nres.cell(point)) for track in tracks]
     vector = scene.position + element if follows == "position" else element
-    cell = nres.active(vector)
+    follows_it = follows == "objects" and nres.node.state == "object" and k is not None
+    cell = nres.tracks[k].cell if follows_it else nres.active(vector)
     if cell is None:
         return []
     if follows in ("position", "velocity"):  # s: the agent, i: the element
@@ -170,21 +177,21 @@ def selected(nres, element, scene):
 
 
 def elements(agent, desire, scene, pulls):
-    """The elements of a desire, [(vector from the agent, or point in the node's own space, valence), …]."""
+    """The elements of a desire: [(vector from the agent, or point in the node's own space, valence, thing), …]."""
     if isinstance(desire.source, tuple):
-        return [(desire.source, desire.valence)]
+        return [(desire.source, desire.valence, None)]
     if isinstance(desire.source, Place):
-        return [(np.array(desire.source.coordinates) - scene.position, desire.valence)]
+        return [(np.array(desire.source.coordinates) - scene.position, desire.valence, None)]
     if not agent.comes_from_node(desire):
-        wanted = [thing for thing, kind in zip(scene.things, scene.kinds) if kind == desire.source]
-        return [(thing - scene.position, desire.valence) for thing in wanted]
+        return [(thing - scene.position, desire.valence, k)
+                for k, (thing, kind) in enumerate(zip(scene.things, scene.kinds)) if kind == desire.source]
     vector, valence = np.zeros(2), 0.0
     for other, (q, w) in zip(agent.desires, pulls):
         if other.target == desire.source and (not desire.of or other.source in desire.of):
             towards = np.array([q[E] - q[W], q[S] - q[N]])  # y points down
             vector += towards if desire.signed or w > 0 else -towards
             valence += w
-    return [(desire.scale * vector, valence if desire.valence is None else desire.valence)]
+    return [(desire.scale * vector, valence if desire.valence is None else desire.valence, None)]
 
 
 # 3. From values to an action

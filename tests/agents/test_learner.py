@@ -2,6 +2,7 @@
 
 import copy
 import pickle
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from same import assert_equal, assert_same, newborn
 from saved_files import rewrite
 
 from neorl import (CARDINAL, Agent, Desire, Learner, Learning, Node, Place, Policy, Run, Scene, WaterWorld,
-                   multimodal, network_d, place_cells, softmax)
+                   multimodal, network_d, object_vector_cells, place_cells, softmax)
 from neorl.core.calls import execute
 from neorl.core.kernel import arrays, jit_is_off, mapped
 from neorl.core.modality import CARTESIAN_OBJECT_VECTOR_CELL, PLACE_CELL
@@ -22,6 +23,7 @@ AGENTS = {
     "at every step": multimodal([5], learning=plain_rule(update_on="step"), object_state="object",
                                 policy=Policy(0.1, "no-op")),
     "per object": multimodal([4], learning=plain_rule(memory=7.0, bootstrap=False), object_state="per object"),
+    "resets unnoticed": multimodal([4], resets="unnoticed"),
     "softmax": multimodal([4], learning=plain_rule(credit="activity", memory=3.0), policy=Policy(choose=softmax(0.2))),
 }
 
@@ -224,6 +226,30 @@ def test_a_thing_that_is_met_and_vanishes_was_met():
     contact = learner.agent.maps[0].encode([0.0, 0.0])
     assert learner.q()[before, action, contact] > 0 and np.count_nonzero(learner.q()) == 1
     assert learner.state.tracks.cell[0] < 0
+
+
+def test_a_reset_that_is_not_noticed_is_one_more_transition():
+    for resets in ("noticed", "unnoticed"):
+        learner = Learner(Agent([Node("PC", PLACE_CELL, [2])], learning=plain_rule(), resets=resets))
+        for begin, end in ((0.2, 0.3), (0.8, 0.9)):
+            learner.begin(Scene((begin, 0.1)))
+            learner.act()
+            learner.observe(Scene((end, 0.1)))
+        assert learner.q()[0, :, 1].any() == (resets == "unnoticed") and learner.state.tracks.cell[0] == 1
+
+
+@pytest.mark.parametrize("agent", [place_cells([3]), *(
+    object_vector_cells([3], object_state=state) for state in ("object", "self", "per object"))])
+def test_things_of_a_kind_in_the_same_cell_count_each_or_once(agent):
+    def wanted(greens, shared_cell):
+        learner = Learner(replace(agent, shared_cell=shared_cell), greens, ("green", "red"))
+        learner._state.values.q[:] = np.random.default_rng(0).random(len(learner.state.values.q))
+        learner.begin(Scene((0.1, 0.1), None, [(0.5, 0.5 - 0.01 * k) for k in range(greens)], ["green"] * greens))
+        learner.act()
+        return learner.output(agent.nodes[0].name)
+    one, each, once = wanted(1, "once"), wanted(2, "each"), wanted(2, "once")
+    assert one.q.all() and each.q.tolist() == (2 * one.q).tolist() and once.q.tolist() == one.q.tolist()
+    assert each.valence == once.valence == 2
 
 
 @pytest.fixture

@@ -1,5 +1,7 @@
 """Agents of neorl in Gymnasium environments are bit-identical to runs in neorl's worlds, and learn other tasks."""
 
+from dataclasses import replace
+
 import gymnasium
 import numpy as np
 import pytest
@@ -23,9 +25,11 @@ def square(observation, info):
     return Scene(((column + 0.5) / 12, (row + 0.5) / 4))
 
 
+@pytest.mark.parametrize("resets", ["noticed", "unnoticed"])
 @pytest.mark.parametrize("world", [TANK, Arena(trial_seconds=2.0)], ids=["tank", "arena"])
-def test_an_agent_in_our_environments_repeats_a_run_to_the_bit(world):
+def test_an_agent_in_our_environments_repeats_a_run_to_the_bit(world, resets):
     agent = network_d([2, 5]) if world is TANK else Agent(place_cells([5]).nodes, [Desire("platform", "PC", 1.0)])
+    agent = replace(agent, resets=resets)
     run = Run(agent, world, seed=4)
     learner = Learner(agent, world.things, world.kinds, world.actions, size=world.size, fps=world.fps)
     learner._state.stream[:] = new_stream(np.random.SeedSequence(4, spawn_key=(0,)).spawn(1)[0])

@@ -9,9 +9,11 @@ from neorl import simulate
 from neorl.experiments.run import new_bins
 
 SPANNING = ["place N10, calibrated", "every modality", "both, self", "both, per object", "no-op",
-            "both, step", "network D, calibrated", "arena, calibrated", "softmax", "with a memory, moved"]
+            "both, step", "network D, calibrated", "arena, calibrated", "softmax", "with a memory, moved",
+            "both, object, resets unnoticed", "every modality, once, resets unnoticed", "both, per object, once"]
 INTERPRETED = ["place N3", "both, self, centred, bootstrapping", "both, absence", "network D, signed", "every modality",
-               "network D, calibrated", "both, per object", "arena", "softmax"]
+               "network D, calibrated", "both, per object", "arena", "softmax", "both, per object, resets unnoticed",
+               "every modality, once, resets unnoticed", "both, self, once"]
 
 
 def on_record(names, steps):

@@ -55,6 +55,13 @@ READINGS = {
                                         object_centred=True),
     "per object, ends": object_vector_cells([4], object_state="per object", object_beyond="none",
                                             object_tiled_fraction=0.3, learning=plain_rule(memory=3.0)),
+    **{f"{state}, resets unnoticed": multimodal(
+        [2, 5], learning=plain_rule(memory=4.0, credit="activity", bootstrap=state == "object"), object_state=state,
+        resets="unnoticed") for state in ("object", "self", "per object")},
+    **{f"{state}, once": multimodal([2, 5], object_state=state, shared_cell="once", learning=plain_rule(memory=3.0))
+       for state in ("object", "self", "per object")},
+    "D, once, resets unnoticed": network_d([2, 3], resets="unnoticed", shared_cell="once", **FAR),
+    "all senses, once, resets unnoticed": Agent(SENSES, DESIRES, shared_cell="once", resets="unnoticed"),
     "D of the self": network_d([2, 5], object_state="self", **FAR),
     "A": network_a([2, 3]),
     "B": network_b([3, 5], signed=True),

@@ -75,8 +75,9 @@ def test_a_creep_that_somebody_else_takes_is_gone_and_nothing_is_learned_from_it
     assert np.array_equal(run.state.tracks.events[~taken], before.tracks.events[~taken])
 
 
-def test_when_somebody_else_takes_the_last_green_creep_the_tank_starts_afresh():
-    run = Run(multimodal([5]), WaterWorld(n_creeps=1), seed=5)
+@pytest.mark.parametrize("resets", ["noticed", "unnoticed"])
+def test_when_somebody_else_takes_the_last_green_creep_the_tank_starts_afresh(resets):
+    run = Run(multimodal([5], resets=resets), WaterWorld(n_creeps=1), seed=5)
     run.advance(100)
     board = run.world_state
     while board.scene.kinds[0] != GREEN:
@@ -89,3 +90,4 @@ def test_when_somebody_else_takes_the_last_green_creep_the_tank_starts_afresh():
         if np.array_equal(board.scene.position, [125.0, 125.0]):
             break
     assert np.array_equal(board.scene.position, [125.0, 125.0]) and board.scene.kinds[0] == GREEN and paid == 1
+    assert run.state.tracks.events.any() == (resets == "unnoticed")
