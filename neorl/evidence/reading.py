@@ -53,6 +53,7 @@ class Reading:
     learning, policy: of all its agents. `when_indifferent` counts as "random" if `exploration` is 0, since the agent
         would otherwise never move. With temporal difference the state of object vectors counts as "object".
     world: its tank, in which each paper sets the creeps and the reward for the last green one.
+    paper_a_fps: steps per second of paper A's boards; those of papers B and C have that of the world.
     tiled_fraction, object_tiled_fraction: shares of their range that maps of places and of object vectors cover.
     object_state, object_reach, object_beyond, object_centred: of object vectors, see `neorl.agents.papers`.
     place_gain, network_gain: of place cells, relative to object-vector cells, in papers B and C.
@@ -65,6 +66,8 @@ class Reading:
 
     learning: Learning = CALIBRATED
     own_cell: str = Agent.own_cell
+    shared_cell: str = Agent.shared_cell
+    resets: str = Agent.resets
     tiled_fraction: float = papers.TILED_FRACTION
     object_state: str = papers.OF_OBJECTS["object_state"]
     object_reach: float = papers.OF_OBJECTS["object_reach"]
@@ -80,6 +83,7 @@ class Reading:
     recursion: float = -1.0
     network_resolutions: tuple[int, ...] = LAYERS
     world: WaterWorld = WaterWorld()
+    paper_a_fps: int = PAPER_FPS
 
     def __post_init__(self):
         checks.check_fields(self)
@@ -114,24 +118,25 @@ class Reading:
         """The arguments that are common to all its agents, for the functions that make them."""
         policy = self.policy if self.policy.exploration else replace(self.policy, when_indifferent="random")
         state = "object" if self.learning.update_on == "step" else self.object_state
-        return {"learning": self.learning, "policy": policy, "own_cell": self.own_cell,
-                **{name: getattr(self, name) for name in papers.OF_NODES}, "object_state": state,
+        of_agent = {name: getattr(self, name) for name in ("own_cell", "shared_cell", "resets", *papers.OF_NODES)}
+        return {"learning": self.learning, "policy": policy, **of_agent, "object_state": state,
                 "object_reach": self.object_reach if state == "object" else 0.0}
 
 
 # What the text prints or pins; where it leaves more, the simplest or the middle of a prior, as the pins say.
-TO_THE_LETTER = Reading(rules.TO_THE_LETTER, object_state="self", object_reach=0.0, object_tiled_fraction=1.0,
-                        object_beyond="outermost", object_centred=False, weighting="resolution", place_gain=1.0,
-                        scale=10.0)
+TO_THE_LETTER = Reading(rules.TO_THE_LETTER, shared_cell="once", resets="unnoticed", object_state="self",
+                        object_reach=0.0, object_tiled_fraction=1.0, object_beyond="outermost", object_centred=False,
+                        weighting="resolution", place_gain=1.0, scale=10.0)
 
 
 def conditions(reading: Reading, steps: int, runs: int, seed: int = 0,
                groups: Sequence[str] = tuple(GROUPS)) -> dict[Any, Condition]:
     """The conditions of the papers under a reading: {key: `Condition`}.
 
-    steps: of a run at 50 steps per second, but no more than the paper's; runs of papers B and C last the same simulated
-    time at any rate. For B4 runs are 16 times as long and half as many, but at least two, unless steps reach paper B's
-    length. Brownian motion with 8 creeps always runs as long as in paper A, which reports no reset in that time.
+    steps: of a run at 50 steps per second, but no more than the paper's. At other rates runs of papers B and C last the
+    same simulated time, and those of paper A have the same steps. For B4 runs are 16 times as long and half as many,
+    but at least two, unless steps reach paper B's length. Brownian motion with 8 creeps always runs as long as in paper
+    A, which reports no reset in that time.
     seed: integer ≥ 0. groups: names in `GROUPS`, which has the keys of each.
     Raises ValueError for anything else.
     """
@@ -144,7 +149,8 @@ def conditions(reading: Reading, steps: int, runs: int, seed: int = 0,
 
 
 def _all_conditions(reading, steps, runs, seed):
-    eight, three = (replace(reading.world, n_creeps=n, win_reward=win) for n, win in ((8, 5.0), (3, 0.0)))
+    eight = replace(reading.world, n_creeps=8, win_reward=5.0, fps=reading.paper_a_fps)
+    three = replace(reading.world, n_creeps=3, win_reward=0.0)
     each = reading.agents
 
     def living(agent, paper, length=steps, runs=runs):

@@ -12,7 +12,7 @@ from lib.shared.priors import BEYOND, PINNED, WITHIN, LogUniform
 from lib.study import multiverse
 from lib.study.multiverse_figures import LEADING, draw_specification
 import neorl
-from neorl import (CALIBRATED, Learning, Policy, WaterWorld, multimodal, network_a, network_b, network_c, network_d,
+from neorl import (CALIBRATED, Learning, Policy, multimodal, network_a, network_b, network_c, network_d,
                    place_cells, simulate)
 from neorl.agents.rules import AT_EVERY_STEP
 from neorl.evidence.verdict import Claim
@@ -50,16 +50,18 @@ def test_the_letter_takes_what_is_pinned_and_the_simplest_of_what_is_open():
     assert letter.learning_rate == pytest.approx(np.sqrt(3e-4 * 0.5))
     assert 1 / (1 - letter.discount) == pytest.approx(1.5 * 200 ** (0.5 / 0.75))
     assert (letter.memory, letter.object_state, letter.vectors) == (0, "self", "by size")
+    assert (letter.shared_cell, letter.resets, letter.fps, letter.paper_a_fps) == ("once", "unnoticed", 50, 50)
     assert letter.absent_decay == pytest.approx(np.sqrt(1e-3)) and letter.activity == pytest.approx(0.5)
     found = conditions(TO_THE_LETTER, 600_000, 2)
     assert found["network", "D"].agent == network_d(
         [3, 7, 23], scale=letter.scale, signed=False, object_state="self", learning=TO_THE_LETTER.learning,
-        policy=Policy(exploration=0), own_cell="counts",
+        policy=Policy(exploration=0), own_cell="counts", shared_cell="once", resets="unnoticed",
         tiled_fraction=1, object_tiled_fraction=1, object_beyond="outermost", object_centred=False,
         weighting="resolution", place_gain=1)
 
 
-PAPERS = {"brownian": "A", "single": "A", "layer": "A", "layers": "A", "place": "B", "objects": "B", "both": "B",
+PAPERS = {("brownian", 8): "A", "single": "A", "layer": "A", "layers": "A",
+          ("brownian", 3): "B", "place": "B", "objects": "B", "both": "B",
           "pace": "B", "network": "C", "revalued": "T"}
 
 
@@ -67,15 +69,16 @@ PAPERS = {"brownian": "A", "single": "A", "layer": "A", "layers": "A", "place": 
     {"learning_rate": 0.1}, {"discount": 0.5}, {"credit": "last"}, {"credit": "step"}, {"credit": "happened"},
     {"absent_decay": 0.3}, {"absent_form": "decay"}, {"memory": 10}, {"activity": 2.0},
     {"bootstrap": False}, {"terminal": True}, {"object_state": "object"},
-    {"object_beyond": "none"}, {"object_centred": True}, {"own_cell": "silent"}, {"tiled_fraction": 0.5},
+    {"object_beyond": "none"}, {"object_centred": True}, {"own_cell": "silent"}, {"shared_cell": "each"},
+    {"resets": "noticed"}, {"tiled_fraction": 0.5},
     {"object_tiled_fraction": 0.25},
     {"weighting": "cells"}, {"exploration": 0.1}, {"place_gain": 5.0}, {"network_gain": 3.0}, {"vectors": "signed"},
     {"scale": 0.5}, {"recursion": 1.0}, {"network_resolutions": (2, 3)}, {"fps": 30},
-    {"contact": "truncated"}])
+    {"contact": "truncated"}, {"paper_a_fps": 30}])
 def test_every_choice_changes_the_conditions_of_the_papers_that_it_belongs_to_and_no_others(change):
     (name,) = change
     letter, other = (conditions(TO_THE_LETTER.varied(**each), 3_000, 2) for each in ({}, change))
-    changed = {PAPERS[key if isinstance(key, str) else key[0]] for key in letter if letter[key] != other[key]}
+    changed = {PAPERS.get(key) or PAPERS[key[0]] for key in letter if letter[key] != other[key]}
     assert changed == set(BEYOND[name].papers)
 
 
@@ -119,7 +122,8 @@ def test_conditions_come_in_groups_that_hold_all_in_the_end():
 
 
 def test_papers_b_and_c_simulate_the_same_time_at_any_rate_and_paper_a_the_same_steps():
-    found = conditions(Reading(world=WaterWorld(fps=30)), 30_000, 4)
+    found = conditions(Reading().varied(fps=30, paper_a_fps=60), 30_000, 4)
+    assert (found["single", 10].world.fps, found["brownian", 8].world.fps, found["both"].world.fps) == (60, 60, 30)
     assert (found["single", 10].steps, found["both"].steps, found["network", "D"].steps) == (30_000, 18_000, 18_000)
     assert (found["pace", "both"].steps, found["pace", "both"].runs) == (288_000, 2)
     assert found["pace", "both"].steps / 30 == 160 * 60
@@ -224,7 +228,7 @@ def test_the_page_s_own_runs_are_those_of_the_book_s_design():
 
 
 def test_minutes_are_those_of_all_readings():
-    found = planned_sweep([TO_THE_LETTER, TO_THE_LETTER.varied(fps=60)], groups=("modal", "layers"))
+    found = planned_sweep([TO_THE_LETTER, TO_THE_LETTER.varied(fps=60, paper_a_fps=60)], groups=("modal", "layers"))
     assert multiverse.minutes(found, "both") == "10" and multiverse.minutes(found, "layers") == "8.33 to 10"
 
 

@@ -76,6 +76,10 @@ POLICY_AND_MAPS = (
     Pin("elements in the agent's own cell", ("own_cell",), "the set of NRES cells occupied by an element of interest",
         "paper A, equation 4; section 4.1.2, equation 4.4", "Every cell that holds an element counts, the agent's own "
         "included.", lambda reading: reading.own_cell == "counts"),
+    Pin("elements that share a cell", ("shared_cell",), "the set of NRES cells occupied by an element of interest",
+        "paper A, equation 4; section 4.1.2, equation 4.4", "The sum of equation 4.3 runs over that set, which holds "
+        "a cell once however many elements of a kind are in it: this is what is printed. But its weight is “element "
+        "i’s importance” (paper A, The Control Problem by Superposition), so that each element may count is open."),
     Pin("cells of a map", (), "N13 signifies a 13 × 13 tile set in ℝ²", "paper B, section 2.1",
         "The cells of an object-vector map tile the plane of o − s. Pairs of the agent's cell and the object's would be"
         " a tile set in four dimensions, and are excluded.", _always),
@@ -128,7 +132,9 @@ OBJECTS = (
         "Open, and decisive. The state is the self, always at the centre, and the goal is the object's cell, which is "
         "simplest: “the current parameter configuration of the agent” gives the state (paper A, figure 2), and "
         "the cell “occupied by an element of interest” the value function (paper A, equation 4). Or the same in the "
-        "frame of each object. Or the state is the object's cell and the goal the contact."),
+        "frame of each object. An agent then has to know from step to step which object is which; nothing in the text "
+        "says that it does, and the author's later code reports two lists of positions, green and red. So this is "
+        "possible, and not the plainest. Or the state is the object's cell and the goal the contact."),
     Pin("transition of object vectors", (), "after each transition s⁻ → s⁺", "section 4.1.3",
         "A state that is always the centre never changes. The self leaves the centre cell when it has moved by half a "
         "cell along an axis, and the map is then centred on it anew; a change of the object's cell if that is the "
@@ -180,9 +186,17 @@ WORLD = (
         "paper B, section 3", "Three objects, with +1 and −1 alone.", _always),
     Pin("objects and rewards, paper C", (), "Three objects move around in the Euclidean plane", "paper C, section 2",
         "As in paper B.", _always),
-    Pin("steps per second", ("fps",), "with one run taking somewhat under one hour on a single CPU core",
-        "paper A, Experiments", "150,000 steps are 50 minutes at 50 per second, which is simplest, or 42 at 60. At 30 "
-        "per second they would be 83, which is excluded.", lambda reading: reading.world.fps in (50, 60)),
+    Pin("resets of the board", ("resets",), "the board is restarted with an accompanying [+5] reward",
+        "paper A, WaterWorld", "Nothing says that the agent is told, and the author's later code restarts the game and "
+        "passes positions alone. So nothing happens in the agent, which is simplest, and the leap is one more "
+        "transition. Or the agent notices, forgets how it came there, and learns nothing from the leap."),
+    Pin("steps per second, paper A", ("paper_a_fps",), "with one run taking somewhat under one hour on a single CPU "
+        "core", "paper A, Experiments", "A statement about computing, which need not take as long as what it "
+        "simulates. 150,000 steps are 50 minutes at 50 per second, the rate of the author's later code, which is "
+        "simplest; 42 at 60; and 83 at 30, the game's own default."),
+    Pin("steps per second, papers B and C", ("fps",), "signifying the wall-clock time since the beginning of each run",
+        "paper C, section 2", "Minutes on the clock are those of the simulation if it runs in real time. Its rate is "
+        "not given, and need not be paper A's; 50 is simplest, as there."),
     Pin("contact", ("contact",), "", "", "Pygame compares whole pixels: rounded since version 2, which is "
         "simplest, and truncated before."),
 )

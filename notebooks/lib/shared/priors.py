@@ -126,6 +126,8 @@ WITHIN = {
     "activity": Choice("activity, in seconds", LogUniform(0.05, 5), "ABCT"),
     "bootstrap": Choice("bootstrapping", (True, False), "ABCT"),
     "terminal": Choice("goals terminal", (False, True), "ABCT"),
+    "shared_cell": Choice("shared cell", ("once", "each"), "ABCT"),
+    "resets": Choice("resets", ("unnoticed", "noticed"), "ABCT"),
     "object_state": Choice("state of object vectors", ("self", "per object", "object"), "BCT"),
     "object_reach": Choice("reach of contact", (0.0, CONTACT_REACH), "BCT"),
     "object_tiled_fraction": Choice("range of objects", (1.0, 0.5, 0.25), "BCT"),
@@ -136,8 +138,9 @@ WITHIN = {
     "vectors": Choice("desire vectors", ("by size", "signed"), "C"),
     "scale": Choice("desire scale", LogUniform(0.1, 1_000), "C"),
     "network_resolutions": Choice("resolutions, C", (LAYERS, papers.PRIMES), "C"),
-    "fps": Choice("steps per second", (50, 60), "ABCT"),
+    "fps": Choice("steps per second", (50, 30, 60), "BCT"),
     "contact": Choice("contact", CONTACTS, "ABCT"),
+    "paper_a_fps": Choice("steps per second, A", (50, 30, 60), "A"),
 }
 PINNED: dict[str, Any] = {
     "own_cell": "counts", "tiled_fraction": 1.0, "exploration": 0.0, "when_indifferent": "random", "network_gain": 1.0,
@@ -152,6 +155,5 @@ _BEYOND = WITHIN | {
     "when_indifferent": Choice("when idle", WHEN_INDIFFERENT, "ABCT"),
     "network_gain": Choice("gain of place, C", (1.0, 3.0, 5.0), "C"),
     "recursion": Choice("recursion, r", (-1.0, -3.0, -2.0, -0.5, 0.5, 1.0), "C"),
-    "fps": Choice("steps per second", (50, 30, 60), "ABCT"),
 }
 BEYOND = {name: _BEYOND[name] for name in Reading().choices}
