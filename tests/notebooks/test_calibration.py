@@ -162,6 +162,29 @@ def test_the_leading_are_confirmed_with_fresh_seeds_and_more_runs(small):
         calibration.confirm([], 5, 20)
 
 
+def test_a_search_between_two_memories_begins_where_it_is_told_and_keeps_to_them_in_both_families(small):
+    start = Reading().varied(learning_rate=0.011, memory=30.0)
+    table = calibration.attempt(calibration.calibrate(0.6), [start, start.varied(memory=200.0)], 6, seed=0)
+    assert [row.runs for row in table[-2:]] == [6, 6] and table[-2].complete and table[-2].reading == start
+    kept = []
+    new = calibration.refine(0.05, table, 6, 0, kept.append, memories=(20.0, 45.0))[len(table) :]
+    assert len(new) == 24 * len(kept) and all(20 <= row.reading.learning.memory <= 45 for row in new)
+    assert [row.reading.object_state for row in new[:24]] == ["self"] * 12 + ["per object"] * 12
+    assert len({row.reading for row in new}) == len(new) and sum(row.complete for row in new[:24]) == 5
+
+
+def test_the_leading_between_two_memories_are_confirmed_and_once_more_if_called_again(small):
+    table = calibration.calibrate(0.6)
+    once = calibration.confirm(table, 3, 20, memories=(20.0, 200.0))
+    again = calibration.confirm(once, 3, 20, memories=(20.0, 200.0))
+    first, second = ([row.reading for row in rows[-3:]] for rows in (once, again))
+    assert first == second and all(20 <= reading.learning.memory <= 200 for reading in first)
+    further = calibration.confirm([*again, replace(table[0], wave=99)], 3, 20, memories=(20.0, 200.0))
+    assert not {row.reading for row in further[-3:]} & {*first}
+    assert first == [row.reading for row in calibration_table.leading(table) if row.reading in first]
+    assert not {row.seed for row in again[-3:]} & {row.seed for row in once}
+
+
 def test_fewer_and_fewer_readings_are_screened_and_the_leading_one_is_run_with_other_scales(small):
     table = calibration.calibrate(0.6)
     screened = calibration.screen(table, 12, seed=7)

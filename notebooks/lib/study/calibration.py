@@ -9,7 +9,9 @@ rather than one that climbs to the best fit. The page on calibration explains it
    results so far. A wave runs its candidates in both cheap groups. Object vectors and both modalities are run for the
    readings that are most promising for paper B, networks and single maps for those most promising for all papers.
 3. `refine` searches near the leading readings of more runs, with more runs each. A round runs children in one group
-   after the other, and after each only those go on for which most claims hold, the nearest first.
+   after the other, and after each only those go on for which most claims hold, the nearest first. Between two memories,
+   half of the children have each of the states of object vectors in `FAMILIES`. `attempt` runs readings that trials
+   elsewhere point at, so that a search can begin from them.
 4. `screen` runs readings again that agree with most targets in few runs, wherever in the priors they lie.
 5. `rescale` runs the leading one in paper C with other units of a desire vector, which concern no other paper.
 6. `confirm` runs the leading readings again with fresh seeds, since a search over noisy numbers finds lucky ones.
@@ -39,6 +41,8 @@ WAVE = {"places": 112, "layers": 112, "objects": 256, "both": 256, "networks": 3
 POOL = 4_000  # candidates per wave
 PARENTS, RENEWED, MOVED = 30, 0.1, 0.05  # of children: best rows, share of choices redrawn, spread of moved numbers
 ROUND = {"both": 24, "objects": 14, "places": 14, "layers": 14, "single": 8, "networks": 8}  # readings per round
+WITHIN_MEMORIES = {"layers": 24, "places": 24, "both": 12, "single": 8, "objects": 6, "networks": 5}  # cheap ones first
+FAMILIES = ("self", "per object")  # states of object vectors between two memories
 SCREENED = {"layers": 100, "places": 40, "objects": 40, "both": 40, "single": 8, "networks": 8}  # of readings screened
 SCREENED_RUNS = 16  # a reading that was run as often or less is screened
 KEPT = 12  # leading readings whose children a round of `refine` runs
@@ -66,18 +70,53 @@ def calibrate(minutes, table=(), seed=0, runs=RUNS, steps=STEPS, keep=None):
     return [row for row in table if row.statistics]
 
 
-def refine(minutes, table, runs, seed, keep):
-    """Search near the 12 leading readings of more than 2 runs for a number of minutes, and return the longer table."""
+def refine(minutes, table, runs, seed, keep, memories=None):
+    """Search near the 12 leading readings of more than 2 runs for a number of minutes, and return the longer table.
+
+    memories: the least and the greatest, > 0, of all children: those of leading readings between them in the same
+        family, or of all leading readings if there are fewer than two.
+    """
     end = time.monotonic() + 60 * minutes
-    table = list(table)
+    table, numbers = list(table), WITHIN_MEMORIES if memories else ROUND
     while time.monotonic() < end:
         rng = np.random.default_rng([seed, _next_wave(table)])
-        best = calibration_table.leading([row for row in table if row.runs > RUNS])[:KEPT]
-        drawn = [_child(*(best[i].reading for i in rng.integers(len(best), size=2)), rng)
-                 for _ in range(max(ROUND.values()))]
-        table += _sieved(_new_rows(table, drawn, runs, seed), ROUND)
+        best = [row.reading for row in calibration_table.leading([row for row in table if row.runs > RUNS])]
+        n = max(numbers.values())
+        drawn = (_children(best, n, rng) if memories is None else
+                 [child for state in FAMILIES for child in _family(best, state, memories, n // len(FAMILIES), rng)])
+        table += _sieved(_new_rows(table, drawn, runs, seed), numbers)
         keep(table)
     return table
+
+
+def _children(readings, n, rng):
+    """n children of the first of some readings."""
+    best = readings[:KEPT]
+    return [_child(*(best[i] for i in rng.integers(len(best), size=2)), rng) for _ in range(n)]
+
+
+def _family(readings, state, memories, n, rng):
+    """n children with a state of object vectors, and a memory between two, which is redrawn if it is not."""
+    near = [reading for reading in _between(readings, memories) if reading.object_state == state]
+    low, high = memories
+    return [child.varied(object_state=state, memory=child.learning.memory if _between([child], memories) else
+                         _short(low * (high / low) ** rng.random()))
+            for child in _children(near if len(near) > 1 else readings, n, rng)]
+
+
+def _between(readings, memories):
+    return [reading for reading in readings if memories[0] <= reading.learning.memory <= memories[1]]
+
+
+def attempt(table, readings, runs, seed):
+    """Run readings in every group, and return the table that includes their rows."""
+    return [*table, *_complete(_new_rows(table, readings, runs, seed))]
+
+
+def _complete(rows):
+    for group in GROUPS:
+        rows = calibration_table.run(rows, group)
+    return rows
 
 
 def _sieved(rows, numbers):
@@ -118,17 +157,21 @@ def rescale(table, scales, runs):
     return [*table, *calibration_table.run(rows, "networks")]
 
 
-def confirm(table, n, runs, seed=0):
+def confirm(table, n, runs, seed=0, memories=(0.0, np.inf)):
     """Run the n leading readings of a table again, with fresh seeds, and return the table that includes the new rows.
 
-    Readings that have been run only twice come last. Raises ValueError if no row is complete.
+    Readings that have been run only twice come last, and those that have been confirmed twice with as many runs are
+    left out, as are memories that are not between two. If the last wave of the table is such a confirmation, its
+    readings are confirmed once more. Raises ValueError if no row is complete.
     """
-    first = sorted(calibration_table.leading(table), key=lambda row: row.runs <= RUNS)[:n]
-    again = [replace(new, steps=row.steps)
-             for new, row in zip(_new_rows(table, [row.reading for row in first], runs, seed), first)]
-    for group in GROUPS:
-        again = calibration_table.run(again, group)
-    return [*table, *again]
+    first = [row for row in calibration_table.leading(table) if row.runs < 2 * runs]
+    first = sorted(first, key=lambda row: row.runs <= RUNS)
+    last = [row for row in table if row.wave == _next_wave(table) - 1]
+    if len(last) == n and {row.runs for row in last} == {runs}:
+        first = last
+    first = [row for row in first if _between([row.reading], memories)][:n]
+    again = _new_rows(table, [row.reading for row in first], runs, seed)
+    return [*table, *_complete([replace(new, steps=row.steps) for new, row in zip(again, first)])]
 
 
 def _next_wave(table):
