@@ -20,7 +20,7 @@ ERRATA = (
             "3² + 7² + 23² = 587, as the Experiments of the same paper say (“587 learners”): twelvefold"),
     Erratum("paper A, Interaction learning by RL in AI",
             "Boltzmann addition and multiplication are cited as “(Wiener, 1948)”",
-            "they are of Wiering and van Hasselt (2008), whom the next sentence names; Wiener's book is on cybernetics"),
+            "they are of Wiering and van Hasselt (2008), whom the next sentence names; Wiener's book has neither"),
     Erratum("paper A, WaterWorld", "“the environment is listed as unsolved (OpenAI, 2020)”",
             "the reference given is for another environment, Snake v0"),
     Erratum("paper C, caption of figure 4b; caption of figure 4.7b",

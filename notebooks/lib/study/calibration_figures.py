@@ -142,6 +142,26 @@ def draw_conflicts(found, row):
         axes.set_visible(False)
 
 
+def draw_along(values, rows, names):
+    """Statistics of targets over the values of one choice, a panel each, with the band in which each agrees.
+
+    rows: for each of the values, a `Row` with these targets. names: of `TARGETS`.
+    """
+    figure = plt.figure(figsize=(width_of_figures(), 1.3 * len(names)), layout="constrained")
+    for axes, name in zip(figure.subplots(len(names), 1, sharex=True), names):
+        found, errors = np.transpose([row.statistics[name] for row in rows])
+        axes.errorbar(values, found, errors, color=AGENT, marker="o", markersize=3.5, linewidth=1.2)
+        ends = [end for end in (TARGETS[name].low, TARGETS[name].high) if np.isfinite(end)]
+        low, high = min([axes.get_ylim()[0], *ends]), max([axes.get_ylim()[1], *ends])
+        axes.axhspan(max(TARGETS[name].low, low), min(TARGETS[name].high, high), color=AGENT, alpha=0.15, linewidth=0)
+        axes.set(xscale="log", ylim=(low, high))
+        axes.set_title(f"{TARGETS[name].claim}: {TARGETS[name].label}", size=SMALL, color=TEXT, loc="left")
+        axes.tick_params(labelsize=SMALL)
+    axes.set_xticks(values, [f"{value:g}" for value in values])
+    axes.minorticks_off()
+    axes.set_xlabel("memory, cells")
+
+
 def draw_distances(table):
     """The distance of readings to all targets, wave by wave: those with all groups measured, and the nearest so far."""
     axes = axes_or_new(None)
